@@ -1,0 +1,67 @@
+//! Where the sun is: the position by NREL SPA, and the instants of a study with their weights.
+
+use chrono::{DateTime, NaiveDate};
+use chrono_tz::Tz;
+use glam::DVec3;
+
+/// A point on the earth and its clock.
+///
+/// Latitude and longitude stay in degrees, as the world writes them and as SPA takes them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// What people call it; empty when nobody said.
+    pub name: String,
+    /// Degrees, north positive.
+    pub latitude_deg: f64,
+    /// Degrees, east positive.
+    pub longitude_deg: f64,
+    /// Metres above sea level.
+    pub elevation_m: f64,
+    /// The zone whose clock is read there.
+    pub time_zone: Tz,
+}
+
+/// One instant of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instant {
+    /// Local clock time of the place.
+    pub time: DateTime<Tz>,
+    /// Unit vector to the sun's centre in the world frame (refraction included where it is on).
+    pub to_sun: DVec3,
+    /// Clockwise from true north, radians.
+    pub azimuth_rad: f64,
+    /// Above the horizon, radians.
+    pub altitude_rad: f64,
+    /// How many seconds of the window this instant stands for.
+    pub weight_secs: u32,
+    /// Whether the sun is below the horizon: the mask is 0 everywhere and the instant enters no sum.
+    pub night: bool,
+}
+
+/// One calendar day at the place; what does not happen on it (polar day and night) is absent.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Day {
+    /// The local date.
+    pub date: NaiveDate,
+    /// Upper limb at −0.833°.
+    pub sunrise: Option<DateTime<Tz>>,
+    /// The sun's transit.
+    pub noon: Option<DateTime<Tz>>,
+    /// Upper limb at −0.833°.
+    pub sunset: Option<DateTime<Tz>>,
+}
+
+/// The instants of a study, in time's order, and the days they lie on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SunTrack {
+    /// In time's order, at least one.
+    pub instants: Vec<Instant>,
+    /// The days the window touches.
+    pub days: Vec<Day>,
+    /// The step between instants in seconds; 0 for a single instant.
+    pub step_secs: u32,
+    /// Whether directions include atmospheric refraction.
+    pub refraction: bool,
+    /// ΔT used, seconds (Espenak and Meeus), at the window's start.
+    pub delta_t_secs: f64,
+}

@@ -1,0 +1,119 @@
+//! What is looked at: the plan's grid of cells, or a camera.
+//!
+//! Rasters are north up: row 0 is north, column 0 is west, and a cell is judged at its centre.
+
+use glam::{DVec2, DVec3};
+
+/// The plan's raster: square cells from the north-west corner, in metres of the world frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// West edge, metres.
+    pub west: f64,
+    /// North edge, metres.
+    pub north: f64,
+    /// Side of a cell, metres.
+    pub cell: f64,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Grid {
+    /// East edge, metres: a whole number of cells from the west.
+    pub fn east(&self) -> f64 {
+        self.west + f64::from(self.width) * self.cell
+    }
+
+    /// South edge, metres: a whole number of cells from the north.
+    pub fn south(&self) -> f64 {
+        self.north - f64::from(self.height) * self.cell
+    }
+
+    /// West, south, east, north in metres, as the site file writes a region.
+    pub fn region(&self) -> [f64; 4] {
+        [self.west, self.south(), self.east(), self.north]
+    }
+
+    /// The centre of a cell, metres east and north.
+    pub fn centre(&self, column: u32, row: u32) -> DVec2 {
+        DVec2::new(
+            self.west + (f64::from(column) + 0.5) * self.cell,
+            self.north - (f64::from(row) + 0.5) * self.cell,
+        )
+    }
+
+    /// How many cells there are.
+    pub fn cells(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+}
+
+/// A perspective camera in the world frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where the eye is, metres.
+    pub eye: DVec3,
+    /// The point in the middle of the picture, metres.
+    pub target: DVec3,
+    /// The direction that is upwards in the picture.
+    pub up: DVec3,
+    /// Vertical field of view, radians.
+    pub fov_rad: f64,
+    /// Picture width, pixels.
+    pub width: u32,
+    /// Picture height, pixels.
+    pub height: u32,
+}
+
+/// What a mask is drawn for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum View {
+    /// Straight down on the grid's cells.
+    Plan(Grid),
+    /// A perspective picture.
+    Camera(Camera),
+}
+
+impl View {
+    /// Columns and rows of the raster.
+    pub fn size(&self) -> (u32, u32) {
+        match self {
+            View::Plan(grid) => (grid.width, grid.height),
+            View::Camera(camera) => (camera.width, camera.height),
+        }
+    }
+}
+
+/// What each cell of a view sees first, models before ground.
+///
+/// Drawn once per study, since it does not depend on the sun. Drawings take roofs and outlines from it.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Per cell the face of the mesh that is seen, or [`Surface::GROUND`], or [`Surface::SKY`].
+    pub face: Vec<u32>,
+    /// Per cell the world height of the seen point, metres (NaN for the sky).
+    pub height_m: Vec<f32>,
+}
+
+impl Surface {
+    /// The cell sees the ground plane.
+    pub const GROUND: u32 = u32::MAX - 1;
+    /// The cell sees nothing.
+    pub const SKY: u32 = u32::MAX;
+}
+
+/// Which part of the sun each cell sees at one instant: 255 the whole of it, 0 none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mask {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Per cell the share of the sun that is seen, in 1/255, row 0 first.
+    pub share: Vec<u8>,
+}
