@@ -2,7 +2,7 @@
 //!
 //! Rasters are north up: row 0 is north, column 0 is west, and a cell is judged at its centre.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// The plan's raster: square cells from the north-west corner, in metres of the world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +66,50 @@ pub struct Camera {
     pub height: u32,
 }
 
+impl Camera {
+    /// What lies nearer to the eye is not drawn, metres.
+    pub const NEAR_M: f64 = 0.05;
+
+    /// Rightwards, upwards and forwards in the picture: unit vectors in the world frame.
+    pub fn axes(&self) -> [DVec3; 3] {
+        let forward = (self.target - self.eye).normalize();
+        let right = forward.cross(self.up).normalize();
+        [right, right.cross(forward), forward]
+    }
+
+    /// Half the picture's width and height at distance 1.
+    fn half_size(&self) -> DVec2 {
+        let half_height = (self.fov_rad / 2.0).tan();
+        DVec2::new(half_height * f64::from(self.width) / f64::from(self.height), half_height)
+    }
+
+    /// The direction in which a pixel's centre lies, a unit vector in the world frame.
+    pub fn direction(&self, column: u32, row: u32) -> DVec3 {
+        let [right, up, forward] = self.axes();
+        let half = self.half_size();
+        let x = ((f64::from(column) + 0.5) / f64::from(self.width) * 2.0 - 1.0) * half.x;
+        let y = (1.0 - (f64::from(row) + 0.5) / f64::from(self.height) * 2.0) * half.y;
+        (forward + right * x + up * y).normalize()
+    }
+
+    /// The perspective, from the near plane (depth 1) to infinity (depth 0).
+    ///
+    /// Seed 004, section 6, with depth reversed: a point at infinity has depth 0 exactly, so that no volume is cut
+    /// at a far plane on any adapter, and `f32` depth keeps its precision far away.
+    pub fn clip_from_world(&self) -> DMat4 {
+        let [right, up, forward] = self.axes();
+        let row = |axis: DVec3, scale: f64| (axis * scale).extend(-axis.dot(self.eye) * scale);
+        let half = self.half_size();
+        let rows = [
+            row(right, 1.0 / half.x),
+            row(up, 1.0 / half.y),
+            DVec4::new(0.0, 0.0, 0.0, Self::NEAR_M),
+            row(forward, 1.0),
+        ];
+        DMat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose()
+    }
+}
+
 /// What a mask is drawn for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum View {
@@ -81,6 +125,14 @@ impl View {
         match self {
             View::Plan(grid) => (grid.width, grid.height),
             View::Camera(camera) => (camera.width, camera.height),
+        }
+    }
+
+    /// From whence everything is seen, homogeneous: the eye, or the direction straight up.
+    pub fn viewer(&self) -> DVec4 {
+        match self {
+            View::Plan(_) => DVec4::Z,
+            View::Camera(camera) => camera.eye.extend(1.0),
         }
     }
 }

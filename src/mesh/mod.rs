@@ -1,7 +1,17 @@
 //! What stands there: welded, indexed triangles with named components and edge adjacency.
+//!
+//! Real models are open, crowded and flipped. Nothing is repaired here and nothing refused: the mesh is
+//! what the file says, [`report`] says what is wrong with it, and the shadow of dirty parts is right by
+//! the rule in [`crate::volume`].
+
+mod adjacency;
+mod planes;
+pub mod report;
+mod weld;
 
 use glam::{DVec3, DVec4, Vec3};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// One component as a model file gives it: triangles of one node and one material, before welding.
 #[derive(Clone, Debug, Default)]
@@ -16,7 +26,7 @@ pub struct Part {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// A named part of the mesh, a run of its faces. Adjacency never crosses it.
+/// A named part of the mesh, a run of its faces. Adjacency never crosses it, and no vertex is shared across it.
 #[derive(Clone, Debug)]
 pub struct Component {
     /// `node/material`, or `node` where the node has one material.
@@ -27,6 +37,28 @@ pub struct Component {
     pub faces: Range<u32>,
     /// Its edges.
     pub edges: Range<u32>,
+    /// Triangles that the file has and the mesh has not: welding made two of their corners one.
+    pub collapsed: u32,
+}
+
+/// A face at an edge: which one, and whether it runs along the edge (from its first vertex to its second) or against it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Incidence(u32);
+
+impl Incidence {
+    fn new(face: u32, against: bool) -> Self {
+        Incidence(face << 1 | u32::from(against))
+    }
+
+    /// The face.
+    pub fn face(self) -> u32 {
+        self.0 >> 1
+    }
+
+    /// +1 where the face runs along the edge, −1 where it runs against it.
+    pub fn direction(self) -> i32 {
+        1 - 2 * (self.0 & 1) as i32
+    }
 }
 
 /// Welded triangles with planes and adjacency, `f32` around `origin`.
@@ -34,12 +66,171 @@ pub struct Component {
 pub struct Mesh {
     /// World position of the local origin, whole metres.
     pub origin: DVec3,
-    /// Metres around `origin`.
-    pub vertices: Vec<Vec3>,
+    /// Metres around `origin`; shared by the meshes that were taken from this one.
+    pub vertices: Arc<[Vec3]>,
     /// Three vertices a face, counter-clockwise seen from outside; grouped by component.
     pub faces: Vec<[u32; 3]>,
-    /// Per face the unit plane (n, −n·p) around `origin`; all zero where the face has no area.
+    /// Per face the unit plane (n, −n·p) around `origin`, equal for coplanar neighbours; zero where the face has no area.
     pub planes: Vec<DVec4>,
     /// The parts.
     pub components: Vec<Component>,
+    /// Two vertices an edge, the lower first; grouped by component.
+    pub edges: Vec<[u32; 2]>,
+    /// Where each edge's faces begin in `incidences`; one longer than `edges`.
+    edge_first: Vec<u32>,
+    incidences: Vec<Incidence>,
+}
+
+/// Why there is no mesh.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshError {
+    /// Vertices and faces are counted in 32 bits, one of which says which way a face runs along an edge.
+    #[error("the models hold {0} triangles, more than the {max} that Gnomon counts; leave parts out", max = Mesh::MOST_FACES)]
+    TooLarge(usize),
+    /// `f32` around one origin cannot hold it.
+    #[error(
+        "the models reach {0:.0} km, so that a millimetre is lost; place them nearer to each other, or check their scale"
+    )]
+    TooWide(f64),
+}
+
+impl Mesh {
+    /// The most faces a mesh can have.
+    pub const MOST_FACES: usize = 1 << 30;
+    /// The farthest a vertex may lie from the origin, metres: there `f32` still tells half a metre apart, which is
+    /// coarse, but a model so large has that in its file already.
+    pub const FARTHEST_M: f64 = 4.0e6;
+
+    /// Welds the parts, each for itself, and finds planes and adjacency.
+    pub fn build(parts: Vec<Part>) -> Result<Mesh, MeshError> {
+        let triangles: usize = parts.iter().map(|part| part.triangles.len()).sum();
+        let corners: usize = parts.iter().map(|part| part.positions.len()).sum();
+        if triangles.max(corners / 3) > Self::MOST_FACES {
+            return Err(MeshError::TooLarge(triangles));
+        }
+        let points = || parts.iter().flat_map(|part| part.positions.iter().copied());
+        let low = points().fold(DVec3::INFINITY, DVec3::min);
+        let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let origin = if low.x <= high.x { ((low + high) / 2.0).round() } else { DVec3::ZERO };
+        let reach = (high - low).max_element() / 2.0;
+        if reach > Self::FARTHEST_M {
+            return Err(MeshError::TooWide(reach / 1000.0));
+        }
+
+        let mut vertices = Vec::new();
+        let mut faces = Vec::with_capacity(triangles);
+        let mut components = Vec::with_capacity(parts.len());
+        for part in parts {
+            let first = faces.len() as u32;
+            let collapsed = weld::append(&part, origin, &mut vertices, &mut faces);
+            components.push(Component {
+                name: part.name,
+                aliases: part.aliases,
+                faces: first..faces.len() as u32,
+                edges: 0..0,
+                collapsed,
+            });
+        }
+        let mut mesh = Mesh {
+            origin,
+            planes: planes::of_faces(&vertices, &faces),
+            vertices: vertices.into(),
+            faces,
+            components,
+            edges: Vec::new(),
+            edge_first: Vec::new(),
+            incidences: Vec::new(),
+        };
+        adjacency::find(&mut mesh);
+        planes::unify(&mut mesh);
+        Ok(mesh)
+    }
+
+    /// The faces at an edge.
+    pub fn faces_at(&self, edge: usize) -> &[Incidence] {
+        &self.incidences[self.edge_first[edge] as usize..self.edge_first[edge + 1] as usize]
+    }
+
+    /// The mesh of some components only. Planes stay those of the whole.
+    pub fn of_components(&self, keep: &[bool]) -> Mesh {
+        let kept = self.components.iter().zip(keep).filter(|(_, keep)| **keep).map(|(component, _)| component.clone());
+        self.taken(kept.collect())
+    }
+
+    /// The mesh of a run of faces only, cut within components where the run is. Planes stay those of the whole.
+    pub fn of_faces(&self, run: Range<u32>) -> Mesh {
+        let cut = |component: &Component| Component {
+            faces: component.faces.start.max(run.start)..component.faces.end.min(run.end),
+            ..component.clone()
+        };
+        self.taken(self.components.iter().map(cut).filter(|component| !component.faces.is_empty()).collect())
+    }
+
+    fn taken(&self, mut components: Vec<Component>) -> Mesh {
+        let mut faces = Vec::new();
+        let mut planes = Vec::new();
+        for component in &mut components {
+            let run = component.faces.start as usize..component.faces.end as usize;
+            component.faces = faces.len() as u32..(faces.len() + run.len()) as u32;
+            faces.extend_from_slice(&self.faces[run.clone()]);
+            planes.extend_from_slice(&self.planes[run]);
+        }
+        let mut mesh = Mesh {
+            origin: self.origin,
+            vertices: Arc::clone(&self.vertices),
+            faces,
+            planes,
+            components,
+            edges: Vec::new(),
+            edge_first: Vec::new(),
+            incidences: Vec::new(),
+        };
+        adjacency::find(&mut mesh);
+        mesh
+    }
+
+    /// The corners of a face, metres around `origin`.
+    pub fn corners(&self, face: usize) -> [Vec3; 3] {
+        self.faces[face].map(|vertex| self.vertices[vertex as usize])
+    }
+
+    /// The lowest and highest corner of a box around the faces, in metres of the world frame; none without faces.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        self.bounds_of(0..self.faces.len() as u32)
+    }
+
+    /// The same for a run of faces.
+    pub fn bounds_of(&self, run: Range<u32>) -> Option<(DVec3, DVec3)> {
+        let points = || {
+            let faces = &self.faces[run.start as usize..run.end as usize];
+            faces.iter().flatten().map(|&vertex| self.vertices[vertex as usize])
+        };
+        let low = points().fold(Vec3::INFINITY, Vec3::min);
+        let high = points().fold(Vec3::NEG_INFINITY, Vec3::max);
+        (!run.is_empty()).then(|| (low.as_dvec3() + self.origin, high.as_dvec3() + self.origin))
+    }
+
+    /// The height of the highest vertex that a face has, metres of the world frame; −∞ without faces.
+    pub fn top(&self) -> f64 {
+        self.bounds().map_or(f64::NEG_INFINITY, |(_, high)| high.z)
+    }
+
+    /// The homogeneous light (sun: w = 0, lamp: w = 1) of the world frame, as the planes around `origin` see it.
+    pub fn local_light(&self, light: DVec4) -> DVec4 {
+        light - DVec4::from((self.origin, 0.0)) * light.w
+    }
+
+    /// One bit a face: whether the light is on its front side or in its plane.
+    ///
+    /// Silhouettes, caps and shaders all read this bit, so that volumes are closed whatever the rounding. A face
+    /// edge-on to the light, or without area, counts as facing it: its shadow is empty either way.
+    pub fn facing(&self, local_light: DVec4) -> Vec<bool> {
+        self.planes.iter().map(|plane| plane.dot(local_light) >= 0.0).collect()
+    }
+}
+
+/// The distance between neighbouring `f32` numbers at the size of the largest coordinate, metres.
+fn spacing(vertices: &[Vec3]) -> f64 {
+    let largest = vertices.iter().fold(0.0f32, |largest, vertex| largest.max(vertex.abs().max_element()));
+    f64::from(largest) * f64::from(f32::EPSILON)
 }

@@ -1,1 +1,91 @@
-//! .
+//! The techniques: each draws for one sun direction one mask of the same kind.
+//!
+//! Accumulation, drawings and tests never ask who drew a mask. One technique is one file, with one shader of the
+//! same name where it draws on the GPU.
+
+pub mod ray_cast;
+pub mod stencil;
+mod surface;
+
+use crate::gpu::{Gpu, GpuError, readback};
+use crate::mesh::Mesh;
+use crate::view::{Mask, Surface};
+use glam::{DVec3, DVec4};
+
+pub use surface::GpuSurface;
+
+/// What lies this near above a receiver does not shade it, metres: a receiver is judged so far above itself, along the
+/// normal of its seen side. A slab in the ground plane leaves the ground lit.
+pub const JUDGED_ABOVE_M: f64 = 0.001;
+
+/// What casts and what receives, around one origin.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The faces that cast.
+    pub casters: Mesh,
+    /// The faces that are judged, beside the ground; what is in neither mesh is looked through.
+    pub receivers: Mesh,
+    /// Height of the ground plane in the world frame, metres. It reaches to the horizon.
+    pub ground: f64,
+}
+
+/// The last mask of a technique, where it was drawn.
+pub enum Drawn<'a> {
+    /// In the processor's memory.
+    Memory(&'a Mask),
+    /// An R8Unorm texture: the share of the sun that is seen.
+    Texture(&'a Gpu, &'a wgpu::Texture),
+}
+
+impl Drawn<'_> {
+    /// The mask's pixels.
+    pub fn read(&self) -> Result<Mask, ShadowError> {
+        match self {
+            Drawn::Memory(mask) => Ok((*mask).clone()),
+            Drawn::Texture(gpu, texture) => Ok(Mask {
+                width: texture.width(),
+                height: texture.height(),
+                share: readback::texels(gpu, texture, wgpu::TextureAspect::All)?,
+            }),
+        }
+    }
+}
+
+/// A way to find shadows, made for one scene and one view.
+pub trait Technique {
+    /// Draws the mask for the unit vector to the sun, which is above the horizon.
+    fn draw(&mut self, to_sun: DVec3) -> Result<Drawn<'_>, ShadowError>;
+
+    /// What the cells see of the receivers.
+    fn surface(&self) -> Result<Surface, ShadowError>;
+}
+
+/// Why there is no mask.
+#[derive(Debug, thiserror::Error)]
+pub enum ShadowError {
+    /// The raster does not fit the adapter.
+    #[error(
+        "a raster of {width} × {height} cells is larger than the {largest} that '{adapter}' draws; \
+         choose larger cells (--cell), fewer (--size) or --engine cpu"
+    )]
+    TooLarge {
+        /// Columns asked.
+        width: u32,
+        /// Rows asked.
+        height: u32,
+        /// The adapter's limit.
+        largest: u32,
+        /// The adapter's name.
+        adapter: String,
+    },
+    /// The machine failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+}
+
+/// The unit normal of the side that is seen, zero where a face has no area; `plane` and `viewer` around one origin.
+///
+/// A surface whose seen side faces away from the sun, or is edge-on to it, is in shadow, whatever its winding.
+pub fn seen_normal(plane: DVec4, viewer: DVec4) -> DVec3 {
+    if plane.dot(viewer) < 0.0 { -plane.truncate() } else { plane.truncate() }
+}

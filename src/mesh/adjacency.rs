@@ -1,0 +1,42 @@
+//! Which faces meet at which edge.
+//!
+//! Parts share no vertices, so neither an edge nor an order of edges by their vertices crosses a component.
+
+use super::{Incidence, Mesh};
+use rayon::prelude::*;
+
+/// Fills in the mesh's edges and what meets there.
+pub(super) fn find(mesh: &mut Mesh) {
+    let mut sides: Vec<([u32; 2], Incidence)> = Vec::with_capacity(mesh.faces.len() * 3);
+    for (face, &[a, b, c]) in mesh.faces.iter().enumerate() {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            sides.push(([from.min(to), from.max(to)], Incidence::new(face as u32, from > to)));
+        }
+    }
+    sides.par_sort_unstable_by_key(|(edge, incidence)| (*edge, incidence.0));
+
+    mesh.edges.clear();
+    mesh.edge_first.clear();
+    for (index, (edge, _)) in sides.iter().enumerate() {
+        if mesh.edges.last() != Some(edge) {
+            mesh.edges.push(*edge);
+            mesh.edge_first.push(index as u32);
+        }
+    }
+    mesh.edge_first.push(sides.len() as u32);
+    mesh.incidences = sides.into_iter().map(|(_, incidence)| incidence).collect();
+    name_runs(mesh);
+}
+
+/// Gives each component its run of edges. Components keep the order of their vertices, as of their faces.
+fn name_runs(mesh: &mut Mesh) {
+    let mut edge = 0;
+    for index in 0..mesh.components.len() {
+        let faces = mesh.components[index].faces.clone();
+        let first = edge;
+        while edge < mesh.edges.len() && faces.contains(&mesh.faces_at(edge)[0].face()) {
+            edge += 1;
+        }
+        mesh.components[index].edges = first as u32..edge as u32;
+    }
+}

@@ -1,0 +1,87 @@
+//! The planes of faces, and one plane for what lies in one plane.
+//!
+//! A modeller's wall is many triangles whose planes, computed each from its own rounded corners, differ in the last
+//! digits, so that some would face a low sun and some not. Neighbours that lie in the plane of a larger face
+//! therefore take over its plane to the bit; then all of the wall faces the light or none of it.
+
+use super::{Mesh, spacing};
+use glam::{DVec3, DVec4, Vec3};
+use rayon::prelude::*;
+
+/// The unit plane of each face; zero where its corners lie in a line, as far as `f32` can tell.
+pub(super) fn of_faces(vertices: &[Vec3], faces: &[[u32; 3]]) -> Vec<DVec4> {
+    let spacing = spacing(vertices);
+    let plane = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|vertex| vertices[vertex as usize].as_dvec3());
+        let normal = (b - a).cross(c - a);
+        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        // twice the area over the base is the height
+        if normal.length() <= longest * spacing {
+            return DVec4::ZERO;
+        }
+        through(normal.normalize(), (a + b + c) / 3.0)
+    };
+    faces.par_iter().map(plane).collect()
+}
+
+fn through(normal: DVec3, point: DVec3) -> DVec4 {
+    normal.extend(-normal.dot(point))
+}
+
+/// Hands the plane of larger faces to their coplanar neighbours.
+///
+/// A neighbour joins when all its corners lie within two `f32` steps of the larger face's own plane (never of a
+/// neighbour's, so that a gentle curve is not flattened step by step).
+pub(super) fn unify(mesh: &mut Mesh) {
+    let tolerance = 2.0 * spacing(&mesh.vertices);
+    let sides = sides(mesh);
+    let size = |face: usize| {
+        let [a, b, c] = mesh.corners(face).map(|corner| corner.as_dvec3());
+        (b - a).cross(c - a).length_squared()
+    };
+    let mut largest_first: Vec<(f64, u32)> =
+        (0..mesh.faces.len()).into_par_iter().map(|face| (size(face), face as u32)).collect();
+    largest_first.par_sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+
+    let mut joined = vec![false; mesh.faces.len()];
+    let mut waiting = Vec::new();
+    for (_, seed) in largest_first {
+        if joined[seed as usize] || mesh.planes[seed as usize] == DVec4::ZERO {
+            continue;
+        }
+        let plane = mesh.planes[seed as usize];
+        joined[seed as usize] = true;
+        waiting.push(seed);
+        while let Some(face) = waiting.pop() {
+            for edge in sides[face as usize] {
+                let [first, last] = [mesh.edge_first[edge as usize], mesh.edge_first[edge as usize + 1]];
+                for at in first..last {
+                    let other = mesh.incidences[at as usize].face() as usize;
+                    if joined[other] || mesh.planes[other].truncate().dot(plane.truncate()) < 0.9 {
+                        continue;
+                    }
+                    let lies_in = |corner: Vec3| plane.dot(corner.as_dvec3().extend(1.0)).abs() <= tolerance;
+                    if mesh.corners(other).into_iter().all(lies_in) {
+                        joined[other] = true;
+                        mesh.planes[other] = plane;
+                        waiting.push(other as u32);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Per face its three edges.
+fn sides(mesh: &Mesh) -> Vec<[u32; 3]> {
+    let mut sides = vec![[u32::MAX; 3]; mesh.faces.len()];
+    for edge in 0..mesh.edges.len() {
+        for incidence in mesh.faces_at(edge) {
+            let slots = &mut sides[incidence.face() as usize];
+            if let Some(slot) = slots.iter_mut().find(|slot| **slot == u32::MAX) {
+                *slot = edge as u32;
+            }
+        }
+    }
+    sides
+}

@@ -1,0 +1,73 @@
+//! Corners that lie on each other become one vertex.
+
+use super::Part;
+use glam::{DVec3, I64Vec3, Vec3};
+use rustc_hash::FxHashMap;
+
+/// How far apart two corners may lie and still be one vertex, as a part of the component's size.
+const TOLERANCE: f64 = 1e-6;
+
+/// Appends a part's vertices and faces to the mesh. Returns how many triangles collapsed, as two of their corners became one.
+pub(super) fn append(part: &Part, origin: DVec3, vertices: &mut Vec<Vec3>, faces: &mut Vec<[u32; 3]>) -> u32 {
+    let low = part.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = part.positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let size = if low.x <= high.x { (high - low).length() } else { 0.0 };
+    let mut welder = Welder::new((size * TOLERANCE) as f32, vertices);
+    let vertex_of: Vec<u32> =
+        part.positions.iter().map(|&position| welder.vertex((position - origin).as_vec3())).collect();
+    let mut collapsed = 0;
+    for triangle in &part.triangles {
+        let face @ [a, b, c] = triangle.map(|corner| vertex_of[corner as usize]);
+        if a == b || b == c || c == a {
+            collapsed += 1;
+        } else {
+            faces.push(face);
+        }
+    }
+    collapsed
+}
+
+/// Finds the vertex that lies on a point. Equal points are found by one look-up, which settles nearly all; the others
+/// are sought in a grid whose cells are a few tolerances wide.
+struct Welder<'a> {
+    tolerance: f32,
+    vertices: &'a mut Vec<Vec3>,
+    equal: FxHashMap<[u32; 3], u32>,
+    near: FxHashMap<I64Vec3, Vec<u32>>,
+}
+
+impl<'a> Welder<'a> {
+    fn new(tolerance: f32, vertices: &'a mut Vec<Vec3>) -> Self {
+        Welder { tolerance, vertices, equal: FxHashMap::default(), near: FxHashMap::default() }
+    }
+
+    fn vertex(&mut self, point: Vec3) -> u32 {
+        let key = (point + Vec3::ZERO).to_array().map(f32::to_bits); // + 0 makes −0 and 0 one
+        if let Some(&vertex) = self.equal.get(&key) {
+            return vertex;
+        }
+        let vertex = self.nearby(point).unwrap_or_else(|| {
+            let vertex = self.vertices.len() as u32;
+            self.vertices.push(point);
+            self.near.entry(self.cell(point)).or_default().push(vertex);
+            vertex
+        });
+        self.equal.insert(key, vertex);
+        vertex
+    }
+
+    fn nearby(&self, point: Vec3) -> Option<u32> {
+        let (low, high) = (self.cell(point - self.tolerance), self.cell(point + self.tolerance));
+        let cells = (low.x..=high.x)
+            .flat_map(|x| (low.y..=high.y).flat_map(move |y| (low.z..=high.z).map(move |z| I64Vec3::new(x, y, z))));
+        cells
+            .filter_map(|cell| self.near.get(&cell))
+            .flatten()
+            .copied()
+            .find(|&vertex| self.vertices[vertex as usize].distance(point) <= self.tolerance)
+    }
+
+    fn cell(&self, point: Vec3) -> I64Vec3 {
+        (point.as_dvec3() / f64::from(self.tolerance * 8.0).max(1e-9)).floor().as_i64vec3()
+    }
+}

@@ -1,0 +1,238 @@
+//! Ray casting on the processor, in double precision: the truth that other techniques are held against, and the
+//! engine where there is no GPU.
+//!
+//! Plain on purpose. Intersection after Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2013):
+//! the triangle is sheared so that the ray is an axis, and the signs of three areas decide; a ray through a shared
+//! edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as hits.
+//! The tree only prunes: its boxes are padded beyond all rounding of its `f32` rays.
+
+use super::{Drawn, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
+use crate::mesh::Mesh;
+use crate::view::{Mask, Surface, View};
+use glam::{DVec3, DVec4, Vec3, Vec3A};
+use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
+use obvhs::ray::{Ray, RayHit};
+use obvhs::{BvhBuildParams, aabb::Aabb};
+use rayon::prelude::*;
+use std::time::Duration;
+
+/// Casts rays at one mesh. Points and directions are around the mesh's origin.
+pub struct RayCaster {
+    tree: Option<CwBvh>,
+    /// Corners of the faces in the tree's order, and which faces they are.
+    corners: Vec<[Vec3; 3]>,
+    faces: Vec<u32>,
+}
+
+impl RayCaster {
+    /// Builds the tree; `reach` is the farthest that a ray's origin lies from the mesh's origin, metres.
+    pub fn new(mesh: &Mesh, reach: f64) -> RayCaster {
+        let size = mesh.vertices.iter().fold(0.0f32, |size, vertex| size.max(vertex.abs().max_element()));
+        let padding = Vec3A::splat((f64::from(size) + reach) as f32 * f32::EPSILON * 8.0);
+        let box_of = |face: usize| {
+            let [a, b, c] = mesh.corners(face).map(Vec3A::from);
+            Aabb::new(a.min(b).min(c) - padding, a.max(b).max(c) + padding)
+        };
+        let boxes: Vec<Aabb> = (0..mesh.faces.len()).into_par_iter().map(box_of).collect();
+        let tree = (!boxes.is_empty())
+            .then(|| build_cwbvh(&boxes, BvhBuildParams::fast_build(), &mut Duration::default()));
+        let faces = tree.as_ref().map_or(Vec::new(), |tree| tree.primitive_indices.clone());
+        RayCaster { tree, corners: faces.iter().map(|&face| mesh.corners(face as usize)).collect(), faces }
+    }
+
+    /// The nearest face along a ray, and how many lengths of `direction` away.
+    pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
+        let shear = Shear::along(direction);
+        let mut nearest = None;
+        let mut distance = f64::INFINITY;
+        let ray = ray(origin, direction);
+        self.tree.as_ref()?.ray_traverse(ray, &mut RayHit::none(), |_, at| {
+            if let Some(t) = shear.hit(origin, &self.corners[at])
+                && t < distance
+            {
+                distance = t;
+                nearest = Some((self.faces[at], t));
+                return (t as f32).next_up();
+            }
+            f32::INFINITY
+        });
+        nearest
+    }
+
+    /// Whether anything lies along a ray.
+    pub fn blocked(&self, origin: DVec3, shear: &Shear) -> bool {
+        let hit = |_: &Ray, at: usize| {
+            if shear.hit(origin, &self.corners[at]).is_some() { 0.0 } else { f32::INFINITY }
+        };
+        self.tree.as_ref().is_some_and(|tree| !tree.ray_traverse_miss(ray(origin, shear.direction), hit))
+    }
+
+    /// How many faces lie along a ray: the count that a shadow volume must have at its origin.
+    pub fn crossings(&self, origin: DVec3, direction: DVec3) -> usize {
+        let shear = Shear::along(direction);
+        self.corners.iter().filter(|corners| shear.hit(origin, corners).is_some()).count()
+    }
+}
+
+fn ray(origin: DVec3, direction: DVec3) -> Ray {
+    Ray::new_inf(origin.as_vec3a(), direction.as_vec3a())
+}
+
+/// The frame in which a direction is an axis, the same for all parallel rays.
+pub struct Shear {
+    direction: DVec3,
+    axes: [usize; 3],
+    scale: DVec3,
+}
+
+impl Shear {
+    /// For rays along a direction that is not zero.
+    pub fn along(direction: DVec3) -> Shear {
+        let forward = direction.abs().max_position();
+        let (mut right, mut up) = ((forward + 1) % 3, (forward + 2) % 3);
+        if direction[forward] < 0.0 {
+            std::mem::swap(&mut right, &mut up);
+        }
+        let scale = DVec3::new(direction[right], direction[up], 1.0) / direction[forward];
+        Shear { direction, axes: [right, up, forward], scale }
+    }
+
+    /// How many lengths of the direction away the ray meets the triangle; none behind the origin or beside it.
+    fn hit(&self, origin: DVec3, corners: &[Vec3; 3]) -> Option<f64> {
+        let [right, up, forward] = self.axes;
+        let [a, b, c] = corners.map(|corner| {
+            let from_origin = corner.as_dvec3() - origin;
+            let ahead = from_origin[forward];
+            [from_origin[right] - self.scale.x * ahead, from_origin[up] - self.scale.y * ahead, ahead * self.scale.z]
+        });
+        let u = c[0] * b[1] - c[1] * b[0];
+        let v = a[0] * c[1] - a[1] * c[0];
+        let w = b[0] * a[1] - b[1] * a[0];
+        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+            return None;
+        }
+        let area = u + v + w;
+        // 0: the triangle is edge-on or has no area, and shades nothing
+        let distance = (area != 0.0).then(|| (u * a[2] + v * b[2] + w * c[2]) / area)?;
+        (distance > 0.0).then_some(distance)
+    }
+}
+
+/// Where a cell's ray from the viewer ends.
+#[derive(Clone, Copy)]
+struct Seen {
+    /// A face of the receivers, or [`Surface::GROUND`], or [`Surface::SKY`].
+    face: u32,
+    /// Along the cell's ray, metres.
+    distance: f64,
+}
+
+/// The technique: one ray a cell to what is seen, once, and one ray a cell towards the sun at every instant.
+pub struct RayCast {
+    scene: Scene,
+    view: View,
+    casters: RayCaster,
+    seen: Vec<Seen>,
+    mask: Mask,
+}
+
+impl RayCast {
+    /// Builds the trees and finds what the cells see.
+    pub fn new(scene: Scene, view: View) -> RayCast {
+        let reach = reach(&scene, &view);
+        let receivers = RayCaster::new(&scene.receivers, reach);
+        let casters = RayCaster::new(&scene.casters, reach);
+        let (width, height) = view.size();
+        let mut seen = vec![Seen { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
+        seen.par_chunks_mut(width as usize).enumerate().for_each(|(row, cells)| {
+            for (column, cell) in cells.iter_mut().enumerate() {
+                *cell = look(&scene, &receivers, primary(&scene, &view, column as u32, row as u32));
+            }
+        });
+        let mask = Mask { width, height, share: vec![255; seen.len()] };
+        RayCast { scene, view, casters, seen, mask }
+    }
+}
+
+/// The ray on which a cell is seen: origin around the scene's origin, and unit direction.
+fn primary(scene: &Scene, view: &View, column: u32, row: u32) -> (DVec3, DVec3) {
+    match view {
+        View::Plan(grid) => {
+            let top = top;
+            (grid.centre(column, row).extend(top) - scene.casters.origin, DVec3::NEG_Z)
+        }
+        View::Camera(camera) => (camera.eye - scene.casters.origin, camera.direction(column, row)),
+    }
+}
+
+fn look(scene: &Scene, receivers: &RayCaster, (origin, direction): (DVec3, DVec3)) -> Seen {
+    let to_ground = (scene.ground - scene.casters.origin.z - origin.z) / direction.z;
+    let ground = if to_ground > 0.0 && to_ground.is_finite() {
+        Seen { face: Surface::GROUND, distance: to_ground }
+    } else {
+        Seen { face: Surface::SKY, distance: f64::INFINITY }
+    };
+    match receivers.first_hit(origin, direction) {
+        Some((face, distance)) if distance <= ground.distance => Seen { face, distance },
+        _ => ground,
+    }
+}
+
+/// How far from the origin rays begin, metres.
+fn reach(scene: &Scene, view: &View) -> f64 {
+    let farthest = match view {
+        View::Plan(grid) => {
+            let [west, south, east, north] = grid.region();
+            DVec3::new(west.abs().max(east.abs()), south.abs().max(north.abs()), scene.ground.abs())
+        }
+        View::Camera(camera) => camera.eye.abs(),
+    };
+    (farthest + scene.casters.origin.abs()).max_element()
+}
+
+impl Technique for RayCast {
+    fn draw(&mut self, to_sun: DVec3) -> Result<Drawn<'_>, ShadowError> {
+        let RayCast { scene, view, casters, seen, mask } = self;
+        let origin = scene.casters.origin;
+        let world_viewer = view.viewer();
+        let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
+        let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
+        let shear = Shear::along(to_sun);
+        let width = mask.width as usize;
+        mask.share.par_chunks_mut(width).enumerate().for_each(|(row, shares)| {
+            for (column, share) in shares.iter_mut().enumerate() {
+                let Seen { face, distance } = seen[row * width + column];
+                if face == Surface::SKY {
+                    *share = 255;
+                    continue;
+                }
+                let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes[face as usize] };
+                let normal = seen_normal(plane, viewer);
+                let (from, along) = primary(scene, view, column as u32, row as u32);
+                let judged = from + along * distance + normal * JUDGED_ABOVE_M;
+                let lit = normal.dot(to_sun) > 0.0 && !casters.blocked(judged, &shear);
+                *share = if lit { 255 } else { 0 };
+            }
+        });
+        Ok(Drawn::Memory(mask))
+    }
+
+    fn surface(&self) -> Result<Surface, ShadowError> {
+        let (width, height) = self.view.size();
+        let height_of = |(at, seen): (usize, &Seen)| {
+            let (origin, direction) =
+                primary(&self.scene, &self.view, at as u32 % width, at as u32 / width);
+            if seen.face == Surface::SKY {
+                f32::NAN
+            } else {
+                (origin.z + direction.z * seen.distance + self.scene.casters.origin.z) as f32
+            }
+        };
+        Ok(Surface {
+            width,
+            height,
+            face: self.seen.iter().map(|seen| seen.face).collect(),
+            height_m: self.seen.par_iter().enumerate().map(height_of).collect(),
+        })
+    }
+}
