@@ -1,0 +1,1 @@
+pub(super) fn model() -> super::glb::Model { super::tower::model() }
