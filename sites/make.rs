@@ -6,10 +6,16 @@
 mod glb;
 #[path = "make/headquarters.rs"]
 mod headquarters;
+#[path = "make/houses.rs"]
+mod houses;
 #[path = "make/industry.rs"]
 mod industry;
+#[path = "make/plant.rs"]
+mod plant;
 #[path = "make/quarter.rs"]
 mod quarter;
+#[path = "make/shapes.rs"]
+mod shapes;
 #[path = "make/solids.rs"]
 mod solids;
 #[path = "make/tower.rs"]
@@ -20,7 +26,10 @@ pub(crate) fn models() -> Vec<(&'static str, Vec<u8>)> {
     vec![
         ("tower/tower.glb", tower::model().to_glb()),
         ("industry/industry.glb", industry::model().to_glb()),
-        ("headquarters/headquarters.glb", headquarters::model().to_glb()),
+        (
+            "headquarters/headquarters.glb",
+            headquarters::model().to_glb(),
+        ),
     ]
 }
 

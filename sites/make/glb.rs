@@ -82,12 +82,28 @@ impl Node {
         let [x, y, z] = in_gltf(on_grid(self.position));
         let flip = if self.mirrored { -1.0 } else { 1.0 };
         if self.quarter_turns % 2 == 1 {
-            let sin = if self.quarter_turns % 4 == 1 { 1.0 } else { -1.0 };
+            let sin = if self.quarter_turns % 4 == 1 {
+                1.0
+            } else {
+                -1.0
+            };
             node["matrix"] = json!([
-                0.0, 0.0, -sin * flip, 0.0, //
-                0.0, 1.0, 0.0, 0.0, //
-                sin, 0.0, 0.0, 0.0, //
-                x, y, z, 1.0,
+                0.0,
+                0.0,
+                -sin * flip,
+                0.0, //
+                0.0,
+                1.0,
+                0.0,
+                0.0, //
+                sin,
+                0.0,
+                0.0,
+                0.0, //
+                x,
+                y,
+                z,
+                1.0,
             ]);
             return;
         }
@@ -137,7 +153,11 @@ impl Model {
         let mut data = Data::default();
         let meshes: Vec<Value> = self.meshes.iter().map(|mesh| data.mesh(mesh)).collect();
         let mut nodes = Vec::new();
-        let roots: Vec<usize> = self.nodes.iter().map(|root| add_node(root, &mut nodes)).collect();
+        let roots: Vec<usize> = self
+            .nodes
+            .iter()
+            .map(|root| add_node(root, &mut nodes))
+            .collect();
         let json = json!({
             "asset": {"version": "2.0", "generator": "gnomon make-sites"},
             "scene": 0,
@@ -154,9 +174,15 @@ impl Model {
         let total = 12 + 8 + json.len() + 8 + bytes.len();
         let word = |value: usize| (value as u32).to_le_bytes();
         [
-            b"glTF".as_slice(), &word(2), &word(total),
-            &word(json.len()), b"JSON", &json,
-            &word(bytes.len()), b"BIN\0", &bytes,
+            b"glTF".as_slice(),
+            &word(2),
+            &word(total),
+            &word(json.len()),
+            b"JSON",
+            &json,
+            &word(bytes.len()),
+            b"BIN\0",
+            &bytes,
         ]
         .concat()
     }
@@ -164,7 +190,11 @@ impl Model {
 
 /// Adds a node behind its children and gives its index.
 fn add_node(node: &Node, nodes: &mut Vec<Value>) -> usize {
-    let children: Vec<usize> = node.children.iter().map(|child| add_node(child, nodes)).collect();
+    let children: Vec<usize> = node
+        .children
+        .iter()
+        .map(|child| add_node(child, nodes))
+        .collect();
     let mut value = json!({"name": node.name});
     if let Some(MeshId(mesh)) = node.mesh {
         value["mesh"] = json!(mesh);
@@ -200,15 +230,28 @@ impl Data {
     }
 
     fn positions(&mut self, solids: &[Solid]) -> usize {
-        let points: Vec<[f32; 3]> = solids.iter().flat_map(|solid| &solid.points).map(|&point| in_gltf(point)).collect();
+        let points: Vec<[f32; 3]> = solids
+            .iter()
+            .flat_map(|solid| &solid.points)
+            .map(|&point| in_gltf(point))
+            .collect();
         let bound = |pick: fn(f32, f32) -> f32| -> [f32; 3] {
-            let join = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|axis| pick(a[axis], b[axis]));
-            points.iter().copied().reduce(join).expect("a primitive has points")
+            let join =
+                |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|axis| pick(a[axis], b[axis]));
+            points
+                .iter()
+                .copied()
+                .reduce(join)
+                .expect("a primitive has points")
         };
         let accessor = json!({
             "componentType": 5126, "type": "VEC3", "count": points.len(), "min": bound(f32::min), "max": bound(f32::max),
         });
-        let bytes = points.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+        let bytes = points
+            .iter()
+            .flatten()
+            .flat_map(|value| value.to_le_bytes())
+            .collect();
         self.accessor(accessor, bytes, 34962)
     }
 
@@ -216,18 +259,31 @@ impl Data {
         let mut indices = Vec::new();
         let mut first = 0;
         for solid in solids {
-            indices.extend(solid.triangles.iter().flatten().map(|corner| corner + first));
+            indices.extend(
+                solid
+                    .triangles
+                    .iter()
+                    .flatten()
+                    .map(|corner| corner + first),
+            );
             first += solid.points.len() as u32;
         }
         // 65535 itself is the restart index, which glTF does not allow.
         let is_short = first <= 65535;
         let bytes = if is_short {
-            indices.iter().flat_map(|&index| (index as u16).to_le_bytes()).collect()
+            indices
+                .iter()
+                .flat_map(|&index| (index as u16).to_le_bytes())
+                .collect()
         } else {
-            indices.iter().flat_map(|index| index.to_le_bytes()).collect()
+            indices
+                .iter()
+                .flat_map(|index| index.to_le_bytes())
+                .collect()
         };
         let component = if is_short { 5123 } else { 5125 };
-        let accessor = json!({"componentType": component, "type": "SCALAR", "count": indices.len()});
+        let accessor =
+            json!({"componentType": component, "type": "SCALAR", "count": indices.len()});
         self.accessor(accessor, bytes, 34963)
     }
 
