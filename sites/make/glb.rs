@@ -87,24 +87,13 @@ impl Node {
             } else {
                 -1.0
             };
-            node["matrix"] = json!([
-                0.0,
-                0.0,
-                -sin * flip,
-                0.0, //
-                0.0,
-                1.0,
-                0.0,
-                0.0, //
-                sin,
-                0.0,
-                0.0,
-                0.0, //
-                x,
-                y,
-                z,
-                1.0,
-            ]);
+            let columns = [
+                [0.0, 0.0, -sin * flip, 0.0],
+                [0.0, 1.0, 0.0, 0.0],
+                [sin, 0.0, 0.0, 0.0],
+                [x, y, z, 1.0],
+            ];
+            node["matrix"] = json!(columns.concat());
             return;
         }
         if self.position != DVec3::ZERO {

@@ -154,9 +154,8 @@ fn facade_parts() -> Vec<Solid> {
         let (floor, ceiling) = (floor_of(storey), floor_of(storey + 1) - SLAB);
         for (index, &point) in edge.iter().enumerate() {
             // Deeper where the sun is high, and in a slow wave that climbs around the tower.
-            let wave = f64::from((index as u32 + 3 * storey) % 24)
-                .min(f64::from(24 - (index as u32 + 3 * storey) % 24))
-                / 12.0;
+            let phase = (index as u32 + 3 * storey) % 24;
+            let wave = f64::from(phase.min(24 - phase)) / 12.0;
             let depth = if point.out.y < 0.0 {
                 0.45 + 0.4 * wave
             } else {
@@ -266,13 +265,11 @@ fn terraces() -> Vec<Solid> {
             // What the step uncovers, and a little of what it does not.
             let first = first_module(storey - 1);
             let arc = |radius: f64| {
-                (0..=3).map(move |step| {
-                    BEND_CENTRE + radius * direction(f64::from(first + 2 * step) - 3.0)
-                })
+                let modules = (0..=3).map(|step| f64::from(first + 2 * step) - 3.0);
+                modules.map(move |module| BEND_CENTRE + radius * direction(module))
             };
-            let plan: Vec<DVec2> = arc(BEND_RADIUS + 6.5)
-                .chain(arc(BEND_RADIUS - 6.5).collect::<Vec<_>>().into_iter().rev())
-                .collect();
+            let inner = arc(BEND_RADIUS - 6.5).rev();
+            let plan: Vec<DVec2> = arc(BEND_RADIUS + 6.5).chain(inner).collect();
             solids.push(prism(&plan, floor - 0.1, floor + 0.2));
         }
     }
