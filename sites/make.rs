@@ -1,0 +1,48 @@
+//! Draws the models of the sample sites: `cargo run --example make-sites` writes each `sites/NAME/NAME.glb` anew.
+//!
+//! The tests include this file to see that what lies in the repository is what it draws.
+
+#[path = "make/glb.rs"]
+mod glb;
+#[path = "make/headquarters.rs"]
+mod headquarters;
+#[path = "make/houses.rs"]
+mod houses;
+#[path = "make/industry.rs"]
+mod industry;
+#[path = "make/plant.rs"]
+mod plant;
+#[path = "make/quarter.rs"]
+mod quarter;
+#[path = "make/shapes.rs"]
+mod shapes;
+#[path = "make/solids.rs"]
+mod solids;
+#[path = "make/tower.rs"]
+mod tower;
+
+/// Every model's path in `sites/` and its bytes.
+pub(crate) fn models() -> Vec<(&'static str, Vec<u8>)> {
+    vec![
+        ("tower/tower.glb", tower::model().to_glb()),
+        ("industry/industry.glb", industry::model().to_glb()),
+        (
+            "headquarters/headquarters.glb",
+            headquarters::model().to_glb(),
+        ),
+    ]
+}
+
+#[cfg(not(test))]
+fn main() -> std::io::Result<()> {
+    let sites = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("sites");
+    for (path, bytes) in models() {
+        let path = sites.join(path);
+        // Beside first, so that whoever reads meanwhile finds a whole file.
+        let beside = path.with_extension("glb.new");
+        std::fs::write(&beside, &bytes)?;
+        std::fs::rename(&beside, &path)?;
+        println!("{}: {} bytes", path.display(), bytes.len());
+    }
+    Ok(())
+}

@@ -1,0 +1,3 @@
+//! All tests in one binary, which links once.
+
+mod sites;
