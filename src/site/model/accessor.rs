@@ -1,56 +1,25 @@
-//! Accessors → numbers: strided, normalised, sparse, or without a view. Ranges are checked once, before the first read.
+//! Accessors → readers. Every type, index and byte range is checked once, before the first number is read.
 
 use super::Fault;
 use super::buffers::Buffers;
 use super::document::Document;
-use glam::DVec3;
+use super::reader::{Reader, Sparse, Strided};
 use gltf::json;
-use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::{Checked, USize64};
 
 /// The most elements an accessor may have without a view. Such elements cost the file nothing, so nothing but this
 /// bounds them; real ones are small.
 const MAX_ZEROS: u64 = 1 << 20;
 
+/// The most sparse entries in all accessors. Many tables may lie in the same bytes, and each is checked.
+const MAX_SPARSE_ENTRIES: usize = 100_000_000;
+
 /// The accessors of a file; each is checked when it is first asked for.
 pub(super) struct Accessors<'a, 'file> {
     document: &'a Document,
     buffers: &'a Buffers<'file>,
     known: Vec<Option<Reader<'a>>>,
-}
-
-/// A checked accessor: `count` elements, all of which can be read.
-#[derive(Clone, Copy)]
-pub(super) struct Reader<'a> {
-    /// Its number in the file.
-    pub accessor: usize,
-    /// Elements.
-    pub count: usize,
-    pub component: ComponentType,
-    pub shape: Type,
-    /// Whether whole numbers stand for 0 to 1, or −1 to 1.
-    pub normalized: bool,
-    /// Whether its elements lie in a view, and not only in a sparse table or nowhere.
-    pub has_view: bool,
-    base: Option<Strided<'a>>,
-    sparse: Option<Sparse<'a>>,
-}
-
-/// Elements that lie `stride` bytes apart.
-#[derive(Clone, Copy)]
-struct Strided<'a> {
-    bytes: &'a [u8],
-    stride: usize,
-}
-
-/// Elements that stand for those of the base. Looked up where they lie, so that a table costs no memory.
-#[derive(Clone, Copy)]
-struct Sparse<'a> {
-    count: usize,
-    component: ComponentType,
-    /// Strictly increasing.
-    indices: Strided<'a>,
-    values: Strided<'a>,
+    sparse_entries: usize,
 }
 
 /// Where elements lie, as the file says it.
@@ -67,6 +36,7 @@ impl<'a, 'file> Accessors<'a, 'file> {
             document,
             buffers,
             known: vec![None; document.accessors.len()],
+            sparse_entries: 0,
         }
     }
 
@@ -92,6 +62,13 @@ impl<'a, 'file> Accessors<'a, 'file> {
             return Ok(*reader);
         }
         let reader = open(self.document, self.buffers, index, accessor)?;
+        let entries = reader.sparse.map_or(0, |sparse| sparse.count);
+        self.sparse_entries = self.sparse_entries.saturating_add(entries);
+        if self.sparse_entries > MAX_SPARSE_ENTRIES {
+            let problem = format!("is sparse, which makes more than {MAX_SPARSE_ENTRIES} entries");
+            return Err(fault(index, problem));
+        }
+        reader.check_sparse()?;
         *known = Some(reader);
         Ok(reader)
     }
@@ -162,18 +139,15 @@ fn open<'a>(
         }
         None => None,
     };
-    let reader = Reader {
+    Ok(Reader {
         accessor: index,
         count: length(index, count)?,
         component,
         shape,
         normalized: accessor.normalized,
-        has_view: base.is_some(),
         base,
         sparse,
-    };
-    reader.check_sparse()?;
-    Ok(reader)
+    })
 }
 
 /// The bytes of a span, from its first element on; all of its elements lie within the view and the buffer.
@@ -264,134 +238,6 @@ fn compression(view: &json::buffer::View) -> Option<&str> {
     names
         .find(|name| name.ends_with("_meshopt_compression"))
         .map(String::as_str)
-}
-
-impl Strided<'_> {
-    /// `bytes` of element `index`, from its `offset`.
-    fn at<const N: usize>(&self, index: usize, offset: usize) -> Option<[u8; N]> {
-        let start = index.checked_mul(self.stride)?.checked_add(offset)?;
-        self.bytes.get(start..)?.first_chunk().copied()
-    }
-
-    /// A whole number of element `index`.
-    fn whole(&self, component: ComponentType, index: usize) -> Option<u32> {
-        Some(match component {
-            ComponentType::U8 => self.at::<1>(index, 0)?[0].into(),
-            ComponentType::U16 => u16::from_le_bytes(self.at(index, 0)?).into(),
-            _ => u32::from_le_bytes(self.at(index, 0)?),
-        })
-    }
-}
-
-impl Reader<'_> {
-    /// A vertex number or the like: element `index` of a scalar accessor of u8, u16 or u32.
-    pub(super) fn whole(&self, index: usize) -> u32 {
-        let (source, index) = self.source(index);
-        source
-            .and_then(|source| source.whole(self.component, index))
-            .unwrap_or(0)
-    }
-
-    /// The first three numbers of element `index`.
-    pub(super) fn vec3(&self, index: usize) -> DVec3 {
-        let [x, y, z] = self.numbers(index);
-        DVec3::new(x, y, z)
-    }
-
-    /// The first `N` numbers of element `index`, normalised where the accessor says so.
-    pub(super) fn numbers<const N: usize>(&self, index: usize) -> [f64; N] {
-        let (source, index) = self.source(index);
-        std::array::from_fn(|lane| {
-            source
-                .and_then(|source| self.number(&source, index, lane))
-                .unwrap_or(0.0)
-        })
-    }
-
-    /// Where element `index` lies, and as which; nowhere where it is zero.
-    fn source(&self, index: usize) -> (Option<Strided<'_>>, usize) {
-        match self
-            .sparse
-            .and_then(|sparse| Some((sparse, sparse.find(index)?)))
-        {
-            Some((sparse, entry)) => (Some(sparse.values), entry),
-            None => (self.base, index),
-        }
-    }
-
-    fn number(&self, source: &Strided, index: usize, lane: usize) -> Option<f64> {
-        let offset = lane * self.component.size();
-        let (value, most) = match self.component {
-            ComponentType::I8 => (
-                i8::from_le_bytes(source.at(index, offset)?).into(),
-                f64::from(i8::MAX),
-            ),
-            ComponentType::U8 => (source.at::<1>(index, offset)?[0].into(), f64::from(u8::MAX)),
-            ComponentType::I16 => (
-                i16::from_le_bytes(source.at(index, offset)?).into(),
-                f64::from(i16::MAX),
-            ),
-            ComponentType::U16 => (
-                u16::from_le_bytes(source.at(index, offset)?).into(),
-                f64::from(u16::MAX),
-            ),
-            ComponentType::U32 => (
-                u32::from_le_bytes(source.at(index, offset)?).into(),
-                f64::from(u32::MAX),
-            ),
-            ComponentType::F32 => {
-                return Some(f32::from_le_bytes(source.at(index, offset)?).into());
-            }
-        };
-        // The least number of a signed type is one step below −1.
-        Some(if self.normalized {
-            f64::max(value / most, -1.0)
-        } else {
-            value
-        })
-    }
-
-    /// Sparse indices must increase, or they could not be looked up.
-    fn check_sparse(&self) -> Result<(), Fault> {
-        let Some(sparse) = self.sparse else {
-            return Ok(());
-        };
-        let mut next = 0;
-        for entry in 0..sparse.count {
-            let index = sparse.index(entry);
-            if index < next || index >= self.count {
-                let problem = format!(
-                    "has the sparse index {index} at {entry}, out of order or beyond its {} elements",
-                    self.count
-                );
-                return Err(fault(self.accessor, problem));
-            }
-            next = index + 1;
-        }
-        Ok(())
-    }
-}
-
-impl Sparse<'_> {
-    fn index(&self, entry: usize) -> usize {
-        self.indices
-            .whole(self.component, entry)
-            .map_or(usize::MAX, |index| index as usize)
-    }
-
-    /// The entry that stands for element `index`.
-    fn find(&self, index: usize) -> Option<usize> {
-        let (mut low, mut high) = (0, self.count);
-        while low < high {
-            let middle = low + (high - low) / 2;
-            match self.index(middle).cmp(&index) {
-                std::cmp::Ordering::Equal => return Some(middle),
-                std::cmp::Ordering::Less => low = middle + 1,
-                std::cmp::Ordering::Greater => high = middle,
-            }
-        }
-        None
-    }
 }
 
 /// A count that memory could hold.

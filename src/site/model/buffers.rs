@@ -119,10 +119,9 @@ impl<'a> Buffers<'a> {
                 format!("has the address '{address}', which is not UTF-8: export it again"),
             ));
         };
-        let relative = Path::new(&relative);
         // Also on systems where it is no separator: a file means the same everywhere.
         let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
-        if !relative.components().all(inside) || uri.contains('\\') {
+        if !Path::new(&relative).components().all(inside) || relative.contains('\\') {
             return Err(fault(
                 index,
                 format!(

@@ -6,7 +6,7 @@ use super::document::Document;
 use super::instances::Instances;
 use super::primitive::{self, Group, Surface, Surfaces};
 use super::scene::Placed;
-use super::{Fault, MAX_TRIANGLES};
+use super::{Fault, MAX_COMPONENTS, MAX_TRIANGLES};
 use crate::mesh::Part;
 use glam::DAffine3;
 
@@ -56,22 +56,15 @@ pub(super) fn parts(
                 continue;
             }
             let material = document.material_name(group.material);
-            part.name = if surfaces.one_material {
-                node.clone()
-            } else {
-                format!("{node}/{material}")
+            part.name = match surfaces.one_material {
+                true => node.clone(),
+                false => format!("{node}/{material}"),
             };
-            part.aliases = vec![node.clone()];
-            for alias in document
-                .mesh_name(place.mesh)
-                .into_iter()
-                .chain([material.as_str()])
-            {
-                if !part.aliases.iter().any(|known| known == alias) {
-                    part.aliases.push(alias.to_owned());
-                }
-            }
+            part.aliases = aliases(&node, document.mesh_name(place.mesh), &material);
             parts.push(part);
+            if parts.len() > MAX_COMPONENTS {
+                return Err(Fault::TooManyComponents);
+            }
         }
     }
     if parts.is_empty() {
@@ -79,6 +72,17 @@ pub(super) fn parts(
     } else {
         Ok(parts)
     }
+}
+
+/// The names by which a part may be meant, each once.
+fn aliases(node: &str, mesh: Option<&str>, material: &str) -> Vec<String> {
+    let mut aliases = vec![node.to_owned()];
+    for alias in mesh.into_iter().chain([material]) {
+        if !aliases.iter().any(|known| known == alias) {
+            aliases.push(alias.to_owned());
+        }
+    }
+    aliases
 }
 
 /// Makes parts; holds what is reused between them.
@@ -124,13 +128,9 @@ impl Builder {
             let Some([a, b, c]) = surface.triangle(index)? else {
                 continue;
             };
-            let mut triangle = [0; 3];
-            for (vertex, number) in [a, if mirrors { c } else { b }, if mirrors { b } else { c }]
-                .into_iter()
-                .zip(&mut triangle)
-            {
-                *number = self.number(part, surface, vertex, &world_from_mesh)?;
-            }
+            let [first, second, third] = if mirrors { [a, c, b] } else { [a, b, c] };
+            let mut number = |vertex| self.number(part, surface, vertex, &world_from_mesh);
+            let triangle = [number(first)?, number(second)?, number(third)?];
             part.triangles.push(triangle);
         }
         for vertex in self.used.drain(..) {

@@ -96,7 +96,7 @@ pub(super) struct Node {
     #[serde(default)]
     pub children: Vec<usize>,
     /// Column by column.
-    pub matrix: Option<[f64; 16]>,
+    pub matrix: Option<Box<[f64; 16]>>,
     pub translation: Option<[f64; 3]>,
     /// x, y, z, w.
     pub rotation: Option<[f64; 4]>,

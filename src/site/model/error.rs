@@ -1,6 +1,6 @@
 //! What can be wrong with a model file: each fault names the thing and the way out.
 
-use super::MAX_TRIANGLES;
+use super::{MAX_COMPONENTS, MAX_TRIANGLES};
 use std::path::PathBuf;
 
 /// A model file that cannot be used.
@@ -53,7 +53,7 @@ pub enum Fault {
     },
     /// An index that leads nowhere.
     #[error(
-        "{user} refers to {what} {index}, but the file holds {count} of them; it is damaged: export it again"
+        "{user} refers to {what} {index}, and there are only {count}; the file is damaged: export it again"
     )]
     NoSuch {
         /// What refers.
@@ -131,6 +131,11 @@ pub enum Fault {
         "has more than {MAX_TRIANGLES} triangles, instances counted: export it in parts or with less detail"
     )]
     TooManyTriangles,
+    /// More components than anyone can name.
+    #[error(
+        "has more than {MAX_COMPONENTS} components: join its objects by material and export again"
+    )]
+    TooManyComponents,
     /// Nothing that could cast.
     #[error(
         "has no triangles in its default scene, so nothing casts a shadow: export the visible faces as a mesh"

@@ -1,8 +1,9 @@
 //! EXT_mesh_gpu_instancing: many copies of one node's mesh.
 
 use super::Fault;
-use super::accessor::{Accessors, Reader, fault};
+use super::accessor::{Accessors, fault};
 use super::document::Instancing;
+use super::reader::Reader;
 use super::scene::unit;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf::json::accessor::{ComponentType, Type};

@@ -5,8 +5,8 @@
 //!
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
 //! counted before memory is taken. The files of this folder, in the order of the flow: [`container`] (bytes → JSON and
-//! binary chunk), [`document`] (JSON → structure), [`scene`] (which nodes stand where), [`buffers`] and [`accessor`]
-//! (bytes → numbers), [`instances`], [`primitive`] (which triangles a mesh has), [`build`] (all of it → parts).
+//! binary chunk), [`document`] (JSON → structure), [`scene`] (which nodes stand where), [`buffers`], [`accessor`]
+//! and [`reader`] (bytes → numbers), [`instances`], [`primitive`] (which triangles a mesh has), [`build`] (all of it → parts).
 
 use crate::mesh::Part;
 use glam::{DAffine3, DMat3, DVec3};
@@ -20,12 +20,16 @@ mod document;
 mod error;
 mod instances;
 mod primitive;
+mod reader;
 mod scene;
 
 pub use error::{Fault, ModelError};
 
 /// The most triangles a model may have, instances counted. Their vertices take at most 7.2 GB, their indices 1.2 GB.
 pub const MAX_TRIANGLES: u64 = 100_000_000;
+
+/// The most components a model may have: each costs names and adjacency of its own, whatever its size.
+pub const MAX_COMPONENTS: usize = 1_000_000;
 
 /// Where a model stands: it is scaled, turned, then moved.
 #[derive(Clone, Copy, Debug, PartialEq)]

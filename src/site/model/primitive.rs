@@ -1,8 +1,9 @@
 //! A mesh's primitives → which vertices make which triangles, grouped by material.
 
 use super::Fault;
-use super::accessor::{Accessors, Reader};
+use super::accessor::Accessors;
 use super::document::Document;
+use super::reader::Reader;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
@@ -73,14 +74,13 @@ pub(super) fn surfaces<'a>(
             }
         };
         let material = primitive.material.map(|material| material.value());
-        if let Some(index_of_material) =
-            material.filter(|&material| material >= document.materials.len())
-        {
+        let count = document.materials.len();
+        if let Some(material) = material.filter(|&material| material >= count) {
             return Err(Fault::NoSuch {
                 user: format!("primitive {number} of mesh {index}"),
                 what: "material",
-                index: index_of_material,
-                count: document.materials.len(),
+                index: material,
+                count,
             });
         }
         let group = *group_of.entry(material).or_insert_with(|| {
@@ -90,7 +90,7 @@ pub(super) fn surfaces<'a>(
             });
             groups.len() - 1
         });
-        let surface = surface(accessors, (index, number), primitive, mode)?;
+        let surface = surface(document, accessors, (index, number), primitive, mode)?;
         if let Some(group) = groups.get_mut(group).filter(|_| surface.triangles > 0) {
             group.surfaces.push(surface);
         }
@@ -103,57 +103,50 @@ pub(super) fn surfaces<'a>(
 }
 
 fn surface<'a>(
+    document: &Document,
     accessors: &mut Accessors<'a, '_>,
     (mesh, number): (usize, usize),
     primitive: &Primitive,
     mode: Mode,
 ) -> Result<Surface<'a>, Fault> {
+    let fault = |problem| Err(fault(mesh, number, problem));
     let user = || format!("primitive {number} of mesh {mesh}");
-    let extensions = primitive.extensions.as_ref();
-    let is_compressed = extensions.is_some_and(|found| found.others.contains_key(DRACO));
-    let compressed = || Fault::Compressed {
-        what: format!("primitive {number} of mesh {mesh} is"),
-        extension: DRACO.into(),
-    };
-    let Some(positions) = primitive
+    let positions = primitive
         .attributes
-        .get(&Checked::Valid(Semantic::Positions))
-    else {
-        if is_compressed {
-            return Err(compressed());
-        }
-        return Err(fault(mesh, number, "has no positions"));
+        .get(&Checked::Valid(Semantic::Positions));
+    let positions = positions.map(|accessor| accessor.value());
+    let indices = primitive.indices.map(|accessor| accessor.value());
+    // A primitive may carry its geometry twice, once of it plain; that one is read then.
+    let is_stored = |accessor: usize| {
+        let accessor = document.accessors.get(accessor);
+        accessor.is_some_and(|accessor| accessor.buffer_view.is_some())
     };
-    let positions = accessors.get(positions.value(), user)?;
-    let indices = match primitive.indices {
-        Some(indices) => Some(accessors.get(indices.value(), user)?),
+    let is_plain = positions.is_some_and(is_stored) && indices.is_none_or(is_stored);
+    let extensions = primitive.extensions.as_ref();
+    if !is_plain && extensions.is_some_and(|found| found.others.contains_key(DRACO)) {
+        return Err(Fault::Compressed {
+            what: format!("{} is", user()),
+            extension: DRACO.into(),
+        });
+    }
+    let Some(positions) = positions else {
+        return fault("has no positions");
+    };
+    let positions = accessors.get(positions, user)?;
+    // KHR_mesh_quantization allows all whole numbers but u32.
+    if positions.shape != Type::Vec3 || positions.component == ComponentType::U32 {
+        return fault("has positions of a type that glTF does not allow");
+    }
+    let indices = match indices {
+        Some(indices) => Some(accessors.get(indices, user)?),
         None => None,
     };
-    let all_stored = positions.has_view && indices.is_none_or(|indices| indices.has_view);
-    if is_compressed && !all_stored {
-        return Err(compressed());
-    }
-    // U32 is what KHR_mesh_quantization leaves out, too.
-    if positions.shape != Type::Vec3 || positions.component == ComponentType::U32 {
-        return Err(fault(
-            mesh,
-            number,
-            "has positions of a type that glTF does not allow",
-        ));
-    }
     let is_index = |reader: Reader| {
-        let whole = matches!(
-            reader.component,
-            ComponentType::U8 | ComponentType::U16 | ComponentType::U32
-        );
-        whole && reader.shape == Type::Scalar
+        use ComponentType::{U8, U16, U32};
+        matches!(reader.component, U8 | U16 | U32) && reader.shape == Type::Scalar
     };
     if !indices.is_none_or(is_index) {
-        return Err(fault(
-            mesh,
-            number,
-            "has indices of a type that glTF does not allow",
-        ));
+        return fault("has indices of a type that glTF does not allow");
     }
     let corners = indices.map_or(positions.count, |indices| indices.count);
     let triangles = match mode {

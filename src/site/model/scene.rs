@@ -134,8 +134,8 @@ fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, F
 
 /// Parent from node. A matrix goes before translation, rotation and scale, though glTF allows only one of both.
 fn local(node: &Node, index: usize) -> Result<DAffine3, Fault> {
-    let local = if let Some(matrix) = node.matrix {
-        let [a, b, c, a0, d, e, f, d0, g, h, i, g0, x, y, z, one] = matrix;
+    let local = if let Some(matrix) = node.matrix.as_deref() {
+        let [a, b, c, a0, d, e, f, d0, g, h, i, g0, x, y, z, one] = *matrix;
         // A matrix that was written row by row has its translation here.
         if [a0, d0, g0, one - 1.0]
             .iter()
