@@ -72,19 +72,19 @@ fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
             bytes.len()
         )));
     };
-    let (kind, json, mut rest) = split_chunk(body)?;
-    if &kind != b"JSON" {
+    let first = split_chunk(body)?;
+    if &first.kind != b"JSON" {
         return Err(Fault::Container("its first chunk is not JSON".into()));
     }
-    let mut binary = None;
+    let (mut binary, mut rest) = (None, first.rest);
     while binary.is_none() && !rest.is_empty() {
         // Chunks of unknown kinds are to be skipped.
-        let (kind, data, behind) = split_chunk(rest)?;
-        binary = (&kind == b"BIN\0").then_some(data);
-        rest = behind;
+        let chunk = split_chunk(rest)?;
+        binary = (&chunk.kind == b"BIN\0").then_some(chunk.data);
+        rest = chunk.rest;
     }
     // Some writers pad with zeros where blanks are asked for.
-    let json = without_mark(json);
+    let json = without_mark(first.data);
     let end = json
         .iter()
         .rposition(|&byte| byte != 0)
@@ -95,8 +95,14 @@ fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
     })
 }
 
-/// Kind and data of the first chunk, and the bytes behind it.
-fn split_chunk(bytes: &[u8]) -> Result<([u8; 4], &[u8], &[u8]), Fault> {
+struct Chunk<'a> {
+    kind: [u8; 4],
+    data: &'a [u8],
+    /// The bytes behind it.
+    rest: &'a [u8],
+}
+
+fn split_chunk(bytes: &[u8]) -> Result<Chunk<'_>, Fault> {
     let (Some(length), Some(kind)) = (
         u32_at(bytes, 0),
         bytes.get(4..).and_then(<[u8]>::first_chunk),
@@ -106,14 +112,18 @@ fn split_chunk(bytes: &[u8]) -> Result<([u8; 4], &[u8], &[u8]), Fault> {
             bytes.len()
         )));
     };
-    let data = bytes.get(CHUNK_HEADER..).unwrap_or_default();
-    let Some((chunk, rest)) = data.split_at_checked(length) else {
+    let body = bytes.get(CHUNK_HEADER..).unwrap_or_default();
+    let Some((data, rest)) = body.split_at_checked(length) else {
         return Err(Fault::Container(format!(
             "a chunk promises {length} bytes, and {} are left",
-            data.len()
+            body.len()
         )));
     };
-    Ok((*kind, chunk, rest))
+    Ok(Chunk {
+        kind: *kind,
+        data,
+        rest,
+    })
 }
 
 fn u32_at(bytes: &[u8], offset: usize) -> Option<usize> {

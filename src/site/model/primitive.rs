@@ -169,7 +169,7 @@ impl Surface<'_> {
     /// None for a triangle of a strip that only joins what lies before and behind it.
     pub(super) fn triangle(&self, index: usize) -> Result<Option<[usize; 3]>, Fault> {
         let corners = match self.mode {
-            Mode::TriangleStrip if index % 2 == 0 => [index, index + 1, index + 2],
+            Mode::TriangleStrip if index.is_multiple_of(2) => [index, index + 1, index + 2],
             Mode::TriangleStrip => [index, index + 2, index + 1],
             Mode::TriangleFan => [index + 1, index + 2, 0],
             _ => [index * 3, index * 3 + 1, index * 3 + 2],
