@@ -1,3 +1,8 @@
 //! All tests in one binary, which links once.
 
+mod export;
+mod mistakes;
+mod model;
+mod site;
 mod sites;
+mod sun;

@@ -2,6 +2,8 @@
 //!
 //! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unproven.
 
+pub mod model;
+
 use crate::mesh::Mesh;
 use crate::sun::{Place, SunTrack};
 use crate::view::{Camera, Grid};

@@ -1,0 +1,170 @@
+//! Placed nodes and their meshes → parts in the world.
+
+use super::accessor::Accessors;
+use super::buffers::Buffers;
+use super::document::Document;
+use super::instances::Instances;
+use super::primitive::{self, Group, Surface, Surfaces};
+use super::scene::Placed;
+use super::{Fault, MAX_COMPONENTS, MAX_TRIANGLES};
+use crate::mesh::Part;
+use glam::DAffine3;
+
+/// A vertex that the part does not have yet.
+const ABSENT: u32 = u32::MAX;
+
+/// One part per node and material, in the order of the scene.
+pub(super) fn parts(
+    document: &Document,
+    buffers: &Buffers,
+    placed: &[Placed],
+) -> Result<Vec<Part>, Fault> {
+    let mut accessors = Accessors::new(document, buffers);
+    // Many nodes may share a mesh; what it says is read once.
+    let mut known: Vec<Option<Surfaces>> = document.meshes.iter().map(|_| None).collect();
+    let mut builder = Builder::default();
+    let mut triangles: u64 = 0;
+    let mut parts = Vec::new();
+    for place in placed {
+        let Some(surfaces) = known.get_mut(place.mesh) else {
+            continue; // `scene::place` has checked the index.
+        };
+        let surfaces = match surfaces {
+            Some(surfaces) => surfaces,
+            None => surfaces.insert(primitive::surfaces(document, &mut accessors, place.mesh)?),
+        };
+        if surfaces.groups.is_empty() {
+            continue;
+        }
+        let asked = document
+            .nodes
+            .get(place.node)
+            .and_then(|node| node.extensions.instancing.as_ref());
+        let instances = match asked {
+            Some(asked) => Instances::open(place.node, asked, &mut accessors)?,
+            None => Instances::one(place.node),
+        };
+        let node = document.node_name(place.node);
+        for group in &surfaces.groups {
+            triangles =
+                triangles.saturating_add(group.triangles().saturating_mul(instances.count as u64));
+            if triangles > MAX_TRIANGLES {
+                return Err(Fault::TooManyTriangles);
+            }
+            let mut part = builder.part(group, &instances, place.world_from_node)?;
+            if part.triangles.is_empty() {
+                continue;
+            }
+            let material = document.material_name(group.material);
+            part.name = match surfaces.one_material {
+                true => node.clone(),
+                false => format!("{node}/{material}"),
+            };
+            part.aliases = aliases(&node, document.mesh_name(place.mesh), &material);
+            parts.push(part);
+            if parts.len() > MAX_COMPONENTS {
+                return Err(Fault::TooManyComponents);
+            }
+        }
+    }
+    if parts.is_empty() {
+        Err(Fault::Empty)
+    } else {
+        Ok(parts)
+    }
+}
+
+/// The names by which a part may be meant, each once.
+fn aliases(node: &str, mesh: Option<&str>, material: &str) -> Vec<String> {
+    let mut aliases = vec![node.to_owned()];
+    for alias in mesh.into_iter().chain([material]) {
+        if !aliases.iter().any(|known| known == alias) {
+            aliases.push(alias.to_owned());
+        }
+    }
+    aliases
+}
+
+/// Makes parts; holds what is reused between them.
+#[derive(Default)]
+struct Builder {
+    /// Per vertex of the primitive at hand its number in the part; all [`ABSENT`] between primitives.
+    ///
+    /// Many primitives may each use a few of many shared vertices: only those are read, and only those are forgotten.
+    numbers: Vec<u32>,
+    used: Vec<usize>,
+}
+
+impl Builder {
+    /// All instances of a group.
+    fn part(
+        &mut self,
+        group: &Group,
+        instances: &Instances,
+        world_from_node: DAffine3,
+    ) -> Result<Part, Fault> {
+        let mut part = Part::default();
+        for instance in 0..instances.count {
+            let world_from_mesh = world_from_node * instances.get(instance)?;
+            for surface in &group.surfaces {
+                self.append(&mut part, surface, world_from_mesh)?;
+            }
+        }
+        Ok(part)
+    }
+
+    /// Adds a primitive's triangles, and the vertices that they use.
+    fn append(
+        &mut self,
+        part: &mut Part,
+        surface: &Surface,
+        world_from_mesh: DAffine3,
+    ) -> Result<(), Fault> {
+        let mirrors = world_from_mesh.matrix3.determinant() < 0.0;
+        if self.numbers.len() < surface.positions.count {
+            self.numbers.resize(surface.positions.count, ABSENT);
+        }
+        for index in 0..surface.triangles {
+            let Some([a, b, c]) = surface.triangle(index)? else {
+                continue;
+            };
+            let [first, second, third] = if mirrors { [a, c, b] } else { [a, b, c] };
+            let mut number = |vertex| self.number(part, surface, vertex, &world_from_mesh);
+            let triangle = [number(first)?, number(second)?, number(third)?];
+            part.triangles.push(triangle);
+        }
+        for vertex in self.used.drain(..) {
+            if let Some(number) = self.numbers.get_mut(vertex) {
+                *number = ABSENT;
+            }
+        }
+        Ok(())
+    }
+
+    /// A vertex's number in the part, to which it is added where it is new.
+    fn number(
+        &mut self,
+        part: &mut Part,
+        surface: &Surface,
+        vertex: usize,
+        world_from_mesh: &DAffine3,
+    ) -> Result<u32, Fault> {
+        let known = self.numbers.get(vertex).copied().unwrap_or(ABSENT);
+        if known != ABSENT {
+            return Ok(known);
+        }
+        let point = world_from_mesh.transform_point3(surface.positions.vec3(vertex));
+        if !point.is_finite() {
+            let problem = format!("has at vertex {vertex} a position that is not finite");
+            return Err(primitive::fault(surface.mesh, surface.primitive, problem));
+        }
+        // Fits: no part has more than three vertices a triangle.
+        let number = part.positions.len() as u32;
+        part.positions.push(point);
+        if let Some(slot) = self.numbers.get_mut(vertex) {
+            *slot = number;
+            self.used.push(vertex);
+        }
+        Ok(number)
+    }
+}

@@ -1,0 +1,163 @@
+//! The file's bytes → its JSON and, in a `.glb`, its binary chunk. The content decides, not the file's name.
+
+use super::Fault;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// As much as the 32-bit lengths of a `.glb` can say.
+const MAX_FILE_BYTES: u64 = u32::MAX as u64;
+
+/// Bytes in a `.glb` header: magic, version, length.
+const HEADER: usize = 12;
+/// Bytes before a chunk's data: length, type.
+const CHUNK_HEADER: usize = 8;
+
+/// The two halves of a model file.
+pub(super) struct Container<'a> {
+    /// The structure.
+    pub json: &'a [u8],
+    /// What buffer 0 holds in a `.glb`.
+    pub binary: Option<&'a [u8]>,
+}
+
+/// Reads a whole regular file of at most 4 GiB.
+pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
+    // Asked before opening: opening a pipe would wait for its writer.
+    let metadata = std::fs::metadata(path).map_err(Fault::Unreadable)?;
+    if !metadata.is_file() {
+        return Err(Fault::NotAFile);
+    }
+    if metadata.len() > MAX_FILE_BYTES {
+        return Err(Fault::TooLarge(metadata.len()));
+    }
+    let file = File::open(path).map_err(Fault::Unreadable)?;
+    let mut bytes = Vec::new();
+    file.take(MAX_FILE_BYTES)
+        .read_to_end(&mut bytes)
+        .map_err(Fault::Unreadable)?;
+    Ok(bytes)
+}
+
+/// Finds the JSON and the binary chunk. `path` only helps to say how another format becomes glTF.
+pub(super) fn open<'a>(bytes: &'a [u8], path: &Path) -> Result<Container<'a>, Fault> {
+    if bytes.starts_with(b"glTF") {
+        return open_binary(bytes);
+    }
+    // glTF forbids a byte order mark; some editors write one all the same.
+    let text = without_mark(bytes);
+    if text.trim_ascii_start().starts_with(b"{") {
+        return Ok(Container {
+            json: text,
+            binary: None,
+        });
+    }
+    Err(Fault::NotGltf(way_to_gltf(path)))
+}
+
+fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
+    let (Some(version), Some(length)) = (u32_at(bytes, 4), u32_at(bytes, 8)) else {
+        return Err(Fault::Container(format!(
+            "its header has {} of {HEADER} bytes",
+            bytes.len()
+        )));
+    };
+    if version != 2 {
+        return Err(Fault::Version(format!("{version}.0")));
+    }
+    // What follows the stated length is not the container's.
+    let Some(body) = bytes.get(HEADER..length) else {
+        return Err(Fault::Container(format!(
+            "its header promises {length} bytes, and the file holds {}",
+            bytes.len()
+        )));
+    };
+    let first = split_chunk(body)?;
+    if &first.kind != b"JSON" {
+        return Err(Fault::Container("its first chunk is not JSON".into()));
+    }
+    let (mut binary, mut rest) = (None, first.rest);
+    while binary.is_none() && !rest.is_empty() {
+        // Chunks of unknown kinds are to be skipped.
+        let chunk = split_chunk(rest)?;
+        binary = (&chunk.kind == b"BIN\0").then_some(chunk.data);
+        rest = chunk.rest;
+    }
+    // Some writers pad with zeros where blanks are asked for.
+    let json = without_mark(first.data);
+    let end = json
+        .iter()
+        .rposition(|&byte| byte != 0)
+        .map_or(0, |last| last + 1);
+    Ok(Container {
+        json: json.get(..end).unwrap_or_default(),
+        binary,
+    })
+}
+
+struct Chunk<'a> {
+    kind: [u8; 4],
+    data: &'a [u8],
+    /// The bytes behind it.
+    rest: &'a [u8],
+}
+
+fn split_chunk(bytes: &[u8]) -> Result<Chunk<'_>, Fault> {
+    let (Some(length), Some(kind)) = (
+        u32_at(bytes, 0),
+        bytes.get(4..).and_then(<[u8]>::first_chunk),
+    ) else {
+        return Err(Fault::Container(format!(
+            "a chunk's header has {} of {CHUNK_HEADER} bytes",
+            bytes.len()
+        )));
+    };
+    let body = bytes.get(CHUNK_HEADER..).unwrap_or_default();
+    let Some((data, rest)) = body.split_at_checked(length) else {
+        return Err(Fault::Container(format!(
+            "a chunk promises {length} bytes, and {} are left",
+            body.len()
+        )));
+    };
+    Ok(Chunk {
+        kind: *kind,
+        data,
+        rest,
+    })
+}
+
+fn u32_at(bytes: &[u8], offset: usize) -> Option<usize> {
+    let four = bytes.get(offset..)?.first_chunk()?;
+    usize::try_from(u32::from_le_bytes(*four)).ok()
+}
+
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
+}
+
+/// How the user gets from the format that the file's name promises to glTF.
+fn way_to_gltf(path: &Path) -> &'static str {
+    let extension = path
+        .extension()
+        .and_then(|text| text.to_str())
+        .unwrap_or_default();
+    match extension.to_ascii_lowercase().as_str() {
+        "ifc" | "ifczip" | "ifcxml" => {
+            "convert it with IfcOpenShell's `IfcConvert model.ifc model.glb`"
+        }
+        "rvt" | "rfa" | "pln" | "pla" => {
+            "export IFC from Revit or Archicad, then convert it with IfcOpenShell's `IfcConvert model.ifc model.glb`"
+        }
+        "skp" => "in SketchUp, File > Export > 3D Model as .glb",
+        "3dm" => "in Rhino, File > Export as .glb",
+        "obj" | "stl" | "ply" | "fbx" | "dae" | "blend" | "3ds" | "usd" | "usdz" => {
+            "import it in Blender, then File > Export > glTF 2.0"
+        }
+        "glb" | "gltf" => {
+            "the file does not begin as its name promises; it is damaged: copy or export it again"
+        }
+        _ => {
+            "Blender, Rhino and SketchUp export it (File > Export), and IfcConvert makes it from IFC"
+        }
+    }
+}

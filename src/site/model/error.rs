@@ -1,0 +1,144 @@
+//! What can be wrong with a model file: each fault names the thing and the way out.
+
+use super::{MAX_COMPONENTS, MAX_TRIANGLES};
+use std::path::PathBuf;
+
+/// A model file that cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {fault}", file.display())]
+pub struct ModelError {
+    /// The file, as asked for.
+    pub file: PathBuf,
+    /// What is wrong with it.
+    pub fault: Fault,
+}
+
+/// What is wrong with a model file.
+#[derive(Debug, thiserror::Error)]
+pub enum Fault {
+    /// The operating system does not give the file.
+    #[error("cannot be read: {0}")]
+    Unreadable(std::io::Error),
+    /// A folder, a pipe or a device.
+    #[error("is not a file; name a .glb or .gltf file")]
+    NotAFile,
+    /// Larger than any glTF container.
+    #[error("has {0} bytes; a model may have 4 GiB: export it in parts or with less detail")]
+    TooLarge(u64),
+    /// Another format, or none.
+    #[error("is not glTF, and Gnomon reads .glb and .gltf: {0}")]
+    NotGltf(&'static str),
+    /// The binary container contradicts itself.
+    #[error("{0}; the file is cut off or damaged: copy or export it again")]
+    Container(String),
+    /// The JSON is not JSON, or not glTF's.
+    #[error("its JSON is damaged ({0}): export it again")]
+    Json(serde_json::Error),
+    /// glTF 1.0, or one that is not written yet.
+    #[error("is glTF {0}, and Gnomon reads glTF 2.0: export it as glTF 2.0")]
+    Version(String),
+    /// An extension without which the geometry would be wrong.
+    #[error("requires the extension {0}, which Gnomon does not read: export it without")]
+    Extension(String),
+    /// Compressed geometry.
+    #[error(
+        "{what} compressed by {extension}, which Gnomon does not read: export it without mesh compression, \
+         or undo it with `gltf-transform copy in.glb out.glb`"
+    )]
+    Compressed {
+        /// Subject and verb.
+        what: String,
+        /// glTF's name of the compression.
+        extension: String,
+    },
+    /// An index that leads nowhere.
+    #[error(
+        "{user} refers to {what} {index}, and there are only {count}; the file is damaged: export it again"
+    )]
+    NoSuch {
+        /// What refers.
+        user: String,
+        /// The kind of thing referred to.
+        what: &'static str,
+        /// Its number.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A byte range beyond what holds it.
+    #[error(
+        "{what} reads bytes {start}–{end} of {holder}, which holds {holds}; \
+         the file is cut off or damaged: export it again"
+    )]
+    Range {
+        /// What reads.
+        what: String,
+        /// First byte.
+        start: u64,
+        /// One behind the last byte.
+        end: u64,
+        /// What is read.
+        holder: String,
+        /// Bytes in it.
+        holds: u64,
+    },
+    /// A name that no one can have meant; names are copied into every component.
+    #[error(
+        "{what} has a name of {bytes} bytes; a name may have 1000: shorten it and export again"
+    )]
+    LongName {
+        /// What is named.
+        what: String,
+        /// Length of the name.
+        bytes: usize,
+    },
+    /// An accessor that says what glTF does not allow here.
+    #[error("accessor {accessor} {problem}: export it again")]
+    Accessor {
+        /// Its number.
+        accessor: usize,
+        /// Verb and object.
+        problem: String,
+    },
+    /// A buffer without usable bytes.
+    #[error("buffer {buffer} {problem}")]
+    Buffer {
+        /// Its number.
+        buffer: usize,
+        /// Verb, object and way out.
+        problem: String,
+    },
+    /// A node that has no place in the world.
+    #[error("node {node} {problem}: mend the model and export it again")]
+    Node {
+        /// Its number.
+        node: usize,
+        /// Verb and object.
+        problem: String,
+    },
+    /// A primitive whose triangles cannot be read.
+    #[error("primitive {primitive} of mesh {mesh} {problem}: mend the model and export it again")]
+    Primitive {
+        /// The mesh's number.
+        mesh: usize,
+        /// The primitive's number in it.
+        primitive: usize,
+        /// Verb and object.
+        problem: String,
+    },
+    /// More triangles than anyone can study.
+    #[error(
+        "has more than {MAX_TRIANGLES} triangles, instances counted: export it in parts or with less detail"
+    )]
+    TooManyTriangles,
+    /// More components than anyone can name.
+    #[error(
+        "has more than {MAX_COMPONENTS} components: join its objects by material and export again"
+    )]
+    TooManyComponents,
+    /// Nothing that could cast.
+    #[error(
+        "has no triangles in its default scene, so nothing casts a shadow: export the visible faces as a mesh"
+    )]
+    Empty,
+}

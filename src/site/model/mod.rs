@@ -1,0 +1,82 @@
+//! A glTF 2.0 file → the parts that stand there, in metres in the world frame.
+//!
+//! What casts a shadow is read, and nothing else: textures, lights, cameras and animations may be missing or broken.
+//! Skinned and morphing meshes are taken as they are stored, at rest. Points and lines cast nothing and are skipped.
+//!
+//! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
+//! counted before memory is taken. The files of this folder, in the order of the flow: [`container`] (bytes → JSON and
+//! binary chunk), [`document`] (JSON → structure), [`scene`] (which nodes stand where), [`buffers`], [`accessor`]
+//! and [`reader`] (bytes → numbers), [`instances`], [`primitive`] (which triangles a mesh has), [`build`] (all of it → parts).
+
+use crate::mesh::Part;
+use glam::{DAffine3, DMat3, DVec3};
+use std::path::Path;
+
+mod accessor;
+mod buffers;
+mod build;
+mod container;
+mod document;
+mod error;
+mod instances;
+mod primitive;
+mod reader;
+mod scene;
+
+pub use error::{Fault, ModelError};
+
+/// The most triangles a model may have, instances counted. Their vertices take at most 7.2 GB, their indices 1.2 GB.
+pub const MAX_TRIANGLES: u64 = 100_000_000;
+
+/// The most components a model may have: each costs names and adjacency of its own, whatever its size.
+pub const MAX_COMPONENTS: usize = 1_000_000;
+
+/// Where a model stands: it is scaled, turned, then moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Radians clockwise from the model's north (−Z in glTF) to true north; the model is turned by as much the other way.
+    pub north_rad: f64,
+    /// Metres east, north and up.
+    pub position: DVec3,
+    /// Metres per model unit; above zero.
+    pub scale: f64,
+}
+
+impl Default for Placement {
+    fn default() -> Self {
+        Self {
+            north_rad: 0.0,
+            position: DVec3::ZERO,
+            scale: 1.0,
+        }
+    }
+}
+
+impl Placement {
+    /// glTF has y up and north at −z: (x, y, z) becomes (x, −z, y), then the placement follows.
+    fn world_from_model(&self) -> DAffine3 {
+        let upright = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
+        let turned = DMat3::from_rotation_z(self.north_rad);
+        DAffine3::from_mat3_translation(turned * upright * self.scale, self.position)
+    }
+}
+
+/// Reads the default scene of a `.glb` or `.gltf` file (all root nodes where it has no scenes).
+///
+/// One part per node and material, in the order of the scene; every part has triangles, and there is at least one.
+pub fn load(path: &Path, placement: &Placement) -> Result<Vec<Part>, ModelError> {
+    read(path, placement).map_err(|fault| ModelError {
+        file: path.to_owned(),
+        fault,
+    })
+}
+
+fn read(path: &Path, placement: &Placement) -> Result<Vec<Part>, Fault> {
+    let bytes = container::read_file(path)?;
+    let container = container::open(&bytes, path)?;
+    let document = document::Document::parse(container.json)?;
+    let placed = scene::place(&document, placement.world_from_model())?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let buffers = buffers::Buffers::new(&document, container.binary, folder);
+    build::parts(&document, &buffers, &placed)
+}

@@ -1,0 +1,211 @@
+//! A mesh's primitives → which vertices make which triangles, grouped by material.
+
+use super::Fault;
+use super::accessor::Accessors;
+use super::document::Document;
+use super::reader::Reader;
+use gltf::json::accessor::{ComponentType, Type};
+use gltf::json::mesh::{Mode, Primitive, Semantic};
+use gltf::json::validation::Checked;
+use std::collections::BTreeMap;
+
+const DRACO: &str = "KHR_draco_mesh_compression";
+
+/// The triangles of a mesh, checked but for the values of its indices and positions.
+pub(super) struct Surfaces<'a> {
+    /// In the order in which the materials appear; those without triangles are left out.
+    pub groups: Vec<Group<'a>>,
+    /// Whether the mesh has one material, be it with triangles or without.
+    pub one_material: bool,
+}
+
+/// The primitives of one mesh and material.
+pub(super) struct Group<'a> {
+    /// Its number, where it has one.
+    pub material: Option<usize>,
+    /// One or more, each with triangles.
+    pub surfaces: Vec<Surface<'a>>,
+}
+
+/// A primitive with triangles.
+pub(super) struct Surface<'a> {
+    /// The mesh's number.
+    pub mesh: usize,
+    /// The primitive's number in it.
+    pub primitive: usize,
+    /// Its vertices.
+    pub positions: Reader<'a>,
+    /// One or more.
+    pub triangles: usize,
+    indices: Option<Reader<'a>>,
+    mode: Mode,
+}
+
+impl Group<'_> {
+    /// How many triangles all its primitives have.
+    pub(super) fn triangles(&self) -> u64 {
+        self.surfaces
+            .iter()
+            .map(|surface| surface.triangles as u64)
+            .sum()
+    }
+}
+
+/// Reads what the primitives of mesh `index` say; points and lines are skipped.
+pub(super) fn surfaces<'a>(
+    document: &Document,
+    accessors: &mut Accessors<'a, '_>,
+    index: usize,
+) -> Result<Surfaces<'a>, Fault> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut group_of = BTreeMap::new();
+    let primitives = document
+        .meshes
+        .get(index)
+        .map_or(&[][..], |mesh| &mesh.primitives);
+    for (number, primitive) in primitives.iter().enumerate() {
+        let mode = match primitive.mode {
+            Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => {
+                mode
+            }
+            Checked::Valid(_) => continue,
+            Checked::Invalid => {
+                return Err(fault(index, number, "has a mode that glTF does not know"));
+            }
+        };
+        let material = primitive.material.map(|material| material.value());
+        let count = document.materials.len();
+        if let Some(material) = material.filter(|&material| material >= count) {
+            return Err(Fault::NoSuch {
+                user: format!("primitive {number} of mesh {index}"),
+                what: "material",
+                index: material,
+                count,
+            });
+        }
+        let group = *group_of.entry(material).or_insert_with(|| {
+            groups.push(Group {
+                material,
+                surfaces: Vec::new(),
+            });
+            groups.len() - 1
+        });
+        let surface = surface(document, accessors, (index, number), primitive, mode)?;
+        if let Some(group) = groups.get_mut(group).filter(|_| surface.triangles > 0) {
+            group.surfaces.push(surface);
+        }
+    }
+    groups.retain(|group| !group.surfaces.is_empty());
+    Ok(Surfaces {
+        groups,
+        one_material: group_of.len() == 1,
+    })
+}
+
+fn surface<'a>(
+    document: &Document,
+    accessors: &mut Accessors<'a, '_>,
+    (mesh, number): (usize, usize),
+    primitive: &Primitive,
+    mode: Mode,
+) -> Result<Surface<'a>, Fault> {
+    let fault = |problem| Err(fault(mesh, number, problem));
+    let user = || format!("primitive {number} of mesh {mesh}");
+    let positions = primitive
+        .attributes
+        .get(&Checked::Valid(Semantic::Positions));
+    let positions = positions.map(|accessor| accessor.value());
+    let indices = primitive.indices.map(|accessor| accessor.value());
+    // A primitive may carry its geometry twice, once of it plain; that one is read then.
+    let is_stored = |accessor: usize| {
+        let accessor = document.accessors.get(accessor);
+        accessor.is_some_and(|accessor| accessor.buffer_view.is_some())
+    };
+    let is_plain = positions.is_some_and(is_stored) && indices.is_none_or(is_stored);
+    let extensions = primitive.extensions.as_ref();
+    if !is_plain && extensions.is_some_and(|found| found.others.contains_key(DRACO)) {
+        return Err(Fault::Compressed {
+            what: format!("{} is", user()),
+            extension: DRACO.into(),
+        });
+    }
+    let Some(positions) = positions else {
+        return fault("has no positions");
+    };
+    let positions = accessors.get(positions, user)?;
+    // KHR_mesh_quantization allows all whole numbers but u32.
+    if positions.shape != Type::Vec3 || positions.component == ComponentType::U32 {
+        return fault("has positions of a type that glTF does not allow");
+    }
+    let indices = match indices {
+        Some(indices) => Some(accessors.get(indices, user)?),
+        None => None,
+    };
+    let is_index = |reader: Reader| {
+        use ComponentType::{U8, U16, U32};
+        matches!(reader.component, U8 | U16 | U32) && reader.shape == Type::Scalar
+    };
+    if !indices.is_none_or(is_index) {
+        return fault("has indices of a type that glTF does not allow");
+    }
+    let corners = indices.map_or(positions.count, |indices| indices.count);
+    let triangles = match mode {
+        Mode::TriangleStrip | Mode::TriangleFan => corners.saturating_sub(2),
+        _ => corners / 3,
+    };
+    Ok(Surface {
+        mesh,
+        primitive: number,
+        positions,
+        triangles,
+        indices,
+        mode,
+    })
+}
+
+impl Surface<'_> {
+    /// The vertices of triangle `index`, counter-clockwise; each is one of `positions`.
+    ///
+    /// None for a triangle of a strip that only joins what lies before and behind it.
+    pub(super) fn triangle(&self, index: usize) -> Result<Option<[usize; 3]>, Fault> {
+        let corners = match self.mode {
+            Mode::TriangleStrip if index.is_multiple_of(2) => [index, index + 1, index + 2],
+            Mode::TriangleStrip => [index, index + 2, index + 1],
+            Mode::TriangleFan => [index + 1, index + 2, 0],
+            _ => [index * 3, index * 3 + 1, index * 3 + 2],
+        };
+        let Some(indices) = self.indices else {
+            return Ok(Some(corners));
+        };
+        let vertices = corners.map(|corner| indices.whole(corner));
+        let restart = match indices.component {
+            ComponentType::U8 => u32::from(u8::MAX),
+            ComponentType::U16 => u32::from(u16::MAX),
+            _ => u32::MAX,
+        };
+        for vertex in vertices {
+            let count = self.positions.count;
+            if vertex == restart || vertex as usize >= count {
+                let why = if vertex == restart {
+                    "glTF forbids that number"
+                } else {
+                    "that is out of range"
+                };
+                let problem =
+                    format!("names vertex {vertex} of {count} in triangle {index}; {why}");
+                return Err(fault(self.mesh, self.primitive, problem));
+            }
+        }
+        let [a, b, c] = vertices.map(|vertex| vertex as usize);
+        let joins = self.mode == Mode::TriangleStrip && (a == b || b == c || c == a);
+        Ok((!joins).then_some([a, b, c]))
+    }
+}
+
+pub(super) fn fault(mesh: usize, primitive: usize, problem: impl Into<String>) -> Fault {
+    Fault::Primitive {
+        mesh,
+        primitive,
+        problem: problem.into(),
+    }
+}
