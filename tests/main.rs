@@ -1,3 +1,5 @@
 //! All tests in one binary: it links once.
 
+mod mistakes;
+mod site;
 mod sun;

@@ -43,3 +43,41 @@ pub struct Mesh {
     /// The parts.
     pub components: Vec<Component>,
 }
+
+/// Why there is no mesh.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshError {}
+
+impl Mesh {
+    /// One component a part, in their order. A stand-in: neither welds nor finds planes.
+    ///
+    /// # Errors
+    /// None yet.
+    pub fn build(parts: Vec<Part>) -> Result<Mesh, MeshError> {
+        let mut mesh = Mesh {
+            origin: DVec3::ZERO,
+            vertices: Vec::new(),
+            faces: Vec::new(),
+            planes: Vec::new(),
+            components: Vec::new(),
+        };
+        for part in parts {
+            let base = mesh.vertices.len() as u32;
+            let first = mesh.faces.len() as u32;
+            mesh.vertices
+                .extend(part.positions.iter().map(|position| position.as_vec3()));
+            mesh.faces.extend(
+                part.triangles
+                    .iter()
+                    .map(|face| face.map(|corner| corner + base)),
+            );
+            mesh.components.push(Component {
+                name: part.name,
+                aliases: part.aliases,
+                faces: first..mesh.faces.len() as u32,
+                edges: 0..0,
+            });
+        }
+        Ok(mesh)
+    }
+}
