@@ -1,6 +1,6 @@
 //! What every mistake in a site file or an option is told: one line, the file, the key and the way out.
 
-use crate::site::{SITE, folder, load, some, tower};
+use crate::site::{SITE, folder, load, some};
 use gnomon::mesh::Part;
 use gnomon::site::file::SiteFile;
 use gnomon::site::model::Placement;

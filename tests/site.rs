@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// A site whose tower is 10 × 10 × 40 m, with a low yard of 60 × 60 m around it.
-pub const SITE: &str = r#"
+pub(crate) const SITE: &str = r#"
 [place]
 name = "Champ de Mars, Paris"
 latitude = 48.8583
@@ -28,7 +28,7 @@ to = "14:00"
 step = "30min"
 "#;
 
-pub fn folder(site: &str) -> TempDir {
+pub(crate) fn folder(site: &str) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("site.toml"), site).expect("a site file");
     std::fs::write(folder.path().join("tower.glb"), "").expect("a model");
@@ -58,7 +58,7 @@ fn block(name: &str, alias: &str, low: DVec3, high: DVec3) -> Part {
     }
 }
 
-pub fn tower(_: &Path, placement: &Placement) -> Result<Vec<Part>, ModelError> {
+pub(crate) fn tower(_: &Path, placement: &Placement) -> Result<Vec<Part>, ModelError> {
     let at = |x, y, z| placement.position + DVec3::new(x, y, z) * placement.scale;
     Ok(vec![
         block("tower", "iron", at(-5.0, -5.0, 0.0), at(5.0, 5.0, 40.0)),
@@ -66,11 +66,11 @@ pub fn tower(_: &Path, placement: &Placement) -> Result<Vec<Part>, ModelError> {
     ])
 }
 
-pub fn load(site: &str, asked: &Overrides) -> Result<Site, SiteError> {
+pub(crate) fn load(site: &str, asked: &Overrides) -> Result<Site, SiteError> {
     Site::load_with(folder(site).path(), asked, tower)
 }
 
-pub fn some(text: &str) -> Option<String> {
+pub(crate) fn some(text: &str) -> Option<String> {
     Some(text.to_owned())
 }
 
