@@ -1,4 +1,4 @@
-//! The site file as written: TOML → [`SiteFile`]. What it means is found in [`super::load`].
+//! The site file as written: TOML → [`SiteFile`]. What it means is found in [`crate::site::Site::load`].
 
 use super::error::{At, SiteError};
 use super::keys;
