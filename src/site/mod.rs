@@ -2,7 +2,23 @@
 //!
 //! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unproven.
 
+mod asked;
+mod camera;
+mod choice;
+mod error;
+mod extent;
+pub mod file;
+mod keys;
+mod load;
 pub mod model;
+mod plan;
+mod study;
+mod written;
+
+pub use asked::Overrides;
+pub use choice::ChoiceError;
+pub use error::{At, SiteError};
+pub use load::load_sun;
 
 use crate::mesh::Mesh;
 use crate::sun::{Place, SunTrack};

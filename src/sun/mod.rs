@@ -1,5 +1,18 @@
 //! Where the sun is: the position by NREL SPA, and the instants of a study with their weights.
 
+mod clock;
+mod day;
+mod error;
+mod place;
+mod position;
+mod window;
+
+pub use clock::{Reading, TimeOfDay, parse_date, parse_duration_secs};
+pub use error::SunError;
+pub use place::{zone_at, zone_named};
+pub use position::{Air, Position, delta_t_secs, position};
+pub use window::Window;
+
 use chrono::{DateTime, NaiveDate};
 use chrono_tz::Tz;
 use glam::DVec3;
@@ -64,4 +77,31 @@ pub struct SunTrack {
     pub refraction: bool,
     /// ΔT used, seconds (Espenak and Meeus), at the window's start.
     pub delta_t_secs: f64,
+}
+
+impl Instant {
+    /// Clockwise from true north, degrees, as it is printed: to 0.00001°.
+    pub fn azimuth_deg(&self) -> f64 {
+        as_printed(self.azimuth_rad.to_degrees()) % 360.0
+    }
+
+    /// Above the horizon, degrees, as it is printed: to 0.00001°. Below 0 is night.
+    pub fn altitude_deg(&self) -> f64 {
+        as_printed(self.altitude_rad.to_degrees())
+    }
+}
+
+impl SunTrack {
+    /// How long the window is, seconds: the sum of the weights.
+    pub fn window_secs(&self) -> u64 {
+        self.instants
+            .iter()
+            .map(|instant| u64::from(instant.weight_secs))
+            .sum()
+    }
+}
+
+/// SPA is good to 0.0003°; more digits than these say nothing. Never −0.
+fn as_printed(degrees: f64) -> f64 {
+    (degrees * 1e5).round() / 1e5 + 0.0
 }

@@ -1,0 +1,73 @@
+//! What the command line asks beside the site file, and the reading of its values.
+
+use super::error::{At, SiteError};
+use super::{Engine, Finder, Method, Receivers};
+
+/// Options of the command line; each, where given, goes before the site file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overrides {
+    /// `--place LAT,LON`, for a model file or a site file without `[place]`.
+    pub place: Option<String>,
+    /// `--date 2026-09-18`
+    pub date: Option<String>,
+    /// `--from 10:00`
+    pub from: Option<String>,
+    /// `--to 14:00`
+    pub to: Option<String>,
+    /// `--step 30min`
+    pub step: Option<String>,
+    /// `--at 2026-09-18T15:00`: this instant alone, instead of the study.
+    pub at: Option<String>,
+    /// `--region W,S,E,N`, metres.
+    pub region: Option<String>,
+    /// `--cell M`, metres.
+    pub cell: Option<f64>,
+    /// `--size PIXELS`: cells along the longer side.
+    pub size: Option<u32>,
+    /// `--receivers top|ground`
+    pub receivers: Option<Receivers>,
+    /// `--technique auto|…`
+    pub technique: Option<Method>,
+    /// `--silhouette auto|…`
+    pub silhouette: Option<Finder>,
+    /// `--engine auto|gpu|cpu`
+    pub engine: Option<Engine>,
+    /// `--no-refraction`
+    pub no_refraction: bool,
+}
+
+/// Reads `N` finite numbers with commas between them.
+///
+/// # Errors
+/// [`SiteError::Value`] with the example.
+pub(super) fn numbers<const N: usize>(
+    option: &'static str,
+    text: &str,
+    example: &str,
+) -> Result<[f64; N], SiteError> {
+    let read: Option<Vec<f64>> = text
+        .split(',')
+        .map(|number| {
+            number
+                .trim()
+                .parse()
+                .ok()
+                .filter(|number: &f64| number.is_finite())
+        })
+        .collect();
+    read.and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(|| {
+            refuse(
+                At::Option(option),
+                format!("\"{text}\" is not {N} numbers with commas between them; write for example {option} {example}"),
+            )
+        })
+}
+
+/// A value that cannot be taken; `what` ends with the way out.
+pub(super) fn refuse(at: At, what: impl Into<String>) -> SiteError {
+    SiteError::Value {
+        at,
+        what: what.into(),
+    }
+}

@@ -1,0 +1,91 @@
+//! The words by which people choose a technique, a finder, an engine and receivers.
+
+use super::error::nearest;
+use super::{Engine, Finder, Method, Receivers};
+use std::fmt;
+use std::str::FromStr;
+
+/// A word that is none of the choices, with the way out.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ChoiceError {
+    /// Not a word of this choice.
+    #[error("\"{word}\" is not one of {known}; the nearest is \"{nearest}\"")]
+    Unknown {
+        /// As written.
+        word: String,
+        /// All words.
+        known: String,
+        /// The nearest of them.
+        nearest: &'static str,
+    },
+    /// A word of the design whose feature is not built.
+    #[error("\"{word}\" is not there yet; take one of {known}")]
+    NotYet {
+        /// As written.
+        word: String,
+        /// All words.
+        known: String,
+    },
+}
+
+/// Finds a word among the choices, or says which is nearest.
+fn find<T: Copy>(
+    word: &str,
+    known: &[(&'static str, T)],
+    later: &[&'static str],
+) -> Result<T, ChoiceError> {
+    if let Some((_, choice)) = known.iter().find(|(name, _)| *name == word) {
+        return Ok(*choice);
+    }
+    let names: Vec<_> = known.iter().map(|(name, _)| *name).collect();
+    let list = names.join(", ");
+    if later.contains(&word) {
+        return Err(ChoiceError::NotYet {
+            word: word.to_owned(),
+            known: list,
+        });
+    }
+    Err(ChoiceError::Unknown {
+        word: word.to_owned(),
+        known: list,
+        nearest: nearest(word, names).unwrap_or("auto"),
+    })
+}
+
+/// Words ↔ choices, for one enum.
+macro_rules! words {
+    ($choice:ty, [$($word:literal => $value:expr),+], later [$($later:literal),*]) => {
+        impl $choice {
+            /// The words that choose, with what they choose.
+            pub const WORDS: &'static [(&'static str, $choice)] = &[$(($word, $value)),+];
+
+            /// The word that chooses this.
+            pub fn word(self) -> &'static str {
+                Self::WORDS.iter().find(|(_, choice)| *choice == self).map_or("auto", |(word, _)| *word)
+            }
+        }
+
+        impl FromStr for $choice {
+            type Err = ChoiceError;
+
+            fn from_str(word: &str) -> Result<Self, ChoiceError> {
+                find(word, Self::WORDS, &[$($later),*])
+            }
+        }
+
+        impl fmt::Display for $choice {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(self.word())
+            }
+        }
+    };
+}
+
+words!(
+    Method,
+    ["auto" => Method::Auto, "stencil" => Method::Stencil, "ray-cast" => Method::RayCast],
+    later ["projected", "shadow-map", "hybrid", "smoothie", "soft-texture"]
+);
+words!(Finder, ["auto" => Finder::Auto, "brute" => Finder::Brute], later ["hextree", "gpu"]);
+words!(Engine, ["auto" => Engine::Auto, "gpu" => Engine::Gpu, "cpu" => Engine::Cpu], later []);
+words!(Receivers, ["top" => Receivers::Top, "ground" => Receivers::Ground], later ["surfaces"]);

@@ -1,0 +1,230 @@
+//! The site file as written: TOML → [`SiteFile`]. What it means is found in [`crate::site::Site::load`].
+
+use super::error::{At, SiteError};
+use super::keys;
+use serde::de::{DeserializeOwned, Error as _};
+use serde::{Deserialize, Deserializer};
+use toml::{Table, Value};
+
+/// A site file as written: nothing checked but keys and types.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SiteFile {
+    /// `[place]`
+    pub place: Option<PlaceTable>,
+    /// `[[model]]`, in their order.
+    pub model: Vec<ModelTable>,
+    /// `[ground]`
+    pub ground: GroundTable,
+    /// `[study]`
+    pub study: StudyTable,
+    /// `[plan]`
+    pub plan: PlanTable,
+    /// `[camera]`
+    pub camera: CameraTable,
+}
+
+/// `[place]`
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub struct PlaceTable {
+    /// What people call it.
+    pub name: Option<String>,
+    /// Degrees, north positive.
+    pub latitude: Option<f64>,
+    /// Degrees, east positive.
+    pub longitude: Option<f64>,
+    /// Metres above sea level.
+    pub elevation: Option<f64>,
+    /// IANA name.
+    pub time_zone: Option<String>,
+}
+
+/// `[[model]]`
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub struct ModelTable {
+    /// Relative to the site file, or absolute.
+    pub path: Option<String>,
+    /// Degrees clockwise from the model's north to true north.
+    pub north: Option<f64>,
+    /// Metres east, north, up.
+    pub position: Option<[f64; 3]>,
+    /// Metres per model unit.
+    pub scale: Option<f64>,
+    /// What casts.
+    #[serde(default)]
+    pub casts: Names,
+    /// What receives.
+    #[serde(default)]
+    pub receives: Names,
+}
+
+/// `[ground]`
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub struct GroundTable {
+    /// Metres.
+    pub level: Option<f64>,
+}
+
+/// `[study]`
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub struct StudyTable {
+    /// Year-month-day.
+    pub date: Option<Text>,
+    /// First instant.
+    pub from: Option<Text>,
+    /// Last instant.
+    pub to: Option<Text>,
+    /// Duration.
+    pub step: Option<String>,
+    /// A technique's name.
+    pub technique: Option<String>,
+}
+
+/// `[plan]`
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub struct PlanTable {
+    /// West, south, east, north, metres.
+    pub region: Option<[f64; 4]>,
+    /// Side of a cell, metres.
+    pub cell: Option<f64>,
+}
+
+/// `[camera]`
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub struct CameraTable {
+    /// Metres.
+    pub eye: Option<[f64; 3]>,
+    /// Metres.
+    pub target: Option<[f64; 3]>,
+    /// Any length but 0.
+    pub up: Option<[f64; 3]>,
+    /// Vertical, degrees.
+    pub fov: Option<f64>,
+}
+
+/// Which components of a model: all, none, or those of some names.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Names {
+    /// `true` or `false`.
+    All(bool),
+    /// Names of components, nodes, meshes or materials.
+    Some(Vec<String>),
+}
+
+impl Default for Names {
+    fn default() -> Self {
+        Names::All(true)
+    }
+}
+
+impl<'de> Deserialize<'de> for Names {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let wrong = || D::Error::custom("expected true, false or a list of names in quotes");
+        match Value::deserialize(from)? {
+            Value::Boolean(all) => Ok(Names::All(all)),
+            Value::Array(names) => names
+                .into_iter()
+                .map(|name| match name {
+                    Value::String(name) => Ok(name),
+                    _ => Err(wrong()),
+                })
+                .collect::<Result<_, _>>()
+                .map(Names::Some),
+            _ => Err(wrong()),
+        }
+    }
+}
+
+/// A string, or one of TOML's dates and times as its text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Text(pub String);
+
+impl<'de> Deserialize<'de> for Text {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        match Value::deserialize(from)? {
+            Value::String(text) => Ok(Text(text)),
+            Value::Datetime(time) => Ok(Text(time.to_string())),
+            other => Err(D::Error::custom(format!(
+                "expected text in quotes, not {}",
+                other.type_str()
+            ))),
+        }
+    }
+}
+
+impl SiteFile {
+    /// Reads a site file's text; `file` names it in errors.
+    ///
+    /// # Errors
+    /// What is not TOML, unknown tables and keys, values of the wrong type.
+    pub fn parse(file: &str, text: &str) -> Result<SiteFile, SiteError> {
+        // A mark that Windows editors put first, and TOML does not know.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let root: Table = toml::from_str(text).map_err(|error| {
+            let start = error.span().map_or(0, |span| span.start);
+            let before = text.bytes().take(start).filter(|byte| *byte == b'\n');
+            let line = before.count();
+            SiteError::Toml {
+                file: file.to_owned(),
+                line: line + 1,
+                text: text.lines().nth(line).unwrap_or_default().trim().to_owned(),
+                what: error.message().to_owned(),
+            }
+        })?;
+        keys::check(file, &root)?;
+        let mut site = SiteFile {
+            ground: table(file, &root, "ground")?.unwrap_or_default(),
+            study: table(file, &root, "study")?.unwrap_or_default(),
+            plan: table(file, &root, "plan")?.unwrap_or_default(),
+            camera: table(file, &root, "camera")?.unwrap_or_default(),
+            place: table(file, &root, "place")?,
+            model: Vec::new(),
+        };
+        if let Some(Value::Array(models)) = root.get("model") {
+            for (index, model) in models.iter().enumerate() {
+                site.model.push(typed(
+                    file,
+                    "model",
+                    &keys::numbered(index, models.len()),
+                    model,
+                )?);
+            }
+        }
+        Ok(site)
+    }
+}
+
+fn table<T: DeserializeOwned>(
+    file: &str,
+    root: &Table,
+    name: &str,
+) -> Result<Option<T>, SiteError> {
+    root.get(name)
+        .map(|value| typed(file, name, &keys::bracketed(name), value))
+        .transpose()
+}
+
+/// A table's values in their types, or which key has the wrong one and how it is written.
+fn typed<T: DeserializeOwned>(
+    file: &str,
+    name: &str,
+    brackets: &str,
+    value: &Value,
+) -> Result<T, SiteError> {
+    T::deserialize(value.clone()).map_err(|error| {
+        // The library tells the key only in its own text: "… \nin `latitude`".
+        let text = error.to_string();
+        let key = text
+            .rsplit_once("in `")
+            .map_or("", |(_, key)| key.trim_end().trim_end_matches('`'));
+        let key = key.split('.').next().unwrap_or_default();
+        let what = error.message().replace("f64", "a number");
+        SiteError::Value {
+            at: At::Key {
+                file: file.to_owned(),
+                table: brackets.to_owned(),
+                key: key.to_owned(),
+            },
+            what: format!("{what}; write for example {}", keys::example(name, key)),
+        }
+    })
+}

@@ -1,0 +1,158 @@
+//! From the user's path to a site file's contents: a site file, a folder, or a model with its place.
+
+use super::asked::{Overrides, numbers, refuse};
+use super::error::{At, SiteError};
+use super::file::{ModelTable, PlaceTable, SiteFile};
+use super::keys;
+use crate::sun::Place;
+use std::path::{Path, PathBuf};
+
+/// A request as written, and where it was written.
+#[derive(Debug)]
+pub(super) struct Written {
+    /// The file, as the user named it.
+    pub(super) file: String,
+    /// What relative paths are relative to.
+    pub(super) folder: PathBuf,
+    /// What it says.
+    pub(super) site: SiteFile,
+}
+
+impl Written {
+    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model together with `--place`.
+    pub(super) fn read(path: &Path, asked: &Overrides) -> Result<Written, SiteError> {
+        let extension = path
+            .extension()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_lowercase();
+        let mut written = match extension.as_str() {
+            _ if path.is_dir() => Self::read_file(&path.join("site.toml"))?,
+            "glb" | "gltf" => Self::of_model(path, asked)?,
+            "obj" | "stl" | "ply" | "ifc" | "fbx" | "dae" | "3ds" | "3dm" | "skp" | "dwg"
+            | "dxf" | "blend" | "usd" | "usdz" | "rvt" => {
+                return Err(SiteError::UnknownFormat {
+                    path: path.display().to_string(),
+                });
+            }
+            _ => Self::read_file(path)?,
+        };
+        if let Some(place) = &asked.place {
+            if written.site.place.is_some() {
+                return Err(refuse(
+                    At::Option("--place"),
+                    format!(
+                        "{} has its own [place]; leave one of the two out",
+                        written.file
+                    ),
+                ));
+            }
+            let [latitude, longitude] = numbers("--place", place, "48.8583,2.2945")?;
+            written.site.place = Some(PlaceTable {
+                latitude: Some(latitude),
+                longitude: Some(longitude),
+                ..PlaceTable::default()
+            });
+        }
+        Ok(written)
+    }
+
+    fn read_file(path: &Path) -> Result<Written, SiteError> {
+        let file = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| SiteError::Unreadable {
+            path: file.clone(),
+            why: error.to_string(),
+        })?;
+        Ok(Written {
+            site: SiteFile::parse(&file, &text)?,
+            folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+            file,
+        })
+    }
+
+    fn of_model(path: &Path, asked: &Overrides) -> Result<Written, SiteError> {
+        let file = path.display().to_string();
+        // A mistyped name is a better complaint than a missing place.
+        if let Err(error) = std::fs::metadata(path) {
+            return Err(SiteError::Unreadable {
+                path: file,
+                why: error.to_string(),
+            });
+        }
+        if asked.place.is_none() {
+            return Err(SiteError::NoPlaceForModel { path: file });
+        }
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        Ok(Written {
+            file,
+            folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+            site: SiteFile {
+                model: vec![ModelTable {
+                    path: Some(name),
+                    ..ModelTable::default()
+                }],
+                ..SiteFile::default()
+            },
+        })
+    }
+
+    /// Where a key of this file stands.
+    pub(super) fn key(&self, table: &str, key: &str) -> At {
+        At::Key {
+            file: self.file.clone(),
+            table: keys::bracketed(table),
+            key: key.to_owned(),
+        }
+    }
+
+    /// Where a key of one of the models stands.
+    pub(super) fn model_key(&self, index: usize, key: &str) -> At {
+        At::Key {
+            file: self.file.clone(),
+            table: keys::numbered(index, self.site.model.len()),
+            key: key.to_owned(),
+        }
+    }
+
+    /// A key that must be there and is not.
+    pub(super) fn missing(&self, what: impl Into<String>, example: impl Into<String>) -> SiteError {
+        SiteError::Missing {
+            file: self.file.clone(),
+            what: what.into(),
+            example: example.into(),
+        }
+    }
+
+    /// The checked place.
+    pub(super) fn place(&self, asked: &Overrides) -> Result<Place, SiteError> {
+        const EXAMPLE: &str = "latitude = 48.8583 and longitude = 2.2945";
+        let Some(table) = &self.site.place else {
+            return Err(self.missing("[place]", format!("[place] with {EXAMPLE}")));
+        };
+        let number = |key: &str, value: Option<f64>| {
+            value.ok_or_else(|| {
+                self.missing(format!("{key} in [place]"), keys::example("place", key))
+            })
+        };
+        let latitude = number("latitude", table.latitude)?;
+        let longitude = number("longitude", table.longitude)?;
+        Place::new(
+            table.name.as_deref().unwrap_or_default(),
+            latitude,
+            longitude,
+            table.elevation.unwrap_or(0.0),
+            table.time_zone.as_deref(),
+        )
+        .map_err(|error| {
+            let at = match asked.place {
+                Some(_) => At::Option("--place"),
+                None => self.key("place", ""),
+            };
+            SiteError::sun(at, error)
+        })
+    }
+}

@@ -1,0 +1,207 @@
+//! What can be wrong with a place, a clock reading or a window.
+
+use chrono::{DateTime, NaiveDate, NaiveDateTime, NaiveTime};
+use chrono_tz::Tz;
+
+/// Why there is no sun for what was asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SunError {
+    /// A coordinate outside the earth, or not a number.
+    #[error("{what} {value} is not between {low} and {high} {unit}")]
+    OutOfRange {
+        /// `latitude`, `longitude` or `elevation`.
+        what: &'static str,
+        /// What was given.
+        value: f64,
+        /// Smallest value taken.
+        low: f64,
+        /// Largest value taken.
+        high: f64,
+        /// Of all three numbers.
+        unit: &'static str,
+    },
+    /// A name that the time zone database does not know.
+    #[error("time zone \"{name}\" is not in the IANA list; the nearest is \"{nearest}\"")]
+    UnknownZone {
+        /// What was given.
+        name: String,
+        /// The nearest known name.
+        nearest: String,
+    },
+    /// No zone could be found from the coordinates.
+    #[error(
+        "no time zone is known at latitude {latitude_deg}, longitude {longitude_deg}; \
+         give it, for example time_zone = \"Europe/Paris\""
+    )]
+    NoZone {
+        /// Degrees, north positive.
+        latitude_deg: f64,
+        /// Degrees, east positive.
+        longitude_deg: f64,
+    },
+    /// Not a date.
+    #[error("\"{text}\" is not a date; write year-month-day, for example 2026-09-18")]
+    BadDate {
+        /// What was given.
+        text: String,
+    },
+    /// Not a clock reading.
+    #[error(
+        "\"{text}\" is not a time; write 10:00, 10:00:30, sunrise+1h30, sunset-1h30 or 2026-09-18T15:00, \
+         the day's end as 0:00 and an offset from UTC as in 02:30+01:00"
+    )]
+    BadReading {
+        /// What was given.
+        text: String,
+    },
+    /// Not a duration.
+    #[error("\"{text}\" is not a duration; write 30min, 1h, 1h30 or 90s, at most 366 days")]
+    BadDuration {
+        /// What was given.
+        text: String,
+    },
+    /// A step of nothing.
+    #[error("a step of 0 never reaches the window's end; give at least 1s, for example 30min")]
+    ZeroStep,
+    /// More instants than anyone wants.
+    #[error(
+        "a step of {step_secs} s in a window of {window_secs} s makes {instants} instants, more than {most}; \
+         take a step of at least {least_secs}s"
+    )]
+    TooManyInstants {
+        /// The step asked.
+        step_secs: u32,
+        /// The window asked.
+        window_secs: i64,
+        /// How many that makes.
+        instants: i64,
+        /// How many are taken.
+        most: i64,
+        /// The smallest step that fits.
+        least_secs: i64,
+    },
+    /// A window of more days than can be summed.
+    #[error("the window of {days} days is longer than {most} days; take a shorter one")]
+    WindowTooLong {
+        /// Whole days asked.
+        days: i64,
+        /// How many are taken.
+        most: i64,
+    },
+    /// `from` and `to` are the same.
+    #[error(
+        "the window from {from} to {to} is empty; give a later `to`, \
+         or for a whole day a `to` with its date, as in {example}"
+    )]
+    EmptyWindow {
+        /// As written.
+        from: String,
+        /// As written.
+        to: String,
+        /// The next day's `to` with its date.
+        example: String,
+    },
+    /// `to` names its own day and lies before `from`.
+    #[error(
+        "the window ends at {to}, before it begins at {from}; exchange them or give a later date"
+    )]
+    Backwards {
+        /// Start.
+        from: DateTime<Tz>,
+        /// End.
+        to: DateTime<Tz>,
+    },
+    /// The reading has no date and nothing else gives one.
+    #[error(
+        "{reading} needs a date; write it with one, for example 2026-09-18T15:00, or give date = 2026-09-18"
+    )]
+    NoDate {
+        /// As written.
+        reading: String,
+    },
+    /// The date is said twice, differently.
+    #[error("{reading} is not on the study's date {date}; leave one of the two dates out")]
+    TwoDates {
+        /// As written.
+        reading: String,
+        /// The study's.
+        date: NaiveDate,
+    },
+    /// Skipped when clocks went forward.
+    #[error(
+        "{local} does not exist in {zone}: clocks jump from {before} to {after}; \
+         choose by the offset: {earlier} or {later}"
+    )]
+    NoSuchTime {
+        /// What was asked.
+        local: NaiveDateTime,
+        /// Where.
+        zone: Tz,
+        /// The clock at the jump, before it.
+        before: NaiveTime,
+        /// The clock at the jump, after it.
+        after: NaiveTime,
+        /// What the new clock's offset makes of it.
+        earlier: String,
+        /// What the old clock's offset makes of it.
+        later: String,
+    },
+    /// Read twice when clocks went back.
+    #[error(
+        "{local} exists twice in {zone}: {earlier} and {later}; \
+         choose one by its offset, for example {example}"
+    )]
+    TwoReadings {
+        /// What was asked.
+        local: NaiveDateTime,
+        /// Where.
+        zone: Tz,
+        /// The first one, with its offset.
+        earlier: String,
+        /// The second one, with its offset.
+        later: String,
+        /// What to write for the second.
+        example: String,
+    },
+    /// The offset is none that the clock has at that time.
+    #[error(
+        "{local} in {zone} is never at {offset}; there it is {choices}, or leave the offset out"
+    )]
+    WrongOffset {
+        /// What was asked.
+        local: NaiveDateTime,
+        /// Where.
+        zone: Tz,
+        /// What was given.
+        offset: String,
+        /// The readings that exist, with their offsets.
+        choices: String,
+    },
+    /// A reading counts from a sunrise or sunset that does not happen.
+    #[error("there is no {event} on {date}: {why}; give a clock time instead of {reading}")]
+    NoEvent {
+        /// `sunrise` or `sunset`.
+        event: &'static str,
+        /// The local date.
+        date: NaiveDate,
+        /// Polar day, polar night or a day between.
+        why: &'static str,
+        /// As written.
+        reading: String,
+    },
+    /// Outside the years for which the earth's rotation is known well enough.
+    #[error(
+        "the year {year} is outside {first} to {last}, for which ΔT is known; take a date within"
+    )]
+    Year {
+        /// What was asked.
+        year: i32,
+        /// First year taken.
+        first: i32,
+        /// Last year taken.
+        last: i32,
+    },
+    /// The solar position library refused.
+    #[error("the sun's position cannot be computed: {0}")]
+    Position(String),
+}

@@ -1,0 +1,93 @@
+//! A place on earth: checked coordinates, and whose clock is read there.
+
+use super::{Place, SunError};
+use chrono_tz::{TZ_VARIANTS, Tz};
+use std::sync::OnceLock;
+
+impl Place {
+    /// A checked place: latitude −90 to 90° and longitude −180 to 180°, elevation −500 to 9000 m.
+    ///
+    /// `time_zone` is an IANA name; without one it is found from the coordinates.
+    ///
+    /// # Errors
+    /// A number out of its range (or not one), a zone that does not exist, no zone at the coordinates.
+    pub fn new(
+        name: &str,
+        latitude_deg: f64,
+        longitude_deg: f64,
+        elevation_m: f64,
+        time_zone: Option<&str>,
+    ) -> Result<Place, SunError> {
+        within("latitude", latitude_deg, -90.0, 90.0, "degrees")?;
+        within("longitude", longitude_deg, -180.0, 180.0, "degrees")?;
+        within("elevation", elevation_m, -500.0, 9000.0, "metres")?;
+        let time_zone = match time_zone {
+            Some(name) => zone_named(name)?,
+            None => zone_at(latitude_deg, longitude_deg)?,
+        };
+        Ok(Place {
+            name: name.to_owned(),
+            latitude_deg,
+            longitude_deg,
+            elevation_m,
+            time_zone,
+        })
+    }
+}
+
+/// Written so that a NaN is outside too.
+fn within(
+    what: &'static str,
+    value: f64,
+    low: f64,
+    high: f64,
+    unit: &'static str,
+) -> Result<(), SunError> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(SunError::OutOfRange {
+        what,
+        value,
+        low,
+        high,
+        unit,
+    })
+}
+
+/// The zone of an IANA name.
+///
+/// # Errors
+/// [`SunError::UnknownZone`] with the nearest name that exists.
+pub fn zone_named(name: &str) -> Result<Tz, SunError> {
+    name.parse().map_err(|_| {
+        let lower = name.to_lowercase();
+        let likeness = |zone: &Tz| strsim::jaro_winkler(&zone.name().to_lowercase(), &lower);
+        let nearest = TZ_VARIANTS
+            .iter()
+            .max_by(|a, b| likeness(a).total_cmp(&likeness(b)))
+            .map_or("UTC", |zone| zone.name());
+        SunError::UnknownZone {
+            name: name.to_owned(),
+            nearest: nearest.to_owned(),
+        }
+    })
+}
+
+/// The zone on land or at sea at a point of the earth.
+///
+/// # Errors
+/// [`SunError::NoZone`] where the map has none, or one that the zone database does not know.
+pub fn zone_at(latitude_deg: f64, longitude_deg: f64) -> Result<Tz, SunError> {
+    // Reading the map takes tens of milliseconds and megabytes: once, and only for those who need it.
+    static FINDER: OnceLock<tzf_rs::DefaultFinder> = OnceLock::new();
+    let finder = FINDER.get_or_init(tzf_rs::DefaultFinder::new);
+    // Longitude first: the library's order.
+    finder
+        .get_tz_name(longitude_deg, latitude_deg)
+        .parse()
+        .map_err(|_| SunError::NoZone {
+            latitude_deg,
+            longitude_deg,
+        })
+}
