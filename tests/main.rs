@@ -1,0 +1,3 @@
+//! All tests in one binary, so that it links once.
+
+mod export;
