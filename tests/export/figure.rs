@@ -2,9 +2,11 @@
 
 use super::synthetic::{self, Town};
 use glam::DVec3;
-use gnomon::export::figure;
+use gnomon::export::figure::scale::{self, Bands};
+use gnomon::export::figure::{self, ScaleBar};
+use gnomon::profile::Profile;
 use gnomon::site::Receivers;
-use gnomon::view::{Camera, View};
+use gnomon::view::{Camera, Mask, Surface, View};
 
 fn keep(name: &str, png: &[u8]) {
     if let Some(folder) = std::env::var_os("GNOMON_PICTURES") {
@@ -82,4 +84,157 @@ fn instants() {
     )
     .unwrap();
     keep("camera", &png);
+}
+
+/// CIE L* of an sRGB colour (IEC 61966-2-1 and CIE 15).
+fn lightness(rgb: [u8; 3]) -> f64 {
+    let linear = rgb.map(|part| {
+        let part = f64::from(part) / 255.0;
+        if part <= 0.04045 {
+            part / 12.92
+        } else {
+            ((part + 0.055) / 1.055).powf(2.4)
+        }
+    });
+    let y = 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
+    if y > 0.008856 {
+        116.0 * y.cbrt() - 16.0
+    } else {
+        903.3 * y
+    }
+}
+
+#[test]
+fn more_shadow_is_darker() {
+    for bands in [
+        Bands::new(1800, 8 * H),
+        Bands::new(H, 4 * H),
+        Bands::new(1800, 7 * H),
+    ] {
+        let tones = [scale::NO_SHADOW]
+            .into_iter()
+            .chain(bands.colours.iter().copied());
+        let tones: Vec<f64> = tones.map(lightness).collect();
+        let steps: Vec<f64> = tones.windows(2).map(|pair| pair[0] - pair[1]).collect();
+        assert!(steps.iter().all(|step| *step > 2.0), "{tones:?}");
+        // The lightest band differs from none as clearly as from its neighbour; the darkest still shows a black line.
+        assert!(steps[0] > 3.0 && tones[tones.len() - 1] > 18.0, "{tones:?}");
+    }
+}
+
+#[test]
+fn bands_are_steps_or_round() {
+    let width = |step, day| Bands::new(step, day).band_secs;
+    assert_eq!(width(1800, 8 * H), 1800, "sixteen half hours");
+    assert_eq!(
+        width(1200, 10 * H),
+        H,
+        "thirty steps of 20 min: the next multiple that is round"
+    );
+    assert_eq!(width(90, H), 900, "a multiple of 90 s");
+    assert_eq!(width(35 * 60, 7 * H), 35 * 60, "few steps stay steps");
+    assert_eq!(width(0, 0), 1);
+    assert!(Bands::new(60, u32::MAX).colours.len() <= 16);
+
+    let bands = Bands::new(1800, 8 * H - 900);
+    assert_eq!(bands.colours.len(), 16);
+    assert_eq!(
+        bands.bounds(15),
+        (7 * H + 1800, 8 * H - 900),
+        "the last band ends with the daylight"
+    );
+    let at = |secs: u32| bands.colour(255 * secs);
+    assert_eq!(at(0), scale::NO_SHADOW);
+    assert_eq!(
+        (at(1), at(1800), at(1801)),
+        (bands.colours[0], bands.colours[0], bands.colours[1])
+    );
+    assert_eq!(at(8 * H - 900), bands.colours[15]);
+    assert_eq!(at(20 * H), bands.colours[15]);
+}
+
+#[test]
+fn scale_bars_are_round() {
+    for power in -60..60 {
+        let metres_a_pixel = 10_f64.powf(f64::from(power) / 10.0);
+        let bar = ScaleBar::within(metres_a_pixel, 500.0);
+        let digits = bar.metres / 10_f64.powf((bar.metres * 1.000001).log10().floor());
+        assert!(
+            [1.0_f64, 2.0, 5.0].iter().any(|d| (d - digits).abs() < 1e-6),
+            "{bar:?}"
+        );
+        assert!(bar.pixels > 190.0 && bar.pixels < 500.001, "{bar:?}");
+    }
+    let label = |metres_a_pixel| ScaleBar::within(metres_a_pixel, 500.0).label();
+    assert_eq!(label(0.1), "50 m");
+    assert_eq!(label(2.0), "1 km");
+    assert_eq!(label(0.001), "50 cm");
+    assert_eq!(label(1e-5), "5 mm");
+}
+
+#[test]
+fn the_legend_is_the_plan() {
+    let town = Town::new(1.0, 9 * H, 17 * H, 1800);
+    let grid = synthetic::grid(6, 6, 1.0);
+    let surface = Surface {
+        width: 6,
+        height: 6,
+        face: vec![Surface::GROUND; 36],
+        height_m: vec![0.0; 36],
+    };
+    // Row by row: none, then more and more shadow.
+    let shaded = (0..36).map(|cell| cell / 6 * 255 * 5400).collect();
+    let profile = Profile {
+        grid,
+        shaded,
+        day_secs: 8 * H,
+        night_secs: 0,
+    };
+    let png = figure::profile(&town.scene(&surface, Receivers::Top), &profile).unwrap();
+    let page = image::load_from_memory(&png).unwrap().to_rgb8();
+    assert_eq!(page.dimensions(), (figure::WIDTH, figure::HEIGHT));
+    let bands = Bands::new(1800, 8 * H);
+    for row in 0..6 {
+        // The square plan is the sheet's left part, a little inside of its frame.
+        let y = figure::HEIGHT / 2 - 1100 + row * 2200 / 6 + 180;
+        let plan = page.get_pixel(1300, y).0;
+        assert_eq!(plan, bands.colour(row * 255 * 5400), "row {row}");
+        let in_panel = |x: u32| {
+            (0..figure::HEIGHT)
+                .filter(|y| page.get_pixel(x, *y).0 == plan)
+                .count()
+        };
+        let swatch = (2600..figure::WIDTH).map(in_panel).max().unwrap();
+        assert!(
+            swatch >= 30,
+            "row {row}: the legend shows {plan:?} over {swatch} pixels"
+        );
+    }
+}
+
+#[test]
+fn a_surface_of_another_size_is_an_error() {
+    let town = Town::new(1.0, 9 * H, 17 * H, 1800);
+    let grid = synthetic::grid(4, 3, 1.0);
+    let surface = synthetic::plan(&town.mesh, &synthetic::grid(3, 3, 1.0));
+    let profile = Profile {
+        grid,
+        shaded: vec![0; 12],
+        day_secs: 8 * H,
+        night_secs: 0,
+    };
+    assert!(figure::profile(&town.scene(&surface, Receivers::Top), &profile).is_err());
+    let mask = Mask {
+        width: 4,
+        height: 3,
+        share: vec![0; 12],
+    };
+    assert!(
+        figure::instant(
+            &town.scene(&surface, Receivers::Top),
+            &View::Plan(grid),
+            &mask
+        )
+        .is_err()
+    );
 }

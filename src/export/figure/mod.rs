@@ -58,12 +58,15 @@ pub fn profile(scene: &Scene, profile: &Profile) -> Result<Vec<u8>, ExportError>
         .push(("Cells", cells(grid.width, grid.height, grid.cell)));
     if profile.night_secs > 0 {
         let night = words::duration(profile.night_secs);
-        panel.facts.push((
-            "Night",
-            format!("{night} of the window are night and not counted"),
-        ));
+        panel
+            .facts
+            .push(("Night", format!("{night} of the window, not counted")));
     }
-    panel.legend_head = format!("Hours of shadow, of {all}");
+    panel.legend_head = if profile.day_secs > 0 {
+        format!("Hours of shadow out of {all}")
+    } else {
+        "No sun in this window".to_owned()
+    };
     panel.legend = legend(&bands);
     page::page(&panel, (grid.width, grid.height), Some(grid.cell), |fit| {
         plan::profile(scene, profile, &bands, fit)
@@ -90,7 +93,10 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask) -> Result<Vec<u8>, Expor
             .push(("Night", format!("the sun is {below} below the horizon")));
     }
     panel.legend_head = "What sees the sun".to_owned();
-    let tones = [plan::GROUND_SUN, plan::GROUND_SHADE];
+    let tones = match view {
+        View::Plan(_) => [plan::GROUND_SUN, plan::GROUND_SHADE],
+        View::Camera(_) => perspective::ground_tones(now.to_sun),
+    };
     panel.legend = vec![
         (tones[0], "sun".to_owned()),
         (tones[1], "shadow".to_owned()),
@@ -144,7 +150,7 @@ fn panel(scene: &Scene, kicker: &str) -> Panel {
         facts.push(("Step", format!("{step}, {count} instants")));
     }
     if let Some(day) = track.days.first() {
-        facts.push(("Sun", words::day(day, track)));
+        facts.push(("Daylight", words::day(day, track)));
     }
     facts.push(("Judged", words::receivers(scene.receivers).to_owned()));
     facts.push(("Technique", words::technique(scene.drawn)));
@@ -181,7 +187,7 @@ fn sun_rows(track: &SunTrack) -> Vec<[String; 4]> {
     };
     match track.instants.as_slice() {
         [] => Vec::new(),
-        [now] => vec![row("now", now)],
+        [now] => vec![row("shown", now)],
         [first, between @ .., last] => {
             // Noon may lie outside of the window; the highest sun is the nearest to it then, and at an end.
             let highest = between

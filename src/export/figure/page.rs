@@ -52,11 +52,14 @@ pub(super) fn page(
         .map_err(|error| ExportError::encode("drawing", error))
 }
 
-/// The panel stands where it leaves the picture more room.
+/// A panel below the picture is less at hand; the picture must grow by this much for it.
+const WORTH_IT: f64 = 1.12;
+
+/// The panel stands beside the picture, or below a wide one.
 fn beside_or_below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
     let beside = beside(panel, cells, cell_m);
     let below = below(panel, cells, cell_m);
-    if below.fit.scale() > beside.fit.scale() {
+    if below.fit.scale() > beside.fit.scale() * WORTH_IT {
         below
     } else {
         beside

@@ -31,7 +31,15 @@ pub(super) fn title(panel: &Panel) -> Block {
     block.height = 38.0;
     wrapped(&mut block, 0.0, Style::KICKER, &panel.kicker, 1);
     block.height += 8.0;
-    wrapped(&mut block, 0.0, Style::TITLE, &panel.title, 2);
+    let lines =
+        |style: Style, most| text::wrap(&panel.title, style.weight, style.size, COLUMN, most);
+    // A long name is set smaller before it is cut.
+    let large = lines(Style::TITLE, 2);
+    if large.iter().any(|line| line.ends_with('…')) {
+        block.lines(0.0, Style::LONG_TITLE, &lines(Style::LONG_TITLE, 3));
+    } else {
+        block.lines(0.0, Style::TITLE, &large);
+    }
     block.height += 14.0;
     for line in &panel.lead {
         wrapped(&mut block, 0.0, Style::LEAD, line, 2);
@@ -127,7 +135,7 @@ pub(super) fn legend(panel: &Panel, room: f64) -> Block {
 
 /// The scale bar and the north arrow of a plan; its height does not depend on the scale.
 pub(super) fn scale_and_north(metres_a_pixel: f64) -> Block {
-    const ROOM: f64 = 500.0;
+    const ROOM: f64 = 560.0;
     let mut block = Block {
         height: 172.0,
         ..Block::default()
@@ -163,12 +171,12 @@ pub(super) fn scale_and_north(metres_a_pixel: f64) -> Block {
         &paper_scale(metres_a_pixel),
     );
 
-    let (x, middle, radius) = (COLUMN - 74.0, 98.0, 70.0);
+    let (x, middle, radius) = (COLUMN - 72.0, 104.0, 66.0);
     block.ring(x, middle, radius, 3.0, INK);
     let (tip, tail, wing) = (middle - radius + 6.0, middle + 44.0, 30.0);
     block.polygon(&[[x, tip], [x - wing, tail], [x, tail - 20.0]], ACCENT);
     block.polygon(&[[x, tip], [x + wing, tail], [x, tail - 20.0]], INK);
-    block.text(x, middle - radius - 4.0, Anchor::Middle, Style::HEAD, "N");
+    block.text(x, middle - radius - 9.0, Anchor::Middle, Style::HEAD, "N");
     block
 }
 
@@ -177,11 +185,25 @@ fn paper_scale(metres_a_pixel: f64) -> String {
     let ratio = metres_a_pixel / super::page::PAPER_METRES_A_PIXEL;
     let digits = 10_f64.powf((ratio.max(1e-9).log10().floor() - 2.0).max(0.0));
     let ratio = (ratio / digits).round() * digits;
-    if ratio >= 10.0 {
-        format!("about 1 : {ratio:.0} printed on A3")
+    let said = if ratio >= 10.0 {
+        thousands(ratio)
     } else {
-        format!("about 1 : {ratio:.1} printed on A3")
+        format!("{ratio:.1}")
+    };
+    format!("about 1 : {said} printed on A3")
+}
+
+/// Whole numbers in groups of three.
+fn thousands(value: f64) -> String {
+    let digits = format!("{value:.0}");
+    let mut said = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            said.push('\u{2009}');
+        }
+        said.push(digit);
     }
+    said
 }
 
 /// A length of 1, 2 or 5 times a power of ten metres, and how long it is on the page.

@@ -1,7 +1,7 @@
 //! The camera's colours and lines: a quiet model photograph, warm in the sun and cool in the shade.
 
 use super::Scene;
-use super::picture::{Fit, Pen, Picture, compose};
+use super::picture::{Between, Fit, Pen, Picture, compose};
 use super::scale::Rgb;
 use crate::site::Receivers;
 use crate::view::{Camera, Mask, Surface};
@@ -10,12 +10,12 @@ use rayon::prelude::*;
 
 /// Matt card, and the ground it stands on: reflectance in display values.
 const BUILDING: DVec3 = DVec3::new(0.985, 0.972, 0.950);
-const GROUND: DVec3 = DVec3::new(0.915, 0.893, 0.845);
+const GROUND: DVec3 = DVec3::new(0.965, 0.945, 0.895);
 /// The light of the sky and of the sun, tinted.
-const SKY_LIGHT: DVec3 = DVec3::new(0.90, 0.97, 1.10);
+const SKY_LIGHT: DVec3 = DVec3::new(0.93, 0.98, 1.08);
 const SUN_LIGHT: DVec3 = DVec3::new(1.07, 1.00, 0.88);
 /// The sky at the horizon, which is also the haze, and overhead.
-const HORIZON: DVec3 = DVec3::new(0.935, 0.933, 0.912);
+const HORIZON: DVec3 = DVec3::new(0.945, 0.942, 0.925);
 const ZENITH: DVec3 = DVec3::new(0.640, 0.745, 0.850);
 
 /// Faces that meet at less than this are one surface: cos 10°.
@@ -32,7 +32,6 @@ pub(super) fn instant(
     fit: Fit,
 ) -> Picture {
     let lens = Lens::new(camera);
-    let night = to_sun.z <= 0.0;
     let light = Light::new(to_sun);
     let ground_only = scene.receivers == Receivers::Ground;
     let width = camera.width as usize;
@@ -55,14 +54,27 @@ pub(super) fn instant(
                     BUILDING * light.on(plane.xyz(), share)
                 }
             };
-            display(if night {
-                colour * DVec3::new(0.62, 0.66, 0.76)
-            } else {
-                colour
-            })
+            display(at_night(to_sun, colour))
         })
         .collect();
-    compose(fit, &colours, |a, b| pen(scene, camera, &lens, a, b))
+    compose(fit, Between::Smooth, &colours, |a, b| {
+        pen(scene, camera, &lens, a, b)
+    })
+}
+
+/// The colours of level ground in the sun and in the shade, for the legend.
+pub(super) fn ground_tones(to_sun: DVec3) -> [Rgb; 2] {
+    let light = Light::new(to_sun);
+    [1.0, 0.0].map(|share| display(at_night(to_sun, GROUND * light.on(DVec3::Z, share))))
+}
+
+/// Without a sun all is dimmer and bluer.
+fn at_night(to_sun: DVec3, colour: DVec3) -> DVec3 {
+    if to_sun.z > 0.0 {
+        colour
+    } else {
+        colour * DVec3::new(0.62, 0.66, 0.76)
+    }
 }
 
 /// The camera's axes, scaled so that a pixel's ray is a sum of them.

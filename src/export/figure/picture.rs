@@ -71,18 +71,28 @@ impl Fit {
     }
 }
 
+/// What lies between cells that are larger than pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Between {
+    /// A border: a cell is one judgement, and the legend's colours stay exact.
+    Sharp,
+    /// A blend, as between a photograph's pixels.
+    Smooth,
+}
+
 /// Pixel rows that one task draws.
 const BAND: usize = 32;
 
 /// Draws `colours`, one a cell, with the line that `pen` gives for each pair of neighbours (west, east or north, south).
 pub(super) fn compose(
     fit: Fit,
+    between: Between,
     colours: &[Rgb],
     pen: impl Fn(usize, usize) -> Option<Pen> + Sync,
 ) -> Picture {
     let (width, height) = (fit.pixels.0 as usize, fit.pixels.1 as usize);
-    let columns = spans(fit.cells.0 as usize, width);
-    let rows = spans(fit.cells.1 as usize, height);
+    let columns = spans(fit.cells.0 as usize, width, between);
+    let rows = spans(fit.cells.1 as usize, height, between);
     let mut pixels = vec![LINE; width * height];
     pixels
         .par_chunks_mut(BAND * width)
@@ -111,8 +121,13 @@ struct Span {
     last: f32,
 }
 
-fn spans(cells: usize, pixels: usize) -> Vec<Span> {
+fn spans(cells: usize, pixels: usize, between: Between) -> Vec<Span> {
     let scale = cells as f64 / pixels as f64;
+    if between == Between::Smooth && scale < 1.0 {
+        return (0..pixels)
+            .map(|pixel| blended(cells, (pixel as f64 + 0.5) * scale - 0.5))
+            .collect();
+    }
     (0..pixels)
         .map(|pixel| {
             let (from, to) = (pixel as f64 * scale, (pixel + 1) as f64 * scale);
@@ -126,6 +141,18 @@ fn spans(cells: usize, pixels: usize) -> Vec<Span> {
             }
         })
         .collect()
+}
+
+/// The two cells whose centres `at` lies between, each by its nearness.
+fn blended(cells: usize, at: f64) -> Span {
+    let at = at.clamp(0.0, (cells - 1) as f64);
+    let start = at as usize;
+    let last = (at - start as f64) as f32;
+    Span {
+        cells: start..(start + 2).min(cells),
+        first: 1.0 - last,
+        last,
+    }
 }
 
 impl Span {

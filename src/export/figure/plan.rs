@@ -1,7 +1,7 @@
 //! The plan's colours and lines: ground and roofs seen from above.
 
 use super::Scene;
-use super::picture::{Fit, Pen, Picture, compose};
+use super::picture::{Between, Fit, Pen, Picture, compose};
 use super::scale::{Bands, Rgb, mix};
 use crate::mesh::Mesh;
 use crate::profile::Profile;
@@ -19,9 +19,8 @@ const ROOF_SHADE: Rgb = [174, 183, 198];
 /// Roofs that are not judged.
 pub(super) const ROOF_UNJUDGED: Rgb = [224, 222, 216];
 
-/// Light from the north-west, as relief is drawn by custom; how strongly it tells on slopes.
-const RELIEF_LIGHT: DVec3 = DVec3::new(-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2);
-const RELIEF: f64 = 0.30;
+/// How strongly the relief tells on slopes: enough to read a roof, too little to be taken for another band.
+const RELIEF: f64 = 0.20;
 
 /// Faces that meet at less than this are one roof: cos 8°.
 const CREASE_COS: f64 = 0.990;
@@ -56,14 +55,17 @@ fn draw(
     flat: impl Fn(usize, Option<usize>) -> Rgb + Sync,
 ) -> Picture {
     let (surface, mesh) = (scene.surface, scene.mesh);
+    let light = relief_light(scene);
     let colours: Vec<Rgb> = (0..surface.face.len())
         .into_par_iter()
         .map(|cell| match face(surface, cell) {
-            Some(face) => shade(flat(cell, Some(face)), relief(upward(mesh, face))),
+            Some(face) => shade(flat(cell, Some(face)), relief(upward(mesh, face), light)),
             None => flat(cell, None),
         })
         .collect();
-    compose(fit, &colours, |a, b| pen(scene, cell_m, a, b))
+    compose(fit, Between::Sharp, &colours, |a, b| {
+        pen(scene, cell_m, a, b)
+    })
 }
 
 fn face(surface: &Surface, cell: usize) -> Option<usize> {
@@ -86,13 +88,23 @@ fn upward(mesh: &Mesh, face: usize) -> DVec3 {
     }
 }
 
+/// Half-way up in the direction of the highest sun of the study, so that relief and shadows tell the same story.
+///
+/// Maps light relief from the north-west, but here that would darken the very roofs that have most sun.
+fn relief_light(scene: &Scene) -> DVec3 {
+    let instants = scene.track.instants.iter();
+    let highest = instants.max_by(|a, b| a.altitude_rad.total_cmp(&b.altitude_rad));
+    let (sin, cos) = highest.map_or(0.0, |instant| instant.azimuth_rad).sin_cos();
+    DVec3::new(sin, cos, 1.0) * std::f64::consts::FRAC_1_SQRT_2
+}
+
 /// 1 where level, less on slopes away from the light, a little more towards it.
-fn relief(normal: DVec3) -> f64 {
+fn relief(normal: DVec3, light: DVec3) -> f64 {
     // Level roofs keep the legend's colours to the bit.
     if normal.z > 0.9999 {
         return 1.0;
     }
-    (1.0 + RELIEF * (normal.dot(RELIEF_LIGHT) / RELIEF_LIGHT.z - 1.0)).clamp(0.66, 1.06)
+    (1.0 + RELIEF * (normal.dot(light) / light.z - 1.0)).clamp(0.70, 1.04)
 }
 
 fn shade(colour: Rgb, factor: f64) -> Rgb {
@@ -104,11 +116,12 @@ fn pen(scene: &Scene, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
     if surface.face[a] == surface.face[b] {
         return None;
     }
-    // Below this a step is rounding, a kerb or a joint.
-    let step_m = (0.5 * cell_m).clamp(0.02, 0.5);
     let east = b == a + 1;
     let half = if east { DVec3::X } else { DVec3::NEG_Y } * (0.5 * cell_m);
     let (from, to) = (face(surface, a), face(surface, b));
+    // Below this a step is rounding, a kerb or a joint; and a ridge between two centres is off by half a cell of slope.
+    let slopes = slope(scene, from, half) + slope(scene, to, half);
+    let step_m = (0.5 * cell_m).clamp(0.02, 0.5) + slopes;
     let jump = (edge_height(scene, a, from, half) - edge_height(scene, b, to, -half)).abs();
     match (from, to) {
         (Some(from), Some(to)) => {
@@ -130,14 +143,23 @@ fn pen(scene: &Scene, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
 
 /// The height of a cell's face where it meets its neighbour, `half` a cell away from its centre.
 fn edge_height(scene: &Scene, cell: usize, face: Option<usize>, half: DVec3) -> f64 {
-    let height = f64::from(scene.surface.height_m[cell]);
+    f64::from(scene.surface.height_m[cell]) + rise(scene, face, half)
+}
+
+/// How much a face's height may change within `half` a cell either way.
+fn slope(scene: &Scene, face: Option<usize>, half: DVec3) -> f64 {
+    rise(scene, face, half).abs()
+}
+
+/// How much a face rises over `half` a cell; nothing for the ground.
+fn rise(scene: &Scene, face: Option<usize>, half: DVec3) -> f64 {
     let Some(face) = face else {
-        return height;
+        return 0.0;
     };
     let normal = upward(scene.mesh, face);
     // A wall seen from above has no height to carry on with.
     if normal.z < 0.1 {
-        return height;
+        return 0.0;
     }
-    height - (normal.x * half.x + normal.y * half.y) / normal.z
+    -(normal.x * half.x + normal.y * half.y) / normal.z
 }

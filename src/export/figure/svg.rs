@@ -30,6 +30,11 @@ impl Style {
         weight: Weight::Bold,
         colour: INK,
     };
+    pub(super) const LONG_TITLE: Style = Style {
+        size: 52.0,
+        weight: Weight::Bold,
+        colour: INK,
+    };
     pub(super) const LEAD: Style = Style {
         size: 40.0,
         weight: Weight::Regular,

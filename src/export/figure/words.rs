@@ -24,11 +24,12 @@ pub(super) fn coordinates(place: &Place) -> String {
     )
 }
 
-/// A number of metres with no more digits than it has.
+/// A number of metres to four digits, and none in vain.
 pub(super) fn metres(value: f64) -> String {
-    let text = format!("{value:.3}");
+    let decimals = 3.0 - value.abs().max(1e-9).log10().floor();
+    // At least one, so that no whole number loses its zeros.
+    let text = format!("{value:.*}", decimals.clamp(1.0, 9.0) as usize);
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    // A height of −0.0001 m is none.
     format!("{} m", if text == "-0" { "0" } else { text }).replace('-', "−")
 }
 
