@@ -55,35 +55,67 @@ fn extremes() {
 }
 
 #[test]
+fn windows_without_sun() {
+    let night = Town::new(1.0, 21 * H, 23 * H, 1800);
+    draw("night", &night, (300, 200), 1.0, Receivers::Top);
+    let mut nameless = Town::new(1.0, 12 * H, 13 * H, 3600);
+    nameless.place.name = String::from(" \u{0} ");
+    nameless.track.days.clear();
+    draw("nameless", &nameless, (1, 300), 1.0, Receivers::Top);
+}
+
+#[test]
 fn instants() {
+    let look = |name: &str, town: &Town, surface: &Surface, view: View, mask: &Mask, receivers| {
+        let png = figure::instant(&town.scene(surface, receivers), &view, mask).unwrap();
+        keep(name, &png);
+    };
     let town = Town::new(1.0, 15 * H, 15 * H, 0);
     let grid = synthetic::grid(1500, 1000, 0.2);
     let surface = synthetic::plan(&town.mesh, &grid);
     let sun = &town.track.instants[0];
-    let mask = synthetic::mask(&surface, &grid, sun, Receivers::Top);
-    let png = figure::instant(
-        &town.scene(&surface, Receivers::Top),
-        &View::Plan(grid),
-        &mask,
-    )
-    .unwrap();
-    keep("instant", &png);
-    let camera = Camera {
-        eye: DVec3::new(150.0, -230.0, 130.0),
-        target: DVec3::new(0.0, 0.0, 15.0),
-        up: DVec3::Z,
-        fov_rad: 0.7,
-        width: 1200,
-        height: 900,
+    for receivers in [Receivers::Top, Receivers::Ground] {
+        let mut mask = synthetic::mask(&surface, &grid, sun, receivers);
+        mask.share[0] = 100;
+        look(
+            &format!("instant-{receivers:?}"),
+            &town,
+            &surface,
+            View::Plan(grid),
+            &mask,
+            receivers,
+        );
+    }
+    let night = Town::new(1.0, 21 * H, 21 * H, 0);
+    let at = |town: &Town, name: &str, eye: DVec3| {
+        let (target, up) = (DVec3::new(0.0, 0.0, 15.0), DVec3::Z);
+        let camera = Camera {
+            eye,
+            target,
+            up,
+            fov_rad: 0.7,
+            width: 1200,
+            height: 800,
+        };
+        let to_sun = town.track.instants[0].to_sun;
+        let (surface, mut mask) = synthetic::photograph(&town.mesh, &camera, to_sun);
+        if to_sun.z < 0.0 {
+            mask.share.fill(0);
+        }
+        look(
+            name,
+            town,
+            &surface,
+            View::Camera(camera),
+            &mask,
+            Receivers::Top,
+        );
     };
-    let (surface, mask) = synthetic::photograph(&town.mesh, &camera, sun.to_sun);
-    let png = figure::instant(
-        &town.scene(&surface, Receivers::Top),
-        &View::Camera(camera),
-        &mask,
-    )
-    .unwrap();
-    keep("camera", &png);
+    at(&town, "camera", DVec3::new(150.0, -230.0, 130.0));
+    at(&town, "street", DVec3::new(-120.0, -230.0, 30.0));
+    at(&night, "street-night", DVec3::new(120.0, -230.0, 30.0));
+    // Straight down, along the camera's own up.
+    at(&town, "down", DVec3::new(0.0, 0.0, 300.0));
 }
 
 /// CIE L* of an sRGB colour (IEC 61966-2-1 and CIE 15).
@@ -160,7 +192,9 @@ fn scale_bars_are_round() {
         let bar = ScaleBar::within(metres_a_pixel, 500.0);
         let digits = bar.metres / 10_f64.powf((bar.metres * 1.000001).log10().floor());
         assert!(
-            [1.0_f64, 2.0, 5.0].iter().any(|d| (d - digits).abs() < 1e-6),
+            [1.0_f64, 2.0, 5.0]
+                .iter()
+                .any(|d| (d - digits).abs() < 1e-6),
             "{bar:?}"
         );
         assert!(bar.pixels > 190.0 && bar.pixels < 500.001, "{bar:?}");

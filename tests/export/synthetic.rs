@@ -70,7 +70,7 @@ pub(super) fn track(from: u32, to: u32, step: u32) -> SunTrack {
         let local = date.and_hms_opt(0, 0, 0).unwrap() + TimeDelta::seconds(secs);
         Tz::Europe__Vienna.from_local_datetime(&local).unwrap()
     };
-    let count = if step == 0 { 1 } else { (to - from) / step + 1 };
+    let count = (to - from).checked_div(step).unwrap_or(0) + 1;
     let instants = (0..count).map(|i| {
         let secs = from + i * step;
         let (hour, latitude, tilt) = (

@@ -86,6 +86,10 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask) -> Result<Vec<u8>, Expor
     let now = now.ok_or_else(|| ExportError::encode("drawing", "it has no instant"))?;
 
     let mut panel = panel(scene, if now.night { "Night" } else { "Shadow" });
+    if let (View::Camera(_), Receivers::Top) = (view, scene.receivers) {
+        let judged = panel.facts.iter_mut().filter(|(label, _)| *label == JUDGED);
+        judged.for_each(|(_, said)| *said = "what the camera sees".to_owned());
+    }
     if now.night {
         let below = words::degrees(-now.altitude_rad);
         panel
@@ -121,11 +125,19 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask) -> Result<Vec<u8>, Expor
                 plan::instant(scene, grid.cell, mask, fit)
             })
         }
-        View::Camera(camera) => page::page(&panel, size, None, |fit| {
-            perspective::instant(scene, camera, mask, now.to_sun, fit)
-        }),
+        View::Camera(camera) => {
+            panel
+                .facts
+                .push(("Picture", format!("{} × {}", size.0, size.1)));
+            page::page(&panel, size, None, |fit| {
+                perspective::instant(scene, camera, mask, now.to_sun, fit)
+            })
+        }
     }
 }
+
+/// The fact that a camera's view changes.
+const JUDGED: &str = "Judged";
 
 fn check_surface(surface: &Surface, (width, height): (u32, u32)) -> Result<(), ExportError> {
     check_size("surface", surface.face.len(), width, height)?;
@@ -152,7 +164,7 @@ fn panel(scene: &Scene, kicker: &str) -> Panel {
     if let Some(day) = track.days.first() {
         facts.push(("Daylight", words::day(day, track)));
     }
-    facts.push(("Judged", words::receivers(scene.receivers).to_owned()));
+    facts.push((JUDGED, words::receivers(scene.receivers).to_owned()));
     facts.push(("Technique", words::technique(scene.drawn)));
     facts.push(("Refraction", words::refraction(track, place)));
     let mut lead = Vec::new();

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 const BUILDING: DVec3 = DVec3::new(0.985, 0.972, 0.950);
 const GROUND: DVec3 = DVec3::new(0.965, 0.945, 0.895);
 /// The light of the sky and of the sun, tinted.
-const SKY_LIGHT: DVec3 = DVec3::new(0.93, 0.98, 1.08);
-const SUN_LIGHT: DVec3 = DVec3::new(1.07, 1.00, 0.88);
+const SKY_LIGHT: DVec3 = DVec3::new(0.90, 0.97, 1.12);
+const SUN_LIGHT: DVec3 = DVec3::new(1.10, 1.00, 0.84);
 /// The sky at the horizon, which is also the haze, and overhead.
 const HORIZON: DVec3 = DVec3::new(0.945, 0.942, 0.925);
 const ZENITH: DVec3 = DVec3::new(0.640, 0.745, 0.850);

@@ -19,8 +19,10 @@ const ROOF_SHADE: Rgb = [174, 183, 198];
 /// Roofs that are not judged.
 pub(super) const ROOF_UNJUDGED: Rgb = [224, 222, 216];
 
-/// How strongly the relief tells on slopes: enough to read a roof, too little to be taken for another band.
-const RELIEF: f64 = 0.20;
+/// How strongly the relief tells on slopes: freely where the colour is no measure, else too little to be taken for
+/// another band.
+const RELIEF: f64 = 0.26;
+const RELIEF_OF_HOURS: f64 = 0.10;
 
 /// Faces that meet at less than this are one roof: cos 8°.
 const CREASE_COS: f64 = 0.990;
@@ -28,16 +30,23 @@ const CREASE_COS: f64 = 0.990;
 /// Hours of shadow.
 pub(super) fn profile(scene: &Scene, profile: &Profile, bands: &Bands, fit: Fit) -> Picture {
     let ground_only = scene.receivers == Receivers::Ground;
-    draw(scene, profile.grid.cell, fit, |cell, face| match face {
-        Some(_) if ground_only => ROOF_UNJUDGED,
-        _ => bands.colour(profile.shaded[cell]),
-    })
+    let strength = if ground_only { RELIEF } else { RELIEF_OF_HOURS };
+    draw(
+        scene,
+        profile.grid.cell,
+        fit,
+        strength,
+        |cell, face| match face {
+            Some(_) if ground_only => ROOF_UNJUDGED,
+            _ => bands.colour(profile.shaded[cell]),
+        },
+    )
 }
 
 /// Sun and shadow at one instant.
 pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, fit: Fit) -> Picture {
     let ground_only = scene.receivers == Receivers::Ground;
-    draw(scene, cell_m, fit, |cell, face| {
+    draw(scene, cell_m, fit, RELIEF, |cell, face| {
         let share = f64::from(mask.share[cell]) / 255.0;
         match face {
             Some(_) if ground_only => ROOF_UNJUDGED,
@@ -52,6 +61,7 @@ fn draw(
     scene: &Scene,
     cell_m: f64,
     fit: Fit,
+    strength: f64,
     flat: impl Fn(usize, Option<usize>) -> Rgb + Sync,
 ) -> Picture {
     let (surface, mesh) = (scene.surface, scene.mesh);
@@ -59,7 +69,10 @@ fn draw(
     let colours: Vec<Rgb> = (0..surface.face.len())
         .into_par_iter()
         .map(|cell| match face(surface, cell) {
-            Some(face) => shade(flat(cell, Some(face)), relief(upward(mesh, face), light)),
+            Some(face) => shade(
+                flat(cell, Some(face)),
+                relief(upward(mesh, face), light, strength),
+            ),
             None => flat(cell, None),
         })
         .collect();
@@ -99,12 +112,12 @@ fn relief_light(scene: &Scene) -> DVec3 {
 }
 
 /// 1 where level, less on slopes away from the light, a little more towards it.
-fn relief(normal: DVec3, light: DVec3) -> f64 {
+fn relief(normal: DVec3, light: DVec3, strength: f64) -> f64 {
     // Level roofs keep the legend's colours to the bit.
     if normal.z > 0.9999 {
         return 1.0;
     }
-    (1.0 + RELIEF * (normal.dot(light) / light.z - 1.0)).clamp(0.70, 1.04)
+    (1.0 + strength * (normal.dot(light) / light.z - 1.0)).clamp(0.70, 1.04)
 }
 
 fn shade(colour: Rgb, factor: f64) -> Rgb {
