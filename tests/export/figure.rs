@@ -61,6 +61,10 @@ fn windows_without_sun() {
     let mut nameless = Town::new(1.0, 12 * H, 13 * H, 3600);
     nameless.place.name = String::from(" \u{0} ");
     nameless.track.days.clear();
+    nameless.place.time_zone = chrono_tz::Asia::Kathmandu;
+    for instant in &mut nameless.track.instants {
+        instant.time = instant.time.with_timezone(&chrono_tz::Asia::Kathmandu);
+    }
     draw("nameless", &nameless, (1, 300), 1.0, Receivers::Top);
 }
 
@@ -87,8 +91,8 @@ fn instants() {
         );
     }
     let night = Town::new(1.0, 21 * H, 21 * H, 0);
-    let at = |town: &Town, name: &str, eye: DVec3| {
-        let (target, up) = (DVec3::new(0.0, 0.0, 15.0), DVec3::Z);
+    let at = |town: &Town, name: &str, eye: DVec3, up: DVec3| {
+        let target = DVec3::new(0.0, 0.0, 15.0);
         let camera = Camera {
             eye,
             target,
@@ -111,11 +115,17 @@ fn instants() {
             Receivers::Top,
         );
     };
-    at(&town, "camera", DVec3::new(150.0, -230.0, 130.0));
-    at(&town, "street", DVec3::new(-120.0, -230.0, 30.0));
-    at(&night, "street-night", DVec3::new(120.0, -230.0, 30.0));
-    // Straight down, along the camera's own up.
-    at(&town, "down", DVec3::new(0.0, 0.0, 300.0));
+    at(&town, "camera", DVec3::new(150.0, -230.0, 130.0), DVec3::Z);
+    at(&town, "street", DVec3::new(-120.0, -230.0, 30.0), DVec3::Z);
+    at(
+        &night,
+        "street-night",
+        DVec3::new(120.0, -230.0, 30.0),
+        DVec3::Z,
+    );
+    at(&town, "down", DVec3::new(0.0, 0.0, 300.0), DVec3::Y);
+    // Along its own up a camera sees nothing that makes sense, but the sheet is still drawn.
+    at(&town, "askew", DVec3::new(0.0, 0.0, 300.0), DVec3::Z);
 }
 
 /// CIE L* of an sRGB colour (IEC 61966-2-1 and CIE 15).

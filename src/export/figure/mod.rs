@@ -68,6 +68,11 @@ pub fn profile(scene: &Scene, profile: &Profile) -> Result<Vec<u8>, ExportError>
         "No sun in this window".to_owned()
     };
     panel.legend = legend(&bands);
+    if scene.receivers == Receivers::Ground {
+        panel
+            .legend
+            .push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
+    }
     page::page(&panel, (grid.width, grid.height), Some(grid.cell), |fit| {
         plan::profile(scene, profile, &bands, fit)
     })
@@ -105,7 +110,9 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask) -> Result<Vec<u8>, Expor
         (tones[0], "sun".to_owned()),
         (tones[1], "shadow".to_owned()),
     ];
-    if mask.share.iter().any(|share| !matches!(share, 0 | 255)) {
+    if now.night {
+        panel.legend = vec![(tones[1], "no sun".to_owned())];
+    } else if mask.share.iter().any(|share| !matches!(share, 0 | 255)) {
         panel.legend.insert(
             1,
             (mix(tones[1], tones[0], 0.5), "part of the sun".to_owned()),
@@ -114,7 +121,7 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask) -> Result<Vec<u8>, Expor
     if scene.receivers == Receivers::Ground {
         panel
             .legend
-            .push((plan::ROOF_UNJUDGED, "building, not judged".to_owned()));
+            .push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
     }
     match view {
         View::Plan(grid) => {
@@ -136,6 +143,9 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask) -> Result<Vec<u8>, Expor
     }
 }
 
+/// Buildings where only the ground is judged, in the legend.
+const UNJUDGED: &str = "not judged";
+
 /// The fact that a camera's view changes.
 const JUDGED: &str = "Judged";
 
@@ -148,15 +158,18 @@ fn check_surface(surface: &Surface, (width, height): (u32, u32)) -> Result<(), E
 fn panel(scene: &Scene, kicker: &str) -> Panel {
     let (place, track) = (scene.place, scene.track);
     let name = text::clean(&place.name);
-    let title = if name.is_empty() {
+    let nameless = name.is_empty();
+    let title = if nameless {
         words::coordinates(place)
     } else {
         name
     };
-    let mut facts = vec![
-        ("Place", words::coordinates(place)),
-        ("Elevation", words::metres(place.elevation_m)),
-    ];
+    let mut facts = Vec::new();
+    // A place without a name has its coordinates as its title.
+    if !nameless {
+        facts.push(("Place", words::coordinates(place)));
+    }
+    facts.push(("Elevation", words::metres(place.elevation_m)));
     if track.instants.len() > 1 {
         let (step, count) = (words::duration(track.step_secs), track.instants.len());
         facts.push(("Step", format!("{step}, {count} instants")));

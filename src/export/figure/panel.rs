@@ -108,20 +108,13 @@ pub(super) fn legend(panel: &Panel, room: f64) -> Block {
         for (row, (colour, label)) in entries.iter().enumerate() {
             let y = HEAD + row as f64 * pitch;
             block.fill([x, y, SWATCH, pitch], *colour);
-            let line = text::wrap(
-                label,
-                Style::BODY.weight,
-                Style::BODY.size,
-                COLUMN - SWATCH - 24.0,
-                1,
-            );
             let baseline = y + pitch / 2.0 + Style::BODY.size * 0.36;
             block.text(
                 x + SWATCH + 24.0,
                 baseline,
                 Anchor::Start,
                 Style::BODY,
-                &line.concat(),
+                label,
             );
             if row > 0 {
                 block.fill([x, y - 1.0, SWATCH, 2.0], HAIR);

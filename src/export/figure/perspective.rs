@@ -9,7 +9,7 @@ use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use rayon::prelude::*;
 
 /// Matt card, and the ground it stands on: reflectance in display values.
-const BUILDING: DVec3 = DVec3::new(0.985, 0.972, 0.950);
+const BUILDING: DVec3 = DVec3::new(0.995, 0.975, 0.935);
 const GROUND: DVec3 = DVec3::new(0.965, 0.945, 0.895);
 /// The light of the sky and of the sun, tinted.
 const SKY_LIGHT: DVec3 = DVec3::new(0.90, 0.97, 1.12);
