@@ -1,5 +1,6 @@
 //! The drawings, looked at by numbers; with GNOMON_PICTURES=FOLDER they are also kept to be looked at by people.
 
+use super::camera;
 use super::synthetic::{self, Town};
 use glam::DVec3;
 use gnomon::export::figure::scale::{self, Bands};
@@ -93,7 +94,7 @@ fn instants() {
     let night = Town::new(1.0, 21 * H, 21 * H, 0);
     let at = |town: &Town, name: &str, eye: DVec3, up: DVec3| {
         let target = DVec3::new(0.0, 0.0, 15.0);
-        let camera = Camera {
+        let lens = Camera {
             eye,
             target,
             up,
@@ -102,7 +103,7 @@ fn instants() {
             height: 800,
         };
         let to_sun = town.track.instants[0].to_sun;
-        let (surface, mut mask) = synthetic::photograph(&town.mesh, &camera, to_sun);
+        let (surface, mut mask) = camera::photograph(&town.mesh, &lens, to_sun);
         if to_sun.z < 0.0 {
             mask.share.fill(0);
         }
@@ -110,7 +111,7 @@ fn instants() {
             name,
             town,
             &surface,
-            View::Camera(camera),
+            View::Camera(lens),
             &mask,
             Receivers::Top,
         );

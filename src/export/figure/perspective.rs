@@ -204,12 +204,15 @@ fn pen(scene: &Scene, camera: &Camera, lens: &Lens, a: usize, b: usize) -> Optio
                 facing(scene, to, camera.eye),
             );
             let width = camera.width as usize;
-            let ray = lens.ray(b % width, b / width);
-            let depth =
-                |plane: DVec4| -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray);
-            let (near, far) = (depth(from), depth(to));
-            // One face's plane, carried on into the other's pixel, meets it where the two adjoin.
-            let step = (near - far).abs() > STEP_SHARE * near.abs().min(far.abs());
+            let depth = |plane: DVec4, pixel: usize| {
+                let ray = lens.ray(pixel % width, pixel / width);
+                -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray)
+            };
+            let gap = |pixel| depth(from, pixel) - depth(to, pixel);
+            let (here, there) = (gap(a), gap(b));
+            // Planes that cross between the two pixels adjoin, however steep; else there is air between them.
+            let least = STEP_SHARE * depth(from, a).abs();
+            let step = here * there > 0.0 && here.abs().min(there.abs()) > least;
             let crease = from.xyz().dot(to.xyz()) < CREASE_COS;
             match (step, crease) {
                 (true, _) => Some(Pen::STEP),
