@@ -26,10 +26,7 @@ pub(crate) fn models() -> Vec<(&'static str, Vec<u8>)> {
     vec![
         ("tower/tower.glb", tower::model().to_glb()),
         ("industry/industry.glb", industry::model().to_glb()),
-        (
-            "headquarters/headquarters.glb",
-            headquarters::model().to_glb(),
-        ),
+        ("headquarters/headquarters.glb", headquarters::model().to_glb()),
     ]
 }
 

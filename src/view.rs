@@ -37,10 +37,7 @@ impl Grid {
 
     /// The centre of a cell, metres east and north.
     pub fn centre(&self, column: u32, row: u32) -> DVec2 {
-        DVec2::new(
-            self.west + (f64::from(column) + 0.5) * self.cell,
-            self.north - (f64::from(row) + 0.5) * self.cell,
-        )
+        DVec2::new(self.west + (f64::from(column) + 0.5) * self.cell, self.north - (f64::from(row) + 0.5) * self.cell)
     }
 
     /// How many cells there are.

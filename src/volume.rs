@@ -25,8 +25,7 @@ impl Volume {
         let mut walls = Vec::new();
         finder.find(mesh, &facing, &mut walls);
         let towards = |(&[a, b, c], &facing): (&[u32; 3], &bool)| if facing { [a, b, c] } else { [a, c, b] };
-        let light_cap =
-            if with_cap { mesh.faces.iter().zip(&facing).map(towards).collect() } else { Vec::new() };
+        let light_cap = if with_cap { mesh.faces.iter().zip(&facing).map(towards).collect() } else { Vec::new() };
         Volume { walls, light_cap }
     }
 
@@ -50,15 +49,19 @@ pub fn layers_bound(mesh: &Mesh, to_sun: DVec3) -> u32 {
         return mesh.faces.len() as u32;
     }
     let (across, along) = to_sun.normalize().any_orthonormal_pair();
-    let seen: Vec<DVec2> = mesh.vertices.iter().map(|v| v.as_dvec3()).map(|v| DVec2::new(across.dot(v), along.dot(v))).collect();
+    let seen: Vec<DVec2> =
+        mesh.vertices.iter().map(|v| v.as_dvec3()).map(|v| DVec2::new(across.dot(v), along.dot(v))).collect();
     let box_of = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|vertex| seen[vertex as usize]);
         (a.min(b).min(c), a.max(b).max(c))
     };
-    let (low, high) = mesh.faces.iter().map(box_of).fold(
-        (DVec2::INFINITY, DVec2::NEG_INFINITY),
-        |(low, high), (face_low, face_high)| (low.min(face_low), high.max(face_high)),
-    );
+    let (low, high) = mesh
+        .faces
+        .iter()
+        .map(box_of)
+        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), (face_low, face_high)| {
+            (low.min(face_low), high.max(face_high))
+        });
     // a little more than the box, so that the last cell holds its border
     let scale = (BOUND_CELLS as f64 - 1e-3) / (high - low).max(DVec2::splat(1e-9));
     let side = BOUND_CELLS + 1;

@@ -26,172 +26,61 @@ fn complaint(site: &str, asked: &Overrides) -> String {
 
 #[test]
 fn mistakes_in_the_site_file_are_told() {
-    told(
-        "latitude =",
-        "latitud =",
-        &["[place] latitud", "latitude in [place]"],
-    );
-    told(
-        "step =",
-        "cell = 1\nstep =",
-        &["[study] cell", "cell in [plan]"],
-    );
+    told("latitude =", "latitud =", &["[place] latitud", "latitude in [place]"]);
+    told("step =", "cell = 1\nstep =", &["[study] cell", "cell in [plan]"]);
     told("[study]", "[studdy]", &["[studdy]", "[study]"]);
     told("[place]", "latitude = 4\n[place]", &["latitude in [place]"]);
     told("[[model]]", "[model]", &["[[model]]"]);
-    told(
-        "latitude = 48.8583",
-        "latitude = \"48\"",
-        &["[place] latitude", "a number", "latitude = 48.8583"],
-    );
-    told(
-        "latitude = 48.8583",
-        "latitude = 98",
-        &["[place]", "-90", "90"],
-    );
+    told("latitude = 48.8583", "latitude = \"48\"", &["[place] latitude", "a number", "latitude = 48.8583"]);
+    told("latitude = 48.8583", "latitude = 98", &["[place]", "-90", "90"]);
     told("latitude = 48.8583", "latitude = nan", &["[place]", "NaN"]);
-    told(
-        "latitude = 48.8583",
-        "",
-        &["latitude in [place]", "latitude = 48.8583"],
-    );
+    told("latitude = 48.8583", "", &["latitude in [place]", "latitude = 48.8583"]);
     told("Europe/Paris", "Europe/Pari", &["Europe/Paris"]);
     told("2026-09-18", "2026-09-31", &["line 14 `date"]);
-    told(
-        "2026-09-18",
-        "\"2026-09-31\"",
-        &["[study] date", "2026-09-31"],
-    );
+    told("2026-09-18", "\"2026-09-31\"", &["[study] date", "2026-09-31"]);
     told("2026-09-18", "18", &["[study] date", "date = 2026-09-18"]);
-    told(
-        "\"10:00\"",
-        "\"ten\"",
-        &["[study] from", "\"ten\"", "10:00"],
-    );
+    told("\"10:00\"", "\"ten\"", &["[study] from", "\"ten\"", "10:00"]);
     told("\"14:00\"", "\"10:00\"", &["[study] to", "empty"]);
     told("\"30min\"", "\"30\"", &["[study] step", "30min"]);
     told("\"30min\"", "\"0s\"", &["[study] step", "30min"]);
-    told(
-        "\"30min\"",
-        "\"30min\"\ntechnique = \"ray\"",
-        &["[study] technique", "ray-cast"],
-    );
-    told(
-        "\"30min\"",
-        "\"30min\"\ntechnique = \"hybrid\"",
-        &["[study] technique", "not there yet"],
-    );
+    told("\"30min\"", "\"30min\"\ntechnique = \"ray\"", &["[study] technique", "ray-cast"]);
+    told("\"30min\"", "\"30min\"\ntechnique = \"hybrid\"", &["[study] technique", "not there yet"]);
     told("tower.glb", "towr.glb", &["[[model]] path", "towr.glb"]);
-    told(
-        "path = \"tower.glb\"",
-        "",
-        &["path in [[model]]", "tower.glb"],
-    );
-    told(
-        "casts = [\"iron\"]",
-        "casts = 1",
-        &["[[model]] casts", "true, false or a list"],
-    );
-    told(
-        "casts = [\"iron\"]",
-        "scale = 0",
-        &["[[model]] scale", "above 0"],
-    );
+    told("path = \"tower.glb\"", "", &["path in [[model]]", "tower.glb"]);
+    told("casts = [\"iron\"]", "casts = 1", &["[[model]] casts", "true, false or a list"]);
+    told("casts = [\"iron\"]", "scale = 0", &["[[model]] scale", "above 0"]);
     told("casts = [\"iron\"]", "scale = inf", &["[[model]] scale"]);
     told("casts = [\"iron\"]", "north = nan", &["[[model]] north"]);
-    told(
-        "casts = [\"iron\"]",
-        "position = [1, 2]",
-        &["[[model]] position", "length 3"],
-    );
-    told(
-        "casts = [\"iron\"]",
-        "position = [1, 2, nan]",
-        &["[[model]] position"],
-    );
-    told(
-        "[study]",
-        "[ground]\nlevel = inf\n[study]",
-        &["[ground] level"],
-    );
-    told(
-        "[study]",
-        "[plan]\nregion = [3, 0, 3, 9]\n[study]",
-        &["[plan] region", "west 3", "east 3"],
-    );
-    told(
-        "[study]",
-        "[plan]\nregion = [0, 9, 3, 9]\n[study]",
-        &["[plan] region", "south 9", "north 9"],
-    );
-    told(
-        "[study]",
-        "[plan]\nregion = [0, nan, 3, 9]\n[study]",
-        &["[plan] region"],
-    );
-    told(
-        "[study]",
-        "[plan]\ncell = 0\n[study]",
-        &["[plan] cell", "above 0"],
-    );
-    told(
-        "[study]",
-        "[plan]\ncell = -1\n[study]",
-        &["[plan] cell", "above 0"],
-    );
-    told(
-        "[study]",
-        "[plan]\ncell = 0.0001\n[study]",
-        &["[plan] cell", "at least"],
-    );
-    told(
-        "[study]",
-        "[camera]\nfov = 171\n[study]",
-        &["[camera] fov", "170"],
-    );
-    told(
-        "[study]",
-        "[camera]\nup = [0, 0, 0]\n[study]",
-        &["[camera] up"],
-    );
-    told(
-        "[study]",
-        "[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n[study]",
-        &["[camera] eye"],
-    );
-    told(
-        "[study]",
-        "[camera]\neye = [1, 2, 30]\ntarget = [1, 2, 3]\n[study]",
-        &["[camera] up", "upwards"],
-    );
+    told("casts = [\"iron\"]", "position = [1, 2]", &["[[model]] position", "length 3"]);
+    told("casts = [\"iron\"]", "position = [1, 2, nan]", &["[[model]] position"]);
+    told("[study]", "[ground]\nlevel = inf\n[study]", &["[ground] level"]);
+    told("[study]", "[plan]\nregion = [3, 0, 3, 9]\n[study]", &["[plan] region", "west 3", "east 3"]);
+    told("[study]", "[plan]\nregion = [0, 9, 3, 9]\n[study]", &["[plan] region", "south 9", "north 9"]);
+    told("[study]", "[plan]\nregion = [0, nan, 3, 9]\n[study]", &["[plan] region"]);
+    told("[study]", "[plan]\ncell = 0\n[study]", &["[plan] cell", "above 0"]);
+    told("[study]", "[plan]\ncell = -1\n[study]", &["[plan] cell", "above 0"]);
+    told("[study]", "[plan]\ncell = 0.0001\n[study]", &["[plan] cell", "at least"]);
+    told("[study]", "[camera]\nfov = 171\n[study]", &["[camera] fov", "170"]);
+    told("[study]", "[camera]\nup = [0, 0, 0]\n[study]", &["[camera] up"]);
+    told("[study]", "[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n[study]", &["[camera] eye"]);
+    told("[study]", "[camera]\neye = [1, 2, 30]\ntarget = [1, 2, 3]\n[study]", &["[camera] up", "upwards"]);
     told("[study]", "[[[", &["line 13"]);
 }
 
 #[test]
 fn missing_tables_are_told() {
     let none = complaint("", &Overrides::default());
-    assert!(
-        none.contains("[place]") && none.contains("latitude = 48.8583"),
-        "{none}"
-    );
+    assert!(none.contains("[place]") && none.contains("latitude = 48.8583"), "{none}");
     let models = &SITE[..SITE.find("[[model]]").unwrap()];
     let study = &SITE[SITE.find("[study]").unwrap()..];
     let no_model = complaint(&format!("{models}{study}"), &Overrides::default());
     assert!(no_model.contains("[[model]]"), "{no_model}");
-    let no_study = complaint(
-        &SITE[..SITE.find("[study]").unwrap()],
-        &Overrides::default(),
-    );
-    assert!(
-        no_study.contains("--date 2026-03-21 --from 9:00 --to 17:00 --step 1h"),
-        "{no_study}"
-    );
+    let no_study = complaint(&SITE[..SITE.find("[study]").unwrap()], &Overrides::default());
+    assert!(no_study.contains("--date 2026-03-21 --from 9:00 --to 17:00 --step 1h"), "{no_study}");
     told("step = \"30min\"", "", &["step of the study", "--step 1h"]);
     let empty = |_: &Path, _: &Placement| Ok(vec![Part::default()]);
     let site = SITE.replace("casts = [\"iron\"]", "");
-    let message = Site::load_with(folder(&site).path(), &Overrides::default(), empty)
-        .expect_err("nothing")
-        .to_string();
+    let message = Site::load_with(folder(&site).path(), &Overrides::default(), empty).expect_err("nothing").to_string();
     assert!(message.contains("no triangles"), "{message}");
 }
 
@@ -203,148 +92,31 @@ fn wrong_options_are_wrong_use() {
         assert!(error.to_string().contains(word), "{error}");
     };
     let none = Overrides::default;
-    wrong(
-        Overrides {
-            place: some("48,2"),
-            ..none()
-        },
-        "--place",
-    );
-    wrong(
-        Overrides {
-            date: some("soon"),
-            ..none()
-        },
-        "--date",
-    );
-    wrong(
-        Overrides {
-            from: some("25:00"),
-            ..none()
-        },
-        "--from",
-    );
-    wrong(
-        Overrides {
-            from: some("2026-03-29T02:30"),
-            ..none()
-        },
-        "2026-03-29T03:30+02:00",
-    );
-    wrong(
-        Overrides {
-            date: some("2026-10-25"),
-            to: some("02:30"),
-            from: some("1:00"),
-            ..none()
-        },
-        "--to",
-    );
-    wrong(
-        Overrides {
-            step: some("soon"),
-            ..none()
-        },
-        "--step",
-    );
-    wrong(
-        Overrides {
-            at: some("noonish"),
-            ..none()
-        },
-        "--at",
-    );
-    wrong(
-        Overrides {
-            at: some("2026-09-18T15:00"),
-            step: some("1h"),
-            ..none()
-        },
-        "--step",
-    );
-    wrong(
-        Overrides {
-            at: some("2026-09-18T15:00"),
-            date: some("2026-09-19"),
-            ..none()
-        },
-        "two dates",
-    );
-    wrong(
-        Overrides {
-            region: some("1,2,3"),
-            ..none()
-        },
-        "--region",
-    );
-    wrong(
-        Overrides {
-            region: some("1,2,3,x"),
-            ..none()
-        },
-        "--region",
-    );
-    wrong(
-        Overrides {
-            region: some("3,2,1,4"),
-            ..none()
-        },
-        "west 3",
-    );
-    wrong(
-        Overrides {
-            cell: Some(f64::NAN),
-            ..none()
-        },
-        "--cell",
-    );
-    wrong(
-        Overrides {
-            cell: Some(1e-9),
-            ..none()
-        },
-        "at least",
-    );
-    wrong(
-        Overrides {
-            cell: Some(1.0),
-            size: Some(1),
-            ..none()
-        },
-        "--cell",
-    );
-    wrong(
-        Overrides {
-            size: Some(0),
-            ..none()
-        },
-        "--size",
-    );
-    wrong(
-        Overrides {
-            size: Some(u32::MAX),
-            ..none()
-        },
-        "2³¹",
-    );
+    wrong(Overrides { place: some("48,2"), ..none() }, "--place");
+    wrong(Overrides { date: some("soon"), ..none() }, "--date");
+    wrong(Overrides { from: some("25:00"), ..none() }, "--from");
+    wrong(Overrides { from: some("2026-03-29T02:30"), ..none() }, "2026-03-29T03:30+02:00");
+    wrong(Overrides { date: some("2026-10-25"), to: some("02:30"), from: some("1:00"), ..none() }, "--to");
+    wrong(Overrides { step: some("soon"), ..none() }, "--step");
+    wrong(Overrides { at: some("noonish"), ..none() }, "--at");
+    wrong(Overrides { at: some("2026-09-18T15:00"), step: some("1h"), ..none() }, "--step");
+    wrong(Overrides { at: some("2026-09-18T15:00"), date: some("2026-09-19"), ..none() }, "two dates");
+    wrong(Overrides { region: some("1,2,3"), ..none() }, "--region");
+    wrong(Overrides { region: some("1,2,3,x"), ..none() }, "--region");
+    wrong(Overrides { region: some("3,2,1,4"), ..none() }, "west 3");
+    wrong(Overrides { cell: Some(f64::NAN), ..none() }, "--cell");
+    wrong(Overrides { cell: Some(1e-9), ..none() }, "at least");
+    wrong(Overrides { cell: Some(1.0), size: Some(1), ..none() }, "--cell");
+    wrong(Overrides { size: Some(0), ..none() }, "--size");
+    wrong(Overrides { size: Some(u32::MAX), ..none() }, "2³¹");
 }
 
 #[test]
 fn unknown_names_are_told() {
-    told(
-        "[\"iron\"]",
-        "[\"irn\"]",
-        &["[[model]] casts", "\"irn\"", "\"iron\""],
-    );
-    let two = SITE.replace(
-        "[study]",
-        "[[model]]\npath = \"tower.glb\"\nreceives = [\"gras\"]\n[study]",
-    );
+    told("[\"iron\"]", "[\"irn\"]", &["[[model]] casts", "\"irn\"", "\"iron\""]);
+    let two = SITE.replace("[study]", "[[model]]\npath = \"tower.glb\"\nreceives = [\"gras\"]\n[study]");
     let message = complaint(&two, &Overrides::default());
-    assert!(
-        message.contains("[[model]] number 2 receives") && message.contains("\"grass\""),
-        "{message}"
-    );
+    assert!(message.contains("[[model]] number 2 receives") && message.contains("\"grass\""), "{message}");
 }
 
 proptest! {

@@ -29,10 +29,7 @@ pub(crate) struct Model {
 impl Model {
     pub(crate) fn new() -> Self {
         let json = json!({"asset": {"version": "2.0"}, "accessors": [], "bufferViews": []});
-        Self {
-            json,
-            bytes: Vec::new(),
-        }
+        Self { json, bytes: Vec::new() }
     }
 
     /// One node, one mesh, one triangle without indices; it lies on the ground and faces up.
@@ -52,16 +49,9 @@ impl Model {
     }
 
     /// An accessor of bytes of its own.
-    pub(crate) fn accessor(
-        &mut self,
-        kind: &str,
-        component: u32,
-        count: usize,
-        bytes: &[u8],
-    ) -> usize {
+    pub(crate) fn accessor(&mut self, kind: &str, component: u32, count: usize, bytes: &[u8]) -> usize {
         let view = self.view(bytes);
-        let accessor =
-            json!({"bufferView": view, "componentType": component, "count": count, "type": kind});
+        let accessor = json!({"bufferView": view, "componentType": component, "count": count, "type": kind});
         push(&mut self.json["accessors"], accessor)
     }
 
@@ -72,10 +62,7 @@ impl Model {
             "VEC4" => 4,
             _ => 1,
         };
-        let bytes: Vec<u8> = numbers
-            .iter()
-            .flat_map(|number| number.to_le_bytes())
-            .collect();
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
         self.accessor(kind, F32, numbers.len() / lanes, &bytes)
     }
 
@@ -88,10 +75,7 @@ impl Model {
     pub(crate) fn gltf(&self) -> Value {
         let mut json = self.json.clone();
         if json["buffers"].is_null() {
-            let uri = format!(
-                "data:application/octet-stream;base64,{}",
-                BASE64_STANDARD.encode(&self.bytes)
-            );
+            let uri = format!("data:application/octet-stream;base64,{}", BASE64_STANDARD.encode(&self.bytes));
             json["buffers"] = json!([{"byteLength": self.bytes.len(), "uri": uri}]);
         }
         json
@@ -168,17 +152,11 @@ pub(crate) fn assert_refused(loaded: Result<Vec<Part>, String>, words: &[&str]) 
 pub(crate) fn corners(part: &Part) -> Vec<[[f64; 3]; 3]> {
     let round = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
     let corner = |vertex: u32| part.positions[vertex as usize].to_array().map(round);
-    part.triangles
-        .iter()
-        .map(|triangle| triangle.map(corner))
-        .collect()
+    part.triangles.iter().map(|triangle| triangle.map(corner)).collect()
 }
 
 /// Twice the area of a part's triangles, as the sum of their outward normals.
 pub(crate) fn normal(part: &Part) -> DVec3 {
     let of = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
-    part.triangles
-        .iter()
-        .map(|triangle| of(triangle.map(|vertex| part.positions[vertex as usize])))
-        .sum()
+    part.triangles.iter().map(|triangle| of(triangle.map(|vertex| part.positions[vertex as usize]))).sum()
 }

@@ -37,24 +37,13 @@ pub(crate) fn folder(site: &str) -> TempDir {
 
 /// A closed box, counter-clockwise seen from outside.
 fn block(name: &str, alias: &str, low: DVec3, high: DVec3) -> Part {
-    let corner =
-        |i: usize| DVec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low);
-    let sides: [[u32; 4]; 6] = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
+    let corner = |i: usize| DVec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low);
+    let sides: [[u32; 4]; 6] = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     Part {
         name: name.to_owned(),
         aliases: vec![name.to_owned(), alias.to_owned()],
         positions: (0..8).map(corner).collect(),
-        triangles: sides
-            .iter()
-            .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]])
-            .collect(),
+        triangles: sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect(),
     }
 }
 
@@ -81,15 +70,9 @@ fn a_site_file_as_meant() {
     assert_eq!(site.place.time_zone.name(), "Europe/Paris");
     assert_eq!(site.track.instants.len(), 9);
     assert!(site.track.refraction);
-    assert_eq!(
-        (site.casts.as_slice(), site.receives.as_slice()),
-        (&[true, false][..], &[true, true][..])
-    );
+    assert_eq!((site.casts.as_slice(), site.receives.as_slice()), (&[true, false][..], &[true, true][..]));
     assert_eq!(site.ground, 0.0);
-    assert_eq!(
-        (site.method, site.engine, site.receivers),
-        (Method::Auto, Engine::Auto, Receivers::Top)
-    );
+    assert_eq!((site.method, site.engine, site.receivers), (Method::Auto, Engine::Auto, Receivers::Top));
     assert_eq!(site.grid.width.max(site.grid.height), 2048);
 }
 
@@ -101,16 +84,10 @@ fn the_default_region_holds_models_and_shadows() {
     for instant in site.track.instants.iter().filter(|instant| !instant.night) {
         let throw = -instant.to_sun.truncate() / instant.to_sun.z;
         let tip = throw * 40.0 + throw.signum() * 5.0;
-        assert!(
-            west < tip.x && tip.x < east && south < tip.y && tip.y < north,
-            "{tip}"
-        );
+        assert!(west < tip.x && tip.x < east && south < tip.y && tip.y < north, "{tip}");
     }
     let margin = 0.021 * (north - south).max(east - west);
-    assert!(
-        (-30.0 - south).abs() <= margin,
-        "{south}: nothing falls south of the yard"
-    );
+    assert!((-30.0 - south).abs() <= margin, "{south}: nothing falls south of the yard");
     assert!((30.0 - east).abs() <= margin, "{east}");
     assert!(west > -120.0 && north < 120.0);
 }
@@ -118,21 +95,13 @@ fn the_default_region_holds_models_and_shadows() {
 /// Before nine in December the sun is below 13.1°: the shadow is cut at 4.3 heights.
 #[test]
 fn long_shadows_are_cut() {
-    let winter = SITE
-        .replace("2026-09-18", "2026-12-21")
-        .replace("14:00", "15:00");
+    let winter = SITE.replace("2026-09-18", "2026-12-21").replace("14:00", "15:00");
     let [west, south, east, north] = load(&winter, &Overrides::default()).unwrap().grid.region();
     let far = 4.3 * 40.0 + 5.0;
     let margin = 0.03 * (east - west).max(north - south);
-    assert!(
-        west > -far - margin && north < far + margin && east < far + margin,
-        "{west} {north}"
-    );
+    assert!(west > -far - margin && north < far + margin && east < far + margin, "{west} {north}");
     assert!(north > 100.0 && south < -30.0);
-    let night = Overrides {
-        at: some("2026-09-18T23:00"),
-        ..Overrides::default()
-    };
+    let night = Overrides { at: some("2026-09-18T23:00"), ..Overrides::default() };
     let [west, _, _, north] = load(SITE, &night).unwrap().grid.region();
     assert!((-32.0..-30.0).contains(&west) && (30.0..32.0).contains(&north));
 }
@@ -140,19 +109,11 @@ fn long_shadows_are_cut() {
 #[test]
 fn grids_in_whole_cells_from_the_north_west() {
     let grid = |region: &str, cell, size| {
-        let asked = Overrides {
-            region: some(region),
-            cell,
-            size,
-            ..Overrides::default()
-        };
+        let asked = Overrides { region: some(region), cell, size, ..Overrides::default() };
         load(SITE, &asked).unwrap().grid
     };
     let given = grid("-10,-20,30.3,40", Some(0.5), None);
-    assert_eq!(
-        (given.west, given.north, given.width, given.height),
-        (-10.0, 40.0, 81, 120)
-    );
+    assert_eq!((given.west, given.north, given.width, given.height), (-10.0, 40.0, 81, 120));
     assert_eq!(given.region(), [-10.0, -20.0, 30.5, 40.0]);
     let sized = grid("-10,-20,30,40", None, Some(600));
     assert_eq!((sized.width, sized.height, sized.cell), (400, 600, 0.1));
@@ -160,24 +121,13 @@ fn grids_in_whole_cells_from_the_north_west() {
     let plan = format!("{SITE}\n[plan]\nregion = [-100, -50, 100, 50]\ncell = 0.5\n");
     let site = load(&plan, &Overrides::default()).unwrap();
     assert_eq!((site.grid.width, site.grid.height), (400, 200));
-    let site = load(
-        &plan,
-        &Overrides {
-            size: Some(100),
-            ..Overrides::default()
-        },
-    )
-    .unwrap();
+    let site = load(&plan, &Overrides { size: Some(100), ..Overrides::default() }).unwrap();
     assert_eq!((site.grid.width, site.grid.height), (100, 50));
 }
 
 #[test]
 fn names_take_components_by_node_mesh_or_material() {
-    let casts = |names: &str| {
-        load(&SITE.replace("[\"iron\"]", names), &Overrides::default())
-            .unwrap()
-            .casts
-    };
+    let casts = |names: &str| load(&SITE.replace("[\"iron\"]", names), &Overrides::default()).unwrap().casts;
     assert_eq!(casts("true"), [true, true]);
     assert_eq!(casts("false"), [false, false]);
     assert_eq!(casts("[]"), [false, false]);
@@ -199,33 +149,15 @@ fn options_go_before_the_file() {
         ..Overrides::default()
     };
     let site = load(SITE, &asked).unwrap();
-    assert_eq!(
-        (site.track.instants.len(), site.track.window_secs()),
-        (5, 3600)
-    );
+    assert_eq!((site.track.instants.len(), site.track.window_secs()), (5, 3600));
     assert!(!site.track.refraction);
-    assert_eq!(
-        (site.method, site.engine, site.receivers),
-        (Method::RayCast, Engine::Cpu, Receivers::Ground)
-    );
+    assert_eq!((site.method, site.engine, site.receivers), (Method::RayCast, Engine::Cpu, Receivers::Ground));
     // A `--from` with its own date goes before the date in the file.
-    let dated = Overrides {
-        from: some("2026-12-01T11:00"),
-        ..Overrides::default()
-    };
-    assert_eq!(
-        load(SITE, &dated).unwrap().track.days[0].date.to_string(),
-        "2026-12-01"
-    );
-    let at = Overrides {
-        at: some("15:00"),
-        ..Overrides::default()
-    };
+    let dated = Overrides { from: some("2026-12-01T11:00"), ..Overrides::default() };
+    assert_eq!(load(SITE, &dated).unwrap().track.days[0].date.to_string(), "2026-12-01");
+    let at = Overrides { at: some("15:00"), ..Overrides::default() };
     let track = load(SITE, &at).unwrap().track;
-    assert_eq!(
-        track.instants[0].time.to_rfc3339(),
-        "2026-09-18T15:00:00+02:00"
-    );
+    assert_eq!(track.instants[0].time.to_rfc3339(), "2026-09-18T15:00:00+02:00");
 }
 
 #[test]
@@ -234,48 +166,20 @@ fn a_site_is_a_file_a_folder_or_a_model_with_its_place() {
     let none = Overrides::default();
     let file: PathBuf = folder.path().join("site.toml");
     let sun = |path: &Path, asked: &Overrides| load_sun(path, asked);
-    assert_eq!(
-        sun(folder.path(), &none).unwrap(),
-        sun(&file, &none).unwrap()
-    );
+    assert_eq!(sun(folder.path(), &none).unwrap(), sun(&file, &none).unwrap());
     let model = folder.path().join("tower.glb");
     let error = sun(&model, &none).expect_err("no place");
-    assert!(
-        error.is_wrong_use() && error.to_string().contains("--place"),
-        "{error}"
-    );
-    let asked = Overrides {
-        place: some("-33.8568, 151.2153"),
-        at: some("2026-09-18T15:00"),
-        ..none.clone()
-    };
+    assert!(error.is_wrong_use() && error.to_string().contains("--place"), "{error}");
+    let asked = Overrides { place: some("-33.8568, 151.2153"), at: some("2026-09-18T15:00"), ..none.clone() };
     let (place, track) = sun(&model, &asked).unwrap();
-    assert_eq!(
-        (place.latitude_deg, place.time_zone.name()),
-        (-33.8568, "Australia/Sydney")
-    );
+    assert_eq!((place.latitude_deg, place.time_zone.name()), (-33.8568, "Australia/Sydney"));
     assert_eq!(track.instants.len(), 1);
-    assert_eq!(
-        Site::load_with(&model, &asked, tower).unwrap().casts,
-        [true, true]
-    );
-    let bare = Overrides {
-        place: some("95,0"),
-        ..asked.clone()
-    };
+    assert_eq!(Site::load_with(&model, &asked, tower).unwrap().casts, [true, true]);
+    let bare = Overrides { place: some("95,0"), ..asked.clone() };
     let error = sun(&model, &bare).expect_err("beyond the pole");
-    assert!(
-        error.is_wrong_use() && error.to_string().contains("--place"),
-        "{error}"
-    );
-    for (path, word) in [
-        ("nothing.toml", "cannot be read"),
-        ("tower.obj", ".glb"),
-        ("nothing.glb", "cannot be read"),
-    ] {
-        let error = sun(&folder.path().join(path), &none)
-            .expect_err("nothing there")
-            .to_string();
+    assert!(error.is_wrong_use() && error.to_string().contains("--place"), "{error}");
+    for (path, word) in [("nothing.toml", "cannot be read"), ("tower.obj", ".glb"), ("nothing.glb", "cannot be read")] {
+        let error = sun(&folder.path().join(path), &none).expect_err("nothing there").to_string();
         assert!(error.contains(word), "{error}");
     }
 }
@@ -285,9 +189,7 @@ fn a_site_is_a_file_a_folder_or_a_model_with_its_place() {
 fn the_sun_needs_no_models() {
     let site = SITE.replace("tower.glb", "missing.glb");
     assert!(load_sun(folder(&site).path(), &Overrides::default()).is_ok());
-    let dates = SITE
-        .replace("\"10:00\"", "10:00:00")
-        .replace("2026-09-18", "\"2026-09-18\"");
+    let dates = SITE.replace("\"10:00\"", "10:00:00").replace("2026-09-18", "\"2026-09-18\"");
     assert!(load_sun(folder(&dates).path(), &Overrides::default()).is_ok());
     let dated = SITE.replace("\"10:00\"", "2026-09-18T10:00:00+02:00");
     assert!(load_sun(folder(&dated).path(), &Overrides::default()).is_ok());
@@ -348,33 +250,14 @@ fn the_default_camera_sees_the_models() {
         let half_height = (camera.fov_rad / 2.0).tan();
         let half_width = half_height * f64::from(camera.width) / f64::from(camera.height);
         for corner in 0..8 {
-            let pick =
-                |bit: u32, low: f64, high: f64| if corner >> bit & 1 == 1 { high } else { low };
-            let corner = DVec3::new(
-                pick(0, -30.0, 30.0),
-                pick(1, -30.0, 30.0),
-                pick(2, 0.0, 40.0),
-            );
+            let pick = |bit: u32, low: f64, high: f64| if corner >> bit & 1 == 1 { high } else { low };
+            let corner = DVec3::new(pick(0, -30.0, 30.0), pick(1, -30.0, 30.0), pick(2, 0.0, 40.0));
             let seen = corner - camera.eye;
             let depth = seen.dot(forward);
-            assert!(
-                seen.dot(right).abs() <= depth * half_width,
-                "{latitude}: {corner}"
-            );
-            assert!(
-                seen.dot(right.cross(forward)).abs() <= depth * half_height,
-                "{latitude}: {corner}"
-            );
+            assert!(seen.dot(right).abs() <= depth * half_width, "{latitude}: {corner}");
+            assert!(seen.dot(right.cross(forward)).abs() <= depth * half_height, "{latitude}: {corner}");
         }
-        let sun: DVec3 = site
-            .track
-            .instants
-            .iter()
-            .map(|instant| instant.to_sun)
-            .sum();
-        assert!(
-            sun.truncate().dot((camera.eye - camera.target).truncate()) > 0.0,
-            "{latitude}"
-        );
+        let sun: DVec3 = site.track.instants.iter().map(|instant| instant.to_sun).sum();
+        assert!(sun.truncate().dot((camera.eye - camera.target).truncate()) > 0.0, "{latitude}");
     }
 }

@@ -18,9 +18,7 @@ const COUNTS: [(&str, usize, usize); 4] = [
 ];
 
 fn on_disk(path: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("sites")
-        .join(path)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("sites").join(path)
 }
 
 /// What one node shows in one material.
@@ -45,35 +43,23 @@ fn parts(glb: &[u8]) -> Vec<Part> {
 }
 
 fn add_parts(node: &gltf::Node, world_from_parent: DMat4, blob: &[u8], parts: &mut Vec<Part>) {
-    let parent_from_node = DMat4::from_cols_array_2d(
-        &node
-            .transform()
-            .matrix()
-            .map(|column| column.map(f64::from)),
-    );
+    let parent_from_node = DMat4::from_cols_array_2d(&node.transform().matrix().map(|column| column.map(f64::from)));
     let world_from_node = world_from_parent * parent_from_node;
     let is_mirrored = world_from_node.determinant() < 0.0;
     if let Some(mesh) = node.mesh() {
         for primitive in mesh.primitives() {
-            let positions = primitive
-                .get(&gltf::Semantic::Positions)
-                .expect("positions");
-            let positions = read::<4>(&positions, blob)
-                .map(f32::from_le_bytes)
-                .collect::<Vec<_>>();
+            let positions = primitive.get(&gltf::Semantic::Positions).expect("positions");
+            let positions = read::<4>(&positions, blob).map(f32::from_le_bytes).collect::<Vec<_>>();
             let corners = primitive.indices().expect("indices");
             let corners: Vec<u32> = match corners.data_type() {
-                gltf::accessor::DataType::U16 => read::<2>(&corners, blob)
-                    .map(|bytes| u16::from_le_bytes(bytes).into())
-                    .collect(),
+                gltf::accessor::DataType::U16 => {
+                    read::<2>(&corners, blob).map(|bytes| u16::from_le_bytes(bytes).into()).collect()
+                }
                 _ => read::<4>(&corners, blob).map(u32::from_le_bytes).collect(),
             };
             let to_world = |point: [f32; 3]| {
-                let up_is_y = world_from_node.transform_point3(dvec3(
-                    point[0].into(),
-                    point[1].into(),
-                    point[2].into(),
-                ));
+                let up_is_y =
+                    world_from_node.transform_point3(dvec3(point[0].into(), point[1].into(), point[2].into()));
                 dvec3(up_is_y.x, -up_is_y.z, up_is_y.y)
             };
             let mut triangles = corners.as_chunks::<3>().0.to_vec();
@@ -85,13 +71,7 @@ fn add_parts(node: &gltf::Node, world_from_parent: DMat4, blob: &[u8], parts: &m
                 names: names.map(|name| name.expect("a name").to_owned()),
                 mesh: mesh.index(),
                 is_mirrored,
-                positions: positions
-                    .as_chunks::<3>()
-                    .0
-                    .iter()
-                    .copied()
-                    .map(to_world)
-                    .collect(),
+                positions: positions.as_chunks::<3>().0.iter().copied().map(to_world).collect(),
                 triangles,
             });
         }
@@ -102,10 +82,7 @@ fn add_parts(node: &gltf::Node, world_from_parent: DMat4, blob: &[u8], parts: &m
 }
 
 /// The numbers of an accessor, each of `N` bytes.
-fn read<'a, const N: usize>(
-    accessor: &gltf::Accessor,
-    blob: &'a [u8],
-) -> impl Iterator<Item = [u8; N]> + 'a {
+fn read<'a, const N: usize>(accessor: &gltf::Accessor, blob: &'a [u8]) -> impl Iterator<Item = [u8; N]> + 'a {
     let start = accessor.view().expect("a buffer view").offset() + accessor.offset();
     let bytes = &blob[start..start + accessor.count() * accessor.size()];
     bytes.as_chunks::<N>().0.iter().copied()
@@ -131,10 +108,7 @@ fn solids(triangles: &[[u32; 3]]) -> Vec<Vec<[u32; 3]>> {
     }
     let mut solids: HashMap<u32, Vec<[u32; 3]>> = HashMap::new();
     for &triangle in triangles {
-        solids
-            .entry(find(&mut leader, triangle[0]))
-            .or_default()
-            .push(triangle);
+        solids.entry(find(&mut leader, triangle[0])).or_default().push(triangle);
     }
     solids.into_values().collect()
 }
@@ -172,10 +146,7 @@ fn faults(positions: &[DVec3], solid: &[[u32; 3]]) -> Vec<String> {
 fn the_files_are_what_the_maker_draws() {
     for (path, bytes) in make::models() {
         let found = std::fs::read(on_disk(path)).unwrap_or_default();
-        assert!(
-            found == bytes,
-            "sites/{path} is not what `cargo run --example make-sites` writes"
-        );
+        assert!(found == bytes, "sites/{path} is not what `cargo run --example make-sites` writes");
         assert!(bytes.len() < 5 << 20, "{path} has {} bytes", bytes.len());
     }
 }
@@ -190,32 +161,20 @@ fn the_models_have_the_promised_triangles() {
         let model = &file["model"][0];
         let glb = path.with_file_name(model["path"].as_str().expect("a path"));
         let parts = parts(&std::fs::read(glb).expect("a model"));
-        let names: Option<Vec<&str>> = model.get("casts").map(|names| {
-            names
-                .as_array()
-                .expect("a list")
-                .iter()
-                .filter_map(|name| name.as_str())
-                .collect()
-        });
+        let names: Option<Vec<&str>> = model
+            .get("casts")
+            .map(|names| names.as_array().expect("a list").iter().filter_map(|name| name.as_str()).collect());
         for name in names.iter().flatten() {
-            let is_known = parts
-                .iter()
-                .any(|part| part.names.iter().any(|known| known == name));
+            let is_known = parts.iter().any(|part| part.names.iter().any(|known| known == name));
             assert!(is_known, "{site}: nothing is named {name}");
         }
         let casts = |part: &&Part| {
-            let is_named =
-                |names: &Vec<&str>| part.names.iter().any(|name| names.contains(&name.as_str()));
+            let is_named = |names: &Vec<&str>| part.names.iter().any(|name| names.contains(&name.as_str()));
             names.as_ref().is_none_or(is_named)
         };
         let count = parts.iter().map(|part| part.triangles.len()).sum();
         assert!(is_near(count, total), "{site}: {count} triangles");
-        let count = parts
-            .iter()
-            .filter(casts)
-            .map(|part| part.triangles.len())
-            .sum();
+        let count = parts.iter().filter(casts).map(|part| part.triangles.len()).sum();
         assert!(is_near(count, casting), "{site}: {count} triangles cast");
     }
 }
@@ -226,11 +185,7 @@ fn every_solid_is_closed_and_turned_outwards() {
         for part in parts(&bytes) {
             for solid in solids(&part.triangles) {
                 let faults = faults(&part.positions, &solid);
-                assert!(
-                    faults.is_empty(),
-                    "{path}, {}: {faults:?}",
-                    part.names.join("/")
-                );
+                assert!(faults.is_empty(), "{path}, {}: {faults:?}", part.names.join("/"));
             }
         }
     }
@@ -246,10 +201,7 @@ fn a_fault_is_seen() {
     assert!(!faults(&corners, &inside_out).is_empty(), "inside out");
     let mut one_flipped = whole;
     one_flipped[2].reverse();
-    assert!(
-        !faults(&corners, &one_flipped).is_empty(),
-        "one triangle flipped"
-    );
+    assert!(!faults(&corners, &one_flipped).is_empty(), "one triangle flipped");
     let flat = [corners[0], corners[1], corners[1] * 2.0, corners[3]];
     assert!(!faults(&flat, &whole).is_empty(), "without area");
 }
@@ -259,17 +211,10 @@ fn a_fault_is_seen() {
 fn coordinates_lie_on_the_grid() {
     for (path, bytes) in make::models() {
         for part in parts(&bytes) {
-            let off = part
-                .positions
-                .iter()
-                .find(|&&point| (point * STEPS).fract() != DVec3::ZERO);
+            let off = part.positions.iter().find(|&&point| (point * STEPS).fract() != DVec3::ZERO);
             assert!(off.is_none(), "{path}, {}: {off:?}", part.names.join("/"));
             let below = part.positions.iter().find(|point| point.z < 0.0);
-            assert!(
-                below.is_none(),
-                "{path}, {}: {below:?} lies below the ground",
-                part.names.join("/")
-            );
+            assert!(below.is_none(), "{path}, {}: {below:?} lies below the ground", part.names.join("/"));
         }
     }
 }
@@ -279,24 +224,11 @@ fn coordinates_lie_on_the_grid() {
 fn each_model_mirrors_and_reuses() {
     for (path, bytes) in make::models() {
         let parts = parts(&bytes);
-        assert!(
-            parts.iter().any(|part| part.is_mirrored),
-            "{path}: no mirrored node"
-        );
-        let is_reused = |part: &Part| {
-            parts
-                .iter()
-                .any(|other| other.mesh == part.mesh && other.names[0] != part.names[0])
-        };
+        assert!(parts.iter().any(|part| part.is_mirrored), "{path}: no mirrored node");
+        let is_reused =
+            |part: &Part| parts.iter().any(|other| other.mesh == part.mesh && other.names[0] != part.names[0]);
         assert!(parts.iter().any(is_reused), "{path}: no mesh is used twice");
-        let names: HashSet<_> = parts
-            .iter()
-            .map(|part| [&part.names[0], &part.names[2]])
-            .collect();
-        assert_eq!(
-            names.len(),
-            parts.len(),
-            "{path}: two components share a name"
-        );
+        let names: HashSet<_> = parts.iter().map(|part| [&part.names[0], &part.names[2]]).collect();
+        assert_eq!(names.len(), parts.len(), "{path}: two components share a name");
     }
 }

@@ -1,10 +1,7 @@
 //! The sun against outside truth: NREL's paper, pvlib's SPA, the US Naval Observatory; then clocks and windows.
 
 use chrono::{DateTime, NaiveDate, NaiveTime, Timelike, Utc};
-use gnomon::sun::{
-    Air, Day, Place, Reading, SunError, SunTrack, Window, delta_t_secs, parse_duration_secs,
-    position,
-};
+use gnomon::sun::{Air, Day, Place, Reading, SunError, SunTrack, Window, delta_t_secs, parse_duration_secs, position};
 use proptest::prelude::*;
 
 fn place(latitude_deg: f64, longitude_deg: f64, elevation_m: f64, zone: &str) -> Place {
@@ -49,10 +46,7 @@ fn near(value: f64, truth: f64, tolerance: f64, what: &str) {
 #[test]
 fn the_example_of_nrels_paper() {
     let golden = place(39.742476, -105.1786, 1830.14, "America/Denver");
-    let air = Air {
-        pressure_hpa: 820.0,
-        temperature_c: 11.0,
-    };
+    let air = Air { pressure_hpa: 820.0, temperature_c: 11.0 };
     let seen = position(&golden, utc("2003-10-17T19:30:30Z"), 67.0, Some(air)).unwrap();
     near(90.0 - seen.altitude_deg, 50.11162, 5e-6, "zenith");
     near(seen.azimuth_deg, 194.34024, 5e-6, "azimuth");
@@ -81,10 +75,7 @@ fn positions_of_pvlib() {
         ("2026-06-20T22:00:00Z", 69.6492, 18.9553, 0.0, 86.55034, 349.47086, 3.65773),
         ("2026-03-21T06:15:00Z", 27.7172, 85.324, 1400.0, 27.58761, 174.09877, 62.42118),
     ];
-    let air = Some(Air {
-        pressure_hpa: 1013.25,
-        temperature_c: 12.0,
-    });
+    let air = Some(Air { pressure_hpa: 1013.25, temperature_c: 12.0 });
     for (time, latitude, longitude, elevation, zenith, azimuth, apparent) in rows {
         let there = place(latitude, longitude, elevation, "UTC");
         let bare = position(&there, utc(time), 69.2, None).unwrap();
@@ -112,10 +103,7 @@ fn delta_t_of_espenak_and_meeus() {
     near(mid("2049-12-18T00:00:00Z"), 93.0, 0.1, "2050");
     near(mid("2050-01-18T00:00:00Z"), 93.0, 0.2, "2050");
     near(mid("2150-01-18T00:00:00Z"), 328.5, 0.2, "2150");
-    assert!(matches!(
-        delta_t_secs(utc("1599-01-01T00:00:00Z")),
-        Err(SunError::Year { .. })
-    ));
+    assert!(matches!(delta_t_secs(utc("1599-01-01T00:00:00Z")), Err(SunError::Year { .. })));
 }
 
 /// ISO 2533 (standard atmosphere): 1013.25 hPa at sea level, 898.76 hPa at 1000 m, 701.1 hPa at 3000 m.
@@ -195,8 +183,7 @@ fn events_lie_on_the_local_date() {
         let there = place(latitude, longitude, 0.0, zone);
         for day in ["2026-01-10", "2026-04-05", "2026-06-21", "2026-10-31"].map(date) {
             let events = Day::of(&there, day).unwrap();
-            let [rise, noon, set] =
-                [events.sunrise, events.noon, events.sunset].map(Option::unwrap);
+            let [rise, noon, set] = [events.sunrise, events.noon, events.sunset].map(Option::unwrap);
             assert!(rise < noon && noon < set, "{zone} {day}");
             for time in [rise, noon, set] {
                 assert_eq!(time.date_naive(), day, "{zone}");
@@ -213,9 +200,7 @@ fn noon_altitude_at_the_solstices() {
         for latitude in [-45.0, 0.0, 35.0, 60.0] {
             let there = place(latitude, 0.0, 0.0, "UTC");
             let noon = Day::of(&there, date(day)).unwrap().noon.unwrap();
-            let altitude = position(&there, noon.with_timezone(&Utc), 69.2, None)
-                .unwrap()
-                .altitude_deg;
+            let altitude = position(&there, noon.with_timezone(&Utc), 69.2, None).unwrap().altitude_deg;
             // Parallax takes up to 0.0024°.
             near(altitude, 90.0 - (latitude - declination).abs(), 0.005, day);
         }
@@ -240,11 +225,7 @@ fn a_plain_window() {
 fn half_seconds_go_to_the_later_instant() {
     let weights = |step: &str| {
         let track = track(&paris(), "2026-09-18", "10:00:00", "10:00:03", step).unwrap();
-        track
-            .instants
-            .iter()
-            .map(|i| i.weight_secs)
-            .collect::<Vec<_>>()
+        track.instants.iter().map(|i| i.weight_secs).collect::<Vec<_>>()
     };
     assert_eq!(weights("1s"), [0, 1, 1, 1]);
     assert_eq!(weights("2s"), [1, 1, 1]);
@@ -253,22 +234,10 @@ fn half_seconds_go_to_the_later_instant() {
 
 #[test]
 fn windows_across_midnight_and_the_change_of_clocks() {
-    let secs = |day, from, to| {
-        track(&paris(), day, from, to, "30min")
-            .unwrap()
-            .window_secs()
-    };
+    let secs = |day, from, to| track(&paris(), day, from, to, "30min").unwrap().window_secs();
     assert_eq!(secs("2026-09-18", "22:00", "2:00"), 4 * 3600);
-    assert_eq!(
-        secs("2026-03-28", "22:00", "6:00"),
-        7 * 3600,
-        "clocks go forward"
-    );
-    assert_eq!(
-        secs("2026-10-24", "22:00", "6:00"),
-        9 * 3600,
-        "clocks go back"
-    );
+    assert_eq!(secs("2026-03-28", "22:00", "6:00"), 7 * 3600, "clocks go forward");
+    assert_eq!(secs("2026-10-24", "22:00", "6:00"), 9 * 3600, "clocks go back");
     assert_eq!(secs("2026-10-25", "02:30+02:00", "02:30+01:00"), 3600);
     // On the date of `from` this `to` is read twice or never, but it means the day after.
     assert_eq!(secs("2026-10-25", "10:00", "2:30"), 16 * 3600 + 1800);
@@ -277,12 +246,7 @@ fn windows_across_midnight_and_the_change_of_clocks() {
     assert_eq!(secs("", "2026-09-18T22:00", "2026-09-20T22:00"), 48 * 3600);
     let night = track(&paris(), "2026-09-18", "22:00", "2:00", "30min").unwrap();
     assert_eq!(night.days.len(), 2);
-    assert!(
-        night
-            .instants
-            .iter()
-            .all(|i| i.night && i.altitude_deg() < 0.0)
-    );
+    assert!(night.instants.iter().all(|i| i.night && i.altitude_deg() < 0.0));
     let over = track(&paris(), "2026-09-18", "sunset-1h30", "sunrise", "1h").unwrap();
     assert_eq!(over.days.len(), 2);
     assert!(!over.instants[0].night);
@@ -290,21 +254,11 @@ fn windows_across_midnight_and_the_change_of_clocks() {
 
 #[test]
 fn readings_that_count_from_the_sun() {
-    let track = track(
-        &paris(),
-        "2026-09-18",
-        "sunrise+1h30",
-        "sunset-1h30",
-        "30min",
-    )
-    .unwrap();
+    let track = track(&paris(), "2026-09-18", "sunrise+1h30", "sunset-1h30", "30min").unwrap();
     let day = &track.days[0];
     let shift = chrono::TimeDelta::minutes(90);
     assert_eq!(track.instants[0].time, day.sunrise.unwrap() + shift);
-    assert_eq!(
-        track.instants.last().unwrap().time,
-        day.sunset.unwrap() - shift
-    );
+    assert_eq!(track.instants.last().unwrap().time, day.sunset.unwrap() - shift);
     // At sea level's horizon the upper limb appears at −0.833° unrefracted.
     let bare = SunTrack::at(&paris(), &reading("sunrise"), Some(day.date), false).unwrap();
     near(bare.instants[0].altitude_deg(), -0.833, 0.005, "sunrise");
@@ -315,24 +269,11 @@ fn readings_that_count_from_the_sun() {
 fn one_instant_alone() {
     let track = SunTrack::at(&paris(), &reading("2026-09-18T15:00"), None, true).unwrap();
     assert_eq!(track.instants.len(), 1);
-    assert_eq!(
-        track.instants[0].time.to_rfc3339(),
-        "2026-09-18T15:00:00+02:00"
-    );
-    assert_eq!(
-        (
-            track.instants[0].weight_secs,
-            track.step_secs,
-            track.days.len()
-        ),
-        (0, 0, 1)
-    );
+    assert_eq!(track.instants[0].time.to_rfc3339(), "2026-09-18T15:00:00+02:00");
+    assert_eq!((track.instants[0].weight_secs, track.step_secs, track.days.len()), (0, 0, 1));
     let chosen = reading("2026-10-25T02:30+01:00");
     let track = SunTrack::at(&paris(), &chosen, None, true).unwrap();
-    assert_eq!(
-        track.instants[0].time.to_rfc3339(),
-        "2026-10-25T02:30:00+01:00"
-    );
+    assert_eq!(track.instants[0].time.to_rfc3339(), "2026-10-25T02:30:00+01:00");
     let clock = SunTrack::at(&paris(), &reading("15:00"), None, true);
     assert!(matches!(clock, Err(SunError::NoDate { .. })));
     let other = SunTrack::at(&paris(), &chosen, Some(date("2026-10-26")), true);
@@ -347,21 +288,12 @@ fn message(result: Result<SunTrack, SunError>) -> String {
 fn impossible_clock_times_name_both_readings() {
     let at = |text: &str| message(SunTrack::at(&paris(), &reading(text), None, true));
     let twice = at("2026-10-25T02:30");
-    assert!(
-        twice.contains("2026-10-25T02:30+02:00 and 2026-10-25T02:30+01:00"),
-        "{twice}"
-    );
+    assert!(twice.contains("2026-10-25T02:30+02:00 and 2026-10-25T02:30+01:00"), "{twice}");
     let never = at("2026-03-29T02:30");
     assert!(never.contains("jump from 02:00:00 to 03:00:00"), "{never}");
-    assert!(
-        never.contains("2026-03-29T01:30+01:00 or 2026-03-29T03:30+02:00"),
-        "{never}"
-    );
+    assert!(never.contains("2026-03-29T01:30+01:00 or 2026-03-29T03:30+02:00"), "{never}");
     let neither = at("2026-10-25T02:30+03:00");
-    assert!(
-        neither.contains("2026-10-25T02:30+02:00 or 2026-10-25T02:30+01:00"),
-        "{neither}"
-    );
+    assert!(neither.contains("2026-10-25T02:30+02:00 or 2026-10-25T02:30+01:00"), "{neither}");
     let wrong = at("2026-07-01T12:00+01:00");
     assert!(wrong.contains("2026-07-01T12:00+02:00"), "{wrong}");
     // The hour lies in the window's end.
@@ -375,26 +307,13 @@ fn impossible_clock_times_name_both_readings() {
 
 #[test]
 fn windows_that_are_none() {
-    let bad =
-        |from: &str, to: &str, step: &str| message(track(&paris(), "2026-09-18", from, to, step));
+    let bad = |from: &str, to: &str, step: &str| message(track(&paris(), "2026-09-18", from, to, step));
     assert!(bad("10:00", "10:00", "1h").contains("2026-09-19T10:00"));
     assert!(bad("10:00", "11:00", "0s").contains("step of 0"));
     assert!(bad("12:00", "2026-09-18T11:00", "1h").contains("before it begins"));
-    let year = message(track(
-        &paris(),
-        "",
-        "2026-01-01T00:00",
-        "2027-01-01T00:00",
-        "1s",
-    ));
+    let year = message(track(&paris(), "", "2026-01-01T00:00", "2027-01-01T00:00", "1s"));
     assert!(year.contains("at least 32s"), "{year}");
-    let long = message(track(
-        &paris(),
-        "",
-        "2026-01-01T00:00",
-        "2126-01-01T00:00",
-        "1h",
-    ));
+    let long = message(track(&paris(), "", "2026-01-01T00:00", "2126-01-01T00:00", "1h"));
     assert!(long.contains("shorter"), "{long}");
     let far = message(track(&paris(), "9999-12-31", "10:00", "11:00", "1h"));
     assert!(far.contains("9999"), "{far}");
@@ -404,15 +323,9 @@ fn windows_that_are_none() {
 fn polar_day_and_night_have_no_sunrise() {
     let tromso = place(69.6492, 18.9553, 0.0, "Europe/Oslo");
     let day = message(track(&tromso, "2026-06-21", "sunrise+1h30", "15:00", "1h"));
-    assert!(
-        day.contains("no sunrise") && day.contains("polar day"),
-        "{day}"
-    );
+    assert!(day.contains("no sunrise") && day.contains("polar day"), "{day}");
     let night = message(track(&tromso, "2026-12-21", "10:00", "sunset-1h", "1h"));
-    assert!(
-        night.contains("no sunset") && night.contains("polar night"),
-        "{night}"
-    );
+    assert!(night.contains("no sunset") && night.contains("polar night"), "{night}");
     let around = track(&tromso, "2026-06-21", "0:00", "2026-06-22T00:00", "1h").unwrap();
     assert!(around.instants.iter().all(|i| !i.night));
     assert!(around.days[0].sunrise.is_none() && around.days[0].sunset.is_none());
@@ -438,30 +351,10 @@ fn durations_and_readings_as_people_write_them() {
     ] {
         assert_eq!(parse_duration_secs(text), Ok(secs), "{text}");
     }
-    for text in [
-        "",
-        "30",
-        "h",
-        "1.5h",
-        "-1h",
-        "1h30m",
-        "30s1h",
-        "1min30",
-        "99999999h",
-        "1h30 30",
-        "é",
-    ] {
+    for text in ["", "30", "h", "1.5h", "-1h", "1h30m", "30s1h", "1min30", "99999999h", "1h30 30", "é"] {
         assert!(parse_duration_secs(text).is_err(), "{text}");
     }
-    for text in [
-        "9:00",
-        "10:00:30",
-        "sunrise",
-        "sunset - 1h30",
-        "02:30+01:00",
-        "2026-09-18 15:00",
-        "12:00Z",
-    ] {
+    for text in ["9:00", "10:00:30", "sunrise", "sunset - 1h30", "02:30+01:00", "2026-09-18 15:00", "12:00Z"] {
         assert!(text.parse::<Reading>().is_ok(), "{text}");
     }
     for text in [
@@ -511,10 +404,7 @@ fn places_are_checked() {
         assert_eq!(found.time_zone.name(), zone);
     }
     for (latitude, longitude) in [(90.0, 180.0), (-90.0, -180.0), (0.0, 180.0), (0.0, -180.0)] {
-        assert!(
-            Place::new("", latitude, longitude, 0.0, None).is_ok(),
-            "{latitude} {longitude}"
-        );
+        assert!(Place::new("", latitude, longitude, 0.0, None).is_ok(), "{latitude} {longitude}");
     }
 }
 

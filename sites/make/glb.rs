@@ -40,22 +40,12 @@ pub(crate) struct Node {
 impl Node {
     /// A node without a mesh, for its children.
     pub(crate) fn group(name: &str, children: Vec<Node>) -> Self {
-        Self {
-            name: name.to_owned(),
-            mesh: None,
-            position: DVec3::ZERO,
-            quarter_turns: 0,
-            mirrored: false,
-            children,
-        }
+        Self { name: name.to_owned(), mesh: None, position: DVec3::ZERO, quarter_turns: 0, mirrored: false, children }
     }
 
     /// A node that shows a mesh.
     pub(crate) fn showing(name: &str, mesh: MeshId) -> Self {
-        Self {
-            mesh: Some(mesh),
-            ..Self::group(name, Vec::new())
-        }
+        Self { mesh: Some(mesh), ..Self::group(name, Vec::new()) }
     }
 
     /// Moved by metres east, north, up.
@@ -82,17 +72,8 @@ impl Node {
         let [x, y, z] = in_gltf(on_grid(self.position));
         let flip = if self.mirrored { -1.0 } else { 1.0 };
         if self.quarter_turns % 2 == 1 {
-            let sin = if self.quarter_turns % 4 == 1 {
-                1.0
-            } else {
-                -1.0
-            };
-            let columns = [
-                [0.0, 0.0, -sin * flip, 0.0],
-                [0.0, 1.0, 0.0, 0.0],
-                [sin, 0.0, 0.0, 0.0],
-                [x, y, z, 1.0],
-            ];
+            let sin = if self.quarter_turns % 4 == 1 { 1.0 } else { -1.0 };
+            let columns = [[0.0, 0.0, -sin * flip, 0.0], [0.0, 1.0, 0.0, 0.0], [sin, 0.0, 0.0, 0.0], [x, y, z, 1.0]];
             node["matrix"] = json!(columns.concat());
             return;
         }
@@ -110,11 +91,7 @@ impl Node {
 
 impl Model {
     pub(crate) fn new() -> Self {
-        Self {
-            materials: Vec::new(),
-            meshes: Vec::new(),
-            nodes: Vec::new(),
-        }
+        Self { materials: Vec::new(), meshes: Vec::new(), nodes: Vec::new() }
     }
 
     /// A matt material of one colour: linear red, green, blue, alpha.
@@ -142,11 +119,7 @@ impl Model {
         let mut data = Data::default();
         let meshes: Vec<Value> = self.meshes.iter().map(|mesh| data.mesh(mesh)).collect();
         let mut nodes = Vec::new();
-        let roots: Vec<usize> = self
-            .nodes
-            .iter()
-            .map(|root| add_node(root, &mut nodes))
-            .collect();
+        let roots: Vec<usize> = self.nodes.iter().map(|root| add_node(root, &mut nodes)).collect();
         let json = json!({
             "asset": {"version": "2.0", "generator": "gnomon make-sites"},
             "scene": 0,
@@ -179,11 +152,7 @@ impl Model {
 
 /// Adds a node behind its children and gives its index.
 fn add_node(node: &Node, nodes: &mut Vec<Value>) -> usize {
-    let children: Vec<usize> = node
-        .children
-        .iter()
-        .map(|child| add_node(child, nodes))
-        .collect();
+    let children: Vec<usize> = node.children.iter().map(|child| add_node(child, nodes)).collect();
     let mut value = json!({"name": node.name});
     if let Some(MeshId(mesh)) = node.mesh {
         value["mesh"] = json!(mesh);
@@ -219,28 +188,16 @@ impl Data {
     }
 
     fn positions(&mut self, solids: &[Solid]) -> usize {
-        let points: Vec<[f32; 3]> = solids
-            .iter()
-            .flat_map(|solid| &solid.points)
-            .map(|&point| in_gltf(point))
-            .collect();
+        let points: Vec<[f32; 3]> =
+            solids.iter().flat_map(|solid| &solid.points).map(|&point| in_gltf(point)).collect();
         let bound = |pick: fn(f32, f32) -> f32| -> [f32; 3] {
-            let join =
-                |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|axis| pick(a[axis], b[axis]));
-            points
-                .iter()
-                .copied()
-                .reduce(join)
-                .expect("a primitive has points")
+            let join = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|axis| pick(a[axis], b[axis]));
+            points.iter().copied().reduce(join).expect("a primitive has points")
         };
         let accessor = json!({
             "componentType": 5126, "type": "VEC3", "count": points.len(), "min": bound(f32::min), "max": bound(f32::max),
         });
-        let bytes = points
-            .iter()
-            .flatten()
-            .flat_map(|value| value.to_le_bytes())
-            .collect();
+        let bytes = points.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
         self.accessor(accessor, bytes, 34962)
     }
 
@@ -248,31 +205,18 @@ impl Data {
         let mut indices = Vec::new();
         let mut first = 0;
         for solid in solids {
-            indices.extend(
-                solid
-                    .triangles
-                    .iter()
-                    .flatten()
-                    .map(|corner| corner + first),
-            );
+            indices.extend(solid.triangles.iter().flatten().map(|corner| corner + first));
             first += solid.points.len() as u32;
         }
         // 65535 itself is the restart index, which glTF does not allow.
         let is_short = first <= 65535;
         let bytes = if is_short {
-            indices
-                .iter()
-                .flat_map(|&index| (index as u16).to_le_bytes())
-                .collect()
+            indices.iter().flat_map(|&index| (index as u16).to_le_bytes()).collect()
         } else {
-            indices
-                .iter()
-                .flat_map(|index| index.to_le_bytes())
-                .collect()
+            indices.iter().flat_map(|index| index.to_le_bytes()).collect()
         };
         let component = if is_short { 5123 } else { 5125 };
-        let accessor =
-            json!({"componentType": component, "type": "SCALAR", "count": indices.len()});
+        let accessor = json!({"componentType": component, "type": "SCALAR", "count": indices.len()});
         self.accessor(accessor, bytes, 34963)
     }
 

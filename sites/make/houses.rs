@@ -41,10 +41,7 @@ impl Section {
     }
 
     fn moved(self, by: DVec2) -> Self {
-        Self {
-            street: self.street + by,
-            court: self.court + by,
-        }
+        Self { street: self.street + by, court: self.court + by }
     }
 }
 
@@ -58,26 +55,14 @@ pub(super) fn perimeter_block(width: f64, depth: f64, seed: u64) -> Buildings {
         let length = (after - here).length();
         let along = (after - here) / length;
         let inwards = along.perp();
-        let section = |way: f64| Section {
-            street: here + way * along,
-            court: here + way * along + HOUSE_DEPTH * inwards,
-        };
+        let section =
+            |way: f64| Section { street: here + way * along, court: here + way * along + HOUSE_DEPTH * inwards };
 
         let back = (before - here) / (before - here).length();
-        let arriving = Section {
-            street: here + CORNER_FRONT * back,
-            court: here + CORNER_FRONT * back + HOUSE_DEPTH * along,
-        };
-        let turning = Section {
-            street: here,
-            court: here + HOUSE_DEPTH * (along + inwards),
-        };
-        house(
-            &mut block,
-            &mut dice,
-            &[arriving, turning, section(CORNER_FRONT)],
-            2.0,
-        );
+        let arriving =
+            Section { street: here + CORNER_FRONT * back, court: here + CORNER_FRONT * back + HOUSE_DEPTH * along };
+        let turning = Section { street: here, court: here + HOUSE_DEPTH * (along + inwards) };
+        house(&mut block, &mut dice, &[arriving, turning, section(CORNER_FRONT)], 2.0);
 
         let count = ((length - 2.0 * CORNER_FRONT) / 14.0).round();
         let front = (length - 2.0 * CORNER_FRONT) / count;
@@ -85,30 +70,14 @@ pub(super) fn perimeter_block(width: f64, depth: f64, seed: u64) -> Buildings {
             let start = CORNER_FRONT + front * f64::from(index);
             // A hand into the neighbours' walls, so that no two houses share an edge.
             let overlap = 0.125 * along;
-            house(
-                &mut block,
-                &mut dice,
-                &[
-                    section(start).moved(-overlap),
-                    section(start + front).moved(overlap),
-                ],
-                0.0,
-            );
+            house(&mut block, &mut dice, &[section(start).moved(-overlap), section(start + front).moved(overlap)], 0.0);
         }
     }
     // A workshop in the courtyard, lit from a roof that leans on nobody.
     let half = dvec2(width / 2.0 - HOUSE_DEPTH - 12.0, 4.0);
-    block
-        .walls
-        .push(prism(&rect([-half.x, -half.y], [half.x, half.y]), 0.0, 4.2));
-    let profile =
-        [(-4.4, 4.0), (4.4, 4.0), (4.4, 4.3), (0.0, 6.6), (-4.4, 4.3)].map(|(y, z)| dvec2(y, z));
-    block.roofs.push(extrude(
-        &profile,
-        dvec3(-half.x - 0.4, 0.0, 0.0),
-        dvec3(half.x + 0.4, 0.0, 0.0),
-        DVec3::Y,
-    ));
+    block.walls.push(prism(&rect([-half.x, -half.y], [half.x, half.y]), 0.0, 4.2));
+    let profile = [(-4.4, 4.0), (4.4, 4.0), (4.4, 4.3), (0.0, 6.6), (-4.4, 4.3)].map(|(y, z)| dvec2(y, z));
+    block.roofs.push(extrude(&profile, dvec3(-half.x - 0.4, 0.0, 0.0), dvec3(half.x + 0.4, 0.0, 0.0), DVec3::Y));
     block
 }
 
@@ -118,45 +87,21 @@ fn house(block: &mut Buildings, dice: &mut Dice, sections: &[Section], extra_hei
     let eaves = 4.0 + 3.4 * storeys as f64 - 1.5 + extra_height;
     let street = sections.iter().map(|section| section.street);
     let court = sections.iter().rev().map(|section| section.court);
-    block
-        .walls
-        .push(prism(&street.chain(court).collect::<Vec<_>>(), 0.0, eaves));
+    block.walls.push(prism(&street.chain(court).collect::<Vec<_>>(), 0.0, eaves));
 
     // Share of the way from street to courtyard, and height above the eaves.
-    let gable: &[(f64, f64)] = &[
-        (-0.05, -0.2),
-        (1.05, -0.2),
-        (1.05, 0.0),
-        (0.5, 5.2),
-        (-0.05, 0.0),
-    ];
-    let mansard: &[(f64, f64)] = &[
-        (-0.05, -0.2),
-        (1.05, -0.2),
-        (1.05, 0.0),
-        (0.88, 3.4),
-        (0.5, 5.6),
-        (0.12, 3.4),
-        (-0.05, 0.0),
-    ];
+    let gable: &[(f64, f64)] = &[(-0.05, -0.2), (1.05, -0.2), (1.05, 0.0), (0.5, 5.2), (-0.05, 0.0)];
+    let mansard: &[(f64, f64)] =
+        &[(-0.05, -0.2), (1.05, -0.2), (1.05, 0.0), (0.88, 3.4), (0.5, 5.6), (0.12, 3.4), (-0.05, 0.0)];
     let is_mansard = dice.roll(3) == 0;
     let profile = if is_mansard { mansard } else { gable };
-    let ring = |section: &Section| {
-        profile
-            .iter()
-            .map(|&(share, up)| section.at(share, eaves + up))
-            .collect()
-    };
-    block
-        .roofs
-        .push(loft(&sections.iter().map(ring).collect::<Vec<_>>()));
+    let ring = |section: &Section| profile.iter().map(|&(share, up)| section.at(share, eaves + up)).collect();
+    block.roofs.push(loft(&sections.iter().map(ring).collect::<Vec<_>>()));
 
     let (first, last) = (sections[0], sections[sections.len() - 1]);
     for share in [0.34, 0.64] {
         let foot = first.at(share, eaves + 1.0) + along_street(sections, 0) * 0.9;
-        block.walls.push(loft(
-            &[0.0, 5.6].map(|z| rectangle(foot + z * DVec3::Z, dvec2(0.45, 0.45))),
-        ));
+        block.walls.push(loft(&[0.0, 5.6].map(|z| rectangle(foot + z * DVec3::Z, dvec2(0.45, 0.45)))));
     }
     // Dormers look to the street and, from the courtyard's slope, to the courtyard.
     let pieces = sections.len() - 1;
@@ -165,24 +110,12 @@ fn house(block: &mut Buildings, dice: &mut Dice, sections: &[Section], extra_hei
         let count = 3;
         for index in 1..=count {
             let share = f64::from(index) / f64::from(count + 1);
-            let across = Section {
-                street: from.street.lerp(to.street, share),
-                court: from.court.lerp(to.court, share),
-            };
+            let across =
+                Section { street: from.street.lerp(to.street, share), court: from.court.lerp(to.court, share) };
             let up = if is_mansard { 1.6 } else { 1.5 };
-            block.roofs.push(strut(
-                across.at(0.04, eaves + up),
-                across.at(0.3, eaves + up),
-                1.4,
-                1.8,
-            ));
+            block.roofs.push(strut(across.at(0.04, eaves + up), across.at(0.3, eaves + up), 1.4, 1.8));
             if index != 2 && pieces == 1 {
-                block.roofs.push(strut(
-                    across.at(0.96, eaves + up),
-                    across.at(0.7, eaves + up),
-                    1.4,
-                    1.8,
-                ));
+                block.roofs.push(strut(across.at(0.96, eaves + up), across.at(0.7, eaves + up), 1.4, 1.8));
             }
         }
     }
@@ -192,12 +125,8 @@ fn house(block: &mut Buildings, dice: &mut Dice, sections: &[Section], extra_hei
         if pieces == 1 {
             let along = along_street(sections, 0).truncate() * 1.6;
             let out = (first.street - first.court) / HOUSE_DEPTH;
-            let plan = [
-                middle - along - out,
-                middle + along - out,
-                middle + along + out * 0.9,
-                middle - along + out * 0.9,
-            ];
+            let plan =
+                [middle - along - out, middle + along - out, middle + along + out * 0.9, middle - along + out * 0.9];
             block.walls.push(prism(&plan, 4.2, eaves - 2.5));
         }
     }

@@ -40,10 +40,7 @@ impl Solid {
         if volume(&welded, &kept) < 0 {
             kept.iter_mut().for_each(|triangle| triangle.reverse());
         }
-        let solid = Self {
-            points: welded,
-            triangles: kept,
-        };
+        let solid = Self { points: welded, triangles: kept };
         solid.assert_sound();
         solid
     }
@@ -57,32 +54,20 @@ impl Solid {
                 *edges.entry(edge).or_insert(0) += 1;
             }
             let corners = [a, b, c].map(|corner| self.points[corner as usize]);
-            assert_ne!(
-                area(corners),
-                [0; 3],
-                "a triangle without area: {corners:?}"
-            );
+            assert_ne!(area(corners), [0; 3], "a triangle without area: {corners:?}");
         }
         for (&[a, b], &count) in &edges {
             let ends = [self.points[a as usize], self.points[b as usize]];
             assert_eq!(count, 1, "{count} triangles run along {ends:?}");
-            assert!(
-                edges.contains_key(&[b, a]),
-                "nothing closes the edge {ends:?}"
-            );
+            assert!(edges.contains_key(&[b, a]), "nothing closes the edge {ends:?}");
         }
-        assert!(
-            volume(&self.points, &self.triangles) > 0,
-            "a solid without volume"
-        );
+        assert!(volume(&self.points, &self.triangles) > 0, "a solid without volume");
     }
 }
 
 /// Metres to the nearest grid point.
 pub(crate) fn on_grid(metres: DVec3) -> Point {
-    (metres * STEPS)
-        .to_array()
-        .map(|steps| steps.round() as i32)
+    (metres * STEPS).to_array().map(|steps| steps.round() as i32)
 }
 
 /// Skins rings of equally many points one after the other and closes the two ends. A ring may shrink to a line or a
@@ -106,16 +91,8 @@ pub(crate) fn hoop(rings: &[Vec<DVec3>]) -> Solid {
 
 fn skin(rings: &[Vec<DVec3>], around: bool) -> (Vec<Point>, Vec<[u32; 3]>) {
     let count = rings[0].len() as u32;
-    let points: Vec<Point> = rings
-        .iter()
-        .flatten()
-        .map(|&point| on_grid(point))
-        .collect();
-    assert_eq!(
-        points.len(),
-        rings.len() * rings[0].len(),
-        "rings of different lengths"
-    );
+    let points: Vec<Point> = rings.iter().flatten().map(|&point| on_grid(point)).collect();
+    assert_eq!(points.len(), rings.len() * rings[0].len(), "rings of different lengths");
     let steps = rings.len() as u32 - u32::from(!around);
     let mut triangles = Vec::new();
     for ring in 0..steps {
@@ -151,25 +128,15 @@ fn triangulate(ring: &[Point]) -> Vec<[u32; 3]> {
     while left.len() > 3 {
         let count = left.len();
         // Going on behind the last ear spreads the triangles instead of fanning all of them from one corner.
-        let ear = (0..count)
-            .map(|offset| (start + offset) % count)
-            .find(|&here| {
-                let [a, b, c] =
-                    [(here + count - 1) % count, here, (here + 1) % count].map(|slot| left[slot]);
-                let is_free = |&other: &u32| {
-                    [a, b, c].contains(&other)
-                        || side(a, b, other) < 0
-                        || side(b, c, other) < 0
-                        || side(c, a, other) < 0
-                };
-                side(a, b, c) > 0 && left.iter().all(is_free)
-            });
+        let ear = (0..count).map(|offset| (start + offset) % count).find(|&here| {
+            let [a, b, c] = [(here + count - 1) % count, here, (here + 1) % count].map(|slot| left[slot]);
+            let is_free = |&other: &u32| {
+                [a, b, c].contains(&other) || side(a, b, other) < 0 || side(b, c, other) < 0 || side(c, a, other) < 0
+            };
+            side(a, b, c) > 0 && left.iter().all(is_free)
+        });
         let here = ear.expect("a simple polygon has an ear");
-        triangles.push([
-            left[(here + count - 1) % count],
-            left[here],
-            left[(here + 1) % count],
-        ]);
+        triangles.push([left[(here + count - 1) % count], left[here], left[(here + 1) % count]]);
         left.remove(here);
         start = here;
     }
@@ -179,15 +146,9 @@ fn triangulate(ring: &[Point]) -> Vec<[u32; 3]> {
 
 /// Twice the directed area of a triangle, exact.
 fn area([a, b, c]: [Point; 3]) -> [i128; 3] {
-    let edge = |to: Point| -> [i128; 3] {
-        std::array::from_fn(|axis| i128::from(to[axis]) - i128::from(a[axis]))
-    };
+    let edge = |to: Point| -> [i128; 3] { std::array::from_fn(|axis| i128::from(to[axis]) - i128::from(a[axis])) };
     let (u, v) = (edge(b), edge(c));
-    [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ]
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }
 
 /// Six times the volume, exact.

@@ -3,9 +3,7 @@
 //! A leg, an arch with its girder, and a side of the shaft are drawn once and stand four times.
 
 use super::glb::{Material, Model, Node};
-use super::shapes::{
-    circle, lathe, lathe_hoop, on_circle, prism, rectangle, ring_wall, square, strut,
-};
+use super::shapes::{circle, lathe, lathe_hoop, on_circle, prism, rectangle, ring_wall, square, strut};
 use super::solids::{Solid, loft};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 
@@ -43,13 +41,8 @@ pub(super) fn model() -> Model {
 
     let around = |name: &str, mesh| {
         let sides = ["south", "east", "north", "west"];
-        let side = |(turns, side): (usize, &&str)| {
-            Node::showing(&format!("{name}-{side}"), mesh).turned(turns as u32)
-        };
-        Node::group(
-            &format!("{name}s"),
-            sides.iter().enumerate().map(side).collect(),
-        )
+        let side = |(turns, side): (usize, &&str)| Node::showing(&format!("{name}-{side}"), mesh).turned(turns as u32);
+        Node::group(&format!("{name}s"), sides.iter().enumerate().map(side).collect())
     };
     let legs = vec![
         Node::showing("leg-north-east", leg),
@@ -80,12 +73,7 @@ fn chord(heights: &[f64], at: impl Fn(f64) -> DVec2, thickness: impl Fn(f64) -> 
 }
 
 /// The bracing between two chords: in each bay a cross, and a bar along its top.
-fn lattice(
-    heights: &[f64],
-    a: impl Fn(f64) -> DVec2,
-    b: impl Fn(f64) -> DVec2,
-    thickness: f64,
-) -> Vec<Solid> {
+fn lattice(heights: &[f64], a: impl Fn(f64) -> DVec2, b: impl Fn(f64) -> DVec2, thickness: f64) -> Vec<Solid> {
     let bay = |ends: &[f64]| {
         let [low, high] = [ends[0], ends[1]];
         let bar = |from: DVec3, to: DVec3| strut(from, to, thickness, thickness);
@@ -100,9 +88,7 @@ fn lattice(
 
 /// Equal bays between two heights.
 fn bays(from: f64, to: f64, count: u32) -> Vec<f64> {
-    (0..=count)
-        .map(|bay| from + (to - from) * f64::from(bay) / f64::from(count))
-        .collect()
+    (0..=count).map(|bay| from + (to - from) * f64::from(bay) / f64::from(count)).collect()
 }
 
 /// The leg in the north-east.
@@ -116,23 +102,14 @@ fn leg() -> Vec<Solid> {
     let lower = bays(4.0, FIRST_PLATFORM, 4);
     let middle = bays(FIRST_PLATFORM, SECOND_PLATFORM, 3);
     let upper = bays(SECOND_PLATFORM, JOINT, 4);
-    let heights: Vec<f64> = lower
-        .iter()
-        .chain(&middle[1..])
-        .chain(&upper[1..])
-        .copied()
-        .collect();
+    let heights: Vec<f64> = lower.iter().chain(&middle[1..]).chain(&upper[1..]).copied().collect();
 
     let mut solids = Vec::new();
     for side in 0..4 {
         let (a, b) = (corners[side], corners[(side + 1) % 4]);
         // Above the second platform the innermost chord would run in the lift's way.
         let is_innermost = side == 0;
-        let end = if is_innermost {
-            heights.len() - upper.len() + 1
-        } else {
-            heights.len()
-        };
+        let end = if is_innermost { heights.len() - upper.len() + 1 } else { heights.len() };
         // The outermost chord goes on in the shaft; the others have done their work at the joint.
         let thinning = if side == 2 { 1.0 / 200.0 } else { 1.0 / 118.0 };
         solids.push(chord(&heights[..end], a, |z| 2.2 - z * thinning));
@@ -152,18 +129,11 @@ fn pedestal() -> Vec<Solid> {
     let middle = DVec2::splat((near + far) / 2.0);
     let half = (far - near) / 2.0;
     let step = |top: f64, margin: f64| rectangle(middle.extend(top), DVec2::splat(half + margin));
-    let mut solids = vec![loft(&[
-        step(0.0, 4.5),
-        step(1.2, 4.2),
-        step(1.2, 3.6),
-        step(2.2, 3.4),
-    ])];
+    let mut solids = vec![loft(&[step(0.0, 4.5), step(1.2, 4.2), step(1.2, 3.6), step(2.2, 3.4)])];
     for (x, y) in [(near, near), (far, near), (far, far), (near, far)] {
         // The chords lean towards the axis, and so do the piers.
         let lean = outer(5.0) - outer(0.0);
-        let pier = |z: f64, half: f64, lean: f64| {
-            rectangle(dvec3(x + lean, y + lean, z), DVec2::splat(half))
-        };
+        let pier = |z: f64, half: f64, lean: f64| rectangle(dvec3(x + lean, y + lean, z), DVec2::splat(half));
         solids.push(loft(&[pier(1.0, 3.2, 0.0), pier(5.0, 2.4, lean)]));
     }
     solids
@@ -187,22 +157,14 @@ fn arch() -> Vec<Solid> {
             let out = dvec3(radial.x, 0.0, radial.y) * (size / 2.0);
             let across = DVec3::Y * (size * 0.6);
             let centre = at(piece);
-            vec![
-                centre - out - across,
-                centre + out - across,
-                centre + out + across,
-                centre - out + across,
-            ]
+            vec![centre - out - across, centre + out - across, centre + out + across, centre - out + across]
         };
         loft(&(0..=PIECES).map(section).collect::<Vec<_>>())
     };
     let mut solids = vec![rib(&lower, 1.0), rib(&upper, 1.0)];
     for piece in 0..PIECES {
-        let (from, to) = if piece % 2 == 0 {
-            (lower(piece), upper(piece + 1))
-        } else {
-            (upper(piece), lower(piece + 1))
-        };
+        let (from, to) =
+            if piece % 2 == 0 { (lower(piece), upper(piece + 1)) } else { (upper(piece), lower(piece + 1)) };
         solids.push(strut(from, to, 0.5, 0.5));
     }
 
@@ -210,8 +172,7 @@ fn arch() -> Vec<Solid> {
     const PANELS: u32 = 6;
     let (bottom, top) = (FIRST_PLATFORM - 7.0, FIRST_PLATFORM - 1.5);
     let half = inner(bottom) + 2.0;
-    let node =
-        |panel: u32, z: f64| on_face(half * (2.0 * f64::from(panel) / f64::from(PANELS) - 1.0), z);
+    let node = |panel: u32, z: f64| on_face(half * (2.0 * f64::from(panel) / f64::from(PANELS) - 1.0), z);
     solids.push(strut(node(0, bottom), node(PANELS, bottom), 1.0, 1.0));
     solids.push(strut(node(0, top), node(PANELS, top), 1.0, 1.0));
     for panel in 0..PANELS {
@@ -230,12 +191,7 @@ fn shaft() -> Vec<Solid> {
     solids.extend(lattice(&heights, west, east, 0.5));
     // Between the legs, from the second platform to the joint, bars tie the two halves of the face.
     for z in &bays(SECOND_PLATFORM, JOINT, 4)[1..4] {
-        solids.push(strut(
-            dvec3(-inner(*z), -outer(*z), *z),
-            dvec3(inner(*z), -outer(*z), *z),
-            0.6,
-            0.6,
-        ));
+        solids.push(strut(dvec3(-inner(*z), -outer(*z), *z), dvec3(inner(*z), -outer(*z), *z), 0.6, 0.6));
     }
     solids
 }
@@ -247,19 +203,9 @@ fn decks() -> Vec<Solid> {
     let (low, high) = (FIRST_PLATFORM, SECOND_PLATFORM);
     let mut solids = vec![
         ring_wall(&square(first + 3.5), &square(13.0), low - 1.5, low),
-        ring_wall(
-            &square(first + 2.0),
-            &square(first + 1.4),
-            low - 4.0,
-            low - 1.25,
-        ),
+        ring_wall(&square(first + 2.0), &square(first + 1.4), low - 4.0, low - 1.25),
         ring_wall(&square(second + 2.5), &square(4.0), high - 1.2, high),
-        ring_wall(
-            &square(second + 1.4),
-            &square(second + 0.9),
-            high - 3.5,
-            high - 1.0,
-        ),
+        ring_wall(&square(second + 1.4), &square(second + 0.9), high - 3.5, high - 1.0),
         // The upper storey of the second platform stands back.
         ring_wall(&square(second - 1.0), &square(5.0), high + 3.6, high + 4.2),
     ];
@@ -267,17 +213,11 @@ fn decks() -> Vec<Solid> {
         let side = on_circle(f64::from(turns) / 4.0);
         let along = side.perp();
         let hall = |from: f64, to: f64, half: f64| -> Vec<DVec2> {
-            [(from, -half), (to, -half), (to, half), (from, half)]
-                .map(|(x, y)| x * side + y * along)
-                .to_vec()
+            [(from, -half), (to, -half), (to, half), (from, half)].map(|(x, y)| x * side + y * along).to_vec()
         };
         let of_first = hall(inner(low) + 2.0, first - 3.0, 11.0);
         solids.push(prism(&of_first, low - 0.25, low + 5.5));
-        solids.push(prism(
-            &hall(5.5, second - 4.5, 4.5),
-            high - 0.25,
-            high + 3.0,
-        ));
+        solids.push(prism(&hall(5.5, second - 4.5, 4.5), high - 0.25, high + 3.0));
     }
     solids
 }
@@ -285,17 +225,9 @@ fn decks() -> Vec<Solid> {
 /// Parapets of the platforms: posts and a rail.
 fn railings() -> Vec<Solid> {
     let mut solids = Vec::new();
-    let places = [
-        (outer(FIRST_PLATFORM) + 3.2, FIRST_PLATFORM, 5),
-        (outer(SECOND_PLATFORM) + 2.2, SECOND_PLATFORM, 3),
-    ];
+    let places = [(outer(FIRST_PLATFORM) + 3.2, FIRST_PLATFORM, 5), (outer(SECOND_PLATFORM) + 2.2, SECOND_PLATFORM, 3)];
     for (half, floor, posts) in places {
-        solids.push(ring_wall(
-            &square(half + 0.1),
-            &square(half - 0.1),
-            floor + 1.1,
-            floor + 1.3,
-        ));
+        solids.push(ring_wall(&square(half + 0.1), &square(half - 0.1), floor + 1.1, floor + 1.3));
         for turns in 0..4 {
             let side = on_circle(f64::from(turns) / 4.0);
             for post in 0..posts {
@@ -323,35 +255,12 @@ fn lantern() -> Vec<Solid> {
     let foot = DVec3::ZERO;
     let mut solids = vec![
         ring_wall(&square(8.0), &square(7.8), 1.6, 1.8),
-        lathe(
-            foot,
-            &[
-                (3.0, 6.2),
-                (3.0, 11.0),
-                (2.6, 12.8),
-                (1.5, 14.2),
-                (0.6, 14.8),
-            ],
-            12,
-        ),
-        lathe(
-            foot,
-            &[(0.55, 14.5), (0.4, 20.0), (0.12, 300.0 - THIRD_PLATFORM)],
-            8,
-        ),
-        lathe_hoop(
-            foot,
-            &[(1.4, 16.8), (1.4, 17.1), (0.3, 17.1), (0.3, 16.8)],
-            12,
-        ),
+        lathe(foot, &[(3.0, 6.2), (3.0, 11.0), (2.6, 12.8), (1.5, 14.2), (0.6, 14.8)], 12),
+        lathe(foot, &[(0.55, 14.5), (0.4, 20.0), (0.12, 300.0 - THIRD_PLATFORM)], 8),
+        lathe_hoop(foot, &[(1.4, 16.8), (1.4, 17.1), (0.3, 17.1), (0.3, 16.8)], 12),
     ];
     for corner in circle(foot, 5.2, 4) {
-        solids.push(strut(
-            corner + 5.0 * DVec3::Z,
-            corner * 0.5 + 10.5 * DVec3::Z,
-            0.3,
-            0.3,
-        ));
+        solids.push(strut(corner + 5.0 * DVec3::Z, corner * 0.5 + 10.5 * DVec3::Z, 0.3, 0.3));
     }
     solids
 }
@@ -366,20 +275,12 @@ fn ground(lawn: Material, path: Material) -> Vec<(Material, Vec<Solid>)> {
         for side in [-1.0, 1.0] {
             let corner = |forth: f64, beside: f64| forth * along + side * beside * along.perp();
             let (near, far) = (80.0, 80.0 + length);
-            let strip = [
-                corner(near, 12.0),
-                corner(far, 12.0),
-                corner(far, 46.0),
-                corner(near, 46.0),
-            ];
+            let strip = [corner(near, 12.0), corner(far, 12.0), corner(far, 46.0), corner(near, 46.0)];
             lawns.push(prism(&strip, 0.0, LAWN_TOP));
         }
     }
     let basin = circle(dvec3(-340.0, 0.0, 0.0), 22.0, 16);
     let rim: Vec<DVec2> = basin.iter().map(|point| point.truncate()).collect();
     let esplanade = ring_wall(&square(30.0), &square(18.0), 0.0, 0.1);
-    vec![
-        (lawn, lawns),
-        (path, vec![esplanade, prism(&rim, 0.0, 0.3)]),
-    ]
+    vec![(lawn, lawns), (path, vec![esplanade, prism(&rim, 0.0, 0.3)])]
 }

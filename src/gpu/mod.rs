@@ -1,1 +1,9 @@
-//! .
+//! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, readback.
+
+mod device;
+pub mod layout;
+pub mod readback;
+pub mod shaders;
+pub mod targets;
+
+pub use device::{Gpu, GpuError};

@@ -1,5 +1,7 @@
 //! The answer: shaded time per cell, and where it lies on the ground.
 
+pub mod accumulate;
+
 use crate::view::Grid;
 
 /// The raster of shaded time.
@@ -23,3 +25,20 @@ impl Profile {
         (f64::from(self.shaded[cell]) / (255.0 * 3600.0)) as f32
     }
 }
+
+/// What drew an answer: never `auto`, always the choice that was made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Drawn {
+    /// The technique's name as the command takes it: `stencil`, `ray-cast`, …
+    pub technique: &'static str,
+    /// The silhouette finder's name as the command takes it; absent where none was used.
+    pub silhouette: Option<&'static str>,
+    /// `gpu` or `cpu`.
+    pub engine: &'static str,
+    /// The graphics adapter's own name; absent where none was used.
+    pub adapter: Option<String>,
+}
+
+/// How long each stage took, in seconds and in the order of the work; the last one is `total`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Timings(pub Vec<(&'static str, f64)>);

@@ -30,19 +30,19 @@ pub struct Scene {
 }
 
 /// The last mask of a technique, where it was drawn.
-pub enum Drawn<'a> {
+pub enum DrawnMask<'a> {
     /// In the processor's memory.
     Memory(&'a Mask),
     /// An R8Unorm texture: the share of the sun that is seen.
     Texture(&'a Gpu, &'a wgpu::Texture),
 }
 
-impl Drawn<'_> {
+impl DrawnMask<'_> {
     /// The mask's pixels.
     pub fn read(&self) -> Result<Mask, ShadowError> {
         match self {
-            Drawn::Memory(mask) => Ok((*mask).clone()),
-            Drawn::Texture(gpu, texture) => Ok(Mask {
+            DrawnMask::Memory(mask) => Ok((*mask).clone()),
+            DrawnMask::Texture(gpu, texture) => Ok(Mask {
                 width: texture.width(),
                 height: texture.height(),
                 share: readback::texels(gpu, texture, wgpu::TextureAspect::All)?,
@@ -54,7 +54,7 @@ impl Drawn<'_> {
 /// A way to find shadows, made for one scene and one view.
 pub trait Technique {
     /// Draws the mask for the unit vector to the sun, which is above the horizon.
-    fn draw(&mut self, to_sun: DVec3) -> Result<Drawn<'_>, ShadowError>;
+    fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
 
     /// What the cells see of the receivers.
     fn surface(&self) -> Result<Surface, ShadowError>;

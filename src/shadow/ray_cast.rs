@@ -6,7 +6,7 @@
 //! edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as hits.
 //! The tree only prunes: its boxes are padded beyond all rounding of its `f32` rays.
 
-use super::{Drawn, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
+use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::view::{Mask, Surface, View};
 use glam::{DVec3, DVec4, Vec3, Vec3A};
@@ -34,8 +34,8 @@ impl RayCaster {
             Aabb::new(a.min(b).min(c) - padding, a.max(b).max(c) + padding)
         };
         let boxes: Vec<Aabb> = (0..mesh.faces.len()).into_par_iter().map(box_of).collect();
-        let tree = (!boxes.is_empty())
-            .then(|| build_cwbvh(&boxes, BvhBuildParams::fast_build(), &mut Duration::default()));
+        let tree =
+            (!boxes.is_empty()).then(|| build_cwbvh(&boxes, BvhBuildParams::fast_build(), &mut Duration::default()));
         let faces = tree.as_ref().map_or(Vec::new(), |tree| tree.primitive_indices.clone());
         RayCaster { tree, corners: faces.iter().map(|&face| mesh.corners(face as usize)).collect(), faces }
     }
@@ -130,7 +130,7 @@ struct Seen {
 /// The technique: one ray a cell to what is seen, once, and one ray a cell towards the sun at every instant.
 pub struct RayCast {
     scene: Scene,
-    view: View,
+    rays: Rays,
     casters: RayCaster,
     seen: Vec<Seen>,
     mask: Mask,
@@ -142,26 +142,39 @@ impl RayCast {
         let reach = reach(&scene, &view);
         let receivers = RayCaster::new(&scene.receivers, reach);
         let casters = RayCaster::new(&scene.casters, reach);
+        let rays = Rays::new(&scene, view);
         let (width, height) = view.size();
         let mut seen = vec![Seen { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
         seen.par_chunks_mut(width as usize).enumerate().for_each(|(row, cells)| {
             for (column, cell) in cells.iter_mut().enumerate() {
-                *cell = look(&scene, &receivers, primary(&scene, &view, column as u32, row as u32));
+                *cell = look(&scene, &receivers, rays.of(column as u32, row as u32));
             }
         });
         let mask = Mask { width, height, share: vec![255; seen.len()] };
-        RayCast { scene, view, casters, seen, mask }
+        RayCast { scene, rays, casters, seen, mask }
     }
 }
 
-/// The ray on which a cell is seen: origin around the scene's origin, and unit direction.
-fn primary(scene: &Scene, view: &View, column: u32, row: u32) -> (DVec3, DVec3) {
-    match view {
-        View::Plan(grid) => {
-            let top = top;
-            (grid.centre(column, row).extend(top) - scene.casters.origin, DVec3::NEG_Z)
+/// The rays on which cells are seen.
+struct Rays {
+    view: View,
+    /// The scene's origin.
+    origin: DVec3,
+    /// A height above everything, in the world frame: whence the plan looks down.
+    top: f64,
+}
+
+impl Rays {
+    fn new(scene: &Scene, view: View) -> Rays {
+        Rays { view, origin: scene.casters.origin, top: scene.receivers.top().max(scene.ground) + 1.0 }
+    }
+
+    /// A cell's ray: from where (around the scene's origin), and the unit direction.
+    fn of(&self, column: u32, row: u32) -> (DVec3, DVec3) {
+        match &self.view {
+            View::Plan(grid) => (grid.centre(column, row).extend(self.top) - self.origin, DVec3::NEG_Z),
+            View::Camera(camera) => (camera.eye - self.origin, camera.direction(column, row)),
         }
-        View::Camera(camera) => (camera.eye - scene.casters.origin, camera.direction(column, row)),
     }
 }
 
@@ -191,10 +204,10 @@ fn reach(scene: &Scene, view: &View) -> f64 {
 }
 
 impl Technique for RayCast {
-    fn draw(&mut self, to_sun: DVec3) -> Result<Drawn<'_>, ShadowError> {
-        let RayCast { scene, view, casters, seen, mask } = self;
+    fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
+        let RayCast { scene, rays, casters, seen, mask } = self;
         let origin = scene.casters.origin;
-        let world_viewer = view.viewer();
+        let world_viewer = rays.view.viewer();
         let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
         let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
         let shear = Shear::along(to_sun);
@@ -208,20 +221,19 @@ impl Technique for RayCast {
                 }
                 let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes[face as usize] };
                 let normal = seen_normal(plane, viewer);
-                let (from, along) = primary(scene, view, column as u32, row as u32);
+                let (from, along) = rays.of(column as u32, row as u32);
                 let judged = from + along * distance + normal * JUDGED_ABOVE_M;
                 let lit = normal.dot(to_sun) > 0.0 && !casters.blocked(judged, &shear);
                 *share = if lit { 255 } else { 0 };
             }
         });
-        Ok(Drawn::Memory(mask))
+        Ok(DrawnMask::Memory(mask))
     }
 
     fn surface(&self) -> Result<Surface, ShadowError> {
-        let (width, height) = self.view.size();
+        let (width, height) = self.rays.view.size();
         let height_of = |(at, seen): (usize, &Seen)| {
-            let (origin, direction) =
-                primary(&self.scene, &self.view, at as u32 % width, at as u32 / width);
+            let (origin, direction) = self.rays.of(at as u32 % width, at as u32 / width);
             if seen.face == Surface::SKY {
                 f32::NAN
             } else {

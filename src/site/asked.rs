@@ -40,34 +40,18 @@ pub struct Overrides {
 ///
 /// # Errors
 /// [`SiteError::Value`] with the example.
-pub(super) fn numbers<const N: usize>(
-    option: &'static str,
-    text: &str,
-    example: &str,
-) -> Result<[f64; N], SiteError> {
-    let read: Option<Vec<f64>> = text
-        .split(',')
-        .map(|number| {
-            number
-                .trim()
-                .parse()
-                .ok()
-                .filter(|number: &f64| number.is_finite())
-        })
-        .collect();
-    read.and_then(|numbers| numbers.try_into().ok())
-        .ok_or_else(|| {
-            refuse(
-                At::Option(option),
-                format!("\"{text}\" is not {N} numbers with commas between them; write for example {option} {example}"),
-            )
-        })
+pub(super) fn numbers<const N: usize>(option: &'static str, text: &str, example: &str) -> Result<[f64; N], SiteError> {
+    let read: Option<Vec<f64>> =
+        text.split(',').map(|number| number.trim().parse().ok().filter(|number: &f64| number.is_finite())).collect();
+    read.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| {
+        refuse(
+            At::Option(option),
+            format!("\"{text}\" is not {N} numbers with commas between them; write for example {option} {example}"),
+        )
+    })
 }
 
 /// A value that cannot be taken; `what` ends with the way out.
 pub(super) fn refuse(at: At, what: impl Into<String>) -> SiteError {
-    SiteError::Value {
-        at,
-        what: what.into(),
-    }
+    SiteError::Value { at, what: what.into() }
 }

@@ -30,10 +30,7 @@ pub(super) fn camera(
     let table = &written.site.camera;
     let fault = |key: &str, what: String| {
         let example = keys::example("camera", key);
-        refuse(
-            written.key("camera", key),
-            format!("{what}; write for example {example}"),
-        )
+        refuse(written.key("camera", key), format!("{what}; write for example {example}"))
     };
     let vector = |key: &str, value: Option<[f64; 3]>| match value.map(DVec3::from_array) {
         Some(vector) if !vector.is_finite() => Err(fault(key, format!("{vector} is not a point"))),
@@ -42,10 +39,7 @@ pub(super) fn camera(
     let fov_deg = table.fov.unwrap_or(FOV_DEG);
     // A NaN is not between them either.
     if !(1.0..=170.0).contains(&fov_deg) {
-        return Err(fault(
-            "fov",
-            format!("{fov_deg} is not between 1 and 170 degrees"),
-        ));
+        return Err(fault("fov", format!("{fov_deg} is not between 1 and 170 degrees")));
     }
     let fov_rad = fov_deg.to_radians();
     let up = vector("up", table.up)?.unwrap_or(DVec3::Z);
@@ -67,19 +61,9 @@ pub(super) fn camera(
         return Err(fault("eye", "it is the target itself".to_owned()));
     };
     if forward.cross(up).length() < 1e-6 {
-        return Err(fault(
-            "up",
-            "it is the direction of view, so nothing is upwards".to_owned(),
-        ));
+        return Err(fault("up", "it is the direction of view, so nothing is upwards".to_owned()));
     }
-    Ok(Camera {
-        eye,
-        target,
-        up,
-        fov_rad,
-        width: WIDTH,
-        height: HEIGHT,
-    })
+    Ok(Camera { eye, target, up, fov_rad, width: WIDTH, height: HEIGHT })
 }
 
 /// From the target to the default eye, unit length.
@@ -87,54 +71,32 @@ fn direction_to_eye(written: &Written, track: &SunTrack) -> DVec3 {
     let day = track.instants.iter().filter(|instant| !instant.night);
     let sun: DVec2 = day.map(|instant| instant.to_sun.truncate()).sum();
     // Without a sun, or one from all sides, look from where it stands at noon.
-    let southern = written
-        .site
-        .place
-        .as_ref()
-        .and_then(|place| place.latitude)
-        .is_some_and(|latitude| latitude < 0.0);
+    let southern = written.site.place.as_ref().and_then(|place| place.latitude).is_some_and(|latitude| latitude < 0.0);
     let noon_side = if southern { DVec2::Y } else { DVec2::NEG_Y };
     let sunlit = sun.try_normalize().unwrap_or(noon_side);
     // Towards the east: counter-clockwise seen from above where the sun stands in the south.
-    let turn = if sunlit.y > 0.0 {
-        -ASIDE_DEG
-    } else {
-        ASIDE_DEG
-    };
+    let turn = if sunlit.y > 0.0 { -ASIDE_DEG } else { ASIDE_DEG };
     let aside = DVec2::from_angle(turn.to_radians()).rotate(sunlit);
     let (sin, cos) = ELEVATION_DEG.to_radians().sin_cos();
     (aside * cos).extend(sin)
 }
 
 /// How far back the eye must stand to see all corners.
-fn distance(
-    back: DVec3,
-    target: DVec3,
-    fov_rad: f64,
-    bounds: Bounds,
-    shadows: [DVec2; 2],
-    ground: f64,
-) -> f64 {
+fn distance(back: DVec3, target: DVec3, fov_rad: f64, bounds: Bounds, shadows: [DVec2; 2], ground: f64) -> f64 {
     let right = DVec3::Z.cross(back).normalize_or(DVec3::X);
     let up = back.cross(right);
     let half_height = (fov_rad / 2.0).tan();
     let half_width = half_height * f64::from(WIDTH) / f64::from(HEIGHT);
     let at = |x: [f64; 2], y: [f64; 2], z: f64| {
-        x.into_iter()
-            .flat_map(move |x| y.into_iter().map(move |y| DVec3::new(x, y, z)))
+        x.into_iter().flat_map(move |x| y.into_iter().map(move |y| DVec3::new(x, y, z)))
     };
     let (low, high) = (bounds.low, bounds.high);
     at([low.x, high.x], [low.y, high.y], low.z)
         .chain(at([low.x, high.x], [low.y, high.y], high.z))
-        .chain(at(
-            [shadows[0].x, shadows[1].x],
-            [shadows[0].y, shadows[1].y],
-            ground,
-        ))
+        .chain(at([shadows[0].x, shadows[1].x], [shadows[0].y, shadows[1].y], ground))
         .map(|corner| {
             let corner = corner - target;
-            let aside =
-                (corner.dot(right).abs() / half_width).max(corner.dot(up).abs() / half_height);
+            let aside = (corner.dot(right).abs() / half_width).max(corner.dot(up).abs() / half_height);
             corner.dot(back) + aside * MARGIN
         })
         // A model without size is still looked at from somewhere.

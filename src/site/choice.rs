@@ -29,27 +29,16 @@ pub enum ChoiceError {
 }
 
 /// Finds a word among the choices, or says which is nearest.
-fn find<T: Copy>(
-    word: &str,
-    known: &[(&'static str, T)],
-    later: &[&'static str],
-) -> Result<T, ChoiceError> {
+fn find<T: Copy>(word: &str, known: &[(&'static str, T)], later: &[&'static str]) -> Result<T, ChoiceError> {
     if let Some((_, choice)) = known.iter().find(|(name, _)| *name == word) {
         return Ok(*choice);
     }
     let names: Vec<_> = known.iter().map(|(name, _)| *name).collect();
     let list = names.join(", ");
     if later.contains(&word) {
-        return Err(ChoiceError::NotYet {
-            word: word.to_owned(),
-            known: list,
-        });
+        return Err(ChoiceError::NotYet { word: word.to_owned(), known: list });
     }
-    Err(ChoiceError::Unknown {
-        word: word.to_owned(),
-        known: list,
-        nearest: nearest(word, names).unwrap_or("auto"),
-    })
+    Err(ChoiceError::Unknown { word: word.to_owned(), known: list, nearest: nearest(word, names).unwrap_or("auto") })
 }
 
 /// Words ↔ choices, for one enum.

@@ -45,9 +45,7 @@ pub enum SiteError {
         why: String,
     },
     /// A model file, and nobody says where it stands.
-    #[error(
-        "{path} is a model: say where it stands with --place LAT,LON, for example --place 48.8583,2.2945"
-    )]
+    #[error("{path} is a model: say where it stands with --place LAT,LON, for example --place 48.8583,2.2945")]
     NoPlaceForModel {
         /// As the user named it.
         path: String,
@@ -105,9 +103,7 @@ pub enum SiteError {
         error: Box<SunError>,
     },
     /// The command needs a study.
-    #[error(
-        "{file} does not say {missing} of the study; add {options}, or [study] to the site file"
-    )]
+    #[error("{file} does not say {missing} of the study; add {options}, or [study] to the site file")]
     NoStudy {
         /// As the user named it.
         file: String,
@@ -117,9 +113,7 @@ pub enum SiteError {
         options: String,
     },
     /// A name in `casts` or `receives` that no component has.
-    #[error(
-        "{at}: no component, node, mesh or material is named \"{name}\"; the nearest is \"{nearest}\""
-    )]
+    #[error("{at}: no component, node, mesh or material is named \"{name}\"; the nearest is \"{nearest}\"")]
     UnknownName {
         /// Where it was asked.
         at: At,
@@ -129,9 +123,7 @@ pub enum SiteError {
         nearest: String,
     },
     /// The models hold nothing.
-    #[error(
-        "{file}: the models hold no triangles, so nothing casts a shadow; check what was exported"
-    )]
+    #[error("{file}: the models hold no triangles, so nothing casts a shadow; check what was exported")]
     NoTriangles {
         /// As the user named it.
         file: String,
@@ -147,10 +139,7 @@ pub enum SiteError {
 impl SiteError {
     /// A fault of place or time, where it was asked.
     pub(super) fn sun(at: At, error: SunError) -> SiteError {
-        SiteError::Sun {
-            at,
-            error: Box::new(error),
-        }
+        SiteError::Sun { at, error: Box::new(error) }
     }
 
     /// Whether the command line was wrong (exit status 2) rather than a file (exit status 1).
@@ -164,10 +153,7 @@ impl SiteError {
 }
 
 /// The candidate most like a word.
-pub(super) fn nearest<'a>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = word.to_lowercase();
     let likeness = |candidate: &str| strsim::jaro_winkler(&candidate.to_lowercase(), &lower);
     let mut best = None;

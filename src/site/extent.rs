@@ -14,10 +14,7 @@ pub(super) struct Bounds {
 impl Bounds {
     /// Around all faces; `None` where there are none.
     pub(super) fn of(mesh: &Mesh) -> Option<Bounds> {
-        let mut bounds = Bounds {
-            low: DVec3::INFINITY,
-            high: DVec3::NEG_INFINITY,
-        };
+        let mut bounds = Bounds { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
         for corner in corners(mesh, |_| true) {
             bounds.low = bounds.low.min(corner);
             bounds.high = bounds.high.max(corner);

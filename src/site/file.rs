@@ -143,10 +143,7 @@ impl<'de> Deserialize<'de> for Text {
         match Value::deserialize(from)? {
             Value::String(text) => Ok(Text(text)),
             Value::Datetime(time) => Ok(Text(time.to_string())),
-            other => Err(D::Error::custom(format!(
-                "expected text in quotes, not {}",
-                other.type_str()
-            ))),
+            other => Err(D::Error::custom(format!("expected text in quotes, not {}", other.type_str()))),
         }
     }
 }
@@ -181,49 +178,27 @@ impl SiteFile {
         };
         if let Some(Value::Array(models)) = root.get("model") {
             for (index, model) in models.iter().enumerate() {
-                site.model.push(typed(
-                    file,
-                    "model",
-                    &keys::numbered(index, models.len()),
-                    model,
-                )?);
+                site.model.push(typed(file, "model", &keys::numbered(index, models.len()), model)?);
             }
         }
         Ok(site)
     }
 }
 
-fn table<T: DeserializeOwned>(
-    file: &str,
-    root: &Table,
-    name: &str,
-) -> Result<Option<T>, SiteError> {
-    root.get(name)
-        .map(|value| typed(file, name, &keys::bracketed(name), value))
-        .transpose()
+fn table<T: DeserializeOwned>(file: &str, root: &Table, name: &str) -> Result<Option<T>, SiteError> {
+    root.get(name).map(|value| typed(file, name, &keys::bracketed(name), value)).transpose()
 }
 
 /// A table's values in their types, or which key has the wrong one and how it is written.
-fn typed<T: DeserializeOwned>(
-    file: &str,
-    name: &str,
-    brackets: &str,
-    value: &Value,
-) -> Result<T, SiteError> {
+fn typed<T: DeserializeOwned>(file: &str, name: &str, brackets: &str, value: &Value) -> Result<T, SiteError> {
     T::deserialize(value.clone()).map_err(|error| {
         // The library tells the key only in its own text: "… \nin `latitude`".
         let text = error.to_string();
-        let key = text
-            .rsplit_once("in `")
-            .map_or("", |(_, key)| key.trim_end().trim_end_matches('`'));
+        let key = text.rsplit_once("in `").map_or("", |(_, key)| key.trim_end().trim_end_matches('`'));
         let key = key.split('.').next().unwrap_or_default();
         let what = error.message().replace("f64", "a number");
         SiteError::Value {
-            at: At::Key {
-                file: file.to_owned(),
-                table: brackets.to_owned(),
-                key: key.to_owned(),
-            },
+            at: At::Key { file: file.to_owned(), table: brackets.to_owned(), key: key.to_owned() },
             what: format!("{what}; write for example {}", keys::example(name, key)),
         }
     })

@@ -32,18 +32,12 @@ const KEYS: &[(&str, &str, &str)] = &[
 
 /// How a key is written, for errors.
 pub(super) fn example(table: &str, key: &str) -> &'static str {
-    KEYS.iter()
-        .find(|known| (known.0, known.1) == (table, key))
-        .map_or("", |known| known.2)
+    KEYS.iter().find(|known| (known.0, known.1) == (table, key)).map_or("", |known| known.2)
 }
 
 /// A table's name as it is written.
 pub(super) fn bracketed(table: &str) -> String {
-    if table == "model" {
-        "[[model]]".to_owned()
-    } else {
-        format!("[{table}]")
-    }
+    if table == "model" { "[[model]]".to_owned() } else { format!("[{table}]") }
 }
 
 /// Refuses every table and key that is not known, and tables that are no tables.
@@ -54,9 +48,7 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
     for (name, value) in root {
         let known = KEYS.iter().any(|known| known.0 == name);
         match value {
-            Value::Table(table) if known && name != "model" => {
-                check_keys(file, name, &bracketed(name), table)?
-            }
+            Value::Table(table) if known && name != "model" => check_keys(file, name, &bracketed(name), table)?,
             Value::Array(tables) if name == "model" && tables.iter().all(Value::is_table) => {
                 for (index, table) in tables.iter().filter_map(Value::as_table).enumerate() {
                     check_keys(file, name, &numbered(index, tables.len()), table)?;
@@ -65,21 +57,13 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
             _ if known => {
                 let brackets = bracketed(name);
                 return Err(SiteError::Value {
-                    at: At::Key {
-                        file: file.to_owned(),
-                        table: brackets.clone(),
-                        key: String::new(),
-                    },
-                    what: format!(
-                        "write {brackets} on a line of its own, and its keys on the lines below it"
-                    ),
+                    at: At::Key { file: file.to_owned(), table: brackets.clone(), key: String::new() },
+                    what: format!("write {brackets} on a line of its own, and its keys on the lines below it"),
                 });
             }
             _ => {
-                let is_table = value.is_table()
-                    || value
-                        .as_array()
-                        .is_some_and(|list| list.iter().any(Value::is_table));
+                let is_table =
+                    value.is_table() || value.as_array().is_some_and(|list| list.iter().any(Value::is_table));
                 return Err(unknown_name(file, name, is_table));
             }
         }
@@ -89,22 +73,14 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
 
 /// What a model is called in errors: by its number where there are several.
 pub(super) fn numbered(index: usize, models: usize) -> String {
-    if models > 1 {
-        format!("[[model]] number {}", index + 1)
-    } else {
-        "[[model]]".to_owned()
-    }
+    if models > 1 { format!("[[model]] number {}", index + 1) } else { "[[model]]".to_owned() }
 }
 
 fn check_keys(file: &str, name: &str, brackets: &str, table: &Table) -> Result<(), SiteError> {
     for key in table.keys() {
         if !KEYS.iter().any(|known| known.0 == name && known.1 == key) {
             return Err(SiteError::Unknown {
-                at: At::Key {
-                    file: file.to_owned(),
-                    table: brackets.to_owned(),
-                    key: key.clone(),
-                },
+                at: At::Key { file: file.to_owned(), table: brackets.to_owned(), key: key.clone() },
                 nearest: nearest_key(key, name),
             });
         }
@@ -114,23 +90,13 @@ fn check_keys(file: &str, name: &str, brackets: &str, table: &Table) -> Result<(
 
 /// A name before any table: a misspelt table, or a key that lacks its table.
 fn unknown_name(file: &str, name: &str, is_table: bool) -> SiteError {
-    let at = |table: String, key: &str| At::Key {
-        file: file.to_owned(),
-        table,
-        key: key.to_owned(),
-    };
+    let at = |table: String, key: &str| At::Key { file: file.to_owned(), table, key: key.to_owned() };
     if is_table {
         let tables = KEYS.iter().map(|known| known.0);
         let nearest = super::error::nearest(name, tables).unwrap_or("place");
-        return SiteError::Unknown {
-            at: at(format!("[{name}]"), ""),
-            nearest: bracketed(nearest),
-        };
+        return SiteError::Unknown { at: at(format!("[{name}]"), ""), nearest: bracketed(nearest) };
     }
-    SiteError::Unknown {
-        at: at("before any table:".to_owned(), name),
-        nearest: nearest_key(name, ""),
-    }
+    SiteError::Unknown { at: at("before any table:".to_owned(), name), nearest: nearest_key(name, "") }
 }
 
 /// The nearest key with its table; of two equally near ones that in `home`.
@@ -142,7 +108,5 @@ fn nearest_key(word: &str, home: &str) -> String {
     };
     KEYS.iter()
         .max_by(|a, b| score(a).total_cmp(&score(b)))
-        .map_or_else(String::new, |known| {
-            format!("{} in {}", known.1, bracketed(known.0))
-        })
+        .map_or_else(String::new, |known| format!("{} in {}", known.1, bracketed(known.0)))
 }

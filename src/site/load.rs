@@ -70,20 +70,12 @@ impl Site {
             let model = read(&written, index, &read_model)?;
             let table = &written.site.model[index];
             casts.extend(chosen(&written, index, "casts", &table.casts, &model)?);
-            receives.extend(chosen(
-                &written,
-                index,
-                "receives",
-                &table.receives,
-                &model,
-            )?);
+            receives.extend(chosen(&written, index, "receives", &table.receives, &model)?);
             parts.extend(model);
         }
         // One component a part, in their order: `casts` and `receives` fit the mesh.
         let mesh = Mesh::build(parts)?;
-        let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles {
-            file: written.file.clone(),
-        })?;
+        let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
         let grid = plan::grid(&written, asked, shadows(SHADOW_CUT))?;
@@ -108,9 +100,9 @@ impl Site {
 fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {
     match (asked.technique, &written.site.study.technique) {
         (Some(method), _) => Ok(method),
-        (None, Some(word)) => word.parse().map_err(|error: super::ChoiceError| {
-            refuse(written.key("study", "technique"), error.to_string())
-        }),
+        (None, Some(word)) => word
+            .parse()
+            .map_err(|error: super::ChoiceError| refuse(written.key("study", "technique"), error.to_string())),
         (None, None) => Ok(Method::default()),
     }
 }
@@ -129,10 +121,7 @@ fn read(
     };
     let north_deg = table.north.unwrap_or(0.0);
     if !north_deg.is_finite() {
-        return Err(refuse(
-            at("north"),
-            format!("{north_deg} is no angle; write degrees, for example 0.0"),
-        ));
+        return Err(refuse(at("north"), format!("{north_deg} is no angle; write degrees, for example 0.0")));
     }
     let position = DVec3::from_array(table.position.unwrap_or_default());
     if !position.is_finite() {
@@ -146,37 +135,22 @@ fn read(
     if !(scale.is_finite() && scale > 0.0) {
         return Err(refuse(
             at("scale"),
-            format!(
-                "{scale} is no scale; write metres per model unit above 0, for example 0.001 for millimetres"
-            ),
+            format!("{scale} is no scale; write metres per model unit above 0, for example 0.001 for millimetres"),
         ));
     }
     let file = written.folder.join(path);
     if !file.is_file() {
         return Err(refuse(
             at("path"),
-            format!(
-                "there is no file {}; write where the model lies, from the site file's folder",
-                file.display()
-            ),
+            format!("there is no file {}; write where the model lies, from the site file's folder", file.display()),
         ));
     }
-    let placement = Placement {
-        north_rad: north_deg.to_radians(),
-        position,
-        scale,
-    };
+    let placement = Placement { north_rad: north_deg.to_radians(), position, scale };
     Ok(read_model(&file, &placement)?)
 }
 
 /// Per part, whether a name (or all) means it.
-fn chosen(
-    written: &Written,
-    index: usize,
-    key: &str,
-    names: &Names,
-    parts: &[Part],
-) -> Result<Vec<bool>, SiteError> {
+fn chosen(written: &Written, index: usize, key: &str, names: &Names, parts: &[Part]) -> Result<Vec<bool>, SiteError> {
     let names = match names {
         Names::All(all) => return Ok(vec![*all; parts.len()]),
         Names::Some(names) => names,
@@ -184,10 +158,7 @@ fn chosen(
     let means = |name: &String, part: &Part| part.name == *name || part.aliases.contains(name);
     for name in names {
         if !parts.iter().any(|part| means(name, part)) {
-            let known = parts
-                .iter()
-                .flat_map(|part| part.aliases.iter().chain([&part.name]))
-                .map(String::as_str);
+            let known = parts.iter().flat_map(|part| part.aliases.iter().chain([&part.name])).map(String::as_str);
             return Err(SiteError::UnknownName {
                 at: written.model_key(index, key),
                 name: name.clone(),
@@ -195,8 +166,5 @@ fn chosen(
             });
         }
     }
-    Ok(parts
-        .iter()
-        .map(|part| names.iter().any(|name| means(name, part)))
-        .collect())
+    Ok(parts.iter().map(|part| names.iter().any(|name| means(name, part))).collect())
 }

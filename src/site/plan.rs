@@ -14,11 +14,7 @@ const MOST_CELLS: f64 = 2_147_483_648.0;
 const MARGIN: f64 = 0.02;
 
 /// The grid: the asked region, or the one around `models_and_shadows` (south-west and north-east corner).
-pub(super) fn grid(
-    written: &Written,
-    asked: &Overrides,
-    models_and_shadows: [DVec2; 2],
-) -> Result<Grid, SiteError> {
+pub(super) fn grid(written: &Written, asked: &Overrides, models_and_shadows: [DVec2; 2]) -> Result<Grid, SiteError> {
     let [west, south, east, north] = region(written, asked, models_and_shadows)?;
     let longer = (east - west).max(north - south);
     let (cell, at) = match (asked.cell, asked.size, written.site.plan.cell) {
@@ -37,24 +33,15 @@ pub(super) fn grid(
         }
         (None, Some(size), _) => (longer / f64::from(size), At::Option("--size")),
         (None, None, Some(cell)) => (cell, written.key("plan", "cell")),
-        (None, None, None) => (
-            longer / f64::from(DEFAULT_SIZE),
-            written.key("plan", "region"),
-        ),
+        (None, None, None) => (longer / f64::from(DEFAULT_SIZE), written.key("plan", "region")),
     };
     // A NaN is not above zero either.
     if !(cell.is_finite() && cell > 0.0) {
-        return Err(refuse(
-            at,
-            format!("{cell} is no side of a cell; write metres above 0, for example 0.5"),
-        ));
+        return Err(refuse(at, format!("{cell} is no side of a cell; write metres above 0, for example 0.5")));
     }
-    let [width, height] =
-        [east - west, north - south].map(|side: f64| (side / cell).round().max(1.0));
+    let [width, height] = [east - west, north - south].map(|side: f64| (side / cell).round().max(1.0));
     if width * height > MOST_CELLS {
-        let least = ((east - west) * (north - south) / MOST_CELLS)
-            .sqrt()
-            .max(longer / MOST_CELLS);
+        let least = ((east - west) * (north - south) / MOST_CELLS).sqrt().max(longer / MOST_CELLS);
         // Up to the next millimetre, so that the advice holds.
         let least = (least * 1000.0).ceil() / 1000.0;
         return Err(refuse(
@@ -74,11 +61,7 @@ pub(super) fn grid(
     })
 }
 
-fn region(
-    written: &Written,
-    asked: &Overrides,
-    models_and_shadows: [DVec2; 2],
-) -> Result<[f64; 4], SiteError> {
+fn region(written: &Written, asked: &Overrides, models_and_shadows: [DVec2; 2]) -> Result<[f64; 4], SiteError> {
     const EXAMPLE: &str = "-300,-300,300,300";
     let (region, at) = match (&asked.region, written.site.plan.region) {
         (Some(text), _) => (numbers("--region", text, EXAMPLE)?, At::Option("--region")),
@@ -87,15 +70,9 @@ fn region(
     };
     let [west, south, east, north] = region;
     let fault = |what: String| {
-        Err(refuse(
-            at,
-            format!("{what}; write west, south, east, north in metres, for example {EXAMPLE}"),
-        ))
+        Err(refuse(at, format!("{what}; write west, south, east, north in metres, for example {EXAMPLE}")))
     };
-    if !region
-        .iter()
-        .all(|side| side.is_finite() && side.abs() <= 1e9)
-    {
+    if !region.iter().all(|side| side.is_finite() && side.abs() <= 1e9) {
         return fault("a side is not a number of metres on earth".to_owned());
     }
     if west >= east {
@@ -110,10 +87,5 @@ fn region(
 /// A rectangle with some air around it, and never without area.
 fn around([low, high]: [DVec2; 2]) -> [f64; 4] {
     let margin = ((high - low).max_element() * MARGIN).max(0.5);
-    [
-        low.x - margin,
-        low.y - margin,
-        high.x + margin,
-        high.y + margin,
-    ]
+    [low.x - margin, low.y - margin, high.x + margin, high.y + margin]
 }

@@ -23,67 +23,36 @@ impl Said<'_> {
 }
 
 /// The instants asked: `--at` alone, or the study's window with the command line before the file.
-pub(super) fn track(
-    place: &Place,
-    written: &Written,
-    asked: &Overrides,
-) -> Result<SunTrack, SiteError> {
+pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
     let study = &written.site.study;
-    let file = |key: &str, text: Option<&'_ str>| {
-        text.map(|text| (text.to_owned(), written.key("study", key)))
-    };
-    let option = |name: &'static str, text: &Option<String>| {
-        text.clone().map(|text| (text, At::Option(name)))
-    };
+    let file = |key: &str, text: Option<&'_ str>| text.map(|text| (text.to_owned(), written.key("study", key)));
+    let option = |name: &'static str, text: &Option<String>| text.clone().map(|text| (text, At::Option(name)));
     let date_asked = option("--date", &asked.date);
     let date_written = file("date", study.date.as_ref().map(|date| date.0.as_str()));
 
     if let Some(text) = &asked.at {
-        for (name, given) in [
-            ("--from", &asked.from),
-            ("--to", &asked.to),
-            ("--step", &asked.step),
-        ] {
+        for (name, given) in [("--from", &asked.from), ("--to", &asked.to), ("--step", &asked.step)] {
             if given.is_some() {
-                return Err(refuse(
-                    At::Option(name),
-                    "says nothing beside --at; leave one of the two out",
-                ));
+                return Err(refuse(At::Option(name), "says nothing beside --at; leave one of the two out"));
             }
         }
-        let said = Said {
-            text,
-            at: At::Option("--at"),
-        };
+        let said = Said { text, at: At::Option("--at") };
         let reading = said.reading()?;
         // A reading with its own date does not ask the site file for one.
         let date = date_asked.or(date_written.filter(|_| reading.date.is_none()));
-        return SunTrack::at(place, &reading, date_of(date)?, refraction)
-            .map_err(|error| said.fault(error));
+        return SunTrack::at(place, &reading, date_of(date)?, refraction).map_err(|error| said.fault(error));
     }
 
-    let from = option("--from", &asked.from).or(file(
-        "from",
-        study.from.as_ref().map(|text| text.0.as_str()),
-    ));
-    let to =
-        option("--to", &asked.to).or(file("to", study.to.as_ref().map(|text| text.0.as_str())));
+    let from = option("--from", &asked.from).or(file("from", study.from.as_ref().map(|text| text.0.as_str())));
+    let to = option("--to", &asked.to).or(file("to", study.to.as_ref().map(|text| text.0.as_str())));
     let step = option("--step", &asked.step).or(file("step", study.step.as_deref()));
-    let own_date = from
-        .as_ref()
-        .and_then(|(text, _)| text.parse::<Reading>().ok()?.date);
+    let own_date = from.as_ref().and_then(|(text, _)| text.parse::<Reading>().ok()?.date);
     let dated = own_date.is_some() || date_asked.is_some() || date_written.is_some();
     let (Some(from), Some(to), Some(step), true) = (&from, &to, &step, dated) else {
-        return Err(no_study(
-            written,
-            [dated, from.is_some(), to.is_some(), step.is_some()],
-        ));
+        return Err(no_study(written, [dated, from.is_some(), to.is_some(), step.is_some()]));
     };
-    let [from, to, step] = [from, to, step].map(|(text, at)| Said {
-        text,
-        at: at.clone(),
-    });
+    let [from, to, step] = [from, to, step].map(|(text, at)| Said { text, at: at.clone() });
 
     let reading = from.reading()?;
     // `--from` with its own date is asked later than the date in the file, and goes before it.
@@ -97,9 +66,7 @@ pub(super) fn track(
     };
     SunTrack::window(place, &window, refraction).map_err(|error| match error {
         SunError::ZeroStep | SunError::TooManyInstants { .. } => step.fault(error),
-        SunError::EmptyWindow { .. }
-        | SunError::Backwards { .. }
-        | SunError::WindowTooLong { .. } => to.fault(error),
+        SunError::EmptyWindow { .. } | SunError::Backwards { .. } | SunError::WindowTooLong { .. } => to.fault(error),
         _ if starts(&window, place) => to.fault(error),
         _ => from.fault(error),
     })
@@ -112,34 +79,17 @@ fn starts(window: &Window, place: &Place) -> bool {
 }
 
 fn date_of(said: Option<(String, At)>) -> Result<Option<NaiveDate>, SiteError> {
-    said.map(|(text, at)| parse_date(&text).map_err(|error| SiteError::sun(at, error)))
-        .transpose()
+    said.map(|(text, at)| parse_date(&text).map_err(|error| SiteError::sun(at, error))).transpose()
 }
 
 /// Which of date, from, to and step nobody said, and which options would say them.
 fn no_study(written: &Written, said: [bool; 4]) -> SiteError {
-    const OPTIONS: [(&str, &str); 4] = [
-        ("date", "--date 2026-03-21"),
-        ("from", "--from 9:00"),
-        ("to", "--to 17:00"),
-        ("step", "--step 1h"),
-    ];
-    let unsaid = || {
-        OPTIONS
-            .iter()
-            .zip(said)
-            .filter(|(_, said)| !said)
-            .map(|(option, _)| option)
-    };
+    const OPTIONS: [(&str, &str); 4] =
+        [("date", "--date 2026-03-21"), ("from", "--from 9:00"), ("to", "--to 17:00"), ("step", "--step 1h")];
+    let unsaid = || OPTIONS.iter().zip(said).filter(|(_, said)| !said).map(|(option, _)| option);
     SiteError::NoStudy {
         file: written.file.clone(),
-        missing: unsaid()
-            .map(|option| option.0)
-            .collect::<Vec<_>>()
-            .join(", "),
-        options: unsaid()
-            .map(|option| option.1)
-            .collect::<Vec<_>>()
-            .join(" "),
+        missing: unsaid().map(|option| option.0).collect::<Vec<_>>().join(", "),
+        options: unsaid().map(|option| option.1).collect::<Vec<_>>().join(" "),
     }
 }

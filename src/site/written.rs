@@ -21,19 +21,13 @@ pub(super) struct Written {
 impl Written {
     /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model together with `--place`.
     pub(super) fn read(path: &Path, asked: &Overrides) -> Result<Written, SiteError> {
-        let extension = path
-            .extension()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .to_lowercase();
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let mut written = match extension.as_str() {
             _ if path.is_dir() => Self::read_file(&path.join("site.toml"))?,
             "glb" | "gltf" => Self::of_model(path, asked)?,
-            "obj" | "stl" | "ply" | "ifc" | "fbx" | "dae" | "3ds" | "3dm" | "skp" | "dwg"
-            | "dxf" | "blend" | "usd" | "usdz" | "rvt" => {
-                return Err(SiteError::UnknownFormat {
-                    path: path.display().to_string(),
-                });
+            "obj" | "stl" | "ply" | "ifc" | "fbx" | "dae" | "3ds" | "3dm" | "skp" | "dwg" | "dxf" | "blend" | "usd"
+            | "usdz" | "rvt" => {
+                return Err(SiteError::UnknownFormat { path: path.display().to_string() });
             }
             _ => Self::read_file(path)?,
         };
@@ -41,28 +35,20 @@ impl Written {
             if written.site.place.is_some() {
                 return Err(refuse(
                     At::Option("--place"),
-                    format!(
-                        "{} has its own [place]; leave one of the two out",
-                        written.file
-                    ),
+                    format!("{} has its own [place]; leave one of the two out", written.file),
                 ));
             }
             let [latitude, longitude] = numbers("--place", place, "48.8583,2.2945")?;
-            written.site.place = Some(PlaceTable {
-                latitude: Some(latitude),
-                longitude: Some(longitude),
-                ..PlaceTable::default()
-            });
+            written.site.place =
+                Some(PlaceTable { latitude: Some(latitude), longitude: Some(longitude), ..PlaceTable::default() });
         }
         Ok(written)
     }
 
     fn read_file(path: &Path) -> Result<Written, SiteError> {
         let file = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| SiteError::Unreadable {
-            path: file.clone(),
-            why: error.to_string(),
-        })?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| SiteError::Unreadable { path: file.clone(), why: error.to_string() })?;
         Ok(Written {
             site: SiteFile::parse(&file, &text)?,
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
@@ -74,27 +60,17 @@ impl Written {
         let file = path.display().to_string();
         // A mistyped name is a better complaint than a missing place.
         if let Err(error) = std::fs::metadata(path) {
-            return Err(SiteError::Unreadable {
-                path: file,
-                why: error.to_string(),
-            });
+            return Err(SiteError::Unreadable { path: file, why: error.to_string() });
         }
         if asked.place.is_none() {
             return Err(SiteError::NoPlaceForModel { path: file });
         }
-        let name = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Written {
             file,
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
             site: SiteFile {
-                model: vec![ModelTable {
-                    path: Some(name),
-                    ..ModelTable::default()
-                }],
+                model: vec![ModelTable { path: Some(name), ..ModelTable::default() }],
                 ..SiteFile::default()
             },
         })
@@ -102,29 +78,17 @@ impl Written {
 
     /// Where a key of this file stands.
     pub(super) fn key(&self, table: &str, key: &str) -> At {
-        At::Key {
-            file: self.file.clone(),
-            table: keys::bracketed(table),
-            key: key.to_owned(),
-        }
+        At::Key { file: self.file.clone(), table: keys::bracketed(table), key: key.to_owned() }
     }
 
     /// Where a key of one of the models stands.
     pub(super) fn model_key(&self, index: usize, key: &str) -> At {
-        At::Key {
-            file: self.file.clone(),
-            table: keys::numbered(index, self.site.model.len()),
-            key: key.to_owned(),
-        }
+        At::Key { file: self.file.clone(), table: keys::numbered(index, self.site.model.len()), key: key.to_owned() }
     }
 
     /// A key that must be there and is not.
     pub(super) fn missing(&self, what: impl Into<String>, example: impl Into<String>) -> SiteError {
-        SiteError::Missing {
-            file: self.file.clone(),
-            what: what.into(),
-            example: example.into(),
-        }
+        SiteError::Missing { file: self.file.clone(), what: what.into(), example: example.into() }
     }
 
     /// The checked place.
@@ -134,9 +98,7 @@ impl Written {
             return Err(self.missing("[place]", format!("[place] with {EXAMPLE}")));
         };
         let number = |key: &str, value: Option<f64>| {
-            value.ok_or_else(|| {
-                self.missing(format!("{key} in [place]"), keys::example("place", key))
-            })
+            value.ok_or_else(|| self.missing(format!("{key} in [place]"), keys::example("place", key)))
         };
         let latitude = number("latitude", table.latitude)?;
         let longitude = number("longitude", table.longitude)?;

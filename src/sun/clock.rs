@@ -3,8 +3,7 @@
 use super::day::why_absent;
 use super::{Day, Place, SunError};
 use chrono::{
-    DateTime, FixedOffset, MappedLocalTime, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta,
-    TimeZone,
+    DateTime, FixedOffset, MappedLocalTime, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta, TimeZone,
 };
 use chrono_tz::Tz;
 use std::fmt;
@@ -60,11 +59,7 @@ impl FromStr for Reading {
             let (clock, offset) = parse_clock(&rest).ok_or_else(bad)?;
             TimeOfDay::Clock(clock, offset)
         };
-        Ok(Reading {
-            date,
-            time,
-            text: text.trim().to_owned(),
-        })
+        Ok(Reading { date, time, text: text.trim().to_owned() })
     }
 }
 
@@ -102,12 +97,9 @@ impl Reading {
         match event {
             // Shifts are at most 366 days and years four digits: no overflow.
             Some(event) => Ok(When::At(event + TimeDelta::seconds(shift_secs))),
-            None => Err(SunError::NoEvent {
-                event: name,
-                date,
-                why: why_absent(place, date)?,
-                reading: self.text.clone(),
-            }),
+            None => {
+                Err(SunError::NoEvent { event: name, date, why: why_absent(place, date)?, reading: self.text.clone() })
+            }
         }
     }
 }
@@ -133,10 +125,7 @@ fn local(zone: Tz, local: NaiveDateTime, offset: Option<FixedOffset>) -> When {
                 example: written(later),
             },
         ),
-        Some(offset) => match readings
-            .into_iter()
-            .find(|time| time.offset().fix() == offset)
-        {
+        Some(offset) => match readings.into_iter().find(|time| time.offset().fix() == offset) {
             Some(time) => When::At(time),
             None => When::Not(
                 readings,
@@ -157,8 +146,7 @@ fn local(zone: Tz, local: NaiveDateTime, offset: Option<FixedOffset>) -> When {
 
 /// A local time that clocks jump over: both ways to read it, and the jump itself.
 fn gap(zone: Tz, local: NaiveDateTime) -> When {
-    let naive_utc =
-        |offset: FixedOffset| local - TimeDelta::seconds(offset.local_minus_utc().into());
+    let naive_utc = |offset: FixedOffset| local - TimeDelta::seconds(offset.local_minus_utc().into());
     // No zone's clock jumps further than a day; two days to either side are clear of the gap.
     let side = |days| {
         let far = zone.from_utc_datetime(&(local + TimeDelta::days(days)));
@@ -196,11 +184,7 @@ fn gap(zone: Tz, local: NaiveDateTime) -> When {
 
 /// A time as it may be written again.
 fn written(time: DateTime<Tz>) -> String {
-    let seconds = if chrono::Timelike::second(&time) == 0 {
-        "%Y-%m-%dT%H:%M"
-    } else {
-        "%Y-%m-%dT%H:%M:%S"
-    };
+    let seconds = if chrono::Timelike::second(&time) == 0 { "%Y-%m-%dT%H:%M" } else { "%Y-%m-%dT%H:%M:%S" };
     format!("{}{}", time.format(seconds), time.offset().fix())
 }
 

@@ -25,18 +25,9 @@ impl Day {
     pub fn of(place: &Place, date: NaiveDate) -> Result<Day, SunError> {
         let events = events(place, date)?;
         let rise = events.rises.first();
-        let set = events
-            .sets
-            .iter()
-            .find(|set| rise.is_none_or(|rise| *set > rise))
-            .or(events.sets.last());
+        let set = events.sets.iter().find(|set| rise.is_none_or(|rise| *set > rise)).or(events.sets.last());
         let on_date = |time: Option<&DateTime<Tz>>| time.map(|time| to_second(*time));
-        Ok(Day {
-            date,
-            sunrise: on_date(rise),
-            noon: on_date(events.transits.first()),
-            sunset: on_date(set),
-        })
+        Ok(Day { date, sunrise: on_date(rise), noon: on_date(events.transits.first()), sunset: on_date(set) })
     }
 }
 
@@ -57,13 +48,7 @@ fn events(place: &Place, date: NaiveDate) -> Result<Events<DateTime<Tz>>, SunErr
     check_year(date.year())?;
     let delta_t = delta_t_secs(date.and_time(NaiveTime::MIN).and_utc())?;
     SolarEvents::new()
-        .for_date(
-            date,
-            &place.time_zone,
-            location(place),
-            delta_t,
-            Horizon::Custom(RISE_DEG),
-        )
+        .for_date(date, &place.time_zone, location(place), delta_t, Horizon::Custom(RISE_DEG))
         .map_err(|error| SunError::Position(error.to_string()))
 }
 

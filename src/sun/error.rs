@@ -102,9 +102,7 @@ pub enum SunError {
         example: String,
     },
     /// `to` names its own day and lies before `from`.
-    #[error(
-        "the window ends at {to}, before it begins at {from}; exchange them or give a later date"
-    )]
+    #[error("the window ends at {to}, before it begins at {from}; exchange them or give a later date")]
     Backwards {
         /// Start.
         from: DateTime<Tz>,
@@ -112,9 +110,7 @@ pub enum SunError {
         to: DateTime<Tz>,
     },
     /// The reading has no date and nothing else gives one.
-    #[error(
-        "{reading} needs a date; write it with one, for example 2026-09-18T15:00, or give date = 2026-09-18"
-    )]
+    #[error("{reading} needs a date; write it with one, for example 2026-09-18T15:00, or give date = 2026-09-18")]
     NoDate {
         /// As written.
         reading: String,
@@ -164,9 +160,7 @@ pub enum SunError {
         example: String,
     },
     /// The offset is none that the clock has at that time.
-    #[error(
-        "{local} in {zone} is never at {offset}; there it is {choices}, or leave the offset out"
-    )]
+    #[error("{local} in {zone} is never at {offset}; there it is {choices}, or leave the offset out")]
     WrongOffset {
         /// What was asked.
         local: NaiveDateTime,
@@ -190,9 +184,7 @@ pub enum SunError {
         reading: String,
     },
     /// Outside the years for which the earth's rotation is known well enough.
-    #[error(
-        "the year {year} is outside {first} to {last}, for which ΔT is known; take a date within"
-    )]
+    #[error("the year {year} is outside {first} to {last}, for which ΔT is known; take a date within")]
     Year {
         /// What was asked.
         year: i32,

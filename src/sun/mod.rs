@@ -94,10 +94,7 @@ impl Instant {
 impl SunTrack {
     /// How long the window is, seconds: the sum of the weights.
     pub fn window_secs(&self) -> u64 {
-        self.instants
-            .iter()
-            .map(|instant| u64::from(instant.weight_secs))
-            .sum()
+        self.instants.iter().map(|instant| u64::from(instant.weight_secs)).sum()
     }
 }
 

@@ -25,34 +25,16 @@ impl Place {
             Some(name) => zone_named(name)?,
             None => zone_at(latitude_deg, longitude_deg)?,
         };
-        Ok(Place {
-            name: name.to_owned(),
-            latitude_deg,
-            longitude_deg,
-            elevation_m,
-            time_zone,
-        })
+        Ok(Place { name: name.to_owned(), latitude_deg, longitude_deg, elevation_m, time_zone })
     }
 }
 
 /// Written so that a NaN is outside too.
-fn within(
-    what: &'static str,
-    value: f64,
-    low: f64,
-    high: f64,
-    unit: &'static str,
-) -> Result<(), SunError> {
+fn within(what: &'static str, value: f64, low: f64, high: f64, unit: &'static str) -> Result<(), SunError> {
     if (low..=high).contains(&value) {
         return Ok(());
     }
-    Err(SunError::OutOfRange {
-        what,
-        value,
-        low,
-        high,
-        unit,
-    })
+    Err(SunError::OutOfRange { what, value, low, high, unit })
 }
 
 /// The zone of an IANA name.
@@ -63,14 +45,9 @@ pub fn zone_named(name: &str) -> Result<Tz, SunError> {
     name.parse().map_err(|_| {
         let lower = name.to_lowercase();
         let likeness = |zone: &Tz| strsim::jaro_winkler(&zone.name().to_lowercase(), &lower);
-        let nearest = TZ_VARIANTS
-            .iter()
-            .max_by(|a, b| likeness(a).total_cmp(&likeness(b)))
-            .map_or("UTC", |zone| zone.name());
-        SunError::UnknownZone {
-            name: name.to_owned(),
-            nearest: nearest.to_owned(),
-        }
+        let nearest =
+            TZ_VARIANTS.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).map_or("UTC", |zone| zone.name());
+        SunError::UnknownZone { name: name.to_owned(), nearest: nearest.to_owned() }
     })
 }
 
@@ -86,8 +63,5 @@ pub fn zone_at(latitude_deg: f64, longitude_deg: f64) -> Result<Tz, SunError> {
     finder
         .get_tz_name(longitude_deg, latitude_deg)
         .parse()
-        .map_err(|_| SunError::NoZone {
-            latitude_deg,
-            longitude_deg,
-        })
+        .map_err(|_| SunError::NoZone { latitude_deg, longitude_deg })
 }

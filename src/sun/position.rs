@@ -21,10 +21,7 @@ pub struct Air {
 impl Air {
     /// 12 °C and the standard atmosphere's pressure (ISO 2533, lowest layer) at an elevation in metres.
     pub fn standard(elevation_m: f64) -> Air {
-        Air {
-            pressure_hpa: 1013.25 * (1.0 - 2.255_77e-5 * elevation_m).powf(5.255_88),
-            temperature_c: 12.0,
-        }
+        Air { pressure_hpa: 1013.25 * (1.0 - 2.255_77e-5 * elevation_m).powf(5.255_88), temperature_c: 12.0 }
     }
 }
 
@@ -42,11 +39,7 @@ impl Position {
     pub fn to_sun(&self) -> DVec3 {
         let (sin_azimuth, cos_azimuth) = self.azimuth_deg.to_radians().sin_cos();
         let (sin_altitude, cos_altitude) = self.altitude_deg.to_radians().sin_cos();
-        DVec3::new(
-            sin_azimuth * cos_altitude,
-            cos_azimuth * cos_altitude,
-            sin_altitude,
-        )
+        DVec3::new(sin_azimuth * cos_altitude, cos_azimuth * cos_altitude, sin_altitude)
     }
 }
 
@@ -56,38 +49,19 @@ impl Position {
 ///
 /// # Errors
 /// What the library refuses: a time outside the years −2000 to 6000, or air that is none.
-pub fn position(
-    place: &Place,
-    time: DateTime<Utc>,
-    delta_t_secs: f64,
-    air: Option<Air>,
-) -> Result<Position, SunError> {
+pub fn position(place: &Place, time: DateTime<Utc>, delta_t_secs: f64, air: Option<Air>) -> Result<Position, SunError> {
     let refused = |error: solar_positioning::Error| SunError::Position(error.to_string());
-    let correction = air
-        .map(|air| RefractionCorrection::new(air.pressure_hpa, air.temperature_c))
-        .transpose()
-        .map_err(refused)?;
+    let correction =
+        air.map(|air| RefractionCorrection::new(air.pressure_hpa, air.temperature_c)).transpose().map_err(refused)?;
     let seen = SolarPositions::new()
-        .at(
-            &time,
-            location(place),
-            place.elevation_m,
-            delta_t_secs,
-            correction,
-        )
+        .at(&time, location(place), place.elevation_m, delta_t_secs, correction)
         .map_err(refused)?;
-    Ok(Position {
-        azimuth_deg: seen.azimuth(),
-        altitude_deg: seen.elevation_angle(),
-    })
+    Ok(Position { azimuth_deg: seen.azimuth(), altitude_deg: seen.elevation_angle() })
 }
 
 /// The place as the library takes it.
 pub(super) fn location(place: &Place) -> Location {
-    Location {
-        latitude: place.latitude_deg,
-        longitude: place.longitude_deg,
-    }
+    Location { latitude: place.latitude_deg, longitude: place.longitude_deg }
 }
 
 /// ΔT = TT − UT1 in seconds, by the polynomials of Espenak and Meeus
@@ -122,9 +96,5 @@ pub(super) fn check_year(year: i32) -> Result<(), SunError> {
     if (FIRST_YEAR..=LAST_YEAR).contains(&year) {
         return Ok(());
     }
-    Err(SunError::Year {
-        year,
-        first: FIRST_YEAR,
-        last: LAST_YEAR,
-    })
+    Err(SunError::Year { year, first: FIRST_YEAR, last: LAST_YEAR })
 }

@@ -50,11 +50,7 @@ impl Window {
         }
         let next = date.succ_opt().unwrap_or(date);
         let to = self.to.at(place, next)?;
-        if to > from {
-            Ok([from, to])
-        } else {
-            Err(SunError::Backwards { from, to })
-        }
+        if to > from { Ok([from, to]) } else { Err(SunError::Backwards { from, to }) }
     }
 
     fn empty(&self, date: NaiveDate) -> SunError {
@@ -63,11 +59,7 @@ impl Window {
         SunError::EmptyWindow {
             from: self.from.to_string(),
             to: self.to.to_string(),
-            example: if plain {
-                format!("{next}T{}", self.to)
-            } else {
-                format!("{next}T12:00")
-            },
+            example: if plain { format!("{next}T{}", self.to) } else { format!("{next}T12:00") },
         }
     }
 }
@@ -75,14 +67,9 @@ impl Window {
 /// The date on which a reading lies.
 fn date_of(reading: &Reading, date: Option<NaiveDate>) -> Result<NaiveDate, SunError> {
     match (reading.date, date) {
-        (Some(own), Some(date)) if own != date => Err(SunError::TwoDates {
-            reading: reading.to_string(),
-            date,
-        }),
+        (Some(own), Some(date)) if own != date => Err(SunError::TwoDates { reading: reading.to_string(), date }),
         (Some(date), _) | (None, Some(date)) => Ok(date),
-        (None, None) => Err(SunError::NoDate {
-            reading: reading.to_string(),
-        }),
+        (None, None) => Err(SunError::NoDate { reading: reading.to_string() }),
     }
 }
 
@@ -101,10 +88,7 @@ impl SunTrack {
         let [from, to] = window.bounds(place)?;
         let seconds = (to - from).num_seconds();
         if seconds > MOST_DAYS * 86_400 {
-            return Err(SunError::WindowTooLong {
-                days: seconds / 86_400,
-                most: MOST_DAYS,
-            });
+            return Err(SunError::WindowTooLong { days: seconds / 86_400, most: MOST_DAYS });
         }
         let step = i64::from(window.step_secs);
         let whole_steps = seconds / step;
@@ -122,10 +106,7 @@ impl SunTrack {
         if seconds % step != 0 {
             elapsed.push(seconds);
         }
-        let times: Vec<_> = elapsed
-            .iter()
-            .map(|elapsed| from + TimeDelta::seconds(*elapsed))
-            .collect();
+        let times: Vec<_> = elapsed.iter().map(|elapsed| from + TimeDelta::seconds(*elapsed)).collect();
         let weights = weights_secs(&elapsed);
         track(place, &times, &weights, window.step_secs, refraction)
     }
@@ -196,11 +177,5 @@ fn track(
         .into_par_iter()
         .map(|date| Day::of(place, date))
         .collect::<Result<_, _>>()?;
-    Ok(SunTrack {
-        instants,
-        days,
-        step_secs,
-        refraction,
-        delta_t_secs,
-    })
+    Ok(SunTrack { instants, days, step_secs, refraction, delta_t_secs })
 }

@@ -66,15 +66,11 @@ proptest! {
 fn a_tree_of_100_000_levels_is_read() {
     let mut model = Model::triangle();
     let last = 100_000;
-    let mut nodes: Vec<Value> = (0..last)
-        .map(|node| json!({"children": [node + 1], "translation": [0, 1, 0]}))
-        .collect();
+    let mut nodes: Vec<Value> =
+        (0..last).map(|node| json!({"children": [node + 1], "translation": [0, 1, 0]})).collect();
     nodes.push(json!({"mesh": 0}));
     model.json["nodes"] = json!(nodes);
-    assert_eq!(
-        model.part().positions[0],
-        DVec3::new(0.0, 0.0, f64::from(last))
-    );
+    assert_eq!(model.part().positions[0], DVec3::new(0.0, 0.0, f64::from(last)));
 }
 
 #[test]
@@ -83,10 +79,7 @@ fn counts_that_the_file_does_not_hold_are_refused() {
         let mut model = Model::triangle();
         model.json["accessors"][0]["count"] = json!(count);
         model.refused(&["accessor 0 reads bytes"]);
-        model.json["accessors"][0]
-            .as_object_mut()
-            .unwrap()
-            .remove("bufferView");
+        model.json["accessors"][0].as_object_mut().unwrap().remove("bufferView");
         model.refused(&["accessor 0", "no bytes to hold them"]);
         let (indices, values) = (model.view(&[0]), model.view(&[0; 12]));
         model.json["accessors"][0]["count"] = json!(3);
@@ -97,11 +90,7 @@ fn counts_that_the_file_does_not_hold_are_refused() {
         });
         model.refused(&["accessor 0 reads bytes"]);
     }
-    for (key, holder) in [
-        ("byteOffset", "buffer 0"),
-        ("byteLength", "buffer 0"),
-        ("byteStride", "buffer view 0"),
-    ] {
+    for (key, holder) in [("byteOffset", "buffer 0"), ("byteLength", "buffer 0"), ("byteStride", "buffer view 0")] {
         let mut model = Model::triangle();
         model.json["accessors"][0]["count"] = json!(4);
         model.json["bufferViews"][0]["byteLength"] = json!(48);
@@ -117,8 +106,7 @@ fn triangles_are_counted_before_they_are_made() {
     let zeros = push(&mut model.json["accessors"], zeros);
     model.primitive()["attributes"]["POSITION"] = json!(zeros);
     model.primitive()["mode"] = json!(5);
-    model.json["nodes"][0]["extensions"] =
-        json!({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": zeros}}});
+    model.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": zeros}}});
     model.refused(&["more than 100000000 triangles", "less detail"]);
 }
 
@@ -135,18 +123,12 @@ fn many_buffers_in_one_file_cost_it_once() {
     let mut model = Model::triangle();
     std::fs::write(folder.path().join("all.bin"), vec![0; 10_000_000]).unwrap();
     let count = 1000;
-    model.json["buffers"] = json!(vec![
-        json!({"byteLength": 10_000_000, "uri": "all.bin"});
-        count
-    ]);
+    model.json["buffers"] = json!(vec![json!({"byteLength": 10_000_000, "uri": "all.bin"}); count]);
     let view = |buffer: usize| json!({"buffer": buffer, "byteLength": 36});
-    let accessor =
-        |view: usize| json!({"bufferView": view, "componentType": F32, "type": "VEC3", "count": 3});
+    let accessor = |view: usize| json!({"bufferView": view, "componentType": F32, "type": "VEC3", "count": 3});
     model.json["bufferViews"] = (0..count).map(view).collect();
     model.json["accessors"] = (0..count).map(accessor).collect();
-    let primitives: Value = (0..count)
-        .map(|accessor| json!({"attributes": {"POSITION": accessor}}))
-        .collect();
+    let primitives: Value = (0..count).map(|accessor| json!({"attributes": {"POSITION": accessor}})).collect();
     model.json["meshes"] = json!([{"primitives": primitives}]);
     let path = folder.path().join("model.gltf");
     std::fs::write(&path, model.gltf().to_string()).unwrap();

@@ -7,10 +7,7 @@ fn house() -> Model {
     let mut model = Model::triangle();
     let primitive = |more: Value| {
         let mut primitive = json!({"attributes": {"POSITION": 0}});
-        primitive
-            .as_object_mut()
-            .unwrap()
-            .extend(more.as_object().unwrap().clone());
+        primitive.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
         primitive
     };
     model.json["materials"] = json!([{"name": "wall"}, {}, {"name": "line"}]);
@@ -25,19 +22,11 @@ fn house() -> Model {
 }
 
 fn names(model: &Model) -> Vec<(String, Vec<String>)> {
-    model
-        .load()
-        .unwrap()
-        .into_iter()
-        .map(|part| (part.name, part.aliases))
-        .collect()
+    model.load().unwrap().into_iter().map(|part| (part.name, part.aliases)).collect()
 }
 
 fn named(name: &str, aliases: &[&str]) -> (String, Vec<String>) {
-    (
-        name.to_owned(),
-        aliases.iter().map(|alias| alias.to_string()).collect(),
-    )
+    (name.to_owned(), aliases.iter().map(|alias| alias.to_string()).collect())
 }
 
 #[test]
@@ -48,28 +37,18 @@ fn a_component_is_a_node_and_a_material() {
         names(&model),
         [
             named("north house/wall", &["north house", "house", "wall"]),
-            named(
-                "north house/material 1",
-                &["north house", "house", "material 1"]
-            ),
+            named("north house/material 1", &["north house", "house", "material 1"]),
             named("north house/default", &["north house", "house", "default"]),
         ]
     );
     let parts = model.load().unwrap();
-    assert_eq!(
-        parts[0].triangles.len(),
-        2,
-        "primitives of one material are merged"
-    );
+    assert_eq!(parts[0].triangles.len(), 2, "primitives of one material are merged");
 }
 
 #[test]
 fn one_material_needs_no_second_name() {
     let mut model = house();
-    model.json["meshes"][0]["primitives"]
-        .as_array_mut()
-        .unwrap()
-        .truncate(1);
+    model.json["meshes"][0]["primitives"].as_array_mut().unwrap().truncate(1);
     model.json["nodes"] = json!([{"mesh": 0, "name": "shed"}]);
     assert_eq!(names(&model), [named("shed", &["shed", "house", "wall"])]);
 }

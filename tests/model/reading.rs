@@ -18,45 +18,29 @@ fn a_placement_scales_then_turns_then_moves() {
     let path = folder.path().join("model.glb");
     std::fs::write(&path, Model::triangle().glb()).unwrap();
     // True north lies 90° clockwise of the model's north, so the model's north points west.
-    let placement = Placement {
-        north_rad: FRAC_PI_2,
-        position: DVec3::new(100.0, 200.0, 5.0),
-        scale: 2.0,
-    };
+    let placement = Placement { north_rad: FRAC_PI_2, position: DVec3::new(100.0, 200.0, 5.0), scale: 2.0 };
     let parts = load(&path, &placement).unwrap();
-    assert_eq!(
-        corners(&parts[0]),
-        [[[100.0, 200.0, 5.0], [100.0, 202.0, 5.0], [98.0, 200.0, 5.0]]]
-    );
+    assert_eq!(corners(&parts[0]), [[[100.0, 200.0, 5.0], [100.0, 202.0, 5.0], [98.0, 200.0, 5.0]]]);
     assert!(normal(&parts[0]).z > 0.0);
 }
 
 #[test]
 fn a_glb_reads_its_binary_chunk_and_skips_others() {
     let model = Model::triangle();
-    assert_eq!(
-        corners(&load_bytes("model.glb", &model.glb()).unwrap()[0]),
-        [FLAT]
-    );
+    assert_eq!(corners(&load_bytes("model.glb", &model.glb()).unwrap()[0]), [FLAT]);
 
     let mut bytes = model.glb();
     bytes.extend(b"\x04\0\0\0MORE1234");
     let length = bytes.len() as u32;
     bytes[8..12].copy_from_slice(&length.to_le_bytes());
     bytes.extend(b"what follows the container is nobody's");
-    assert_eq!(
-        corners(&load_bytes("model.glb", &bytes).unwrap()[0]),
-        [FLAT]
-    );
+    assert_eq!(corners(&load_bytes("model.glb", &bytes).unwrap()[0]), [FLAT]);
 }
 
 #[test]
 fn a_byte_order_mark_is_skipped() {
     let text = format!("\u{feff}{}", Model::triangle().gltf());
-    assert_eq!(
-        corners(&load_bytes("model.gltf", text.as_bytes()).unwrap()[0]),
-        [FLAT]
-    );
+    assert_eq!(corners(&load_bytes("model.gltf", text.as_bytes()).unwrap()[0]), [FLAT]);
 }
 
 #[test]
@@ -67,8 +51,7 @@ fn buffers_lie_beside_the_model_under_percent_encoded_names() {
     // More bytes than stated do no harm.
     let bytes = [&model.bytes[..], b"and more"].concat();
     std::fs::write(folder.path().join("data/the walls.bin"), bytes).unwrap();
-    model.json["buffers"] =
-        json!([{"byteLength": model.bytes.len(), "uri": "./data/the%20walls.bin"}]);
+    model.json["buffers"] = json!([{"byteLength": model.bytes.len(), "uri": "./data/the%20walls.bin"}]);
     let path = folder.path().join("model.gltf");
     std::fs::write(&path, model.gltf().to_string()).unwrap();
     assert_eq!(corners(&load_path(&path).unwrap()[0]), [FLAT]);
@@ -84,20 +67,14 @@ fn nodes_move_turn_and_scale_their_children() {
         {"children": [0], "rotation": [0, 3.0 * half, 0, 3.0 * half]},
         {"children": [1], "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 20, -30, 1]},
     ]);
-    assert_eq!(
-        corners(&model.part()),
-        [[[10.0, 30.0, 20.0], [10.0, 32.0, 20.0], [8.0, 30.0, 20.0]]]
-    );
+    assert_eq!(corners(&model.part()), [[[10.0, 30.0, 20.0], [10.0, 32.0, 20.0], [8.0, 30.0, 20.0]]]);
 }
 
 #[test]
 fn transforms_keep_millimetres_at_map_coordinates() {
     let mut model = Model::triangle();
-    model.json["nodes"] =
-        json!([{"mesh": 0, "translation": [2_680_000.123, 400.0, -1_250_000.456]}]);
-    let [[first, ..]] = corners(&model.part())[..] else {
-        panic!("one triangle")
-    };
+    model.json["nodes"] = json!([{"mesh": 0, "translation": [2_680_000.123, 400.0, -1_250_000.456]}]);
+    let [[first, ..]] = corners(&model.part())[..] else { panic!("one triangle") };
     assert_eq!(first, [2_680_000.123, 1_250_000.456, 400.0]);
 }
 
@@ -114,21 +91,9 @@ fn mirrored_nodes_stay_counter_clockwise_from_outside() {
 #[test]
 fn the_default_scene_is_read() {
     let mut model = Model::triangle();
-    model.json["nodes"] =
-        json!([{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b"}, {"children": [0]}]);
-    let names = |model: &Model| -> Vec<String> {
-        model
-            .load()
-            .unwrap()
-            .into_iter()
-            .map(|part| part.name)
-            .collect()
-    };
-    assert_eq!(
-        names(&model),
-        ["b", "a"],
-        "all root nodes where there is no scene"
-    );
+    model.json["nodes"] = json!([{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b"}, {"children": [0]}]);
+    let names = |model: &Model| -> Vec<String> { model.load().unwrap().into_iter().map(|part| part.name).collect() };
+    assert_eq!(names(&model), ["b", "a"], "all root nodes where there is no scene");
     model.json["scenes"] = json!([{"nodes": [1]}, {"nodes": [2]}, {}]);
     assert_eq!(names(&model), ["b"], "the first where the file names none");
     model.json["scene"] = json!(1);
@@ -143,8 +108,7 @@ fn zigzag(mode: u32, indices: &[u8]) -> Model {
     let points = [0., 0., 0., 0., 0., -1., 1., 0., 0., 1., 0., -1., 2., 0., 0.];
     let positions = model.f32s("VEC3", &points);
     let indices = model.accessor("SCALAR", U8, indices.len(), indices);
-    let primitive =
-        json!({"attributes": {"POSITION": positions}, "indices": indices, "mode": mode});
+    let primitive = json!({"attributes": {"POSITION": positions}, "indices": indices, "mode": mode});
     model.json["meshes"] = json!([{"primitives": [primitive]}]);
     model.json["nodes"] = json!([{"mesh": 0}]);
     model
@@ -170,20 +134,15 @@ fn points_and_lines_cast_nothing() {
         zigzag(mode, &[0, 1, 2, 3]).refused(&["no triangles"]);
     }
     let mut model = zigzag(4, &[0, 2, 1]);
-    push(
-        &mut model.json["meshes"][0]["primitives"],
-        json!({"attributes": {}, "mode": 1}),
-    );
+    push(&mut model.json["meshes"][0]["primitives"], json!({"attributes": {}, "mode": 1}));
     assert_eq!(model.part().triangles.len(), 1);
 }
 
 #[test]
 fn indices_have_one_two_or_four_bytes() {
-    for (component, bytes) in [
-        (U8, vec![0, 1, 2]),
-        (U16, vec![0, 0, 1, 0, 2, 0]),
-        (U32, vec![0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]),
-    ] {
+    for (component, bytes) in
+        [(U8, vec![0, 1, 2]), (U16, vec![0, 0, 1, 0, 2, 0]), (U32, vec![0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0])]
+    {
         let mut model = Model::triangle();
         let indices = model.accessor("SCALAR", component, 3, &bytes);
         model.primitive()["indices"] = json!(indices);
@@ -200,13 +159,8 @@ fn only_the_vertices_in_use_are_kept() {
 #[test]
 fn interleaved_vertices_are_read() {
     let mut model = Model::triangle();
-    let numbers: [f32; 18] = [
-        0., 0., 0., 9., 9., 9., 1., 0., 0., 9., 9., 9., 0., 0., -1., 9., 9., 9.,
-    ];
-    let bytes: Vec<u8> = numbers
-        .iter()
-        .flat_map(|number| number.to_le_bytes())
-        .collect();
+    let numbers: [f32; 18] = [0., 0., 0., 9., 9., 9., 1., 0., 0., 9., 9., 9., 0., 0., -1., 9., 9., 9.];
+    let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
     let view = model.view(&bytes);
     model.json["bufferViews"][view]["byteStride"] = json!(24);
     model.json["accessors"][0]["bufferView"] = json!(view);
@@ -220,10 +174,7 @@ fn interleaved_vertices_are_read() {
 fn sparse_values_stand_for_stored_ones_or_zeros() {
     let mut model = Model::triangle();
     let indices = model.view(&[1, 2]);
-    let values: Vec<u8> = [5_f32, 0., 0., 0., 0., -5.]
-        .iter()
-        .flat_map(|number| number.to_le_bytes())
-        .collect();
+    let values: Vec<u8> = [5_f32, 0., 0., 0., 0., -5.].iter().flat_map(|number| number.to_le_bytes()).collect();
     let values = model.view(&values);
     model.json["accessors"][0]["sparse"] = json!({
         "count": 2,
@@ -232,41 +183,23 @@ fn sparse_values_stand_for_stored_ones_or_zeros() {
     });
     let large = [[[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 5.0, 0.0]]];
     assert_eq!(corners(&model.part()), large);
-    model.json["accessors"][0]
-        .as_object_mut()
-        .unwrap()
-        .remove("bufferView");
+    model.json["accessors"][0].as_object_mut().unwrap().remove("bufferView");
     assert_eq!(corners(&model.part()), large);
 }
 
 #[test]
 fn an_accessor_without_a_view_is_zeros() {
     let mut model = Model::triangle();
-    model.json["accessors"][0]
-        .as_object_mut()
-        .unwrap()
-        .remove("bufferView");
+    model.json["accessors"][0].as_object_mut().unwrap().remove("bufferView");
     assert_eq!(corners(&model.part()), [[[0.0; 3]; 3]]);
 }
 
 #[test]
 fn quantized_positions_are_read() {
     for (component, normalized, bytes, one) in [
-        (
-            I8,
-            false,
-            vec![0, 0, 0, 0, 127, 0, 0, 0, 0, 0, 129, 0],
-            127.0,
-        ),
+        (I8, false, vec![0, 0, 0, 0, 127, 0, 0, 0, 0, 0, 129, 0], 127.0),
         (I8, true, vec![0, 0, 0, 0, 127, 0, 0, 0, 0, 0, 128, 0], 1.0),
-        (
-            I16,
-            true,
-            vec![
-                0, 0, 0, 0, 0, 0, 0, 0, 255, 127, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 128, 0, 0,
-            ],
-            1.0,
-        ),
+        (I16, true, vec![0, 0, 0, 0, 0, 0, 0, 0, 255, 127, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 128, 0, 0], 1.0),
     ] {
         let mut model = Model::triangle();
         let stride = bytes.len() / 3;
@@ -275,18 +208,9 @@ fn quantized_positions_are_read() {
         model.json["accessors"][positions]["normalized"] = json!(normalized);
         model.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
         model.primitive()["attributes"]["POSITION"] = json!(positions);
-        assert_eq!(
-            corners(&model.part()),
-            [FLAT.map(|corner| corner.map(|value| value * one))],
-            "{component}"
-        );
+        assert_eq!(corners(&model.part()), [FLAT.map(|corner| corner.map(|value| value * one))], "{component}");
     }
-    for (component, normalized, one) in [
-        (U8, false, 255.0),
-        (U8, true, 1.0),
-        (U16, false, 65535.0),
-        (U16, true, 1.0),
-    ] {
+    for (component, normalized, one) in [(U8, false, 255.0), (U8, true, 1.0), (U16, false, 65535.0), (U16, true, 1.0)] {
         let mut model = Model::triangle();
         let size = if component == U8 { 1 } else { 2 };
         let mut bytes = vec![0; 9 * size];
@@ -295,14 +219,8 @@ fn quantized_positions_are_read() {
         let positions = model.accessor("VEC3", component, 3, &bytes);
         model.json["accessors"][positions]["normalized"] = json!(normalized);
         model.primitive()["attributes"]["POSITION"] = json!(positions);
-        let [[_, second, third]] = corners(&model.part())[..] else {
-            panic!("one triangle")
-        };
-        assert_eq!(
-            (second, third),
-            ([one, 0.0, 0.0], [0.0, 0.0, one]),
-            "{component} {normalized}"
-        );
+        let [[_, second, third]] = corners(&model.part())[..] else { panic!("one triangle") };
+        assert_eq!((second, third), ([one, 0.0, 0.0], [0.0, 0.0, one]), "{component} {normalized}");
     }
 }
 
@@ -325,11 +243,7 @@ fn instances_are_copies_in_one_part() {
     let first = [[10.0, 0.0, 3.0], [11.0, 0.0, 3.0], [10.0, 1.0, 3.0]];
     let second = [[20.0, 0.0, 3.0], [20.0, 2.0, 3.0], [18.0, 0.0, 3.0]];
     assert_eq!(corners(&part), [first, second]);
-    assert_eq!(
-        normal(&part),
-        DVec3::Z * 5.0,
-        "the mirrored copy faces up as well"
-    );
+    assert_eq!(normal(&part), DVec3::Z * 5.0, "the mirrored copy faces up as well");
 }
 
 #[test]
@@ -341,17 +255,12 @@ fn what_does_not_cast_may_be_missing_broken_or_unknown() {
     model.json["cameras"] = json!([{}]);
     model.json["animations"] = json!([{"channels": 1}]);
     model.json["skins"] = json!([{"joints": [99]}]);
-    model.json["materials"] =
-        json!([{"name": "wall", "pbrMetallicRoughness": {"baseColorTexture": {"index": 12}}}]);
+    model.json["materials"] = json!([{"name": "wall", "pbrMetallicRoughness": {"baseColorTexture": {"index": 12}}}]);
     model.json["nodes"][0]["skin"] = json!(0);
     model.json["nodes"][0]["camera"] = json!(99);
     model.primitive()["material"] = json!(0);
     model.primitive()["extras"] = json!("a text");
-    model.json["extensionsRequired"] = json!([
-        "KHR_texture_basisu",
-        "EXT_texture_webp",
-        "KHR_materials_unlit",
-        "KHR_lights_punctual"
-    ]);
+    model.json["extensionsRequired"] =
+        json!(["KHR_texture_basisu", "EXT_texture_webp", "KHR_materials_unlit", "KHR_lights_punctual"]);
     assert_eq!(corners(&model.part()), [FLAT]);
 }

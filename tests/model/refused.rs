@@ -21,10 +21,7 @@ fn other_formats_say_how_they_become_gltf() {
         ("house.txt", "File > Export"),
         ("house.glb", "damaged"),
     ] {
-        assert_refused(
-            load_bytes(name, b"o house\nv 0 0 0\n"),
-            &[name, ".glb and .gltf", way],
-        );
+        assert_refused(load_bytes(name, b"o house\nv 0 0 0\n"), &[name, ".glb and .gltf", way]);
     }
     assert_refused(load_bytes("empty.glb", b""), &["is not glTF"]);
 }
@@ -33,10 +30,7 @@ fn other_formats_say_how_they_become_gltf() {
 fn missing_files_and_folders_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     assert_refused(load_path(folder.path()), &["not a file"]);
-    assert_refused(
-        load_path(&folder.path().join("none.glb")),
-        &["none.glb", "cannot be read"],
-    );
+    assert_refused(load_path(&folder.path().join("none.glb")), &["none.glb", "cannot be read"]);
 }
 
 #[test]
@@ -47,46 +41,22 @@ fn damaged_containers_are_refused() {
         glb[range].copy_from_slice(bytes);
         load_bytes("model.glb", &glb)
     };
-    assert_refused(
-        load_bytes("model.glb", &whole[..9]),
-        &["header has 9 of 12 bytes", "cut off"],
-    );
-    assert_refused(
-        load_bytes("model.glb", &whole[..whole.len() - 1]),
-        &["promises", "cut off"],
-    );
-    assert_refused(
-        with(4..8, &1_u32.to_le_bytes()),
-        &["glTF 1.0", "export it as glTF 2.0"],
-    );
-    assert_refused(
-        with(8..12, &u32::MAX.to_le_bytes()),
-        &["promises 4294967295 bytes"],
-    );
+    assert_refused(load_bytes("model.glb", &whole[..9]), &["header has 9 of 12 bytes", "cut off"]);
+    assert_refused(load_bytes("model.glb", &whole[..whole.len() - 1]), &["promises", "cut off"]);
+    assert_refused(with(4..8, &1_u32.to_le_bytes()), &["glTF 1.0", "export it as glTF 2.0"]);
+    assert_refused(with(8..12, &u32::MAX.to_le_bytes()), &["promises 4294967295 bytes"]);
     assert_refused(with(8..12, &3_u32.to_le_bytes()), &["promises 3 bytes"]);
-    assert_refused(
-        with(8..12, &16_u32.to_le_bytes()),
-        &["chunk's header has 4 of 8 bytes"],
-    );
-    assert_refused(
-        with(12..16, &0xffff_u32.to_le_bytes()),
-        &["a chunk promises 65535 bytes"],
-    );
+    assert_refused(with(8..12, &16_u32.to_le_bytes()), &["chunk's header has 4 of 8 bytes"]);
+    assert_refused(with(12..16, &0xffff_u32.to_le_bytes()), &["a chunk promises 65535 bytes"]);
     assert_refused(with(16..20, b"BIN\0"), &["first chunk is not JSON"]);
 }
 
 #[test]
 fn json_that_is_not_gltf_2_is_refused() {
-    assert_refused(
-        load_bytes("model.gltf", b"{\"asset\": "),
-        &["JSON is damaged", "line 1"],
-    );
+    assert_refused(load_bytes("model.gltf", b"{\"asset\": "), &["JSON is damaged", "line 1"]);
     assert_refused(load_bytes("model.gltf", b"{}"), &["asset"]);
     let old = br#"{"asset": {"version": "1.0"}, "nodes": {}}"#;
-    assert_refused(
-        load_bytes("model.gltf", old),
-        &["glTF 1.0", "export it as glTF 2.0"],
-    );
+    assert_refused(load_bytes("model.gltf", old), &["glTF 1.0", "export it as glTF 2.0"]);
     changed(|json| json["nodes"][0]["mesh"] = json!("house")).refused(&["JSON is damaged"]);
     changed(|json| json["nodes"][0]["mesh"] = json!(-1)).refused(&["JSON is damaged"]);
 }
@@ -97,13 +67,10 @@ fn indices_that_lead_nowhere_are_refused() {
     changed(|json| json["scenes"] = json!([{"nodes": [9]}])).refused(&["scene 0", "node 9"]);
     changed(|json| json["nodes"][0]["children"] = json!([9])).refused(&["node 0", "node 9"]);
     changed(|json| json["nodes"][0]["mesh"] = json!(9)).refused(&["node 0", "mesh 9"]);
-    changed(|json| json["accessors"][0]["bufferView"] = json!(9))
-        .refused(&["accessor 0", "buffer view 9"]);
-    changed(|json| json["bufferViews"][0]["buffer"] = json!(9))
-        .refused(&["buffer view 0", "buffer 9"]);
+    changed(|json| json["accessors"][0]["bufferView"] = json!(9)).refused(&["accessor 0", "buffer view 9"]);
+    changed(|json| json["bufferViews"][0]["buffer"] = json!(9)).refused(&["buffer view 0", "buffer 9"]);
     for (key, what) in [("indices", "accessor 9"), ("material", "material 9")] {
-        changed(|json| json["meshes"][0]["primitives"][0][key] = json!(9))
-            .refused(&["primitive 0 of mesh 0", what]);
+        changed(|json| json["meshes"][0]["primitives"][0][key] = json!(9)).refused(&["primitive 0 of mesh 0", what]);
     }
     changed(|json| json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(9))
         .refused(&["primitive 0 of mesh 0", "accessor 9"]);
@@ -111,18 +78,13 @@ fn indices_that_lead_nowhere_are_refused() {
 
 #[test]
 fn ranges_beyond_their_bytes_are_refused() {
-    changed(|json| json["accessors"][0]["count"] = json!(4)).refused(&[
-        "accessor 0 reads bytes 0–48 of buffer view 0, which holds 36",
-        "export it again",
-    ]);
-    changed(|json| json["accessors"][0]["byteOffset"] = json!(1))
-        .refused(&["bytes 1–37 of buffer view 0"]);
+    changed(|json| json["accessors"][0]["count"] = json!(4))
+        .refused(&["accessor 0 reads bytes 0–48 of buffer view 0, which holds 36", "export it again"]);
+    changed(|json| json["accessors"][0]["byteOffset"] = json!(1)).refused(&["bytes 1–37 of buffer view 0"]);
     changed(|json| json["bufferViews"][0]["byteOffset"] = json!(8))
         .refused(&["bytes 8–44 of buffer 0, which holds 36"]);
-    changed(|json| json["bufferViews"][0]["byteStride"] = json!(8))
-        .refused(&["accessor 0", "overlap"]);
-    changed(|json| json["bufferViews"][0]["byteStride"] = json!(0))
-        .refused(&["accessor 0", "overlap"]);
+    changed(|json| json["bufferViews"][0]["byteStride"] = json!(8)).refused(&["accessor 0", "overlap"]);
+    changed(|json| json["bufferViews"][0]["byteStride"] = json!(0)).refused(&["accessor 0", "overlap"]);
 }
 
 #[test]
@@ -130,11 +92,7 @@ fn trees_that_are_none_are_refused() {
     let nodes = |nodes: Value| changed(|json| json["nodes"] = nodes.clone());
     nodes(json!([{"children": [1]}, {"children": [0]}])).refused(&["node 0", "its own ancestor"]);
     nodes(json!([{"children": [0], "mesh": 0}])).refused(&["node 0", "its own ancestor"]);
-    nodes(json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}])).refused(&[
-        "node 2",
-        "of node 0",
-        "of node 1",
-    ]);
+    nodes(json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}])).refused(&["node 2", "of node 0", "of node 1"]);
     nodes(json!([{"children": [1, 1]}, {"mesh": 0}])).refused(&["node 1", "again"]);
     let scene = |scene: Value| {
         changed(|json| {
@@ -150,15 +108,10 @@ fn trees_that_are_none_are_refused() {
 fn transforms_without_a_meaning_are_refused() {
     let node = |key: &str, value: Value| changed(|json| json["nodes"][0][key] = value.clone());
     node("rotation", json!([0, 0, 0, 0])).refused(&["node 0", "rotation"]);
-    node(
-        "matrix",
-        json!([1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]),
-    )
-    .refused(&["node 0", "last row"]);
+    node("matrix", json!([1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])).refused(&["node 0", "last row"]);
     node("scale", json!([1, 2])).refused(&["JSON is damaged"]);
     changed(|json| {
-        json["nodes"] =
-            json!([{"mesh": 0, "scale": [1e300, 1, 1]}, {"children": [0], "scale": [1e300, 1, 1]}])
+        json["nodes"] = json!([{"mesh": 0, "scale": [1e300, 1, 1]}, {"children": [0], "scale": [1e300, 1, 1]}])
     })
     .refused(&["node 0", "beyond all numbers"]);
 }
@@ -168,12 +121,9 @@ fn positions_that_are_missing_or_no_numbers_are_refused() {
     changed(|json| json["meshes"][0]["primitives"][0]["attributes"] = json!({"NORMAL": 0}))
         .refused(&["primitive 0 of mesh 0", "no positions"]);
     changed(|json| json["accessors"][0]["type"] = json!("VEC2")).refused(&["positions of a type"]);
-    changed(|json| json["accessors"][0]["componentType"] = json!(U32))
-        .refused(&["positions of a type"]);
-    changed(|json| json["accessors"][0]["componentType"] = json!(5124))
-        .refused(&["accessor 0", "type"]);
-    changed(|json| json["meshes"][0]["primitives"][0]["mode"] = json!(7))
-        .refused(&["primitive 0", "mode"]);
+    changed(|json| json["accessors"][0]["componentType"] = json!(U32)).refused(&["positions of a type"]);
+    changed(|json| json["accessors"][0]["componentType"] = json!(5124)).refused(&["accessor 0", "type"]);
+    changed(|json| json["meshes"][0]["primitives"][0]["mode"] = json!(7)).refused(&["primitive 0", "mode"]);
     for number in [f32::NAN, f32::INFINITY] {
         let mut model = Model::triangle();
         model.bytes[12..16].copy_from_slice(&number.to_le_bytes());
@@ -212,28 +162,21 @@ fn sparse_tables_out_of_order_or_range_are_refused() {
 
 #[test]
 fn compressed_geometry_says_how_to_export_without() {
-    for extension in [
-        "KHR_draco_mesh_compression",
-        "EXT_meshopt_compression",
-        "KHR_meshopt_compression",
-    ] {
+    for extension in ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"] {
         changed(|json| json["extensionsRequired"] = json!([extension]))
             .refused(&[extension, "export it without mesh compression"]);
     }
-    let draco =
-        json!({"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}});
+    let draco = json!({"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}});
     let mut model = Model::triangle();
     model.primitive()["extensions"] = draco;
     assert_eq!(model.part().triangles.len(), 1, "the plain copy is read");
-    model.json["accessors"][0] =
-        json!({"componentType": F32, "type": "VEC3", "count": 4_000_000_000_u64});
+    model.json["accessors"][0] = json!({"componentType": F32, "type": "VEC3", "count": 4_000_000_000_u64});
     model.refused(&["primitive 0 of mesh 0", "KHR_draco_mesh_compression"]);
 
     let meshopt = json!({"EXT_meshopt_compression": {"buffer": 1}});
     let mut model = changed(|json| json["bufferViews"][0]["extensions"] = meshopt.clone());
     assert_eq!(model.part().triangles.len(), 1, "the plain copy is read");
-    let placeholder =
-        json!({"byteLength": 36, "extensions": {"EXT_meshopt_compression": {"fallback": true}}});
+    let placeholder = json!({"byteLength": 36, "extensions": {"EXT_meshopt_compression": {"fallback": true}}});
     model.json["buffers"] = json!([placeholder]);
     model.refused(&["buffer view 0", "EXT_meshopt_compression"]);
 }
@@ -247,23 +190,13 @@ fn unknown_required_extensions_are_refused() {
 #[test]
 fn buffers_outside_the_folder_are_refused() {
     let at = |uri: &str| changed(|json| json["buffers"] = json!([{"byteLength": 36, "uri": uri}]));
-    for uri in [
-        "../walls.bin",
-        "data/../../walls.bin",
-        "/etc/passwd",
-        "%2e%2e/walls.bin",
-        "..\\walls.bin",
-        "%2fetc/x",
-    ] {
+    for uri in ["../walls.bin", "data/../../walls.bin", "/etc/passwd", "%2e%2e/walls.bin", "..\\walls.bin", "%2fetc/x"]
+    {
         at(uri).refused(&["buffer 0", "outside the model's folder"]);
     }
-    for uri in [
-        "http://example.com/x.bin",
-        "https://example.com/x.bin",
-        "file:///etc/passwd",
-        "//host/x.bin",
-        "C:/x.bin",
-    ] {
+    for uri in
+        ["http://example.com/x.bin", "https://example.com/x.bin", "file:///etc/passwd", "//host/x.bin", "C:/x.bin"]
+    {
         at(uri).refused(&["buffer 0", "nothing is fetched"]);
     }
     at("missing.bin").refused(&["buffer 0", "missing.bin", "put it beside the model"]);
@@ -280,8 +213,7 @@ fn instances_without_a_meaning_are_refused() {
         model.f32s("VEC3", &[0.0; 6]);
         model.f32s("VEC3", &[0.0; 3]);
         model.f32s("VEC4", &[0.0; 8]);
-        model.json["nodes"][0]["extensions"] =
-            json!({"EXT_mesh_gpu_instancing": {"attributes": attributes}});
+        model.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": {"attributes": attributes}});
         model
     };
     with(json!({})).refused(&["node 0", "without attributes"]);

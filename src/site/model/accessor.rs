@@ -32,31 +32,14 @@ struct Span {
 
 impl<'a, 'file> Accessors<'a, 'file> {
     pub(super) fn new(document: &'a Document, buffers: &'a Buffers<'file>) -> Self {
-        Self {
-            document,
-            buffers,
-            known: vec![None; document.accessors.len()],
-            sparse_entries: 0,
-        }
+        Self { document, buffers, known: vec![None; document.accessors.len()], sparse_entries: 0 }
     }
 
     /// An accessor by its number; `user` says who asks.
-    pub(super) fn get(
-        &mut self,
-        index: usize,
-        user: impl Fn() -> String,
-    ) -> Result<Reader<'a>, Fault> {
+    pub(super) fn get(&mut self, index: usize, user: impl Fn() -> String) -> Result<Reader<'a>, Fault> {
         let count = self.known.len();
-        let (Some(known), Some(accessor)) = (
-            self.known.get_mut(index),
-            self.document.accessors.get(index),
-        ) else {
-            return Err(Fault::NoSuch {
-                user: user(),
-                what: "accessor",
-                index,
-                count,
-            });
+        let (Some(known), Some(accessor)) = (self.known.get_mut(index), self.document.accessors.get(index)) else {
+            return Err(Fault::NoSuch { user: user(), what: "accessor", index, count });
         };
         if let Some(reader) = known {
             return Ok(*reader);
@@ -80,20 +63,13 @@ fn open<'a>(
     index: usize,
     accessor: &'a json::Accessor,
 ) -> Result<Reader<'a>, Fault> {
-    let (Checked::Valid(component), Checked::Valid(shape)) =
-        (&accessor.component_type, &accessor.type_)
-    else {
+    let (Checked::Valid(component), Checked::Valid(shape)) = (&accessor.component_type, &accessor.type_) else {
         return Err(fault(index, "has a type that glTF does not know"));
     };
     let (component, shape) = (component.0, *shape);
     let element_bytes = (component.size() * shape.multiplicity()) as u64;
     let locate = |view: usize, offset: u64, count: u64, element_bytes: u64| {
-        let span = Span {
-            view,
-            offset,
-            count,
-            element_bytes,
-        };
+        let span = Span { view, offset, count, element_bytes };
         strided(document, buffers, index, &span)
     };
     let USize64(count) = accessor.count;
@@ -101,40 +77,22 @@ fn open<'a>(
     let base = match accessor.buffer_view {
         Some(view) => Some(locate(view.value(), offset, count, element_bytes)?),
         None if count > MAX_ZEROS => {
-            return Err(fault(
-                index,
-                format!("has {count} elements and no bytes to hold them"),
-            ));
+            return Err(fault(index, format!("has {count} elements and no bytes to hold them")));
         }
         None => None,
     };
     let sparse = match &accessor.sparse {
         Some(table) => {
-            let Checked::Valid(json::accessor::IndexComponentType(component)) =
-                table.indices.component_type
-            else {
-                return Err(fault(
-                    index,
-                    "has sparse indices of a type that glTF does not know",
-                ));
+            let Checked::Valid(json::accessor::IndexComponentType(component)) = table.indices.component_type else {
+                return Err(fault(index, "has sparse indices of a type that glTF does not know"));
             };
             let (at, values, USize64(entries)) = (&table.indices, &table.values, table.count);
             let index_bytes = component.size() as u64;
             Some(Sparse {
                 count: length(index, entries)?,
                 component,
-                indices: locate(
-                    at.buffer_view.value(),
-                    at.byte_offset.0,
-                    entries,
-                    index_bytes,
-                )?,
-                values: locate(
-                    values.buffer_view.value(),
-                    values.byte_offset.0,
-                    entries,
-                    element_bytes,
-                )?,
+                indices: locate(at.buffer_view.value(), at.byte_offset.0, entries, index_bytes)?,
+                values: locate(values.buffer_view.value(), values.byte_offset.0, entries, element_bytes)?,
             })
         }
         None => None,
@@ -151,12 +109,7 @@ fn open<'a>(
 }
 
 /// The bytes of a span, from its first element on; all of its elements lie within the view and the buffer.
-fn strided<'a>(
-    document: &Document,
-    buffers: &'a Buffers,
-    accessor: usize,
-    span: &Span,
-) -> Result<Strided<'a>, Fault> {
+fn strided<'a>(document: &Document, buffers: &'a Buffers, accessor: usize, span: &Span) -> Result<Strided<'a>, Fault> {
     let index = span.view;
     let Some(view) = document.buffer_views.get(index) else {
         return Err(Fault::NoSuch {
@@ -170,32 +123,19 @@ fn strided<'a>(
     if let Some(extension) = compression(view)
         && buffers.is_placeholder(buffer)
     {
-        return Err(Fault::Compressed {
-            what: format!("buffer view {index} is"),
-            extension: extension.into(),
-        });
+        return Err(Fault::Compressed { what: format!("buffer view {index} is"), extension: extension.into() });
     }
-    let stride = view
-        .byte_stride
-        .map_or(span.element_bytes, |stride| stride.0 as u64);
+    let stride = view.byte_stride.map_or(span.element_bytes, |stride| stride.0 as u64);
     if stride < span.element_bytes {
         return Err(fault(
             accessor,
-            format!(
-                "has elements of {} bytes every {stride} bytes, so they overlap",
-                span.element_bytes
-            ),
+            format!("has elements of {} bytes every {stride} bytes, so they overlap", span.element_bytes),
         ));
     }
     let Some(last) = span.count.checked_sub(1) else {
-        return Ok(Strided {
-            bytes: &[],
-            stride: 0,
-        });
+        return Ok(Strided { bytes: &[], stride: 0 });
     };
-    let reach = stride
-        .saturating_mul(last)
-        .saturating_add(span.element_bytes);
+    let reach = stride.saturating_mul(last).saturating_add(span.element_bytes);
     let USize64(view_bytes) = view.byte_length;
     let end = span.offset.saturating_add(reach);
     let range = |start: u64, end: u64, holder: String, holds: u64| Fault::Range {
@@ -206,38 +146,22 @@ fn strided<'a>(
         holds,
     };
     if end > view_bytes {
-        return Err(range(
-            span.offset,
-            end,
-            format!("buffer view {index}"),
-            view_bytes,
-        ));
+        return Err(range(span.offset, end, format!("buffer view {index}"), view_bytes));
     }
     let bytes = buffers.get(buffer, &format!("buffer view {index}"))?;
-    let start = view
-        .byte_offset
-        .map_or(0, |offset| offset.0)
-        .saturating_add(span.offset);
+    let start = view.byte_offset.map_or(0, |offset| offset.0).saturating_add(span.offset);
     let end = start.saturating_add(reach);
-    let within =
-        |start: u64, end: u64| bytes.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?);
+    let within = |start: u64, end: u64| bytes.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?);
     match (within(start, end), usize::try_from(stride)) {
         (Some(bytes), Ok(stride)) => Ok(Strided { bytes, stride }),
-        _ => Err(range(
-            start,
-            end,
-            format!("buffer {buffer}"),
-            bytes.len() as u64,
-        )),
+        _ => Err(range(start, end, format!("buffer {buffer}"), bytes.len() as u64)),
     }
 }
 
 /// The extension that compresses a view, where one does.
 fn compression(view: &json::buffer::View) -> Option<&str> {
     let mut names = view.extensions.as_ref()?.others.keys();
-    names
-        .find(|name| name.ends_with("_meshopt_compression"))
-        .map(String::as_str)
+    names.find(|name| name.ends_with("_meshopt_compression")).map(String::as_str)
 }
 
 /// A count that memory could hold.
@@ -246,8 +170,5 @@ fn length(accessor: usize, count: u64) -> Result<usize, Fault> {
 }
 
 pub(super) fn fault(accessor: usize, problem: impl Into<String>) -> Fault {
-    Fault::Accessor {
-        accessor,
-        problem: problem.into(),
-    }
+    Fault::Accessor { accessor, problem: problem.into() }
 }

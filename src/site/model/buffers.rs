@@ -51,12 +51,7 @@ impl<'a> Buffers<'a> {
     /// All bytes there are, which may be more or fewer than the file says.
     pub(super) fn get(&self, index: usize, user: &str) -> Result<&[u8], Fault> {
         let Some(cell) = self.loaded.get(index) else {
-            return Err(Fault::NoSuch {
-                user: user.into(),
-                what: "buffer",
-                index,
-                count: self.loaded.len(),
-            });
+            return Err(Fault::NoSuch { user: user.into(), what: "buffer", index, count: self.loaded.len() });
         };
         let bytes = match cell.get() {
             Some(bytes) => bytes,
@@ -77,28 +72,19 @@ impl<'a> Buffers<'a> {
         let extensions = buffer.and_then(|buffer| buffer.extensions.as_ref());
         extensions.is_some_and(|found| {
             let mut others = found.others.iter();
-            others.any(|(name, value)| {
-                name.ends_with("_meshopt_compression") && value["fallback"] == true
-            })
+            others.any(|(name, value)| name.ends_with("_meshopt_compression") && value["fallback"] == true)
         }) && buffer.is_some_and(|buffer| buffer.uri.is_none())
     }
 
     fn load(&self, index: usize) -> Result<Bytes<'a>, Fault> {
-        let uri = self
-            .document
-            .buffers
-            .get(index)
-            .and_then(|buffer| buffer.uri.as_deref());
+        let uri = self.document.buffers.get(index).and_then(|buffer| buffer.uri.as_deref());
         match (uri, self.binary) {
             (Some(uri), _) => match strip_data_scheme(uri) {
                 Some(data) => Ok(Bytes::Owned(decode(index, data)?.into())),
                 None => Ok(Bytes::Owned(self.read(index, uri)?)),
             },
             (None, Some(binary)) if index == 0 => Ok(Bytes::Borrowed(binary)),
-            (None, _) => Err(fault(
-                index,
-                "has neither an address nor bytes: export the model as one .glb",
-            )),
+            (None, _) => Err(fault(index, "has neither an address nor bytes: export the model as one .glb")),
         }
     }
 
@@ -108,25 +94,18 @@ impl<'a> Buffers<'a> {
         if has_scheme(uri) || uri.starts_with("//") {
             return Err(fault(
                 index,
-                format!(
-                    "lies at '{address}', and nothing is fetched from there: export the model as one .glb"
-                ),
+                format!("lies at '{address}', and nothing is fetched from there: export the model as one .glb"),
             ));
         }
         let Some(relative) = percent_decode(uri) else {
-            return Err(fault(
-                index,
-                format!("has the address '{address}', which is not UTF-8: export it again"),
-            ));
+            return Err(fault(index, format!("has the address '{address}', which is not UTF-8: export it again")));
         };
         // Also on systems where it is no separator: a file means the same everywhere.
         let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
         if !Path::new(&relative).components().all(inside) || relative.contains('\\') {
             return Err(fault(
                 index,
-                format!(
-                    "lies at '{address}', outside the model's folder: put it beside the model, or export one .glb"
-                ),
+                format!("lies at '{address}', outside the model's folder: put it beside the model, or export one .glb"),
             ));
         }
         let path = self.folder.join(relative);
@@ -157,24 +136,13 @@ fn strip_data_scheme(uri: &str) -> Option<&str> {
 /// The bytes of `type;base64,…`.
 fn decode(index: usize, data: &str) -> Result<Vec<u8>, Fault> {
     let Some((kind, text)) = data.split_once(',') else {
-        return Err(fault(
-            index,
-            "is a data address without data: export it again",
-        ));
+        return Err(fault(index, "is a data address without data: export it again"));
     };
     if !kind.to_ascii_lowercase().ends_with(";base64") {
-        return Err(fault(
-            index,
-            "is a data address that is not base64: export the model as one .glb",
-        ));
+        return Err(fault(index, "is a data address that is not base64: export the model as one .glb"));
     }
     let bytes = BASE64.decode(text.trim_ascii());
-    bytes.map_err(|error| {
-        fault(
-            index,
-            format!("is damaged base64 ({error}): export it again"),
-        )
-    })
+    bytes.map_err(|error| fault(index, format!("is damaged base64 ({error}): export it again")))
 }
 
 /// Whether an address begins with a scheme, as in `https:`; one letter is a drive, which is refused alike.
@@ -191,13 +159,9 @@ fn percent_decode(uri: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
     while let Some((&first, behind)) = rest.split_first() {
-        let digits = behind
-            .get(..2)
-            .and_then(|digits| std::str::from_utf8(digits).ok());
+        let digits = behind.get(..2).and_then(|digits| std::str::from_utf8(digits).ok());
         let is_hex = |digits: &&str| digits.bytes().all(|digit| digit.is_ascii_hexdigit());
-        let code = digits
-            .filter(is_hex)
-            .and_then(|digits| u8::from_str_radix(digits, 16).ok());
+        let code = digits.filter(is_hex).and_then(|digits| u8::from_str_radix(digits, 16).ok());
         match code {
             Some(byte) if first == b'%' => {
                 bytes.push(byte);
@@ -222,8 +186,5 @@ fn shorten(uri: &str) -> String {
 }
 
 fn fault(buffer: usize, problem: impl Into<String>) -> Fault {
-    Fault::Buffer {
-        buffer,
-        problem: problem.into(),
-    }
+    Fault::Buffer { buffer, problem: problem.into() }
 }

@@ -14,11 +14,7 @@ use glam::DAffine3;
 const ABSENT: u32 = u32::MAX;
 
 /// One part per node and material, in the order of the scene.
-pub(super) fn parts(
-    document: &Document,
-    buffers: &Buffers,
-    placed: &[Placed],
-) -> Result<Vec<Part>, Fault> {
+pub(super) fn parts(document: &Document, buffers: &Buffers, placed: &[Placed]) -> Result<Vec<Part>, Fault> {
     let mut accessors = Accessors::new(document, buffers);
     // Many nodes may share a mesh; what it says is read once.
     let mut known: Vec<Option<Surfaces>> = document.meshes.iter().map(|_| None).collect();
@@ -36,18 +32,14 @@ pub(super) fn parts(
         if surfaces.groups.is_empty() {
             continue;
         }
-        let asked = document
-            .nodes
-            .get(place.node)
-            .and_then(|node| node.extensions.instancing.as_ref());
+        let asked = document.nodes.get(place.node).and_then(|node| node.extensions.instancing.as_ref());
         let instances = match asked {
             Some(asked) => Instances::open(place.node, asked, &mut accessors)?,
             None => Instances::one(place.node),
         };
         let node = document.node_name(place.node);
         for group in &surfaces.groups {
-            triangles =
-                triangles.saturating_add(group.triangles().saturating_mul(instances.count as u64));
+            triangles = triangles.saturating_add(group.triangles().saturating_mul(instances.count as u64));
             if triangles > MAX_TRIANGLES {
                 return Err(Fault::TooManyTriangles);
             }
@@ -67,11 +59,7 @@ pub(super) fn parts(
             }
         }
     }
-    if parts.is_empty() {
-        Err(Fault::Empty)
-    } else {
-        Ok(parts)
-    }
+    if parts.is_empty() { Err(Fault::Empty) } else { Ok(parts) }
 }
 
 /// The names by which a part may be meant, each once.
@@ -97,12 +85,7 @@ struct Builder {
 
 impl Builder {
     /// All instances of a group.
-    fn part(
-        &mut self,
-        group: &Group,
-        instances: &Instances,
-        world_from_node: DAffine3,
-    ) -> Result<Part, Fault> {
+    fn part(&mut self, group: &Group, instances: &Instances, world_from_node: DAffine3) -> Result<Part, Fault> {
         let mut part = Part::default();
         for instance in 0..instances.count {
             let world_from_mesh = world_from_node * instances.get(instance)?;
@@ -114,12 +97,7 @@ impl Builder {
     }
 
     /// Adds a primitive's triangles, and the vertices that they use.
-    fn append(
-        &mut self,
-        part: &mut Part,
-        surface: &Surface,
-        world_from_mesh: DAffine3,
-    ) -> Result<(), Fault> {
+    fn append(&mut self, part: &mut Part, surface: &Surface, world_from_mesh: DAffine3) -> Result<(), Fault> {
         let mirrors = world_from_mesh.matrix3.determinant() < 0.0;
         if self.numbers.len() < surface.positions.count {
             self.numbers.resize(surface.positions.count, ABSENT);

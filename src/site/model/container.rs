@@ -33,9 +33,7 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
     }
     let file = File::open(path).map_err(Fault::Unreadable)?;
     let mut bytes = Vec::new();
-    file.take(MAX_FILE_BYTES)
-        .read_to_end(&mut bytes)
-        .map_err(Fault::Unreadable)?;
+    file.take(MAX_FILE_BYTES).read_to_end(&mut bytes).map_err(Fault::Unreadable)?;
     Ok(bytes)
 }
 
@@ -47,20 +45,14 @@ pub(super) fn open<'a>(bytes: &'a [u8], path: &Path) -> Result<Container<'a>, Fa
     // glTF forbids a byte order mark; some editors write one all the same.
     let text = without_mark(bytes);
     if text.trim_ascii_start().starts_with(b"{") {
-        return Ok(Container {
-            json: text,
-            binary: None,
-        });
+        return Ok(Container { json: text, binary: None });
     }
     Err(Fault::NotGltf(way_to_gltf(path)))
 }
 
 fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
     let (Some(version), Some(length)) = (u32_at(bytes, 4), u32_at(bytes, 8)) else {
-        return Err(Fault::Container(format!(
-            "its header has {} of {HEADER} bytes",
-            bytes.len()
-        )));
+        return Err(Fault::Container(format!("its header has {} of {HEADER} bytes", bytes.len())));
     };
     if version != 2 {
         return Err(Fault::Version(format!("{version}.0")));
@@ -85,14 +77,8 @@ fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
     }
     // Some writers pad with zeros where blanks are asked for.
     let json = without_mark(first.data);
-    let end = json
-        .iter()
-        .rposition(|&byte| byte != 0)
-        .map_or(0, |last| last + 1);
-    Ok(Container {
-        json: json.get(..end).unwrap_or_default(),
-        binary,
-    })
+    let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+    Ok(Container { json: json.get(..end).unwrap_or_default(), binary })
 }
 
 struct Chunk<'a> {
@@ -103,27 +89,14 @@ struct Chunk<'a> {
 }
 
 fn split_chunk(bytes: &[u8]) -> Result<Chunk<'_>, Fault> {
-    let (Some(length), Some(kind)) = (
-        u32_at(bytes, 0),
-        bytes.get(4..).and_then(<[u8]>::first_chunk),
-    ) else {
-        return Err(Fault::Container(format!(
-            "a chunk's header has {} of {CHUNK_HEADER} bytes",
-            bytes.len()
-        )));
+    let (Some(length), Some(kind)) = (u32_at(bytes, 0), bytes.get(4..).and_then(<[u8]>::first_chunk)) else {
+        return Err(Fault::Container(format!("a chunk's header has {} of {CHUNK_HEADER} bytes", bytes.len())));
     };
     let body = bytes.get(CHUNK_HEADER..).unwrap_or_default();
     let Some((data, rest)) = body.split_at_checked(length) else {
-        return Err(Fault::Container(format!(
-            "a chunk promises {length} bytes, and {} are left",
-            body.len()
-        )));
+        return Err(Fault::Container(format!("a chunk promises {length} bytes, and {} are left", body.len())));
     };
-    Ok(Chunk {
-        kind: *kind,
-        data,
-        rest,
-    })
+    Ok(Chunk { kind: *kind, data, rest })
 }
 
 fn u32_at(bytes: &[u8], offset: usize) -> Option<usize> {
@@ -137,14 +110,9 @@ fn without_mark(bytes: &[u8]) -> &[u8] {
 
 /// How the user gets from the format that the file's name promises to glTF.
 fn way_to_gltf(path: &Path) -> &'static str {
-    let extension = path
-        .extension()
-        .and_then(|text| text.to_str())
-        .unwrap_or_default();
+    let extension = path.extension().and_then(|text| text.to_str()).unwrap_or_default();
     match extension.to_ascii_lowercase().as_str() {
-        "ifc" | "ifczip" | "ifcxml" => {
-            "convert it with IfcOpenShell's `IfcConvert model.ifc model.glb`"
-        }
+        "ifc" | "ifczip" | "ifcxml" => "convert it with IfcOpenShell's `IfcConvert model.ifc model.glb`",
         "rvt" | "rfa" | "pln" | "pla" => {
             "export IFC from Revit or Archicad, then convert it with IfcOpenShell's `IfcConvert model.ifc model.glb`"
         }
@@ -153,11 +121,7 @@ fn way_to_gltf(path: &Path) -> &'static str {
         "obj" | "stl" | "ply" | "fbx" | "dae" | "blend" | "3ds" | "usd" | "usdz" => {
             "import it in Blender, then File > Export > glTF 2.0"
         }
-        "glb" | "gltf" => {
-            "the file does not begin as its name promises; it is damaged: copy or export it again"
-        }
-        _ => {
-            "Blender, Rhino and SketchUp export it (File > Export), and IfcConvert makes it from IFC"
-        }
+        "glb" | "gltf" => "the file does not begin as its name promises; it is damaged: copy or export it again",
+        _ => "Blender, Rhino and SketchUp export it (File > Export), and IfcConvert makes it from IFC",
     }
 }

@@ -37,11 +37,7 @@ const HARMLESS: [&str; 17] = [
 const READ: [&str; 2] = ["KHR_mesh_quantization", "EXT_mesh_gpu_instancing"];
 
 /// Extensions that compress geometry.
-const COMPRESSING: [&str; 3] = [
-    "KHR_draco_mesh_compression",
-    "EXT_meshopt_compression",
-    "KHR_meshopt_compression",
-];
+const COMPRESSING: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
 
 /// What a glTF file says about geometry. No index in it is checked yet.
 #[derive(Deserialize)]
@@ -135,10 +131,7 @@ impl Document {
     fn check_extensions(&self) -> Result<(), Fault> {
         for name in &self.extensions_required {
             if let Some(extension) = COMPRESSING.iter().find(|known| *known == name) {
-                return Err(Fault::Compressed {
-                    what: "its geometry is".into(),
-                    extension: (*extension).into(),
-                });
+                return Err(Fault::Compressed { what: "its geometry is".into(), extension: (*extension).into() });
             }
             let harmless = HARMLESS.iter().any(|prefix| name.starts_with(prefix));
             if !harmless && !READ.contains(&name.as_str()) {
@@ -161,8 +154,7 @@ impl Document {
     pub(super) fn node_name(&self, node: usize) -> String {
         let of_mesh = || self.mesh_name(self.nodes.get(node)?.mesh?);
         let own = self.nodes.get(node).and_then(|node| given(&node.name));
-        own.or_else(of_mesh)
-            .map_or_else(|| format!("node {node}"), str::to_owned)
+        own.or_else(of_mesh).map_or_else(|| format!("node {node}"), str::to_owned)
     }
 
     /// A mesh's name, where it has one.
@@ -175,10 +167,7 @@ impl Document {
         let Some(index) = material else {
             return "default".into();
         };
-        let own = self
-            .materials
-            .get(index)
-            .and_then(|material| given(&material.name));
+        let own = self.materials.get(index).and_then(|material| given(&material.name));
         own.map_or_else(|| format!("material {index}"), str::to_owned)
     }
 }
@@ -188,17 +177,11 @@ fn given(name: &Option<String>) -> Option<&str> {
     name.as_deref().filter(|name| !name.trim().is_empty())
 }
 
-fn check_names<'a>(
-    what: &str,
-    names: impl Iterator<Item = &'a Option<String>>,
-) -> Result<(), Fault> {
+fn check_names<'a>(what: &str, names: impl Iterator<Item = &'a Option<String>>) -> Result<(), Fault> {
     for (index, name) in names.enumerate() {
         let bytes = name.as_ref().map_or(0, String::len);
         if bytes > MAX_NAME_BYTES {
-            return Err(Fault::LongName {
-                what: format!("{what} {index}"),
-                bytes,
-            });
+            return Err(Fault::LongName { what: format!("{what} {index}"), bytes });
         }
     }
     Ok(())

@@ -52,9 +52,7 @@ pub enum Fault {
         extension: String,
     },
     /// An index that leads nowhere.
-    #[error(
-        "{user} refers to {what} {index}, and there are only {count}; the file is damaged: export it again"
-    )]
+    #[error("{user} refers to {what} {index}, and there are only {count}; the file is damaged: export it again")]
     NoSuch {
         /// What refers.
         user: String,
@@ -83,9 +81,7 @@ pub enum Fault {
         holds: u64,
     },
     /// A name that no one can have meant; names are copied into every component.
-    #[error(
-        "{what} has a name of {bytes} bytes; a name may have 1000: shorten it and export again"
-    )]
+    #[error("{what} has a name of {bytes} bytes; a name may have 1000: shorten it and export again")]
     LongName {
         /// What is named.
         what: String,
@@ -127,18 +123,12 @@ pub enum Fault {
         problem: String,
     },
     /// More triangles than anyone can study.
-    #[error(
-        "has more than {MAX_TRIANGLES} triangles, instances counted: export it in parts or with less detail"
-    )]
+    #[error("has more than {MAX_TRIANGLES} triangles, instances counted: export it in parts or with less detail")]
     TooManyTriangles,
     /// More components than anyone can name.
-    #[error(
-        "has more than {MAX_COMPONENTS} components: join its objects by material and export again"
-    )]
+    #[error("has more than {MAX_COMPONENTS} components: join its objects by material and export again")]
     TooManyComponents,
     /// Nothing that could cast.
-    #[error(
-        "has no triangles in its default scene, so nothing casts a shadow: export the visible faces as a mesh"
-    )]
+    #[error("has no triangles in its default scene, so nothing casts a shadow: export the visible faces as a mesh")]
     Empty,
 }

@@ -21,41 +21,22 @@ pub(super) struct Instances<'a> {
 impl<'a> Instances<'a> {
     /// The mesh itself, once.
     pub(super) fn one(node: usize) -> Self {
-        Self {
-            count: 1,
-            node,
-            translation: None,
-            rotation: None,
-            scale: None,
-        }
+        Self { count: 1, node, translation: None, rotation: None, scale: None }
     }
 
     /// The copies that the extension asks for.
-    pub(super) fn open(
-        node: usize,
-        asked: &Instancing,
-        accessors: &mut Accessors<'a, '_>,
-    ) -> Result<Self, Fault> {
-        let mut instances = Self {
-            count: 0,
-            ..Self::one(node)
-        };
+    pub(super) fn open(node: usize, asked: &Instancing, accessors: &mut Accessors<'a, '_>) -> Result<Self, Fault> {
+        let mut instances = Self { count: 0, ..Self::one(node) };
         let mut first = None;
         for (name, &index) in &asked.attributes {
             let reader = accessors.get(index, || format!("instancing of node {node}"))?;
             if *first.get_or_insert(reader.count) != reader.count {
-                return Err(fault(
-                    index,
-                    format!("has {} instances, and others have not", reader.count),
-                ));
+                return Err(fault(index, format!("has {} instances, and others have not", reader.count)));
             }
             let is_f32 = reader.component == ComponentType::F32;
             let is_small = matches!(reader.component, ComponentType::I8 | ComponentType::I16);
             let (slot, fits) = match name.as_str() {
-                "TRANSLATION" => (
-                    &mut instances.translation,
-                    is_f32 && reader.shape == Type::Vec3,
-                ),
+                "TRANSLATION" => (&mut instances.translation, is_f32 && reader.shape == Type::Vec3),
                 "SCALE" => (&mut instances.scale, is_f32 && reader.shape == Type::Vec3),
                 "ROTATION" => {
                     let fits = is_f32 || is_small && reader.normalized;
@@ -64,40 +45,28 @@ impl<'a> Instances<'a> {
                 _ => continue, // colours, numbers and the like
             };
             if !fits {
-                return Err(fault(
-                    index,
-                    format!("has a type that instances do not allow for {name}"),
-                ));
+                return Err(fault(index, format!("has a type that instances do not allow for {name}")));
             }
             *slot = Some(reader);
         }
         let Some(count) = first else {
-            return Err(Fault::Node {
-                node,
-                problem: "has instances without attributes".into(),
-            });
+            return Err(Fault::Node { node, problem: "has instances without attributes".into() });
         };
         Ok(Self { count, ..instances })
     }
 
     /// Node from instance.
     pub(super) fn get(&self, index: usize) -> Result<DAffine3, Fault> {
-        let translation = self
-            .translation
-            .map_or(DVec3::ZERO, |reader| reader.vec3(index));
+        let translation = self.translation.map_or(DVec3::ZERO, |reader| reader.vec3(index));
         let scale = self.scale.map_or(DVec3::ONE, |reader| reader.vec3(index));
-        let stored = self.rotation.map_or(DQuat::IDENTITY, |reader| {
-            DQuat::from_array(reader.numbers(index))
-        });
+        let stored = self.rotation.map_or(DQuat::IDENTITY, |reader| DQuat::from_array(reader.numbers(index)));
         match unit(stored) {
-            Some(rotation) if translation.is_finite() && scale.is_finite() => Ok(
-                DAffine3::from_scale_rotation_translation(scale, rotation, translation),
-            ),
+            Some(rotation) if translation.is_finite() && scale.is_finite() => {
+                Ok(DAffine3::from_scale_rotation_translation(scale, rotation, translation))
+            }
             _ => Err(Fault::Node {
                 node: self.node,
-                problem: format!(
-                    "has at instance {index} a transform that is not finite, or a rotation of no length"
-                ),
+                problem: format!("has at instance {index} a transform that is not finite, or a rotation of no length"),
             }),
         }
     }

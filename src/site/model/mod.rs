@@ -44,11 +44,7 @@ pub struct Placement {
 
 impl Default for Placement {
     fn default() -> Self {
-        Self {
-            north_rad: 0.0,
-            position: DVec3::ZERO,
-            scale: 1.0,
-        }
+        Self { north_rad: 0.0, position: DVec3::ZERO, scale: 1.0 }
     }
 }
 
@@ -65,10 +61,7 @@ impl Placement {
 ///
 /// One part per node and material, in the order of the scene; every part has triangles, and there is at least one.
 pub fn load(path: &Path, placement: &Placement) -> Result<Vec<Part>, ModelError> {
-    read(path, placement).map_err(|fault| ModelError {
-        file: path.to_owned(),
-        fault,
-    })
+    read(path, placement).map_err(|fault| ModelError { file: path.to_owned(), fault })
 }
 
 fn read(path: &Path, placement: &Placement) -> Result<Vec<Part>, Fault> {

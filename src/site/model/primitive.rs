@@ -44,10 +44,7 @@ pub(super) struct Surface<'a> {
 impl Group<'_> {
     /// How many triangles all its primitives have.
     pub(super) fn triangles(&self) -> u64 {
-        self.surfaces
-            .iter()
-            .map(|surface| surface.triangles as u64)
-            .sum()
+        self.surfaces.iter().map(|surface| surface.triangles as u64).sum()
     }
 }
 
@@ -59,15 +56,10 @@ pub(super) fn surfaces<'a>(
 ) -> Result<Surfaces<'a>, Fault> {
     let mut groups: Vec<Group> = Vec::new();
     let mut group_of = BTreeMap::new();
-    let primitives = document
-        .meshes
-        .get(index)
-        .map_or(&[][..], |mesh| &mesh.primitives);
+    let primitives = document.meshes.get(index).map_or(&[][..], |mesh| &mesh.primitives);
     for (number, primitive) in primitives.iter().enumerate() {
         let mode = match primitive.mode {
-            Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => {
-                mode
-            }
+            Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => mode,
             Checked::Valid(_) => continue,
             Checked::Invalid => {
                 return Err(fault(index, number, "has a mode that glTF does not know"));
@@ -84,10 +76,7 @@ pub(super) fn surfaces<'a>(
             });
         }
         let group = *group_of.entry(material).or_insert_with(|| {
-            groups.push(Group {
-                material,
-                surfaces: Vec::new(),
-            });
+            groups.push(Group { material, surfaces: Vec::new() });
             groups.len() - 1
         });
         let surface = surface(document, accessors, (index, number), primitive, mode)?;
@@ -96,10 +85,7 @@ pub(super) fn surfaces<'a>(
         }
     }
     groups.retain(|group| !group.surfaces.is_empty());
-    Ok(Surfaces {
-        groups,
-        one_material: group_of.len() == 1,
-    })
+    Ok(Surfaces { groups, one_material: group_of.len() == 1 })
 }
 
 fn surface<'a>(
@@ -111,9 +97,7 @@ fn surface<'a>(
 ) -> Result<Surface<'a>, Fault> {
     let fault = |problem| Err(fault(mesh, number, problem));
     let user = || format!("primitive {number} of mesh {mesh}");
-    let positions = primitive
-        .attributes
-        .get(&Checked::Valid(Semantic::Positions));
+    let positions = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
     let positions = positions.map(|accessor| accessor.value());
     let indices = primitive.indices.map(|accessor| accessor.value());
     // A primitive may carry its geometry twice, once of it plain; that one is read then.
@@ -124,10 +108,7 @@ fn surface<'a>(
     let is_plain = positions.is_some_and(is_stored) && indices.is_none_or(is_stored);
     let extensions = primitive.extensions.as_ref();
     if !is_plain && extensions.is_some_and(|found| found.others.contains_key(DRACO)) {
-        return Err(Fault::Compressed {
-            what: format!("{} is", user()),
-            extension: DRACO.into(),
-        });
+        return Err(Fault::Compressed { what: format!("{} is", user()), extension: DRACO.into() });
     }
     let Some(positions) = positions else {
         return fault("has no positions");
@@ -153,14 +134,7 @@ fn surface<'a>(
         Mode::TriangleStrip | Mode::TriangleFan => corners.saturating_sub(2),
         _ => corners / 3,
     };
-    Ok(Surface {
-        mesh,
-        primitive: number,
-        positions,
-        triangles,
-        indices,
-        mode,
-    })
+    Ok(Surface { mesh, primitive: number, positions, triangles, indices, mode })
 }
 
 impl Surface<'_> {
@@ -186,13 +160,8 @@ impl Surface<'_> {
         for vertex in vertices {
             let count = self.positions.count;
             if vertex == restart || vertex as usize >= count {
-                let why = if vertex == restart {
-                    "glTF forbids that number"
-                } else {
-                    "that is out of range"
-                };
-                let problem =
-                    format!("names vertex {vertex} of {count} in triangle {index}; {why}");
+                let why = if vertex == restart { "glTF forbids that number" } else { "that is out of range" };
+                let problem = format!("names vertex {vertex} of {count} in triangle {index}; {why}");
                 return Err(fault(self.mesh, self.primitive, problem));
             }
         }
@@ -203,9 +172,5 @@ impl Surface<'_> {
 }
 
 pub(super) fn fault(mesh: usize, primitive: usize, problem: impl Into<String>) -> Fault {
-    Fault::Primitive {
-        mesh,
-        primitive,
-        problem: problem.into(),
-    }
+    Fault::Primitive { mesh, primitive, problem: problem.into() }
 }

@@ -67,9 +67,7 @@ impl Reader<'_> {
     /// A vertex number or the like: element `index` of a scalar accessor of u8, u16 or u32.
     pub(super) fn whole(&self, index: usize) -> u32 {
         let (source, index) = self.source(index);
-        source
-            .and_then(|source| source.whole(self.component, index))
-            .unwrap_or(0)
+        source.and_then(|source| source.whole(self.component, index)).unwrap_or(0)
     }
 
     /// The first three numbers of element `index`.
@@ -81,19 +79,12 @@ impl Reader<'_> {
     /// The first `N` numbers of element `index`, normalised where the accessor says so.
     pub(super) fn numbers<const N: usize>(&self, index: usize) -> [f64; N] {
         let (source, index) = self.source(index);
-        std::array::from_fn(|lane| {
-            source
-                .and_then(|source| self.number(&source, index, lane))
-                .unwrap_or(0.0)
-        })
+        std::array::from_fn(|lane| source.and_then(|source| self.number(&source, index, lane)).unwrap_or(0.0))
     }
 
     /// Where element `index` lies, and as which; nowhere where it is zero.
     fn source(&self, index: usize) -> (Option<Strided<'_>>, usize) {
-        match self
-            .sparse
-            .and_then(|sparse| Some((sparse, sparse.find(index)?)))
-        {
+        match self.sparse.and_then(|sparse| Some((sparse, sparse.find(index)?))) {
             Some((sparse, entry)) => (Some(sparse.values), entry),
             None => (self.base, index),
         }
@@ -102,33 +93,17 @@ impl Reader<'_> {
     fn number(&self, source: &Strided, index: usize, lane: usize) -> Option<f64> {
         let offset = lane * self.component.size();
         let (value, most) = match self.component {
-            ComponentType::I8 => (
-                i8::from_le_bytes(source.at(index, offset)?).into(),
-                f64::from(i8::MAX),
-            ),
+            ComponentType::I8 => (i8::from_le_bytes(source.at(index, offset)?).into(), f64::from(i8::MAX)),
             ComponentType::U8 => (source.at::<1>(index, offset)?[0].into(), f64::from(u8::MAX)),
-            ComponentType::I16 => (
-                i16::from_le_bytes(source.at(index, offset)?).into(),
-                f64::from(i16::MAX),
-            ),
-            ComponentType::U16 => (
-                u16::from_le_bytes(source.at(index, offset)?).into(),
-                f64::from(u16::MAX),
-            ),
-            ComponentType::U32 => (
-                u32::from_le_bytes(source.at(index, offset)?).into(),
-                f64::from(u32::MAX),
-            ),
+            ComponentType::I16 => (i16::from_le_bytes(source.at(index, offset)?).into(), f64::from(i16::MAX)),
+            ComponentType::U16 => (u16::from_le_bytes(source.at(index, offset)?).into(), f64::from(u16::MAX)),
+            ComponentType::U32 => (u32::from_le_bytes(source.at(index, offset)?).into(), f64::from(u32::MAX)),
             ComponentType::F32 => {
                 return Some(f32::from_le_bytes(source.at(index, offset)?).into());
             }
         };
         // The least number of a signed type is one step below −1.
-        Some(if self.normalized {
-            f64::max(value / most, -1.0)
-        } else {
-            value
-        })
+        Some(if self.normalized { f64::max(value / most, -1.0) } else { value })
     }
 
     /// Sparse indices must increase and stay in range, or they could not be looked up.
@@ -154,9 +129,7 @@ impl Reader<'_> {
 
 impl Sparse<'_> {
     fn index(&self, entry: usize) -> usize {
-        self.indices
-            .whole(self.component, entry)
-            .map_or(usize::MAX, |index| index as usize)
+        self.indices.whole(self.component, entry).map_or(usize::MAX, |index| index as usize)
     }
 
     /// The entry that stands for element `index`.

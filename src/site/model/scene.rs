@@ -30,10 +30,7 @@ pub(super) fn place(document: &Document, world_from_model: DAffine3) -> Result<V
         };
         let world_from_node = world_from_parent * local(node, index)?;
         if !world_from_node.is_finite() {
-            return Err(fault(
-                index,
-                "lies beyond all numbers, as its parents' transforms multiply",
-            ));
+            return Err(fault(index, "lies beyond all numbers, as its parents' transforms multiply"));
         }
         if let Some(mesh) = node.mesh {
             if mesh >= document.meshes.len() {
@@ -44,18 +41,9 @@ pub(super) fn place(document: &Document, world_from_model: DAffine3) -> Result<V
                     count: document.meshes.len(),
                 });
             }
-            placed.push(Placed {
-                node: index,
-                mesh,
-                world_from_node,
-            });
+            placed.push(Placed { node: index, mesh, world_from_node });
         }
-        open.extend(
-            node.children
-                .iter()
-                .rev()
-                .map(|&child| (child, world_from_node)),
-        );
+        open.extend(node.children.iter().rev().map(|&child| (child, world_from_node)));
     }
     Ok(placed)
 }
@@ -69,10 +57,7 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, Fault> {
                 return Err(no_such_node(document, format!("node {index}"), child));
             };
             if let Some(other) = parent.replace(index) {
-                return Err(fault(
-                    child,
-                    format!("is a child of node {other} and again of node {index}"),
-                ));
+                return Err(fault(child, format!("is a child of node {other} and again of node {index}")));
             }
         }
     }
@@ -103,16 +88,9 @@ fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, F
     let number = document.scene.unwrap_or(0);
     let Some(scene) = document.scenes.get(number) else {
         if let Some(index) = document.scene {
-            return Err(Fault::NoSuch {
-                user: "the file".into(),
-                what: "scene",
-                index,
-                count: document.scenes.len(),
-            });
+            return Err(Fault::NoSuch { user: "the file".into(), what: "scene", index, count: document.scenes.len() });
         }
-        return Ok((0..parents.len())
-            .filter(|&node| parents.get(node) == Some(&None))
-            .collect());
+        return Ok((0..parents.len()).filter(|&node| parents.get(node) == Some(&None)).collect());
     };
     let mut listed = vec![false; parents.len()];
     for &root in &scene.nodes {
@@ -120,10 +98,7 @@ fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, F
             return Err(no_such_node(document, format!("scene {number}"), root));
         };
         if let Some(parent) = parent {
-            return Err(fault(
-                root,
-                format!("is a root of scene {number} and a child of node {parent}"),
-            ));
+            return Err(fault(root, format!("is a root of scene {number} and a child of node {parent}")));
         }
         if std::mem::replace(listed, true) {
             return Err(fault(root, format!("is listed twice by scene {number}")));
@@ -137,20 +112,10 @@ fn local(node: &Node, index: usize) -> Result<DAffine3, Fault> {
     let local = if let Some(matrix) = node.matrix.as_deref() {
         let [a, b, c, a0, d, e, f, d0, g, h, i, g0, x, y, z, one] = *matrix;
         // A matrix that was written row by row has its translation here.
-        if [a0, d0, g0, one - 1.0]
-            .iter()
-            .any(|value| value.abs() > 1e-6)
-        {
-            return Err(fault(
-                index,
-                "has a matrix whose last row is not 0, 0, 0, 1",
-            ));
+        if [a0, d0, g0, one - 1.0].iter().any(|value| value.abs() > 1e-6) {
+            return Err(fault(index, "has a matrix whose last row is not 0, 0, 0, 1"));
         }
-        let linear = DMat3::from_cols(
-            DVec3::new(a, b, c),
-            DVec3::new(d, e, f),
-            DVec3::new(g, h, i),
-        );
+        let linear = DMat3::from_cols(DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i));
         DAffine3::from_mat3_translation(linear, DVec3::new(x, y, z))
     } else {
         let translation = DVec3::from(node.translation.unwrap_or([0.0; 3]));
@@ -174,17 +139,9 @@ pub(super) fn unit(rotation: DQuat) -> Option<DQuat> {
 }
 
 fn fault(node: usize, problem: impl Into<String>) -> Fault {
-    Fault::Node {
-        node,
-        problem: problem.into(),
-    }
+    Fault::Node { node, problem: problem.into() }
 }
 
 fn no_such_node(document: &Document, user: String, index: usize) -> Fault {
-    Fault::NoSuch {
-        user,
-        what: "node",
-        index,
-        count: document.nodes.len(),
-    }
+    Fault::NoSuch { user, what: "node", index, count: document.nodes.len() }
 }

@@ -1,0 +1,207 @@
+//! The drawing: a picture of the answer on a sheet that says what it shows, ready for print and for a slide.
+//!
+//! The picture is made cell by cell in Rust; everything that is lines and letters is one SVG, drawn by resvg over it.
+
+mod page;
+mod panel;
+mod perspective;
+mod picture;
+mod plan;
+pub mod scale;
+mod svg;
+mod text;
+mod words;
+
+pub use page::{HEIGHT, WIDTH};
+pub use panel::ScaleBar;
+
+use super::{ExportError, check_size};
+use crate::mesh::Mesh;
+use crate::profile::{Drawn, Profile};
+use crate::site::Receivers;
+use crate::sun::{Instant, Place, SunTrack};
+use crate::view::{Mask, Surface, View};
+use panel::Panel;
+use scale::{Bands, NO_SHADOW, mix};
+
+/// What every drawing needs besides the answer itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// Where on earth.
+    pub place: &'a Place,
+    /// The instants studied; the first one is drawn where there is one.
+    pub track: &'a SunTrack,
+    /// What stands there.
+    pub mesh: &'a Mesh,
+    /// What each cell of the view sees.
+    pub surface: &'a Surface,
+    /// Which surfaces were judged.
+    pub receivers: Receivers,
+    /// What drew.
+    pub drawn: &'a Drawn,
+}
+
+/// `profile.png`: the hours of shadow on the plan, in bands of whole steps.
+///
+/// # Errors
+/// [`ExportError::Size`] where surface and profile do not fill the grid; [`ExportError::Encode`] from the encoder.
+pub fn profile(scene: &Scene, profile: &Profile) -> Result<Vec<u8>, ExportError> {
+    let grid = &profile.grid;
+    check_size("profile", profile.shaded.len(), grid.width, grid.height)?;
+    check_surface(scene.surface, (grid.width, grid.height))?;
+    let bands = Bands::new(scene.track.step_secs, profile.day_secs);
+
+    let mut panel = panel(scene, "Shadow profile");
+    let all = words::duration(profile.day_secs);
+    panel.facts.push(("Cells", cells(grid.width, grid.height, grid.cell)));
+    if profile.night_secs > 0 {
+        let night = words::duration(profile.night_secs);
+        panel.facts.push(("Night", format!("{night} of the window, not counted")));
+    }
+    panel.legend_head =
+        if profile.day_secs > 0 { format!("Hours of shadow out of {all}") } else { "No sun in this window".to_owned() };
+    panel.legend = legend(&bands);
+    if scene.receivers == Receivers::Ground {
+        panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
+    }
+    page::page(&panel, (grid.width, grid.height), Some(grid.cell), |fit| plan::profile(scene, profile, &bands, fit))
+}
+
+/// One instant, the first of the track, on the plan or in the camera's picture.
+///
+/// # Errors
+/// [`ExportError::Size`] where surface and mask do not fill the view; [`ExportError::Encode`] from the encoder, or
+/// where the track has no instant.
+pub fn instant(scene: &Scene, view: &View, mask: &Mask) -> Result<Vec<u8>, ExportError> {
+    let size = view.size();
+    check_size("mask", mask.share.len(), size.0, size.1)?;
+    check_surface(scene.surface, size)?;
+    let now = scene.track.instants.first();
+    let now = now.ok_or_else(|| ExportError::encode("drawing", "it has no instant"))?;
+
+    let mut panel = panel(scene, if now.night { "Night" } else { "Shadow" });
+    if let (View::Camera(_), Receivers::Top) = (view, scene.receivers) {
+        let judged = panel.facts.iter_mut().filter(|(label, _)| *label == JUDGED);
+        judged.for_each(|(_, said)| *said = "what the camera sees".to_owned());
+    }
+    if now.night {
+        let below = words::degrees(-now.altitude_rad);
+        panel.facts.push(("Night", format!("the sun is {below} below the horizon")));
+    }
+    panel.legend_head = "What sees the sun".to_owned();
+    let tones = match view {
+        View::Plan(_) => [plan::GROUND_SUN, plan::GROUND_SHADE],
+        View::Camera(_) => perspective::ground_tones(now.to_sun),
+    };
+    panel.legend = vec![(tones[0], "sun".to_owned()), (tones[1], "shadow".to_owned())];
+    if now.night {
+        panel.legend = vec![(tones[1], "no sun".to_owned())];
+    } else if mask.share.iter().any(|share| !matches!(share, 0 | 255)) {
+        panel.legend.insert(1, (mix(tones[1], tones[0], 0.5), "part of the sun".to_owned()));
+    }
+    if scene.receivers == Receivers::Ground {
+        panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
+    }
+    match view {
+        View::Plan(grid) => {
+            panel.facts.push(("Cells", cells(grid.width, grid.height, grid.cell)));
+            page::page(&panel, size, Some(grid.cell), |fit| plan::instant(scene, grid.cell, mask, fit))
+        }
+        View::Camera(camera) => {
+            panel.facts.push(("Picture", format!("{} × {}", size.0, size.1)));
+            page::page(&panel, size, None, |fit| perspective::instant(scene, camera, mask, now.to_sun, fit))
+        }
+    }
+}
+
+/// Buildings where only the ground is judged, in the legend.
+const UNJUDGED: &str = "not judged";
+
+/// The fact that a camera's view changes.
+const JUDGED: &str = "Judged";
+
+fn check_surface(surface: &Surface, (width, height): (u32, u32)) -> Result<(), ExportError> {
+    check_size("surface", surface.face.len(), width, height)?;
+    check_size("surface's heights", surface.height_m.len(), width, height)
+}
+
+/// What all drawings say; the legend is still empty.
+fn panel(scene: &Scene, kicker: &str) -> Panel {
+    let (place, track) = (scene.place, scene.track);
+    let name = text::clean(&place.name);
+    let nameless = name.is_empty();
+    let title = if nameless { words::coordinates(place) } else { name };
+    let mut facts = Vec::new();
+    // A place without a name has its coordinates as its title.
+    if !nameless {
+        facts.push(("Place", words::coordinates(place)));
+    }
+    facts.push(("Elevation", words::metres(place.elevation_m)));
+    if track.instants.len() > 1 {
+        let (step, count) = (words::duration(track.step_secs), track.instants.len());
+        facts.push(("Step", format!("{step}, {count} instants")));
+    }
+    if let Some(day) = track.days.first() {
+        facts.push(("Daylight", words::day(day, track)));
+    }
+    facts.push((JUDGED, words::receivers(scene.receivers).to_owned()));
+    facts.push(("Technique", words::technique(scene.drawn)));
+    facts.push(("Refraction", words::refraction(track, place)));
+    let mut lead = Vec::new();
+    if let (Some(first), Some(last)) = (track.instants.first(), track.instants.last()) {
+        lead.push(words::dates(first, last));
+        lead.push(words::window(track, place));
+    }
+    Panel {
+        kicker: kicker.to_owned(),
+        title,
+        lead,
+        facts,
+        sun: sun_rows(track),
+        legend_head: String::new(),
+        legend: Vec::new(),
+    }
+}
+
+fn cells(width: u32, height: u32, cell_m: f64) -> String {
+    format!("{width} × {height} of {}", words::metres(cell_m))
+}
+
+/// The sun at the start, nearest to noon, and at the end.
+fn sun_rows(track: &SunTrack) -> Vec<[String; 4]> {
+    let row = |what: &str, instant: &Instant| {
+        [
+            what.to_owned(),
+            words::clock(&instant.time),
+            words::degrees(instant.azimuth_rad),
+            words::degrees(instant.altitude_rad),
+        ]
+    };
+    match track.instants.as_slice() {
+        [] => Vec::new(),
+        [now] => vec![row("shown", now)],
+        [first, between @ .., last] => {
+            // Noon may lie outside of the window; the highest sun is the nearest to it then, and at an end.
+            let highest = between
+                .iter()
+                .max_by(|a, b| a.altitude_rad.total_cmp(&b.altitude_rad))
+                .filter(|instant| instant.altitude_rad > first.altitude_rad.max(last.altitude_rad));
+            [Some(("start", first)), highest.map(|at| ("highest", at)), Some(("end", last))]
+                .into_iter()
+                .flatten()
+                .map(|(what, instant)| row(what, instant))
+                .collect()
+        }
+    }
+}
+
+fn legend(bands: &Bands) -> Vec<(scale::Rgb, String)> {
+    let with_secs = !bands.band_secs.is_multiple_of(60);
+    let mut legend = vec![(NO_SHADOW, "none".to_owned())];
+    for (band, colour) in bands.colours.iter().enumerate() {
+        let (from, to) = bands.bounds(band);
+        let [from, to] = [from, to].map(|secs| words::hours(secs, with_secs));
+        legend.push((*colour, format!("{from} – {to}")));
+    }
+    legend
+}

@@ -1,0 +1,188 @@
+//! The sheet: A3 landscape, the picture as large as it can be, the panel beside or below it.
+
+use super::panel::{self, COLUMN, Panel};
+use super::picture::{Fit, Picture};
+use super::svg::{Block, GRAY, HAIR};
+use super::{scale::Rgb, text};
+use crate::export::ExportError;
+use rayon::prelude::*;
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree};
+
+/// Page size, pixels: A3 landscape at 212 dots an inch.
+pub const WIDTH: u32 = 3508;
+/// Page height, pixels.
+pub const HEIGHT: u32 = 2480;
+
+/// How large a pixel is when the page is printed on A3, which is 420 mm wide.
+pub(super) const PAPER_METRES_A_PIXEL: f64 = 0.420 / WIDTH as f64;
+
+/// Off-white, so that the sheet's own white can stand for light.
+const PAPER: Rgb = [249, 247, 242];
+
+/// From the page's edge to its frame, and from a frame to what it holds.
+const MARGIN: f64 = 56.0;
+const PAD: f64 = 44.0;
+/// Between blocks, at least.
+const GAP: f64 = 30.0;
+
+/// Where everything goes.
+struct Layout {
+    fit: Fit,
+    /// The picture's north-west corner, whole pixels.
+    corner: (u32, u32),
+    overlay: Block,
+}
+
+/// Lays out and draws the page; `draw` makes the picture once its size is known. `cell_m` is absent in perspective.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the page cannot be drawn or encoded.
+pub(super) fn page(
+    panel: &Panel,
+    cells: (u32, u32),
+    cell_m: Option<f64>,
+    draw: impl FnOnce(Fit) -> Picture,
+) -> Result<Vec<u8>, ExportError> {
+    let layout = beside_or_below(panel, cells, cell_m);
+    let picture = draw(layout.fit);
+    let pixels = render(&layout, &picture)?;
+    let dots = (1.0 / PAPER_METRES_A_PIXEL).round() as u32;
+    crate::export::raster::png_bytes(WIDTH, HEIGHT, png::ColorType::Rgb, Some(dots), &pixels)
+        .map_err(|error| ExportError::encode("drawing", error))
+}
+
+/// A panel below the picture is less at hand; the picture must grow by this much for it.
+const WORTH_IT: f64 = 1.12;
+
+/// The panel stands beside the picture, or below a wide one.
+fn beside_or_below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
+    let beside = beside(panel, cells, cell_m);
+    let below = below(panel, cells, cell_m);
+    if below.fit.scale() > beside.fit.scale() * WORTH_IT { below } else { beside }
+}
+
+/// The sheet within its frame: x, y, width, height.
+const SHEET: [f64; 4] = [MARGIN, MARGIN, WIDTH as f64 - 2.0 * MARGIN, HEIGHT as f64 - 2.0 * MARGIN];
+
+fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
+    let panel_width = COLUMN + 2.0 * PAD;
+    let field = [SHEET[0], SHEET[1], SHEET[2] - panel_width, SHEET[3]];
+    let mut layout = with_picture(field, cells);
+    let x = field[0] + field[2];
+    layout.overlay.fill([x - 1.0, SHEET[1], 2.0, SHEET[3]], HAIR);
+
+    let room = SHEET[3] - 2.0 * PAD;
+    let top = [panel::title(panel), panel::facts(panel), panel::sun_table(panel)];
+    let mut foot = vec![panel::footer()];
+    if let Some(cell_m) = cell_m {
+        foot.insert(0, panel::scale_and_north(cell_m / layout.fit.scale()));
+    }
+    let taken: f64 = top.iter().chain(&foot).map(|block| block.height).sum();
+    let gaps = (top.len() + foot.len()) as f64;
+    let legend = panel::legend(panel, room - taken - gaps * GAP);
+    // What is left over spreads between the blocks; the foot stays at the sheet's foot.
+    let gap = ((room - taken - legend.height) / gaps).clamp(0.0, 76.0);
+    let mut y = SHEET[1] + PAD;
+    for (index, block) in top.iter().chain([&legend]).enumerate() {
+        if index > 0 {
+            y += gap;
+            layout.overlay.fill([x + PAD, y - gap / 2.0 - 1.0, COLUMN, 2.0], HAIR);
+        }
+        layout.overlay.place(x + PAD, y, block);
+        y += block.height;
+    }
+    let mut y = SHEET[1] + SHEET[3] - PAD;
+    for block in foot.iter().rev() {
+        y -= block.height;
+        layout.overlay.place(x + PAD, y, block);
+        layout.overlay.fill([x + PAD, y - gap / 2.0 - 1.0, COLUMN, 2.0], HAIR);
+        y -= gap;
+    }
+    layout
+}
+
+fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
+    const COLUMNS: f64 = 4.0;
+    let (title, facts, sun) = (panel::title(panel), panel::facts(panel), panel::sun_table(panel));
+    let (legend, footer) = (panel::legend(panel, f64::INFINITY), panel::footer());
+    // The scale's block is as tall at any scale.
+    let scale_height = cell_m.map_or(0.0, |_| panel::scale_and_north(1.0).height + 2.0 * GAP);
+    let height = [title.height + GAP + footer.height, facts.height, sun.height + scale_height, legend.height]
+        .into_iter()
+        .fold(0.0, f64::max);
+
+    let field = [SHEET[0], SHEET[1], SHEET[2], SHEET[3] - height - 2.0 * PAD];
+    let mut layout = with_picture(field, cells);
+    let y = field[1] + field[3];
+    layout.overlay.fill([SHEET[0], y - 1.0, SHEET[2], 2.0], HAIR);
+    let pitch = (SHEET[2] - 2.0 * PAD - COLUMN) / (COLUMNS - 1.0);
+    let column = |index: f64| SHEET[0] + PAD + index * pitch;
+    let top = y + PAD;
+    layout.overlay.place(column(0.0), top, &title);
+    layout.overlay.place(column(0.0), top + height - footer.height, &footer);
+    layout.overlay.place(column(1.0), top, &facts);
+    layout.overlay.place(column(2.0), top, &sun);
+    if let Some(cell_m) = cell_m {
+        let scale = panel::scale_and_north(cell_m / layout.fit.scale());
+        layout.overlay.place(column(2.0), top + height - scale.height, &scale);
+    }
+    layout.overlay.place(column(3.0), top, &legend);
+    layout
+}
+
+/// The picture in the middle of its field, both framed.
+fn with_picture(field: [f64; 4], cells: (u32, u32)) -> Layout {
+    const AROUND: f64 = 36.0;
+    let room = (field[2] - 2.0 * AROUND, field[3] - 2.0 * AROUND);
+    let fit = Fit::within(cells, room);
+    let middle =
+        |from: f64, length: f64, pixels: u32| (from + (length - f64::from(pixels)) / 2.0).round().max(0.0) as u32;
+    let corner = (middle(field[0], field[2], fit.pixels.0), middle(field[1], field[3], fit.pixels.1));
+    let mut overlay = Block::default();
+    overlay.frame(SHEET, 2.0, HAIR);
+    let [x, y, width, height] = [corner.0, corner.1, fit.pixels.0, fit.pixels.1].map(f64::from);
+    overlay.frame([x, y, width, height], 3.0, GRAY);
+    Layout { fit, corner, overlay }
+}
+
+/// Paper, picture, then everything that is lines and letters: RGB, row 0 first.
+fn render(layout: &Layout, picture: &Picture) -> Result<Vec<u8>, ExportError> {
+    let failed = |why: &str| ExportError::encode("drawing", why);
+    let mut page = Pixmap::new(WIDTH, HEIGHT).ok_or_else(|| failed("the page is too large"))?;
+    let row_bytes = WIDTH as usize * 4;
+    let (left, top) = (layout.corner.0 as usize, layout.corner.1 as usize);
+    let width = picture.width as usize;
+    page.data_mut().par_chunks_exact_mut(row_bytes).enumerate().for_each(|(y, line)| {
+        let line = line.as_chunks_mut::<4>().0;
+        line.fill(opaque(PAPER));
+        let Some(row) = y.checked_sub(top).filter(|row| *row < picture.height as usize) else {
+            return;
+        };
+        let pixels = &picture.pixels[row * width..(row + 1) * width];
+        for (to, from) in line.iter_mut().skip(left).zip(pixels) {
+            *to = opaque(*from);
+        }
+    });
+
+    let svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"{}\">{}</svg>",
+        text::FAMILY,
+        layout.overlay.svg
+    );
+    let options = Options { fontdb: text::fonts(), font_family: text::FAMILY.to_owned(), ..Options::default() };
+    let tree = Tree::from_str(&svg, &options).map_err(|error| failed(&error.to_string()))?;
+    resvg::render(&tree, Transform::identity(), &mut page.as_mut());
+
+    let mut rgb = vec![0; WIDTH as usize * HEIGHT as usize * 3];
+    rgb.par_chunks_exact_mut(WIDTH as usize * 3).zip(page.data().par_chunks_exact(row_bytes)).for_each(|(to, from)| {
+        for (to, from) in to.chunks_exact_mut(3).zip(from.chunks_exact(4)) {
+            to.copy_from_slice(&from[..3]);
+        }
+    });
+    Ok(rgb)
+}
+
+fn opaque([r, g, b]: Rgb) -> [u8; 4] {
+    [r, g, b, 255]
+}

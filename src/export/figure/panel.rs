@@ -1,0 +1,222 @@
+//! What stands beside the picture: title, facts, the sun's table, legend, scale and north.
+
+use super::scale::Rgb;
+use super::svg::{ACCENT, Anchor, Block, GRAY, HAIR, INK, Style};
+use super::text;
+
+/// The panel's column, page pixels.
+pub(super) const COLUMN: f64 = 790.0;
+
+/// What a panel says.
+pub(super) struct Panel {
+    /// What kind of drawing it is.
+    pub kicker: String,
+    /// The place's name.
+    pub title: String,
+    /// When: date, window.
+    pub lead: Vec<String>,
+    /// Label and value.
+    pub facts: Vec<(&'static str, String)>,
+    /// Per instant shown: what it is, time, azimuth, altitude.
+    pub sun: Vec<[String; 4]>,
+    /// What the colours measure.
+    pub legend_head: String,
+    /// From the lightest to the darkest.
+    pub legend: Vec<(Rgb, String)>,
+}
+
+pub(super) fn title(panel: &Panel) -> Block {
+    let mut block = Block::default();
+    block.fill([0.0, 4.0, 84.0, 10.0], ACCENT);
+    block.height = 38.0;
+    wrapped(&mut block, 0.0, Style::KICKER, &panel.kicker, 1);
+    block.height += 8.0;
+    let lines = |style: Style, most| text::wrap(&panel.title, style.weight, style.size, COLUMN, most);
+    // A long name is set smaller before it is cut.
+    let large = lines(Style::TITLE, 2);
+    if large.iter().any(|line| line.ends_with('…')) {
+        block.lines(0.0, Style::LONG_TITLE, &lines(Style::LONG_TITLE, 3));
+    } else {
+        block.lines(0.0, Style::TITLE, &large);
+    }
+    block.height += 14.0;
+    for line in &panel.lead {
+        wrapped(&mut block, 0.0, Style::LEAD, line, 2);
+    }
+    block
+}
+
+pub(super) fn facts(panel: &Panel) -> Block {
+    const INDENT: f64 = 200.0;
+    let mut block = Block::default();
+    for (label, value) in &panel.facts {
+        let baseline = block.height + Style::LABEL.size;
+        block.text(0.0, baseline, Anchor::Start, Style::LABEL, label);
+        wrapped(&mut block, INDENT, Style::BODY, value, 3);
+        block.height += 7.0;
+    }
+    block.height -= 7.0;
+    block
+}
+
+pub(super) fn sun_table(panel: &Panel) -> Block {
+    const RIGHT: [f64; 3] = [370.0, 580.0, COLUMN];
+    const PITCH: f64 = 46.0;
+    let mut block = Block::default();
+    let mut row = |cells: [&str; 4], first: Style, rest: Style| {
+        let baseline = block.height + first.size;
+        block.text(0.0, baseline, Anchor::Start, first, cells[0]);
+        for (cell, right) in cells[1..].iter().zip(RIGHT) {
+            block.text(right, baseline, Anchor::End, rest, cell);
+        }
+        block.height += PITCH;
+    };
+    row(["Sun", "time", "azimuth", "altitude"], Style::HEAD, Style::LABEL);
+    for [what, time, azimuth, altitude] in &panel.sun {
+        row([what, time, azimuth, altitude], Style::LABEL, Style::BODY);
+    }
+    block.height -= 10.0;
+    block
+}
+
+/// Rows of the legend when it stands in two columns from eight entries on.
+fn legend_rows(entries: usize) -> usize {
+    if entries > 8 { entries.div_ceil(2) } else { entries }
+}
+
+/// The legend with rows of at most `room` in height altogether, between 36 and 52 each.
+pub(super) fn legend(panel: &Panel, room: f64) -> Block {
+    const SWATCH: f64 = 96.0;
+    const HEAD: f64 = 62.0;
+    let rows = legend_rows(panel.legend.len());
+    let mut block = Block::default();
+    wrapped(&mut block, 0.0, Style::HEAD, &panel.legend_head, 1);
+    let pitch = ((room - HEAD) / rows.max(1) as f64).floor().clamp(36.0, 52.0);
+    for (column, entries) in panel.legend.chunks(rows.max(1)).enumerate() {
+        let x = column as f64 * (COLUMN / 2.0 + 6.0);
+        for (row, (colour, label)) in entries.iter().enumerate() {
+            let y = HEAD + row as f64 * pitch;
+            block.fill([x, y, SWATCH, pitch], *colour);
+            let baseline = y + pitch / 2.0 + Style::BODY.size * 0.36;
+            block.text(x + SWATCH + 24.0, baseline, Anchor::Start, Style::BODY, label);
+            if row > 0 {
+                block.fill([x, y - 1.0, SWATCH, 2.0], HAIR);
+            }
+        }
+        block.frame([x, HEAD, SWATCH, entries.len() as f64 * pitch], 2.0, GRAY);
+    }
+    block.height = HEAD + rows as f64 * pitch;
+    block
+}
+
+/// The scale bar and the north arrow of a plan; its height does not depend on the scale.
+pub(super) fn scale_and_north(metres_a_pixel: f64) -> Block {
+    const ROOM: f64 = 560.0;
+    let mut block = Block { height: 172.0, ..Block::default() };
+    let bar = ScaleBar::within(metres_a_pixel, ROOM);
+    let (y, thick) = (84.0, 16.0);
+    let part = bar.pixels / 4.0;
+    block.fill([0.0, y, bar.pixels, thick], [255, 255, 255]);
+    for dark in [0.0, 2.0] {
+        block.fill([dark * part, y, part, thick], INK);
+    }
+    block.frame([1.0, y + 1.0, bar.pixels - 2.0, thick - 2.0], 2.0, INK);
+    block.text(0.0, y - 18.0, Anchor::Start, Style::BODY, "0");
+    block.text(bar.pixels / 2.0, y - 18.0, Anchor::Middle, Style::BODY, &bar.half_label());
+    block.text(bar.pixels, y - 18.0, Anchor::Middle, Style::BODY, &bar.label());
+    block.text(0.0, y + 66.0, Anchor::Start, Style::FINE, &paper_scale(metres_a_pixel));
+
+    let (x, middle, radius) = (COLUMN - 72.0, 104.0, 66.0);
+    block.ring(x, middle, radius, 3.0, INK);
+    let (tip, tail, wing) = (middle - radius + 6.0, middle + 44.0, 30.0);
+    block.polygon(&[[x, tip], [x - wing, tail], [x, tail - 20.0]], ACCENT);
+    block.polygon(&[[x, tip], [x + wing, tail], [x, tail - 20.0]], INK);
+    block.text(x, middle - radius - 9.0, Anchor::Middle, Style::HEAD, "N");
+    block
+}
+
+/// A printed scale for the whole page on A3, three digits.
+fn paper_scale(metres_a_pixel: f64) -> String {
+    let ratio = metres_a_pixel / super::page::PAPER_METRES_A_PIXEL;
+    let digits = 10_f64.powf((ratio.max(1e-9).log10().floor() - 2.0).max(0.0));
+    let ratio = (ratio / digits).round() * digits;
+    let said = if ratio >= 10.0 { thousands(ratio) } else { format!("{ratio:.1}") };
+    format!("about 1 : {said} printed on A3")
+}
+
+/// Whole numbers in groups of three.
+fn thousands(value: f64) -> String {
+    let digits = format!("{value:.0}");
+    let mut said = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            said.push('\u{2009}');
+        }
+        said.push(digit);
+    }
+    said
+}
+
+/// A length of 1, 2 or 5 times a power of ten metres, and how long it is on the page.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScaleBar {
+    /// Metres.
+    pub metres: f64,
+    /// Page pixels.
+    pub pixels: f64,
+}
+
+impl ScaleBar {
+    /// The longest round length within `room` pixels.
+    pub fn within(metres_a_pixel: f64, room: f64) -> ScaleBar {
+        let most = metres_a_pixel * room;
+        let power = 10_f64.powf(most.log10().floor());
+        // The last one stands in where rounding makes `most` a hair less than its own power of ten.
+        let metres = [5.0, 2.0, 1.0, 0.5]
+            .into_iter()
+            .map(|digit| digit * power)
+            .find(|metres| *metres <= most * (1.0 + 1e-9))
+            .unwrap_or(power);
+        ScaleBar { metres, pixels: metres / metres_a_pixel }
+    }
+
+    /// `100 m`, `2 km`, `50 cm`.
+    pub fn label(&self) -> String {
+        let (factor, unit) = self.unit();
+        format!("{} {unit}", number(self.metres * factor))
+    }
+
+    fn half_label(&self) -> String {
+        number(self.metres / 2.0 * self.unit().0)
+    }
+
+    fn unit(&self) -> (f64, &'static str) {
+        // A hair off a power of ten is that power.
+        match self.metres * (1.0 + 1e-9) {
+            m if m >= 1000.0 => (1e-3, "km"),
+            m if m >= 1.0 => (1.0, "m"),
+            m if m >= 0.01 => (100.0, "cm"),
+            _ => (1000.0, "mm"),
+        }
+    }
+}
+
+/// At most two decimals, and none in vain.
+fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Who computed it, and what that is worth.
+pub(super) fn footer() -> Block {
+    let mut block = Block::default();
+    let said =
+        concat!("Gnomon ", env!("CARGO_PKG_VERSION"), " — computed from the model as given; check with your authority");
+    wrapped(&mut block, 0.0, Style::FINE, said, 2);
+    block
+}
+
+fn wrapped(block: &mut Block, x: f64, style: Style, said: &str, most: usize) {
+    let lines = text::wrap(said, style.weight, style.size, COLUMN - x, most);
+    block.lines(x, style, &lines);
+}

@@ -1,0 +1,193 @@
+//! The camera's colours and lines: a quiet model photograph, warm in the sun and cool in the shade.
+
+use super::Scene;
+use super::picture::{Between, Fit, Pen, Picture, compose};
+use super::scale::Rgb;
+use crate::site::Receivers;
+use crate::view::{Camera, Mask, Surface};
+use glam::{DVec3, DVec4, Vec4Swizzles as _};
+use rayon::prelude::*;
+
+/// Matt card, and the ground it stands on: reflectance in display values.
+const BUILDING: DVec3 = DVec3::new(0.995, 0.975, 0.935);
+const GROUND: DVec3 = DVec3::new(0.965, 0.945, 0.895);
+/// The light of the sky and of the sun, tinted.
+const SKY_LIGHT: DVec3 = DVec3::new(0.90, 0.97, 1.12);
+const SUN_LIGHT: DVec3 = DVec3::new(1.10, 1.00, 0.84);
+/// The sky at the horizon, which is also the haze, and overhead.
+const HORIZON: DVec3 = DVec3::new(0.945, 0.942, 0.925);
+const ZENITH: DVec3 = DVec3::new(0.640, 0.745, 0.850);
+
+/// Faces that meet at less than this are one surface: cos 10°.
+const CREASE_COS: f64 = 0.985;
+/// A gap in depth this much of the distance is a step.
+const STEP_SHARE: f64 = 0.004;
+
+/// Sun and shadow at one instant, as the camera sees them.
+pub(super) fn instant(scene: &Scene, camera: &Camera, mask: &Mask, to_sun: DVec3, fit: Fit) -> Picture {
+    let lens = Lens::new(camera);
+    let light = Light::new(to_sun);
+    let ground_only = scene.receivers == Receivers::Ground;
+    let width = camera.width as usize;
+    let colours: Vec<Rgb> = (0..scene.surface.face.len())
+        .into_par_iter()
+        .map(|pixel| {
+            let ray = lens.ray(pixel % width, pixel / width);
+            let share = f64::from(mask.share[pixel]) / 255.0;
+            let colour = match scene.surface.face[pixel] {
+                Surface::SKY => sky(ray),
+                Surface::GROUND => {
+                    let lit = GROUND * light.on(DVec3::Z, share);
+                    let far = lens.ground_distance(scene, pixel, ray);
+                    lit.lerp(HORIZON, lens.haze(far))
+                }
+                face => {
+                    let plane = facing(scene, face, camera.eye);
+                    // A mask of the ground says nothing about the walls.
+                    let share = if ground_only { 1.0 } else { share };
+                    BUILDING * light.on(plane.xyz(), share)
+                }
+            };
+            display(at_night(to_sun, colour))
+        })
+        .collect();
+    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, camera, &lens, a, b))
+}
+
+/// The colours of level ground in the sun and in the shade, for the legend.
+pub(super) fn ground_tones(to_sun: DVec3) -> [Rgb; 2] {
+    let light = Light::new(to_sun);
+    [1.0, 0.0].map(|share| display(at_night(to_sun, GROUND * light.on(DVec3::Z, share))))
+}
+
+/// Without a sun all is dimmer and bluer.
+fn at_night(to_sun: DVec3, colour: DVec3) -> DVec3 {
+    if to_sun.z > 0.0 { colour } else { colour * DVec3::new(0.62, 0.66, 0.76) }
+}
+
+/// The camera's axes, scaled so that a pixel's ray is a sum of them.
+struct Lens {
+    forward: DVec3,
+    right: DVec3,
+    up: DVec3,
+    size: [f64; 2],
+    focus_m: f64,
+    eye_z: f64,
+}
+
+impl Lens {
+    fn new(camera: &Camera) -> Lens {
+        let sight = camera.target - camera.eye;
+        let forward = sight.try_normalize().unwrap_or(DVec3::NEG_Z);
+        // A camera that looks along its own up still needs a right.
+        let right = forward.cross(camera.up).try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
+        let size = [f64::from(camera.width.max(1)), f64::from(camera.height.max(1))];
+        let tall = (0.5 * camera.fov_rad).tan();
+        Lens {
+            forward,
+            right: right * (tall * size[0] / size[1]),
+            up: right.cross(forward) * tall,
+            size,
+            focus_m: sight.length().max(1e-6),
+            eye_z: camera.eye.z,
+        }
+    }
+
+    /// From the eye through a pixel's centre; one metre along it is one metre of depth.
+    fn ray(&self, column: usize, row: usize) -> DVec3 {
+        let x = 2.0 * (column as f64 + 0.5) / self.size[0] - 1.0;
+        let y = 1.0 - 2.0 * (row as f64 + 0.5) / self.size[1];
+        self.forward + self.right * x + self.up * y
+    }
+
+    fn ground_distance(&self, scene: &Scene, pixel: usize, ray: DVec3) -> f64 {
+        let drop = f64::from(scene.surface.height_m[pixel]) - self.eye_z;
+        let depth = drop / ray.z;
+        if depth.is_finite() { depth.max(0.0) * ray.length() } else { f64::INFINITY }
+    }
+
+    /// 0 at the subject, towards 1 at many times its distance.
+    fn haze(&self, distance_m: f64) -> f64 {
+        1.0 - (-(distance_m / self.focus_m - 1.3).max(0.0) / 3.5).exp()
+    }
+}
+
+/// A face's plane (n, d) with n·p + d > 0 at the eye, in the world frame.
+fn facing(scene: &Scene, face: u32, eye: DVec3) -> DVec4 {
+    let Some(plane) = scene.mesh.planes.get(face as usize) else {
+        return DVec3::Z.extend(0.0);
+    };
+    let offset = plane.w - plane.xyz().dot(scene.mesh.origin);
+    let plane = plane.xyz().extend(offset);
+    if plane.xyz().dot(eye) + plane.w < 0.0 { -plane } else { plane }
+}
+
+/// What falls on a surface: sky from above, the sun where it is seen.
+struct Light {
+    to_sun: DVec3,
+    sun: f64,
+}
+
+impl Light {
+    const SKY: f64 = 0.50;
+    const SKY_SLOPE: f64 = 0.09;
+
+    /// Exposed so that level ground in the sun is nearly the paper's white, even at a low sun.
+    fn new(to_sun: DVec3) -> Light {
+        let sun = (0.98 - Self::SKY - Self::SKY_SLOPE) / to_sun.z.max(0.32);
+        Light { to_sun, sun }
+    }
+
+    fn on(&self, normal: DVec3, share: f64) -> DVec3 {
+        let sky = Self::SKY + Self::SKY_SLOPE * normal.z;
+        let sun = self.sun * normal.dot(self.to_sun).max(0.0) * share;
+        SKY_LIGHT * sky + SUN_LIGHT * sun
+    }
+}
+
+fn sky(ray: DVec3) -> DVec3 {
+    let height = (ray.z / ray.length()).clamp(0.0, 1.0);
+    HORIZON.lerp(ZENITH, (height * 1.6).min(1.0).sqrt() * 0.85)
+}
+
+/// To display values; the brightest tenth is pressed together instead of cut off.
+fn display(colour: DVec3) -> Rgb {
+    let soft = |value: f64| {
+        let over = value - 0.9;
+        let value = if over > 0.0 { 0.9 + 0.1 * (1.0 - (-over / 0.1).exp()) } else { value };
+        (value.max(0.0) * 255.0).round() as u8
+    };
+    [soft(colour.x), soft(colour.y), soft(colour.z)]
+}
+
+fn pen(scene: &Scene, camera: &Camera, lens: &Lens, a: usize, b: usize) -> Option<Pen> {
+    let (from, to) = (scene.surface.face[a], scene.surface.face[b]);
+    if from == to {
+        return None;
+    }
+    let building = |face: u32| face < Surface::GROUND;
+    match (building(from), building(to)) {
+        (false, false) => None,
+        (true, true) => {
+            let (from, to) = (facing(scene, from, camera.eye), facing(scene, to, camera.eye));
+            let width = camera.width as usize;
+            let depth = |plane: DVec4, pixel: usize| {
+                let ray = lens.ray(pixel % width, pixel / width);
+                -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray)
+            };
+            let gap = |pixel| depth(from, pixel) - depth(to, pixel);
+            let (here, there) = (gap(a), gap(b));
+            // Planes that cross between the two pixels adjoin, however steep; else there is air between them.
+            let least = STEP_SHARE * depth(from, a).abs();
+            let step = here * there > 0.0 && here.abs().min(there.abs()) > least;
+            let crease = from.xyz().dot(to.xyz()) < CREASE_COS;
+            match (step, crease) {
+                (true, _) => Some(Pen::STEP),
+                (false, true) => Some(Pen::CREASE),
+                (false, false) => None,
+            }
+        }
+        _ if from == Surface::SKY || to == Surface::SKY => Some(Pen::STEP),
+        _ => Some(Pen { radius: 1.2, strength: 0.6 }),
+    }
+}

@@ -1,0 +1,156 @@
+//! The plan's colours and lines: ground and roofs seen from above.
+
+use super::Scene;
+use super::picture::{Between, Fit, Pen, Picture, compose};
+use super::scale::{Bands, Rgb, mix};
+use crate::mesh::Mesh;
+use crate::profile::Profile;
+use crate::site::Receivers;
+use crate::view::{Mask, Surface};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Ground in the sun and in the shade.
+pub(super) const GROUND_SUN: Rgb = [246, 240, 226];
+pub(super) const GROUND_SHADE: Rgb = [140, 152, 173];
+/// Roofs in the sun and in the shade.
+pub(super) const ROOF_SUN: Rgb = [255, 255, 253];
+const ROOF_SHADE: Rgb = [174, 183, 198];
+/// Roofs that are not judged.
+pub(super) const ROOF_UNJUDGED: Rgb = [224, 222, 216];
+
+/// How strongly the relief tells on slopes: freely where the colour is no measure, else too little to be taken for
+/// another band.
+const RELIEF: f64 = 0.26;
+const RELIEF_OF_HOURS: f64 = 0.10;
+
+/// Faces that meet at less than this are one roof: cos 8°.
+const CREASE_COS: f64 = 0.990;
+
+/// Hours of shadow.
+pub(super) fn profile(scene: &Scene, profile: &Profile, bands: &Bands, fit: Fit) -> Picture {
+    let ground_only = scene.receivers == Receivers::Ground;
+    let strength = if ground_only { RELIEF } else { RELIEF_OF_HOURS };
+    draw(scene, profile.grid.cell, fit, strength, |cell, face| match face {
+        Some(_) if ground_only => ROOF_UNJUDGED,
+        _ => bands.colour(profile.shaded[cell]),
+    })
+}
+
+/// Sun and shadow at one instant.
+pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, fit: Fit) -> Picture {
+    let ground_only = scene.receivers == Receivers::Ground;
+    draw(scene, cell_m, fit, RELIEF, |cell, face| {
+        let share = f64::from(mask.share[cell]) / 255.0;
+        match face {
+            Some(_) if ground_only => ROOF_UNJUDGED,
+            Some(_) => mix(ROOF_SHADE, ROOF_SUN, share),
+            None => mix(GROUND_SHADE, GROUND_SUN, share),
+        }
+    })
+}
+
+/// Colours by `flat`, as if all were level; slopes get their relief, borders their lines.
+fn draw(
+    scene: &Scene,
+    cell_m: f64,
+    fit: Fit,
+    strength: f64,
+    flat: impl Fn(usize, Option<usize>) -> Rgb + Sync,
+) -> Picture {
+    let (surface, mesh) = (scene.surface, scene.mesh);
+    let light = relief_light(scene);
+    let colours: Vec<Rgb> = (0..surface.face.len())
+        .into_par_iter()
+        .map(|cell| match face(surface, cell) {
+            Some(face) => shade(flat(cell, Some(face)), relief(upward(mesh, face), light, strength)),
+            None => flat(cell, None),
+        })
+        .collect();
+    compose(fit, Between::Sharp, &colours, |a, b| pen(scene, cell_m, a, b))
+}
+
+fn face(surface: &Surface, cell: usize) -> Option<usize> {
+    let face = surface.face[cell];
+    (face < Surface::GROUND).then_some(face as usize)
+}
+
+/// The normal of the side that the plan sees; straight up where the face has no area.
+fn upward(mesh: &Mesh, face: usize) -> DVec3 {
+    let normal = mesh.planes.get(face).map_or(DVec3::Z, |plane| plane.truncate());
+    if normal.z < 0.0 {
+        -normal
+    } else if normal == DVec3::ZERO {
+        DVec3::Z
+    } else {
+        normal
+    }
+}
+
+/// Half-way up in the direction of the highest sun of the study, so that relief and shadows tell the same story.
+///
+/// Maps light relief from the north-west, but here that would darken the very roofs that have most sun.
+fn relief_light(scene: &Scene) -> DVec3 {
+    let instants = scene.track.instants.iter();
+    let highest = instants.max_by(|a, b| a.altitude_rad.total_cmp(&b.altitude_rad));
+    let (sin, cos) = highest.map_or(0.0, |instant| instant.azimuth_rad).sin_cos();
+    DVec3::new(sin, cos, 1.0) * std::f64::consts::FRAC_1_SQRT_2
+}
+
+/// 1 where level, less on slopes away from the light, a little more towards it.
+fn relief(normal: DVec3, light: DVec3, strength: f64) -> f64 {
+    // Level roofs keep the legend's colours to the bit.
+    if normal.z > 0.9999 {
+        return 1.0;
+    }
+    (1.0 + strength * (normal.dot(light) / light.z - 1.0)).clamp(0.70, 1.04)
+}
+
+fn shade(colour: Rgb, factor: f64) -> Rgb {
+    colour.map(|part| (f64::from(part) * factor).round().min(255.0) as u8)
+}
+
+fn pen(scene: &Scene, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
+    let (surface, mesh) = (scene.surface, scene.mesh);
+    if surface.face[a] == surface.face[b] {
+        return None;
+    }
+    let east = b == a + 1;
+    let half = if east { DVec3::X } else { DVec3::NEG_Y } * (0.5 * cell_m);
+    let (from, to) = (face(surface, a), face(surface, b));
+    // Below this a step is rounding, a kerb or a joint; and a ridge between two centres is off by half a cell of slope.
+    let slopes = slope(scene, from, half) + slope(scene, to, half);
+    let step_m = (0.5 * cell_m).clamp(0.02, 0.5) + slopes;
+    let jump = (edge_height(scene, a, from, half) - edge_height(scene, b, to, -half)).abs();
+    match (from, to) {
+        (Some(from), Some(to)) => {
+            let crease = || upward(mesh, from).dot(upward(mesh, to)) < CREASE_COS;
+            if jump > step_m { Some(Pen::STEP) } else { crease().then_some(Pen::CREASE) }
+        }
+        (None, None) => None,
+        _ => Some(if jump > step_m { Pen::OUTLINE } else { Pen::CREASE }),
+    }
+}
+
+/// The height of a cell's face where it meets its neighbour, `half` a cell away from its centre.
+fn edge_height(scene: &Scene, cell: usize, face: Option<usize>, half: DVec3) -> f64 {
+    f64::from(scene.surface.height_m[cell]) + rise(scene, face, half)
+}
+
+/// How much a face's height may change within `half` a cell either way.
+fn slope(scene: &Scene, face: Option<usize>, half: DVec3) -> f64 {
+    rise(scene, face, half).abs()
+}
+
+/// How much a face rises over `half` a cell; nothing for the ground.
+fn rise(scene: &Scene, face: Option<usize>, half: DVec3) -> f64 {
+    let Some(face) = face else {
+        return 0.0;
+    };
+    let normal = upward(scene.mesh, face);
+    // A wall seen from above has no height to carry on with.
+    if normal.z < 0.1 {
+        return 0.0;
+    }
+    -(normal.x * half.x + normal.y * half.y) / normal.z
+}

@@ -1,0 +1,95 @@
+//! Which colour an hour of shadow has: bands of whole steps on an even, colour-blind-safe scale.
+
+/// An sRGB colour.
+pub type Rgb = [u8; 3];
+
+/// Crameri's `davos`, reversed, at tenths from its light end: cream, sage, slate, navy.
+///
+/// F. Crameri, Scientific colour maps 8.0 (2023), doi:10.5281/zenodo.1243862: even in lightness, safe for the
+/// colour-blind, and readable in black and white.
+const DAVOS_REVERSED: [Rgb; 11] = [
+    [254, 254, 254],
+    [245, 245, 215],
+    [212, 219, 168],
+    [166, 183, 138],
+    [132, 158, 137],
+    [107, 141, 147],
+    [84, 125, 156],
+    [58, 103, 155],
+    [35, 74, 140],
+    [15, 40, 109],
+    [0, 5, 74],
+];
+
+/// The part of the map in use: its light end is kept for no shadow at all, its dark end for lines drawn over it.
+const LIGHTEST: f64 = 0.10;
+const DARKEST: f64 = 0.88;
+
+/// No shadow at all: the paper's own tone, so that sunny ground stays quiet.
+pub const NO_SHADOW: Rgb = [254, 253, 249];
+
+/// More bands than this are hard to tell apart.
+pub const MOST_BANDS: u32 = 16;
+
+/// Round durations for bands wider than a step, seconds: from a second to a hundred days of daylight.
+const ROUND_SECS: [u32; 27] = [
+    1, 2, 5, 10, 15, 20, 30, 60, 120, 300, 600, 900, 1_200, 1_800, 3_600, 7_200, 10_800, 14_400, 21_600, 36_000,
+    72_000, 180_000, 360_000, 720_000, 1_800_000, 3_600_000, 7_200_000,
+];
+
+/// The bands of one drawing: none for no shadow at all, then (0, band], (band, 2 band], … up to the window's daylight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bands {
+    /// Width of a band, seconds.
+    pub band_secs: u32,
+    /// The longest shadow there can be, seconds.
+    pub day_secs: u32,
+    /// Per band its colour, the shortest shadow first.
+    pub colours: Vec<Rgb>,
+}
+
+impl Bands {
+    /// Bands of one `step_secs` where those are few enough, else of a round duration, a multiple of the step if there is one.
+    pub fn new(step_secs: u32, day_secs: u32) -> Bands {
+        let step = step_secs.max(1);
+        let few = |secs: &u32| day_secs.div_ceil(*secs) <= MOST_BANDS;
+        let round = || ROUND_SECS.iter().copied().filter(|secs| *secs >= step);
+        let band_secs = Some(step)
+            .filter(few)
+            .or_else(|| round().filter(few).find(|secs| secs % step == 0))
+            .or_else(|| round().find(few))
+            .unwrap_or_else(|| day_secs.div_ceil(MOST_BANDS));
+        let count = day_secs.div_ceil(band_secs);
+        Bands { band_secs, day_secs, colours: (0..count).map(|band| colour(band, count)).collect() }
+    }
+
+    /// The colour of a shaded time in 1/255 s.
+    pub fn colour(&self, shaded: u32) -> Rgb {
+        if shaded == 0 {
+            return NO_SHADOW;
+        }
+        // A shadow of exactly one band belongs to that band, not to the next.
+        let band = (u64::from(shaded) - 1) / (255 * u64::from(self.band_secs));
+        let last = self.colours.len().saturating_sub(1);
+        let band = usize::try_from(band).unwrap_or(last).min(last);
+        self.colours.get(band).copied().unwrap_or(NO_SHADOW)
+    }
+
+    /// From and to, seconds; the last band ends with the daylight.
+    pub fn bounds(&self, band: usize) -> (u32, u32) {
+        let from = (band as u32).saturating_mul(self.band_secs);
+        (from, from.saturating_add(self.band_secs).min(self.day_secs))
+    }
+}
+
+fn colour(band: u32, count: u32) -> Rgb {
+    let share = if count > 1 { f64::from(band) / f64::from(count - 1) } else { 0.5 };
+    let at = (LIGHTEST + share * (DARKEST - LIGHTEST)) * (DAVOS_REVERSED.len() - 1) as f64;
+    let low = (at as usize).min(DAVOS_REVERSED.len() - 2);
+    mix(DAVOS_REVERSED[low], DAVOS_REVERSED[low + 1], at - low as f64)
+}
+
+/// From `a` (share 0) to `b` (share 1), in sRGB.
+pub(super) fn mix(a: Rgb, b: Rgb, share: f64) -> Rgb {
+    std::array::from_fn(|i| (f64::from(a[i]) + (f64::from(b[i]) - f64::from(a[i])) * share).round() as u8)
+}

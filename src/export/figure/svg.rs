@@ -1,0 +1,134 @@
+//! A block of the page: SVG in its own coordinates, and how tall it is.
+
+use super::scale::Rgb;
+use super::text::{self, Weight};
+use std::fmt::Write;
+
+/// Ink for text, for what stands behind it, for hair lines, and the one accent.
+pub(super) const INK: Rgb = [35, 38, 44];
+pub(super) const GRAY: Rgb = [104, 108, 115];
+pub(super) const HAIR: Rgb = [188, 184, 174];
+pub(super) const ACCENT: Rgb = [190, 82, 44];
+
+/// How a line of text looks.
+#[derive(Clone, Copy)]
+pub(super) struct Style {
+    /// Page pixels.
+    pub size: f64,
+    pub weight: Weight,
+    pub colour: Rgb,
+}
+
+impl Style {
+    pub(super) const KICKER: Style = Style { size: 36.0, weight: Weight::Bold, colour: ACCENT };
+    pub(super) const TITLE: Style = Style { size: 70.0, weight: Weight::Bold, colour: INK };
+    pub(super) const LONG_TITLE: Style = Style { size: 52.0, weight: Weight::Bold, colour: INK };
+    pub(super) const LEAD: Style = Style { size: 40.0, weight: Weight::Regular, colour: INK };
+    pub(super) const HEAD: Style = Style { size: 33.0, weight: Weight::Bold, colour: INK };
+    pub(super) const BODY: Style = Style { size: 32.0, weight: Weight::Regular, colour: INK };
+    pub(super) const LABEL: Style = Style { size: 32.0, weight: Weight::Regular, colour: GRAY };
+    pub(super) const FINE: Style = Style { size: 30.0, weight: Weight::Regular, colour: GRAY };
+
+    /// From one baseline to the next.
+    pub(super) fn leading(&self) -> f64 {
+        (self.size * 1.28).round()
+    }
+}
+
+/// Where the given x lies in a line.
+#[derive(Clone, Copy)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// Part of the page.
+#[derive(Default)]
+pub(super) struct Block {
+    pub svg: String,
+    /// Page pixels.
+    pub height: f64,
+}
+
+impl Block {
+    /// One line; `y` is its baseline.
+    pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, style: Style, line: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let weight = match style.weight {
+            Weight::Regular => 400,
+            Weight::Bold => 700,
+        };
+        self.push(format_args!(
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{}\" font-weight=\"{weight}\" text-anchor=\"{anchor}\" fill=\"{}\">{}</text>",
+            style.size,
+            hex(style.colour),
+            text::escape(line),
+        ));
+    }
+
+    /// Lines below what is there already, each at x; the block grows.
+    pub(super) fn lines(&mut self, x: f64, style: Style, lines: &[String]) {
+        for line in lines {
+            let baseline = self.height + style.size;
+            self.text(x, baseline, Anchor::Start, style, line);
+            self.height += style.leading();
+        }
+    }
+
+    /// A filled rectangle.
+    pub(super) fn fill(&mut self, [x, y, width, height]: [f64; 4], colour: Rgb) {
+        self.push(format_args!(
+            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"{}\"/>",
+            hex(colour),
+        ));
+    }
+
+    /// A rectangle's line, wholly outside of it.
+    pub(super) fn frame(&mut self, [x, y, width, height]: [f64; 4], line: f64, colour: Rgb) {
+        self.push(format_args!(
+            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{line}\"/>",
+            x - line / 2.0,
+            y - line / 2.0,
+            width + line,
+            height + line,
+            hex(colour),
+        ));
+    }
+
+    /// A filled polygon.
+    pub(super) fn polygon(&mut self, points: &[[f64; 2]], colour: Rgb) {
+        let mut list = String::new();
+        for [x, y] in points {
+            // Writing to a String cannot fail.
+            let _ = write!(list, "{x:.1},{y:.1} ");
+        }
+        self.push(format_args!("<polygon points=\"{list}\" fill=\"{}\"/>", hex(colour)));
+    }
+
+    /// A circle's line.
+    pub(super) fn ring(&mut self, x: f64, y: f64, radius: f64, line: f64, colour: Rgb) {
+        self.push(format_args!(
+            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{line}\"/>",
+            hex(colour),
+        ));
+    }
+
+    /// Another block, moved; this one's height stays.
+    pub(super) fn place(&mut self, x: f64, y: f64, block: &Block) {
+        self.push(format_args!("<g transform=\"translate({x:.1} {y:.1})\">{}</g>", block.svg));
+    }
+
+    fn push(&mut self, element: std::fmt::Arguments) {
+        // Writing to a String cannot fail.
+        let _ = self.svg.write_fmt(element);
+    }
+}
+
+fn hex([r, g, b]: Rgb) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}

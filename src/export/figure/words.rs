@@ -1,0 +1,159 @@
+//! How a drawing says things: places, times, durations, techniques.
+
+use crate::profile::Drawn;
+use crate::site::Receivers;
+use crate::sun::{Day, Instant, Place, SunTrack};
+use chrono::{DateTime, NaiveDate, Offset, Timelike};
+use chrono_tz::Tz;
+
+use super::super::report::{self, Polar};
+
+/// `48.2000° N, 16.3800° E`.
+pub(super) fn coordinates(place: &Place) -> String {
+    let side = |degrees: f64, positive, negative| {
+        format!("{:.4}° {}", degrees.abs(), if degrees < 0.0 { negative } else { positive })
+    };
+    format!("{}, {}", side(place.latitude_deg, 'N', 'S'), side(place.longitude_deg, 'E', 'W'))
+}
+
+/// A number of metres to four digits, and none in vain.
+pub(super) fn metres(value: f64) -> String {
+    let decimals = 3.0 - value.abs().max(1e-9).log10().floor();
+    // At least one, so that no whole number loses its zeros.
+    let text = format!("{value:.*}", decimals.clamp(1.0, 9.0) as usize);
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    format!("{} m", if text == "-0" { "0" } else { text }).replace('-', "−")
+}
+
+/// `18 September 2026`, or the first and the last day.
+pub(super) fn dates(first: &Instant, last: &Instant) -> String {
+    let (first, last) = (first.time.date_naive(), last.time.date_naive());
+    if first == last { date(first) } else { format!("{} – {}", date(first), date(last)) }
+}
+
+fn date(date: NaiveDate) -> String {
+    date.format("%-d %B %Y").to_string()
+}
+
+/// `09:00`, with seconds only where there are any.
+pub(super) fn clock(time: &DateTime<Tz>) -> String {
+    let format = if time.second() == 0 { "%H:%M" } else { "%H:%M:%S" };
+    time.format(format).to_string()
+}
+
+/// `06:35`: to the nearest minute, as almanacs print it.
+fn almanac(time: &DateTime<Tz>) -> String {
+    (*time + chrono::Duration::seconds(30)).format("%H:%M").to_string()
+}
+
+/// `09:00–17:00 CEST (UTC+2), Europe/Vienna`, or one clock time.
+pub(super) fn window(track: &SunTrack, place: &Place) -> String {
+    let (Some(first), Some(last)) = (track.instants.first(), track.instants.last()) else {
+        return place.time_zone.name().to_owned();
+    };
+    let (first, last) = (&first.time, &last.time);
+    let clocks = if track.instants.len() == 1 {
+        format!("{} {}", clock(first), zone(first))
+    } else if zone(first) == zone(last) {
+        format!("{}–{} {}", clock(first), clock(last), zone(first))
+    } else {
+        format!("{} {} – {} {}", clock(first), zone(first), clock(last), zone(last))
+    };
+    format!("{clocks}, {}", place.time_zone.name())
+}
+
+/// `CEST (UTC+2)`, or `UTC+3` where people have no letters for it.
+fn zone(time: &DateTime<Tz>) -> String {
+    let secs = time.offset().fix().local_minus_utc();
+    let (hours, minutes) = (secs.abs() / 3600, secs.abs() / 60 % 60);
+    let mut utc = String::from("UTC");
+    if secs != 0 {
+        utc.push(if secs < 0 { '−' } else { '+' });
+        utc.push_str(&hours.to_string());
+        if minutes != 0 {
+            utc.push_str(&format!(":{minutes:02}"));
+        }
+    }
+    let letters = time.format("%Z").to_string();
+    if letters == utc || letters.starts_with(['+', '-']) { utc } else { format!("{letters} ({utc})") }
+}
+
+/// `8 h`, `1 h 30 min`, `1 min 30 s`.
+pub(super) fn duration(secs: u32) -> String {
+    let parts = [(secs / 3600, "h"), (secs / 60 % 60, "min"), (secs % 60, "s")];
+    let said: Vec<String> =
+        parts.iter().filter(|(count, _)| *count > 0).map(|(count, unit)| format!("{count} {unit}")).collect();
+    if said.is_empty() { "0 s".to_owned() } else { said.join(" ") }
+}
+
+/// `1:30`, with seconds only where `with_secs`.
+pub(super) fn hours(secs: u32, with_secs: bool) -> String {
+    let (h, m, s) = (secs / 3600, secs / 60 % 60, secs % 60);
+    if with_secs { format!("{h}:{m:02}:{s:02}") } else { format!("{h}:{m:02}") }
+}
+
+/// `sunrise 06:35, noon 12:48, sunset 19:02`, or which kind of polar day it is.
+pub(super) fn day(day: &Day, track: &SunTrack) -> String {
+    let noon = day.noon.as_ref().map(|noon| format!("noon {}", almanac(noon)));
+    let parts = match report::polar(day, track) {
+        Some(Polar::Day) => vec![Some("the sun stays up".to_owned()), noon],
+        Some(Polar::Night) => vec![Some("the sun stays down".to_owned())],
+        None => vec![
+            day.sunrise.as_ref().map(|time| format!("rises {}", almanac(time))),
+            noon,
+            day.sunset.as_ref().map(|time| format!("sets {}", almanac(time))),
+        ],
+    };
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+/// What drew, in words: technique, silhouettes, machine.
+pub(super) fn technique(drawn: &Drawn) -> String {
+    let technique = match drawn.technique {
+        "stencil" => "stencil shadow volumes",
+        "projected" => "projected shadows",
+        "shadow-map" => "shadow map",
+        "hybrid" => "shadow map and volumes",
+        "smoothie" => "smoothies (soft edges)",
+        "soft-texture" => "soft shadow textures",
+        "ray-cast" => "ray casting",
+        other => other,
+    };
+    let silhouettes = drawn.silhouette.map(|finder| match finder {
+        "brute" => ", silhouettes by brute force",
+        "hextree" => ", silhouettes by hextree",
+        "gpu" => ", silhouettes on the GPU",
+        _ => "",
+    });
+    let machine = match (drawn.engine, drawn.adapter.as_deref()) {
+        ("gpu", Some(adapter)) => format!("GPU: {adapter}"),
+        (engine, _) => engine.to_uppercase(),
+    };
+    format!("{technique}{}, {machine}", silhouettes.unwrap_or_default())
+}
+
+/// What is judged, in words.
+pub(super) fn receivers(receivers: Receivers) -> &'static str {
+    match receivers {
+        Receivers::Top => "highest surface",
+        Receivers::Ground => "ground only",
+    }
+}
+
+/// Whether and how the air bends the light.
+pub(super) fn refraction(track: &SunTrack, place: &Place) -> String {
+    if track.refraction {
+        format!(
+            "included, at {:.0} °C and {:.0} hPa",
+            report::REFRACTION_CELSIUS,
+            report::standard_millibar(place.elevation_m)
+        )
+    } else {
+        "left out".to_owned()
+    }
+}
+
+/// `143.2°`, with a true minus sign.
+pub(super) fn degrees(radians: f64) -> String {
+    format!("{:.1}°", radians.to_degrees()).replace('-', "−")
+}

@@ -1,0 +1,88 @@
+//! Files are written beside their place and renamed into it: a reader sees the old file or the new one, never half.
+
+use super::ExportError;
+use std::ffi::OsString;
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Writes `bytes` to `path`, replacing what was there; missing parent folders are created.
+///
+/// # Errors
+/// [`ExportError::NoFileName`] where the path ends in no name; [`ExportError::Write`] where the file system refuses.
+/// On an error the old file, if any, is untouched and nothing is left beside it.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+    let failed = |doing, source: io::Error| ExportError::Write {
+        path: path.to_owned(),
+        doing,
+        way_out: way_out(source.kind()),
+        source,
+    };
+    let name = path.file_name().ok_or_else(|| ExportError::NoFileName { path: path.to_owned() })?;
+    // Without a folder in the path the parent is "", which means here.
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    fs::create_dir_all(folder).map_err(|error| failed("creating its folder", error))?;
+
+    let beside = folder.join(temporary_name(name));
+    let mut file = OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(&beside)
+        .map_err(|error| failed("opening a temporary file in its folder", error))?;
+    let cleanup = Cleanup(&beside);
+    file.write_all(bytes).map_err(|error| failed("writing a temporary file in its folder", error))?;
+    // Windows renames no open file.
+    drop(file);
+    fs::rename(&beside, path).map_err(|error| failed("putting it in place", error))?;
+    cleanup.keep();
+    Ok(())
+}
+
+/// Removes the temporary file unless it has been renamed away.
+struct Cleanup<'a>(&'a Path);
+
+impl Cleanup<'_> {
+    fn keep(self) {
+        std::mem::forget(self);
+    }
+}
+
+impl Drop for Cleanup<'_> {
+    fn drop(&mut self) {
+        // The first error is the one to tell.
+        let _ = fs::remove_file(self.0);
+    }
+}
+
+/// Unique among this machine's processes and this process's threads, hidden, and seen to be ours.
+fn temporary_name(name: &std::ffi::OsStr) -> OsString {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let count = COUNT.fetch_add(1, Ordering::Relaxed);
+    let mut beside = OsString::from(".");
+    beside.push(name);
+    beside.push(format!(".{}-{count}.tmp", std::process::id()));
+    beside
+}
+
+fn way_out(kind: io::ErrorKind) -> &'static str {
+    match kind {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "choose a folder you may write to with --out"
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "free some space, or choose another disk with --out"
+        }
+        io::ErrorKind::IsADirectory
+        | io::ErrorKind::NotADirectory
+        | io::ErrorKind::AlreadyExists
+        | io::ErrorKind::DirectoryNotEmpty => {
+            "a folder stands where a file should be, or the other way round; choose another name with --out"
+        }
+        io::ErrorKind::InvalidFilename => "choose a shorter or simpler name with --out",
+        _ => "choose another place with --out",
+    }
+}

@@ -1,0 +1,241 @@
+//! The answer in words and numbers: `profile.json`, `sun --json`, and the table of `gnomon sun`.
+//!
+//! Keys and their order are a contract that other programs rely on; keys may be added, never changed.
+
+use super::ExportError;
+use crate::profile::{Drawn, Profile, Timings};
+use crate::site::Receivers;
+use crate::sun::{Day, Instant, Place, SunTrack};
+use chrono::{DateTime, SecondsFormat};
+use chrono_tz::Tz;
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+use std::fmt::Write;
+
+/// The air's temperature for refraction, °C: the design's constant.
+pub const REFRACTION_CELSIUS: f64 = 12.0;
+
+/// The standard atmosphere's pressure at a height above the sea, millibar (ICAO, troposphere).
+pub fn standard_millibar(elevation_m: f64) -> f64 {
+    // Above the model's range the power of a negative number would be NaN, which JSON cannot say.
+    1013.25 * (1.0 - 2.255_77e-5 * elevation_m).max(0.0).powf(5.255_88)
+}
+
+#[derive(Serialize)]
+struct ProfileReport<'a> {
+    gnomon: &'static str,
+    place: PlaceReport<'a>,
+    region: [f64; 4],
+    cell: f64,
+    width: u32,
+    height: u32,
+    receivers: &'static str,
+    technique: &'static str,
+    silhouette: Option<&'static str>,
+    engine: &'static str,
+    adapter: Option<&'a str>,
+    refraction: bool,
+    refraction_celsius: Option<f64>,
+    refraction_millibar: Option<f64>,
+    algorithm: &'static str,
+    delta_t_secs: f64,
+    delta_t_source: &'static str,
+    instants: Vec<InstantReport>,
+    days: Vec<DayReport>,
+    #[serde(serialize_with = "in_order")]
+    timings_secs: &'a Timings,
+}
+
+#[derive(Serialize)]
+struct SunReport<'a> {
+    place: PlaceReport<'a>,
+    instants: Vec<InstantReport>,
+    days: Vec<DayReport>,
+}
+
+#[derive(Serialize)]
+struct PlaceReport<'a> {
+    name: &'a str,
+    latitude: f64,
+    longitude: f64,
+    elevation: f64,
+    time_zone: &'static str,
+}
+
+#[derive(Serialize)]
+struct InstantReport {
+    time: String,
+    azimuth_deg: f64,
+    altitude_deg: f64,
+    weight_secs: u32,
+    night: bool,
+}
+
+#[derive(Serialize)]
+struct DayReport {
+    date: String,
+    sunrise: Option<String>,
+    noon: Option<String>,
+    sunset: Option<String>,
+}
+
+/// `profile.json`, as the design's contract has it, with how refraction and ΔT were found beside them.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn profile_json(
+    profile: &Profile,
+    place: &Place,
+    track: &SunTrack,
+    receivers: Receivers,
+    drawn: &Drawn,
+    timings: &Timings,
+) -> Result<String, ExportError> {
+    let refracted = |value| track.refraction.then_some(value);
+    json(&ProfileReport {
+        gnomon: env!("CARGO_PKG_VERSION"),
+        place: place_report(place),
+        region: profile.grid.region(),
+        cell: profile.grid.cell,
+        width: profile.grid.width,
+        height: profile.grid.height,
+        receivers: match receivers {
+            Receivers::Top => "top",
+            Receivers::Ground => "ground",
+        },
+        technique: drawn.technique,
+        silhouette: drawn.silhouette,
+        engine: drawn.engine,
+        adapter: drawn.adapter.as_deref(),
+        refraction: track.refraction,
+        refraction_celsius: refracted(REFRACTION_CELSIUS),
+        refraction_millibar: refracted(standard_millibar(place.elevation_m)),
+        algorithm: "NREL SPA",
+        delta_t_secs: track.delta_t_secs,
+        delta_t_source: "Espenak and Meeus",
+        instants: track.instants.iter().map(instant_report).collect(),
+        days: track.days.iter().map(day_report).collect(),
+        timings_secs: timings,
+    })
+}
+
+/// `sun --json`: place, instants and days as in [`profile_json`].
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn sun_json(place: &Place, track: &SunTrack) -> Result<String, ExportError> {
+    json(&SunReport {
+        place: place_report(place),
+        instants: track.instants.iter().map(instant_report).collect(),
+        days: track.days.iter().map(day_report).collect(),
+    })
+}
+
+/// The table of `gnomon sun`: a line an instant, then a line a day; ends with a line break.
+///
+/// A day without sunrise and sunset says which kind it is: the sun stays up, or down.
+pub fn sun_table(place: &Place, track: &SunTrack) -> String {
+    let mut table = String::new();
+    // Writing to a String cannot fail.
+    let _ = writeln!(table, "{:<25}  {:>9}  {:>9}  {:>8}", place.time_zone.name(), "azimuth°", "altitude°", "weight s");
+    for instant in &track.instants {
+        let _ = writeln!(
+            table,
+            "{:<25}  {:>9.4}  {:>9.4}  {:>8}{}",
+            stamp(&instant.time),
+            instant.azimuth_rad.to_degrees(),
+            instant.altitude_rad.to_degrees(),
+            instant.weight_secs,
+            if instant.night { "  night" } else { "" },
+        );
+    }
+    let _ = writeln!(table, "\n{:<10}  {:>8}  {:>8}  {:>8}", "day", "sunrise", "noon", "sunset");
+    for day in &track.days {
+        let _ = writeln!(
+            table,
+            "{:<10}  {:>8}  {:>8}  {:>8}{}",
+            day.date.to_string(),
+            clock(day.sunrise.as_ref()),
+            clock(day.noon.as_ref()),
+            clock(day.sunset.as_ref()),
+            match polar(day, track) {
+                Some(Polar::Day) => "  the sun stays up",
+                Some(Polar::Night) => "  the sun stays down",
+                None => "",
+            },
+        );
+    }
+    table
+}
+
+/// A day without sunrise and sunset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Polar {
+    /// The sun stays up.
+    Day,
+    /// The sun stays down.
+    Night,
+}
+
+/// Which kind of day it is, if the sun neither rises nor sets on it: any instant of it tells.
+pub(super) fn polar(day: &Day, track: &SunTrack) -> Option<Polar> {
+    if day.sunrise.is_some() || day.sunset.is_some() {
+        return None;
+    }
+    let on_it = |instant: &&Instant| instant.time.date_naive() == day.date;
+    let instant = track.instants.iter().find(on_it)?;
+    Some(if instant.night { Polar::Night } else { Polar::Day })
+}
+
+fn place_report(place: &Place) -> PlaceReport<'_> {
+    PlaceReport {
+        name: &place.name,
+        latitude: place.latitude_deg,
+        longitude: place.longitude_deg,
+        elevation: place.elevation_m,
+        time_zone: place.time_zone.name(),
+    }
+}
+
+// Angles are not rounded: the sign of the altitude and `night` then always agree.
+fn instant_report(instant: &Instant) -> InstantReport {
+    InstantReport {
+        time: stamp(&instant.time),
+        azimuth_deg: instant.azimuth_rad.to_degrees(),
+        altitude_deg: instant.altitude_rad.to_degrees(),
+        weight_secs: instant.weight_secs,
+        night: instant.night,
+    }
+}
+
+fn day_report(day: &Day) -> DayReport {
+    DayReport {
+        date: day.date.to_string(),
+        sunrise: day.sunrise.as_ref().map(stamp),
+        noon: day.noon.as_ref().map(stamp),
+        sunset: day.sunset.as_ref().map(stamp),
+    }
+}
+
+/// RFC 3339 with the place's offset, whole seconds.
+fn stamp(time: &DateTime<Tz>) -> String {
+    time.to_rfc3339_opts(SecondsFormat::Secs, false)
+}
+
+fn clock(time: Option<&DateTime<Tz>>) -> String {
+    time.map_or_else(|| "-".to_owned(), |time| time.format("%H:%M:%S").to_string())
+}
+
+fn in_order<S: Serializer>(timings: &&Timings, serializer: S) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(timings.0.len()))?;
+    for (stage, secs) in &timings.0 {
+        map.serialize_entry(stage, secs)?;
+    }
+    map.end()
+}
+
+fn json(report: &impl Serialize) -> Result<String, ExportError> {
+    let mut text = serde_json::to_string_pretty(report).map_err(|error| ExportError::encode("JSON report", error))?;
+    text.push('\n');
+    Ok(text)
+}

@@ -1,0 +1,104 @@
+//! One adapter, opened with all that it can do.
+
+use std::sync::{Arc, Mutex};
+use wgpu::{
+    Backends, DeviceDescriptor, Features, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions,
+};
+
+/// An open graphics adapter.
+pub struct Gpu {
+    /// Where resources are made.
+    pub device: wgpu::Device,
+    /// Where work goes in.
+    pub queue: wgpu::Queue,
+    /// What the adapter allows.
+    pub limits: wgpu::Limits,
+    name: String,
+    fault: Arc<Mutex<Option<String>>>,
+}
+
+/// Why the GPU gives no answer.
+#[derive(Debug, thiserror::Error)]
+pub enum GpuError {
+    /// Nothing to draw with.
+    #[error(
+        "no graphics adapter was found; install a driver (on Linux mesa-vulkan-drivers draws in software) or use --engine cpu"
+    )]
+    NoAdapter,
+    /// There is one, but too little of one.
+    #[error("the graphics adapter '{adapter}' cannot be used: {reason}; update its driver or use --engine cpu")]
+    Unusable {
+        /// The adapter's name.
+        adapter: String,
+        /// What is missing, or what the driver said.
+        reason: String,
+    },
+    /// It failed while working.
+    #[error("the graphics adapter '{adapter}' failed: {reason}; try larger cells (--cell) or --engine cpu")]
+    Failed {
+        /// The adapter's name.
+        adapter: String,
+        /// What the driver said.
+        reason: String,
+    },
+}
+
+/// What drawing needs beyond the least that WebGPU promises: a float depth beside the stencil.
+const NEEDED: Features = Features::DEPTH32FLOAT_STENCIL8;
+
+impl Gpu {
+    /// Opens the fastest adapter of the system. The usual environment variables of wgpu choose another one.
+    pub fn open() -> Result<Gpu, GpuError> {
+        pollster::block_on(async {
+            let mut wanted = InstanceDescriptor::new_without_display_handle_from_env();
+            wanted.backends &= Backends::all();
+            let options = RequestAdapterOptions {
+                power_preference: PowerPreference::HighPerformance,
+                ..RequestAdapterOptions::default()
+            };
+            let adapter = Instance::new(wanted).request_adapter(&options).await.map_err(|_| GpuError::NoAdapter)?;
+            let name = adapter.get_info().name;
+            let unusable = |reason: String| GpuError::Unusable { adapter: name.clone(), reason };
+            if !adapter.features().contains(NEEDED) {
+                return Err(unusable("it has no 32-bit depth with stencil".into()));
+            }
+            let limits = adapter.limits();
+            let description = DeviceDescriptor {
+                label: Some("gnomon"),
+                required_features: NEEDED,
+                required_limits: limits.clone(),
+                ..DeviceDescriptor::default()
+            };
+            let (device, queue) =
+                adapter.request_device(&description).await.map_err(|error| unusable(error.to_string()))?;
+            let fault = Arc::new(Mutex::new(None));
+            let heard = Arc::clone(&fault);
+            device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+                if let Ok(mut fault) = heard.lock() {
+                    fault.get_or_insert_with(|| error.to_string());
+                }
+            }));
+            Ok(Gpu { device, queue, limits, name, fault })
+        })
+    }
+
+    /// The adapter's name, as its driver says it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Says what went wrong since the device was opened. wgpu reports faults (memory above all) beside the calls that
+    /// cause them; whoever hands on a result asks here first.
+    pub fn check(&self) -> Result<(), GpuError> {
+        match self.fault.lock().map(|fault| fault.clone()) {
+            Ok(None) => Ok(()),
+            Ok(Some(reason)) => Err(self.failed(reason)),
+            Err(_) => Err(self.failed("an error could not be told")),
+        }
+    }
+
+    /// The error with the adapter's name.
+    pub fn failed(&self, reason: impl ToString) -> GpuError {
+        GpuError::Failed { adapter: self.name.clone(), reason: reason.to_string() }
+    }
+}

@@ -1,0 +1,49 @@
+//! From the GPU's memory to ours.
+
+use super::{Gpu, GpuError};
+use wgpu::{
+    BufferDescriptor, BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, Extent3d, MapMode, Origin3d, PollType,
+    TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect,
+};
+
+/// The most that is copied at once, bytes: a large raster comes in strips, so that no second copy of it is needed.
+const STRIP: u64 = 64 << 20;
+
+/// All texels of a texture as plain values, row 0 first. `T` has the size of one texel.
+pub fn texels<T: bytemuck::Pod>(gpu: &Gpu, texture: &Texture, aspect: TextureAspect) -> Result<Vec<T>, GpuError> {
+    let (width, height) = (texture.width(), texture.height());
+    let row_bytes = width * size_of::<T>() as u32;
+    let padded = row_bytes.next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT);
+    let strip = ((STRIP / u64::from(padded)).max(1) as u32).min(height);
+    let buffer = gpu.device.create_buffer(&BufferDescriptor {
+        label: Some("gpu.readback"),
+        size: u64::from(padded) * u64::from(strip),
+        usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut values = vec![T::zeroed(); width as usize * height as usize];
+    let mut rows = values.chunks_exact_mut(width as usize);
+    for first in (0..height).step_by(strip as usize) {
+        let count = strip.min(height - first);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            TexelCopyTextureInfo { texture, mip_level: 0, origin: Origin3d { x: 0, y: first, z: 0 }, aspect },
+            TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None },
+            },
+            Extent3d { width, height: count, depth_or_array_layers: 1 },
+        );
+        gpu.queue.submit([encoder.finish()]);
+        buffer.map_async(MapMode::Read, .., |_| ());
+        gpu.device.poll(PollType::wait_indefinitely()).map_err(|error| gpu.failed(error))?;
+        gpu.check()?;
+        let mapped = buffer.get_mapped_range(..).map_err(|error| gpu.failed(error))?;
+        for (line, row) in mapped.chunks_exact(padded as usize).zip(rows.by_ref().take(count as usize)) {
+            bytemuck::cast_slice_mut::<T, u8>(row).copy_from_slice(&line[..row_bytes as usize]);
+        }
+        drop(mapped);
+        buffer.unmap();
+    }
+    Ok(values)
+}
