@@ -9,6 +9,7 @@ use crate::profile::{Drawn, Profile, Timings};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::stencil::Stencil;
 use crate::shadow::{Scene, ShadowError, Technique};
+use crate::silhouette::brute_force::BruteForce;
 use crate::site::{Engine, Finder, Method, Receivers, Site};
 use crate::sun::SunTrack;
 use crate::view::{Mask, Surface, View};
@@ -249,7 +250,7 @@ impl Machine {
 
     fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
         Ok(match &self.gpu {
-            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view)?),
+            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, Arc::new(BruteForce))?),
             None => Box::new(RayCast::new(scene, view)),
         })
     }
