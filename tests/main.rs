@@ -1,5 +1,6 @@
 //! All tests in one binary, which links once.
 
+mod architecture;
 mod export;
 mod mistakes;
 mod model;
