@@ -16,10 +16,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("profile", &["sun", "view", "gpu", "shadow"]),
     ("study", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
     ("export", &["mesh", "sun", "view", "site", "profile"]),
-    (
-        "cli",
-        &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export"],
-    ),
+    ("cli", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export"]),
 ];
 
 /// Words that only some modules may write, and why. `main` is the binary's own file.
@@ -105,8 +102,7 @@ fn arrows(code: &str, depth: usize) -> Vec<(usize, &str)> {
 }
 
 fn begins_word(code: &str, offset: usize) -> bool {
-    !code[..offset].ends_with(|before: char| before.is_alphanumeric() || before == '_' || before == ':')
-        || code[..offset].ends_with("::")
+    !code[..offset].ends_with(|before: char| before.is_alphanumeric() || before == '_')
 }
 
 /// The first name of a path, or of each path of a group in braces.
