@@ -4,6 +4,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cargo build --release
+mkdir -p docs/pictures
 gnomon=${CARGO_TARGET_DIR:-target}/release/gnomon
 drawn=$(mktemp -d)
 trap 'rm -r "$drawn"' EXIT
