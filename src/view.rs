@@ -75,7 +75,7 @@ impl Camera {
     }
 
     /// Half the picture's width and height at distance 1.
-    fn half_size(&self) -> DVec2 {
+    pub fn half_size(&self) -> DVec2 {
         let half_height = (self.fov_rad / 2.0).tan();
         DVec2::new(half_height * f64::from(self.width) / f64::from(self.height), half_height)
     }

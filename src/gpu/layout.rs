@@ -1,1 +1,75 @@
-//! .
+//! The structs that shaders share with us, field for field. A test compares them with the shaders' own.
+
+use bytemuck::{Pod, Zeroable};
+use std::mem::offset_of;
+
+/// `View` of `shaders/common/view.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct View {
+    /// Metres around the scene's origin → clip space, depth 1 near and 0 far.
+    pub clip_from_local: [[f32; 4]; 4],
+    /// Homogeneous: the eye, or for the plan the direction straight up.
+    pub viewer: [f32; 4],
+    /// The camera's right, as long as the picture's border is far at distance 1.
+    pub right: [f32; 4],
+    /// The camera's up, likewise.
+    pub up: [f32; 4],
+    /// The camera's forward, a unit vector.
+    pub forward: [f32; 4],
+    /// Height of the ground, metres.
+    pub ground_z: f32,
+    /// Height of the lowest point that is judged, metres.
+    pub lowest_z: f32,
+    /// How far above itself a receiver is judged, metres.
+    pub judged_above: f32,
+    /// Plan: depth a metre of height. Camera: distance of the near plane, metres.
+    pub depth_scale: f32,
+    /// Columns and rows.
+    pub size: [f32; 2],
+    /// WGSL rounds a struct up to its alignment.
+    pub unused: [f32; 2],
+}
+
+/// `Light` of `shaders/common/view.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Light {
+    /// Unit vector; w = 0.
+    pub to_sun: [f32; 4],
+}
+
+/// `Weight` of `shaders/accumulate.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Weight {
+    /// Seconds that a mask stands for.
+    pub secs: u32,
+}
+
+/// A struct as Rust lays it out.
+pub struct Layout {
+    /// Its name, in Rust and in WGSL.
+    pub name: &'static str,
+    /// Bytes.
+    pub size: usize,
+    /// Names and byte offsets, in order.
+    pub fields: &'static [(&'static str, usize)],
+}
+
+macro_rules! layout {
+    ($name:ident: $($field:ident),+) => {
+        Layout {
+            name: stringify!($name),
+            size: size_of::<$name>(),
+            fields: &[$((stringify!($field), offset_of!($name, $field))),+],
+        }
+    };
+}
+
+/// All structs that shaders share with us.
+pub const ALL: &[Layout] = &[
+    layout!(View: clip_from_local, viewer, right, up, forward, ground_z, lowest_z, judged_above, depth_scale, size, unused),
+    layout!(Light: to_sun),
+    layout!(Weight: secs),
+];

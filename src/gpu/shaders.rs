@@ -1,1 +1,33 @@
-//! .
+//! The shaders' text: each stage joined with the common parts that it uses. WGSL has no includes, and needs none here.
+
+use super::Gpu;
+use wgpu::{ShaderModule, ShaderModuleDescriptor, ShaderSource};
+
+macro_rules! joined {
+    ($($part:literal),+) => {
+        concat!($(include_str!(concat!("../../shaders/", $part, ".wgsl")), "\n"),+)
+    };
+}
+
+/// What a view sees.
+pub const SURFACE: &str = joined!("common/view", "surface");
+/// Where it is judged.
+pub const JUDGED: &str = joined!("common/view", "common/seen", "judged");
+/// Stencil shadow volumes.
+pub const STENCIL: &str = joined!("common/view", "common/seen", "stencil");
+/// Masks times weights.
+pub const ACCUMULATE: &str = joined!("accumulate");
+
+/// All shaders, by name.
+pub const ALL: &[(&str, &str)] =
+    &[("surface", SURFACE), ("judged", JUDGED), ("stencil", STENCIL), ("accumulate", ACCUMULATE)];
+
+impl Gpu {
+    /// Compiles a shader.
+    pub fn shader(&self, label: &str, text: &str) -> ShaderModule {
+        self.device.create_shader_module(ShaderModuleDescriptor {
+            label: Some(label),
+            source: ShaderSource::Wgsl(text.into()),
+        })
+    }
+}

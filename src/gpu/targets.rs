@@ -1,1 +1,118 @@
-//! .
+//! Textures that are drawn to, buffers that are drawn from, and the pipeline states that repeat.
+
+use super::{Gpu, GpuError};
+use wgpu::*;
+
+/// The depth against which volumes are counted, with the stencil that counts.
+pub const COUNTED: TextureFormat = TextureFormat::Depth32FloatStencil8;
+/// The depth of what is seen.
+pub const DEPTH: TextureFormat = TextureFormat::Depth32Float;
+/// Faces that are seen, and sums.
+pub const NUMBER: TextureFormat = TextureFormat::R32Uint;
+/// Masks.
+pub const SHARE: TextureFormat = TextureFormat::R8Unorm;
+
+impl Gpu {
+    /// A texture for one use a cell.
+    pub fn texture(
+        &self,
+        label: &str,
+        (width, height): (u32, u32),
+        format: TextureFormat,
+        usage: TextureUsages,
+    ) -> Texture {
+        self.device.create_texture(&TextureDescriptor {
+            label: Some(label),
+            size: Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        })
+    }
+
+    /// A buffer of so many bytes, or the reason why the adapter has none so large.
+    pub fn buffer(&self, label: &str, size: u64, usage: BufferUsages) -> Result<Buffer, GpuError> {
+        if size > self.limits.max_buffer_size {
+            return Err(self.failed(format!(
+                "{label} takes {} MiB, more than the {} MiB of its largest buffer",
+                size >> 20,
+                self.limits.max_buffer_size >> 20
+            )));
+        }
+        Ok(self.device.create_buffer(&BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false }))
+    }
+
+    /// A buffer for one struct of [`super::layout`].
+    pub fn uniform<T: bytemuck::Pod>(&self, label: &str) -> Buffer {
+        self.device.create_buffer(&BufferDescriptor {
+            label: Some(label),
+            size: size_of::<T>() as u64,
+            usage: BufferUsages::UNIFORM | BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// A bind group for a pipeline whose layout was derived from its shader.
+    pub fn bind(&self, label: &str, layout: &BindGroupLayout, entries: &[(u32, BindingResource<'_>)]) -> BindGroup {
+        let entries: Vec<BindGroupEntry<'_>> = entries
+            .iter()
+            .map(|(binding, resource)| BindGroupEntry { binding: *binding, resource: resource.clone() })
+            .collect();
+        self.device.create_bind_group(&BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+    }
+
+    /// A render pipeline of triangles, both sides drawn, its layout derived from the shader.
+    pub fn pipeline(
+        &self,
+        label: &str,
+        stages: Stages<'_>,
+        depth_stencil: Option<DepthStencilState>,
+    ) -> RenderPipeline {
+        let target = stages.target.map(|(format, write_mask)| ColorTargetState { format, blend: None, write_mask });
+        self.device.create_render_pipeline(&RenderPipelineDescriptor {
+            label: Some(label),
+            layout: stages.layout,
+            vertex: VertexState {
+                module: stages.module,
+                entry_point: Some(stages.vertex),
+                compilation_options: PipelineCompilationOptions::default(),
+                buffers: stages.buffers,
+            },
+            primitive: PrimitiveState::default(),
+            depth_stencil,
+            multisample: MultisampleState::default(),
+            fragment: Some(FragmentState {
+                module: stages.module,
+                entry_point: Some(stages.fragment),
+                compilation_options: PipelineCompilationOptions::default(),
+                targets: if target.is_some() { std::slice::from_ref(&target) } else { &[] },
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// What varies between render pipelines.
+pub struct Stages<'a> {
+    /// The compiled shader.
+    pub module: &'a ShaderModule,
+    /// Its vertex entry point.
+    pub vertex: &'a str,
+    /// Its fragment entry point.
+    pub fragment: &'a str,
+    /// Vertex buffers.
+    pub buffers: &'a [Option<VertexBufferLayout<'a>>],
+    /// The colour target, and what of it is written.
+    pub target: Option<(TextureFormat, ColorWrites)>,
+    /// Bind groups that several pipelines share; derived from the shader where none.
+    pub layout: Option<&'a PipelineLayout>,
+}
+
+/// The view of a whole texture.
+pub fn whole(texture: &Texture) -> TextureView {
+    texture.create_view(&TextureViewDescriptor::default())
+}

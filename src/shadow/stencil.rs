@@ -1,20 +1,329 @@
-//! Stencil.
-use super::*;
-use crate::view::View;
+//! Stencil shadow volumes: exact hard shadows.
+//!
+//! Crow 1977; Heidmann's z-pass and Carmack's z-fail after seed 004, sections 3 to 6. Walls hang from the silhouette and
+//! are extruded in the vertex shader; two-sided stencil with wrap counts them; a cell is in shadow where the count is
+//! not 0. One render pass an instant: what faces away, then per batch of casters the count and its trace in the mask.
+//!
+//! - **z-pass** counts the walls in front of what is seen, so it needs no dark cap and walls that end at the lowest
+//!   receiver. It is right where nothing of a volume is cut by the near plane: always in the plan, whose near plane
+//!   lies above everything; in a camera view where no caster reaches into the near-clip volume, which is spanned by the
+//!   near rectangle and the direction to the sun (seed 004, section 7). It needs the light cap where casters are not
+//!   among what is seen.
+//! - **z-fail** counts behind what is seen, in all other views: with light cap, and walls to the sun's point at infinity,
+//!   which needs no dark cap. Depth is reversed, so that point has depth 0 exactly and no far plane cuts it.
+//! - The stencil holds 8 bits, and a count of exactly 256 would read as light. Casters are halved until a bound shows
+//!   that no count of a half can reach 256 ([`layers_bound`]); halves are drawn one after the other.
+//!
+//! Deviation from the seed: the general rule of [`crate::silhouette`] instead of well-wound closed meshes alone.
+
+use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
+use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
+use crate::gpu::{Gpu, shaders};
+use crate::mesh::Mesh;
+use crate::silhouette::SilhouetteFinder;
+use crate::view::{Camera, Surface, View};
+use crate::volume::{Volume, layers_bound};
+use glam::{DVec3, DVec4};
+use std::ops::Range;
 use std::sync::Arc;
-/// Stencil.
-pub struct Stencil {}
-impl Stencil {
-    /// New.
-    pub fn new(_gpu: Arc<Gpu>, _scene: Scene, _view: View) -> Result<Stencil, ShadowError> {
-        todo!()
+use wgpu::*;
+
+/// The most that an 8-bit stencil counts without passing through 0.
+const MOST_COUNTED: u32 = 255;
+
+/// The technique, made for one scene and one view.
+pub struct Stencil {
+    scene: Scene,
+    view: View,
+    surface: GpuSurface,
+    finder: Arc<dyn SilhouetteFinder>,
+    casters: Batch,
+    /// Every caster is among what is seen, so that z-pass needs no light cap.
+    casters_are_seen: bool,
+    vertices: Buffer,
+    indices: Buffer,
+    judged: TextureView,
+    mask: Texture,
+    pipelines: Pipelines,
+    /// What is uploaded at an instant; kept for its memory.
+    upload: Vec<u32>,
+}
+
+/// Casters that are counted together, and their halves where that would be too many. Halves are made when first needed.
+struct Batch {
+    mesh: Mesh,
+    halves: Option<Box<[Batch; 2]>>,
+}
+
+impl Batch {
+    fn of(mesh: Mesh) -> Batch {
+        Batch { mesh, halves: None }
+    }
+
+    /// Calls `each` with meshes that together are this one, none of which can count beyond the stencil.
+    fn countable(&mut self, to_sun: DVec3, each: &mut dyn FnMut(&Mesh)) {
+        let faces = self.mesh.faces.len() as u32;
+        if faces <= MOST_COUNTED || layers_bound(&self.mesh, to_sun) <= MOST_COUNTED {
+            return each(&self.mesh);
+        }
+        let halves = self.halves.get_or_insert_with(|| {
+            Box::new([0..faces / 2, faces / 2..faces].map(|run| Batch::of(self.mesh.of_faces(run))))
+        });
+        for half in halves.iter_mut() {
+            half.countable(to_sun, each);
+        }
     }
 }
+
+/// One batch in the index buffer.
+struct Counted {
+    walls: Range<u32>,
+    cap: Range<u32>,
+}
+
+struct Pipelines {
+    facing: RenderPipeline,
+    covered: RenderPipeline,
+    z_pass: Counting,
+    z_fail: Counting,
+}
+
+struct Counting {
+    wall: RenderPipeline,
+    cap: RenderPipeline,
+}
+
+impl Stencil {
+    /// Draws what is seen, uploads the casters, builds the pipelines.
+    pub fn new(
+        gpu: Arc<Gpu>,
+        scene: Scene,
+        view: View,
+        finder: Arc<dyn SilhouetteFinder>,
+    ) -> Result<Stencil, ShadowError> {
+        let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
+        let judged = whole(&surface.judged());
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+        let mask = gpu.texture("stencil.mask", view.size(), SHARE, usage);
+        let twice: Vec<[f32; 4]> = scene
+            .casters
+            .vertices
+            .iter()
+            .flat_map(|vertex| [vertex.extend(1.0).to_array(), vertex.extend(0.0).to_array()])
+            .collect();
+        let size = (twice.len().max(1) * size_of::<[f32; 4]>()) as u64;
+        let vertices = gpu.buffer("stencil.casters", size, BufferUsages::VERTEX | BufferUsages::COPY_DST)?;
+        gpu.queue.write_buffer(&vertices, 0, bytemuck::cast_slice(&twice));
+        let indices = gpu.buffer("stencil.indices", 4, BufferUsages::INDEX | BufferUsages::COPY_DST)?;
+        let pipelines = Pipelines::new(&gpu, &surface);
+        let casters_are_seen = matches!(view, View::Camera(_) | View::Plan(_)) && holds_all(&scene);
+        let casters = Batch::of(scene.casters.clone());
+        gpu.check()?;
+        Ok(Stencil {
+            scene,
+            view,
+            surface,
+            finder,
+            casters,
+            casters_are_seen,
+            vertices,
+            indices,
+            judged,
+            mask,
+            pipelines,
+            upload: Vec::new(),
+        })
+    }
+
+    /// Finds the volumes for a sun and writes their indices: walls and, with `cap`, the light cap.
+    fn find_volumes(&mut self, to_sun: DVec3, z_fail: bool, cap: bool) -> Vec<Counted> {
+        let mut counted = Vec::new();
+        let upload = &mut self.upload;
+        let finder = &*self.finder;
+        upload.clear();
+        self.casters.countable(to_sun, &mut |mesh| {
+            let volume = Volume::find(mesh, finder, to_sun.extend(0.0), cap);
+            let first = upload.len() as u32;
+            for wall in volume.walls {
+                let [first, second] =
+                    Volume::wall(wall).map(|corners| corners.map(|(at, far)| at * 2 + u32::from(far)));
+                if !z_fail {
+                    upload.extend(first); // without area where far ends are one point
+                }
+                upload.extend(second);
+            }
+            let middle = upload.len() as u32;
+            upload.extend(volume.light_cap.iter().flatten().map(|vertex| vertex * 2));
+            counted.push(Counted { walls: first..middle, cap: middle..upload.len() as u32 });
+        });
+        counted
+    }
+
+    fn upload_indices(&mut self) -> Result<(), ShadowError> {
+        let gpu = &self.surface.gpu;
+        let size = (self.upload.len() * 4) as u64;
+        if size > self.indices.size() {
+            // room for the next instants, whose silhouettes are much alike
+            let roomy = (size + size / 2).next_multiple_of(4).min(gpu.limits.max_buffer_size.max(size));
+            self.indices = gpu.buffer("stencil.indices", roomy, BufferUsages::INDEX | BufferUsages::COPY_DST)?;
+        }
+        gpu.queue.write_buffer(&self.indices, 0, bytemuck::cast_slice(&self.upload));
+        Ok(())
+    }
+}
+
+/// Whether every component that casts also receives.
+fn holds_all(scene: &Scene) -> bool {
+    let received: rustc_hash::FxHashSet<[u32; 3]> = scene.receivers.faces.iter().copied().collect();
+    scene.casters.faces.iter().all(|face| received.contains(face))
+}
+
 impl Technique for Stencil {
-    fn draw(&mut self, _to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
-        todo!()
+    fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
+        let z_fail = match &self.view {
+            View::Plan(_) => false,
+            View::Camera(camera) => near_clip_volume_touched(camera, to_sun, &self.scene.casters),
+        };
+        let counted = self.find_volumes(to_sun, z_fail, z_fail || !self.casters_are_seen);
+        self.upload_indices()?;
+        self.surface.set_sun(to_sun);
+        let gpu = &self.surface.gpu;
+        let counting = if z_fail { &self.pipelines.z_fail } else { &self.pipelines.z_pass };
+
+        let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("stencil"),
+            color_attachments: &[Some(RenderPassColorAttachment {
+                view: &whole(&self.mask),
+                depth_slice: None,
+                resolve_target: None,
+                ops: Operations { load: LoadOp::Clear(Color::BLACK), store: StoreOp::Store },
+            })],
+            depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
+                view: &self.judged,
+                depth_ops: None,
+                stencil_ops: Some(Operations { load: LoadOp::Clear(0), store: StoreOp::Discard }),
+            }),
+            ..RenderPassDescriptor::default()
+        });
+        pass.set_bind_group(0, &self.surface.frame, &[]);
+        pass.set_bind_group(1, &self.surface.seen, &[]);
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), IndexFormat::Uint32);
+        pass.set_pipeline(&self.pipelines.facing);
+        pass.draw(0..3, 0..1);
+        for Counted { walls, cap } in counted {
+            pass.set_pipeline(&counting.wall);
+            pass.draw_indexed(walls, 0, 0..1);
+            if !cap.is_empty() {
+                pass.set_pipeline(&counting.cap);
+                pass.draw_indexed(cap, 0, 0..1);
+            }
+            pass.set_pipeline(&self.pipelines.covered);
+            pass.draw(0..3, 0..1);
+        }
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+        Ok(DrawnMask::Texture(gpu, &self.mask))
     }
+
     fn surface(&self) -> Result<Surface, ShadowError> {
-        todo!()
+        self.surface.read()
     }
+}
+
+/// Whether a caster may reach into the near-clip volume, the near rectangle swept towards the sun. Boxes around
+/// components stand for them, so the answer may be yes too often, never no.
+pub fn near_clip_volume_touched(camera: &Camera, to_sun: DVec3, casters: &Mesh) -> bool {
+    let [right, up, forward] = camera.axes();
+    let middle = camera.eye + forward * Camera::NEAR_M;
+    let half = camera.half_size() * Camera::NEAR_M;
+    let corner = |x: f64, y: f64| middle + right * half.x * x + up * half.y * y;
+    let rectangle = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    // planes with what is outside in front: four sides, and the rectangle itself on the side away from the sun
+    let mut planes = Vec::from([forward * -forward.dot(to_sun).signum()].map(|normal| (normal, middle)));
+    for index in 0..4 {
+        let (from, to) = (rectangle[index], rectangle[(index + 1) % 4]);
+        let normal = (to - from).cross(to_sun);
+        let outward = if normal.dot(middle - from) > 0.0 { -normal } else { normal };
+        planes.push((outward, from));
+    }
+    casters.components.iter().any(|component| {
+        let Some((low, high)) = casters.bounds_of(component.faces.clone()) else { return false };
+        // the corner farthest inwards lies outside: so does the box
+        let outside = |&(normal, point): &(DVec3, DVec3)| {
+            let inmost = DVec3::select(normal.cmpgt(DVec3::ZERO), low, high);
+            normal.dot(inmost - point) > 0.0
+        };
+        !planes.iter().any(outside)
+    })
+}
+
+impl Pipelines {
+    fn new(gpu: &Gpu, surface: &GpuSurface) -> Pipelines {
+        let module = gpu.shader("stencil", shaders::STENCIL);
+        let layout = surface.seeing_layout();
+        let corner = VertexBufferLayout {
+            array_stride: size_of::<[f32; 4]>() as u64,
+            step_mode: VertexStepMode::Vertex,
+            attributes: &vertex_attr_array![0 => Float32x4],
+        };
+        let buffers = [Some(corner)];
+        let pipeline = |label: &str, vertex, fragment, writes, depth_stencil| {
+            let buffers: &[_] = if vertex == "whole_picture" { &[] } else { &buffers };
+            let target = Some((SHARE, writes));
+            let stages = Stages { module: &module, vertex, fragment, buffers, target, layout: Some(&layout) };
+            gpu.pipeline(label, stages, Some(depth_stencil))
+        };
+        let whole_picture = |compare, pass_op| {
+            let face = StencilFaceState { compare, pass_op, ..StencilFaceState::default() };
+            state(CompareFunction::Always, face, face)
+        };
+        let [pass_front, pass_back] = [StencilOperation::IncrementWrap, StencilOperation::DecrementWrap]
+            .map(|pass_op| StencilFaceState { pass_op, ..StencilFaceState::default() });
+        let [fail_front, fail_back] = [StencilOperation::DecrementWrap, StencilOperation::IncrementWrap]
+            .map(|depth_fail_op| StencilFaceState { depth_fail_op, ..StencilFaceState::default() });
+        let counting = |name: &str, wall, front, back| {
+            // strictly nearer than what is judged
+            let state = || state(CompareFunction::Greater, front, back);
+            Counting {
+                wall: pipeline(&format!("stencil.{name}.wall"), wall, "counted", ColorWrites::empty(), state()),
+                cap: pipeline(&format!("stencil.{name}.cap"), "cap", "counted", ColorWrites::empty(), state()),
+            }
+        };
+        Pipelines {
+            facing: pipeline(
+                "stencil.facing",
+                "whole_picture",
+                "facing",
+                ColorWrites::ALL,
+                whole_picture(CompareFunction::Always, StencilOperation::Keep),
+            ),
+            covered: pipeline(
+                "stencil.covered",
+                "whole_picture",
+                "covered",
+                ColorWrites::ALL,
+                whole_picture(CompareFunction::NotEqual, StencilOperation::Zero),
+            ),
+            z_pass: counting("z_pass", "wall_to_lowest", pass_front, pass_back),
+            z_fail: counting("z_fail", "wall_to_infinity", fail_front, fail_back),
+        }
+    }
+}
+
+/// The depth is only read; the stencil reference is 0 throughout.
+fn state(depth_compare: CompareFunction, front: StencilFaceState, back: StencilFaceState) -> DepthStencilState {
+    DepthStencilState {
+        format: COUNTED,
+        depth_write_enabled: Some(false),
+        depth_compare: Some(depth_compare),
+        stencil: StencilState { front, back, read_mask: 0xff, write_mask: 0xff },
+        bias: DepthBiasState::default(),
+    }
+}
+
+/// A sun's direction as the homogeneous light that planes take.
+pub fn sun(to_sun: DVec3) -> DVec4 {
+    to_sun.extend(0.0)
 }

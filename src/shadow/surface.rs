@@ -1,3 +1,350 @@
-//! .
-/// x
-pub struct GpuSurface;
+//! What each cell of a view sees, on the GPU: drawn once for a scene and a view, and the ground that the stencil
+//! technique stands on.
+
+use super::{JUDGED_ABOVE_M, Scene, ShadowError};
+use crate::gpu::layout::{self, Light};
+use crate::gpu::targets::{COUNTED, DEPTH, NUMBER, Stages, whole};
+use crate::gpu::{Gpu, readback, shaders};
+use crate::mesh::Mesh;
+use crate::view::{Surface, View};
+use glam::{DMat4, DVec3, DVec4};
+use rayon::prelude::*;
+use std::sync::Arc;
+use wgpu::*;
+
+/// Receivers' planes lie in rows of this many texels (`PLANES_WIDTH` of `shaders/common/seen.wgsl`).
+const PLANES_WIDTH: usize = 4096;
+/// Faces that are uploaded at once: a receiver is drawn once, so no buffer of all of them is kept.
+const FACES_AT_ONCE: usize = 1 << 18;
+
+/// Depth and face of what each cell sees, and the uniforms of the view.
+pub struct GpuSurface {
+    pub(super) gpu: Arc<Gpu>,
+    view: View,
+    origin: DVec3,
+    clip_from_local: DMat4,
+    depth: Texture,
+    faces: Texture,
+    light: Buffer,
+    /// View and light.
+    pub(super) frame: BindGroup,
+    /// What is seen.
+    pub(super) seen: BindGroup,
+    frame_layout: BindGroupLayout,
+    seen_layout: BindGroupLayout,
+}
+
+impl GpuSurface {
+    /// Draws the receivers of a scene, and the ground.
+    pub fn draw(gpu: Arc<Gpu>, scene: &Scene, view: View) -> Result<GpuSurface, ShadowError> {
+        let (width, height) = view.size();
+        let largest = gpu.limits.max_texture_dimension_2d;
+        if width.max(height) > largest {
+            return Err(ShadowError::TooLarge { width, height, largest, adapter: gpu.name().to_owned() });
+        }
+        let drawn_and_read =
+            TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+        let depth = gpu.texture("surface.depth", view.size(), DEPTH, drawn_and_read);
+        let faces = gpu.texture("surface.faces", view.size(), NUMBER, drawn_and_read);
+        let planes = planes(&gpu, &scene.receivers);
+
+        let uniform = uniform(scene, &view);
+        let view_buffer = gpu.uniform::<layout::View>("view");
+        gpu.queue.write_buffer(&view_buffer, 0, bytemuck::bytes_of(&uniform));
+        let light = gpu.uniform::<Light>("light");
+        let frame_layout = bind_group_layout(&gpu, "frame", &[UNIFORM, UNIFORM]);
+        let seen_layout = bind_group_layout(
+            &gpu,
+            "seen",
+            &[
+                texture_binding(TextureSampleType::Uint),
+                texture_binding(TextureSampleType::Float { filterable: false }),
+                texture_binding(TextureSampleType::Depth),
+            ],
+        );
+        let frame =
+            gpu.bind("frame", &frame_layout, &[(0, view_buffer.as_entire_binding()), (1, light.as_entire_binding())]);
+        let [faces_view, planes_view, depth_view] = [&faces, &planes, &depth].map(whole);
+        let seen = gpu.bind(
+            "seen",
+            &seen_layout,
+            &[
+                (0, BindingResource::TextureView(&faces_view)),
+                (1, BindingResource::TextureView(&planes_view)),
+                (2, BindingResource::TextureView(&depth_view)),
+            ],
+        );
+        let clip_from_local = clip_from_local(scene, &view);
+        let origin = scene.receivers.origin;
+        let surface = GpuSurface {
+            gpu,
+            view,
+            origin,
+            clip_from_local,
+            depth,
+            faces,
+            light,
+            frame,
+            seen,
+            frame_layout,
+            seen_layout,
+        };
+        surface.draw_receivers(&scene.receivers)?;
+        Ok(surface)
+    }
+
+    fn draw_receivers(&self, receivers: &Mesh) -> Result<(), ShadowError> {
+        let gpu = &self.gpu;
+        let module = gpu.shader("surface", shaders::SURFACE);
+        let layout = self.pipeline_layout(&[&self.frame_layout]);
+        let corner = VertexBufferLayout {
+            array_stride: size_of::<Corner>() as u64,
+            step_mode: VertexStepMode::Vertex,
+            attributes: &vertex_attr_array![0 => Float32x3, 1 => Uint32],
+        };
+        let stages = |vertex, fragment, buffers| Stages {
+            module: &module,
+            vertex,
+            fragment,
+            buffers,
+            target: Some((NUMBER, ColorWrites::ALL)),
+            layout: Some(&layout),
+        };
+        let nearest = DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(CompareFunction::Greater),
+            stencil: StencilState::default(),
+            bias: DepthBiasState::default(),
+        };
+        let buffers = [Some(corner)];
+        let ground = gpu.pipeline("surface.ground", stages("whole_picture", "ground", &[]), Some(nearest.clone()));
+        let receiver = gpu.pipeline("surface.receiver", stages("receiver", "receiver_face", &buffers), Some(nearest));
+
+        let at_once = receivers.faces.len().clamp(1, FACES_AT_ONCE);
+        let vertices = gpu.buffer(
+            "surface.receivers",
+            (at_once * 3 * size_of::<Corner>()) as u64,
+            BufferUsages::VERTEX | BufferUsages::COPY_DST,
+        )?;
+        // the receivers first: where ground and a receiver are equally deep, the receiver is seen
+        let runs = (0..receivers.faces.len()).step_by(at_once).map(Some).chain([None]);
+        for (index, run) in runs.enumerate() {
+            let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            let load = |first| if index == 0 { LoadOp::Clear(first) } else { LoadOp::Load };
+            let face_load = if index == 0 {
+                LoadOp::Clear(Color { r: f64::from(Surface::SKY), ..Color::default() })
+            } else {
+                LoadOp::Load
+            };
+            let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+                label: Some("surface"),
+                color_attachments: &[Some(RenderPassColorAttachment {
+                    view: &whole(&self.faces),
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: Operations { load: face_load, store: StoreOp::Store },
+                })],
+                depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
+                    view: &whole(&self.depth),
+                    depth_ops: Some(Operations { load: load(0.0), store: StoreOp::Store }),
+                    stencil_ops: None,
+                }),
+                ..RenderPassDescriptor::default()
+            });
+            pass.set_bind_group(0, &self.frame, &[]);
+            if let Some(first) = run {
+                let count = at_once.min(receivers.faces.len() - first);
+                let corners: Vec<Corner> = (first..first + count)
+                    .into_par_iter()
+                    .flat_map_iter(|face| receivers.corners(face).map(|corner| Corner(corner.to_array(), face as u32)))
+                    .collect();
+                gpu.queue.write_buffer(&vertices, 0, bytemuck::cast_slice(&corners));
+                pass.set_pipeline(&receiver);
+                pass.set_vertex_buffer(0, vertices.slice(..));
+                pass.draw(0..count as u32 * 3, 0..1);
+            } else {
+                pass.set_pipeline(&ground);
+                pass.draw(0..3, 0..1);
+            }
+            drop(pass);
+            gpu.queue.submit([encoder.finish()]);
+        }
+        Ok(gpu.check()?)
+    }
+
+    /// The layout of pipelines that read the view, and what is seen.
+    pub(super) fn seeing_layout(&self) -> PipelineLayout {
+        self.pipeline_layout(&[&self.frame_layout, &self.seen_layout])
+    }
+
+    fn pipeline_layout(&self, groups: &[&BindGroupLayout]) -> PipelineLayout {
+        let groups: Vec<_> = groups.iter().map(|group| Some(*group)).collect();
+        self.gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
+            label: Some("shadow"),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        })
+    }
+
+    /// The depth at which each cell is judged, in a texture with a stencil.
+    pub(super) fn judged(&self) -> Texture {
+        let gpu = &self.gpu;
+        let judged = gpu.texture("surface.judged", self.view.size(), COUNTED, TextureUsages::RENDER_ATTACHMENT);
+        let module = gpu.shader("judged", shaders::JUDGED);
+        let always = DepthStencilState {
+            format: COUNTED,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(CompareFunction::Always),
+            stencil: StencilState::default(),
+            bias: DepthBiasState::default(),
+        };
+        let stages = Stages {
+            module: &module,
+            vertex: "whole_picture",
+            fragment: "judged_depth",
+            buffers: &[],
+            target: None,
+            layout: Some(&self.seeing_layout()),
+        };
+        let pipeline = gpu.pipeline("judged", stages, Some(always));
+        let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("judged"),
+            depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
+                view: &whole(&judged),
+                depth_ops: Some(Operations { load: LoadOp::Clear(0.0), store: StoreOp::Store }),
+                stencil_ops: Some(Operations { load: LoadOp::Clear(0), store: StoreOp::Store }),
+            }),
+            ..RenderPassDescriptor::default()
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &self.frame, &[]);
+        pass.set_bind_group(1, &self.seen, &[]);
+        pass.draw(0..3, 0..1);
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+        judged
+    }
+
+    /// Sets the sun for what is drawn next.
+    pub(super) fn set_sun(&self, to_sun: DVec3) {
+        let light = Light { to_sun: to_sun.extend(0.0).as_vec4().to_array() };
+        self.gpu.queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
+    }
+
+    /// The surface in the processor's memory.
+    pub fn read(&self) -> Result<Surface, ShadowError> {
+        let face: Vec<u32> = readback::texels(&self.gpu, &self.faces, TextureAspect::All)?;
+        let depth: Vec<f32> = readback::texels(&self.gpu, &self.depth, TextureAspect::DepthOnly)?;
+        let (width, height) = self.view.size();
+        let local_from_clip = self.clip_from_local.inverse();
+        let height_of = |(at, (&face, &depth)): (usize, (&u32, &f32))| {
+            if face == Surface::SKY {
+                return f32::NAN;
+            }
+            let (column, row) = (at as u32 % width, at as u32 / width);
+            let x = (f64::from(column) + 0.5) / f64::from(width) * 2.0 - 1.0;
+            let y = 1.0 - (f64::from(row) + 0.5) / f64::from(height) * 2.0;
+            let point = local_from_clip * DVec4::new(x, y, f64::from(depth), 1.0);
+            (point.z / point.w + self.origin.z) as f32
+        };
+        let height_m = face.par_iter().zip(&depth).enumerate().map(height_of).collect();
+        Ok(Surface { width, height, face, height_m })
+    }
+}
+
+/// A receiver's corner, as `receiver` of `shaders/surface.wgsl` takes it: position and face.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct Corner([f32; 3], u32);
+
+/// Metres around the scene's origin → clip space, depth 1 near and 0 far.
+fn clip_from_local(scene: &Scene, view: &View) -> DMat4 {
+    let to_world = DMat4::from_translation(scene.casters.origin);
+    match view {
+        View::Camera(camera) => camera.clip_from_world() * to_world,
+        View::Plan(grid) => {
+            let [west, south, east, north] = grid.region();
+            let (low, high) = heights(scene);
+            let span = DVec3::new((east - west) / 2.0, (north - south) / 2.0, high - low);
+            let middle = DVec3::new((west + east) / 2.0, (south + north) / 2.0, low);
+            DMat4::from_scale(span.recip()) * DMat4::from_translation(-middle) * to_world
+        }
+    }
+}
+
+/// The heights between which the plan's depth runs, metres of the world frame: nothing is cut at the upper end, so that
+/// counting in front of what is seen is right; what is cut at the lower end lies below the ground.
+fn heights(scene: &Scene) -> (f64, f64) {
+    let high = scene.casters.top().max(scene.receivers.top()).max(scene.ground);
+    (scene.ground - 1.0, high + 1.0)
+}
+
+fn uniform(scene: &Scene, view: &View) -> layout::View {
+    let origin = scene.casters.origin;
+    let world_viewer = view.viewer();
+    let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
+    let (width, height) = view.size();
+    let lowest_receiver = scene.receivers.bounds().map_or(scene.ground, |(low, _)| low.z.min(scene.ground));
+    let ([right, up, forward], lowest, depth_scale) = match view {
+        // the plan sees nothing below the ground
+        View::Plan(_) => {
+            let (low, high) = heights(scene);
+            ([DVec3::X, DVec3::Y, DVec3::NEG_Z], scene.ground, 1.0 / (high - low))
+        }
+        View::Camera(camera) => {
+            let [right, up, forward] = camera.axes();
+            let half = camera.half_size();
+            ([right * half.x, up * half.y, forward], lowest_receiver, crate::view::Camera::NEAR_M)
+        }
+    };
+    let direction = |axis: DVec3| axis.extend(0.0).as_vec4().to_array();
+    layout::View {
+        clip_from_local: clip_from_local(scene, view).as_mat4().to_cols_array_2d(),
+        viewer: viewer.as_vec4().to_array(),
+        right: direction(right),
+        up: direction(up),
+        forward: direction(forward),
+        ground_z: (scene.ground - origin.z) as f32,
+        lowest_z: (lowest - origin.z) as f32,
+        judged_above: JUDGED_ABOVE_M as f32,
+        depth_scale: depth_scale as f32,
+        size: [width as f32, height as f32],
+        unused: [0.0; 2],
+    }
+}
+
+/// The planes of faces as a texture, which no adapter limits to the size of a binding.
+fn planes(gpu: &Gpu, mesh: &Mesh) -> Texture {
+    let rows = mesh.planes.len().div_ceil(PLANES_WIDTH).max(1);
+    let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+    let texture = gpu.texture("surface.planes", (PLANES_WIDTH as u32, rows as u32), TextureFormat::Rgba32Float, usage);
+    let mut texels: Vec<[f32; 4]> = mesh.planes.iter().map(|plane| plane.as_vec4().to_array()).collect();
+    texels.resize(rows * PLANES_WIDTH, [0.0; 4]);
+    gpu.queue.write_texture(
+        texture.as_image_copy(),
+        bytemuck::cast_slice(&texels),
+        TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(PLANES_WIDTH as u32 * 16), rows_per_image: None },
+        texture.size(),
+    );
+    texture
+}
+
+const UNIFORM: BindingType =
+    BindingType::Buffer { ty: BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
+
+fn texture_binding(sample_type: TextureSampleType) -> BindingType {
+    BindingType::Texture { sample_type, view_dimension: TextureViewDimension::D2, multisampled: false }
+}
+
+fn bind_group_layout(gpu: &Gpu, label: &str, types: &[BindingType]) -> BindGroupLayout {
+    let entry = |(binding, ty): (usize, &BindingType)| BindGroupLayoutEntry {
+        binding: binding as u32,
+        visibility: ShaderStages::VERTEX_FRAGMENT,
+        ty: *ty,
+        count: None,
+    };
+    let entries: Vec<_> = types.iter().enumerate().map(entry).collect();
+    gpu.device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+}
