@@ -4,6 +4,7 @@ mod architecture;
 mod export;
 mod mistakes;
 mod model;
+mod shaders;
 mod site;
 mod sites;
 mod sun;
