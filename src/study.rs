@@ -1,1 +1,375 @@
-//! .
+//! The flow: a checked request in, its shadow profile out.
+//!
+//! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera.
+
+use crate::gpu::{Gpu, GpuError};
+use crate::mesh::Mesh;
+use crate::profile::accumulate::Sum;
+use crate::profile::{Drawn, Profile, Timings};
+use crate::shadow::ray_cast::RayCast;
+use crate::shadow::stencil::Stencil;
+use crate::shadow::{Scene, ShadowError, Technique};
+use crate::site::{Engine, Finder, Method, Receivers, Site};
+use crate::sun::SunTrack;
+use crate::view::{Mask, Surface, View};
+use chrono::DateTime;
+use chrono_tz::Tz;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What is made beside the profile.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wants {
+    /// Every instant's mask, in [`Event::Drawn`].
+    pub masks: bool,
+    /// What the cells see, for a drawing.
+    pub surface: bool,
+}
+
+/// What happens on the way.
+#[derive(Clone, Debug)]
+pub enum Event<'a> {
+    /// Something that the user should know.
+    Note(String),
+    /// All is prepared; drawing begins.
+    Started {
+        /// How many instants there are.
+        instants: usize,
+    },
+    /// One instant is done, in time's order.
+    Drawn {
+        /// From 0.
+        index: usize,
+        /// Of how many.
+        count: usize,
+        /// Local clock time of the place.
+        time: DateTime<Tz>,
+        /// Its mask, where masks are wanted.
+        mask: Option<&'a Mask>,
+    },
+}
+
+/// Hears what happens; [`ControlFlow::Break`] ends the work with [`StudyError::Interrupted`].
+pub type OnEvent<'a> = dyn FnMut(Event<'_>) -> ControlFlow<()> + 'a;
+
+/// The answer to a study.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The shaded time.
+    pub profile: Profile,
+    /// What drew it.
+    pub drawn: Drawn,
+    /// What the cells see, where wanted: also under [`Receivers::Ground`] with the models.
+    pub surface: Option<Surface>,
+    /// Whose faces [`Surface::face`] counts.
+    pub surface_mesh: Mesh,
+    /// `prepare` and `shadows`.
+    pub timings: Timings,
+}
+
+/// The answer for one instant.
+#[derive(Clone, Debug)]
+pub struct InstantOutcome {
+    /// Which part of the sun each cell sees.
+    pub mask: Mask,
+    /// What drew it.
+    pub drawn: Drawn,
+    /// What the cells see, where wanted.
+    pub surface: Option<Surface>,
+    /// Whose faces [`Surface::face`] counts.
+    pub surface_mesh: Mesh,
+    /// `prepare` and `shadows`.
+    pub timings: Timings,
+}
+
+/// Why there is no answer. One line each.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// Two choices that exclude each other.
+    #[error("{option}: {what}")]
+    Conflict {
+        /// The option that does not fit.
+        option: &'static str,
+        /// Why, and the way out.
+        what: &'static str,
+    },
+    /// Sums are counted in 1/255 s in 32 bits.
+    #[error(
+        "the study has {} hours of daylight, and a profile sums at most {}; ask for a shorter window with --from and --to",
+        day_secs / 3600,
+        MOST_DAY_SECS / 3600
+    )]
+    TooLong {
+        /// Seconds of the window with the sun above the horizon.
+        day_secs: u64,
+    },
+    /// The track has no instant.
+    #[error("there is no instant to draw")]
+    NoInstant,
+    /// No adapter, or not a good one.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// Drawing failed.
+    #[error(transparent)]
+    Shadow(#[from] ShadowError),
+    /// As asked by the listener.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl StudyError {
+    /// Whether the command line was wrong (exit status 2).
+    pub fn is_wrong_use(&self) -> bool {
+        matches!(self, StudyError::Conflict { .. })
+    }
+}
+
+/// The longest daylight that a sum in 1/255 s holds, seconds.
+const MOST_DAY_SECS: u64 = (u32::MAX / 255) as u64;
+
+/// The study: every instant's shadows, summed to the time in shadow.
+///
+/// # Errors
+/// [`StudyError`]; choices that exclude each other and windows that are too long before anything is drawn.
+pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
+    let mut watch = Stopwatch::start();
+    let (day_secs, night_secs) = day_and_night(&site.track)?;
+    let machine = choose(site, on_event)?;
+    let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
+    let mut technique = look.technique()?;
+    let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
+    let mut sum = Sum::new(machine.gpu.clone(), site.grid.width, site.grid.height);
+    watch.lap("prepare");
+
+    let count = site.track.instants.len();
+    tell(on_event, Event::Started { instants: count })?;
+    for (index, instant) in site.track.instants.iter().enumerate() {
+        let mut mask = None;
+        if !instant.night {
+            let drawn = technique.draw(instant.to_sun)?;
+            sum.add(&drawn, instant.weight_secs)?;
+            mask = wants.masks.then(|| drawn.read()).transpose()?;
+        } else if wants.masks {
+            mask = Some(night(&look.view));
+        }
+        tell(on_event, Event::Drawn { index, count, time: instant.time, mask: mask.as_ref() })?;
+    }
+    let shaded = sum.finish()?;
+    watch.lap("shadows");
+
+    let profile = Profile { grid: site.grid, shaded, day_secs, night_secs };
+    Ok(Outcome { profile, surface, surface_mesh: look.surface_mesh(), timings: watch.stages, drawn: machine.drawn() })
+}
+
+/// The first instant alone; at night nothing sees the sun, and a note says so.
+///
+/// A camera always judges what it sees; [`Site::receivers`] is the plan's.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn instant(
+    site: &Site,
+    view: View,
+    surface: bool,
+    on_event: &mut OnEvent<'_>,
+) -> Result<InstantOutcome, StudyError> {
+    let mut watch = Stopwatch::start();
+    let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
+    let machine = choose(site, on_event)?;
+    let receivers = judged(site, &view);
+    let look = Look { site, machine: &machine, view, receivers };
+    let mut technique = look.technique()?;
+    let surface = surface.then(|| look.surface(&*technique)).transpose()?;
+    watch.lap("prepare");
+
+    tell(on_event, Event::Started { instants: 1 })?;
+    let mask = if instant.night {
+        let below = -instant.altitude_deg();
+        tell(on_event, Event::Note(format!("night: the sun is {below:.1}° below the horizon, and nothing sees it")))?;
+        night(&view)
+    } else {
+        technique.draw(instant.to_sun)?.read()?
+    };
+    tell(on_event, Event::Drawn { index: 0, count: 1, time: instant.time, mask: Some(&mask) })?;
+    watch.lap("shadows");
+    Ok(InstantOutcome {
+        mask,
+        surface,
+        surface_mesh: look.surface_mesh(),
+        timings: watch.stages,
+        drawn: machine.drawn(),
+    })
+}
+
+/// What a view judges: the plan what was asked, a camera what it sees.
+pub fn judged(site: &Site, view: &View) -> Receivers {
+    match view {
+        View::Plan(_) => site.receivers,
+        View::Camera(_) => Receivers::Top,
+    }
+}
+
+/// The seconds of the window with the sun above the horizon, and without.
+fn day_and_night(track: &SunTrack) -> Result<(u32, u32), StudyError> {
+    let weights = |night: bool| {
+        track
+            .instants
+            .iter()
+            .filter(move |instant| instant.night == night)
+            .map(|instant| u64::from(instant.weight_secs))
+    };
+    let day_secs: u64 = weights(false).sum();
+    if day_secs > MOST_DAY_SECS {
+        return Err(StudyError::TooLong { day_secs });
+    }
+    // Both fit: a window is at most ten years, 3.2e8 s.
+    Ok((day_secs as u32, weights(true).sum::<u64>() as u32))
+}
+
+/// Who draws: the stencil on the graphics adapter, or ray casting on the processor.
+struct Machine {
+    gpu: Option<Arc<Gpu>>,
+}
+
+impl Machine {
+    fn drawn(&self) -> Drawn {
+        match &self.gpu {
+            Some(gpu) => Drawn {
+                technique: Method::Stencil.word(),
+                silhouette: Some(Finder::Brute.word()),
+                engine: Engine::Gpu.word(),
+                adapter: Some(gpu.name().to_owned()),
+            },
+            None => {
+                Drawn { technique: Method::RayCast.word(), silhouette: None, engine: Engine::Cpu.word(), adapter: None }
+            }
+        }
+    }
+
+    fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
+        Ok(match &self.gpu {
+            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view)?),
+            None => Box::new(RayCast::new(scene, view)),
+        })
+    }
+}
+
+/// Technique and engine as asked, or the fastest that there are.
+fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
+    let conflict = |option, what| Err(StudyError::Conflict { option, what });
+    let open = || Gpu::open().map(|gpu| Machine { gpu: Some(Arc::new(gpu)) });
+    let machine = match (site.method, site.engine) {
+        (Method::Stencil, Engine::Cpu) => {
+            return conflict("--engine", "the technique stencil draws on the gpu; take --technique ray-cast with cpu");
+        }
+        (Method::RayCast, Engine::Gpu) => {
+            return conflict("--engine", "the technique ray-cast works on the cpu; take --technique stencil with gpu");
+        }
+        (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => Machine { gpu: None },
+        (Method::Stencil, _) | (Method::Auto, Engine::Gpu) => open()?,
+        (Method::Auto, Engine::Auto) => match open() {
+            Ok(machine) => machine,
+            Err(error) => {
+                let why = match error {
+                    GpuError::NoAdapter => "no graphics adapter was found".to_owned(),
+                    GpuError::Unusable { adapter, reason } | GpuError::Failed { adapter, reason } => {
+                        format!("the graphics adapter '{adapter}' cannot be used ({reason})")
+                    }
+                };
+                tell(on_event, Event::Note(format!("{why}: drawing on the processor")))?;
+                Machine { gpu: None }
+            }
+        },
+    };
+    if machine.gpu.is_none() && site.finder != Finder::Auto {
+        return conflict("--silhouette", "ray casting on the processor uses no silhouettes; leave the option out");
+    }
+    Ok(machine)
+}
+
+/// One view of a site, by one machine.
+struct Look<'a> {
+    site: &'a Site,
+    machine: &'a Machine,
+    view: View,
+    receivers: Receivers,
+}
+
+impl Look<'_> {
+    fn technique(&self) -> Result<Box<dyn Technique>, ShadowError> {
+        let mesh = &self.site.mesh;
+        let receivers = match self.receivers {
+            Receivers::Top => mesh.of_components(&self.site.receives),
+            Receivers::Ground => mesh.of_components(&[]),
+        };
+        let casters = mesh.of_components(&self.site.casts);
+        self.machine.technique(Scene { casters, receivers, ground: self.site.ground }, self.view)
+    }
+
+    /// What the drawing shows: the receivers, or over a ground that is judged alone all models.
+    fn surface_mesh(&self) -> Mesh {
+        match self.receivers {
+            Receivers::Top => self.site.mesh.of_components(&self.site.receives),
+            Receivers::Ground => self.site.mesh.clone(),
+        }
+    }
+
+    fn surface(&self, technique: &dyn Technique) -> Result<Surface, ShadowError> {
+        if self.receivers == Receivers::Top {
+            return technique.surface();
+        }
+        let casters = self.site.mesh.of_components(&[]);
+        let scene = Scene { casters, receivers: self.surface_mesh(), ground: self.site.ground };
+        self.machine.technique(scene, self.view)?.surface()
+    }
+}
+
+/// Nothing sees the sun.
+fn night(view: &View) -> Mask {
+    let (width, height) = view.size();
+    Mask { width, height, share: vec![0; width as usize * height as usize] }
+}
+
+fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> {
+    match on_event(event) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(StudyError::Interrupted),
+    }
+}
+
+/// Takes the time of stages, one after the other.
+#[derive(Clone, Debug)]
+pub struct Stopwatch {
+    started: Instant,
+    lap: Instant,
+    stages: Timings,
+}
+
+impl Stopwatch {
+    /// From now on.
+    pub fn start() -> Stopwatch {
+        let now = Instant::now();
+        Stopwatch { started: now, lap: now, stages: Timings::default() }
+    }
+
+    /// A stage ends; the next begins.
+    pub fn lap(&mut self, stage: &'static str) {
+        let now = Instant::now();
+        self.stages.0.push((stage, (now - self.lap).as_secs_f64()));
+        self.lap = now;
+    }
+
+    /// Stages end that were timed elsewhere; the next begins.
+    pub fn laps(&mut self, stages: Timings) {
+        self.stages.0.extend(stages.0);
+        self.lap = Instant::now();
+    }
+
+    /// The stages so far, and `total`.
+    pub fn timings(&self) -> Timings {
+        let mut timings = self.stages.clone();
+        timings.0.push(("total", self.started.elapsed().as_secs_f64()));
+        timings
+    }
+}

@@ -1,6 +1,8 @@
 //! All tests in one binary, which links once.
 
 mod architecture;
+mod command;
+mod exact;
 mod export;
 mod mistakes;
 mod model;

@@ -42,6 +42,26 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     Ok(())
 }
 
+/// Makes a folder, and sees that files can be written to it: before long work, not after it.
+///
+/// # Errors
+/// [`ExportError::Write`] where the file system refuses.
+pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
+    let failed = |doing, source: io::Error| ExportError::Write {
+        path: folder.to_owned(),
+        doing,
+        way_out: way_out(source.kind()),
+        source,
+    };
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    fs::create_dir_all(here).map_err(|error| failed("creating the folder", error))?;
+    let beside = here.join(temporary_name("gnomon".as_ref()));
+    let file = OpenOptions::new().write(true).create_new(true).open(&beside);
+    drop(file.map_err(|error| failed("opening a temporary file in it", error))?);
+    drop(Cleanup(&beside));
+    Ok(())
+}
+
 /// Removes the temporary file unless it has been renamed away.
 struct Cleanup<'a>(&'a Path);
 

@@ -2,6 +2,7 @@
 //!
 //! Every encoder returns bytes and touches no disk; [`file::write`] puts them there, whole or not at all.
 
+pub mod check;
 pub mod figure;
 pub mod file;
 pub mod raster;

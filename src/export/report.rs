@@ -1,4 +1,4 @@
-//! The answer in words and numbers: `profile.json`, `sun --json`, and the table of `gnomon sun`.
+//! The answer in words and numbers: `profile.json`, `shadow --json`, `sun --json`, and the table of `gnomon sun`.
 //!
 //! Keys and their order are a contract that other programs rely on; keys may be added, never changed.
 
@@ -6,6 +6,7 @@ use super::ExportError;
 use crate::profile::{Drawn, Profile, Timings};
 use crate::site::Receivers;
 use crate::sun::{Day, Instant, Place, SunTrack};
+use crate::view::View;
 use chrono::{DateTime, SecondsFormat};
 use chrono_tz::Tz;
 use serde::Serialize;
@@ -22,11 +23,11 @@ pub fn standard_millibar(elevation_m: f64) -> f64 {
 }
 
 #[derive(Serialize)]
-struct ProfileReport<'a> {
+struct DrawnReport<'a> {
     gnomon: &'static str,
     place: PlaceReport<'a>,
-    region: [f64; 4],
-    cell: f64,
+    #[serde(flatten)]
+    view: ViewReport,
     width: u32,
     height: u32,
     receivers: &'static str,
@@ -44,6 +45,21 @@ struct ProfileReport<'a> {
     days: Vec<DayReport>,
     #[serde(serialize_with = "in_order")]
     timings_secs: &'a Timings,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ViewReport {
+    Plan { region: [f64; 4], cell: f64 },
+    Camera { camera: CameraReport },
+}
+
+#[derive(Serialize)]
+struct CameraReport {
+    eye: [f64; 3],
+    target: [f64; 3],
+    up: [f64; 3],
+    fov: f64,
 }
 
 #[derive(Serialize)]
@@ -91,18 +107,30 @@ pub fn profile_json(
     drawn: &Drawn,
     timings: &Timings,
 ) -> Result<String, ExportError> {
+    shadow_json(&View::Plan(profile.grid), place, track, receivers, drawn, timings)
+}
+
+/// `shadow --json`: as [`profile_json`]; a camera stands as the site file writes it where a plan has region and cell.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn shadow_json(
+    view: &View,
+    place: &Place,
+    track: &SunTrack,
+    receivers: Receivers,
+    drawn: &Drawn,
+    timings: &Timings,
+) -> Result<String, ExportError> {
     let refracted = |value| track.refraction.then_some(value);
-    json(&ProfileReport {
+    let (width, height) = view.size();
+    json(&DrawnReport {
         gnomon: env!("CARGO_PKG_VERSION"),
         place: place_report(place),
-        region: profile.grid.region(),
-        cell: profile.grid.cell,
-        width: profile.grid.width,
-        height: profile.grid.height,
-        receivers: match receivers {
-            Receivers::Top => "top",
-            Receivers::Ground => "ground",
-        },
+        view: view_report(view),
+        width,
+        height,
+        receivers: receivers.word(),
         technique: drawn.technique,
         silhouette: drawn.silhouette,
         engine: drawn.engine,
@@ -117,6 +145,20 @@ pub fn profile_json(
         days: track.days.iter().map(day_report).collect(),
         timings_secs: timings,
     })
+}
+
+fn view_report(view: &View) -> ViewReport {
+    match view {
+        View::Plan(grid) => ViewReport::Plan { region: grid.region(), cell: grid.cell },
+        View::Camera(camera) => ViewReport::Camera {
+            camera: CameraReport {
+                eye: camera.eye.to_array(),
+                target: camera.target.to_array(),
+                up: camera.up.to_array(),
+                fov: camera.fov_rad.to_degrees(),
+            },
+        },
+    }
 }
 
 /// `sun --json`: place, instants and days as in [`profile_json`].
@@ -234,7 +276,7 @@ fn in_order<S: Serializer>(timings: &&Timings, serializer: S) -> Result<S::Ok, S
     map.end()
 }
 
-fn json(report: &impl Serialize) -> Result<String, ExportError> {
+pub(super) fn json(report: &impl Serialize) -> Result<String, ExportError> {
     let mut text = serde_json::to_string_pretty(report).map_err(|error| ExportError::encode("JSON report", error))?;
     text.push('\n');
     Ok(text)

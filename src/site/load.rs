@@ -29,6 +29,27 @@ pub fn load_sun(path: &Path, asked: &Overrides) -> Result<(Place, SunTrack), Sit
     Ok((place, track))
 }
 
+/// The models' mesh alone: of a model file as it is, or of a site's models where they stand. Place and study may be
+/// absent.
+///
+/// # Errors
+/// Everything that can be wrong with a site file's form and its models.
+pub fn load_mesh(path: &Path) -> Result<Mesh, SiteError> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if matches!(extension.as_str(), "glb" | "gltf") && !path.is_dir() {
+        return Ok(Mesh::build(model::load(path, &Placement::default())?)?);
+    }
+    let written = Written::read(path, &Overrides::default())?;
+    if written.site.model.is_empty() {
+        return Err(no_model(&written));
+    }
+    let mut parts = Vec::new();
+    for index in 0..written.site.model.len() {
+        parts.extend(read(&written, index, &model::load)?);
+    }
+    Ok(Mesh::build(parts)?)
+}
+
 impl Site {
     /// Reads and checks a request: `path` is a site file, a folder that holds a `site.toml`,
     /// or a model file together with `asked.place`.
@@ -61,7 +82,7 @@ impl Site {
             ));
         }
         if written.site.model.is_empty() {
-            return Err(written.missing("[[model]]", "[[model]] with path = \"tower.glb\""));
+            return Err(no_model(&written));
         }
 
         let mut parts = Vec::new();
@@ -95,6 +116,10 @@ impl Site {
             engine: asked.engine.unwrap_or_default(),
         })
     }
+}
+
+fn no_model(written: &Written) -> SiteError {
+    written.missing("[[model]]", "[[model]] with path = \"tower.glb\"")
 }
 
 fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {

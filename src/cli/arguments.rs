@@ -1,0 +1,257 @@
+//! The options, as the user writes them. Each stands with the subcommands that use it, and nowhere else.
+
+use crate::site::{Engine, Finder, Method, Overrides, Receivers};
+use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+use std::path::PathBuf;
+
+/// Where, when and for how long a building takes the sun away: exact shadows and shadow profiles.
+#[derive(Debug, Parser)]
+#[command(name = "gnomon", version, arg_required_else_help = true, subcommand_required = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json
+    Profile(ProfileArgs),
+    /// The shadows at one instant, as a drawing or as a bare mask
+    Shadow(ShadowArgs),
+    /// The sun at the study's instants: time, azimuth, altitude, weight; sunrise, noon, sunset
+    Sun(SunArgs),
+    /// What a model's mesh is: components, triangles, open, crowded, flipped and degenerate parts
+    Check(CheckArgs),
+}
+
+impl Command {
+    pub(super) fn common(&self) -> &Common {
+        match self {
+            Command::Profile(asked) => &asked.common,
+            Command::Shadow(asked) => &asked.common,
+            Command::Sun(asked) => &asked.common,
+            Command::Check(asked) => &asked.common,
+        }
+    }
+}
+
+/// What every subcommand takes.
+#[derive(Debug, Args)]
+pub(super) struct Common {
+    /// Print the results as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Print no progress and no notes
+    #[arg(long)]
+    pub(super) quiet: bool,
+    /// How many threads work on the processor [default: one a core]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
+    pub(super) threads: Option<u16>,
+}
+
+/// Where.
+#[derive(Debug, Args)]
+pub(super) struct SiteArgs {
+    /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
+    #[arg(value_name = "SITE")]
+    pub(super) path: PathBuf,
+    /// Where a model stands, degrees north and east: 48.8583,2.2945
+    #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true)]
+    place: Option<String>,
+    /// Directions without the air's refraction
+    #[arg(long)]
+    no_refraction: bool,
+}
+
+/// When.
+#[derive(Debug, Args)]
+pub(super) struct WindowArgs {
+    /// The study's date: 2026-09-18
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    date: Option<String>,
+    /// Its beginning: 10:00, sunrise+1h30
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    from: Option<String>,
+    /// Its end: 14:00, sunset-1h30
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    to: Option<String>,
+    /// From instant to instant: 30min, 1h, 1h30, 90s
+    #[arg(long, value_name = "STEP", allow_hyphen_values = true)]
+    step: Option<String>,
+}
+
+/// How shadows are found.
+#[derive(Debug, Args)]
+pub(super) struct DrawArgs {
+    /// auto, stencil or ray-cast
+    #[arg(long, value_name = "NAME")]
+    technique: Option<Method>,
+    /// auto or brute
+    #[arg(long, value_name = "NAME")]
+    silhouette: Option<Finder>,
+    /// auto, gpu or cpu
+    #[arg(long, value_name = "NAME")]
+    engine: Option<Engine>,
+}
+
+/// The plan.
+#[derive(Debug, Args)]
+pub(super) struct PlanArgs {
+    /// Metres around the place: -300,-300,300,300 [default: models and shadows]
+    #[arg(long, value_name = "W,S,E,N", allow_hyphen_values = true)]
+    region: Option<String>,
+    /// Side of a cell, metres
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    cell: Option<f64>,
+    /// Cells along the longer side [default: 2048]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true)]
+    size: Option<u32>,
+    /// What is judged: top (the highest surface, ground included) or ground
+    #[arg(long, value_name = "NAME")]
+    receivers: Option<Receivers>,
+}
+
+impl PlanArgs {
+    /// The options given.
+    pub(super) fn given(&self) -> Vec<&'static str> {
+        let given = [
+            ("--region", self.region.is_some()),
+            ("--cell", self.cell.is_some()),
+            ("--size", self.size.is_some()),
+            ("--receivers", self.receivers.is_some()),
+        ];
+        given.into_iter().filter(|(_, given)| *given).map(|(name, _)| name).collect()
+    }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ProfileArgs {
+    #[command(flatten)]
+    pub(super) site: SiteArgs,
+    #[command(flatten)]
+    window: WindowArgs,
+    #[command(flatten)]
+    draw: DrawArgs,
+    #[command(flatten)]
+    plan: PlanArgs,
+    /// The folder for the files
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub(super) out: PathBuf,
+    /// Also every instant's bare mask, as mask-0000.png … in this folder
+    #[arg(long, value_name = "DIR")]
+    pub(super) masks: Option<PathBuf>,
+    /// Which files
+    #[arg(long, value_name = "png,tif,json", value_delimiter = ',', default_value = "png,tif,json")]
+    pub(super) write: Vec<Written>,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+/// A file of the profile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Written {
+    Png,
+    Tif,
+    Json,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ShadowArgs {
+    #[command(flatten)]
+    pub(super) site: SiteArgs,
+    /// The instant, local clock time: 2026-09-18T15:00
+    #[arg(long, value_name = "T", required = true, allow_hyphen_values = true)]
+    at: String,
+    /// The date of an instant without one: 2026-09-18
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    date: Option<String>,
+    #[command(flatten)]
+    draw: DrawArgs,
+    #[command(flatten)]
+    pub(super) plan: PlanArgs,
+    /// From above, or in perspective
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
+    pub(super) view: Eye,
+    /// The drawing [default: shadow.png, or none with --mask]
+    #[arg(long, value_name = "FILE.png")]
+    pub(super) out: Option<PathBuf>,
+    /// The bare mask: 255 sees the whole sun, 0 none
+    #[arg(long, value_name = "FILE.png")]
+    pub(super) mask: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+/// From where the shadows are seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Eye {
+    Plan,
+    Camera,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SunArgs {
+    #[command(flatten)]
+    pub(super) site: SiteArgs,
+    #[command(flatten)]
+    window: WindowArgs,
+    /// One instant instead of the study, local clock time: 2026-09-18T15:00
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    at: Option<String>,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    /// A model (.glb, .gltf), or a site with its models
+    #[arg(value_name = "MODEL")]
+    pub(super) path: PathBuf,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+impl SiteArgs {
+    fn overrides(&self) -> Overrides {
+        Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..Overrides::default() }
+    }
+}
+
+impl WindowArgs {
+    fn onto(&self, asked: Overrides) -> Overrides {
+        let [date, from, to, step] = [&self.date, &self.from, &self.to, &self.step].map(Clone::clone);
+        Overrides { date, from, to, step, ..asked }
+    }
+}
+
+impl DrawArgs {
+    fn onto(&self, asked: Overrides) -> Overrides {
+        Overrides { technique: self.technique, silhouette: self.silhouette, engine: self.engine, ..asked }
+    }
+}
+
+impl PlanArgs {
+    fn onto(&self, asked: Overrides) -> Overrides {
+        let PlanArgs { region, cell, size, receivers } = self;
+        Overrides { region: region.clone(), cell: *cell, size: *size, receivers: *receivers, ..asked }
+    }
+}
+
+impl ProfileArgs {
+    pub(super) fn overrides(&self) -> Overrides {
+        self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())))
+    }
+}
+
+impl ShadowArgs {
+    pub(super) fn overrides(&self) -> Overrides {
+        let asked = self.plan.onto(self.draw.onto(self.site.overrides()));
+        Overrides { at: Some(self.at.clone()), date: self.date.clone(), ..asked }
+    }
+}
+
+impl SunArgs {
+    pub(super) fn overrides(&self) -> Overrides {
+        Overrides { at: self.at.clone(), ..self.window.onto(self.site.overrides()) }
+    }
+}

@@ -1,0 +1,207 @@
+//! The subcommands: load, work, write, say.
+
+use super::arguments::{CheckArgs, Eye, ProfileArgs, ShadowArgs, SunArgs, Written};
+use super::progress::Progress;
+use super::{WrongUse, interrupt, say};
+use crate::export::{check, figure, file, raster, report};
+use crate::mesh::report as mesh_report;
+use crate::profile::{Drawn, Profile};
+use crate::site::{Site, load_mesh, load_sun};
+use crate::study::{self, Event, Stopwatch, Wants};
+use crate::sun::SunTrack;
+use crate::view::View;
+use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+/// `gnomon profile`
+pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
+    let mut watch = Stopwatch::start();
+    let site = Site::load(&asked.site.path, &asked.overrides())?;
+    // A folder that cannot be written to is told before the work, not after it.
+    for folder in [Some(&asked.out), asked.masks.as_ref()].into_iter().flatten() {
+        file::check_folder(folder)?;
+    }
+    watch.lap("load");
+
+    let wanted = |kind| asked.write.contains(&kind);
+    let wants = Wants { masks: asked.masks.is_some(), surface: wanted(Written::Png) };
+    let outcome = draw_masks(&site, &wants, asked)?;
+    watch.laps(outcome.timings);
+
+    let (profile, drawn) = (&outcome.profile, &outcome.drawn);
+    let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
+    if let Some(surface) = &outcome.surface {
+        let mesh = &outcome.surface_mesh;
+        let (place, track, receivers) = (&site.place, &site.track, site.receivers);
+        let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
+        files.push(("profile.png", figure::profile(&scene, profile)?));
+        watch.lap("picture");
+        interrupt::check()?;
+    }
+    if wanted(Written::Tif) {
+        files.push(("shadow-hours.tif", raster::geotiff(profile, &site.place)?));
+        watch.lap("raster");
+        interrupt::check()?;
+    }
+    let json = report::profile_json(profile, &site.place, &site.track, site.receivers, drawn, &watch.timings())?;
+    if wanted(Written::Json) {
+        files.push(("profile.json", json.clone().into_bytes()));
+    }
+    let mut text = String::new();
+    for (name, bytes) in files {
+        let path = asked.out.join(name);
+        file::write(&path, &bytes)?;
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{}", path.display());
+    }
+    if let Some(folder) = &asked.masks {
+        let _ = writeln!(text, "{} ({} masks)", folder.display(), site.track.instants.len());
+    }
+    if asked.common.json {
+        return say(&json);
+    }
+    let _ = writeln!(text, "{}", drawn_by(drawn));
+    text.push_str(&hours(profile, &site.track));
+    say(&text)
+}
+
+/// Runs the study, and writes every mask as it comes.
+fn draw_masks(site: &Site, wants: &Wants, asked: &ProfileArgs) -> anyhow::Result<study::Outcome> {
+    let mut progress = Progress::new(asked.common.quiet);
+    let mut fault: Option<anyhow::Error> = None;
+    let outcome = study::run(site, wants, &mut |event| {
+        progress.hear(&event);
+        if let (Event::Drawn { index, mask: Some(mask), .. }, Some(folder)) = (&event, &asked.masks) {
+            let path = folder.join(format!("mask-{index:04}.png"));
+            if let Err(error) = raster::mask_png(mask).and_then(|bytes| file::write(&path, &bytes)) {
+                fault = Some(error.into());
+                return ControlFlow::Break(());
+            }
+        }
+        interrupt::flow()
+    });
+    match fault {
+        Some(fault) => Err(fault),
+        None => Ok(outcome?),
+    }
+}
+
+/// `gnomon shadow`
+pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
+    let mut watch = Stopwatch::start();
+    if let (Eye::Camera, [option, ..]) = (asked.view, asked.plan.given().as_slice()) {
+        return Err(WrongUse(format!("{option} is for the plan, and --view camera has none; leave one out")).into());
+    }
+    let out = match (&asked.out, &asked.mask) {
+        (Some(out), _) => Some(out.clone()),
+        (None, Some(_)) => None,
+        (None, None) => Some(PathBuf::from("shadow.png")),
+    };
+    let written: Vec<(&str, &Path)> = [("--out", out.as_deref()), ("--mask", asked.mask.as_deref())]
+        .into_iter()
+        .filter_map(|(option, path)| Some((option, path?)))
+        .collect();
+    for (option, path) in &written {
+        if path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("png")) {
+            let what = format!("{option} writes PNG; name a .png file instead of {}", path.display());
+            return Err(WrongUse(what).into());
+        }
+    }
+    if let [(_, out), (_, mask)] = written.as_slice()
+        && out == mask
+    {
+        return Err(WrongUse("--out and --mask name the same file; name two".to_owned()).into());
+    }
+
+    let site = Site::load(&asked.site.path, &asked.overrides())?;
+    for (_, path) in &written {
+        file::check_folder(path.parent().unwrap_or(Path::new("")))?;
+    }
+    watch.lap("load");
+    let view = match asked.view {
+        Eye::Plan => View::Plan(site.grid),
+        Eye::Camera => View::Camera(site.camera),
+    };
+    let mut progress = Progress::new(asked.common.quiet);
+    let outcome = study::instant(&site, view, out.is_some(), &mut |event| {
+        progress.hear(&event);
+        interrupt::flow()
+    })?;
+    watch.laps(outcome.timings);
+
+    let (place, track, drawn) = (&site.place, &site.track, &outcome.drawn);
+    let receivers = study::judged(&site, &view);
+    let mut text = String::new();
+    if let (Some(path), Some(surface)) = (&out, &outcome.surface) {
+        let scene = figure::Scene { place, track, mesh: &outcome.surface_mesh, surface, receivers, drawn };
+        let bytes = figure::instant(&scene, &view, &outcome.mask)?;
+        interrupt::check()?;
+        file::write(path, &bytes)?;
+        watch.lap("picture");
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{}", path.display());
+    }
+    if let Some(path) = &asked.mask {
+        file::write(path, &raster::mask_png(&outcome.mask)?)?;
+        watch.lap("mask");
+        let _ = writeln!(text, "{}", path.display());
+    }
+    if asked.common.json {
+        return say(&report::shadow_json(&view, place, track, receivers, drawn, &watch.timings())?);
+    }
+    let _ = writeln!(text, "{}", drawn_by(drawn));
+    say(&text)
+}
+
+/// `gnomon sun`
+pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
+    let (place, track) = load_sun(&asked.site.path, &asked.overrides())?;
+    match asked.common.json {
+        true => say(&report::sun_json(&place, &track)?),
+        false => say(&report::sun_table(&place, &track)),
+    }
+}
+
+/// `gnomon check`
+pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
+    let mesh = load_mesh(&asked.path)?;
+    interrupt::check()?;
+    let components = mesh_report::components(&mesh);
+    interrupt::check()?;
+    match asked.common.json {
+        true => say(&check::json(&mesh, &components)?),
+        false => say(&check::table(&mesh, &components)),
+    }
+}
+
+/// What drew, in a line.
+fn drawn_by(drawn: &Drawn) -> String {
+    let mut line = format!("{} on the {}", drawn.technique, drawn.engine);
+    if let Some(adapter) = &drawn.adapter {
+        let _ = write!(line, " ({adapter})");
+    }
+    if let Some(silhouette) = drawn.silhouette {
+        let _ = write!(line, ", silhouettes {silhouette}");
+    }
+    line
+}
+
+/// The range of the answer, in two lines.
+fn hours(profile: &Profile, track: &SunTrack) -> String {
+    let (least, most) =
+        profile.shaded.iter().fold((u32::MAX, 0), |(least, most), &shaded| (least.min(shaded), most.max(shaded)));
+    let hours = |secs: f64| secs / 3600.0;
+    let night = track.instants.iter().filter(|instant| instant.night).count();
+    format!(
+        "{:.2} to {:.2} h of shadow out of {:.2} h with the sun above the horizon\n{} × {} cells of {} m, {} instants{}\n",
+        hours(f64::from(least) / 255.0),
+        hours(f64::from(most) / 255.0),
+        hours(f64::from(profile.day_secs)),
+        profile.grid.width,
+        profile.grid.height,
+        profile.grid.cell,
+        track.instants.len(),
+        if night > 0 { format!(", {night} of them at night") } else { String::new() },
+    )
+}

@@ -1,0 +1,26 @@
+//! Ctrl-C: the first one ends the work at the next instant or stage, the second one at once.
+
+use crate::study::StudyError;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// Hears Ctrl-C from now on. Where the system does not let us, it ends the program as it always does.
+pub(super) fn listen() {
+    let _ = ctrlc::set_handler(|| {
+        if ASKED.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+}
+
+/// Breaks after Ctrl-C.
+pub(super) fn flow() -> ControlFlow<()> {
+    if ASKED.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+/// Fails after Ctrl-C: between stages.
+pub(super) fn check() -> Result<(), StudyError> {
+    if flow().is_break() { Err(StudyError::Interrupted) } else { Ok(()) }
+}

@@ -1,0 +1,120 @@
+//! The command: options in, files and answers out. A few lines a subcommand; the work is done elsewhere.
+//!
+//! Results go to stdout, progress and notes to stderr. Exit status: 0 done, 1 failed, 2 wrong use, 130 interrupted.
+
+mod arguments;
+mod commands;
+mod interrupt;
+mod progress;
+
+use crate::site::SiteError;
+use crate::study::StudyError;
+use arguments::{Arguments, Command};
+use clap::Parser;
+use clap::error::ErrorKind;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Reads the command line and does what it asks.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return refuse(&error),
+    };
+    match run(&arguments.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            complain(&one_line(&error));
+            ExitCode::from(status(&error))
+        }
+    }
+}
+
+fn run(command: &Command) -> anyhow::Result<()> {
+    if let Some(threads) = command.common().threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(threads))
+            .build_global()
+            .map_err(|error| anyhow::anyhow!("--threads {threads}: {error}; take fewer"))?;
+    }
+    interrupt::listen();
+    match command {
+        Command::Profile(asked) => commands::profile(asked),
+        Command::Shadow(asked) => commands::shadow(asked),
+        Command::Sun(asked) => commands::sun(asked),
+        Command::Check(asked) => commands::check(asked),
+    }
+}
+
+/// A mistake on the command line that only the command can see.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct WrongUse(String);
+
+/// The exit status of an error.
+fn status(error: &anyhow::Error) -> u8 {
+    let wrong_use = error.is::<WrongUse>()
+        || error.downcast_ref().is_some_and(SiteError::is_wrong_use)
+        || error.downcast_ref().is_some_and(StudyError::is_wrong_use);
+    match error.downcast_ref() {
+        Some(StudyError::Interrupted) => 130,
+        _ if wrong_use => 2,
+        _ => 1,
+    }
+}
+
+/// The error and its causes in one line; causes that the message already tells are not told again.
+fn one_line(error: &anyhow::Error) -> String {
+    let mut line = String::new();
+    for cause in error.chain().map(|cause| words(&cause.to_string())) {
+        if line.is_empty() {
+            line = cause;
+        } else if !line.contains(&cause) {
+            line = format!("{line}: {cause}");
+        }
+    }
+    line
+}
+
+/// Without line breaks.
+fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// What clap says: help and version as they are, a mistake in one line.
+fn refuse(error: &clap::Error) -> ExitCode {
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+            // A closed pipe wants no more help.
+            let _ = error.print();
+            return ExitCode::SUCCESS;
+        }
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            let _ = error.print();
+        }
+        _ => {
+            let text = error.to_string();
+            let told = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
+            let told: Vec<_> = told.filter(|line| !line.is_empty() && !line.starts_with("For more")).collect();
+            let told = told.join("; ").replace("error: ", "").replace(":; ", ": ").replace("tip: ", "");
+            complain(&format!("{told}; --help says more"));
+        }
+    }
+    ExitCode::from(2)
+}
+
+fn complain(line: &str) {
+    // Nobody is left to tell that stderr is closed.
+    let _ = writeln!(io::stderr(), "error: {line}");
+}
+
+/// Prints a result. Who closed the pipe has read enough.
+fn say(text: &str) -> anyhow::Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(anyhow::Error::from(error).context("cannot write to standard output"))
+        }
+        _ => Ok(()),
+    }
+}

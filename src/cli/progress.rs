@@ -1,0 +1,72 @@
+//! Progress and notes on stderr: a bar on a terminal, plain lines otherwise, nothing with `--quiet`.
+
+use super::words;
+use crate::study::Event;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{self, IsTerminal, Write};
+
+/// What is shown while work goes on.
+pub(super) struct Progress {
+    quiet: bool,
+    bar: Option<ProgressBar>,
+    /// The tenth of the work that was told last.
+    told: usize,
+}
+
+impl Progress {
+    pub(super) fn new(quiet: bool) -> Progress {
+        Progress { quiet, bar: None, told: 0 }
+    }
+
+    /// Shows an event.
+    pub(super) fn hear(&mut self, event: &Event<'_>) {
+        if self.quiet {
+            return;
+        }
+        match event {
+            Event::Note(note) => self.line(&format!("note: {}", words(note))),
+            // One instant is done before a bar is seen.
+            Event::Started { instants } if *instants > 1 && io::stderr().is_terminal() => {
+                self.bar = Some(bar(*instants));
+            }
+            Event::Started { .. } => {}
+            Event::Drawn { index, count, time, .. } => {
+                let done = index + 1;
+                let time = time.format("%Y-%m-%d %H:%M");
+                if let Some(bar) = &self.bar {
+                    bar.set_message(time.to_string());
+                    bar.set_position(done as u64);
+                    if done == *count {
+                        bar.finish_and_clear();
+                    }
+                } else if *count > 1 && done * 10 / count > self.told {
+                    self.told = done * 10 / count;
+                    self.line(&format!("{:>3}%  {done} of {count} instants, {time}", self.told * 10));
+                }
+            }
+        }
+    }
+
+    fn line(&self, line: &str) {
+        match &self.bar {
+            Some(bar) => bar.println(line),
+            None => {
+                // Nobody is left to tell that stderr is closed.
+                let _ = writeln!(io::stderr(), "{line}");
+            }
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn bar(instants: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:32} {pos} of {len} instants, {msg}, {eta} left");
+    ProgressBar::new(instants as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

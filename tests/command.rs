@@ -1,0 +1,306 @@
+//! The command, driven as its users drive it: files, streams and exit statuses.
+
+use crate::model::{F32, Model, U16};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+const STUDY: &str = "[study]\ndate = 2026-09-18\nfrom = \"10:00\"\nto = \"12:00\"\nstep = \"30min\"\n";
+const PLACE: &str = "[place]\nname = \"Paris\"\nlatitude = 48.8583\nlongitude = 2.2945\n";
+
+/// A closed box of 10 × 10 × 20 m on the ground, as a binary glTF; without its lid where `open`.
+fn tower(open: bool) -> Vec<u8> {
+    let mut model = Model::new();
+    let corners: Vec<f32> = (0..8)
+        .flat_map(|i| [(i & 1) as f32 * 10.0 - 5.0, (i >> 2) as f32 * 20.0, ((i >> 1) & 1) as f32 * -10.0 + 5.0])
+        .collect();
+    // East, north, up are x, −z and y: sides counter-clockwise from outside.
+    let sides: [[u16; 4]; 6] = [[4, 5, 7, 6], [0, 2, 3, 1], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let indices: Vec<u16> =
+        sides[usize::from(open)..].iter().flat_map(|[a, b, c, d]| [*a, *b, *c, *a, *c, *d]).collect();
+    let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
+    let floats: Vec<u8> = corners.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let positions = model.accessor("VEC3", F32, 8, &floats);
+    let indices = model.accessor("SCALAR", U16, indices.len(), &bytes);
+    model.json["meshes"] = json!([{"primitives": [{"attributes": {"POSITION": positions}, "indices": indices}]}]);
+    model.json["nodes"] = json!([{"mesh": 0, "name": "tower"}]);
+    model.glb()
+}
+
+/// A folder with a tower and its site.
+fn site() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("tower.glb"), tower(false)).unwrap();
+    std::fs::write(folder.path().join("open.glb"), tower(true)).unwrap();
+    let text = format!("{PLACE}[[model]]\npath = \"tower.glb\"\n{STUDY}");
+    std::fs::write(folder.path().join("site.toml"), text).unwrap();
+    folder
+}
+
+fn command(folder: &Path, arguments: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_gnomon"));
+    command.current_dir(folder).args(arguments.split_whitespace());
+    command
+}
+
+fn gnomon(folder: &Path, arguments: &str) -> Output {
+    command(folder, arguments).output().unwrap()
+}
+
+/// Standard output of what must succeed.
+fn done(folder: &Path, arguments: &str) -> String {
+    let output = gnomon(folder, arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments}: {}", stderr(&output));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// Expects a failure that is told in one line with these words.
+fn fails(folder: &Path, arguments: &str, status: i32, words: &[&str]) {
+    let output = gnomon(folder, arguments);
+    let told = stderr(&output);
+    assert_eq!(output.status.code(), Some(status), "{arguments}: {told}");
+    assert!(output.stdout.is_empty(), "{arguments}");
+    assert!(told.starts_with("error: ") && told.lines().count() == 1, "{arguments}: {told}");
+    for word in words {
+        assert!(told.contains(word), "{arguments}: {told:?} does not say {word:?}");
+    }
+}
+
+/// The names in a folder, in order.
+fn names(folder: PathBuf) -> Vec<String> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn profile_writes_three_files() {
+    let folder = site();
+    let said = done(folder.path(), "profile . --engine cpu --size 64");
+    assert_eq!(names(folder.path().join("out")), ["profile.json", "profile.png", "shadow-hours.tif"]);
+    for word in ["profile.png", "shadow-hours.tif", "profile.json", "ray-cast on the cpu", "h of shadow"] {
+        assert!(said.contains(word), "{said}");
+    }
+    let json = std::fs::read_to_string(folder.path().join("out/profile.json")).unwrap();
+    let json: Value = serde_json::from_str(&json).unwrap();
+    let stages: Vec<_> = json["timings_secs"].as_object().unwrap().keys().map(String::as_str).collect();
+    for stage in ["load", "prepare", "shadows", "picture", "raster", "total"] {
+        assert!(stages.contains(&stage), "{stages:?}");
+    }
+}
+
+#[test]
+fn write_chooses_the_files() {
+    let folder = site();
+    done(folder.path(), "profile . --engine cpu --size 32 --write tif --out a");
+    assert_eq!(names(folder.path().join("a")), ["shadow-hours.tif"]);
+    done(folder.path(), "profile . --engine cpu --size 32 --write json,png --out deep/b");
+    assert_eq!(names(folder.path().join("deep/b")), ["profile.json", "profile.png"]);
+    fails(folder.path(), "profile . --write svg", 2, &["svg", "--write", "png, tif, json"]);
+}
+
+#[test]
+fn json_is_the_file_and_alone_on_stdout() {
+    let folder = site();
+    let said =
+        done(folder.path(), "profile . --engine cpu --json --region -20,-10,20,30 --cell 0.5 --receivers ground");
+    assert_eq!(said, std::fs::read_to_string(folder.path().join("out/profile.json")).unwrap());
+    let json: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(json["region"], json!([-20.0, -10.0, 20.0, 30.0]));
+    assert_eq!((&json["width"], &json["height"], &json["cell"]), (&80.into(), &80.into(), &0.5.into()));
+    assert_eq!((&json["technique"], &json["engine"]), (&"ray-cast".into(), &"cpu".into()));
+    assert_eq!((&json["receivers"], &json["silhouette"]), (&"ground".into(), &Value::Null));
+    assert_eq!(json["instants"].as_array().unwrap().len(), 5);
+    assert_eq!(json["refraction"], true);
+}
+
+#[test]
+fn progress_is_plain_lines_and_quiet_is_silent() {
+    let folder = site();
+    let output = gnomon(folder.path(), "profile . --engine cpu --size 32 --write json");
+    let told = stderr(&output);
+    assert!(told.contains("100%") && told.contains("5 of 5 instants"), "{told}");
+    for arguments in ["profile . --engine cpu --size 32 --quiet", "shadow . --at 2026-09-18T02:00 --engine cpu --quiet"]
+    {
+        let output = gnomon(folder.path(), arguments);
+        assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
+    }
+}
+
+#[test]
+fn masks_are_numbered_in_the_order_of_the_instants() {
+    let folder = site();
+    let options =
+        "--engine cpu --region -60,-60,60,60 --cell 1 --write json --masks masks --from 5:00 --to 9:00 --step 1h";
+    done(folder.path(), &format!("profile . {options}"));
+    let expected: Vec<_> = (0..5).map(|index| format!("mask-{index:04}.png")).collect();
+    assert_eq!(names(folder.path().join("masks")), expected);
+    let mask = |name: &str| image::open(folder.path().join("masks").join(name)).unwrap().into_luma8();
+    assert_eq!(mask("mask-0000.png").dimensions(), (120, 120));
+    assert!(mask("mask-0000.png").pixels().all(|pixel| pixel.0 == [0]), "night");
+    let morning = mask("mask-0004.png");
+    assert!(morning.pixels().any(|pixel| pixel.0 == [0]) && morning.pixels().any(|pixel| pixel.0 == [255]));
+}
+
+#[test]
+fn mistakes_are_told_in_one_line() {
+    let folder = site();
+    let path = folder.path();
+    std::fs::write(path.join("key.toml"), PLACE.replace("latitude", "latitud")).unwrap();
+    fails(path, "profile key.toml", 1, &["key.toml", "[place] latitud", "latitude in [place]"]);
+    fails(path, "profile none.toml", 1, &["none.toml", "cannot be read"]);
+    fails(path, "profile . --date 2026-02-30", 2, &["--date", "2026-02-30"]);
+    fails(path, "profile . --tehnique auto", 2, &["--tehnique", "--technique", "--help"]);
+    fails(path, "profile . --technique hybrid", 2, &["hybrid", "not there yet"]);
+    fails(path, "profile . --engine gup", 2, &["gup", "gpu"]);
+    fails(path, "profile tower.glb", 2, &["--place LAT,LON"]);
+    fails(path, "profile tower.glb --place 98,2 --date 2026-09-18", 2, &["--place", "-90"]);
+    fails(path, "profile tower.glb --place -33.8,151.2", 2, &["--date 2026-03-21"]);
+    fails(path, "profile . --threads 0", 2, &["--threads"]);
+    fails(path, "profile . --cell -1", 2, &["--cell", "above 0"]);
+    fails(path, "profile . --at 2026-09-18T15:00", 2, &["--at"]);
+    fails(path, "profile", 2, &["<SITE>"]);
+    fails(path, "shadow .", 2, &["--at <T>"]);
+    fails(path, "shadow . --at noonish", 2, &["--at", "noonish"]);
+    fails(path, "shadow . --at 2026-09-18T15:00 --out a.jpg", 2, &["--out", "PNG"]);
+    fails(path, "shadow . --at 2026-09-18T15:00 --out a.png --mask a.png", 2, &["--mask", "same"]);
+    fails(path, "shadow . --at 2026-09-18T15:00 --view camera --cell 1", 2, &["--cell", "camera"]);
+    fails(path, "sun . --engine cpu", 2, &["--engine"]);
+    fails(path, "check none.glb", 1, &["none.glb", "cannot be read"]);
+    fails(path, "verify .", 2, &["verify"]);
+    assert!(names(path.join("out")).is_empty());
+}
+
+#[test]
+fn choices_that_exclude_each_other_are_wrong_use() {
+    let folder = site();
+    let at = "shadow . --at 2026-09-18T15:00 --mask mask.png";
+    fails(folder.path(), &format!("{at} --technique stencil --engine cpu"), 2, &["--engine", "ray-cast"]);
+    fails(folder.path(), &format!("{at} --technique ray-cast --engine gpu"), 2, &["--engine", "stencil"]);
+    fails(folder.path(), &format!("{at} --engine cpu --silhouette brute"), 2, &["--silhouette"]);
+    assert!(!folder.path().join("mask.png").exists());
+}
+
+#[test]
+fn a_study_too_long_to_sum_is_told() {
+    let folder = site();
+    let years = "--engine cpu --size 8 --from 2026-01-01T00:00 --to 2028-01-01T00:00 --step 6h";
+    fails(folder.path(), &format!("profile . {years}"), 1, &["hours of daylight", "--from"]);
+}
+
+#[test]
+fn failures_leave_no_file() {
+    let folder = site();
+    std::fs::write(folder.path().join("out"), "in the way").unwrap();
+    fails(folder.path(), "profile . --engine cpu --size 16", 1, &["out", "--out"]);
+    assert_eq!(std::fs::read_to_string(folder.path().join("out")).unwrap(), "in the way");
+    assert_eq!(names(folder.path().to_owned()), ["open.glb", "out", "site.toml", "tower.glb"]);
+}
+
+#[test]
+fn no_subcommand_prints_help() {
+    let folder = site();
+    let output = gnomon(folder.path(), "");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("Usage: gnomon"), "{}", stderr(&output));
+    assert!(done(folder.path(), "--version").starts_with("gnomon "));
+    assert!(done(folder.path(), "profile --help").contains("--masks"));
+}
+
+#[test]
+fn shadow_draws_one_instant() {
+    let folder = site();
+    let at = "shadow tower.glb --place -33.8688,151.2093 --at 2026-06-21T09:00 --engine cpu";
+    done(folder.path(), &format!("{at} --size 64"));
+    assert!(image::open(folder.path().join("shadow.png")).is_ok());
+    let said = done(folder.path(), &format!("{at} --region -30,-60,30,0 --cell 1 --mask m.png --json --no-refraction"));
+    let json: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(json["region"], json!([-30.0, -60.0, 30.0, 0.0]));
+    assert_eq!((json["instants"].as_array().unwrap().len(), &json["refraction"]), (1, &false.into()));
+    assert_eq!(json["place"]["time_zone"], "Australia/Sydney");
+    let mask = image::open(folder.path().join("m.png")).unwrap().into_luma8();
+    // In the south the morning sun stands in the north-east: the shadow lies to the south-west.
+    assert_eq!((mask.get_pixel(14, 14).0, mask.get_pixel(55, 14).0), ([0], [255]));
+    assert_eq!(names(folder.path().to_owned()), ["m.png", "open.glb", "shadow.png", "site.toml", "tower.glb"]);
+}
+
+#[test]
+fn shadow_at_night_is_drawn_and_said() {
+    let folder = site();
+    let options = "--at 2026-09-18T02:00 --engine cpu --size 16 --out n.png --mask m.png";
+    let output = gnomon(folder.path(), &format!("shadow . {options}"));
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stderr(&output).contains("night"), "{}", stderr(&output));
+    let mask = image::open(folder.path().join("m.png")).unwrap().into_luma8();
+    assert!(mask.pixels().all(|pixel| pixel.0 == [0]));
+    assert!(folder.path().join("n.png").exists());
+}
+
+#[test]
+fn shadow_is_seen_by_a_camera() {
+    let folder = site();
+    let said =
+        done(folder.path(), "shadow . --at 15:00 --date 2026-09-18 --engine cpu --view camera --json --mask m.png");
+    let json: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!((&json["width"], &json["region"], &json["receivers"]), (&1600.into(), &Value::Null, &"top".into()));
+    assert_eq!(json["camera"]["up"], json!([0.0, 0.0, 1.0]));
+    let mask = image::open(folder.path().join("m.png")).unwrap().into_luma8();
+    assert_eq!(mask.dimensions(), (1600, 1000));
+    assert!(mask.pixels().any(|pixel| pixel.0 == [0]) && mask.pixels().any(|pixel| pixel.0 == [255]));
+}
+
+#[test]
+fn sun_is_a_table_or_json() {
+    let folder = site();
+    let table = done(folder.path(), "sun .");
+    for word in ["azimuth", "altitude", "weight", "2026-09-18T10:00:00+02:00", "sunrise", "sunset"] {
+        assert!(table.contains(word), "{table}");
+    }
+    let json: Value = serde_json::from_str(&done(folder.path(), "sun . --at 2026-06-21T12:00 --json")).unwrap();
+    let keys: Vec<_> = json.as_object().unwrap().keys().collect();
+    assert_eq!(keys, ["days", "instants", "place"]);
+    assert_eq!(json["instants"][0]["time"], "2026-06-21T12:00:00+02:00");
+}
+
+#[test]
+fn check_says_what_is_wrong() {
+    let folder = site();
+    let clean = done(folder.path(), "check tower.glb");
+    assert!(clean.contains("1 component, 12 triangles, 8 vertices") && clean.contains("nothing wrong"), "{clean}");
+    let dirty = done(folder.path(), "check open.glb");
+    assert!(dirty.contains("open (4): edges with one face") && !dirty.contains("nothing wrong"), "{dirty}");
+    let json: Value = serde_json::from_str(&done(folder.path(), "check open.glb --json")).unwrap();
+    let part = json!({"name": "tower", "triangles": 10, "closed": false, "open_edges": 4, "crowded_edges": 0,
+        "flipped_edges": 0, "degenerate_triangles": 0, "duplicate_triangles": 0});
+    assert_eq!(json, json!({"triangles": 10, "vertices": 8, "components": [part]}));
+    // A site's models, and neither place nor study is asked for.
+    std::fs::write(folder.path().join("bare.toml"), "[[model]]\npath = \"open.glb\"\n").unwrap();
+    assert_eq!(done(folder.path(), "check bare.toml"), dirty);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_the_work_without_a_file() {
+    use std::io::{BufRead, BufReader};
+    use std::process::Stdio;
+    let folder = site();
+    let day = "--from 8:00 --to 18:00 --step 1s";
+    let mut child = command(folder.path(), &format!("profile . --engine cpu --size 256 {day}"))
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    // The first tenth is done: it is in the middle of its work.
+    let mut told = BufReader::new(child.stderr.take().unwrap()).lines();
+    assert!(told.next().unwrap().unwrap().contains("10%"));
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let last = told.map(Result::unwrap).last().unwrap();
+    assert_eq!((child.wait().unwrap().code(), last.as_str()), (Some(130), "error: interrupted"));
+    assert!(names(folder.path().join("out")).is_empty());
+}
