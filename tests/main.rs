@@ -1,10 +1,12 @@
 //! All tests in one binary, which links once.
 
+mod architecture;
 mod command;
 mod exact;
 mod export;
 mod mistakes;
 mod model;
+mod shaders;
 mod site;
 mod sites;
 mod sun;

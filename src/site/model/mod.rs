@@ -4,9 +4,9 @@
 //! Skinned and morphing meshes are taken as they are stored, at rest. Points and lines cast nothing and are skipped.
 //!
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
-//! counted before memory is taken. The files of this folder, in the order of the flow: [`container`] (bytes → JSON and
-//! binary chunk), [`document`] (JSON → structure), [`scene`] (which nodes stand where), [`buffers`], [`accessor`]
-//! and [`reader`] (bytes → numbers), [`instances`], [`primitive`] (which triangles a mesh has), [`build`] (all of it → parts).
+//! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
+//! binary chunk), `document` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
+//! and `reader` (bytes → numbers), `instances`, `primitive` (which triangles a mesh has), `build` (all of it → parts).
 
 use crate::mesh::Part;
 use glam::{DAffine3, DMat3, DVec3};

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Sets up what the tests need and runs all of them. The one command for people and machines alike.
+#
+# Tests draw with Mesa's lavapipe, a Vulkan driver that needs no graphics card, so that results are the same everywhere.
+# To test another driver: VK_DRIVER_FILES=/path/to/its_icd.json tests/run.sh
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+say() { printf '\n== %s\n' "$*"; }
+fail() { printf 'tests/run.sh: %s\n' "$*" >&2; exit 1; }
+
+# The first lavapipe driver that is installed, if any.
+lavapipe() {
+    local file
+    for file in /usr/share/vulkan/icd.d/lvp_icd*.json /usr/local/share/vulkan/icd.d/lvp_icd*.json \
+        /etc/vulkan/icd.d/lvp_icd*.json; do
+        if [ -r "$file" ]; then
+            printf '%s\n' "$file"
+            return
+        fi
+    done
+}
+
+install_lavapipe() {
+    command -v apt-get >/dev/null ||
+        fail "no software Vulkan driver: install Mesa's lavapipe (Fedora: mesa-vulkan-drivers, Arch: vulkan-swrast), or set VK_DRIVER_FILES"
+    local as_root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null || fail "no software Vulkan driver: as root, apt-get install mesa-vulkan-drivers"
+        as_root=(sudo)
+    fi
+    say "installing mesa-vulkan-drivers"
+    "${as_root[@]}" apt-get update
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends mesa-vulkan-drivers
+}
+
+CARGO=${CARGO:-cargo}
+if ! command -v "$CARGO" >/dev/null; then
+    CARGO=$HOME/.cargo/bin/cargo
+    [ -x "$CARGO" ] || fail "cargo was not found: install Rust from https://rustup.rs, or set CARGO to its path"
+    PATH=$HOME/.cargo/bin:$PATH
+fi
+
+# Elsewhere the system's own adapter draws.
+if [ "$(uname -s)" = Linux ]; then
+    if [ -z "${VK_DRIVER_FILES:-}" ]; then
+        [ -n "$(lavapipe)" ] || install_lavapipe
+        VK_DRIVER_FILES=$(lavapipe)
+        [ -n "$VK_DRIVER_FILES" ] || fail "mesa-vulkan-drivers is installed but holds no lavapipe; set VK_DRIVER_FILES"
+    fi
+    export VK_DRIVER_FILES
+    export VK_ICD_FILENAMES=$VK_DRIVER_FILES # the same for Vulkan loaders before 1.3.207
+    say "Vulkan driver: $VK_DRIVER_FILES"
+fi
+
+say "format"
+"$CARGO" fmt --check
+say "lints"
+"$CARGO" clippy --all-targets -- -D warnings
+say "tests"
+"$CARGO" test
+say "documentation"
+RUSTDOCFLAGS="${RUSTDOCFLAGS:-} -D warnings" "$CARGO" doc --no-deps
+say "all is well"
