@@ -8,7 +8,8 @@ use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Timings};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::stencil::Stencil;
-use crate::shadow::{Scene, ShadowError, Technique};
+use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
+use crate::silhouette::brute_force::BruteForce;
 use crate::site::{Engine, Finder, Method, Receivers, Site};
 use crate::sun::SunTrack;
 use crate::view::{Mask, Surface, View};
@@ -249,7 +250,7 @@ impl Machine {
 
     fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
         Ok(match &self.gpu {
-            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view)?),
+            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, Arc::new(BruteForce))?),
             None => Box::new(RayCast::new(scene, view)),
         })
     }
@@ -321,7 +322,10 @@ impl Look<'_> {
         }
         let casters = self.site.mesh.of_components(&[]);
         let scene = Scene { casters, receivers: self.surface_mesh(), ground: self.site.ground };
-        self.machine.technique(scene, self.view)?.surface()
+        match &self.machine.gpu {
+            Some(gpu) => GpuSurface::draw(Arc::clone(gpu), &scene, self.view)?.read(),
+            None => RayCast::new(scene, self.view).surface(),
+        }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use chrono::{NaiveDate, TimeDelta, TimeZone};
 use chrono_tz::Tz;
-use glam::{DVec3, DVec4, Vec3};
+use glam::DVec3;
 use gnomon::export::figure::Scene;
-use gnomon::mesh::Mesh;
+use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::{Drawn, Profile};
 use gnomon::site::Receivers;
 use gnomon::sun::{Day, Instant, Place, SunTrack};
@@ -85,13 +85,7 @@ pub(super) fn track(from: u32, to: u32, step: u32) -> SunTrack {
 }
 
 fn mesh(scale: f64) -> Mesh {
-    let mut mesh = Mesh {
-        origin: DVec3::new(5.0, -3.0, 0.0),
-        vertices: Vec::new(),
-        faces: Vec::new(),
-        planes: Vec::new(),
-        components: Vec::new(),
-    };
+    let mut part = Part { name: "town".to_owned(), ..Part::default() };
     let mut house = |x: f64, y: f64, w: f64, d: f64, eaves: f64, ridge: f64, turn: f64| {
         let at = |u: f64, v: f64, z: f64| {
             let (sin, cos) = turn.to_radians().sin_cos();
@@ -102,12 +96,9 @@ fn mesh(scale: f64) -> Mesh {
         let top = low.map(|(u, v)| at(u, v, eaves));
         let ends = [at(-w, 0.0, ridge), at(w, 0.0, ridge)];
         let mut add = |a: DVec3, b: DVec3, c: DVec3| {
-            let first = mesh.vertices.len() as u32;
-            let local = [a, b, c].map(|p| p - mesh.origin);
-            let normal = (local[1] - local[0]).cross(local[2] - local[0]).normalize_or_zero();
-            mesh.vertices.extend(local.map(|p| Vec3::new(p.x as f32, p.y as f32, p.z as f32)));
-            mesh.faces.push([first, first + 1, first + 2]);
-            mesh.planes.push(DVec4::new(normal.x, normal.y, normal.z, -normal.dot(local[0])));
+            let first = part.positions.len() as u32;
+            part.positions.extend([a, b, c]);
+            part.triangles.push([first, first + 1, first + 2]);
         };
         for i in 0..4 {
             let j = (i + 1) % 4;
@@ -138,7 +129,7 @@ fn mesh(scale: f64) -> Mesh {
     house(100.0, -40.0, 8.0, 8.0, 6.0, 10.0, 30.0);
     house(10.0, 70.0, 20.0, 8.0, 8.0, 13.0, 0.0);
     house(-20.0, -70.0, 30.0, 12.0, 0.004, 0.0, 0.0); // paving
-    mesh
+    Mesh::build(vec![part]).unwrap()
 }
 
 pub(super) fn corners(mesh: &Mesh, face: usize) -> [DVec3; 3] {
