@@ -1,6 +1,7 @@
 //! All tests in one binary, which links once.
 
 mod command;
+mod exact;
 mod export;
 mod mistakes;
 mod model;

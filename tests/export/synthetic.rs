@@ -85,7 +85,7 @@ pub(super) fn track(from: u32, to: u32, step: u32) -> SunTrack {
 }
 
 fn mesh(scale: f64) -> Mesh {
-    let mut part = Part { name: "town".to_owned(), ..Part::default() };
+    let mut town = Part { name: "town".to_owned(), ..Part::default() };
     let mut house = |x: f64, y: f64, w: f64, d: f64, eaves: f64, ridge: f64, turn: f64| {
         let at = |u: f64, v: f64, z: f64| {
             let (sin, cos) = turn.to_radians().sin_cos();
@@ -96,9 +96,9 @@ fn mesh(scale: f64) -> Mesh {
         let top = low.map(|(u, v)| at(u, v, eaves));
         let ends = [at(-w, 0.0, ridge), at(w, 0.0, ridge)];
         let mut add = |a: DVec3, b: DVec3, c: DVec3| {
-            let first = part.positions.len() as u32;
-            part.positions.extend([a, b, c]);
-            part.triangles.push([first, first + 1, first + 2]);
+            let first = town.positions.len() as u32;
+            town.positions.extend([a, b, c]);
+            town.triangles.push([first, first + 1, first + 2]);
         };
         for i in 0..4 {
             let j = (i + 1) % 4;
@@ -129,7 +129,7 @@ fn mesh(scale: f64) -> Mesh {
     house(100.0, -40.0, 8.0, 8.0, 6.0, 10.0, 30.0);
     house(10.0, 70.0, 20.0, 8.0, 8.0, 13.0, 0.0);
     house(-20.0, -70.0, 30.0, 12.0, 0.004, 0.0, 0.0); // paving
-    Mesh::build(vec![part]).unwrap()
+    Mesh::build(vec![town]).expect("a small town")
 }
 
 pub(super) fn corners(mesh: &Mesh, face: usize) -> [DVec3; 3] {
