@@ -8,7 +8,7 @@ use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Timings};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::stencil::Stencil;
-use crate::shadow::{Scene, ShadowError, Technique};
+use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
 use crate::silhouette::brute_force::BruteForce;
 use crate::site::{Engine, Finder, Method, Receivers, Site};
 use crate::sun::SunTrack;
@@ -322,7 +322,10 @@ impl Look<'_> {
         }
         let casters = self.site.mesh.of_components(&[]);
         let scene = Scene { casters, receivers: self.surface_mesh(), ground: self.site.ground };
-        self.machine.technique(scene, self.view)?.surface()
+        match &self.machine.gpu {
+            Some(gpu) => GpuSurface::draw(Arc::clone(gpu), &scene, self.view)?.read(),
+            None => RayCast::new(scene, self.view).surface(),
+        }
     }
 }
 

@@ -188,6 +188,37 @@ fn choices_that_exclude_each_other_are_wrong_use() {
 }
 
 #[test]
+fn the_graphics_adapter_is_named() {
+    let folder = site();
+    for receivers in ["top", "ground"] {
+        let options = format!("--engine gpu --size 64 --json --receivers {receivers}");
+        let json: Value = serde_json::from_str(&done(folder.path(), &format!("profile . {options}"))).unwrap();
+        assert_eq!((&json["technique"], &json["engine"]), (&"stencil".into(), &"gpu".into()));
+        assert_eq!((&json["silhouette"], json["adapter"].is_string()), (&"brute".into(), true));
+    }
+}
+
+/// A system whose only backend is one that it has not.
+#[cfg(unix)]
+#[test]
+fn without_an_adapter_the_processor_draws_and_says_so() {
+    let folder = site();
+    let run = |options: &str| {
+        let arguments = format!("profile . --size 32 --write json {options}");
+        command(folder.path(), &arguments).env("WGPU_BACKEND", "dx12").output().unwrap()
+    };
+    let output = run("");
+    assert_eq!(output.status.code(), Some(0));
+    let told = stderr(&output);
+    assert_eq!(told.matches("no graphics adapter was found: drawing on the processor").count(), 1, "{told}");
+    for options in ["--engine gpu", "--technique stencil"] {
+        let output = run(options);
+        assert_eq!(output.status.code(), Some(1), "{options}");
+        assert!(stderr(&output).contains("--engine cpu"), "{}", stderr(&output));
+    }
+}
+
+#[test]
 fn a_study_too_long_to_sum_is_told() {
     let folder = site();
     let years = "--engine cpu --size 8 --from 2026-01-01T00:00 --to 2028-01-01T00:00 --step 6h";

@@ -200,7 +200,7 @@ fn hours(profile: &Profile, track: &SunTrack) -> String {
         hours(f64::from(profile.day_secs)),
         profile.grid.width,
         profile.grid.height,
-        profile.grid.cell,
+        (profile.grid.cell * 1e6).round() / 1e6,
         track.instants.len(),
         if night > 0 { format!(", {night} of them at night") } else { String::new() },
     )

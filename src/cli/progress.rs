@@ -41,7 +41,7 @@ impl Progress {
                     }
                 } else if *count > 1 && done * 10 / count > self.told {
                     self.told = done * 10 / count;
-                    self.line(&format!("{:>3}%  {done} of {count} instants, {time}", self.told * 10));
+                    self.line(&format!("{:>3}%  {done} of {count} instants, {time}", done * 100 / count));
                 }
             }
         }

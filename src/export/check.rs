@@ -50,8 +50,10 @@ pub fn json(mesh: &Mesh, components: &[ComponentReport]) -> Result<String, Expor
     })
 }
 
-/// The numbers of a row, with their heads and what they mean.
-const COLUMNS: [(&str, fn(&ComponentReport) -> usize, &str); 5] = [
+/// A number of a row: its head, the number itself, and what it means.
+type Column = (&'static str, fn(&ComponentReport) -> usize, &'static str);
+
+const COLUMNS: [Column; 5] = [
     ("open", |part| part.open_edges, "edges with one face: the part bounds no solid, something may be missing"),
     ("crowded", |part| part.crowded_edges, "edges with more than two faces: walls meet inside of the part"),
     ("flipped", |part| part.flipped_edges, "edges whose two faces look to different sides: one is wound wrongly"),
