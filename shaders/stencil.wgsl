@@ -15,16 +15,24 @@ fn cap(corner: Corner) -> @builtin(position) @invariant vec4f {
     return view.clip_from_local * vec4f(corner.vertex.xyz, 1.0);
 }
 
+struct Wall {
+    @builtin(position) @invariant position: vec4f,
+    // Depth of the triangle's first vertex: in the plan the wall's highest.
+    @location(0) @interpolate(flat, first) top: f32,
+}
+
 // Walls that end at the lowest receiver. The end is v − to_sun · height / to_sun.z, scaled by to_sun.z, so that a sun
 // on the horizon needs no division.
 @vertex
-fn wall_to_lowest(corner: Corner) -> @builtin(position) @invariant vec4f {
+fn wall_to_lowest(corner: Corner) -> Wall {
+    let here = view.clip_from_local * vec4f(corner.vertex.xyz, 1.0);
     let height = corner.vertex.z - view.lowest_z;
     if stays(corner) || height <= 0.0 {
-        return view.clip_from_local * vec4f(corner.vertex.xyz, 1.0);
+        return Wall(here, here.z);
     }
     let rise = light.to_sun.z;
-    return view.clip_from_local * vec4f(corner.vertex.xyz * rise - light.to_sun.xyz * height, rise);
+    let end = view.clip_from_local * vec4f(corner.vertex.xyz * rise - light.to_sun.xyz * height, rise);
+    return Wall(end, here.z);
 }
 
 // Walls that end at the point at infinity away from the sun.
@@ -40,6 +48,22 @@ fn wall_to_infinity(corner: Corner) -> @builtin(position) @invariant vec4f {
 @fragment
 fn counted() -> @location(0) vec4f {
     return vec4f(0.0);
+}
+
+struct Counted {
+    @builtin(frag_depth) depth: f32,
+    @location(0) nothing: vec4f,
+}
+
+// The plan sees many walls edge-on: slivers whose depth, extrapolated to a cell's centre that they do not hold, can be
+// anything. A wall is never below the lowest receiver, and never above its highest vertex. The latter bounds slivers
+// alone (steeper than 50 m a cell): wider walls that meet in an edge have equal depths there, which must stay equal.
+@fragment
+fn counted_in_plan(wall: Wall) -> Counted {
+    let depth = wall.position.z;
+    let lowest = view.clip_from_local * vec4f(0.0, 0.0, view.lowest_z + 1.5 * view.judged_above, 1.0);
+    let steep = fwidth(depth) > view.depth_scale * 50.0;
+    return Counted(max(select(depth, min(depth, wall.top), steep), lowest.z), vec4f(0.0));
 }
 
 // Before any volume: what faces away from the sun, or is edge-on to it, is in shadow; the sky is not.

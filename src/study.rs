@@ -256,7 +256,7 @@ impl Machine {
     }
 }
 
-/// Technique and engine as asked, or the fastest that there are.
+/// Technique and engine as asked; else the stencil on a real graphics adapter, and ray casting on the processor.
 fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
     let conflict = |option, what| Err(StudyError::Conflict { option, what });
     let open = || Gpu::open().map(|gpu| Machine { gpu: Some(Arc::new(gpu)) });
@@ -270,6 +270,8 @@ fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError
         (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => Machine { gpu: None },
         (Method::Stencil, _) | (Method::Auto, Engine::Gpu) => open()?,
         (Method::Auto, Engine::Auto) => match open() {
+            // measured (docs/benchmarks): a stencil drawn in software is slower than casting the rays outright
+            Ok(machine) if machine.gpu.as_ref().is_some_and(|gpu| gpu.software()) => Machine { gpu: None },
             Ok(machine) => machine,
             Err(error) => {
                 let why = match error {

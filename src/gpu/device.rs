@@ -14,6 +14,7 @@ pub struct Gpu {
     /// What the adapter allows.
     pub limits: wgpu::Limits,
     name: String,
+    software: bool,
     fault: Arc<Mutex<Option<String>>>,
 }
 
@@ -57,7 +58,8 @@ impl Gpu {
                 ..RequestAdapterOptions::default()
             };
             let adapter = Instance::new(wanted).request_adapter(&options).await.map_err(|_| GpuError::NoAdapter)?;
-            let name = adapter.get_info().name;
+            let info = adapter.get_info();
+            let (name, software) = (info.name, info.device_type == wgpu::DeviceType::Cpu);
             let unusable = |reason: String| GpuError::Unusable { adapter: name.clone(), reason };
             if !adapter.features().contains(NEEDED) {
                 return Err(unusable("it has no 32-bit depth with stencil".into()));
@@ -78,13 +80,18 @@ impl Gpu {
                     fault.get_or_insert_with(|| error.to_string());
                 }
             }));
-            Ok(Gpu { device, queue, limits, name, fault })
+            Ok(Gpu { device, queue, limits, name, software, fault })
         })
     }
 
     /// The adapter's name, as its driver says it.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Whether the adapter is a program on the processor.
+    pub fn software(&self) -> bool {
+        self.software
     }
 
     /// Says what went wrong since the device was opened. wgpu reports faults (memory above all) beside the calls that

@@ -84,6 +84,7 @@ struct Counted {
 struct Pipelines {
     facing: RenderPipeline,
     covered: RenderPipeline,
+    plan: Counting,
     z_pass: Counting,
     z_fail: Counting,
 }
@@ -188,7 +189,11 @@ impl Technique for Stencil {
         self.upload_indices()?;
         self.surface.set_sun(to_sun);
         let gpu = &self.surface.gpu;
-        let counting = if z_fail { &self.pipelines.z_fail } else { &self.pipelines.z_pass };
+        let counting = match self.view {
+            View::Plan(_) => &self.pipelines.plan,
+            View::Camera(_) if z_fail => &self.pipelines.z_fail,
+            View::Camera(_) => &self.pipelines.z_pass,
+        };
 
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
@@ -283,11 +288,11 @@ impl Pipelines {
             .map(|pass_op| StencilFaceState { pass_op, ..StencilFaceState::default() });
         let [fail_front, fail_back] = [StencilOperation::DecrementWrap, StencilOperation::IncrementWrap]
             .map(|depth_fail_op| StencilFaceState { depth_fail_op, ..StencilFaceState::default() });
-        let counting = |name: &str, wall, front, back| {
+        let counting = |name: &str, wall, counted, front, back| {
             // strictly nearer than what is judged
             let state = || state(CompareFunction::Greater, front, back);
             Counting {
-                wall: pipeline(&format!("stencil.{name}.wall"), wall, "counted", ColorWrites::empty(), state()),
+                wall: pipeline(&format!("stencil.{name}.wall"), wall, counted, ColorWrites::empty(), state()),
                 cap: pipeline(&format!("stencil.{name}.cap"), "cap", "counted", ColorWrites::empty(), state()),
             }
         };
@@ -306,8 +311,9 @@ impl Pipelines {
                 ColorWrites::ALL,
                 whole_picture(CompareFunction::NotEqual, StencilOperation::Zero),
             ),
-            z_pass: counting("z_pass", "wall_to_lowest", pass_front, pass_back),
-            z_fail: counting("z_fail", "wall_to_infinity", fail_front, fail_back),
+            plan: counting("plan", "wall_to_lowest", "counted_in_plan", pass_front, pass_back),
+            z_pass: counting("z_pass", "wall_to_lowest", "counted", pass_front, pass_back),
+            z_fail: counting("z_fail", "wall_to_infinity", "counted", fail_front, fail_back),
         }
     }
 }
