@@ -57,12 +57,12 @@ struct Counted {
 
 // The plan sees many walls edge-on: slivers whose depth, extrapolated to a cell's centre that they do not hold, can be
 // anything. A wall is never below the lowest receiver, and never above its highest vertex. The latter bounds slivers
-// alone (steeper than 50 m a cell): wider walls that meet in an edge have equal depths there, which must stay equal.
+// alone (steeper than 1 km a cell): wider walls that meet in an edge have equal depths there, which must stay equal.
 @fragment
 fn counted_in_plan(wall: Wall) -> Counted {
     let depth = wall.position.z;
     let lowest = view.clip_from_local * vec4f(0.0, 0.0, view.lowest_z + 1.5 * view.judged_above, 1.0);
-    let steep = fwidth(depth) > view.depth_scale * 50.0;
+    let steep = fwidth(depth) > view.depth_scale * 1000.0;
     return Counted(max(select(depth, min(depth, wall.top), steep), lowest.z), vec4f(0.0));
 }
 
