@@ -1,0 +1,96 @@
+//! What an instant costs, stage by stage, on the sample sites: `cargo bench`. Prints a table in Markdown.
+//!
+//! All figures of a row come from one run, stage beside stage; compare ratios, since absolute times drift with the
+//! machine. `docs/benchmarks/instants.md` keeps a run with the machine it ran on.
+
+use gnomon::gpu::Gpu;
+use gnomon::profile::accumulate::Sum;
+use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::stencil::Stencil;
+use gnomon::shadow::{Scene, Technique};
+use gnomon::silhouette::SilhouetteFinder;
+use gnomon::silhouette::brute_force::BruteForce;
+use gnomon::site::{Overrides, Site};
+use gnomon::view::View;
+use gnomon::volume::{Volume, layers_bound};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Milliseconds of each call, the median.
+fn median(mut calls: Vec<f64>) -> f64 {
+    calls.sort_by(f64::total_cmp);
+    calls.get(calls.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+fn timed<T>(times: &mut Vec<f64>, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    times.push(start.elapsed().as_secs_f64() * 1e3);
+    result
+}
+
+fn main() {
+    // `cargo test --benches` only asks whether it runs
+    if std::env::args().any(|argument| argument == "--test") {
+        return;
+    }
+    let gpu = Gpu::open().ok().map(Arc::new);
+    println!("adapter: {}\n", gpu.as_ref().map_or("none", |gpu| gpu.name()));
+    println!(
+        "| site | casting triangles | edges | silhouette | facing | silhouettes | volume | layers' bound \
+         | stencil drawn | stencil added up | rays cast | rays added up |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
+    for site in ["tower", "industry", "headquarters"] {
+        row(site, gpu.clone());
+    }
+    println!("\nMilliseconds an instant, medians over the study's instants, at the site's own plan.");
+}
+
+fn row(name: &str, gpu: Option<Arc<Gpu>>) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
+    let site = Site::load(&folder, &Overrides::default()).expect("a sample site");
+    let casters = site.mesh.of_components(&site.casts);
+    let scene = Scene { casters, receivers: site.mesh.of_components(&site.receives), ground: site.ground };
+    let view = View::Plan(site.grid);
+    let (width, height) = view.size();
+    let suns: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
+
+    let mut times: [Vec<f64>; 8] = Default::default();
+    let mut silhouette = 0;
+    let mesh = &scene.casters;
+    for instant in &suns {
+        let light = mesh.local_light(instant.to_sun.extend(0.0));
+        let facing = timed(&mut times[0], || mesh.facing(light));
+        let mut found = Vec::new();
+        timed(&mut times[1], || BruteForce.find(mesh, &facing, &mut found));
+        silhouette = silhouette.max(found.len());
+        timed(&mut times[2], || Volume::find(mesh, &BruteForce, light, false));
+        timed(&mut times[3], || layers_bound(mesh, instant.to_sun));
+    }
+    if let Some(gpu) = gpu {
+        let mut stencil = Stencil::new(Arc::clone(&gpu), scene.clone(), view, Arc::new(BruteForce)).expect("a stencil");
+        let mut sum = Sum::new(Some(Arc::clone(&gpu)), width, height);
+        let wait = || gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter answers");
+        for instant in &suns {
+            let drawn = timed(&mut times[4], || {
+                let drawn = stencil.draw(instant.to_sun).expect("a mask");
+                wait();
+                drawn
+            });
+            timed(&mut times[5], || {
+                sum.add(&drawn, instant.weight_secs).expect("a sum");
+                wait();
+            });
+        }
+    }
+    let mut rays = RayCast::new(scene.clone(), view);
+    let mut sum = Sum::new(None, width, height);
+    for instant in &suns {
+        let drawn = timed(&mut times[6], || rays.draw(instant.to_sun).expect("a mask"));
+        timed(&mut times[7], || sum.add(&drawn, instant.weight_secs).expect("a sum"));
+    }
+    let stages: Vec<String> = times.map(|calls| format!("{:.1}", median(calls))).to_vec();
+    println!("| {name} | {} | {} | {silhouette} | {} |", mesh.faces.len(), mesh.edges.len(), stages.join(" | "));
+}
