@@ -5,22 +5,13 @@
 use super::ExportError;
 use crate::profile::{Drawn, Profile, Timings};
 use crate::site::Receivers;
-use crate::sun::{Day, Instant, Place, SunTrack};
+use crate::sun::{Air, Day, Instant, Place, SunTrack};
 use crate::view::View;
 use chrono::{DateTime, SecondsFormat};
 use chrono_tz::Tz;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use std::fmt::Write;
-
-/// The air's temperature for refraction, °C: the design's constant.
-pub const REFRACTION_CELSIUS: f64 = 12.0;
-
-/// The standard atmosphere's pressure at a height above the sea, millibar (ICAO, troposphere).
-pub fn standard_millibar(elevation_m: f64) -> f64 {
-    // Above the model's range the power of a negative number would be NaN, which JSON cannot say.
-    1013.25 * (1.0 - 2.255_77e-5 * elevation_m).max(0.0).powf(5.255_88)
-}
 
 #[derive(Serialize)]
 struct DrawnReport<'a> {
@@ -122,6 +113,7 @@ pub fn shadow_json(
     drawn: &Drawn,
     timings: &Timings,
 ) -> Result<String, ExportError> {
+    let air = Air::standard(place.elevation_m);
     let refracted = |value| track.refraction.then_some(value);
     let (width, height) = view.size();
     json(&DrawnReport {
@@ -136,8 +128,8 @@ pub fn shadow_json(
         engine: drawn.engine,
         adapter: drawn.adapter.as_deref(),
         refraction: track.refraction,
-        refraction_celsius: refracted(REFRACTION_CELSIUS),
-        refraction_millibar: refracted(standard_millibar(place.elevation_m)),
+        refraction_celsius: refracted(air.temperature_c),
+        refraction_millibar: refracted(air.pressure_hpa),
         algorithm: "NREL SPA",
         delta_t_secs: track.delta_t_secs,
         delta_t_source: "Espenak and Meeus",

@@ -19,8 +19,10 @@ use super::{ExportError, check_size};
 use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile};
 use crate::site::Receivers;
-use crate::sun::{Instant, Place, SunTrack};
+use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{Mask, Surface, View};
+use chrono::DateTime;
+use chrono_tz::Tz;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
 
@@ -157,7 +159,7 @@ fn panel(scene: &Scene, kicker: &str) -> Panel {
         title,
         lead,
         facts,
-        sun: sun_rows(track),
+        sun: sun_rows(place, track),
         legend_head: String::new(),
         legend: Vec::new(),
     }
@@ -167,32 +169,24 @@ fn cells(width: u32, height: u32, cell_m: f64) -> String {
     format!("{width} × {height} of {}", words::metres(cell_m))
 }
 
-/// The sun at the start, nearest to noon, and at the end.
-fn sun_rows(track: &SunTrack) -> Vec<[String; 4]> {
-    let row = |what: &str, instant: &Instant| {
-        [
-            what.to_owned(),
-            words::clock(&instant.time),
-            words::degrees(instant.azimuth_rad),
-            words::degrees(instant.altitude_rad),
-        ]
+/// The sun at the start, at noon where the window holds one, and at the end.
+fn sun_rows(place: &Place, track: &SunTrack) -> Vec<[String; 4]> {
+    let row = |what: &str, time: &DateTime<Tz>, azimuth_rad: f64, altitude_rad: f64| {
+        [what.to_owned(), words::clock(time), words::degrees(azimuth_rad), words::degrees(altitude_rad)]
     };
-    match track.instants.as_slice() {
-        [] => Vec::new(),
-        [now] => vec![row("shown", now)],
-        [first, between @ .., last] => {
-            // Noon may lie outside of the window; the highest sun is the nearest to it then, and at an end.
-            let highest = between
-                .iter()
-                .max_by(|a, b| a.altitude_rad.total_cmp(&b.altitude_rad))
-                .filter(|instant| instant.altitude_rad > first.altitude_rad.max(last.altitude_rad));
-            [Some(("start", first)), highest.map(|at| ("highest", at)), Some(("end", last))]
-                .into_iter()
-                .flatten()
-                .map(|(what, instant)| row(what, instant))
-                .collect()
-        }
-    }
+    let at = |what, instant: &Instant| row(what, &instant.time, instant.azimuth_rad, instant.altitude_rad);
+    let (first, last) = match track.instants.as_slice() {
+        [] => return Vec::new(),
+        [now] => return vec![at("shown", now)],
+        [first, .., last] => (first, last),
+    };
+    let air = track.refraction.then(|| Air::standard(place.elevation_m));
+    let noons = track.days.iter().filter_map(|day| day.noon).filter(|noon| first.time < *noon && *noon < last.time);
+    let noon = noons.take(1).filter_map(|noon| {
+        let sun = position(place, noon.to_utc(), track.delta_t_secs, air).ok()?;
+        Some(row("noon", &noon, sun.azimuth_deg.to_radians(), sun.altitude_deg.to_radians()))
+    });
+    std::iter::once(at("start", first)).chain(noon).chain([at("end", last)]).collect()
 }
 
 fn legend(bands: &Bands) -> Vec<(scale::Rgb, String)> {

@@ -2,7 +2,7 @@
 
 use crate::profile::Drawn;
 use crate::site::Receivers;
-use crate::sun::{Day, Instant, Place, SunTrack};
+use crate::sun::{Air, Day, Instant, Place, SunTrack};
 use chrono::{DateTime, NaiveDate, Offset, Timelike};
 use chrono_tz::Tz;
 
@@ -143,11 +143,8 @@ pub(super) fn receivers(receivers: Receivers) -> &'static str {
 /// Whether and how the air bends the light.
 pub(super) fn refraction(track: &SunTrack, place: &Place) -> String {
     if track.refraction {
-        format!(
-            "included, at {:.0} °C and {:.0} hPa",
-            report::REFRACTION_CELSIUS,
-            report::standard_millibar(place.elevation_m)
-        )
+        let air = Air::standard(place.elevation_m);
+        format!("included, at {:.0} °C and {:.0} hPa", air.temperature_c, air.pressure_hpa)
     } else {
         "left out".to_owned()
     }
