@@ -136,6 +136,7 @@ const MOST_DAY_SECS: u64 = (u32::MAX / 255) as u64;
 pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
     let mut watch = Stopwatch::start();
     let (day_secs, night_secs) = day_and_night(&site.track)?;
+    note_distance(site, on_event)?;
     let machine = choose(site, on_event)?;
     let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
     let mut technique = look.technique()?;
@@ -177,6 +178,7 @@ pub fn instant(
 ) -> Result<InstantOutcome, StudyError> {
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
+    note_distance(site, on_event)?;
     let machine = choose(site, on_event)?;
     let receivers = judged(site, &view);
     let look = Look { site, machine: &machine, view, receivers };
@@ -201,6 +203,24 @@ pub fn instant(
         timings: watch.stages,
         drawn: machine.drawn(),
     })
+}
+
+/// Beyond this distance a place's sun and its flat frame no longer hold to what the drawing says, metres.
+const FAR_M: f64 = 20_000.0;
+
+/// Says when models stand far from the place whose sun shines on them: a file in map coordinates, as a rule.
+fn note_distance(site: &Site, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let distance = site.mesh.origin.truncate().length();
+    if distance > FAR_M {
+        tell(
+            on_event,
+            Event::Note(format!(
+                "the models stand {:.0} km from the place; if they are in map coordinates, bring them here with `position`",
+                distance / 1000.0
+            )),
+        )?;
+    }
+    Ok(())
 }
 
 /// What a view judges: the plan what was asked, a camera what it sees.

@@ -120,6 +120,10 @@ fn the_sites_agree_with_ray_casting() {
             let suns: Vec<DVec3> = instants.map(|instant| instant.to_sun).step_by(3).collect();
             let edge_share = if receivers == Receivers::Top { 0.01 } else { 0.005 };
             agree(&format!("{name} {receivers:?}"), &scene, View::Plan(site.grid), &suns, edge_share);
+            // the site's own cells, on whose centres walls stand in long rows
+            let own = Overrides { receivers: Some(receivers), ..Overrides::default() };
+            let grid = Site::load(std::path::Path::new(&format!("sites/{name}")), &own).unwrap().grid;
+            agree(&format!("{name} {receivers:?}, own cells"), &scene, View::Plan(grid), &suns[1..2], edge_share);
         }
         let site = Site::load(std::path::Path::new(&format!("sites/{name}")), &Overrides::default()).unwrap();
         let scene = Scene {

@@ -19,6 +19,12 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
         way_out: way_out(source.kind()),
         source,
     };
+    // through a link to what it leads to; a device, a pipe or a folder is nothing to be replaced by a drawing
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let path = target.as_path();
+    if path.metadata().is_ok_and(|found| !found.is_file()) {
+        return Err(ExportError::NoFileName { path: path.to_owned() });
+    }
     let name = path.file_name().ok_or_else(|| ExportError::NoFileName { path: path.to_owned() })?;
     // Without a folder in the path the parent is "", which means here.
     let folder = match path.parent() {

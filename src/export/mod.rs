@@ -25,8 +25,8 @@ pub enum ExportError {
         /// What the user can do.
         way_out: &'static str,
     },
-    /// The path names no file.
-    #[error("cannot write {}: it names no file; give a file name, such as shadow.png", path.display())]
+    /// The path names no file: it ends in none, or a folder or a device stands there.
+    #[error("cannot write {}: that is no file; give a file name, such as shadow.png", path.display())]
     NoFileName {
         /// The path as given.
         path: PathBuf,

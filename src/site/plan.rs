@@ -6,6 +6,9 @@ use super::written::Written;
 use crate::view::Grid;
 use glam::DVec2;
 
+/// The smallest cell, metres: a receiver is judged a millimetre above itself, and models are no finer either.
+const LEAST_CELL_M: f64 = 0.001;
+
 /// Cells along the longer side where nobody says.
 const DEFAULT_SIZE: u32 = 2048;
 /// A raster of floats would take 8 GiB.
@@ -36,6 +39,12 @@ pub(super) fn grid(written: &Written, asked: &Overrides, models_and_shadows: [DV
         (None, None, None) => (longer / f64::from(DEFAULT_SIZE), written.key("plan", "region")),
     };
     // A NaN is not above zero either.
+    if cell > 0.0 && cell < LEAST_CELL_M {
+        return Err(refuse(
+            at,
+            format!("{cell} m is too small a cell; take at least {LEAST_CELL_M} m, or a larger region"),
+        ));
+    }
     if !(cell.is_finite() && cell > 0.0) {
         return Err(refuse(at, format!("{cell} is no side of a cell; write metres above 0, for example 0.5")));
     }

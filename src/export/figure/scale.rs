@@ -22,7 +22,7 @@ const DAVOS_REVERSED: [Rgb; 11] = [
 ];
 
 /// The part of the map in use: its light end is kept for no shadow at all, its dark end for lines drawn over it.
-const LIGHTEST: f64 = 0.10;
+const LIGHTEST: f64 = 0.16;
 const DARKEST: f64 = 0.88;
 
 /// No shadow at all: the paper's own tone, so that sunny ground stays quiet.
