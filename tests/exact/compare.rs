@@ -5,17 +5,17 @@ use std::fmt;
 
 /// Counts of cells. An edge cell is one whose 3 × 3 neighbourhood in the truth is not uniform.
 #[derive(Clone, Debug, Default)]
-pub struct Difference {
-    pub edge_cells: u64,
-    pub edge_differ: u64,
-    pub other_cells: u64,
-    pub other_differ: u64,
+pub(crate) struct Difference {
+    pub(crate) edge_cells: u64,
+    pub(crate) edge_differ: u64,
+    pub(crate) other_cells: u64,
+    pub(crate) other_differ: u64,
     /// Columns and rows of the other cells that differ.
-    pub other_at: Vec<(u32, u32)>,
+    pub(crate) other_at: Vec<(u32, u32)>,
 }
 
 impl Difference {
-    pub fn add(&mut self, other: Difference) {
+    pub(crate) fn add(&mut self, other: Difference) {
         self.edge_cells += other.edge_cells;
         self.edge_differ += other.edge_differ;
         self.other_cells += other.other_cells;
@@ -24,7 +24,7 @@ impl Difference {
     }
 
     /// At most this share of edge cells differ, and at most one in 100,000 of the others (one cell may always).
-    pub fn holds(&self, edge_share: f64) -> bool {
+    pub(crate) fn holds(&self, edge_share: f64) -> bool {
         let most_edge = (self.edge_cells as f64 * edge_share).max(1.0);
         let most_other = (self.other_cells as f64 / 1e5).max(1.0);
         self.edge_differ as f64 <= most_edge && self.other_differ as f64 <= most_other
@@ -43,7 +43,7 @@ impl fmt::Display for Difference {
 }
 
 /// Counts where `drawn` differs from `truth`.
-pub fn compare(drawn: &Mask, truth: &Mask) -> Difference {
+pub(crate) fn compare(drawn: &Mask, truth: &Mask) -> Difference {
     assert_eq!((drawn.width, drawn.height), (truth.width, truth.height));
     let (width, height) = (truth.width as usize, truth.height as usize);
     let mut difference = Difference::default();

@@ -4,7 +4,7 @@ use glam::{DVec3, dvec3};
 use gnomon::mesh::Part;
 
 /// A closed, well-wound box.
-pub fn cuboid(name: &str, low: DVec3, high: DVec3) -> Part {
+pub(crate) fn cuboid(name: &str, low: DVec3, high: DVec3) -> Part {
     let corner = |index: usize| {
         let pick = |bit: usize, low: f64, high: f64| if index >> bit & 1 == 1 { high } else { low };
         dvec3(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
@@ -19,7 +19,7 @@ pub fn cuboid(name: &str, low: DVec3, high: DVec3) -> Part {
 }
 
 /// Several parts as one component.
-pub fn joined(parts: Vec<Part>) -> Part {
+pub(crate) fn joined(parts: Vec<Part>) -> Part {
     let mut whole = Part::default();
     for part in parts {
         let base = whole.positions.len() as u32;
@@ -36,7 +36,7 @@ fn sheet(corners: [DVec3; 4]) -> Part {
 }
 
 /// Horizontal plates above each other, as closed slabs or, where they have no thickness, as single sheets.
-pub fn stack(plates: u32, thickness: f64) -> Part {
+pub(crate) fn stack(plates: u32, thickness: f64) -> Part {
     let plate = |index: u32| {
         let z = 1.0 + 0.01 * f64::from(index);
         let (low, high) = (dvec3(-4.0, -4.0, z), dvec3(4.0, 4.0, z + thickness));
@@ -49,7 +49,7 @@ pub fn stack(plates: u32, thickness: f64) -> Part {
 }
 
 /// Named scenes, each a list of components.
-pub fn small() -> Vec<(&'static str, Vec<Part>)> {
+pub(crate) fn small() -> Vec<(&'static str, Vec<Part>)> {
     let book = {
         let spine = [dvec3(1.3, 0.2, 0.5), dvec3(1.3, 0.2, 12.5)];
         let page = |x: f64, y: f64| sheet([spine[0], dvec3(x, y, 0.5), dvec3(x, y, 12.5), spine[1]]);
