@@ -1,7 +1,7 @@
 //! Stencil shadow volumes against ray casting, as the design defines exactness, and both against closed forms.
 
 mod compare;
-mod scenes;
+pub(crate) mod scenes;
 
 use compare::{Difference, compare};
 use glam::{DVec3, dvec3};
@@ -17,7 +17,7 @@ use scenes::*;
 use std::sync::{Arc, OnceLock};
 
 /// The adapter for all tests. None is a failure, never a skip.
-fn gpu() -> Arc<Gpu> {
+pub(crate) fn gpu() -> Arc<Gpu> {
     static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
     Arc::clone(GPU.get_or_init(|| Arc::new(Gpu::open().expect("the tests need a graphics adapter: run tests/run.sh"))))
 }
