@@ -28,10 +28,14 @@ fn through(normal: DVec3, point: DVec3) -> DVec4 {
     normal.extend(-normal.dot(point))
 }
 
+/// How many lengths of a face its plane is carried with growing tolerance.
+const FARTHEST_CARRIED: f32 = 8.0;
+
 /// Hands the plane of larger faces to their coplanar neighbours.
 ///
 /// A neighbour joins when all its corners lie within two `f32` steps of the larger face's own plane (never of a
-/// neighbour's, so that a gentle curve is not flattened step by step).
+/// neighbour's, so that a gentle curve is not flattened step by step); and, since a plane wavers the more the farther it
+/// is carried, within as many more as the corner is lengths of the larger face away, up to [`FARTHEST_CARRIED`].
 pub(super) fn unify(mesh: &mut Mesh) {
     let tolerance = 2.0 * spacing(&mesh.vertices);
     let sides = sides(mesh);
@@ -50,6 +54,8 @@ pub(super) fn unify(mesh: &mut Mesh) {
             continue;
         }
         let plane = mesh.planes[seed as usize];
+        let [a, b, c] = mesh.corners(seed as usize);
+        let length = a.distance(b).max(b.distance(c)).max(c.distance(a));
         joined[seed as usize] = true;
         waiting.push(seed);
         while let Some(face) = waiting.pop() {
@@ -60,7 +66,10 @@ pub(super) fn unify(mesh: &mut Mesh) {
                     if joined[other] || mesh.planes[other].truncate().dot(plane.truncate()) < 0.9 {
                         continue;
                     }
-                    let lies_in = |corner: Vec3| plane.dot(corner.as_dvec3().extend(1.0)).abs() <= tolerance;
+                    let lies_in = |corner: Vec3| {
+                        let carried = f64::from((corner.distance(a) / length).min(FARTHEST_CARRIED));
+                        plane.dot(corner.as_dvec3().extend(1.0)).abs() <= tolerance * (1.0 + carried)
+                    };
                     if mesh.corners(other).into_iter().all(lies_in) {
                         joined[other] = true;
                         mesh.planes[other] = plane;

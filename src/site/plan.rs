@@ -39,12 +39,6 @@ pub(super) fn grid(written: &Written, asked: &Overrides, models_and_shadows: [DV
         (None, None, None) => (longer / f64::from(DEFAULT_SIZE), written.key("plan", "region")),
     };
     // A NaN is not above zero either.
-    if cell > 0.0 && cell < LEAST_CELL_M {
-        return Err(refuse(
-            at,
-            format!("{cell} m is too small a cell; take at least {LEAST_CELL_M} m, or a larger region"),
-        ));
-    }
     if !(cell.is_finite() && cell > 0.0) {
         return Err(refuse(at, format!("{cell} is no side of a cell; write metres above 0, for example 0.5")));
     }
@@ -58,6 +52,12 @@ pub(super) fn grid(written: &Written, asked: &Overrides, models_and_shadows: [DV
             format!(
                 "{width} × {height} cells are more than 2³¹; take cells of at least {least} m, or a smaller region"
             ),
+        ));
+    }
+    if cell < LEAST_CELL_M {
+        return Err(refuse(
+            at,
+            format!("{cell} m is too small a cell; take at least {LEAST_CELL_M} m, or a larger region"),
         ));
     }
     Ok(Grid {

@@ -56,7 +56,6 @@ fn the_halves_of_a_wall_have_one_plane() {
 }
 
 #[test]
-#[ignore = "known: a wall of many equal panes keeps a few planes"]
 fn a_wall_of_many_panes_has_one_plane() {
     walls_have_one_plane(7);
     walls_have_one_plane(20);
@@ -79,7 +78,6 @@ fn walls_have_one_plane(side: u32) {
 }
 
 #[test]
-#[ignore = "known: a wall of many equal panes keeps a few planes"]
 fn a_wall_faces_the_sun_as_one() {
     let mesh = Mesh::build(vec![panes(20)]).unwrap();
     for wall in mesh.planes.iter().map(|plane| plane.truncate()).take(800 * 3).step_by(800) {
