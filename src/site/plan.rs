@@ -61,8 +61,9 @@ pub(super) fn grid(written: &Written, asked: &Overrides, models_and_shadows: [DV
         ));
     }
     Ok(Grid {
-        west,
-        north,
+        // −0 is 0
+        west: west + 0.0,
+        north: north + 0.0,
         cell,
         // Checked above: at most 2³¹.
         width: width as u32,

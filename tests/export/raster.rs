@@ -93,3 +93,20 @@ fn files_come_whole_or_not_at_all() {
     let error = file::write(std::path::Path::new(".."), b"bytes").unwrap_err();
     assert!(matches!(error, ExportError::NoFileName { .. }), "{error}");
 }
+
+/// A link leads to the file that is written; a device is never replaced by one.
+#[cfg(unix)]
+#[test]
+fn links_are_followed_and_devices_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, link) = (folder.path().join("file.png"), folder.path().join("link.png"));
+    fs::write(&file, b"old").unwrap();
+    std::os::unix::fs::symlink(&file, &link).unwrap();
+    file::write(&link, b"new").unwrap();
+    assert_eq!(fs::read(&file).unwrap(), b"new");
+    assert!(link.symlink_metadata().unwrap().is_symlink());
+
+    let error = file::write(std::path::Path::new("/dev/null"), b"new").unwrap_err().to_string();
+    assert!(error.contains("/dev/null"), "{error}");
+    assert!(!std::path::Path::new("/dev/null").metadata().unwrap().is_file());
+}

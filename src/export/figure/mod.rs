@@ -21,8 +21,6 @@ use crate::profile::{Drawn, Profile};
 use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{Mask, Surface, View};
-use chrono::DateTime;
-use chrono_tz::Tz;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
 
@@ -171,10 +169,11 @@ fn cells(width: u32, height: u32, cell_m: f64) -> String {
 
 /// The sun at the start, at noon where the window holds one, and at the end.
 fn sun_rows(place: &Place, track: &SunTrack) -> Vec<[String; 4]> {
-    let row = |what: &str, time: &DateTime<Tz>, azimuth_rad: f64, altitude_rad: f64| {
-        [what.to_owned(), words::clock(time), words::degrees(azimuth_rad), words::degrees(altitude_rad)]
+    let row = |what: &str, time: String, azimuth_rad: f64, altitude_rad: f64| {
+        [what.to_owned(), time, words::degrees(azimuth_rad), words::degrees(altitude_rad)]
     };
-    let at = |what, instant: &Instant| row(what, &instant.time, instant.azimuth_rad, instant.altitude_rad);
+    let at =
+        |what, instant: &Instant| row(what, words::clock(&instant.time), instant.azimuth_rad, instant.altitude_rad);
     let (first, last) = match track.instants.as_slice() {
         [] => return Vec::new(),
         [now] => return vec![at("shown", now)],
@@ -184,7 +183,7 @@ fn sun_rows(place: &Place, track: &SunTrack) -> Vec<[String; 4]> {
     let noons = track.days.iter().filter_map(|day| day.noon).filter(|noon| first.time < *noon && *noon < last.time);
     let noon = noons.take(1).filter_map(|noon| {
         let sun = position(place, noon.to_utc(), track.delta_t_secs, air).ok()?;
-        Some(row("noon", &noon, sun.azimuth_deg.to_radians(), sun.altitude_deg.to_radians()))
+        Some(row("noon", words::almanac(&noon), sun.azimuth_deg.to_radians(), sun.altitude_deg.to_radians()))
     });
     std::iter::once(at("start", first)).chain(noon).chain([at("end", last)]).collect()
 }

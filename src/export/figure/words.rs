@@ -42,7 +42,7 @@ pub(super) fn clock(time: &DateTime<Tz>) -> String {
 }
 
 /// `06:35`: to the nearest minute, as almanacs print it.
-fn almanac(time: &DateTime<Tz>) -> String {
+pub(super) fn almanac(time: &DateTime<Tz>) -> String {
     (*time + chrono::Duration::seconds(30)).format("%H:%M").to_string()
 }
 
