@@ -23,7 +23,7 @@ use crate::mesh::Mesh;
 use crate::silhouette::SilhouetteFinder;
 use crate::view::{Camera, Surface, View};
 use crate::volume::{Volume, layers_bound};
-use glam::{DVec3, DVec4};
+use glam::DVec3;
 use std::ops::Range;
 use std::sync::Arc;
 use wgpu::*;
@@ -117,7 +117,7 @@ impl Stencil {
         gpu.queue.write_buffer(&vertices, 0, bytemuck::cast_slice(&twice));
         let indices = gpu.buffer("stencil.indices", 4, BufferUsages::INDEX | BufferUsages::COPY_DST)?;
         let pipelines = Pipelines::new(&gpu, &surface);
-        let casters_are_seen = matches!(view, View::Camera(_) | View::Plan(_)) && holds_all(&scene);
+        let casters_are_seen = holds_all(&scene);
         let casters = Batch::of(scene.casters.clone());
         gpu.check()?;
         Ok(Stencil {
@@ -327,9 +327,4 @@ fn state(depth_compare: CompareFunction, front: StencilFaceState, back: StencilF
         stencil: StencilState { front, back, read_mask: 0xff, write_mask: 0xff },
         bias: DepthBiasState::default(),
     }
-}
-
-/// A sun's direction as the homogeneous light that planes take.
-pub fn sun(to_sun: DVec3) -> DVec4 {
-    to_sun.extend(0.0)
 }
