@@ -146,12 +146,16 @@ impl Stencil {
             let volume = Volume::find(mesh, finder, to_sun.extend(0.0), cap);
             let first = upload.len() as u32;
             for wall in volume.walls {
-                let [first, second] =
-                    Volume::wall(wall).map(|corners| corners.map(|(at, far)| at * 2 + u32::from(far)));
-                if !z_fail {
-                    upload.extend(first); // without area where far ends are one point
+                let [from, to] = wall.map(|vertex| [vertex * 2, vertex * 2 + 1]);
+                let height = |index: u32| mesh.vertices[index as usize / 2].z;
+                // counter-clockwise seen from outside, and first the highest vertex, by which the shader bounds depth
+                if z_fail {
+                    upload.extend([from[0], to[1], to[0]]); // far ends are one point
+                } else if height(from[0]) >= height(to[0]) {
+                    upload.extend([from[0], from[1], to[1], from[0], to[1], to[0]]);
+                } else {
+                    upload.extend([to[0], from[0], from[1], to[0], from[1], to[1]]);
                 }
-                upload.extend(second);
             }
             let middle = upload.len() as u32;
             upload.extend(volume.light_cap.iter().flatten().map(|vertex| vertex * 2));
