@@ -8,8 +8,8 @@ use gnomon::profile::accumulate::Sum;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
-use gnomon::silhouette::SilhouetteFinder;
 use gnomon::silhouette::brute_force::BruteForce;
+use gnomon::silhouette::{Kind, SilhouetteFinder};
 use gnomon::site::{Overrides, Site};
 use gnomon::view::View;
 use gnomon::volume::{Volume, layers_bound};
@@ -62,15 +62,15 @@ fn row(name: &str, gpu: Option<Arc<Gpu>>) {
     let mesh = &scene.casters;
     for instant in &suns {
         let light = mesh.local_light(instant.to_sun.extend(0.0));
-        let facing = timed(&mut times[0], || mesh.facing(light));
+        timed(&mut times[0], || mesh.facing(light));
         let mut found = Vec::new();
-        timed(&mut times[1], || BruteForce.find(mesh, &facing, &mut found));
+        timed(&mut times[1], || BruteForce.find(mesh, light, &mut found));
         silhouette = silhouette.max(found.len());
-        timed(&mut times[2], || Volume::find(mesh, &BruteForce, light, false));
+        timed(&mut times[2], || Volume::find(mesh, &mut BruteForce, light, false));
         timed(&mut times[3], || layers_bound(mesh, instant.to_sun));
     }
     if let Some(gpu) = gpu {
-        let mut stencil = Stencil::new(Arc::clone(&gpu), scene.clone(), view, Arc::new(BruteForce)).expect("a stencil");
+        let mut stencil = Stencil::new(Arc::clone(&gpu), scene.clone(), view, Kind::BruteForce).expect("a stencil");
         let mut sum = Sum::new(Some(Arc::clone(&gpu)), width, height);
         let wait = || gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter answers");
         for instant in &suns {

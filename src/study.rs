@@ -9,7 +9,7 @@ use crate::profile::{Drawn, Profile, Timings};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::stencil::Stencil;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
-use crate::silhouette::brute_force::BruteForce;
+use crate::silhouette::Kind;
 use crate::site::{Engine, Finder, Method, Receivers, Site};
 use crate::sun::SunTrack;
 use crate::view::{Mask, Surface, View};
@@ -270,7 +270,7 @@ impl Machine {
 
     fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
         Ok(match &self.gpu {
-            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, Arc::new(BruteForce))?),
+            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, Kind::BruteForce)?),
             None => Box::new(RayCast::new(scene, view)),
         })
     }

@@ -20,12 +20,14 @@ pub struct Volume {
 
 impl Volume {
     /// The walls, and the light cap where it is needed, for a light around the mesh's origin.
-    pub fn find(mesh: &Mesh, finder: &dyn SilhouetteFinder, local_light: DVec4, with_cap: bool) -> Volume {
-        let facing = mesh.facing(local_light);
+    pub fn find(mesh: &Mesh, finder: &mut dyn SilhouetteFinder, local_light: DVec4, with_cap: bool) -> Volume {
         let mut walls = Vec::new();
-        finder.find(mesh, &facing, &mut walls);
-        let towards = |(&[a, b, c], &facing): (&[u32; 3], &bool)| if facing { [a, b, c] } else { [a, c, b] };
-        let light_cap = if with_cap { mesh.faces.iter().zip(&facing).map(towards).collect() } else { Vec::new() };
+        finder.find(mesh, local_light, &mut walls);
+        let towards = |(&[a, b, c], facing): (&[u32; 3], bool)| if facing { [a, b, c] } else { [a, c, b] };
+        let light_cap = match with_cap {
+            true => mesh.faces.iter().zip(mesh.facing(local_light)).map(towards).collect(),
+            false => Vec::new(),
+        };
         Volume { walls, light_cap }
     }
 

@@ -10,7 +10,7 @@ use gnomon::mesh::{Mesh, Part};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
-use gnomon::silhouette::brute_force::BruteForce;
+use gnomon::silhouette::Kind;
 use gnomon::site::{Overrides, Receivers, Site};
 use gnomon::view::{Camera, Grid, Mask, Surface, View};
 use scenes::*;
@@ -23,7 +23,7 @@ pub(crate) fn gpu() -> Arc<Gpu> {
 }
 
 fn masks(scene: &Scene, view: View, suns: &[DVec3]) -> Vec<(Mask, Mask)> {
-    let mut stencil = Stencil::new(gpu(), scene.clone(), view, Arc::new(BruteForce)).unwrap();
+    let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::BruteForce).unwrap();
     let mut truth = RayCast::new(scene.clone(), view);
     suns.iter()
         .map(|&sun| (stencil.draw(sun).unwrap().read().unwrap(), truth.draw(sun).unwrap().read().unwrap()))

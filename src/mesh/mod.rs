@@ -154,26 +154,26 @@ impl Mesh {
     /// The mesh of some components only. Planes stay those of the whole.
     pub fn of_components(&self, keep: &[bool]) -> Mesh {
         let kept = self.components.iter().zip(keep).filter(|(_, keep)| **keep).map(|(component, _)| component.clone());
-        self.taken(kept.collect())
+        self.taken(kept.collect(), |_| true)
     }
 
-    /// The mesh of a run of faces only, cut within components where the run is. Planes stay those of the whole.
-    pub fn of_faces(&self, run: Range<u32>) -> Mesh {
-        let cut = |component: &Component| Component {
-            faces: component.faces.start.max(run.start)..component.faces.end.min(run.end),
-            ..component.clone()
-        };
-        self.taken(self.components.iter().map(cut).filter(|component| !component.faces.is_empty()).collect())
+    /// The mesh of some faces only. Planes stay those of the whole; components without a face are left out.
+    pub fn of_faces(&self, keep: impl Fn(u32) -> bool) -> Mesh {
+        let mut mesh = self.taken(self.components.clone(), keep);
+        mesh.components.retain(|component| !component.faces.is_empty());
+        mesh
     }
 
-    fn taken(&self, mut components: Vec<Component>) -> Mesh {
+    fn taken(&self, mut components: Vec<Component>, keep: impl Fn(u32) -> bool) -> Mesh {
         let mut faces = Vec::new();
         let mut planes = Vec::new();
         for component in &mut components {
-            let run = component.faces.start as usize..component.faces.end as usize;
-            component.faces = faces.len() as u32..(faces.len() + run.len()) as u32;
-            faces.extend_from_slice(&self.faces[run.clone()]);
-            planes.extend_from_slice(&self.planes[run]);
+            let first = faces.len() as u32;
+            for face in component.faces.clone().filter(|&face| keep(face)) {
+                faces.push(self.faces[face as usize]);
+                planes.push(self.planes[face as usize]);
+            }
+            component.faces = first..faces.len() as u32;
         }
         let mut mesh = Mesh {
             origin: self.origin,
@@ -187,6 +187,12 @@ impl Mesh {
         };
         adjacency::find(&mut mesh);
         mesh
+    }
+
+    /// One bit a face: whether its shell, the faces that hang together by edges, has an even number of faces at each of
+    /// them, as closed surfaces have whichever way they are wound.
+    pub fn in_even_shells(&self) -> Vec<bool> {
+        adjacency::in_even_shells(self)
     }
 
     /// The corners of a face, metres around `origin`.
@@ -225,8 +231,13 @@ impl Mesh {
     /// Silhouettes, caps and shaders all read this bit, so that volumes are closed whatever the rounding. A face
     /// edge-on to the light, or without area, counts as facing it: its shadow is empty either way.
     pub fn facing(&self, local_light: DVec4) -> Vec<bool> {
-        self.planes.iter().map(|plane| plane.dot(local_light) >= 0.0).collect()
+        self.planes.iter().map(|&plane| plane_faces(plane, local_light)).collect()
     }
+}
+
+/// Whether a light is on the front side of a plane or in it: the one place where that is decided.
+pub fn plane_faces(plane: DVec4, local_light: DVec4) -> bool {
+    plane.dot(local_light) >= 0.0
 }
 
 /// The distance between neighbouring `f32` numbers at the size of the largest coordinate, metres.

@@ -3,6 +3,7 @@
 //! Accumulation, drawings and tests never ask who drew a mask. One technique is one file, with one shader of the
 //! same name where it draws on the GPU.
 
+mod batch;
 pub mod ray_cast;
 pub mod stencil;
 mod surface;

@@ -11,33 +11,29 @@
 //!   among what is seen.
 //! - **z-fail** counts behind what is seen, in all other views: with light cap, and walls to the sun's point at infinity,
 //!   which needs no dark cap. Depth is reversed, so that point has depth 0 exactly and no far plane cuts it.
-//! - The stencil holds 8 bits, and a count of exactly 256 would read as light. Casters are halved until a bound shows
-//!   that no count of a half can reach 256 ([`layers_bound`]); halves are drawn one after the other.
+//! - The stencil holds 8 bits: casters come in batches, none of which counts further ([`super::batch`]).
 //!
 //! Deviation from the seed: the general rule of [`crate::silhouette`] instead of well-wound closed meshes alone.
 
+use super::batch::Batch;
 use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
 use crate::mesh::Mesh;
-use crate::silhouette::SilhouetteFinder;
+use crate::silhouette::Kind;
 use crate::view::{Camera, Surface, View};
-use crate::volume::{Volume, layers_bound};
+use crate::volume::Volume;
 use glam::DVec3;
 use std::ops::Range;
 use std::sync::Arc;
 use wgpu::*;
-
-/// The most that an 8-bit stencil counts without passing through 0.
-const MOST_COUNTED: u32 = 255;
 
 /// The technique, made for one scene and one view.
 pub struct Stencil {
     scene: Scene,
     view: View,
     surface: GpuSurface,
-    finder: Arc<dyn SilhouetteFinder>,
-    casters: Batch,
+    casters: Vec<Batch>,
     /// Every caster is among what is seen, so that z-pass needs no light cap.
     casters_are_seen: bool,
     vertices: Buffer,
@@ -47,32 +43,6 @@ pub struct Stencil {
     pipelines: Pipelines,
     /// What is uploaded at an instant; kept for its memory.
     upload: Vec<u32>,
-}
-
-/// Casters that are counted together, and their halves where that would be too many. Halves are made when first needed.
-struct Batch {
-    mesh: Mesh,
-    halves: Option<Box<[Batch; 2]>>,
-}
-
-impl Batch {
-    fn of(mesh: Mesh) -> Batch {
-        Batch { mesh, halves: None }
-    }
-
-    /// Calls `each` with meshes that together are this one, none of which can count beyond the stencil.
-    fn countable(&mut self, to_sun: DVec3, each: &mut dyn FnMut(&Mesh)) {
-        let faces = self.mesh.faces.len() as u32;
-        if faces <= MOST_COUNTED || layers_bound(&self.mesh, to_sun) <= MOST_COUNTED {
-            return each(&self.mesh);
-        }
-        let halves = self.halves.get_or_insert_with(|| {
-            Box::new([0..faces / 2, faces / 2..faces].map(|run| Batch::of(self.mesh.of_faces(run))))
-        });
-        for half in halves.iter_mut() {
-            half.countable(to_sun, each);
-        }
-    }
 }
 
 /// One batch in the index buffer.
@@ -96,12 +66,7 @@ struct Counting {
 
 impl Stencil {
     /// Draws what is seen, uploads the casters, builds the pipelines.
-    pub fn new(
-        gpu: Arc<Gpu>,
-        scene: Scene,
-        view: View,
-        finder: Arc<dyn SilhouetteFinder>,
-    ) -> Result<Stencil, ShadowError> {
+    pub fn new(gpu: Arc<Gpu>, scene: Scene, view: View, finder: Kind) -> Result<Stencil, ShadowError> {
         let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
         let judged = whole(&surface.judged());
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
@@ -118,13 +83,12 @@ impl Stencil {
         let indices = gpu.buffer("stencil.indices", 4, BufferUsages::INDEX | BufferUsages::COPY_DST)?;
         let pipelines = Pipelines::new(&gpu, &surface);
         let casters_are_seen = holds_all(&scene);
-        let casters = Batch::of(scene.casters.clone());
+        let casters = Batch::of(&scene.casters, finder);
         gpu.check()?;
         Ok(Stencil {
             scene,
             view,
             surface,
-            finder,
             casters,
             casters_are_seen,
             vertices,
@@ -140,10 +104,8 @@ impl Stencil {
     fn find_volumes(&mut self, to_sun: DVec3, z_fail: bool, cap: bool) -> Vec<Counted> {
         let mut counted = Vec::new();
         let upload = &mut self.upload;
-        let finder = &*self.finder;
         upload.clear();
-        self.casters.countable(to_sun, &mut |mesh| {
-            let volume = Volume::find(mesh, finder, to_sun.extend(0.0), cap);
+        let mut write = |mesh: &Mesh, volume: Volume| {
             let first = upload.len() as u32;
             for wall in volume.walls {
                 let [from, to] = wall.map(|vertex| [vertex * 2, vertex * 2 + 1]);
@@ -160,7 +122,10 @@ impl Stencil {
             let middle = upload.len() as u32;
             upload.extend(volume.light_cap.iter().flatten().map(|vertex| vertex * 2));
             counted.push(Counted { walls: first..middle, cap: middle..upload.len() as u32 });
-        });
+        };
+        for batch in &mut self.casters {
+            batch.volumes(to_sun, cap, &mut write);
+        }
         counted
     }
 

@@ -1,7 +1,8 @@
 //! One pass over all edges: the reference that other finders are held against.
 
-use super::{DirectedEdge, SilhouetteFinder, multiplicity};
+use super::{DirectedEdge, Looked, SilhouetteFinder, append, multiplicity};
 use crate::mesh::Mesh;
+use glam::DVec4;
 use rayon::prelude::*;
 
 /// Asks every edge.
@@ -12,22 +13,22 @@ pub struct BruteForce;
 const RUN: usize = 1 << 15;
 
 impl SilhouetteFinder for BruteForce {
-    fn find(&self, mesh: &Mesh, facing: &[bool], silhouette: &mut Vec<DirectedEdge>) {
+    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked {
+        let facing = mesh.facing(local_light);
         let runs = mesh.edges.par_chunks(RUN).enumerate().map(|(run, edges)| {
-            let mut found = Vec::new();
-            for (at, &[first, second]) in edges.iter().enumerate() {
-                let multiplicity = multiplicity(mesh, facing, run * RUN + at);
-                let edge = if multiplicity > 0 { [first, second] } else { [second, first] };
-                found.extend(std::iter::repeat_n(edge, multiplicity.unsigned_abs() as usize));
+            let mut of_run = (Vec::new(), 0);
+            for (at, &edge) in edges.iter().enumerate() {
+                let multiplicity = multiplicity(mesh.faces_at(run * RUN + at), |face| facing[face.face() as usize]);
+                of_run.1 += usize::from(multiplicity != 0);
+                append(&mut of_run.0, edge, multiplicity);
             }
-            found
+            of_run
         });
-        for found in runs.collect::<Vec<_>>() {
-            silhouette.extend(found);
+        let mut found = 0;
+        for (edges, count) in runs.collect::<Vec<_>>() {
+            silhouette.extend(edges);
+            found += count;
         }
-    }
-
-    fn name(&self) -> &'static str {
-        "brute"
+        Looked { at: mesh.edges.len(), found }
     }
 }

@@ -8,25 +8,53 @@
 
 pub mod brute_force;
 
-use crate::mesh::Mesh;
+use crate::mesh::{Incidence, Mesh};
+use brute_force::BruteForce;
+use glam::DVec4;
 
 /// A silhouette edge, from vertex to vertex: the face it bounds lies on its left, seen from the light.
-/// An edge of multiplicity ±n stands n times in a silhouette.
+/// An edge of multiplicity ±n stands n times in a row in a silhouette.
 pub type DirectedEdge = [u32; 2];
 
-/// Finds silhouettes of one mesh. All finders give the same edges, in any order.
+/// Finds silhouettes of the mesh for which it was made. All finders give the same edges, in any order.
 pub trait SilhouetteFinder: Send {
-    /// Appends the silhouette for the light that `facing` was asked with ([`Mesh::facing`]).
-    fn find(&self, mesh: &Mesh, facing: &[bool], silhouette: &mut Vec<DirectedEdge>);
-
-    /// The name by which people know the finder.
-    fn name(&self) -> &'static str;
+    /// Appends the silhouette of `mesh` for a light around the mesh's origin (sun: w = 0, lamp: w = 1).
+    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked;
 }
 
-/// The multiplicity of an edge: positive from its first vertex to its second.
-pub fn multiplicity(mesh: &Mesh, facing: &[bool], edge: usize) -> i32 {
-    let direction = |&face: &crate::mesh::Incidence| {
-        if facing[face.face() as usize] { face.direction() } else { -face.direction() }
-    };
-    mesh.faces_at(edge).iter().map(direction).sum()
+/// How much a query looked at for what it found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Looked {
+    /// Nodes of a tree and edges (or classes of edges) that were tested.
+    pub at: usize,
+    /// Edges (or classes) of them that are silhouette.
+    pub found: usize,
+}
+
+/// The finders that work on the processor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// One pass over all edges.
+    BruteForce,
+}
+
+impl Kind {
+    /// Makes the finder for a mesh.
+    pub fn build(self, _mesh: &Mesh) -> Box<dyn SilhouetteFinder> {
+        match self {
+            Kind::BruteForce => Box::new(BruteForce),
+        }
+    }
+}
+
+/// The sum of the directions of an edge's faces, each turned towards the light: positive from the edge's first vertex
+/// to its second.
+pub fn multiplicity(faces: &[Incidence], facing: impl Fn(Incidence) -> bool) -> i32 {
+    faces.iter().map(|&face| if facing(face) { face.direction() } else { -face.direction() }).sum()
+}
+
+/// Appends an edge as often as its multiplicity says, in the direction of its sign.
+fn append(silhouette: &mut Vec<DirectedEdge>, [first, second]: [u32; 2], multiplicity: i32) {
+    let edge = if multiplicity > 0 { [first, second] } else { [second, first] };
+    silhouette.extend(std::iter::repeat_n(edge, multiplicity.unsigned_abs() as usize));
 }

@@ -48,7 +48,7 @@ fn nothing_passes_a_closed_mesh_at_edges_and_vertices() {
         }
         assert!(aimed > 10_000, "{aimed}");
         // with a face taken out, rays do pass
-        let holed = mesh.of_faces(0..mesh.faces.len() as u32 - 1);
+        let holed = mesh.of_faces(|face| face + 1 < mesh.faces.len() as u32);
         let caster = RayCaster::new(&holed, 100.0);
         let hole = mesh.corners(mesh.faces.len() - 1).map(|corner| corner.as_dvec3()).iter().sum::<DVec3>() / 3.0;
         assert!(caster.first_hit(DVec3::ZERO, hole).is_none());

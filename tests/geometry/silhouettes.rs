@@ -36,7 +36,7 @@ fn naive(mesh: &Mesh, facing: &[bool]) -> BTreeMap<[u32; 2], i32> {
 
 fn found(mesh: &Mesh, light: DVec4) -> Vec<DirectedEdge> {
     let mut edges = Vec::new();
-    BruteForce.find(mesh, &mesh.facing(light), &mut edges);
+    BruteForce.find(mesh, light, &mut edges);
     edges
 }
 
@@ -67,7 +67,7 @@ fn check(name: &str, mesh: &Mesh, light: DVec4) {
     assert_eq!(edges.len(), length as usize, "{name}: nothing is found that cancels");
     assert!(balanced(&edges), "{name}");
 
-    let volume = Volume::find(mesh, &BruteForce, light, true);
+    let volume = Volume::find(mesh, &mut BruteForce, light, true);
     let whole = triangles(&volume);
     assert!(sums(whole.iter().copied().flat_map(sides)).is_empty(), "{name}: the volume is open");
     if !edges.is_empty() {

@@ -45,7 +45,7 @@ fn between(caster: &RayCaster, light: DVec4, point: DVec3) -> usize {
 /// Holds the winding against the rays at some points, and counts how many have any face above them.
 fn check(name: &str, mesh: &Mesh, light: DVec4, points: &[DVec3]) -> usize {
     let caster = RayCaster::new(mesh, 100.0);
-    let volume = Volume::find(mesh, &BruteForce, light, true);
+    let volume = Volume::find(mesh, &mut BruteForce, light, true);
     let mut shaded = 0;
     for &point in points {
         let count = between(&caster, light, point);
@@ -80,7 +80,7 @@ fn modelled_volumes_count_faces_towards_the_light() {
 fn a_volume_that_lacks_something_counts_wrongly() {
     let mesh = Mesh::build(vec![cuboid("box", dvec3(-3.0, -4.0, -2.0), dvec3(3.0, 4.0, 2.0))]).unwrap();
     let (light, point) = (dvec4(0.31, 0.22, 0.83, 0.0), dvec3(-0.7, -0.4, -6.1));
-    let whole = Volume::find(&mesh, &BruteForce, light, true);
+    let whole = Volume::find(&mesh, &mut BruteForce, light, true);
     assert!((winding(&mesh, &whole, light, point) - 2.0).abs() < 1e-6);
     for lost in 0..whole.walls.len() {
         let mut less = whole.clone();
