@@ -2,6 +2,7 @@
 
 mod architecture;
 mod command;
+mod dome;
 mod exact;
 mod export;
 mod geometry;

@@ -7,10 +7,14 @@
 //! It is right for every mesh, since it only adds up the prisms that the single faces cut out of the light.
 
 pub mod brute_force;
+pub mod hextree;
+pub mod hierarchy;
 
 use crate::mesh::{Incidence, Mesh};
 use brute_force::BruteForce;
 use glam::DVec4;
+use hextree::Hextree;
+use hierarchy::Hierarchy;
 
 /// A silhouette edge, from vertex to vertex: the face it bounds lies on its left, seen from the light.
 /// An edge of multiplicity ±n stands n times in a row in a silhouette.
@@ -36,13 +40,22 @@ pub struct Looked {
 pub enum Kind {
     /// One pass over all edges.
     BruteForce,
+    /// The paper's tree.
+    Hextree {
+        /// Levels below the root.
+        depth: u32,
+    },
+    /// Classes of edges under a bounding hierarchy.
+    Hierarchy,
 }
 
 impl Kind {
     /// Makes the finder for a mesh.
-    pub fn build(self, _mesh: &Mesh) -> Box<dyn SilhouetteFinder> {
+    pub fn build(self, mesh: &Mesh) -> Box<dyn SilhouetteFinder> {
         match self {
             Kind::BruteForce => Box::new(BruteForce),
+            Kind::Hextree { depth } => Box::new(Hextree::new(mesh, depth)),
+            Kind::Hierarchy => Box::new(Hierarchy::default()),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::exact::scenes::cuboid;
 use glam::{DVec4, dvec3, dvec4};
 use gnomon::mesh::Mesh;
 use gnomon::silhouette::brute_force::BruteForce;
-use gnomon::silhouette::{DirectedEdge, SilhouetteFinder};
+use gnomon::silhouette::{DirectedEdge, Kind, SilhouetteFinder, hextree};
 use gnomon::volume::Volume;
 use proptest::prelude::*;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -38,6 +38,46 @@ fn found(mesh: &Mesh, light: DVec4) -> Vec<DirectedEdge> {
     let mut edges = Vec::new();
     BruteForce.find(mesh, light, &mut edges);
     edges
+}
+
+/// Every other finder that works on the processor.
+const KINDS: [Kind; 5] = [
+    Kind::Hierarchy,
+    Kind::Hextree { depth: 0 },
+    Kind::Hextree { depth: 1 },
+    Kind::Hextree { depth: hextree::PAPER_DEPTH },
+    Kind::Hextree { depth: hextree::DEEPEST },
+];
+
+/// Whether two silhouettes hold the same edges, direction for direction and as often.
+fn equal(one: &[DirectedEdge], other: &[DirectedEdge]) -> bool {
+    let sorted = |edges: &[DirectedEdge]| {
+        let mut edges = edges.to_vec();
+        edges.sort_unstable();
+        edges
+    };
+    sorted(one) == sorted(other)
+}
+
+/// Whether an edge of multiplicity ±n stands n times in a row.
+fn in_rows(edges: &[DirectedEdge]) -> bool {
+    let distinct: HashSet<_> = edges.iter().collect();
+    edges.chunk_by(|a, b| a == b).count() == distinct.len()
+}
+
+/// Holds all finders against brute force, each asked for several lights in turn.
+fn agree(name: &str, mesh: &Mesh, lights: &[DVec4]) {
+    for kind in KINDS {
+        let mut finder = kind.build(mesh);
+        for &light in lights {
+            let mut edges = Vec::new();
+            let looked = finder.find(mesh, light, &mut edges);
+            let truth = found(mesh, light);
+            assert!(equal(&edges, &truth), "{name}: {kind:?} under {light}: {} not {}", edges.len(), truth.len());
+            assert!(in_rows(&edges), "{name}: {kind:?} under {light}");
+            assert!(looked.found <= looked.at && (looked.found == 0) == edges.is_empty(), "{name}: {looked:?}");
+        }
+    }
 }
 
 /// Every vertex is left as often as it is reached.
@@ -135,9 +175,72 @@ fn a_sheet_shows_its_border_from_both_sides() {
     assert_ne!(border, turned);
 }
 
+/// Suns and lamps all around a mesh of some size, some of them edge-on to upright walls and level roofs.
+fn all_around(mesh: &Mesh) -> Vec<DVec4> {
+    let (low, high) = mesh.bounds().unwrap();
+    let size = (high - low).length();
+    let mut lights: Vec<DVec4> =
+        [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [-0.7, 0.1, 0.02]]
+            .map(|to_sun| glam::DVec3::from(to_sun).normalize().extend(0.0))
+            .to_vec();
+    for step in 0..6 {
+        let turn = f64::from(step) * 1.1;
+        let to_sun = dvec3(turn.sin(), turn.cos(), 0.1 + 0.3 * f64::from(step % 3));
+        lights.push(to_sun.normalize().extend(0.0));
+        lights.push((to_sun * size * (0.2 + 0.3 * f64::from(step))).extend(1.0));
+    }
+    lights
+}
+
+#[test]
+fn all_finders_agree_on_the_sites_and_a_dome() {
+    for name in ["tower", "industry", "headquarters"] {
+        let folder = std::path::PathBuf::from(format!("sites/{name}"));
+        let site = gnomon::site::Site::load(&folder, &gnomon::site::Overrides::default()).unwrap();
+        let mesh = site.mesh.of_components(&site.casts);
+        let lights = all_around(&mesh);
+        agree(name, &mesh, if name == "headquarters" { &lights[5..9] } else { &lights });
+    }
+    let mesh = Mesh::build(vec![crate::dome::dome()]).unwrap();
+    assert!(mesh.faces.len() > 199_000);
+    agree("dome", &mesh, &all_around(&mesh)[3..8]);
+}
+
+#[test]
+fn the_hierarchy_looks_at_little() {
+    let mut meshes = vec![("dome", Mesh::build(vec![crate::dome::dome()]).unwrap())];
+    for name in ["tower", "industry", "headquarters"] {
+        let folder = std::path::PathBuf::from(format!("sites/{name}"));
+        let site = gnomon::site::Site::load(&folder, &gnomon::site::Overrides::default()).unwrap();
+        meshes.push((name, site.mesh.of_components(&site.casts)));
+    }
+    for (name, mesh) in meshes {
+        let mut finder = Kind::Hierarchy.build(&mesh);
+        for light in all_around(&mesh).into_iter().filter(|light| light.w == 0.0 && light.z > 0.05) {
+            let looked = finder.find(&mesh, light, &mut Vec::new());
+            println!("{name}: {looked:?}, {:.1} a find", looked.at as f64 / looked.found as f64);
+            assert!(looked.at <= 10 * looked.found, "{name} under {light}: {looked:?}");
+        }
+    }
+}
+
+#[test]
+fn unequal_silhouettes_are_seen() {
+    let mesh = Mesh::build(vec![cuboid("box", dvec3(-3.0, -4.0, 0.0), dvec3(3.0, 4.0, 7.0))]).unwrap();
+    let edges = found(&mesh, dvec4(0.3, 0.4, 0.8, 0.0));
+    assert!(equal(&edges, &edges.iter().rev().copied().collect::<Vec<_>>()));
+    let mut turned = edges.clone();
+    turned[3].reverse();
+    assert!(!equal(&edges, &turned));
+    assert!(!equal(&edges, &edges[1..]));
+    turned.swap(0, 3);
+    assert!(in_rows(&edges) && !in_rows(&turned));
+}
+
 #[test]
 fn modelled_meshes_close() {
     for (name, mesh) in modelled() {
+        agree(name, &mesh, &all_around(&mesh));
         for light in [dvec4(0.31, 0.22, 0.83, 0.0), dvec4(-0.8, 0.1, 0.05, 0.0), dvec4(3.1, -2.2, 9.4, 1.0)] {
             check(name, &mesh, light);
         }
@@ -150,5 +253,6 @@ proptest! {
     #[test]
     fn any_mesh_under_any_light_closes(mesh in soup(), light in light()) {
         check("soup", &mesh, light);
+        agree("soup", &mesh, &[light]);
     }
 }

@@ -1,0 +1,169 @@
+//! The finders side by side: `cargo bench --bench silhouettes`. Prints tables in Markdown.
+//!
+//! Per model: building time and memory, nodes and edges (or classes) looked at for each one found, and the time of a
+//! query, the median over the instants of the site's study. All finders answer the same instant one after the other, so
+//! ratios hold whatever else the machine does. `docs/benchmarks/silhouettes.md` keeps a run with its machine.
+//! `-- --copies 10,100` adds `headquarters` copied so often.
+
+#[path = "../tests/dome.rs"]
+mod dome;
+
+use glam::{DVec3, DVec4, dvec3};
+use gnomon::mesh::{Mesh, Part};
+use gnomon::silhouette::hierarchy::Hierarchy;
+use gnomon::silhouette::{DirectedEdge, Kind, Looked, SilhouetteFinder, hextree};
+use gnomon::site::{Overrides, Site};
+use std::path::Path;
+use std::time::Instant;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    // `cargo test --benches` only asks whether it runs
+    if arguments.iter().any(|argument| argument == "--test") {
+        return;
+    }
+    let copies = arguments.iter().position(|argument| argument == "--copies").and_then(|at| arguments.get(at + 1));
+    println!(
+        "| model | casting triangles | edges | silhouette | finder | built, ms | MiB | looked at | found | looked at a find | query, ms | of brute force |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
+    for name in ["tower", "industry", "headquarters"] {
+        let (mesh, suns) = site(name, None);
+        rows(name, &mesh, &suns);
+    }
+    let (everything, suns) = site("headquarters", Some(()));
+    rows("headquarters, all cast", &everything, &suns);
+    rows("dome", &Mesh::build(vec![dome::dome()]).expect("a dome"), &suns);
+    for copies in copies.into_iter().flat_map(|list| list.split(',')) {
+        let copies: usize = copies.parse().expect("--copies takes numbers");
+        rows(&format!("headquarters × {copies}"), &copied(&everything, copies), &suns[..suns.len().min(3)]);
+    }
+    println!("\nMedians over the instants. Classes: edges that answer together count once.");
+}
+
+/// A site's casters and its suns; with `all`, every component casts.
+fn site(name: &str, all: Option<()>) -> (Mesh, Vec<DVec4>) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
+    let file = if all.is_none() && name == "headquarters" { folder.join("facade-and-concrete.toml") } else { folder };
+    let site = Site::load(&file, &Overrides::default()).expect("a sample site");
+    let mesh = site.mesh.of_components(&site.casts);
+    let suns = site.track.instants.iter().filter(|instant| !instant.night);
+    (mesh.clone(), suns.map(|instant| mesh.local_light(instant.to_sun.extend(0.0))).collect())
+}
+
+/// Copies in a square, whole metres apart.
+fn copied(mesh: &Mesh, copies: usize) -> Mesh {
+    let (low, high) = mesh.bounds().expect("a mesh with faces");
+    let pitch = ((high - low) * 1.2).ceil();
+    let side = (copies as f64).sqrt().ceil() as usize;
+    let part = |copy: usize, component: &gnomon::mesh::Component| {
+        let moved = dvec3((copy % side) as f64 * pitch.x, (copy / side) as f64 * pitch.y, 0.0) + mesh.origin;
+        let faces = component.faces.start as usize..component.faces.end as usize;
+        let corners = faces.clone().flat_map(|face| mesh.corners(face));
+        Part {
+            name: component.name.clone(),
+            positions: corners.map(|corner| corner.as_dvec3() + moved).collect::<Vec<DVec3>>(),
+            triangles: (0..faces.len() as u32).map(|face| [face * 3, face * 3 + 1, face * 3 + 2]).collect(),
+            ..Part::default()
+        }
+    };
+    let parts = (0..copies).flat_map(|copy| mesh.components.iter().map(move |component| part(copy, component)));
+    Mesh::build(parts.collect()).expect("a mesh")
+}
+
+/// Milliseconds of a call, and its result.
+fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let start = Instant::now();
+    let result = work();
+    (start.elapsed().as_secs_f64() * 1e3, result)
+}
+
+fn median(mut calls: Vec<f64>) -> f64 {
+    calls.sort_by(f64::total_cmp);
+    calls.get(calls.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// A finder with its name, the time it took to build, and its size.
+struct Entry {
+    name: String,
+    built: f64,
+    bytes: usize,
+    /// Appends the silhouette, or for the hierarchy's runs nothing.
+    query: Box<dyn FnMut(&Mesh, DVec4, &mut Vec<DirectedEdge>) -> Looked>,
+    times: Vec<f64>,
+    looked: Vec<(usize, usize)>,
+}
+
+fn entries(mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
+    let entry = |name: &str, built, bytes, query| Entry {
+        name: name.into(),
+        built,
+        bytes,
+        query,
+        times: Vec::new(),
+        looked: Vec::new(),
+    };
+    let mut entries = Vec::new();
+    let mut brute = Kind::BruteForce.build(mesh);
+    entries.push(entry("brute force", 0.0, 0, Box::new(move |mesh, sun, out| brute.find(mesh, sun, out))));
+    for depth in [hextree::PAPER_DEPTH, hextree::DEEPEST] {
+        let (built, mut tree) = timed(|| hextree::Hextree::new(mesh, depth));
+        let bytes = tree.bytes();
+        let query = Box::new(move |mesh: &Mesh, sun, out: &mut Vec<_>| tree.find(mesh, sun, out));
+        entries.push(entry(&format!("hextree, depth {depth}"), built, bytes, query));
+    }
+    let (built, mut hierarchy) = timed(|| {
+        let mut hierarchy = Hierarchy::default();
+        hierarchy.classes(mesh, sun);
+        hierarchy
+    });
+    let bytes = hierarchy.classes(mesh, sun).bytes();
+    let query = Box::new(move |mesh: &Mesh, sun, out: &mut Vec<_>| hierarchy.find(mesh, sun, out));
+    entries.push(entry("hierarchy, edges", built, bytes, query));
+    let mut hierarchy = Hierarchy::default();
+    hierarchy.classes(mesh, sun);
+    let mut runs = Vec::new();
+    let query = Box::new(move |mesh: &Mesh, sun, _: &mut Vec<_>| {
+        runs.clear();
+        hierarchy.classes(mesh, sun).ask(sun, &mut runs)
+    });
+    entries.push(entry("hierarchy, runs", built, bytes, query));
+    entries
+}
+
+fn rows(model: &str, mesh: &Mesh, suns: &[DVec4]) {
+    let mut entries = entries(mesh, suns[0]);
+    let mut found = Vec::new();
+    let mut silhouette = Vec::new();
+    for _ in 0..3 {
+        for &sun in suns {
+            for entry in &mut entries {
+                found.clear();
+                let (time, looked) = timed(|| (entry.query)(mesh, sun, &mut found));
+                entry.times.push(time);
+                entry.looked.push((looked.at, looked.found));
+                if !found.is_empty() {
+                    silhouette.push(found.len());
+                }
+            }
+        }
+    }
+    silhouette.sort_unstable();
+    let silhouette = silhouette[silhouette.len() / 2];
+    let brute = median(entries[0].times.clone());
+    for mut entry in entries {
+        entry.looked.sort_unstable();
+        let (at, found) = entry.looked[entry.looked.len() / 2];
+        let time = median(entry.times);
+        println!(
+            "| {model} | {} | {} | {silhouette} | {} | {:.1} | {:.1} | {at} | {found} | {:.1} | {time:.3} | {:.3} |",
+            mesh.faces.len(),
+            mesh.edges.len(),
+            entry.name,
+            entry.built,
+            entry.bytes as f64 / f64::from(1 << 20),
+            at as f64 / found.max(1) as f64,
+            time / brute
+        );
+    }
+}

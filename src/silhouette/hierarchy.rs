@@ -1,0 +1,288 @@
+//! The hextree's successor: classes of edges that answer together, under a bounding hierarchy.
+//!
+//! As in [`super::hextree`], an edge between two faces is a segment of the dual space, and silhouette when the light's
+//! hyperplane separates the ends. Three things are different.
+//!
+//! - An edge between faces of one plane never enters: its two ends are one point.
+//! - Edges whose segments are equal are one **class**, which is tested once and answers with a run of edges. For the sun,
+//!   w = 0, only normals matter, and buildings repeat theirs thousands of times. For a lamp the whole planes do.
+//! - Each node is bounded by a box around its own segments, whichever way they lie, so that none is stuck near the root
+//!   because it crosses a border there. Classes are split at the median of the widest extent of both ends.
+//!
+//! Suns and lamps have a hierarchy each, built when first asked.
+
+use super::hextree::Frame;
+use super::{DirectedEdge, Looked, SilhouetteFinder, append};
+use crate::mesh::{Mesh, plane_faces};
+use glam::{DVec4, Vec4};
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+use std::ops::Range;
+
+/// The finder: one hierarchy for suns and one for lamps.
+#[derive(Debug, Default)]
+pub struct Hierarchy {
+    suns: Option<Classes>,
+    lamps: Option<Classes>,
+}
+
+impl Hierarchy {
+    /// The classes that answer for a light, built when first asked.
+    pub fn classes(&mut self, mesh: &Mesh, local_light: DVec4) -> &Classes {
+        let of_suns = local_light.w == 0.0;
+        let classes = if of_suns { &mut self.suns } else { &mut self.lamps };
+        classes.get_or_insert_with(|| Classes::new(mesh, of_suns))
+    }
+}
+
+impl SilhouetteFinder for Hierarchy {
+    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked {
+        let classes = self.classes(mesh, local_light);
+        let mut runs = Vec::new();
+        let looked = classes.ask(local_light, &mut runs);
+        silhouette.reserve(runs.iter().map(|run| run.edges.len() * run.multiplicity.unsigned_abs() as usize).sum());
+        for Run { edges, multiplicity } in runs {
+            for &edge in &classes.edges[edges.start as usize..edges.end as usize] {
+                append(silhouette, edge, multiplicity);
+            }
+        }
+        looked
+    }
+}
+
+/// The edges of one mesh, grouped by what decides whether they are silhouette.
+#[derive(Debug)]
+pub struct Classes {
+    frame: Frame,
+    /// Distinct planes; for suns, distinct normals, with w = 0.
+    planes: Vec<DVec4>,
+    /// The root first, a node's first child right behind it.
+    nodes: Vec<Node>,
+    /// In the order of the leaves.
+    pairs: Vec<Pair>,
+    /// Classes that no segment stands for; every query tests them.
+    sums: Vec<Sum>,
+    /// Grouped by class.
+    edges: Vec<DirectedEdge>,
+}
+
+/// The answer of a class: its edges, and how often each stands in the silhouette, negative against its direction.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// Of [`Classes::edges`].
+    pub edges: Range<u32>,
+    /// As [`super::multiplicity`].
+    pub multiplicity: i32,
+}
+
+/// Edges between two planes: each plane's sum of directions is `times`, or `turned` for the second its opposite.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    planes: [u32; 2],
+    times: i32,
+    turned: bool,
+    first_edge: u32,
+    edges: u32,
+}
+
+/// Edges with any faces: the sum of directions in each plane.
+#[derive(Debug)]
+struct Sum {
+    terms: Vec<(u32, i32)>,
+    edges: Range<u32>,
+}
+
+/// A box around the segments of some classes.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    centre: Vec4,
+    half: Vec4,
+    /// Leaf: its first class. Else the second child.
+    at: u32,
+    /// Leaf: how many classes. Else 0.
+    classes: u32,
+}
+
+/// Classes a leaf: a box costs about as much to test as two classes.
+const LEAF: usize = 4;
+/// Boxes are taken this much wider, so that rounding in `f32` never prunes what the planes themselves would find.
+const MARGIN: f32 = 2e-6;
+
+impl Classes {
+    fn new(mesh: &Mesh, of_suns: bool) -> Classes {
+        let (planes, plane_of) = distinct_planes(mesh, of_suns);
+        let mut of_pairs: Vec<([u32; 2], i32, bool, DirectedEdge)> = Vec::new();
+        let mut of_sums: Vec<(Vec<(u32, i32)>, DirectedEdge)> = Vec::new();
+        for (at, &edge) in mesh.edges.iter().enumerate() {
+            let mut terms: Vec<(u32, i32)> = Vec::new();
+            for incidence in mesh.faces_at(at) {
+                let plane = plane_of[incidence.face() as usize];
+                match terms.iter_mut().find(|term| term.0 == plane) {
+                    Some(term) => term.1 += incidence.direction(),
+                    None => terms.push((plane, incidence.direction())),
+                }
+            }
+            terms.retain(|term| term.1 != 0);
+            terms.sort_unstable();
+            // one direction for all edges of a class
+            let against = terms.first().is_some_and(|term| term.1 < 0);
+            let edge = if against { [edge[1], edge[0]] } else { edge };
+            terms.iter_mut().for_each(|term| term.1 = if against { -term.1 } else { term.1 });
+            match *terms {
+                [] => (),
+                [one, other] if one.1 == other.1.abs() => {
+                    of_pairs.push(([one.0, other.0], one.1, other.1 < 0, edge));
+                }
+                _ => of_sums.push((terms, edge)),
+            }
+        }
+        of_pairs.par_sort_unstable();
+        of_sums.par_sort_unstable();
+
+        let frame = if of_suns { Frame::OF_SUNS } else { Frame::around(mesh) };
+        let mut edges = Vec::with_capacity(of_pairs.len() + of_sums.len());
+        let mut pairs = Vec::new();
+        for group in of_pairs.chunk_by(|a, b| (a.0, a.1, a.2) == (b.0, b.1, b.2)) {
+            let (planes, times, turned, _) = group[0];
+            pairs.push(Pair { planes, times, turned, first_edge: edges.len() as u32, edges: group.len() as u32 });
+            edges.extend(group.iter().map(|class| class.3));
+        }
+        let mut sums = Vec::new();
+        for group in of_sums.chunk_by(|a, b| a.0 == b.0) {
+            let first = edges.len() as u32;
+            edges.extend(group.iter().map(|class| class.1));
+            sums.push(Sum { terms: group[0].0.clone(), edges: first..edges.len() as u32 });
+        }
+        let mut classes = Classes { frame, planes, nodes: Vec::new(), pairs, sums, edges };
+        classes.bound();
+        classes
+    }
+
+    /// Builds the hierarchy over the pairs, and brings them into the order of its leaves.
+    fn bound(&mut self) {
+        let duals: Vec<DVec4> = self.planes.iter().map(|&plane| self.frame.dual(plane)).collect();
+        let mut segments: Vec<Segment> = self
+            .pairs
+            .iter()
+            .map(|pair| {
+                let [one, other] = pair.planes.map(|plane| duals[plane as usize].as_vec4());
+                Segment { ends: [one, if pair.turned { other } else { -other }], pair: *pair }
+            })
+            .collect();
+        if !segments.is_empty() {
+            bound(&mut segments, 0, &mut self.nodes);
+        }
+        self.pairs = segments.into_iter().map(|segment| segment.pair).collect();
+    }
+
+    /// The classes that are silhouette for a light around the mesh's origin.
+    pub fn ask(&self, local_light: DVec4, runs: &mut Vec<Run>) -> Looked {
+        let light = self.frame.light(local_light).as_vec4();
+        let light_abs = light.abs();
+        let facing = |plane: u32| if plane_faces(self.planes[plane as usize], local_light) { 1 } else { -1 };
+        let before = runs.len();
+        for sum in &self.sums {
+            let multiplicity = sum.terms.iter().map(|&(plane, times)| times * facing(plane)).sum();
+            if multiplicity != 0 {
+                runs.push(Run { edges: sum.edges.clone(), multiplicity });
+            }
+        }
+        let mut looked = Looked { at: self.sums.len(), found: 0 };
+        let mut waiting = Vec::with_capacity(64);
+        waiting.extend((!self.nodes.is_empty()).then_some(0));
+        while let Some(at) = waiting.pop() {
+            let node = &self.nodes[at as usize];
+            looked.at += 1;
+            if light.dot(node.centre).abs() > light_abs.dot(node.half) + MARGIN {
+                continue;
+            }
+            if node.classes == 0 {
+                waiting.extend([node.at, at + 1]);
+                continue;
+            }
+            looked.at += node.classes as usize;
+            for pair in &self.pairs[node.at as usize..][..node.classes as usize] {
+                let [one, other] = pair.planes.map(facing);
+                let multiplicity = pair.times * (one + if pair.turned { -other } else { other });
+                if multiplicity != 0 {
+                    runs.push(Run { edges: pair.first_edge..pair.first_edge + pair.edges, multiplicity });
+                }
+            }
+        }
+        looked.found = runs.len() - before;
+        looked
+    }
+
+    /// The edges, grouped by class.
+    pub fn edges(&self) -> &[DirectedEdge] {
+        &self.edges
+    }
+
+    /// How many classes there are.
+    pub fn count(&self) -> usize {
+        self.pairs.len() + self.sums.len()
+    }
+
+    /// Bytes that hierarchy, classes and edges take.
+    pub fn bytes(&self) -> usize {
+        let terms: usize = self.sums.iter().map(|sum| sum.terms.len()).sum();
+        self.planes.len() * size_of::<DVec4>()
+            + self.nodes.len() * size_of::<Node>()
+            + self.pairs.len() * size_of::<Pair>()
+            + self.sums.len() * size_of::<Sum>()
+            + terms * size_of::<(u32, i32)>()
+            + self.edges.len() * size_of::<DirectedEdge>()
+    }
+}
+
+/// A class while the hierarchy is built.
+#[derive(Clone, Copy)]
+struct Segment {
+    ends: [Vec4; 2],
+    pair: Pair,
+}
+
+/// Appends the nodes over some segments, and brings these into the order of the leaves.
+fn bound(segments: &mut [Segment], first: u32, nodes: &mut Vec<Node>) {
+    let extent = |end: usize| {
+        let ends = segments.iter().map(|segment| segment.ends[end]);
+        ends.fold((Vec4::INFINITY, Vec4::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
+    };
+    let extents = [extent(0), extent(1)];
+    let (low, high) = (extents[0].0.min(extents[1].0), extents[0].1.max(extents[1].1));
+    let index = nodes.len();
+    let leaf = segments.len() <= LEAF;
+    nodes.push(Node {
+        centre: (low + high) / 2.0,
+        half: (high - low) / 2.0,
+        at: first,
+        classes: if leaf { segments.len() as u32 } else { 0 },
+    });
+    if leaf {
+        return;
+    }
+    let spread = |end: usize, axis: usize| (extents[end].1 - extents[end].0)[axis];
+    let ways = (0..2).flat_map(|end| (0..4).map(move |axis| (end, axis)));
+    let (end, axis) = ways.max_by(|a, b| spread(a.0, a.1).total_cmp(&spread(b.0, b.1))).unwrap_or((0, 0));
+    let middle = segments.len() / 2;
+    segments.select_nth_unstable_by(middle, |a, b| a.ends[end][axis].total_cmp(&b.ends[end][axis]));
+    let (lower, upper) = segments.split_at_mut(middle);
+    bound(lower, first, nodes);
+    nodes[index].at = nodes.len() as u32;
+    bound(upper, first + middle as u32, nodes);
+}
+
+/// The planes that occur, for suns their normals alone, and per face which of them is its.
+fn distinct_planes(mesh: &Mesh, of_suns: bool) -> (Vec<DVec4>, Vec<u32>) {
+    let mut planes = Vec::new();
+    let mut known: FxHashMap<[u64; 4], u32> = FxHashMap::default();
+    let mut number = |plane: &DVec4| {
+        let plane = if of_suns { plane.truncate().extend(0.0) } else { *plane };
+        *known.entry(plane.to_array().map(f64::to_bits)).or_insert_with(|| {
+            planes.push(plane);
+            planes.len() as u32 - 1
+        })
+    };
+    let plane_of = mesh.planes.iter().map(&mut number).collect();
+    (planes, plane_of)
+}
