@@ -83,19 +83,21 @@ fn median(mut calls: Vec<f64>) -> f64 {
     calls.get(calls.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
+/// Appends the silhouette; asked for runs alone, nothing.
+type Query = Box<dyn FnMut(&Mesh, DVec4, &mut Vec<DirectedEdge>) -> Looked>;
+
 /// A finder with its name, the time it took to build, and its size.
 struct Entry {
     name: String,
     built: f64,
     bytes: usize,
-    /// Appends the silhouette, or for the hierarchy's runs nothing.
-    query: Box<dyn FnMut(&Mesh, DVec4, &mut Vec<DirectedEdge>) -> Looked>,
+    query: Query,
     times: Vec<f64>,
     looked: Vec<(usize, usize)>,
 }
 
 fn entries(mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
-    let entry = |name: &str, built, bytes, query| Entry {
+    let entry = |name: &str, built, bytes, query: Query| Entry {
         name: name.into(),
         built,
         bytes,

@@ -251,6 +251,17 @@ fn day_and_night(track: &SunTrack) -> Result<(u32, u32), StudyError> {
 /// Who draws: the stencil on the graphics adapter, or ray casting on the processor.
 struct Machine {
     gpu: Option<Arc<Gpu>>,
+    /// Of the stencil's silhouettes.
+    finder: Kind,
+}
+
+/// The finder asked. The hierarchy is the fastest on the processor (docs/benchmarks/silhouettes.md).
+fn finder(site: &Site) -> Kind {
+    match (site.finder, site.hextree_depth) {
+        (Finder::Brute, _) => Kind::BruteForce,
+        (Finder::Hextree, Some(depth)) => Kind::Hextree { depth },
+        (Finder::Hextree | Finder::Auto, _) => Kind::Hierarchy,
+    }
 }
 
 impl Machine {
@@ -258,7 +269,10 @@ impl Machine {
         match &self.gpu {
             Some(gpu) => Drawn {
                 technique: Method::Stencil.word(),
-                silhouette: Some(Finder::Brute.word()),
+                silhouette: Some(match self.finder {
+                    Kind::BruteForce => Finder::Brute.word(),
+                    Kind::Hextree { .. } | Kind::Hierarchy => Finder::Hextree.word(),
+                }),
                 engine: Engine::Gpu.word(),
                 adapter: Some(gpu.name().to_owned()),
             },
@@ -270,7 +284,7 @@ impl Machine {
 
     fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
         Ok(match &self.gpu {
-            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, Kind::BruteForce)?),
+            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, self.finder)?),
             None => Box::new(RayCast::new(scene, view)),
         })
     }
@@ -279,7 +293,8 @@ impl Machine {
 /// Technique and engine as asked; else the stencil on a real graphics adapter, and ray casting on the processor.
 fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
     let conflict = |option, what| Err(StudyError::Conflict { option, what });
-    let open = || Gpu::open().map(|gpu| Machine { gpu: Some(Arc::new(gpu)) });
+    let finder = finder(site);
+    let open = || Gpu::open().map(|gpu| Machine { gpu: Some(Arc::new(gpu)), finder });
     let machine = match (site.method, site.engine) {
         (Method::Stencil, Engine::Cpu) => {
             return conflict("--engine", "the technique stencil draws on the gpu; take --technique ray-cast with cpu");
@@ -287,11 +302,13 @@ fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError
         (Method::RayCast, Engine::Gpu) => {
             return conflict("--engine", "the technique ray-cast works on the cpu; take --technique stencil with gpu");
         }
-        (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => Machine { gpu: None },
+        (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => Machine { gpu: None, finder },
         (Method::Stencil, _) | (Method::Auto, Engine::Gpu) => open()?,
+        // silhouettes are asked, and only the stencil has them
+        (Method::Auto, Engine::Auto) if site.finder != Finder::Auto => open()?,
         (Method::Auto, Engine::Auto) => match open() {
             // measured (docs/benchmarks): a stencil drawn in software is slower than casting the rays outright
-            Ok(machine) if machine.gpu.as_ref().is_some_and(|gpu| gpu.software()) => Machine { gpu: None },
+            Ok(machine) if machine.gpu.as_ref().is_some_and(|gpu| gpu.software()) => Machine { gpu: None, finder },
             Ok(machine) => machine,
             Err(error) => {
                 let why = match error {
@@ -301,7 +318,7 @@ fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError
                     }
                 };
                 tell(on_event, Event::Note(format!("{why}: drawing on the processor")))?;
-                Machine { gpu: None }
+                Machine { gpu: None, finder }
             }
         },
     };

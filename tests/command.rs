@@ -184,6 +184,9 @@ fn choices_that_exclude_each_other_are_wrong_use() {
     fails(folder.path(), &format!("{at} --technique stencil --engine cpu"), 2, &["--engine", "ray-cast"]);
     fails(folder.path(), &format!("{at} --technique ray-cast --engine gpu"), 2, &["--engine", "stencil"]);
     fails(folder.path(), &format!("{at} --engine cpu --silhouette brute"), 2, &["--silhouette"]);
+    fails(folder.path(), &format!("{at} --hextree-depth 4"), 2, &["--hextree-depth", "--silhouette hextree"]);
+    fails(folder.path(), &format!("{at} --silhouette brute --hextree-depth 4"), 2, &["--hextree-depth"]);
+    fails(folder.path(), &format!("{at} --silhouette hextree --hextree-depth 9"), 2, &["--hextree-depth", "1..=8"]);
     assert!(!folder.path().join("mask.png").exists());
 }
 
@@ -194,8 +197,21 @@ fn the_graphics_adapter_is_named() {
         let options = format!("--engine gpu --size 64 --json --receivers {receivers}");
         let json: Value = serde_json::from_str(&done(folder.path(), &format!("profile . {options}"))).unwrap();
         assert_eq!((&json["technique"], &json["engine"]), (&"stencil".into(), &"gpu".into()));
-        assert_eq!((&json["silhouette"], json["adapter"].is_string()), (&"brute".into(), true));
+        assert_eq!((&json["silhouette"], json["adapter"].is_string()), (&"hextree".into(), true));
     }
+}
+
+#[test]
+fn every_finder_draws_the_same_mask_and_is_named() {
+    let folder = site();
+    let mut masks = Vec::new();
+    for (finder, name) in [("brute", "brute"), ("hextree", "hextree"), ("hextree --hextree-depth 2", "hextree")] {
+        let at = format!("shadow . --at 2026-09-18T15:00 --size 200 --mask m.png --silhouette {finder} --json");
+        let json: Value = serde_json::from_str(&done(folder.path(), &at)).unwrap();
+        assert_eq!((&json["technique"], &json["silhouette"]), (&"stencil".into(), &name.into()), "{finder}");
+        masks.push(std::fs::read(folder.path().join("m.png")).unwrap());
+    }
+    assert!(masks.iter().all(|mask| *mask == masks[0]));
 }
 
 /// A system whose only backend is one that it has not.

@@ -1,5 +1,6 @@
 //! The options, as the user writes them. Each stands with the subcommands that use it, and nowhere else.
 
+use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Receivers};
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use std::path::PathBuf;
@@ -86,9 +87,13 @@ pub(super) struct DrawArgs {
     /// auto, stencil or ray-cast
     #[arg(long, value_name = "NAME")]
     technique: Option<Method>,
-    /// auto or brute
+    /// auto, brute or hextree
     #[arg(long, value_name = "NAME")]
     silhouette: Option<Finder>,
+    /// With --silhouette hextree: the tree of the paper, so many levels deep (its own: 4), instead of its successor
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=i64::from(DEEPEST)),
+          allow_negative_numbers = true)]
+    hextree_depth: Option<u32>,
     /// auto, gpu or cpu
     #[arg(long, value_name = "NAME")]
     engine: Option<Engine>,
@@ -226,7 +231,8 @@ impl WindowArgs {
 
 impl DrawArgs {
     fn onto(&self, asked: Overrides) -> Overrides {
-        Overrides { technique: self.technique, silhouette: self.silhouette, engine: self.engine, ..asked }
+        let DrawArgs { technique, silhouette, hextree_depth, engine } = *self;
+        Overrides { technique, silhouette, hextree_depth, engine, ..asked }
     }
 }
 

@@ -30,6 +30,8 @@ pub struct Overrides {
     pub technique: Option<Method>,
     /// `--silhouette auto|…`
     pub silhouette: Option<Finder>,
+    /// `--hextree-depth N`, with `--silhouette hextree`
+    pub hextree_depth: Option<u32>,
     /// `--engine auto|gpu|cpu`
     pub engine: Option<Engine>,
     /// `--no-refraction`

@@ -1,12 +1,12 @@
 //! The request as written → as meant.
 
 use super::asked::{Overrides, refuse};
-use super::error::{SiteError, nearest};
+use super::error::{At, SiteError, nearest};
 use super::extent::{Bounds, with_shadows};
 use super::file::Names;
 use super::model::{self, ModelError, Placement};
 use super::written::Written;
-use super::{Method, Site, camera, keys, plan, study};
+use super::{Finder, Method, Site, camera, keys, plan, study};
 use crate::mesh::{Mesh, Part};
 use crate::sun::{Place, SunTrack};
 use glam::DVec3;
@@ -74,6 +74,10 @@ impl Site {
         // Cheap and quick to fail; models come last.
         let track = study::track(&place, &written, asked)?;
         let method = method(&written, asked)?;
+        if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
+            let what = "is the depth of the paper's hextree; say --silhouette hextree with it, or leave it out";
+            return Err(refuse(At::Option("--hextree-depth"), what));
+        }
         let level = written.site.ground.level;
         if let Some(level) = level.filter(|level| !level.is_finite()) {
             return Err(refuse(
@@ -113,6 +117,7 @@ impl Site {
             receivers: asked.receivers.unwrap_or_default(),
             method,
             finder: asked.silhouette.unwrap_or_default(),
+            hextree_depth: asked.hextree_depth,
             engine: asked.engine.unwrap_or_default(),
         })
     }

@@ -54,6 +54,8 @@ pub enum Finder {
     Auto,
     /// One pass over all edges.
     Brute,
+    /// A search in dual space: classes of edges under a hierarchy, or with a depth the paper's tree.
+    Hextree,
 }
 
 /// Which machine draws, as the user asked.
@@ -93,6 +95,8 @@ pub struct Site {
     pub method: Method,
     /// With which finder.
     pub finder: Finder,
+    /// The depth of the paper's hextree, where that was asked.
+    pub hextree_depth: Option<u32>,
     /// On which machine.
     pub engine: Engine,
 }
