@@ -42,8 +42,11 @@ impl SilhouetteFinder for Hierarchy {
         let looked = classes.ask(local_light, &mut runs);
         silhouette.reserve(runs.iter().map(|run| run.edges.len() * run.multiplicity.unsigned_abs() as usize).sum());
         for Run { edges, multiplicity } in runs {
-            for &edge in &classes.edges[edges.start as usize..edges.end as usize] {
-                append(silhouette, edge, multiplicity);
+            let edges = classes.edges[edges.start as usize..edges.end as usize].iter();
+            match multiplicity {
+                2 => silhouette.extend(edges.flat_map(|&edge| [edge; 2])),
+                -2 => silhouette.extend(edges.flat_map(|&[first, second]| [[second, first]; 2])),
+                _ => edges.for_each(|&edge| append(silhouette, edge, multiplicity)),
             }
         }
         looked
@@ -56,10 +59,12 @@ pub struct Classes {
     frame: Frame,
     /// Distinct planes; for suns, distinct normals, with w = 0.
     planes: Vec<DVec4>,
-    /// The root first, a node's first child right behind it.
+    /// The root first.
     nodes: Vec<Node>,
     /// In the order of the leaves.
     pairs: Vec<Pair>,
+    /// The dual of each pair, beside it.
+    segments: Vec<[Vec4; 2]>,
     /// Classes that no segment stands for; every query tests them.
     sums: Vec<Sum>,
     /// Grouped by class.
@@ -92,21 +97,26 @@ struct Sum {
     edges: Range<u32>,
 }
 
-/// A box around the segments of some classes, and a sphere in the same middle.
+/// Eight children: a box around the segments of each, and a sphere in the same middle. Their numbers lie side by side,
+/// as the processor takes them.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    centre: Vec4,
-    half: Vec4,
-    radius: f32,
-    /// Leaf: its first class. Else the second child.
-    at: u32,
+    centre: [[f32; WIDTH]; 4],
+    half: [[f32; WIDTH]; 4],
+    /// Below every distance where there is no child.
+    radius: [f32; WIDTH],
+    /// Leaf: its first class. Else a node.
+    at: [u32; WIDTH],
     /// Leaf: how many classes. Else 0.
-    classes: u32,
+    classes: [u32; WIDTH],
 }
 
+/// Children a node.
+const WIDTH: usize = 8;
 /// Classes a leaf, at most. From 3 to 10 the dome's queries look at much the same.
 const LEAF: usize = 8;
-/// Boxes are taken this much wider, so that rounding in `f32` never prunes what the planes themselves would find.
+/// What `f32` says of a sign is taken where it is this far from 0, for points and lights of length 1; else the planes
+/// themselves decide.
 const MARGIN: f32 = 2e-6;
 
 impl Classes {
@@ -154,7 +164,7 @@ impl Classes {
             edges.extend(group.iter().map(|class| class.1));
             sums.push(Sum { terms: group[0].0.clone(), edges: first..edges.len() as u32 });
         }
-        let mut classes = Classes { frame, planes, nodes: Vec::new(), pairs, sums, edges };
+        let mut classes = Classes { frame, planes, nodes: Vec::new(), pairs, segments: Vec::new(), sums, edges };
         classes.bound();
         classes
     }
@@ -162,56 +172,76 @@ impl Classes {
     /// Builds the hierarchy over the pairs, and brings them into the order of its leaves.
     fn bound(&mut self) {
         let duals: Vec<DVec4> = self.planes.iter().map(|&plane| self.frame.dual(plane)).collect();
-        let mut segments: Vec<Segment> = self
-            .pairs
-            .iter()
-            .map(|pair| {
-                let [one, other] = pair.planes.map(|plane| duals[plane as usize].as_vec4());
-                Segment { ends: [one, if pair.turned { other } else { -other }], pair: *pair }
-            })
-            .collect();
+        let dual = |pair: &Pair| {
+            let [one, other] = pair.planes.map(|plane| duals[plane as usize].as_vec4());
+            Segment { ends: [one, if pair.turned { other } else { -other }], pair: *pair }
+        };
+        let mut segments: Vec<Segment> = self.pairs.iter().map(dual).collect();
         if !segments.is_empty() {
             bound(&mut segments, 0, &mut self.nodes);
         }
-        self.pairs = segments.into_iter().map(|segment| segment.pair).collect();
+        self.pairs = segments.iter().map(|segment| segment.pair).collect();
+        self.segments = segments.iter().map(|segment| segment.ends).collect();
     }
 
     /// The classes that are silhouette for a light around the mesh's origin.
     pub fn ask(&self, local_light: DVec4, runs: &mut Vec<Run>) -> Looked {
-        let light = self.frame.light(local_light).as_vec4();
-        let light_abs = light.abs();
-        let facing = |plane: u32| if plane_faces(self.planes[plane as usize], local_light) { 1 } else { -1 };
         let before = runs.len();
         for sum in &self.sums {
+            let facing = |plane| self.facing(plane, local_light);
             let multiplicity = sum.terms.iter().map(|&(plane, times)| times * facing(plane)).sum();
             if multiplicity != 0 {
                 runs.push(Run { edges: sum.edges.clone(), multiplicity });
             }
         }
         let mut looked = Looked { at: self.sums.len(), found: 0 };
+        let light = self.frame.light(local_light).as_vec4();
         let mut waiting = Vec::with_capacity(64);
         waiting.extend((!self.nodes.is_empty()).then_some(0));
         while let Some(at) = waiting.pop() {
-            let node = &self.nodes[at as usize];
-            looked.at += 1;
-            if light.dot(node.centre).abs() > light_abs.dot(node.half).min(node.radius) + MARGIN {
-                continue;
-            }
-            if node.classes == 0 {
-                waiting.extend([node.at, at + 1]);
-                continue;
-            }
-            looked.at += node.classes as usize;
-            for pair in &self.pairs[node.at as usize..][..node.classes as usize] {
-                let [one, other] = pair.planes.map(facing);
-                let multiplicity = pair.times * (one + if pair.turned { -other } else { other });
-                if multiplicity != 0 {
-                    runs.push(Run { edges: pair.first_edge..pair.first_edge + pair.edges, multiplicity });
+            let node: &Node = &self.nodes[at as usize];
+            let distance = node.distances(light);
+            for child in 0..WIDTH {
+                looked.at += usize::from(node.radius[child] >= 0.0);
+                if distance[child] > MARGIN {
+                    continue;
+                }
+                let (at, classes) = (node.at[child], node.classes[child]);
+                if classes == 0 {
+                    waiting.push(at);
+                } else {
+                    looked.at += classes as usize;
+                    self.ask_pairs(at as usize..(at + classes) as usize, light, local_light, runs);
                 }
             }
         }
         looked.found = runs.len() - before;
         looked
+    }
+
+    fn ask_pairs(&self, leaf: Range<usize>, light: Vec4, local_light: DVec4, runs: &mut Vec<Run>) {
+        for (ends, pair) in self.segments[leaf.clone()].iter().zip(&self.pairs[leaf]) {
+            let [one, other] = ends.map(|end| light.dot(end));
+            let certain = one.abs().min(other.abs()) > MARGIN;
+            if certain && (one > 0.0) == (other > 0.0) {
+                continue;
+            }
+            let multiplicity = if certain {
+                // the ends lie on two sides: both planes' sums have the first one's sign
+                if one > 0.0 { 2 * pair.times } else { -2 * pair.times }
+            } else {
+                let [one, other] = pair.planes.map(|plane| self.facing(plane, local_light));
+                pair.times * (one + if pair.turned { -other } else { other })
+            };
+            if multiplicity != 0 {
+                runs.push(Run { edges: pair.first_edge..pair.first_edge + pair.edges, multiplicity });
+            }
+        }
+    }
+
+    /// +1 where the light is on the front side of a plane or in it, else −1.
+    fn facing(&self, plane: u32, local_light: DVec4) -> i32 {
+        if plane_faces(self.planes[plane as usize], local_light) { 1 } else { -1 }
     }
 
     /// The edges, grouped by class.
@@ -229,7 +259,7 @@ impl Classes {
         let terms: usize = self.sums.iter().map(|sum| sum.terms.len()).sum();
         self.planes.len() * size_of::<DVec4>()
             + self.nodes.len() * size_of::<Node>()
-            + self.pairs.len() * size_of::<Pair>()
+            + self.pairs.len() * (size_of::<Pair>() + size_of::<[Vec4; 2]>())
             + self.sums.len() * size_of::<Sum>()
             + terms * size_of::<(u32, i32)>()
             + self.edges.len() * size_of::<DirectedEdge>()
@@ -243,37 +273,76 @@ struct Segment {
     pair: Pair,
 }
 
-/// Appends the nodes over some segments, and brings these into the order of the leaves.
-fn bound(segments: &mut [Segment], first: u32, nodes: &mut Vec<Node>) {
-    let extent = |end: usize| {
-        let ends = segments.iter().map(|segment| segment.ends[end]);
-        ends.fold((Vec4::INFINITY, Vec4::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
-    };
-    let extents = [extent(0), extent(1)];
-    let (low, high) = (extents[0].0.min(extents[1].0), extents[0].1.max(extents[1].1));
-    let index = nodes.len();
-    let leaf = segments.len() <= LEAF;
-    let centre = (low + high) / 2.0;
-    let ends = segments.iter().flat_map(|segment| segment.ends);
-    nodes.push(Node {
-        centre,
-        half: (high - low) / 2.0,
-        radius: ends.map(|end| end.distance(centre)).fold(0.0, f32::max),
-        at: first,
-        classes: if leaf { segments.len() as u32 } else { 0 },
-    });
-    if leaf {
-        return;
+impl Node {
+    /// Per child, how far the hyperplane of a light passes its box, or its sphere; not above 0 where it crosses both.
+    fn distances(&self, light: Vec4) -> [f32; WIDTH] {
+        let (light, light_abs) = (light.to_array(), light.abs().to_array());
+        let mut distance = [0.0; WIDTH];
+        for child in 0..WIDTH {
+            let (mut along, mut half) = (0.0, 0.0);
+            for axis in 0..4 {
+                along += light[axis] * self.centre[axis][child];
+                half += light_abs[axis] * self.half[axis][child];
+            }
+            distance[child] = along.abs() - f32::min(half, self.radius[child]);
+        }
+        distance
     }
-    let spread = |end: usize, axis: usize| (extents[end].1 - extents[end].0)[axis];
+}
+
+/// Appends the node over some segments and those below it, and brings the segments into the order of the leaves.
+fn bound(segments: &mut [Segment], first: u32, nodes: &mut Vec<Node>) {
+    let nothing = [0.0; WIDTH];
+    let index = nodes.len();
+    nodes.push(Node {
+        centre: [nothing; 4],
+        half: [nothing; 4],
+        radius: [f32::NEG_INFINITY; WIDTH],
+        at: [0; WIDTH],
+        classes: [0; WIDTH],
+    });
+    let mut at = first;
+    for (child, part) in parts(segments, WIDTH).into_iter().enumerate() {
+        let ends = || part.iter().flat_map(|segment| segment.ends);
+        let (low, high) = extent(ends());
+        let centre = (low + high) / 2.0;
+        let node = &mut nodes[index];
+        for axis in 0..4 {
+            node.centre[axis][child] = centre[axis];
+            node.half[axis][child] = (high[axis] - low[axis]) / 2.0;
+        }
+        node.radius[child] = ends().map(|end| end.distance(centre)).fold(0.0, f32::max);
+        let count = part.len() as u32;
+        if part.len() <= LEAF {
+            (node.at[child], node.classes[child]) = (at, count);
+        } else {
+            nodes[index].at[child] = nodes.len() as u32;
+            bound(part, at, nodes);
+        }
+        at += count;
+    }
+}
+
+/// Halves segments at the median of the widest extent of either end, again and again, into so many parts at the most.
+fn parts(segments: &mut [Segment], most: usize) -> Vec<&mut [Segment]> {
+    if most < 2 || segments.len() <= LEAF {
+        return vec![segments];
+    }
+    let extents = [0, 1].map(|end| extent(segments.iter().map(|segment| segment.ends[end])));
+    let spread = |(end, axis): (usize, usize)| (extents[end].1 - extents[end].0)[axis];
     let ways = (0..2).flat_map(|end| (0..4).map(move |axis| (end, axis)));
-    let (end, axis) = ways.max_by(|a, b| spread(a.0, a.1).total_cmp(&spread(b.0, b.1))).unwrap_or((0, 0));
+    let (end, axis) = ways.max_by(|&a, &b| spread(a).total_cmp(&spread(b))).unwrap_or((0, 0));
     let middle = segments.len() / 2;
     segments.select_nth_unstable_by(middle, |a, b| a.ends[end][axis].total_cmp(&b.ends[end][axis]));
     let (lower, upper) = segments.split_at_mut(middle);
-    bound(lower, first, nodes);
-    nodes[index].at = nodes.len() as u32;
-    bound(upper, first + middle as u32, nodes);
+    let mut halves = parts(lower, most / 2);
+    halves.extend(parts(upper, most / 2));
+    halves
+}
+
+/// The corners of a box around points.
+fn extent(points: impl Iterator<Item = Vec4>) -> (Vec4, Vec4) {
+    points.fold((Vec4::INFINITY, Vec4::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
 }
 
 /// The planes that occur, for suns their normals alone, and per face which of them is its.
