@@ -200,10 +200,9 @@ impl Classes {
         waiting.extend((!self.nodes.is_empty()).then_some(0));
         while let Some(at) = waiting.pop() {
             let node: &Node = &self.nodes[at as usize];
-            let distance = node.distances(light);
-            for child in 0..WIDTH {
+            for (child, distance) in node.distances(light).into_iter().enumerate() {
                 looked.at += usize::from(node.radius[child] >= 0.0);
-                if distance[child] > MARGIN {
+                if distance > MARGIN {
                     continue;
                 }
                 let (at, classes) = (node.at[child], node.classes[child]);
@@ -277,16 +276,14 @@ impl Node {
     /// Per child, how far the hyperplane of a light passes its box, or its sphere; not above 0 where it crosses both.
     fn distances(&self, light: Vec4) -> [f32; WIDTH] {
         let (light, light_abs) = (light.to_array(), light.abs().to_array());
-        let mut distance = [0.0; WIDTH];
-        for child in 0..WIDTH {
+        std::array::from_fn(|child| {
             let (mut along, mut half) = (0.0, 0.0);
             for axis in 0..4 {
                 along += light[axis] * self.centre[axis][child];
                 half += light_abs[axis] * self.half[axis][child];
             }
-            distance[child] = along.abs() - f32::min(half, self.radius[child]);
-        }
-        distance
+            along.abs() - f32::min(half, self.radius[child])
+        })
     }
 }
 
