@@ -5,7 +5,7 @@ use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::{file, volumes};
 use crate::site::Site;
-use crate::study::{Event, StudyError};
+use crate::study::{self, Event, StudyError};
 use crate::volume::solid;
 use std::path::Path;
 
@@ -27,11 +27,14 @@ pub(super) fn volumes(asked: &VolumesArgs) -> anyhow::Result<()> {
         );
     }
     file::check_folder(out.parent().unwrap_or(Path::new("")))?;
-    interrupt::check()?;
+    let mut progress = Progress::new(asked.common.quiet);
+    study::note_distance(&site, &mut |event| {
+        progress.hear(&event);
+        interrupt::flow()
+    })?;
 
     let found = solid::solids(&site.mesh, &site.casts, instant.to_sun, site.ground)?;
     interrupt::check()?;
-    let mut progress = Progress::new(asked.common.quiet);
     let mut note = |text: String| progress.hear(&Event::Note(text));
     match found.left_out {
         0 => (),

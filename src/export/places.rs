@@ -29,9 +29,8 @@ pub(super) const KINDS: [Kind; 6] = [
         count: |part| part.t_junctions,
         meaning: "corners within an open edge that is not split there: the faces only seem to meet",
         places: |places, most| {
-            let words = |at: DVec3, edge: &EdgePlace| {
-                format!("corner at {} within the {}", point(at, edge.length_m), line("edge", edge))
-            };
+            let words =
+                |at: DVec3, edge: &EdgePlace| format!("corner at {} within the {}", point(at), line("edge", edge));
             let found = places.t_junctions.iter().take(most);
             found.map(|found| (found.edge.length_m, words(found.at, &found.edge))).collect()
         },
@@ -77,8 +76,8 @@ pub(super) fn frame(frame: Frame) -> &'static str {
 
 fn open(place: &OpenPlace) -> String {
     let OpenPlace { kind, edges, length_m, from, to, near } = place;
-    let (long, near) = (length(*length_m), point(*near, *length_m));
-    let [from, to] = [from, to].map(|end| point(*end, *length_m));
+    let (long, near) = (length(*length_m), point(*near));
+    let [from, to] = [from, to].map(|end| point(*end));
     match kind {
         OpenKind::Edge => format!("open edge {long} long from {from} to {to}"),
         OpenKind::Hole => format!("a hole of {edges} edges, {long} around, near {near}"),
@@ -93,11 +92,11 @@ fn open(place: &OpenPlace) -> String {
 }
 
 fn line(what: &str, EdgePlace { from, to, length_m, .. }: &EdgePlace) -> String {
-    format!("{what} {} long from {} to {}", length(*length_m), point(*from, *length_m), point(*to, *length_m))
+    format!("{what} {} long from {} to {}", length(*length_m), point(*from), point(*to))
 }
 
 fn triangle(FacePlace { near, length_m }: &FacePlace) -> (f64, String) {
-    (*length_m, format!("triangle {} long near {}", length(*length_m), point(*near, *length_m)))
+    (*length_m, format!("triangle {} long near {}", length(*length_m), point(*near)))
 }
 
 /// Metres, or millimetres where it is short.
@@ -105,14 +104,11 @@ fn length(metres: f64) -> String {
     if metres < 0.1 { format!("{:.1} mm", metres * 1000.0) } else { format!("{metres:.2} m") }
 }
 
-/// To the centimetre; beside something short to the millimetre.
-fn point(at: DVec3, length_m: f64) -> String {
-    let decimals = if length_m < 1.0 { 3 } else { 2 };
-    let to = 10f64.powi(decimals);
+/// To the millimetre.
+fn point(at: DVec3) -> String {
     // + 0 makes −0 into 0
-    let [x, y, z] = at.to_array().map(|metres| (metres * to).round() / to + 0.0);
-    let decimals = decimals as usize;
-    format!("({x:.decimals$}, {y:.decimals$}, {z:.decimals$})")
+    let [x, y, z] = at.to_array().map(|metres| (metres * 1e3).round() / 1e3 + 0.0);
+    format!("({x:.3}, {y:.3}, {z:.3})")
 }
 
 /// The places of a component in JSON: a list a kind that it has.

@@ -54,8 +54,12 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// The file: one scene, and in it for each solid a node with the caster's name, whose `extras` say when it was shaded.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where it would be 4 GiB or larger, before memory for it is taken.
+/// [`ExportError::Encode`] where there is no solid, or where the file would be 4 GiB or larger: before memory is taken.
 pub fn glb(volumes: &Volumes<'_>) -> Result<Vec<u8>, ExportError> {
+    // The format allows no empty list, and nobody wants an empty file.
+    if volumes.solids.is_empty() {
+        return Err(refused("nothing above the ground casts a shadow; check `level` of the ground, and `casts`"));
+    }
     let size = |solid: &Solid| 12 * (solid.vertices.len() as u64 + solid.triangles.len() as u64);
     let data: u64 = volumes.solids.iter().map(size).sum();
     let document = serde_json::to_vec(&document(volumes)).map_err(refused)?;
@@ -70,8 +74,7 @@ pub fn glb(volumes: &Volumes<'_>) -> Result<Vec<u8>, ExportError> {
         bytes.extend(solid.triangles.iter().flatten().flat_map(|corner| corner.to_le_bytes()));
     }
     let header = Header { magic: *b"glTF", version: 2, length };
-    let bin = (!bytes.is_empty()).then_some(Cow::Owned(bytes));
-    Glb { header, json: Cow::Owned(document), bin }.to_vec().map_err(refused)
+    Glb { header, json: Cow::Owned(document), bin: Some(Cow::Owned(bytes)) }.to_vec().map_err(refused)
 }
 
 fn refused(why: impl ToString) -> ExportError {
@@ -92,10 +95,6 @@ fn document(volumes: &Volumes<'_>) -> Value {
             },
         }],
     });
-    // The format allows no empty list.
-    if volumes.solids.is_empty() {
-        return document;
-    }
     let (mut nodes, mut meshes, mut accessors, mut views) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut offset = 0;
     let mut view = |length: usize, target: u32| {

@@ -127,6 +127,10 @@ fn place(mesh: &Mesh, group: &Group) -> OpenPlace {
 /// Below this part of its squared length the area of a ring is none.
 const NO_AREA: f64 = 1e-5;
 
+/// A sheet is this flat at its rim: the cosine of the angle to its border's plane, about 25°. The flared foot of a statue is
+/// no sheet.
+const SHEET: f64 = 0.9;
+
 /// Hole, rim or seam. The area within a ring, run around as its faces do, looks to the side of their front where they
 /// lie inside the ring, and away from it where they lie around it.
 fn ring(mesh: &Mesh, group: &Group, middle: DVec3, length_m: f64) -> OpenKind {
@@ -143,7 +147,7 @@ fn ring(mesh: &Mesh, group: &Group, middle: DVec3, length_m: f64) -> OpenKind {
     }
     if group.has_junction && area.length() <= NO_AREA * length_m * length_m {
         OpenKind::Seam
-    } else if area.dot(front) > 0.5 * area.length() * weight {
+    } else if area.dot(front) > SHEET * area.length() * weight {
         OpenKind::Rim
     } else {
         OpenKind::Hole
