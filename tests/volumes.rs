@@ -71,10 +71,11 @@ fn counts_faces(mesh: &Mesh, solid: &Solid, to_sun: DVec3, ground: f64) -> Resul
     let keep: Vec<bool> = (0..mesh.components.len()).map(|at| at == solid.component).collect();
     let caster = mesh.of_components(&keep);
     let report = &report::components(&caster)[0];
-    // boxes here are wound well, so closed means that the faces towards the sun cast
+    // a closed component casts with the half of its faces through which its inside sees the sun
     let facing = caster.facing(to_sun.extend(0.0));
-    let half = report.closed && report.crowded_edges == 0 && volume_of(&caster) >= 0.0;
-    let casting = caster.of_faces(|face| !half || facing[face as usize]);
+    let half = report.closed && report.crowded_edges == 0;
+    let outwards = volume_of(&caster) >= 0.0;
+    let casting = caster.of_faces(|face| !half || facing[face as usize] == outwards);
     let rays = RayCaster::new(&casting, 100.0);
     let wrong = |point: DVec3| {
         let count = rays.crossings(point - mesh.origin, to_sun);
