@@ -209,7 +209,10 @@ pub fn instant(
 const FAR_M: f64 = 20_000.0;
 
 /// Says when models stand far from the place whose sun shines on them: a file in map coordinates, as a rule.
-fn note_distance(site: &Site, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+///
+/// # Errors
+/// [`StudyError::Interrupted`] as asked by the listener.
+pub fn note_distance(site: &Site, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let distance = site.mesh.origin.truncate().length();
     if distance > FAR_M {
         tell(

@@ -15,7 +15,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("shadow", &["mesh", "sun", "view", "silhouette", "volume", "gpu"]),
     ("profile", &["sun", "view", "gpu", "shadow"]),
     ("study", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
-    ("export", &["mesh", "sun", "view", "site", "profile"]),
+    ("export", &["mesh", "sun", "view", "site", "volume", "profile"]),
     ("cli", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export"]),
 ];
 
@@ -30,7 +30,7 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
     ("io::stderr", &["cli", "main"], "only faces print"),
     ("clap::", &["cli"], "only faces read the command line"),
     ("toml::", &["site"], "only site reads what the user wrote"),
-    ("gltf::", &["site"], "only site reads what the user wrote"),
+    ("gltf::", &["site", "export"], "only site reads what the user wrote, and only export writes"),
     ("fs::read", &["site"], "only site reads what the user wrote"),
     ("File::open", &["site"], "only site reads what the user wrote"),
     ("SystemTime::now", &[], "nothing reads the clock"),

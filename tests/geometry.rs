@@ -50,7 +50,7 @@ fn sphere(radius: f64, around: u32, rings: u32) -> Part {
 
 /// Triangles between few points, so that edges are open, shared, crowded and run both ways; some repeat and some
 /// collapse.
-fn soup() -> impl Strategy<Value = Mesh> {
+pub(crate) fn soup() -> impl Strategy<Value = Mesh> {
     (4_usize..12).prop_flat_map(|points| {
         let position = prop::array::uniform3(-5.0..5.0);
         let corner = 0..points as u32;

@@ -13,3 +13,4 @@ mod site;
 mod sites;
 mod sums;
 mod sun;
+mod volumes;

@@ -23,6 +23,8 @@ pub(super) enum Command {
     Sun(SunArgs),
     /// What a model's mesh is: components, triangles, open, crowded, flipped and degenerate parts
     Check(CheckArgs),
+    /// The shadow volumes at one instant as solids down to the ground, in a .glb for other programs
+    Volumes(VolumesArgs),
 }
 
 impl Command {
@@ -32,6 +34,7 @@ impl Command {
             Command::Shadow(asked) => &asked.common,
             Command::Sun(asked) => &asked.common,
             Command::Check(asked) => &asked.common,
+            Command::Volumes(asked) => &asked.common,
         }
     }
 }
@@ -216,6 +219,23 @@ pub(super) struct CheckArgs {
     pub(super) common: Common,
 }
 
+#[derive(Debug, Args)]
+pub(super) struct VolumesArgs {
+    #[command(flatten)]
+    pub(super) site: SiteArgs,
+    /// The instant, local clock time: 2026-09-18T15:00
+    #[arg(long, value_name = "T", required = true, allow_hyphen_values = true)]
+    at: String,
+    /// The date of an instant without one: 2026-09-18
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    date: Option<String>,
+    /// The file
+    #[arg(long, value_name = "FILE.glb", default_value = "volumes.glb")]
+    pub(super) out: PathBuf,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
 impl SiteArgs {
     fn overrides(&self) -> Overrides {
         Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..Overrides::default() }
@@ -259,5 +279,11 @@ impl ShadowArgs {
 impl SunArgs {
     pub(super) fn overrides(&self) -> Overrides {
         Overrides { at: self.at.clone(), ..self.window.onto(self.site.overrides()) }
+    }
+}
+
+impl VolumesArgs {
+    pub(super) fn overrides(&self) -> Overrides {
+        Overrides { at: Some(self.at.clone()), date: self.date.clone(), ..self.site.overrides() }
     }
 }

@@ -165,13 +165,13 @@ pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
 
 /// `gnomon check`
 pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
-    let mesh = load_mesh(&asked.path)?;
+    let (mesh, frame) = load_mesh(&asked.path)?;
     interrupt::check()?;
     let components = mesh_report::components(&mesh);
     interrupt::check()?;
     match asked.common.json {
-        true => say(&check::json(&mesh, &components)?),
-        false => say(&check::table(&mesh, &components)),
+        true => say(&check::json(&mesh, &components, frame)?),
+        false => say(&check::table(&mesh, &components, frame)),
     }
 }
 

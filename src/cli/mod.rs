@@ -6,6 +6,7 @@ mod arguments;
 mod commands;
 mod interrupt;
 mod progress;
+mod volumes;
 
 use crate::site::SiteError;
 use crate::study::StudyError;
@@ -43,6 +44,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Shadow(asked) => commands::shadow(asked),
         Command::Sun(asked) => commands::sun(asked),
         Command::Check(asked) => commands::check(asked),
+        Command::Volumes(asked) => volumes::volumes(asked),
     }
 }
 

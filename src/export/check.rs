@@ -1,18 +1,26 @@
-//! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean.
+//! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the places
+//! that matter most.
 
+use super::places::{self, Kind};
 use super::{ExportError, report};
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
+use crate::site::Frame;
 use serde::Serialize;
+use serde_json::Value;
 use std::fmt::Write;
 
-/// Longer tables are cut; `--json` has all.
+/// A table is cut to about so many rows, a screen; `--json` has all.
 const MOST_ROWS: usize = 40;
+/// Rows that are always there, and those that a kind takes with its worst places.
+const FIXED_ROWS: usize = 9;
+const PLACES_A_KIND: usize = 3;
 
 #[derive(Serialize)]
 struct MeshReport<'a> {
     triangles: usize,
     vertices: usize,
+    frame: &'static str,
     components: Vec<ComponentLine<'a>>,
 }
 
@@ -26,13 +34,15 @@ struct ComponentLine<'a> {
     flipped_edges: usize,
     degenerate_triangles: usize,
     duplicate_triangles: usize,
+    t_junctions: usize,
+    places: Value,
 }
 
-/// `check --json`: triangles as the files have them, vertices as welded.
+/// `check --json`: triangles as the files have them, vertices as welded, and where what is wrong.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn json(mesh: &Mesh, components: &[ComponentReport]) -> Result<String, ExportError> {
+pub fn json(mesh: &Mesh, components: &[ComponentReport], frame: Frame) -> Result<String, ExportError> {
     let lines = components.iter().map(|component| ComponentLine {
         name: &component.name,
         triangles: component.triangles,
@@ -42,67 +52,87 @@ pub fn json(mesh: &Mesh, components: &[ComponentReport]) -> Result<String, Expor
         flipped_edges: component.flipped_edges,
         degenerate_triangles: component.degenerate_triangles,
         duplicate_triangles: component.duplicate_triangles,
+        t_junctions: component.t_junctions,
+        places: places::json(&component.places),
     });
     report::json(&MeshReport {
         triangles: triangles(components),
         vertices: mesh.vertices.len(),
+        frame: places::frame(frame),
         components: lines.collect(),
     })
 }
 
-/// A number of a row: its head, the number itself, and what it means.
-type Column = (&'static str, fn(&ComponentReport) -> usize, &'static str);
-
-const COLUMNS: [Column; 5] = [
-    ("open", |part| part.open_edges, "edges with one face: the part bounds no solid, something may be missing"),
-    ("crowded", |part| part.crowded_edges, "edges with more than two faces: walls meet inside of the part"),
-    ("flipped", |part| part.flipped_edges, "edges whose two faces look to different sides: one is wound wrongly"),
-    ("degenerate", |part| part.degenerate_triangles, "triangles without area"),
-    ("duplicate", |part| part.duplicate_triangles, "triangles that lie on another one"),
-];
-
-/// The totals, then a line a part that is not clean, then what the words mean; ends with a line break.
-pub fn table(mesh: &Mesh, components: &[ComponentReport]) -> String {
+/// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
+/// break.
+pub fn table(mesh: &Mesh, components: &[ComponentReport], frame: Frame) -> String {
     let mut table = format!(
         "{}, {}, {}\n",
         counted(components.len(), "component", "components"),
         counted(triangles(components), "triangle", "triangles"),
         counted(mesh.vertices.len(), "vertex", "vertices"),
     );
-    let dirty: Vec<_> = components.iter().filter(|component| !component.clean()).collect();
+    let mut dirty: Vec<_> = components.iter().filter(|component| !component.clean()).collect();
     if dirty.is_empty() {
         table.push_str("nothing wrong: every component is closed and well wound\n");
         return table;
     }
-    let shown = &dirty[..dirty.len().min(MOST_ROWS)];
-    let name = |component: &ComponentReport| component.name.replace(char::is_control, " ");
-    let width = shown.iter().map(|component| name(component).chars().count()).max().unwrap_or(0).max(9);
+    dirty.sort_by(|one, other| faulty_m(other).total_cmp(&faulty_m(one)));
+    let sum = |kind: &Kind| dirty.iter().map(|component| (kind.count)(component)).sum::<usize>();
+    let kinds: Vec<&Kind> = places::KINDS.iter().filter(|kind| sum(kind) > 0).collect();
+    rows(&mut table, &dirty, &kinds);
+    let clean = components.len() - dirty.len();
+    // Writing to a String cannot fail.
+    let _ = writeln!(table, "\n{} not clean, {clean} clean; where: {}", dirty.len(), places::frame(frame));
+    for kind in kinds {
+        let _ = writeln!(table, "{} ({}): {}", kind.head, sum(kind), kind.meaning);
+        let mut worst: Vec<(f64, &str, String)> = Vec::new();
+        for component in &dirty {
+            let places = (kind.places)(&component.places, PLACES_A_KIND);
+            worst.extend(places.into_iter().map(|(length_m, words)| (length_m, component.name.as_str(), words)));
+        }
+        worst.sort_by(|one, other| other.0.total_cmp(&one.0));
+        for (_, name, words) in worst.into_iter().take(PLACES_A_KIND) {
+            let _ = writeln!(table, "  {}: {words}", plain(name));
+        }
+    }
+    table.push_str("their shadows are right all the same: every triangle casts its own\n");
+    table
+}
+
+/// A line a component, the worst first.
+fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&Kind]) {
+    let most = MOST_ROWS.saturating_sub(FIXED_ROWS + kinds.len() * (1 + PLACES_A_KIND));
+    let shown = &dirty[..dirty.len().min(most)];
+    let width = shown.iter().map(|component| plain(&component.name).chars().count()).max().unwrap_or(0).max(9);
     // Writing to a String cannot fail.
     let _ = write!(table, "\n{:<width$}  {:>9}", "component", "triangles");
-    for (head, ..) in COLUMNS {
-        let _ = write!(table, "  {head:>10}");
+    for kind in kinds {
+        let _ = write!(table, "  {:>10}", kind.head);
     }
     table.push('\n');
     for component in shown {
-        let _ = write!(table, "{:<width$}  {:>9}", name(component), component.triangles);
-        for (_, count, _) in COLUMNS {
-            let _ = write!(table, "  {:>10}", count(component));
+        let _ = write!(table, "{:<width$}  {:>9}", plain(&component.name), component.triangles);
+        for kind in kinds {
+            let _ = write!(table, "  {:>10}", (kind.count)(component));
         }
         table.push('\n');
     }
     if dirty.len() > shown.len() {
         let _ = writeln!(table, "… and {} more; --json has all", dirty.len() - shown.len());
     }
-    let clean = components.len() - dirty.len();
-    let _ = writeln!(table, "\n{} not clean, {clean} clean", dirty.len());
-    for (head, count, meaning) in COLUMNS {
-        let sum: usize = dirty.iter().map(|component| count(component)).sum();
-        if sum > 0 {
-            let _ = writeln!(table, "{head} ({sum}): {meaning}");
-        }
-    }
-    table.push_str("their shadows are right all the same: every triangle casts its own\n");
-    table
+}
+
+/// How many metres of edges are at fault: by this the worst part stands first.
+fn faulty_m(component: &ComponentReport) -> f64 {
+    let places = &component.places;
+    let edges = places.crowded.iter().chain(&places.flipped).map(|edge| edge.length_m);
+    places.open.iter().map(|open| open.length_m).chain(edges).sum()
+}
+
+/// A name without what would break the line.
+fn plain(name: &str) -> String {
+    name.replace(char::is_control, " ")
 }
 
 fn triangles(components: &[ComponentReport]) -> usize {

@@ -1,12 +1,14 @@
-//! One answer in, one file out: drawings, rasters, reports.
+//! One answer in, one file out: drawings, rasters, solids, reports.
 //!
 //! Every encoder returns bytes and touches no disk; [`file::write`] puts them there, whole or not at all.
 
 pub mod check;
 pub mod figure;
 pub mod file;
+mod places;
 pub mod raster;
 pub mod report;
+pub mod volumes;
 
 use std::path::PathBuf;
 

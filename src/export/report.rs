@@ -61,7 +61,7 @@ struct SunReport<'a> {
 }
 
 #[derive(Serialize)]
-struct PlaceReport<'a> {
+pub(super) struct PlaceReport<'a> {
     name: &'a str,
     latitude: f64,
     longitude: f64,
@@ -221,7 +221,7 @@ pub(super) fn polar(day: &Day, track: &SunTrack) -> Option<Polar> {
     Some(if instant.night { Polar::Night } else { Polar::Day })
 }
 
-fn place_report(place: &Place) -> PlaceReport<'_> {
+pub(super) fn place_report(place: &Place) -> PlaceReport<'_> {
     PlaceReport {
         name: &place.name,
         latitude: place.latitude_deg,
@@ -252,7 +252,7 @@ fn day_report(day: &Day) -> DayReport {
 }
 
 /// RFC 3339 with the place's offset, whole seconds.
-fn stamp(time: &DateTime<Tz>) -> String {
+pub(super) fn stamp(time: &DateTime<Tz>) -> String {
     time.to_rfc3339_opts(SecondsFormat::Secs, false)
 }
 

@@ -41,20 +41,22 @@ fn name_runs(mesh: &mut Mesh) {
     }
 }
 
+/// Follows a forest of unions, in which each element leads to a lower one of its set, to the set's lowest.
+pub(super) fn lowest(above: &mut [u32], mut element: u32) -> u32 {
+    while above[element as usize] != element {
+        above[element as usize] = above[above[element as usize] as usize];
+        element = above[element as usize];
+    }
+    element
+}
+
 /// Per face, whether all edges of its shell have an even number of faces.
 pub(super) fn in_even_shells(mesh: &Mesh) -> Vec<bool> {
     // union by the lower face, so that every face leads downwards to its shell's first
     let mut above: Vec<u32> = (0..mesh.faces.len() as u32).collect();
-    fn first(above: &mut [u32], mut face: u32) -> u32 {
-        while above[face as usize] != face {
-            above[face as usize] = above[above[face as usize] as usize];
-            face = above[face as usize];
-        }
-        face
-    }
     for edge in 0..mesh.edges.len() {
         for pair in mesh.faces_at(edge).windows(2) {
-            let [one, other] = [pair[0], pair[1]].map(|incidence| first(&mut above, incidence.face()));
+            let [one, other] = [pair[0], pair[1]].map(|incidence| lowest(&mut above, incidence.face()));
             above[one.max(other) as usize] = one.min(other);
         }
     }
@@ -62,8 +64,8 @@ pub(super) fn in_even_shells(mesh: &Mesh) -> Vec<bool> {
     for edge in 0..mesh.edges.len() {
         let faces = mesh.faces_at(edge);
         if faces.len() % 2 == 1 {
-            even[first(&mut above, faces[0].face()) as usize] = false;
+            even[lowest(&mut above, faces[0].face()) as usize] = false;
         }
     }
-    (0..mesh.faces.len() as u32).map(|face| even[first(&mut above, face) as usize]).collect()
+    (0..mesh.faces.len() as u32).map(|face| even[lowest(&mut above, face) as usize]).collect()
 }

@@ -37,8 +37,8 @@ pub struct Component {
     pub faces: Range<u32>,
     /// Its edges.
     pub edges: Range<u32>,
-    /// Triangles that the file has and the mesh has not: welding made two of their corners one.
-    pub collapsed: u32,
+    /// Triangles that the file has and the mesh has not, as welding made two of their corners one: the lines that are left.
+    pub collapsed: Arc<[[u32; 2]]>,
 }
 
 /// A face at an edge: which one, and whether it runs along the edge (from its first vertex to its second) or against it.
@@ -128,7 +128,7 @@ impl Mesh {
                 aliases: part.aliases,
                 faces: first..faces.len() as u32,
                 edges: 0..0,
-                collapsed,
+                collapsed: collapsed.into(),
             });
         }
         let mut mesh = Mesh {

@@ -5,21 +5,22 @@ use glam::{DVec3, I64Vec3, Vec3};
 use rustc_hash::FxHashMap;
 
 /// How far apart two corners may lie and still be one vertex, as a part of the component's size.
-const TOLERANCE: f64 = 1e-6;
+pub(super) const TOLERANCE: f64 = 1e-6;
 
-/// Appends a part's vertices and faces to the mesh. Returns how many triangles collapsed, as two of their corners became one.
-pub(super) fn append(part: &Part, origin: DVec3, vertices: &mut Vec<Vec3>, faces: &mut Vec<[u32; 3]>) -> u32 {
+/// Appends a part's vertices and faces to the mesh. Returns the triangles that collapsed, as two of their corners became
+/// one, each as the line that is left.
+pub(super) fn append(part: &Part, origin: DVec3, vertices: &mut Vec<Vec3>, faces: &mut Vec<[u32; 3]>) -> Vec<[u32; 2]> {
     let low = part.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = part.positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
     let size = if low.x <= high.x { (high - low).length() } else { 0.0 };
     let mut welder = Welder::new((size * TOLERANCE) as f32, vertices);
     let vertex_of: Vec<u32> =
         part.positions.iter().map(|&position| welder.vertex((position - origin).as_vec3())).collect();
-    let mut collapsed = 0;
+    let mut collapsed = Vec::new();
     for triangle in &part.triangles {
         let face @ [a, b, c] = triangle.map(|corner| vertex_of[corner as usize]);
         if a == b || b == c || c == a {
-            collapsed += 1;
+            collapsed.push([a, if b == a { c } else { b }]);
         } else {
             faces.push(face);
         }

@@ -29,15 +29,24 @@ pub fn load_sun(path: &Path, asked: &Overrides) -> Result<(Place, SunTrack), Sit
     Ok((place, track))
 }
 
+/// Whose coordinates a mesh has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// East, north, up from the place's point: models as a site places them.
+    Place,
+    /// A model file's own axes, turned z up.
+    Model,
+}
+
 /// The models' mesh alone: of a model file as it is, or of a site's models where they stand. Place and study may be
 /// absent.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
-pub fn load_mesh(path: &Path) -> Result<Mesh, SiteError> {
+pub fn load_mesh(path: &Path) -> Result<(Mesh, Frame), SiteError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if matches!(extension.as_str(), "glb" | "gltf") && !path.is_dir() {
-        return Ok(Mesh::build(model::load(path, &Placement::default())?)?);
+        return Ok((Mesh::build(model::load(path, &Placement::default())?)?, Frame::Model));
     }
     let written = Written::read(path, &Overrides::default())?;
     if written.site.model.is_empty() {
@@ -47,7 +56,7 @@ pub fn load_mesh(path: &Path) -> Result<Mesh, SiteError> {
     for index in 0..written.site.model.len() {
         parts.extend(read(&written, index, &model::load)?);
     }
-    Ok(Mesh::build(parts)?)
+    Ok((Mesh::build(parts)?, Frame::Place))
 }
 
 impl Site {

@@ -18,7 +18,7 @@ mod written;
 pub use asked::Overrides;
 pub use choice::ChoiceError;
 pub use error::{At, SiteError};
-pub use load::{load_mesh, load_sun};
+pub use load::{Frame, load_mesh, load_sun};
 
 use crate::mesh::Mesh;
 use crate::sun::{Place, SunTrack};

@@ -3,7 +3,9 @@
 //! The volume of a mesh is the sum of the prisms behind its faces, each face turned towards the light: the
 //! **light cap** is the faces themselves, the walls hang from the silhouette, and (unless they reach to infinity)
 //! a **dark cap** closes their far ends. The count at a point is the number of faces that a ray to the light
-//! crosses, for closed, open and crowded meshes alike.
+//! crosses, for closed, open and crowded meshes alike. [`solid`] cuts volumes at the ground, for other programs.
+
+pub mod solid;
 
 use crate::mesh::Mesh;
 use crate::silhouette::{DirectedEdge, SilhouetteFinder};

@@ -1,0 +1,207 @@
+//! The shadow volumes as a model: a binary glTF 2.0 file with a node a caster, which any viewer of models opens.
+
+use super::report::{PlaceReport, place_report, stamp};
+use super::{ExportError, report};
+use crate::mesh::Mesh;
+use crate::sun::{Instant, Place};
+use crate::volume::solid::Solid;
+use glam::Vec3;
+use gltf::binary::{Glb, Header};
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::borrow::Cow;
+use std::path::Path;
+
+/// The volumes of one instant, and whose they are.
+#[derive(Clone, Copy, Debug)]
+pub struct Volumes<'a> {
+    /// Where on earth.
+    pub place: &'a Place,
+    /// When, and where the sun is.
+    pub instant: &'a Instant,
+    /// Whether the air's refraction is in the sun's direction.
+    pub refraction: bool,
+    /// Height of the ground plane, metres.
+    pub ground: f64,
+    /// Whose components cast.
+    pub mesh: &'a Mesh,
+    /// One a component, at most.
+    pub solids: &'a [Solid],
+    /// How many components that cast have none.
+    pub left_out: usize,
+}
+
+impl Volumes<'_> {
+    fn name(&self, solid: &Solid) -> &str {
+        &self.mesh.components[solid.component].name
+    }
+
+    fn sun(&self) -> Value {
+        json!({
+            "time": stamp(&self.instant.time),
+            "azimuth_deg": self.instant.azimuth_rad.to_degrees(),
+            "altitude_deg": self.instant.altitude_rad.to_degrees(),
+        })
+    }
+}
+
+/// Numbers of the format (glTF 2.0, section 5).
+const FLOAT: u32 = 5126;
+const UNSIGNED_INT: u32 = 5125;
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+
+/// The file: one scene, and in it for each solid a node with the caster's name, whose `extras` say when it was shaded.
+///
+/// # Errors
+/// [`ExportError::Encode`] where there is no solid, or where the file would be 4 GiB or larger: before memory is taken.
+pub fn glb(volumes: &Volumes<'_>) -> Result<Vec<u8>, ExportError> {
+    // The format allows no empty list, and nobody wants an empty file.
+    if volumes.solids.is_empty() {
+        return Err(refused("nothing above the ground casts a shadow; check `level` of the ground, and `casts`"));
+    }
+    let size = |solid: &Solid| 12 * (solid.vertices.len() as u64 + solid.triangles.len() as u64);
+    let data: u64 = volumes.solids.iter().map(size).sum();
+    let document = serde_json::to_vec(&document(volumes)).map_err(refused)?;
+    let total = 12 + 8 + document.len().next_multiple_of(4) as u64 + 8 + data;
+    let Ok(length) = u32::try_from(total) else {
+        let gib = total as f64 / f64::from(1 << 30);
+        return Err(refused(format!("it would be {gib:.1} GiB, and GLB ends at 4; let fewer parts cast with `casts`")));
+    };
+    let mut bytes = Vec::with_capacity(data as usize);
+    for solid in volumes.solids {
+        bytes.extend(solid.vertices.iter().flat_map(|&vertex| in_gltf(vertex)).flat_map(f32::to_le_bytes));
+        bytes.extend(solid.triangles.iter().flatten().flat_map(|corner| corner.to_le_bytes()));
+    }
+    let header = Header { magic: *b"glTF", version: 2, length };
+    Glb { header, json: Cow::Owned(document), bin: Some(Cow::Owned(bytes)) }.to_vec().map_err(refused)
+}
+
+fn refused(why: impl ToString) -> ExportError {
+    ExportError::encode("shadow volumes", why)
+}
+
+fn document(volumes: &Volumes<'_>) -> Value {
+    let mut document = json!({
+        "asset": {"version": "2.0", "generator": concat!("gnomon ", env!("CARGO_PKG_VERSION"))},
+        "scene": 0,
+        "scenes": [{
+            "name": "shadow volumes",
+            "extras": {
+                "place": place_report(volumes.place),
+                "ground": volumes.ground,
+                "refraction": volumes.refraction,
+                "sun": volumes.sun(),
+            },
+        }],
+    });
+    let (mut nodes, mut meshes, mut accessors, mut views) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut offset = 0;
+    let mut view = |length: usize, target: u32| {
+        views.push(json!({"buffer": 0, "byteOffset": offset, "byteLength": length, "target": target}));
+        offset += length;
+        views.len() - 1
+    };
+    for (index, solid) in volumes.solids.iter().enumerate() {
+        let name = volumes.name(solid);
+        let mut extras = volumes.sun();
+        extras["caster"] = json!(name);
+        nodes.push(json!({
+            "name": name, "mesh": index, "translation": in_gltf(solid.origin.as_vec3()), "extras": extras,
+        }));
+        let positions = accessors.len();
+        meshes.push(json!({
+            "name": name,
+            "primitives": [{"attributes": {"POSITION": positions}, "indices": positions + 1, "material": 0}],
+        }));
+        let points = || solid.vertices.iter().map(|&vertex| Vec3::from(in_gltf(vertex)));
+        let (vertices, corners) = (solid.vertices.len(), solid.triangles.len() * 3);
+        accessors.push(json!({
+            "bufferView": view(vertices * 12, ARRAY_BUFFER), "componentType": FLOAT, "type": "VEC3", "count": vertices,
+            "min": points().fold(Vec3::INFINITY, Vec3::min).to_array(),
+            "max": points().fold(Vec3::NEG_INFINITY, Vec3::max).to_array(),
+        }));
+        accessors.push(json!({
+            "bufferView": view(corners * 4, ELEMENT_ARRAY_BUFFER), "componentType": UNSIGNED_INT, "type": "SCALAR",
+            "count": corners,
+        }));
+    }
+    document["scenes"][0]["nodes"] = (0..nodes.len()).collect();
+    document["nodes"] = nodes.into();
+    document["meshes"] = meshes.into();
+    document["accessors"] = accessors.into();
+    document["bufferViews"] = views.into();
+    document["buffers"] = json!([{"byteLength": offset}]);
+    document["materials"] = json!([{
+        "name": "shadow volume",
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [1.0, 0.78, 0.08, 0.3], "metallicFactor": 0.0, "roughnessFactor": 1.0,
+        },
+        "alphaMode": "BLEND",
+        "doubleSided": true,
+    }]);
+    document
+}
+
+/// East, north, up in glTF's axes, which are x east, y up, z south.
+fn in_gltf(point: Vec3) -> [f32; 3] {
+    // + 0 makes −0 and 0 one
+    [point.x, point.z, 0.0 - point.y].map(|metres| metres + 0.0)
+}
+
+#[derive(Serialize)]
+struct VolumesReport<'a> {
+    gnomon: &'static str,
+    file: String,
+    place: PlaceReport<'a>,
+    ground: f64,
+    refraction: bool,
+    sun: Value,
+    volumes: Vec<VolumeLine<'a>>,
+    left_out: usize,
+}
+
+#[derive(Serialize)]
+struct VolumeLine<'a> {
+    name: &'a str,
+    triangles: usize,
+    length_m: f64,
+    closed: bool,
+}
+
+/// `volumes --json`: what was written where, and for each volume whether it is closed.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
+    let line = |solid| VolumeLine {
+        name: volumes.name(solid),
+        triangles: solid.triangles.len(),
+        length_m: solid.length_m,
+        closed: solid.closed(),
+    };
+    report::json(&VolumesReport {
+        gnomon: env!("CARGO_PKG_VERSION"),
+        file: file.display().to_string(),
+        place: place_report(volumes.place),
+        ground: volumes.ground,
+        refraction: volumes.refraction,
+        sun: volumes.sun(),
+        volumes: volumes.solids.iter().map(line).collect(),
+        left_out: volumes.left_out,
+    })
+}
+
+/// What was written, in a line without its end.
+pub fn summary(volumes: &Volumes<'_>) -> String {
+    let triangles: usize = volumes.solids.iter().map(|solid| solid.triangles.len()).sum();
+    format!(
+        "{} of {triangles} triangles; the sun at azimuth {:.2}°, altitude {:.2}°",
+        match volumes.solids.len() {
+            1 => "1 shadow volume".to_owned(),
+            count => format!("{count} shadow volumes"),
+        },
+        volumes.instant.azimuth_rad.to_degrees(),
+        volumes.instant.altitude_rad.to_degrees(),
+    )
+}

@@ -1,0 +1,155 @@
+//! Open edges: what they are the border of, and which vertices stand within them.
+
+use super::places::{OpenKind, OpenPlace, edge, longest, world};
+use crate::mesh::{Component, Mesh, adjacency, weld};
+use glam::{DVec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::cwbvh::builder::build_cwbvh;
+use obvhs::ray::{Ray, RayHit};
+use std::time::Duration;
+
+/// Vertices of open edges that stand within another open edge, as far apart as welding would join; each with the longest
+/// such edge. One of the faces there was split and its neighbour was not.
+pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacing: f64) -> Vec<(u32, u32)> {
+    let mut ends: Vec<u32> = open.iter().flat_map(|&edge| mesh.edges[edge as usize]).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    let Some((low, high)) = mesh.bounds_of(component.faces.clone()).filter(|_| ends.len() > 2) else {
+        return Vec::new();
+    };
+    // a vertex between two others is rounded, too
+    let tolerance = (low.distance(high) * weld::TOLERANCE).max(2.0 * spacing);
+    // what the tree's single precision may be off, several times
+    let padding = Vec3A::splat((tolerance + 8.0 * spacing) as f32);
+    let point = |vertex: u32| Vec3A::from(mesh.vertices[vertex as usize]);
+    let boxes: Vec<Aabb> = ends.iter().map(|&end| Aabb::new(point(end) - padding, point(end) + padding)).collect();
+    let tree = build_cwbvh(&boxes, BvhBuildParams::fast_build(), &mut Duration::default());
+
+    let mut found = Vec::new();
+    for &edge in open {
+        let [from, to] = mesh.edges[edge as usize];
+        let [a, b] = [from, to].map(|vertex| mesh.vertices[vertex as usize].as_dvec3());
+        let length = a.distance(b);
+        let within = |vertex: u32| {
+            let from_a = mesh.vertices[vertex as usize].as_dvec3() - a;
+            let along = from_a.dot((b - a) / length);
+            let aside = from_a.distance((b - a) / length * along);
+            along > tolerance && length - along > tolerance && aside <= tolerance
+        };
+        // + 0 makes −0 into 0, of which the tree takes one sign for the direction and the other for its inverse
+        let ray = Ray::new(point(from), point(to) - point(from) + Vec3A::ZERO, 0.0, 1.0);
+        tree.ray_traverse(ray, &mut RayHit::none(), |_, at| {
+            let vertex = ends[tree.primitive_indices[at] as usize];
+            if within(vertex) {
+                found.push((vertex, edge, length));
+            }
+            f32::INFINITY
+        });
+    }
+    found.sort_unstable_by(|one, other| one.0.cmp(&other.0).then(other.2.total_cmp(&one.2)).then(one.1.cmp(&other.1)));
+    found.dedup_by_key(|(vertex, ..)| *vertex);
+    found.into_iter().map(|(vertex, edge, _)| (vertex, edge)).collect()
+}
+
+/// Open edges that hang together at vertices.
+#[derive(Clone, Debug, Default)]
+struct Group {
+    edges: Vec<u32>,
+    /// Vertices with one open edge.
+    ends: Vec<u32>,
+    /// Vertices with more than two.
+    branches: bool,
+    /// One of its vertices stands within an open edge.
+    has_junction: bool,
+    /// At each vertex one face comes and one goes, so that they run around it one way.
+    is_oriented: bool,
+}
+
+/// What the open edges are the border of, the longest first.
+pub(super) fn places(mesh: &Mesh, open: &[u32], junctions: &[(u32, u32)]) -> Vec<OpenPlace> {
+    // each edge at its first vertex and at its last, with whether its face leaves the vertex there
+    let mut ends: Vec<(u32, u32, bool)> = Vec::with_capacity(open.len() * 2);
+    for (at, &edge) in open.iter().enumerate() {
+        let [first, last] = mesh.edges[edge as usize];
+        let along = mesh.faces_at(edge as usize)[0].direction() > 0;
+        ends.extend([(first, at as u32, along), (last, at as u32, !along)]);
+    }
+    ends.sort_unstable();
+    let vertices = || ends.chunk_by(|one, other| one.0 == other.0);
+    let mut above: Vec<u32> = (0..open.len() as u32).collect();
+    for vertex in vertices() {
+        for pair in vertex.windows(2) {
+            let [one, other] = [pair[0].1, pair[1].1].map(|edge| adjacency::lowest(&mut above, edge));
+            above[one.max(other) as usize] = one.min(other);
+        }
+    }
+    let mut groups = vec![Group { is_oriented: true, ..Group::default() }; open.len()];
+    for (at, &edge) in open.iter().enumerate() {
+        groups[adjacency::lowest(&mut above, at as u32) as usize].edges.push(edge);
+    }
+    for vertex in vertices() {
+        let group = &mut groups[adjacency::lowest(&mut above, vertex[0].1) as usize];
+        match vertex {
+            [alone] => group.ends.push(alone.0),
+            [one, other] => group.is_oriented &= one.2 != other.2,
+            _ => group.branches = true,
+        }
+        group.has_junction |= junctions.binary_search_by_key(&vertex[0].0, |(vertex, _)| *vertex).is_ok();
+    }
+    longest(groups.iter().filter(|group| !group.edges.is_empty()).map(|group| place(mesh, group)), |place| {
+        place.length_m
+    })
+}
+
+fn place(mesh: &Mesh, group: &Group) -> OpenPlace {
+    let edges: Vec<_> = group.edges.iter().map(|&at| edge(mesh, at)).collect();
+    let length_m: f64 = edges.iter().map(|edge| edge.length_m).sum();
+    let longest = edges.iter().reduce(|most, edge| if edge.length_m > most.length_m { edge } else { most });
+    let [mut from, mut to] = longest.map_or([DVec3::ZERO; 2], |edge| [edge.from, edge.to]);
+    let mut near = (from + to) / 2.0;
+    let kind = match group.ends.as_slice() {
+        _ if group.edges.len() == 1 => OpenKind::Edge,
+        [first, last] if !group.branches => {
+            [from, to] = [world(mesh, *first), world(mesh, *last)];
+            OpenKind::Run
+        }
+        [] if !group.branches => {
+            near = edges.iter().map(|edge| (edge.from + edge.to) / 2.0 * edge.length_m).sum::<DVec3>()
+                / length_m.max(f64::MIN_POSITIVE);
+            ring(mesh, group, near, length_m)
+        }
+        _ => OpenKind::Net,
+    };
+    OpenPlace { kind, edges: group.edges.len(), length_m, from, to, near }
+}
+
+/// Below this part of its squared length the area of a ring is none.
+const NO_AREA: f64 = 1e-5;
+
+/// A sheet is this flat at its rim: the cosine of the angle to its border's plane, about 25°. The flared foot of a statue is
+/// no sheet.
+const SHEET: f64 = 0.9;
+
+/// Hole, rim or seam. The area within a ring, run around as its faces do, looks to the side of their front where they
+/// lie inside the ring, and away from it where they lie around it.
+fn ring(mesh: &Mesh, group: &Group, middle: DVec3, length_m: f64) -> OpenKind {
+    if !group.is_oriented {
+        return OpenKind::Hole;
+    }
+    let (mut area, mut front, mut weight) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+    for &at in &group.edges {
+        let face = mesh.faces_at(at as usize)[0];
+        let [from, to] = mesh.edges[at as usize].map(|vertex| world(mesh, vertex) - middle);
+        area += from.cross(to) * (0.5 * f64::from(face.direction()));
+        front += mesh.planes[face.face() as usize].truncate() * from.distance(to);
+        weight += from.distance(to);
+    }
+    if group.has_junction && area.length() <= NO_AREA * length_m * length_m {
+        OpenKind::Seam
+    } else if area.dot(front) > SHEET * area.length() * weight {
+        OpenKind::Rim
+    } else {
+        OpenKind::Hole
+    }
+}

@@ -1,0 +1,130 @@
+//! Where a mesh is not clean: points and edges in metres of the world frame, the longest first.
+
+use crate::mesh::Mesh;
+use glam::DVec3;
+
+/// More places of one kind than these, the longest, are not kept.
+const MOST_PLACES: usize = 100;
+
+/// Where a component is not clean: of each kind at most 100 places, the longest first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Places {
+    /// Open edges, those that hang together told as one.
+    pub open: Vec<OpenPlace>,
+    /// T-junctions, the longest split edge first.
+    pub t_junctions: Vec<Junction>,
+    /// Crowded edges.
+    pub crowded: Vec<EdgePlace>,
+    /// Flipped edges.
+    pub flipped: Vec<EdgePlace>,
+    /// Triangles without area.
+    pub degenerate: Vec<FacePlace>,
+    /// Triangles that lie on another one.
+    pub duplicate: Vec<FacePlace>,
+}
+
+/// How open edges hang together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OpenKind {
+    /// One edge by itself.
+    Edge,
+    /// A closed ring in a surface.
+    Hole,
+    /// A closed ring around a surface that is open: a sheet.
+    Rim,
+    /// A closed ring whose edges lie on each other: two borders with different corners.
+    Seam,
+    /// One after the other, between two ends.
+    Run,
+    /// They branch.
+    Net,
+}
+
+/// Open edges that hang together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenPlace {
+    /// How.
+    pub kind: OpenKind,
+    /// How many edges.
+    pub edges: usize,
+    /// The length of all of them, metres.
+    pub length_m: f64,
+    /// One end of an edge or a run, else of the longest edge.
+    pub from: DVec3,
+    /// The other end.
+    pub to: DVec3,
+    /// The middle of a ring, else of the longest edge.
+    pub near: DVec3,
+}
+
+/// An edge at which something is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EdgePlace {
+    /// One end.
+    pub from: DVec3,
+    /// The other.
+    pub to: DVec3,
+    /// Metres.
+    pub length_m: f64,
+    /// How many faces it has.
+    pub faces: usize,
+}
+
+/// A triangle with which something is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FacePlace {
+    /// Its middle.
+    pub near: DVec3,
+    /// Its longest side, metres.
+    pub length_m: f64,
+}
+
+/// A vertex that stands within an open edge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Junction {
+    /// The vertex.
+    pub at: DVec3,
+    /// The edge that should be split there.
+    pub edge: EdgePlace,
+}
+
+/// A vertex in the world frame.
+pub(super) fn world(mesh: &Mesh, vertex: u32) -> DVec3 {
+    mesh.origin + mesh.vertices[vertex as usize].as_dvec3()
+}
+
+pub(super) fn edge(mesh: &Mesh, edge: u32) -> EdgePlace {
+    let [from, to] = mesh.edges[edge as usize].map(|vertex| world(mesh, vertex));
+    EdgePlace { from, to, length_m: from.distance(to), faces: mesh.faces_at(edge as usize).len() }
+}
+
+pub(super) fn edges(mesh: &Mesh, edges: &[u32]) -> Vec<EdgePlace> {
+    longest(edges.iter().map(|&at| edge(mesh, at)), |place| place.length_m)
+}
+
+/// Triangles of the mesh, and those that collapsed to a line between two vertices.
+pub(super) fn faces(mesh: &Mesh, faces: &[u32], collapsed: &[[u32; 2]]) -> Vec<FacePlace> {
+    let whole = faces.iter().map(|&face| {
+        let [a, b, c] = mesh.faces[face as usize].map(|vertex| world(mesh, vertex));
+        FacePlace { near: (a + b + c) / 3.0, length_m: a.distance(b).max(b.distance(c)).max(c.distance(a)) }
+    });
+    let collapsed = collapsed.iter().map(|&line| {
+        let [a, b] = line.map(|vertex| world(mesh, vertex));
+        FacePlace { near: (a + b) / 2.0, length_m: a.distance(b) }
+    });
+    longest(whole.chain(collapsed), |place| place.length_m)
+}
+
+/// Vertices, and the edges in which they stand.
+pub(super) fn junctions(mesh: &Mesh, found: &[(u32, u32)]) -> Vec<Junction> {
+    let places = found.iter().map(|&(vertex, within)| Junction { at: world(mesh, vertex), edge: edge(mesh, within) });
+    longest(places, |place| place.edge.length_m)
+}
+
+/// The longest of them; of equals the first.
+pub(super) fn longest<T>(places: impl Iterator<Item = T>, length_m: impl Fn(&T) -> f64) -> Vec<T> {
+    let mut places: Vec<T> = places.collect();
+    places.sort_by(|one, other| length_m(other).total_cmp(&length_m(one)));
+    places.truncate(MOST_PLACES);
+    places
+}
