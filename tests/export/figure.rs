@@ -4,7 +4,7 @@ use super::camera;
 use super::synthetic::{self, Town};
 use glam::DVec3;
 use gnomon::export::figure::scale::{self, Bands};
-use gnomon::export::figure::{self, ScaleBar};
+use gnomon::export::figure::{self, ScaleBar, Shown};
 use gnomon::profile::Profile;
 use gnomon::site::Receivers;
 use gnomon::view::{Camera, Mask, Surface, View};
@@ -71,7 +71,7 @@ fn windows_without_sun() {
 #[test]
 fn instants() {
     let look = |name: &str, town: &Town, surface: &Surface, view: View, mask: &Mask, receivers| {
-        let png = figure::instant(&town.scene(surface, receivers), &view, mask).unwrap();
+        let png = figure::instant(&town.scene(surface, receivers), &view, mask, &Shown::default()).unwrap();
         keep(name, &png);
     };
     let town = Town::new(1.0, 15 * H, 15 * H, 0);
@@ -191,5 +191,7 @@ fn a_surface_of_another_size_is_an_error() {
     let profile = Profile { grid, shaded: vec![0; 12], day_secs: 8 * H, night_secs: 0 };
     assert!(figure::profile(&town.scene(&surface, Receivers::Top), &profile).is_err());
     let mask = Mask { width: 4, height: 3, share: vec![0; 12] };
-    assert!(figure::instant(&town.scene(&surface, Receivers::Top), &View::Plan(grid), &mask).is_err());
+    assert!(
+        figure::instant(&town.scene(&surface, Receivers::Top), &View::Plan(grid), &mask, &Shown::default()).is_err()
+    );
 }
