@@ -2,7 +2,7 @@
 // picture shows something nearer.
 
 // Half a line's width, pixels.
-const RADIUS: f32 = 1.4;
+const RADIUS: f32 = 1.2;
 // An edge lies on what is seen, give or take rounding: depth by so much nearer still shows, 1 cm in 50 m.
 const TOWARDS_EYE: f32 = 1.0002;
 
@@ -49,14 +49,26 @@ fn line(@builtin(vertex_index) index: u32, @location(0) from_local: vec3f, @loca
     return Line(vec4f(clip, 0.0, 1.0), start, end);
 }
 
-// Whether all that is seen around a point of the line lies before it. Of the cells around, not the nearest alone: a
-// cell's centre sees the one or the other face at the edge, and the one that slopes towards the eye is nearer there.
+// Depth at which the ray through a point of the picture meets the plane of a face.
+fn depth_on(face: u32, pixel: vec2f) -> f32 {
+    var plane = vec4f(0.0, 0.0, 1.0, -view.ground_z);
+    if face != GROUND {
+        plane = textureLoad(planes, vec2u(face % PLANES_WIDTH, face / PLANES_WIDTH), 0);
+    }
+    return -view.depth_scale * dot(plane.xyz, ray(pixel)) / dot(plane, view.viewer);
+}
+
+// Whether all that is seen around a point of the line lies before it. Of the four cells around, one that does not is
+// enough: at an edge they see different faces. And of each the plane is asked where it meets the point's own ray, for
+// at the cell's centre a face that slopes towards the eye is nearer than its own edge.
 fn hidden(point: vec3f) -> bool {
     let corner = vec2i(floor(point.xy - 0.5));
     let last = vec2i(view.size) - 1;
+    let nearest = point.z * TOWARDS_EYE;
     for (var index = 0; index < 4; index++) {
         let cell = clamp(corner + vec2i(index & 1, index >> 1u), vec2i(0), last);
-        if textureLoad(depths, cell, 0) <= point.z * TOWARDS_EYE {
+        let face = textureLoad(faces, cell, 0).x;
+        if face == SKY || textureLoad(depths, cell, 0) <= nearest || depth_on(face, point.xy) <= nearest {
             return false;
         }
     }

@@ -19,9 +19,9 @@ fn opacity(layers: u8) -> f64 {
     (1.0 - (1.0 - LAYER).powi(i32::from(layers))).min(MOST)
 }
 
-/// Ground in the sun behind a volume of two walls, for the legend.
+/// Ground in the sun behind two volumes, of two walls each, for the legend.
 pub(super) fn volume_tone(ground: Rgb) -> Rgb {
-    mix(ground, VOLUME, opacity(2))
+    mix(ground, VOLUME, opacity(4))
 }
 
 /// Lays the overlay over the picture, averaged by area.

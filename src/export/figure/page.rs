@@ -105,7 +105,7 @@ fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
 fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
     const COLUMNS: f64 = 4.0;
     /// A legend that is longer stands closer.
-    const LEGEND: f64 = 440.0;
+    const LEGEND: f64 = 475.0;
     let (title, facts, sun) = (panel::title(panel), panel::facts(panel), panel::sun_table(panel));
     let (legend, footer) = (panel::legend(panel, LEGEND), panel::footer());
     // The scale's block is as tall at any scale.

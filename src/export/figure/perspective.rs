@@ -60,7 +60,10 @@ pub(super) fn instant(
             display(at_night(to_sun, colour))
         })
         .collect();
-    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, camera, &lens, a, b))
+    // colours tell parts from each other, and lines upon lines would hide the colours of fine parts
+    let strength = if components.is_some() { 0.55 } else { 1.0 };
+    let quieter = |pen: Pen| Pen { strength: pen.strength * strength, ..pen };
+    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, camera, &lens, a, b).map(quieter))
 }
 
 /// The colours of level ground in the sun and in the shade, for the legend.
