@@ -34,36 +34,33 @@ pub(super) struct Components {
 }
 
 impl Components {
-    /// `casts` says for each component of the mesh whether it casts. Colours go by area, so that they are the same in
-    /// all pictures of a model; what is not seen is not named.
+    /// `casts` says for each component of the mesh whether it casts. Colours go by area among those that are seen, so
+    /// that they do not change with what casts.
     pub(super) fn new(mesh: &Mesh, surface: &Surface, casts: &[bool]) -> Components {
         let mut seen = vec![false; mesh.components.len()];
         for &face in surface.face.iter().filter(|face| **face < Surface::GROUND) {
             let at = mesh.components.partition_point(|component| component.faces.end <= face);
             seen[at.min(mesh.components.len() - 1)] = true;
         }
-        let mut by_size: Vec<(usize, f64)> =
-            (0..seen.len()).map(|component| (component, area(mesh, component))).collect();
+        let seen = (0..seen.len()).filter(|&component| seen[component]);
+        let mut by_size: Vec<(usize, f64)> = seen.map(|component| (component, area(mesh, component))).collect();
         by_size.sort_by(|a, b| b.1.total_cmp(&a.1));
 
         let mut colours: Vec<_> = mesh.components.iter().map(|component| (component.faces.end, WHITE)).collect();
         let mut legend = Vec::new();
-        let mut unnamed = 0;
         for (rank, &(component, _)) in by_size.iter().enumerate() {
             let casts = casts.get(component).is_none_or(|casts| *casts);
             let own = NAMED.get(rank).map(|named| mix(*named, WHITE, SOFTER));
             let own = own.unwrap_or_else(|| further(rank - NAMED.len()));
             let colour = if casts { own } else { mix(own, WHITE, CASTS_NOTHING) };
             colours[component].1 = colour;
-            if seen[component] && rank < NAMED.len() {
+            if rank < NAMED.len() {
                 let name = &mesh.components[component].name;
                 legend.push((colour, if casts { name.clone() } else { format!("{name} (does not cast)") }));
-            } else if seen[component] {
-                unnamed += 1;
             }
         }
-        if unnamed > 0 {
-            legend.push((WHITE, format!("and {unnamed} more")));
+        if by_size.len() > NAMED.len() {
+            legend.push((WHITE, format!("and {} more", by_size.len() - NAMED.len())));
         }
         Components { colours, legend }
     }
