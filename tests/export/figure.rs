@@ -130,7 +130,7 @@ fn overlays_and_components() {
         let png = draw(&Shown { overlay: Some(&overlay), casts: None }).unwrap();
         image::load_from_memory(&png).unwrap().to_rgb8().get_pixel(1700, 1500).0
     };
-    let tones = [0, 1, 2, 8, 255].map(|layers| with(layers));
+    let tones = [0, 1, 2, 8, 255].map(with);
     assert!(tones.windows(2).take(3).all(|pair| pair[0][2] > pair[1][2]), "each layer is yellower: {tones:?}");
     assert_eq!(tones[3], tones[4], "and then they are as opaque as they get");
 

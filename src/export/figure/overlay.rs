@@ -11,7 +11,7 @@ const VOLUME: Rgb = [250, 205, 40];
 pub(super) const SILHOUETTE: Rgb = [10, 10, 12];
 
 /// How much of what lies behind it one layer hides, and all layers together at most: shadows stay legible below.
-const LAYER: f64 = 0.20;
+const LAYER: f64 = 0.27;
 const MOST: f64 = 0.62;
 
 /// How opaque so many layers are.
