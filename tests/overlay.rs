@@ -269,7 +269,7 @@ fn edges_behind_the_eye_and_through_it_are_cut() {
 }
 
 #[test]
-fn a_night_without_casters_is_empty() {
+fn without_casters_nothing_is_drawn() {
     let nothing = Scene { casters: Mesh::build(vec![]).unwrap(), receivers: Mesh::build(vec![]).unwrap(), ground: 0.0 };
     let picture = VolumePicture::new(gpu(), &nothing, camera(eyes()[0]), suns()[0]).unwrap();
     assert!(picture.layers().unwrap().iter().all(|layers| *layers == 0));
