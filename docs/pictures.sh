@@ -1,23 +1,47 @@
 #!/usr/bin/env bash
-# Draws the pictures of the documentation anew with the command itself.
+# Draws the pictures of the documentation anew with the command itself (GNOMON=…, or built here), and shrinks them for
+# the screen with ImageMagick: half the size of the sheet, 256 colours.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-cargo build --release
-mkdir -p docs/pictures
-gnomon=${CARGO_TARGET_DIR:-target}/release/gnomon
+shrinker=$(command -v magick || command -v convert) || { echo "docs/pictures.sh: install ImageMagick" >&2; exit 1; }
+if [ -z "${GNOMON:-}" ]; then
+    cargo build --release
+    GNOMON=${CARGO_TARGET_DIR:-target}/release/gnomon
+fi
 drawn=$(mktemp -d)
 trap 'rm -r "$drawn"' EXIT
 
-# Site, cell in metres (so that a picture stays below 1.5 MB), and the instant of its perspective.
-while read -r site cell at; do
-    "$gnomon" profile "sites/$site" --cell "$cell" --write png --out "$drawn/$site"
-    mv "$drawn/$site/profile.png" "docs/pictures/$site-profile.png"
-    "$gnomon" shadow "sites/$site" --view camera --at "$at" --out "sites/$site/picture.png"
-done <<'SITES'
-headquarters 0.5 2026-09-18T15:00
-tower        0.6 2026-09-18T14:00
-industry     0.3 2026-09-18T15:00
-SITES
+# From the sheet to a picture of the documentation.
+shrink() {
+    "$shrinker" "$1" -strip -resize 50% -dither None -colors 256 "PNG8:$2"
+}
+
+# PICTURE SITE AT OPTIONS…: one instant, seen by the site's camera.
+camera() {
+    "$GNOMON" shadow "sites/$2" --view camera --at "$3" --out "$drawn/sheet.png" "${@:4}"
+    shrink "$drawn/sheet.png" "$1"
+}
+
+# PICTURE SITE: the hours of the site's study.
+profile() {
+    "$GNOMON" profile "sites/$2" --write png --out "$drawn/profile"
+    shrink "$drawn/profile/profile.png" "$1"
+}
+
+mkdir -p docs/pictures
+# Figures 5, 6 and 7 of "Geometry of Real Time Shadows", as docs/techniques.md shows them.
+camera sites/industry/picture.png industry 2026-09-18T15:00
+camera docs/pictures/industry-volumes.png industry 2026-09-18T15:00 --show volumes
+profile docs/pictures/industry-profile.png industry
+
+camera sites/tower/picture.png tower 2026-09-18T14:00
+camera docs/pictures/tower-volumes.png tower 2026-09-18T14:00 --show volumes,silhouette
+profile docs/pictures/tower-profile.png tower
+
+camera sites/headquarters/picture.png headquarters 2026-09-18T15:00
+camera docs/pictures/headquarters-parts.png headquarters/facade-and-concrete.toml 2026-09-18T15:00 --show components
+camera docs/pictures/headquarters-components.png headquarters 2026-09-18T15:00 --show components
+profile docs/pictures/headquarters-profile.png headquarters
 
 ls -l docs/pictures/*.png sites/*/picture.png

@@ -6,15 +6,17 @@ use crate::gpu::{Gpu, GpuError};
 use crate::mesh::Mesh;
 use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Timings};
+use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::stencil::Stencil;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
 use crate::silhouette::Kind;
 use crate::site::{Engine, Finder, Method, Receivers, Site};
 use crate::sun::SunTrack;
-use crate::view::{Mask, Surface, View};
+use crate::view::{Camera, Mask, Overlay, Surface, View};
 use chrono::DateTime;
 use chrono_tz::Tz;
+use glam::DVec3;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -26,6 +28,17 @@ pub struct Wants {
     pub masks: bool,
     /// What the cells see, for a drawing.
     pub surface: bool,
+}
+
+/// What is made beside the mask of one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct InstantWants {
+    /// What the cells see, for a drawing.
+    pub surface: bool,
+    /// The layers of the shadow volumes before a camera's picture.
+    pub volumes: bool,
+    /// The silhouette's lines over a camera's picture.
+    pub silhouette: bool,
 }
 
 /// What happens on the way.
@@ -78,6 +91,8 @@ pub struct InstantOutcome {
     pub drawn: Drawn,
     /// What the cells see, where wanted.
     pub surface: Option<Surface>,
+    /// Volumes and silhouette, where wanted and where there is a camera and a sun.
+    pub overlay: Option<Overlay>,
     /// Whose faces [`Surface::face`] counts.
     pub surface_mesh: Mesh,
     /// `prepare` and `shadows`.
@@ -111,6 +126,12 @@ pub enum StudyError {
     /// No adapter, or not a good one.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// Volumes and silhouettes are the stencil's alone.
+    #[error(
+        "--show: volumes and silhouette are drawn on a graphics adapter, and {0}; install a driver \
+         (on Linux mesa-vulkan-drivers draws in software) or leave them out"
+    )]
+    NoVolumes(String),
     /// Drawing failed.
     #[error(transparent)]
     Shadow(#[from] ShadowError),
@@ -173,25 +194,31 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
 pub fn instant(
     site: &Site,
     view: View,
-    surface: bool,
+    wants: &InstantWants,
     on_event: &mut OnEvent<'_>,
 ) -> Result<InstantOutcome, StudyError> {
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
     note_distance(site, on_event)?;
-    let machine = choose(site, on_event)?;
+    let shows_volumes = wants.volumes || wants.silhouette;
+    let machine = if shows_volumes { stencil_alone(site)? } else { choose(site, on_event)? };
     let receivers = judged(site, &view);
     let look = Look { site, machine: &machine, view, receivers };
     let mut technique = look.technique()?;
-    let surface = surface.then(|| look.surface(&*technique)).transpose()?;
+    let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
     watch.lap("prepare");
 
     tell(on_event, Event::Started { instants: 1 })?;
+    let mut overlay = None;
     let mask = if instant.night {
         let below = -instant.altitude_deg();
         tell(on_event, Event::Note(format!("night: the sun is {below:.1}° below the horizon, and nothing sees it")))?;
+        if shows_volumes {
+            tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned()))?;
+        }
         night(&view)
     } else {
+        overlay = look.overlay(wants, instant.to_sun)?;
         technique.draw(instant.to_sun)?.read()?
     };
     tell(on_event, Event::Drawn { index: 0, count: 1, time: instant.time, mask: Some(&mask) })?;
@@ -199,6 +226,7 @@ pub fn instant(
     Ok(InstantOutcome {
         mask,
         surface,
+        overlay,
         surface_mesh: look.surface_mesh(),
         timings: watch.stages,
         drawn: machine.drawn(),
@@ -314,13 +342,7 @@ fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError
             Ok(machine) if machine.gpu.as_ref().is_some_and(|gpu| gpu.software()) => Machine { gpu: None, finder },
             Ok(machine) => machine,
             Err(error) => {
-                let why = match error {
-                    GpuError::NoAdapter => "no graphics adapter was found".to_owned(),
-                    GpuError::Unusable { adapter, reason } | GpuError::Failed { adapter, reason } => {
-                        format!("the graphics adapter '{adapter}' cannot be used ({reason})")
-                    }
-                };
-                tell(on_event, Event::Note(format!("{why}: drawing on the processor")))?;
+                tell(on_event, Event::Note(format!("{}: drawing on the processor", why_none(error))))?;
                 Machine { gpu: None, finder }
             }
         },
@@ -329,6 +351,27 @@ fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError
         return conflict("--silhouette", "ray casting on the processor uses no silhouettes; leave the option out");
     }
     Ok(machine)
+}
+
+/// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.
+fn stencil_alone(site: &Site) -> Result<Machine, StudyError> {
+    if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {
+        let what = "volumes and silhouette are drawn by the technique stencil on the gpu alone; \
+                    take --technique stencil without --engine cpu, or leave them out";
+        return Err(StudyError::Conflict { option: "--show", what });
+    }
+    let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(why_none(error)))?;
+    Ok(Machine { gpu: Some(Arc::new(gpu)), finder: finder(site) })
+}
+
+/// Why no graphics adapter draws.
+fn why_none(error: GpuError) -> String {
+    match error {
+        GpuError::NoAdapter => "no graphics adapter was found".to_owned(),
+        GpuError::Unusable { adapter, reason } | GpuError::Failed { adapter, reason } => {
+            format!("the graphics adapter '{adapter}' cannot be used ({reason})")
+        }
+    }
 }
 
 /// One view of a site, by one machine.
@@ -341,13 +384,35 @@ struct Look<'a> {
 
 impl Look<'_> {
     fn technique(&self) -> Result<Box<dyn Technique>, ShadowError> {
+        self.machine.technique(self.scene(), self.view)
+    }
+
+    fn scene(&self) -> Scene {
         let mesh = &self.site.mesh;
         let receivers = match self.receivers {
             Receivers::Top => mesh.of_components(&self.site.receives),
             Receivers::Ground => mesh.of_components(&[]),
         };
         let casters = mesh.of_components(&self.site.casts);
-        self.machine.technique(Scene { casters, receivers, ground: self.site.ground }, self.view)
+        Scene { casters, receivers, ground: self.site.ground }
+    }
+
+    /// Volumes and silhouette before a camera's picture, in cells half as large as its pixels: a drawing on paper holds
+    /// more than the picture's.
+    fn overlay(&self, wants: &InstantWants, to_sun: DVec3) -> Result<Option<Overlay>, ShadowError> {
+        let (Some(gpu), View::Camera(camera)) = (&self.machine.gpu, self.view) else { return Ok(None) };
+        if !(wants.volumes || wants.silhouette) {
+            return Ok(None);
+        }
+        let fine = Camera { width: camera.width * 2, height: camera.height * 2, ..camera };
+        let scene = self.scene();
+        let picture = VolumePicture::new(Arc::clone(gpu), &scene, fine, to_sun)?;
+        Ok(Some(Overlay {
+            width: fine.width,
+            height: fine.height,
+            layers: wants.volumes.then(|| picture.layers()).transpose()?,
+            silhouette: wants.silhouette.then(|| picture.silhouette()).transpose()?,
+        }))
     }
 
     /// What the drawing shows: the receivers, or over a ground that is judged alone all models.

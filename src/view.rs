@@ -166,3 +166,16 @@ pub struct Mask {
     /// Per cell the share of the sun that is seen, in 1/255, row 0 first.
     pub share: Vec<u8>,
 }
+
+/// What a drawing lays over a camera's picture at one instant, in cells finer than the picture's.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Overlay {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Per cell how many walls and caps of the shadow volumes lie before what is seen, at most 255; where wanted.
+    pub layers: Option<Vec<u8>>,
+    /// Per cell how much of it the silhouette's lines cover, in 1/255; where wanted.
+    pub silhouette: Option<Vec<u8>>,
+}

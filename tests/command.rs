@@ -302,6 +302,63 @@ fn shadow_is_seen_by_a_camera() {
     assert!(mask.pixels().any(|pixel| pixel.0 == [0]) && mask.pixels().any(|pixel| pixel.0 == [255]));
 }
 
+/// How many pixels of a drawing are so.
+fn pixels(path: PathBuf, so: impl Fn([u8; 3]) -> bool) -> usize {
+    image::open(path).unwrap().into_rgb8().pixels().filter(|pixel| so(pixel.0)).count()
+}
+
+#[test]
+fn show_draws_volumes_silhouette_and_components() {
+    let folder = site();
+    let at = "shadow . --at 2026-09-18T15:00 --view camera --json";
+    done(folder.path(), &format!("{at} --out plain.png --engine cpu"));
+    // auto would cast rays on a software adapter; volumes are the stencil's
+    let said = done(folder.path(), &format!("{at} --out volumes.png --show volumes,silhouette"));
+    let json: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!((&json["technique"], &json["engine"]), (&"stencil".into(), &"gpu".into()));
+    done(folder.path(), &format!("{at} --out parts.png --show components --engine cpu"));
+    let count = |name: &str, so: &dyn Fn([u8; 3]) -> bool| pixels(folder.path().join(name), so);
+    let yellow = |[red, green, blue]: [u8; 3]| red > 200 && green > 180 && blue < 165;
+    let black = |colour: [u8; 3]| colour.iter().all(|part| *part < 14);
+    assert!(count("volumes.png", &yellow) > count("plain.png", &yellow) + 20_000);
+    assert!(count("volumes.png", &black) > count("plain.png", &black) + 5000);
+    // the one component has the first colour, also in the legend
+    let mint = |colour| colour == [139, 212, 188];
+    assert!(count("parts.png", &mint) > 3000 && count("plain.png", &mint) == 0);
+}
+
+#[test]
+fn show_is_for_a_cameras_drawing_by_the_stencil() {
+    let folder = site();
+    let at = "shadow . --at 2026-09-18T15:00";
+    fails(folder.path(), &format!("{at} --show volumes"), 2, &["--show", "--view camera"]);
+    fails(folder.path(), &format!("{at} --view camera --mask m.png --show components"), 2, &["--show", "--out"]);
+    fails(folder.path(), &format!("{at} --view camera --show walls"), 2, &["walls", "volumes, silhouette, components"]);
+    for options in ["--engine cpu", "--technique ray-cast"] {
+        let arguments = format!("{at} --view camera --show silhouette {options}");
+        fails(folder.path(), &arguments, 2, &["--show", "--technique stencil", "leave them out"]);
+    }
+    assert_eq!(names(folder.path().to_owned()), ["open.glb", "site.toml", "tower.glb"]);
+    let night = "shadow . --at 2026-09-18T02:00 --view camera --show volumes,silhouette,components";
+    let output = gnomon(folder.path(), night);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stderr(&output).contains("no volumes and no silhouette"), "{}", stderr(&output));
+}
+
+#[cfg(unix)]
+#[test]
+fn volumes_without_an_adapter_are_told_apart() {
+    let folder = site();
+    let arguments = "shadow . --at 2026-09-18T15:00 --view camera --show volumes";
+    let output = command(folder.path(), arguments).env("WGPU_BACKEND", "dx12").output().unwrap();
+    let told = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    for word in ["--show", "no graphics adapter was found", "install a driver", "leave them out"] {
+        assert!(told.contains(word), "{told}");
+    }
+    assert!(!folder.path().join("shadow.png").exists());
+}
+
 #[test]
 fn sun_is_a_table_or_json() {
     let folder = site();

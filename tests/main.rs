@@ -8,6 +8,7 @@ mod export;
 mod geometry;
 mod mistakes;
 mod model;
+mod overlay;
 mod shaders;
 mod site;
 mod sites;

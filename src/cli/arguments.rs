@@ -180,6 +180,9 @@ pub(super) struct ShadowArgs {
     /// From above, or in perspective
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
     pub(super) view: Eye,
+    /// Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours
+    #[arg(long, value_name = "volumes,silhouette,components", value_delimiter = ',')]
+    pub(super) show: Vec<Show>,
     /// The drawing [default: shadow.png, or none with --mask]
     #[arg(long, value_name = "FILE.png")]
     pub(super) out: Option<PathBuf>,
@@ -195,6 +198,14 @@ pub(super) struct ShadowArgs {
 pub(super) enum Eye {
     Plan,
     Camera,
+}
+
+/// What a camera's drawing shows besides sun and shadow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Show {
+    Volumes,
+    Silhouette,
+    Components,
 }
 
 #[derive(Debug, Args)]

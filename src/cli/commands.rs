@@ -1,13 +1,13 @@
 //! The subcommands: load, work, write, say.
 
-use super::arguments::{CheckArgs, Eye, ProfileArgs, ShadowArgs, SunArgs, Written};
+use super::arguments::{CheckArgs, Eye, ProfileArgs, ShadowArgs, Show, SunArgs, Written};
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Profile};
 use crate::site::{Site, load_mesh, load_sun};
-use crate::study::{self, Event, Stopwatch, Wants};
+use crate::study::{self, Event, InstantWants, Stopwatch, Wants};
 use crate::sun::SunTrack;
 use crate::view::View;
 use std::fmt::Write;
@@ -98,6 +98,14 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         (None, Some(_)) => None,
         (None, None) => Some(PathBuf::from("shadow.png")),
     };
+    if !asked.show.is_empty() {
+        let wrong = |what: &str| Err(WrongUse(format!("--show {what}")).into());
+        match (asked.view, &out) {
+            (Eye::Plan, _) => return wrong("is for the camera's picture; add --view camera, or leave it out"),
+            (_, None) => return wrong("is for a drawing, and --mask alone makes none; add --out FILE.png"),
+            (Eye::Camera, Some(_)) => {}
+        }
+    }
     let written: Vec<(&str, &Path)> = [("--out", out.as_deref()), ("--mask", asked.mask.as_deref())]
         .into_iter()
         .filter_map(|(option, path)| Some((option, path?)))
@@ -123,8 +131,11 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         Eye::Plan => View::Plan(site.grid),
         Eye::Camera => View::Camera(site.camera),
     };
+    let shows = |what| asked.show.contains(&what);
+    let wants =
+        InstantWants { surface: out.is_some(), volumes: shows(Show::Volumes), silhouette: shows(Show::Silhouette) };
     let mut progress = Progress::new(asked.common.quiet);
-    let outcome = study::instant(&site, view, out.is_some(), &mut |event| {
+    let outcome = study::instant(&site, view, &wants, &mut |event| {
         progress.hear(&event);
         interrupt::flow()
     })?;
@@ -135,7 +146,12 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     let mut text = String::new();
     if let (Some(path), Some(surface)) = (&out, &outcome.surface) {
         let scene = figure::Scene { place, track, mesh: &outcome.surface_mesh, surface, receivers, drawn };
-        let bytes = figure::instant(&scene, &view, &outcome.mask)?;
+        // the drawing's mesh holds the components that are seen
+        let casts: Vec<bool> =
+            site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect();
+        let casts = shows(Show::Components).then_some(casts.as_slice());
+        let shown = figure::Shown { overlay: outcome.overlay.as_ref(), casts };
+        let bytes = figure::instant(&scene, &view, &outcome.mask, &shown)?;
         interrupt::check()?;
         file::write(path, &bytes)?;
         watch.lap("picture");

@@ -15,12 +15,14 @@ pub const SURFACE: &str = joined!("common/view", "surface");
 pub const JUDGED: &str = joined!("common/view", "common/seen", "judged");
 /// Stencil shadow volumes.
 pub const STENCIL: &str = joined!("common/view", "common/seen", "stencil");
+/// Silhouettes as lines.
+pub const OVERLAY: &str = joined!("common/view", "common/seen", "overlay");
 /// Masks times weights.
 pub const ACCUMULATE: &str = joined!("accumulate");
 
 /// All shaders, by name.
 pub const ALL: &[(&str, &str)] =
-    &[("surface", SURFACE), ("judged", JUDGED), ("stencil", STENCIL), ("accumulate", ACCUMULATE)];
+    &[("surface", SURFACE), ("judged", JUDGED), ("stencil", STENCIL), ("overlay", OVERLAY), ("accumulate", ACCUMULATE)];
 
 impl Gpu {
     /// Compiles a shader.

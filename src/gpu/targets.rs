@@ -71,7 +71,18 @@ impl Gpu {
         stages: Stages<'_>,
         depth_stencil: Option<DepthStencilState>,
     ) -> RenderPipeline {
-        let target = stages.target.map(|(format, write_mask)| ColorTargetState { format, blend: None, write_mask });
+        self.blending_pipeline(label, stages, depth_stencil, None)
+    }
+
+    /// The same, where what is drawn does not simply replace what is there.
+    pub fn blending_pipeline(
+        &self,
+        label: &str,
+        stages: Stages<'_>,
+        depth_stencil: Option<DepthStencilState>,
+        blend: Option<BlendState>,
+    ) -> RenderPipeline {
+        let target = stages.target.map(|(format, write_mask)| ColorTargetState { format, blend, write_mask });
         self.device.create_render_pipeline(&RenderPipelineDescriptor {
             label: Some(label),
             layout: stages.layout,

@@ -4,6 +4,7 @@
 //! same name where it draws on the GPU.
 
 mod batch;
+pub mod overlay;
 pub mod ray_cast;
 pub mod stencil;
 mod surface;

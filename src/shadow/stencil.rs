@@ -11,7 +11,7 @@
 //!   among what is seen.
 //! - **z-fail** counts behind what is seen, in all other views: with light cap, and walls to the sun's point at infinity,
 //!   which needs no dark cap. Depth is reversed, so that point has depth 0 exactly and no far plane cuts it.
-//! - The stencil holds 8 bits: casters come in batches, none of which counts further ([`super::batch`]).
+//! - The stencil holds 8 bits: casters come in batches, none of which counts further (`batch.rs`).
 //!
 //! Deviation from the seed: the general rule of [`crate::silhouette`] instead of well-wound closed meshes alone.
 

@@ -190,7 +190,8 @@ impl GpuSurface {
     /// The depth at which each cell is judged, in a texture with a stencil.
     pub(super) fn judged(&self) -> Texture {
         let gpu = &self.gpu;
-        let judged = gpu.texture("surface.judged", self.view.size(), COUNTED, TextureUsages::RENDER_ATTACHMENT);
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
+        let judged = gpu.texture("surface.judged", self.view.size(), COUNTED, usage);
         let module = gpu.shader("judged", shaders::JUDGED);
         let always = DepthStencilState {
             format: COUNTED,

@@ -2,6 +2,8 @@
 //!
 //! The picture is made cell by cell in Rust; everything that is lines and letters is one SVG, drawn by resvg over it.
 
+mod components;
+mod overlay;
 mod page;
 mod panel;
 mod perspective;
@@ -20,7 +22,8 @@ use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile};
 use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
-use crate::view::{Mask, Surface, View};
+use crate::view::{Mask, Overlay, Surface, View};
+use components::Components;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
 
@@ -39,6 +42,15 @@ pub struct Scene<'a> {
     pub receivers: Receivers,
     /// What drew.
     pub drawn: &'a Drawn,
+}
+
+/// What a camera's picture shows besides sun and shadow.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shown<'a> {
+    /// Shadow volumes and silhouette, over the picture.
+    pub overlay: Option<&'a Overlay>,
+    /// Each component of [`Scene::mesh`] in its own colour; here is said which of them cast.
+    pub casts: Option<&'a [bool]>,
 }
 
 /// `profile.png`: the hours of shadow on the plan, in bands of whole steps.
@@ -67,15 +79,20 @@ pub fn profile(scene: &Scene, profile: &Profile) -> Result<Vec<u8>, ExportError>
     page::page(&panel, (grid.width, grid.height), Some(grid.cell), |fit| plan::profile(scene, profile, &bands, fit))
 }
 
-/// One instant, the first of the track, on the plan or in the camera's picture.
+/// One instant, the first of the track, on the plan or in the camera's picture; `shown` is for the latter.
 ///
 /// # Errors
-/// [`ExportError::Size`] where surface and mask do not fill the view; [`ExportError::Encode`] from the encoder, or
+/// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay; [`ExportError::Encode`] from the encoder, or
 /// where the track has no instant.
-pub fn instant(scene: &Scene, view: &View, mask: &Mask) -> Result<Vec<u8>, ExportError> {
+pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result<Vec<u8>, ExportError> {
     let size = view.size();
     check_size("mask", mask.share.len(), size.0, size.1)?;
     check_surface(scene.surface, size)?;
+    if let Some(overlay) = shown.overlay {
+        for values in [&overlay.layers, &overlay.silhouette].into_iter().flatten() {
+            check_size("overlay", values.len(), overlay.width, overlay.height)?;
+        }
+    }
     let now = scene.track.instants.first();
     let now = now.ok_or_else(|| ExportError::encode("drawing", "it has no instant"))?;
 
@@ -109,8 +126,32 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask) -> Result<Vec<u8>, Expor
         }
         View::Camera(camera) => {
             panel.facts.push(("Picture", format!("{} × {}", size.0, size.1)));
-            page::page(&panel, size, None, |fit| perspective::instant(scene, camera, mask, now.to_sun, fit))
+            let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
+            show(&mut panel, shown, tones[0], components.as_ref());
+            page::page(&panel, size, None, |fit| {
+                let mut picture = perspective::instant(scene, camera, mask, now.to_sun, components.as_ref(), fit);
+                if let Some(overlay) = shown.overlay {
+                    overlay::lay(&mut picture, overlay);
+                }
+                picture
+            })
         }
+    }
+}
+
+/// The legend of what a picture shows besides sun and shadow.
+fn show(panel: &mut Panel, shown: &Shown, ground: scale::Rgb, components: Option<&Components>) {
+    let mut more = Vec::new();
+    if shown.overlay.is_some_and(|overlay| overlay.layers.is_some()) {
+        more.push((overlay::volume_tone(ground), "shadow volume".to_owned()));
+    }
+    if shown.overlay.is_some_and(|overlay| overlay.silhouette.is_some()) {
+        more.push((overlay::SILHOUETTE, "silhouette".to_owned()));
+    }
+    more.extend(components.into_iter().flat_map(|components| components.legend.iter().cloned()));
+    if !more.is_empty() {
+        panel.legend_head = "What is shown".to_owned();
+        panel.legend.extend(more);
     }
 }
 

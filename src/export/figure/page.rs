@@ -104,8 +104,10 @@ fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
 
 fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
     const COLUMNS: f64 = 4.0;
+    /// A legend that is longer stands closer.
+    const LEGEND: f64 = 475.0;
     let (title, facts, sun) = (panel::title(panel), panel::facts(panel), panel::sun_table(panel));
-    let (legend, footer) = (panel::legend(panel, f64::INFINITY), panel::footer());
+    let (legend, footer) = (panel::legend(panel, LEGEND), panel::footer());
     // The scale's block is as tall at any scale.
     let scale_height = cell_m.map_or(0.0, |_| panel::scale_and_north(1.0).height + 2.0 * GAP);
     let height = [title.height + GAP + footer.height, facts.height, sun.height + scale_height, legend.height]

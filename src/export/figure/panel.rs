@@ -79,26 +79,34 @@ pub(super) fn sun_table(panel: &Panel) -> Block {
     block
 }
 
-/// Rows of the legend when it stands in two columns from eight entries on.
-fn legend_rows(entries: usize) -> usize {
-    if entries > 8 { entries.div_ceil(2) } else { entries }
+/// A legend's colour beside its label, and the gap between them.
+const SWATCH: f64 = 96.0;
+const SWATCH_GAP: f64 = 24.0;
+/// From one of two columns of a legend to the next.
+const HALF: f64 = COLUMN / 2.0 + 6.0;
+
+/// Rows of the legend: more than eight short entries stand in two columns.
+fn legend_rows(entries: &[(Rgb, String)]) -> usize {
+    let room = COLUMN - HALF - SWATCH - SWATCH_GAP;
+    let short = |(_, label): &(Rgb, String)| text::width(label, Style::BODY.weight, Style::BODY.size) <= room;
+    if entries.len() > 8 && entries.iter().all(short) { entries.len().div_ceil(2) } else { entries.len() }
 }
 
 /// The legend with rows of at most `room` in height altogether, between 36 and 52 each.
 pub(super) fn legend(panel: &Panel, room: f64) -> Block {
-    const SWATCH: f64 = 96.0;
     const HEAD: f64 = 62.0;
-    let rows = legend_rows(panel.legend.len());
+    let rows = legend_rows(&panel.legend);
     let mut block = Block::default();
     wrapped(&mut block, 0.0, Style::HEAD, &panel.legend_head, 1);
     let pitch = ((room - HEAD) / rows.max(1) as f64).floor().clamp(36.0, 52.0);
     for (column, entries) in panel.legend.chunks(rows.max(1)).enumerate() {
-        let x = column as f64 * (COLUMN / 2.0 + 6.0);
+        let x = column as f64 * HALF;
         for (row, (colour, label)) in entries.iter().enumerate() {
             let y = HEAD + row as f64 * pitch;
             block.fill([x, y, SWATCH, pitch], *colour);
             let baseline = y + pitch / 2.0 + Style::BODY.size * 0.36;
-            block.text(x + SWATCH + 24.0, baseline, Anchor::Start, Style::BODY, label);
+            let label = text::wrap(label, Style::BODY.weight, Style::BODY.size, COLUMN - x - SWATCH - SWATCH_GAP, 1);
+            block.text(x + SWATCH + SWATCH_GAP, baseline, Anchor::Start, Style::BODY, &label.concat());
             if row > 0 {
                 block.fill([x, y - 1.0, SWATCH, 2.0], HAIR);
             }

@@ -1,6 +1,7 @@
 //! The camera's colours and lines: a quiet model photograph, warm in the sun and cool in the shade.
 
 use super::Scene;
+use super::components::Components;
 use super::picture::{Between, Fit, Pen, Picture, compose};
 use super::scale::Rgb;
 use crate::site::Receivers;
@@ -23,8 +24,15 @@ const CREASE_COS: f64 = 0.985;
 /// A gap in depth this much of the distance is a step.
 const STEP_SHARE: f64 = 0.004;
 
-/// Sun and shadow at one instant, as the camera sees them.
-pub(super) fn instant(scene: &Scene, camera: &Camera, mask: &Mask, to_sun: DVec3, fit: Fit) -> Picture {
+/// Sun and shadow at one instant, as the camera sees them; of matt card where components have no colours of their own.
+pub(super) fn instant(
+    scene: &Scene,
+    camera: &Camera,
+    mask: &Mask,
+    to_sun: DVec3,
+    components: Option<&Components>,
+    fit: Fit,
+) -> Picture {
     let lens = Lens::new(camera);
     let light = Light::new(to_sun);
     let ground_only = scene.receivers == Receivers::Ground;
@@ -45,13 +53,17 @@ pub(super) fn instant(scene: &Scene, camera: &Camera, mask: &Mask, to_sun: DVec3
                     let plane = facing(scene, face, camera.eye);
                     // A mask of the ground says nothing about the walls.
                     let share = if ground_only { 1.0 } else { share };
-                    BUILDING * light.on(plane.xyz(), share)
+                    let own = |of: &Components| DVec3::from(of.colour(face).map(f64::from)) / 255.0;
+                    components.map_or(BUILDING, own) * light.on(plane.xyz(), share)
                 }
             };
             display(at_night(to_sun, colour))
         })
         .collect();
-    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, camera, &lens, a, b))
+    // colours tell parts from each other, and lines upon lines would hide the colours of fine parts
+    let strength = if components.is_some() { 0.55 } else { 1.0 };
+    let quieter = |pen: Pen| Pen { strength: pen.strength * strength, ..pen };
+    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, camera, &lens, a, b).map(quieter))
 }
 
 /// The colours of level ground in the sun and in the shade, for the legend.

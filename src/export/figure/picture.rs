@@ -96,13 +96,13 @@ pub(super) fn compose(
 }
 
 /// The cells that a pixel covers along one axis: from, to (exclusive), and the shares of the first and the last.
-struct Span {
-    cells: Range<usize>,
+pub(super) struct Span {
+    pub cells: Range<usize>,
     first: f32,
     last: f32,
 }
 
-fn spans(cells: usize, pixels: usize, between: Between) -> Vec<Span> {
+pub(super) fn spans(cells: usize, pixels: usize, between: Between) -> Vec<Span> {
     let scale = cells as f64 / pixels as f64;
     if between == Between::Smooth && scale < 1.0 {
         return (0..pixels).map(|pixel| blended(cells, (pixel as f64 + 0.5) * scale - 0.5)).collect();
@@ -131,7 +131,8 @@ fn blended(cells: usize, at: f64) -> Span {
 }
 
 impl Span {
-    fn weight(&self, cell: usize) -> f32 {
+    /// The share of a cell that the pixel covers.
+    pub(super) fn weight(&self, cell: usize) -> f32 {
         if cell == self.cells.start {
             self.first
         } else if cell + 1 == self.cells.end {

@@ -1,0 +1,52 @@
+//! Volumes and silhouette over a finished picture: translucent yellow, and black lines above it.
+
+use super::picture::{Between, Picture, Span, spans};
+use super::scale::{Rgb, mix};
+use crate::view::Overlay;
+use rayon::prelude::*;
+
+/// The volumes' yellow.
+const VOLUME: Rgb = [250, 205, 40];
+/// The silhouette, also in the legend.
+pub(super) const SILHOUETTE: Rgb = [10, 10, 12];
+
+/// How much of what lies behind it one layer hides, and all layers together at most: shadows stay legible below.
+const LAYER: f64 = 0.27;
+const MOST: f64 = 0.62;
+
+/// How opaque so many layers are.
+fn opacity(layers: u8) -> f64 {
+    (1.0 - (1.0 - LAYER).powi(i32::from(layers))).min(MOST)
+}
+
+/// Ground in the sun behind two volumes, of two walls each, for the legend.
+pub(super) fn volume_tone(ground: Rgb) -> Rgb {
+    mix(ground, VOLUME, opacity(4))
+}
+
+/// Lays the overlay over the picture, averaged by area.
+pub(super) fn lay(picture: &mut Picture, overlay: &Overlay) {
+    let opacities: [f32; 256] = std::array::from_fn(|layers| opacity(layers as u8) as f32);
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let columns = spans(overlay.width as usize, width, Between::Sharp);
+    let rows = spans(overlay.height as usize, height, Between::Sharp);
+    let average = |values: &Option<Vec<u8>>, columns: &Span, rows: &Span, worth: &dyn Fn(u8) -> f32| {
+        let Some(values) = values else { return 0.0 };
+        let (mut sum, mut total) = (0.0, 0.0);
+        for row in rows.cells.clone() {
+            for column in columns.cells.clone() {
+                let weight = rows.weight(row) * columns.weight(column);
+                sum += weight * worth(values[row * overlay.width as usize + column]);
+                total += weight;
+            }
+        }
+        f64::from(sum / total)
+    };
+    picture.pixels.par_chunks_mut(width).zip(&rows).for_each(|(line, rows)| {
+        for (pixel, columns) in line.iter_mut().zip(&columns) {
+            let yellow = average(&overlay.layers, columns, rows, &|layers| opacities[usize::from(layers)]);
+            let black = average(&overlay.silhouette, columns, rows, &|cover| f32::from(cover) / 255.0);
+            *pixel = mix(mix(*pixel, VOLUME, yellow), SILHOUETTE, black);
+        }
+    });
+}
