@@ -8,7 +8,7 @@ use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Timings};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::stencil::Stencil;
-use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
+use crate::shadow::{GpuSurface, Scene, ShadowError, Silhouettes, Technique};
 use crate::silhouette::Kind;
 use crate::site::{Engine, Finder, Method, Receivers, Site};
 use crate::sun::SunTrack;
@@ -141,7 +141,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
     let mut technique = look.technique()?;
     let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
-    let mut sum = Sum::new(machine.gpu.clone(), site.grid.width, site.grid.height);
+    let mut sum = Sum::new(machine.gpu(), site.grid.width, site.grid.height);
     watch.lap("prepare");
 
     let count = site.track.instants.len();
@@ -248,17 +248,21 @@ fn day_and_night(track: &SunTrack) -> Result<(u32, u32), StudyError> {
     Ok((day_secs as u32, weights(true).sum::<u64>() as u32))
 }
 
-/// Who draws: the stencil on the graphics adapter, or ray casting on the processor.
+/// Who draws: the stencil on the graphics adapter, with the finder of its silhouettes, or ray casting on the processor.
 struct Machine {
-    gpu: Option<Arc<Gpu>>,
+    stencil: Option<(Arc<Gpu>, Finder)>,
 }
 
 impl Machine {
+    fn gpu(&self) -> Option<Arc<Gpu>> {
+        self.stencil.as_ref().map(|(gpu, _)| Arc::clone(gpu))
+    }
+
     fn drawn(&self) -> Drawn {
-        match &self.gpu {
-            Some(gpu) => Drawn {
+        match &self.stencil {
+            Some((gpu, finder)) => Drawn {
                 technique: Method::Stencil.word(),
-                silhouette: Some(Finder::Brute.word()),
+                silhouette: Some(finder.word()),
                 engine: Engine::Gpu.word(),
                 adapter: Some(gpu.name().to_owned()),
             },
@@ -269,17 +273,38 @@ impl Machine {
     }
 
     fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
-        Ok(match &self.gpu {
-            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, Kind::BruteForce)?),
+        Ok(match &self.stencil {
+            Some((gpu, finder)) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, silhouettes(*finder))?),
             None => Box::new(RayCast::new(scene, view)),
         })
+    }
+}
+
+/// The finder that `auto` means on an adapter.
+///
+/// Measured (docs/benchmarks): on an adapter that is a program on the processor, the processor's own finder takes less
+/// time than the same work as a shader. A real adapter spares the upload of what is found.
+fn fastest_finder(gpu: &Gpu) -> Finder {
+    if gpu.software() { Finder::Brute } else { Finder::Gpu }
+}
+
+/// A finder that was chosen, as the stencil knows it.
+fn silhouettes(finder: Finder) -> Silhouettes {
+    match finder {
+        Finder::Auto | Finder::Brute => Kind::BruteForce.into(),
+        Finder::Gpu => Silhouettes::OnGpu,
     }
 }
 
 /// Technique and engine as asked; else the stencil on a real graphics adapter, and ray casting on the processor.
 fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
     let conflict = |option, what| Err(StudyError::Conflict { option, what });
-    let open = || Gpu::open().map(|gpu| Machine { gpu: Some(Arc::new(gpu)) });
+    let open = || {
+        Gpu::open().map(|gpu| {
+            let finder = if site.finder == Finder::Auto { fastest_finder(&gpu) } else { site.finder };
+            Machine { stencil: Some((Arc::new(gpu), finder)) }
+        })
+    };
     let machine = match (site.method, site.engine) {
         (Method::Stencil, Engine::Cpu) => {
             return conflict("--engine", "the technique stencil draws on the gpu; take --technique ray-cast with cpu");
@@ -287,11 +312,11 @@ fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError
         (Method::RayCast, Engine::Gpu) => {
             return conflict("--engine", "the technique ray-cast works on the cpu; take --technique stencil with gpu");
         }
-        (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => Machine { gpu: None },
+        (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => Machine { stencil: None },
         (Method::Stencil, _) | (Method::Auto, Engine::Gpu) => open()?,
         (Method::Auto, Engine::Auto) => match open() {
             // measured (docs/benchmarks): a stencil drawn in software is slower than casting the rays outright
-            Ok(machine) if machine.gpu.as_ref().is_some_and(|gpu| gpu.software()) => Machine { gpu: None },
+            Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => Machine { stencil: None },
             Ok(machine) => machine,
             Err(error) => {
                 let why = match error {
@@ -301,11 +326,11 @@ fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError
                     }
                 };
                 tell(on_event, Event::Note(format!("{why}: drawing on the processor")))?;
-                Machine { gpu: None }
+                Machine { stencil: None }
             }
         },
     };
-    if machine.gpu.is_none() && site.finder != Finder::Auto {
+    if machine.stencil.is_none() && site.finder != Finder::Auto {
         return conflict("--silhouette", "ray casting on the processor uses no silhouettes; leave the option out");
     }
     Ok(machine)
@@ -344,8 +369,8 @@ impl Look<'_> {
         }
         let casters = self.site.mesh.of_components(&[]);
         let scene = Scene { casters, receivers: self.surface_mesh(), ground: self.site.ground };
-        match &self.machine.gpu {
-            Some(gpu) => GpuSurface::draw(Arc::clone(gpu), &scene, self.view)?.read(),
+        match self.machine.gpu() {
+            Some(gpu) => GpuSurface::draw(gpu, &scene, self.view)?.read(),
             None => RayCast::new(scene, self.view).surface(),
         }
     }

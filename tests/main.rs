@@ -5,6 +5,7 @@ mod command;
 mod exact;
 mod export;
 mod geometry;
+mod gpu_silhouettes;
 mod mistakes;
 mod model;
 mod shaders;

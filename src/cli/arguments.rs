@@ -86,7 +86,7 @@ pub(super) struct DrawArgs {
     /// auto, stencil or ray-cast
     #[arg(long, value_name = "NAME")]
     technique: Option<Method>,
-    /// auto or brute
+    /// auto, brute or gpu
     #[arg(long, value_name = "NAME")]
     silhouette: Option<Finder>,
     /// auto, gpu or cpu

@@ -15,12 +15,26 @@ pub const SURFACE: &str = joined!("common/view", "surface");
 pub const JUDGED: &str = joined!("common/view", "common/seen", "judged");
 /// Stencil shadow volumes.
 pub const STENCIL: &str = joined!("common/view", "common/seen", "stencil");
+/// Which faces a light shines on, and the light cap.
+pub const FACES: &str = joined!("common/search", "faces");
+/// Silhouettes as a list of walls.
+pub const EXTRACTION: &str = joined!("common/search", "common/edge", "extraction");
+/// Shadow volumes whose silhouettes the vertex shader decides.
+pub const QUADRILATERALS: &str =
+    joined!("common/view", "common/seen", "common/search", "common/edge", "stencil", "quadrilaterals");
 /// Masks times weights.
 pub const ACCUMULATE: &str = joined!("accumulate");
 
 /// All shaders, by name.
-pub const ALL: &[(&str, &str)] =
-    &[("surface", SURFACE), ("judged", JUDGED), ("stencil", STENCIL), ("accumulate", ACCUMULATE)];
+pub const ALL: &[(&str, &str)] = &[
+    ("surface", SURFACE),
+    ("judged", JUDGED),
+    ("stencil", STENCIL),
+    ("faces", FACES),
+    ("extraction", EXTRACTION),
+    ("quadrilaterals", QUADRILATERALS),
+    ("accumulate", ACCUMULATE),
+];
 
 impl Gpu {
     /// Compiles a shader.

@@ -75,6 +75,10 @@ words!(
     ["auto" => Method::Auto, "stencil" => Method::Stencil, "ray-cast" => Method::RayCast],
     later ["projected", "shadow-map", "hybrid", "smoothie", "soft-texture"]
 );
-words!(Finder, ["auto" => Finder::Auto, "brute" => Finder::Brute], later ["hextree", "gpu"]);
+words!(
+    Finder,
+    ["auto" => Finder::Auto, "brute" => Finder::Brute, "gpu" => Finder::Gpu],
+    later ["hextree"]
+);
 words!(Engine, ["auto" => Engine::Auto, "gpu" => Engine::Gpu, "cpu" => Engine::Cpu], later []);
 words!(Receivers, ["top" => Receivers::Top, "ground" => Receivers::Ground], later ["surfaces"]);

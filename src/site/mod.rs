@@ -52,8 +52,10 @@ pub enum Finder {
     /// The fastest that exists.
     #[default]
     Auto,
-    /// One pass over all edges.
+    /// One pass over all edges, on the processor.
     Brute,
+    /// One pass over all edges, on the graphics adapter.
+    Gpu,
 }
 
 /// Which machine draws, as the user asked.
