@@ -198,6 +198,16 @@ fn the_graphics_adapter_is_named() {
     }
 }
 
+#[test]
+fn silhouettes_are_found_on_the_graphics_adapter_where_asked() {
+    let folder = site();
+    let options = "--technique stencil --silhouette gpu --size 64 --json";
+    let json: Value = serde_json::from_str(&done(folder.path(), &format!("profile . {options}"))).unwrap();
+    assert_eq!((&json["technique"], &json["silhouette"]), (&"stencil".into(), &"gpu".into()));
+    let rays = "profile . --technique ray-cast --silhouette gpu --size 64";
+    fails(folder.path(), rays, 2, &["--silhouette", "leave the option out"]);
+}
+
 /// A system whose only backend is one that it has not.
 #[cfg(unix)]
 #[test]

@@ -151,7 +151,6 @@ fn sites_and_a_large_mesh_have_the_same_silhouettes() {
         let lamp = site.mesh.local_light((site.mesh.origin + dvec3(20.0, -35.0, 60.0)).extend(1.0));
         check(name, &site.mesh, lamp, true, PLENTY);
     }
-    // more than 65,535 workgroups in a row hold need more; two rows of them are as good
     let mesh = Mesh::build(vec![sphere(30.0, 800, 500)]).unwrap();
     assert!(mesh.faces.len() > 790_000);
     assert_eq!(check("sphere", &mesh, dvec4(0.48, -0.6, 0.64, 0.0), false, 1 << 30), 1);
