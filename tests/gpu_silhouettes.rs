@@ -8,13 +8,14 @@ use glam::{DVec3, DVec4, dvec3, dvec4};
 use gnomon::gpu::GpuError;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::stencil::{Stencil, near_clip_volume_touched};
+use gnomon::shadow::walls::borders::Borders;
 use gnomon::shadow::walls::extraction::{Extraction, Program};
 use gnomon::shadow::walls::{Sought, Walls};
 use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::brute_force::BruteForce;
 use gnomon::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
 use gnomon::site::{Overrides, Receivers, Site};
-use gnomon::view::{Camera, Mask, View};
+use gnomon::view::{Camera, Grid, Mask, View};
 use proptest::prelude::*;
 use std::sync::OnceLock;
 
@@ -80,7 +81,7 @@ fn brute_force(mesh: &Mesh, light: DVec4) -> Vec<DirectedEdge> {
 
 /// Holds one extraction, in runs of at most `most` bytes, against the processor.
 fn check(name: &str, mesh: &Mesh, light: DVec4, to_infinity: bool, most: u64) -> usize {
-    let sought = Sought { local_light: light, to_infinity, with_cap: true, halved: false };
+    let sought = Sought { local_light: light, to_infinity, with_cap: true, halved: false, borders: None };
     let ([walls, cap], runs) = extracted(mesh, &sought, most).unwrap();
     let (facing, expected_facing) = (facing_of(mesh, &cap), mesh.facing(light));
     // so near to edge-on, a face may fall either way
@@ -107,7 +108,7 @@ fn one_wrong_edge_is_seen() {
     let mesh = Mesh::build(vec![cuboid("box", dvec3(-3.0, -4.0, 0.0), dvec3(3.0, 4.0, 7.0))]).unwrap();
     let light = dvec4(0.3, 0.4, 0.8, 0.0);
     for to_infinity in [false, true] {
-        let sought = Sought { local_light: light, to_infinity, with_cap: true, halved: false };
+        let sought = Sought { local_light: light, to_infinity, with_cap: true, halved: false, borders: None };
         let ([walls, _], _) = extracted(&mesh, &sought, PLENTY).unwrap();
         let sorted = |walls: &[u32]| {
             let mut edges = edges_of(&mesh, walls, to_infinity);
@@ -162,7 +163,7 @@ fn halved_walls_stand_half_as_often() {
     let mesh = Mesh::build(vec![sphere(9.0, 20, 12), cuboid("box", DVec3::splat(20.0), DVec3::splat(25.0))]).unwrap();
     let light = dvec4(0.3, 0.4, 0.8, 0.0);
     for to_infinity in [false, true] {
-        let sought = Sought { local_light: light, to_infinity, with_cap: false, halved: true };
+        let sought = Sought { local_light: light, to_infinity, with_cap: false, halved: true, borders: None };
         let ([walls, cap], _) = extracted(&mesh, &sought, PLENTY).unwrap();
         assert!(cap.is_empty());
         let mut twice: Vec<_> =
@@ -179,7 +180,8 @@ fn what_does_not_fit_is_an_error() {
         part(vec![DVec3::ZERO, DVec3::Z, dvec3(cos, sin, 0.5)], vec![[0, 1, 2]])
     });
     let mesh = Mesh::build(vec![joined(pages.collect())]).unwrap();
-    let sought = |to_infinity| Sought { local_light: DVec4::Y, to_infinity, with_cap: false, halved: false };
+    let sought =
+        |to_infinity| Sought { local_light: DVec4::Y, to_infinity, with_cap: false, halved: false, borders: None };
     // ten walls can hang from the spine
     assert!(extracted(&mesh, &sought(false), 240).is_ok());
     let error = extracted(&mesh, &sought(false), 239).unwrap_err().to_string();
@@ -220,14 +222,19 @@ fn masks(scene: &Scene, view: View, suns: &[DVec3]) -> [Vec<Mask>; 3] {
 }
 
 fn same_masks(name: &str, scene: &Scene, view: View, suns: &[DVec3]) {
-    let [expected, on_gpu, in_vertex_shader] = masks(scene, view, suns);
+    let expected = same_masks_anywhere(name, scene, view, suns);
     assert!(expected.iter().any(|mask| mask.share.contains(&0)), "{name}: nothing is in shadow");
+}
+
+fn same_masks_anywhere(name: &str, scene: &Scene, view: View, suns: &[DVec3]) -> Vec<Mask> {
+    let [expected, on_gpu, in_vertex_shader] = masks(scene, view, suns);
     for (at, expected) in expected.iter().enumerate() {
         for (way, found) in [("extracted", &on_gpu[at]), ("in the vertex shader", &in_vertex_shader[at])] {
             let differ = found.share.iter().zip(&expected.share).filter(|(found, expected)| found != expected).count();
             assert_eq!(differ, 0, "{name}, instant {at}, {way}");
         }
     }
+    expected
 }
 
 #[test]
@@ -263,6 +270,50 @@ fn all_ways_draw_the_same_picture() {
         }
     }
     assert!(kinds[0] > 2 && kinds[1] > 2, "both ways of counting must occur: {kinds:?}");
+}
+
+#[test]
+fn walls_beyond_the_borders_are_not_missed() {
+    for name in ["tower", "industry"] {
+        let site = Site::load(std::path::Path::new(&format!("sites/{name}")), &Overrides::default()).unwrap();
+        let receivers = site.mesh.of_components(&site.receives);
+        let scene = Scene { casters: site.mesh.of_components(&site.casts), receivers, ground: site.ground };
+        let (low, high) = scene.casters.bounds().unwrap();
+        let suns = [site.track.instants[1].to_sun, site.track.instants[5].to_sun];
+        let middle = (low + high) / 2.0;
+        // on the casters, beside them, and where their shadows reach
+        for step in 0..5 {
+            let at = middle - suns[0] * f64::from(step) * 25.0 / suns[0].z;
+            let grid = Grid { west: at.x - 12.0, north: at.y + 9.0, cell: 0.1, width: 240, height: 180 };
+            same_masks_anywhere(name, &scene, View::Plan(grid), &suns);
+        }
+        let mut kinds = [0, 0];
+        for (eye, to) in [(high, middle), (dvec3(middle.x, low.y - 20.0, 2.0), middle), (middle.with_z(1.7), high)] {
+            let camera = Camera { eye, target: to, up: DVec3::Z, fov_rad: 0.4, width: 320, height: 200 };
+            kinds[usize::from(near_clip_volume_touched(&camera, suns[0], &scene.casters))] += 1;
+            same_masks_anywhere(name, &scene, View::Camera(camera), &suns);
+        }
+        assert!(kinds[0] > 0 && kinds[1] > 0, "both ways of counting must occur: {kinds:?}");
+    }
+}
+
+#[test]
+fn a_wall_is_hidden_only_beyond_one_border() {
+    let half = glam::DMat4::from_scale(DVec3::new(0.1, 0.1, 0.01));
+    let to_sun = to_sun(180.0, 45.0);
+    let hidden = |from: [f32; 3], to: [f32; 3]| {
+        let hide =
+            |lowest_z| Borders { clip_from_local: half, lowest_z, to_sun }.hide(&[from.into(), to.into()], [0, 1]);
+        [hide(Some(0.0)), hide(None)]
+    };
+    // the view reaches 10 m each way; shadows go north, as far as their casters are high
+    assert_eq!(hidden([20.0, 0.0, 5.0], [30.0, 5.0, 9.0]), [true, false]); // the point at infinity is no farther east
+    assert_eq!(hidden([0.0, 20.0, 5.0], [5.0, 30.0, 9.0]), [true, true]);
+    assert_eq!(hidden([0.0, -20.0, 5.0], [5.0, -30.0, 9.0]), [true, false]);
+    assert_eq!(hidden([0.0, -20.0, 15.0], [5.0, -30.0, 9.0]), [false, false]);
+    assert_eq!(hidden([-20.0, 0.0, 5.0], [20.0, 0.0, 5.0]), [false, false]);
+    assert_eq!(hidden([20.0, 0.0, 5.0], [5.0, 20.0, 5.0]), [false, false]);
+    assert_eq!(hidden([10.05, 0.0, 5.0], [10.05, 5.0, 9.0]), [false, false]);
 }
 
 #[test]

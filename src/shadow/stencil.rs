@@ -16,6 +16,7 @@
 //! Deviation from the seed: the general rule of [`crate::silhouette`] instead of well-wound closed meshes alone.
 
 use super::batch::Batch;
+use super::walls::borders::Borders;
 use super::walls::{Maker, Sought};
 use super::{DrawnMask, GpuSurface, Scene, ShadowError, Silhouettes, Technique};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
@@ -109,6 +110,11 @@ impl Technique for Stencil {
             to_infinity: z_fail,
             with_cap: z_fail || !self.casters_are_seen,
             halved: false,
+            borders: Some(Borders {
+                clip_from_local: self.surface.clip_from_local,
+                lowest_z: (!z_fail).then_some(self.surface.lowest_z),
+                to_sun,
+            }),
         };
 
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());

@@ -22,7 +22,9 @@ pub struct GpuSurface {
     pub(super) gpu: Arc<Gpu>,
     view: View,
     origin: DVec3,
-    clip_from_local: DMat4,
+    pub(super) clip_from_local: DMat4,
+    /// The lowest point that is judged, metres above the origin.
+    pub(super) lowest_z: f64,
     depth: Texture,
     faces: Texture,
     light: Buffer,
@@ -81,6 +83,7 @@ impl GpuSurface {
             view,
             origin,
             clip_from_local,
+            lowest_z: f64::from(uniform.lowest_z),
             depth,
             faces,
             light,

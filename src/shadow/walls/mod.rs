@@ -1,6 +1,7 @@
 //! Where the walls of shadow volumes come from: found on the processor and uploaded, extracted on the GPU, or decided
 //! vertex by vertex. All give the same walls.
 
+pub mod borders;
 pub mod extraction;
 pub mod faces;
 mod quadrilaterals;
@@ -9,6 +10,7 @@ mod uploaded;
 use crate::gpu::{Gpu, GpuError, layout};
 use crate::mesh::{Incidence, Mesh};
 use crate::silhouette::Kind;
+use borders::Borders;
 use extraction::Extraction;
 use glam::DVec4;
 use quadrilaterals::Quadrilaterals;
@@ -44,6 +46,8 @@ pub struct Sought {
     pub with_cap: bool,
     /// Walls stand half as often; every multiplicity is even.
     pub halved: bool,
+    /// Walls beyond these may be left out, where leaving them out costs less than handing them to the adapter.
+    pub borders: Option<Borders>,
 }
 
 impl Sought {

@@ -47,7 +47,9 @@ impl Walls for Uploaded {
         self.upload.clear();
         // an edge's walls stand in a row
         for &wall in volume.walls.iter().step_by(if sought.halved { 2 } else { 1 }) {
-            append(&mut self.upload, mesh, wall, sought.to_infinity);
+            if !sought.borders.is_some_and(|borders| borders.hide(&mesh.vertices, wall)) {
+                append(&mut self.upload, mesh, wall, sought.to_infinity);
+            }
         }
         self.of_walls = self.upload.len() as u32;
         self.upload.extend(volume.light_cap.iter().flatten().map(|vertex| vertex * 2));
