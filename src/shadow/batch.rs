@@ -1,7 +1,8 @@
 //! Casters that are counted together, so few over each other that the stencil holds their count.
 //!
 //! The stencil holds 8 bits, and a count of exactly 256 would read as light. Casters are halved until a bound shows
-//! that no count of a half can reach 256 ([`layers_bound`]); halves are drawn one after the other.
+//! that no count of a half can reach 256 ([`layers_bound`]). What is found tells its bound, so that as much as fits is
+//! counted together before the mask takes the trace.
 
 use super::walls::{Maker, Sought, Walls};
 use crate::gpu::GpuError;
@@ -10,7 +11,10 @@ use crate::volume::layers_bound;
 use wgpu::CommandEncoder;
 
 /// The most that an 8-bit stencil counts without passing through 0.
-const MOST_COUNTED: u32 = 255;
+pub(super) const MOST_COUNTED: u32 = 255;
+
+/// Walls, and the most that they count.
+pub(super) type Found<'a> = (&'a dyn Walls, u32);
 
 /// Casters, their walls, and their halves where they are too many. Walls and halves are made when first needed.
 pub(super) struct Batch {
@@ -18,7 +22,7 @@ pub(super) struct Batch {
     /// Every shell is even, so that every multiplicity is even.
     even: bool,
     walls: Option<Box<dyn Walls>>,
-    halves: Option<Box<[Batch; 2]>>,
+    halves: Option<Vec<Batch>>,
 }
 
 impl Batch {
@@ -46,17 +50,17 @@ impl Batch {
         maker: &Maker,
         sought: Sought,
         encoder: &mut CommandEncoder,
-        found: &mut Vec<&'a dyn Walls>,
+        found: &mut Vec<Found<'a>>,
     ) -> Result<(), GpuError> {
         let halved = self.even && !sought.with_cap;
         let faces = self.mesh.faces.len() as u32;
         let most = MOST_COUNTED << u32::from(halved);
-        if faces > most && layers_bound(&self.mesh, sought.local_light.truncate()) > most {
-            // a cut goes through shells, and leaves them odd
+        let bound = if faces > most { layers_bound(&self.mesh, sought.local_light.truncate()) } else { faces };
+        if bound > most {
+            // the cut leaves the shells that it goes through odd, and no others
             let halves = self.halves.get_or_insert_with(|| {
-                Box::new(
-                    [true, false].map(|low| Batch::new(self.mesh.of_faces(|face| (face < faces / 2) == low), false)),
-                )
+                let half = |low: bool| self.mesh.of_faces(|face| (face < faces / 2) == low);
+                [true, false].iter().flat_map(|&low| Batch::of(&half(low))).collect()
             });
             return halves.iter_mut().try_for_each(|half| half.find(maker, sought, encoder, found));
         }
@@ -64,8 +68,9 @@ impl Batch {
             Some(walls) => walls,
             none => none.insert(maker.walls(&self.mesh)?),
         };
-        walls.find(&self.mesh, &Sought { halved, ..sought }, encoder)?;
-        found.push(&**walls);
+        if walls.find(&self.mesh, &Sought { halved, ..sought }, encoder)? {
+            found.push((&**walls, bound >> u32::from(halved)));
+        }
         Ok(())
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Crow 1977; Heidmann's z-pass and Carmack's z-fail after seed 004, sections 3 to 6. Walls hang from the silhouette and
 //! are extruded in the vertex shader; two-sided stencil with wrap counts them; a cell is in shadow where the count is
-//! not 0. One render pass an instant: what faces away, then per batch of casters the count and its trace in the mask.
+//! not 0. One render pass an instant: what faces away, then the casters' count and its trace in the mask.
 //!
 //! - **z-pass** counts the walls in front of what is seen, so it needs no dark cap and walls that end at the lowest
 //!   receiver. It is right where nothing of a volume is cut by the near plane: always in the plan, whose near plane
@@ -15,7 +15,7 @@
 //!
 //! Deviation from the seed: the general rule of [`crate::silhouette`] instead of well-wound closed meshes alone.
 
-use super::batch::Batch;
+use super::batch::{Batch, MOST_COUNTED};
 use super::walls::borders::Borders;
 use super::walls::{Maker, Sought};
 use super::{DrawnMask, GpuSurface, Scene, ShadowError, Silhouettes, Technique};
@@ -142,16 +142,25 @@ impl Technique for Stencil {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_pipeline(&self.pipelines.facing);
         pass.draw(0..3, 0..1);
-        for walls in found {
+        let cover = |pass: &mut RenderPass<'_>| {
+            pass.set_pipeline(&self.pipelines.covered);
+            pass.draw(0..3, 0..1);
+        };
+        let mut counted = 0;
+        for (walls, most) in found {
+            if counted + most > MOST_COUNTED {
+                cover(&mut pass);
+                counted = 0;
+            }
+            counted += most;
             pass.set_pipeline(&counting.wall);
             walls.draw_walls(&mut pass);
             if sought.with_cap {
                 pass.set_pipeline(&counting.cap);
                 walls.draw_cap(&mut pass);
             }
-            pass.set_pipeline(&self.pipelines.covered);
-            pass.draw(0..3, 0..1);
         }
+        cover(&mut pass);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
         Ok(DrawnMask::Texture(gpu, &self.mask))

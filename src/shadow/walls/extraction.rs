@@ -184,7 +184,7 @@ impl Run {
 }
 
 impl Walls for Extraction {
-    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<(), GpuError> {
+    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<bool, GpuError> {
         let mut runs = std::mem::take(&mut self.runs);
         let made = runs.iter_mut().try_for_each(|run| run.make_list(self, sought));
         self.runs = runs;
@@ -199,7 +199,7 @@ impl Walls for Extraction {
             pass.set_bind_group(GROUP, &list.bound, &[]);
             self.gpu.dispatch(&mut pass, run.count);
         }
-        Ok(())
+        Ok(true)
     }
 
     fn draw_walls(&self, pass: &mut RenderPass<'_>) {

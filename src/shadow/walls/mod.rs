@@ -68,8 +68,9 @@ impl Sought {
 /// The walls and caps of one mesh. Where indices are drawn, they count vertices that come twice: where they are, and
 /// where their walls end.
 pub trait Walls {
-    /// Finds the volume that is drawn next; what the GPU has to do for it goes into `encoder`.
-    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<(), GpuError>;
+    /// Finds the volume that is drawn next; what the GPU has to do for it goes into `encoder`. Says whether there may be
+    /// something to draw.
+    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<bool, GpuError>;
 
     /// Draws its walls.
     fn draw_walls(&self, pass: &mut RenderPass<'_>);

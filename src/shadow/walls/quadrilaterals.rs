@@ -84,9 +84,10 @@ fn pairs(mesh: &Mesh, edge: usize) -> impl Iterator<Item = layout::Quadrilateral
 }
 
 impl Walls for Quadrilaterals {
-    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<(), GpuError> {
+    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<bool, GpuError> {
         self.instances = if sought.halved { 1 } else { 2 };
-        self.faces.find(mesh, sought, encoder)
+        self.faces.find(mesh, sought, encoder)?;
+        Ok(true)
     }
 
     fn draw_walls(&self, pass: &mut RenderPass<'_>) {

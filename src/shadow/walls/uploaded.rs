@@ -42,7 +42,7 @@ fn append(upload: &mut Vec<u32>, mesh: &Mesh, wall: DirectedEdge, to_infinity: b
 }
 
 impl Walls for Uploaded {
-    fn find(&mut self, mesh: &Mesh, sought: &Sought, _: &mut CommandEncoder) -> Result<(), GpuError> {
+    fn find(&mut self, mesh: &Mesh, sought: &Sought, _: &mut CommandEncoder) -> Result<bool, GpuError> {
         let volume = Volume::find(mesh, &mut *self.finder, sought.local_light, sought.with_cap);
         self.upload.clear();
         // an edge's walls stand in a row
@@ -61,7 +61,7 @@ impl Walls for Uploaded {
             self.indices = buffer(&self.gpu, roomy)?;
         }
         self.gpu.queue.write_buffer(&self.indices, 0, bytemuck::cast_slice(&self.upload));
-        Ok(())
+        Ok(!self.upload.is_empty())
     }
 
     fn draw_walls(&self, pass: &mut RenderPass<'_>) {
