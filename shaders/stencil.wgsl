@@ -6,10 +6,6 @@ struct Corner {
     @location(0) vertex: vec4f,
 }
 
-fn stays(corner: Corner) -> bool {
-    return corner.vertex.w > 0.5;
-}
-
 @vertex
 fn cap(corner: Corner) -> @builtin(position) @invariant vec4f {
     return view.clip_from_local * vec4f(corner.vertex.xyz, 1.0);
@@ -23,25 +19,33 @@ struct Wall {
 
 // Walls that end at the lowest receiver. The end is v − to_sun · height / to_sun.z, scaled by to_sun.z, so that a sun
 // on the horizon needs no division.
-@vertex
-fn wall_to_lowest(corner: Corner) -> Wall {
-    let here = view.clip_from_local * vec4f(corner.vertex.xyz, 1.0);
-    let height = corner.vertex.z - view.lowest_z;
-    if stays(corner) || height <= 0.0 {
+fn at_lowest(vertex: vec4f) -> Wall {
+    let here = view.clip_from_local * vec4f(vertex.xyz, 1.0);
+    let height = vertex.z - view.lowest_z;
+    if vertex.w > 0.5 || height <= 0.0 {
         return Wall(here, here.z);
     }
     let rise = light.to_sun.z;
-    let end = view.clip_from_local * vec4f(corner.vertex.xyz * rise - light.to_sun.xyz * height, rise);
+    let end = view.clip_from_local * vec4f(vertex.xyz * rise - light.to_sun.xyz * height, rise);
     return Wall(end, here.z);
 }
 
-// Walls that end at the point at infinity away from the sun.
 @vertex
-fn wall_to_infinity(corner: Corner) -> @builtin(position) @invariant vec4f {
-    if stays(corner) {
-        return view.clip_from_local * vec4f(corner.vertex.xyz, 1.0);
+fn wall_to_lowest(corner: Corner) -> Wall {
+    return at_lowest(corner.vertex);
+}
+
+// Walls that end at the point at infinity away from the sun.
+fn at_infinity(vertex: vec4f) -> vec4f {
+    if vertex.w > 0.5 {
+        return view.clip_from_local * vec4f(vertex.xyz, 1.0);
     }
     return view.clip_from_local * vec4f(-light.to_sun.xyz, 0.0);
+}
+
+@vertex
+fn wall_to_infinity(corner: Corner) -> @builtin(position) @invariant vec4f {
+    return at_infinity(corner.vertex);
 }
 
 // Volumes leave their trace in the stencil alone.

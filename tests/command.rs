@@ -205,13 +205,17 @@ fn the_graphics_adapter_is_named() {
 fn every_finder_draws_the_same_mask_and_is_named() {
     let folder = site();
     let mut masks = Vec::new();
-    for (finder, name) in [("brute", "brute"), ("hextree", "hextree"), ("hextree --hextree-depth 2", "hextree")] {
+    for (finder, name) in
+        [("brute", "brute"), ("hextree", "hextree"), ("hextree --hextree-depth 2", "hextree"), ("gpu", "gpu")]
+    {
         let at = format!("shadow . --at 2026-09-18T15:00 --size 200 --mask m.png --silhouette {finder} --json");
         let json: Value = serde_json::from_str(&done(folder.path(), &at)).unwrap();
         assert_eq!((&json["technique"], &json["silhouette"]), (&"stencil".into(), &name.into()), "{finder}");
         masks.push(std::fs::read(folder.path().join("m.png")).unwrap());
     }
     assert!(masks.iter().all(|mask| *mask == masks[0]));
+    let rays = "profile . --technique ray-cast --silhouette gpu --size 64";
+    fails(folder.path(), rays, 2, &["--silhouette", "leave the option out"]);
 }
 
 /// A system whose only backend is one that it has not.

@@ -68,7 +68,7 @@ fn except_thin(difference: &mut Difference, scene: &Scene, view: View, sun: DVec
     difference.other_differ = difference.other_at.len() as u64;
 }
 
-fn scene_of(mesh: &Mesh, receivers: Receivers, ground: f64) -> Scene {
+pub(crate) fn scene_of(mesh: &Mesh, receivers: Receivers, ground: f64) -> Scene {
     let none = vec![false; mesh.components.len()];
     let receivers = match receivers {
         Receivers::Top => mesh.clone(),
@@ -77,16 +77,16 @@ fn scene_of(mesh: &Mesh, receivers: Receivers, ground: f64) -> Scene {
     Scene { casters: mesh.clone(), receivers, ground }
 }
 
-fn plan(half: f64, cells: u32) -> View {
+pub(crate) fn plan(half: f64, cells: u32) -> View {
     View::Plan(Grid { west: -half, north: half, cell: 2.0 * half / f64::from(cells), width: cells, height: cells })
 }
 
-fn to_sun(azimuth_deg: f64, altitude_deg: f64) -> DVec3 {
+pub(crate) fn to_sun(azimuth_deg: f64, altitude_deg: f64) -> DVec3 {
     let (azimuth, altitude) = (azimuth_deg.to_radians(), altitude_deg.to_radians());
     dvec3(azimuth.sin() * altitude.cos(), azimuth.cos() * altitude.cos(), altitude.sin())
 }
 
-fn day() -> Vec<DVec3> {
+pub(crate) fn day() -> Vec<DVec3> {
     [(95.3, 3.1), (130.7, 24.4), (171.2, 51.9), (214.6, 38.8), (263.1, 9.7)].map(|(az, alt)| to_sun(az, alt)).to_vec()
 }
 

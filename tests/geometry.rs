@@ -3,7 +3,7 @@
 mod planes;
 mod rays;
 mod report;
-mod silhouettes;
+pub(crate) mod silhouettes;
 mod volumes;
 mod weld;
 
@@ -11,7 +11,7 @@ use glam::{DVec3, DVec4, dvec3};
 use gnomon::mesh::{Mesh, Part};
 use proptest::prelude::*;
 
-fn part(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Part {
+pub(crate) fn part(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Part {
     Part { name: "part".into(), positions, triangles, ..Part::default() }
 }
 
@@ -23,7 +23,7 @@ fn unjoined(part: &Part) -> Part {
 }
 
 /// A closed, well-wound sphere of flat faces around the origin, with a fan at each pole.
-fn sphere(radius: f64, around: u32, rings: u32) -> Part {
+pub(crate) fn sphere(radius: f64, around: u32, rings: u32) -> Part {
     let mut positions = vec![DVec3::NEG_Z * radius];
     for ring in 1..rings {
         let (ring_sin, ring_cos) = (std::f64::consts::PI * f64::from(ring) / f64::from(rings)).sin_cos();
@@ -66,7 +66,7 @@ pub(crate) fn soup() -> impl Strategy<Value = Mesh> {
 }
 
 /// A sun, or a lamp among the points of a [`soup`], around the mesh's origin.
-fn light() -> impl Strategy<Value = DVec4> {
+pub(crate) fn light() -> impl Strategy<Value = DVec4> {
     let sun = prop::array::uniform3(-1.0..1.0f64)
         .prop_map(DVec3::from)
         .prop_filter("a direction", |direction| direction.length() > 0.1)
@@ -76,6 +76,6 @@ fn light() -> impl Strategy<Value = DVec4> {
 }
 
 /// Closed, open and crowded meshes that people would model, each with two components' worth of names at most.
-fn modelled() -> Vec<(&'static str, Mesh)> {
+pub(crate) fn modelled() -> Vec<(&'static str, Mesh)> {
     crate::exact::scenes::small().into_iter().map(|(name, parts)| (name, Mesh::build(parts).unwrap())).collect()
 }

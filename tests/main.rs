@@ -6,6 +6,7 @@ mod dome;
 mod exact;
 mod export;
 mod geometry;
+mod gpu_silhouettes;
 mod mistakes;
 mod model;
 mod overlay;

@@ -90,7 +90,7 @@ pub(super) struct DrawArgs {
     /// auto, stencil or ray-cast
     #[arg(long, value_name = "NAME")]
     technique: Option<Method>,
-    /// auto, brute or hextree
+    /// auto, brute, hextree or gpu
     #[arg(long, value_name = "NAME")]
     silhouette: Option<Finder>,
     /// With --silhouette hextree: the tree of the paper, so many levels deep (its own: 4), instead of its successor

@@ -47,6 +47,74 @@ pub struct Weight {
     pub secs: u32,
 }
 
+/// `Search` of `shaders/common/search.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Search {
+    /// Homogeneous, around the mesh's origin.
+    pub light: [f32; 4],
+    /// 6, or 3 where all walls end in one point.
+    pub indices_per_wall: u32,
+    /// 1 where walls stand half as often.
+    pub halved: u32,
+    /// WGSL rounds a struct up to its alignment.
+    pub unused: [u32; 2],
+}
+
+/// `Face` of `shaders/faces.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Face {
+    /// Vertices of the mesh.
+    pub corners: [u32; 3],
+    /// The face's number, that of its bit.
+    pub number: u32,
+}
+
+/// `Edge` of `shaders/extraction.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Edge {
+    /// The vertex from which a wall's triangles begin.
+    pub top: u32,
+    /// The other vertex.
+    pub other: u32,
+    /// A face at it, or where many begin.
+    pub a: u32,
+    /// Another face at it, or none, or how many they are.
+    pub b: u32,
+}
+
+/// `Arguments` of `shaders/extraction.wgsl`: those of an indirect draw.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Arguments {
+    /// How much of the list is drawn.
+    pub index_count: u32,
+    /// How often.
+    pub instance_count: u32,
+    /// From where.
+    pub first_index: u32,
+    /// Added to each index.
+    pub base_vertex: i32,
+    /// From which instance.
+    pub first_instance: u32,
+}
+
+/// `Quadrilateral` of `shaders/quadrilaterals.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Quadrilateral {
+    /// The vertex from which a wall's triangles begin.
+    pub top: [f32; 3],
+    /// A face at it.
+    pub a: u32,
+    /// The other vertex.
+    pub other: [f32; 3],
+    /// Another face at it, or none.
+    pub b: u32,
+}
+
 /// A struct as Rust lays it out.
 pub struct Layout {
     /// Its name, in Rust and in WGSL.
@@ -71,5 +139,10 @@ macro_rules! layout {
 pub const ALL: &[Layout] = &[
     layout!(View: clip_from_local, viewer, right, up, forward, ground_z, lowest_z, judged_above, depth_scale, size, unused),
     layout!(Light: to_sun),
+    layout!(Search: light, indices_per_wall, halved, unused),
+    layout!(Face: corners, number),
+    layout!(Edge: top, other, a, b),
+    layout!(Arguments: index_count, instance_count, first_index, base_vertex, first_instance),
+    layout!(Quadrilateral: top, a, other, b),
     layout!(Weight: secs),
 ];

@@ -1,5 +1,6 @@
-//! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, readback.
+//! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, computing, readback.
 
+pub mod compute;
 mod device;
 pub mod layout;
 pub mod readback;

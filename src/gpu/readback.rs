@@ -2,12 +2,25 @@
 
 use super::{Gpu, GpuError};
 use wgpu::{
-    BufferDescriptor, BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, Extent3d, MapMode, Origin3d, PollType,
+    Buffer, BufferDescriptor, BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, Extent3d, MapMode, Origin3d, PollType,
     TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect,
 };
 
 /// The most that is copied at once, bytes: a large raster comes in strips, so that no second copy of it is needed.
 const STRIP: u64 = 64 << 20;
+
+/// The values of a buffer (with `COPY_SRC`). For tests: nothing that is drawn waits for an answer.
+pub fn values<T: bytemuck::Pod>(gpu: &Gpu, buffer: &Buffer) -> Result<Vec<T>, GpuError> {
+    let copy = gpu.buffer("gpu.readback", buffer.size(), BufferUsages::COPY_DST | BufferUsages::MAP_READ)?;
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+    gpu.queue.submit([encoder.finish()]);
+    copy.map_async(MapMode::Read, .., |_| ());
+    gpu.device.poll(PollType::wait_indefinitely()).map_err(|error| gpu.failed(error))?;
+    gpu.check()?;
+    let mapped = copy.get_mapped_range(..).map_err(|error| gpu.failed(error))?;
+    Ok(bytemuck::pod_collect_to_vec(&mapped[..]))
+}
 
 /// All texels of a texture as plain values, row 0 first. `T` has the size of one texel.
 pub fn texels<T: bytemuck::Pod>(gpu: &Gpu, texture: &Texture, aspect: TextureAspect) -> Result<Vec<T>, GpuError> {

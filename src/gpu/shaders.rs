@@ -17,12 +17,27 @@ pub const JUDGED: &str = joined!("common/view", "common/seen", "judged");
 pub const STENCIL: &str = joined!("common/view", "common/seen", "stencil");
 /// Silhouettes as lines.
 pub const OVERLAY: &str = joined!("common/view", "common/seen", "overlay");
+/// Which faces a light shines on, and the light cap.
+pub const FACES: &str = joined!("common/search", "faces");
+/// Silhouettes as a list of walls.
+pub const EXTRACTION: &str = joined!("common/search", "common/edge", "extraction");
+/// Shadow volumes whose silhouettes the vertex shader decides.
+pub const QUADRILATERALS: &str =
+    joined!("common/view", "common/seen", "common/search", "common/edge", "stencil", "quadrilaterals");
 /// Masks times weights.
 pub const ACCUMULATE: &str = joined!("accumulate");
 
 /// All shaders, by name.
-pub const ALL: &[(&str, &str)] =
-    &[("surface", SURFACE), ("judged", JUDGED), ("stencil", STENCIL), ("overlay", OVERLAY), ("accumulate", ACCUMULATE)];
+pub const ALL: &[(&str, &str)] = &[
+    ("surface", SURFACE),
+    ("judged", JUDGED),
+    ("stencil", STENCIL),
+    ("overlay", OVERLAY),
+    ("faces", FACES),
+    ("extraction", EXTRACTION),
+    ("quadrilaterals", QUADRILATERALS),
+    ("accumulate", ACCUMULATE),
+];
 
 impl Gpu {
     /// Compiles a shader.

@@ -8,6 +8,7 @@ pub mod overlay;
 pub mod ray_cast;
 pub mod stencil;
 mod surface;
+pub mod walls;
 
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
@@ -15,6 +16,7 @@ use crate::view::{Mask, Surface};
 use glam::{DVec3, DVec4};
 
 pub use surface::GpuSurface;
+pub use walls::Silhouettes;
 
 /// What lies this near above a receiver does not shade it, metres: a receiver is judged so far above itself, along the
 /// normal of its seen side. A slab in the ground plane leaves the ground lit.

@@ -51,7 +51,7 @@ impl VolumePicture<'_> {
         let index_buffer = self.upload("overlay.indices", BufferUsages::INDEX, &indices)?;
 
         let module = gpu.shader("overlay.volumes", shaders::STENCIL);
-        let layout = self.surface.seeing_layout();
+        let layout = self.surface.seeing_layout(None);
         let corner = VertexBufferLayout {
             array_stride: size_of::<[f32; 4]>() as u64,
             step_mode: VertexStepMode::Vertex,
@@ -112,7 +112,7 @@ impl VolumePicture<'_> {
             fragment: "ink",
             buffers: &[Some(ends)],
             target: Some((SHARE, ColorWrites::ALL)),
-            layout: Some(&self.surface.seeing_layout()),
+            layout: Some(&self.surface.seeing_layout(None)),
         };
         // where lines overlap, the one that covers more
         let most = BlendComponent {

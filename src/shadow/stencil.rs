@@ -2,7 +2,7 @@
 //!
 //! Crow 1977; Heidmann's z-pass and Carmack's z-fail after seed 004, sections 3 to 6. Walls hang from the silhouette and
 //! are extruded in the vertex shader; two-sided stencil with wrap counts them; a cell is in shadow where the count is
-//! not 0. One render pass an instant: what faces away, then per batch of casters the count and its trace in the mask.
+//! not 0. One render pass an instant: what faces away, then the casters' count and its trace in the mask.
 //!
 //! - **z-pass** counts the walls in front of what is seen, so it needs no dark cap and walls that end at the lowest
 //!   receiver. It is right where nothing of a volume is cut by the near plane: always in the plan, whose near plane
@@ -15,16 +15,15 @@
 //!
 //! Deviation from the seed: the general rule of [`crate::silhouette`] instead of well-wound closed meshes alone.
 
-use super::batch::Batch;
-use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
+use super::batch::{Batch, MOST_COUNTED};
+use super::walls::borders::Borders;
+use super::walls::{Maker, Sought};
+use super::{DrawnMask, GpuSurface, Scene, ShadowError, Silhouettes, Technique};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
 use crate::mesh::Mesh;
-use crate::silhouette::Kind;
 use crate::view::{Camera, Surface, View};
-use crate::volume::Volume;
 use glam::DVec3;
-use std::ops::Range;
 use std::sync::Arc;
 use wgpu::*;
 
@@ -36,19 +35,12 @@ pub struct Stencil {
     casters: Vec<Batch>,
     /// Every caster is among what is seen, so that z-pass needs no light cap.
     casters_are_seen: bool,
+    /// Each vertex twice: where it is, and where its wall ends.
     vertices: Buffer,
-    indices: Buffer,
+    maker: Maker,
     judged: TextureView,
     mask: Texture,
     pipelines: Pipelines,
-    /// What is uploaded at an instant; kept for its memory.
-    upload: Vec<u32>,
-}
-
-/// One batch in the index buffer.
-struct Counted {
-    walls: Range<u32>,
-    cap: Range<u32>,
 }
 
 struct Pipelines {
@@ -66,7 +58,12 @@ struct Counting {
 
 impl Stencil {
     /// Draws what is seen, uploads the casters, builds the pipelines.
-    pub fn new(gpu: Arc<Gpu>, scene: Scene, view: View, finder: Kind) -> Result<Stencil, ShadowError> {
+    pub fn new(
+        gpu: Arc<Gpu>,
+        scene: Scene,
+        view: View,
+        silhouettes: impl Into<Silhouettes>,
+    ) -> Result<Stencil, ShadowError> {
         let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
         let judged = whole(&surface.judged());
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
@@ -80,65 +77,12 @@ impl Stencil {
         let size = (twice.len().max(1) * size_of::<[f32; 4]>()) as u64;
         let vertices = gpu.buffer("stencil.casters", size, BufferUsages::VERTEX | BufferUsages::COPY_DST)?;
         gpu.queue.write_buffer(&vertices, 0, bytemuck::cast_slice(&twice));
-        let indices = gpu.buffer("stencil.indices", 4, BufferUsages::INDEX | BufferUsages::COPY_DST)?;
-        let pipelines = Pipelines::new(&gpu, &surface);
+        let maker = Maker::new(&gpu, silhouettes.into());
+        let pipelines = Pipelines::new(&gpu, &surface, &maker);
         let casters_are_seen = holds_all(&scene);
-        let casters = Batch::of(&scene.casters, finder);
+        let casters = Batch::of(&scene.casters);
         gpu.check()?;
-        Ok(Stencil {
-            scene,
-            view,
-            surface,
-            casters,
-            casters_are_seen,
-            vertices,
-            indices,
-            judged,
-            mask,
-            pipelines,
-            upload: Vec::new(),
-        })
-    }
-
-    /// Finds the volumes for a sun and writes their indices: walls and, with `cap`, the light cap.
-    fn find_volumes(&mut self, to_sun: DVec3, z_fail: bool, cap: bool) -> Vec<Counted> {
-        let mut counted = Vec::new();
-        let upload = &mut self.upload;
-        upload.clear();
-        let mut write = |mesh: &Mesh, volume: Volume| {
-            let first = upload.len() as u32;
-            for wall in volume.walls {
-                let [from, to] = wall.map(|vertex| [vertex * 2, vertex * 2 + 1]);
-                let height = |index: u32| mesh.vertices[index as usize / 2].z;
-                // counter-clockwise seen from outside, and first the highest vertex, by which the shader bounds depth
-                if z_fail {
-                    upload.extend([from[0], to[1], to[0]]); // far ends are one point
-                } else if height(from[0]) >= height(to[0]) {
-                    upload.extend([from[0], from[1], to[1], from[0], to[1], to[0]]);
-                } else {
-                    upload.extend([to[0], from[0], from[1], to[0], from[1], to[1]]);
-                }
-            }
-            let middle = upload.len() as u32;
-            upload.extend(volume.light_cap.iter().flatten().map(|vertex| vertex * 2));
-            counted.push(Counted { walls: first..middle, cap: middle..upload.len() as u32 });
-        };
-        for batch in &mut self.casters {
-            batch.volumes(to_sun, cap, &mut write);
-        }
-        counted
-    }
-
-    fn upload_indices(&mut self) -> Result<(), ShadowError> {
-        let gpu = &self.surface.gpu;
-        let size = (self.upload.len() * 4) as u64;
-        if size > self.indices.size() {
-            // room for the next instants, whose silhouettes are much alike
-            let roomy = (size + size / 2).next_multiple_of(4).min(gpu.limits.max_buffer_size.max(size));
-            self.indices = gpu.buffer("stencil.indices", roomy, BufferUsages::INDEX | BufferUsages::COPY_DST)?;
-        }
-        gpu.queue.write_buffer(&self.indices, 0, bytemuck::cast_slice(&self.upload));
-        Ok(())
+        Ok(Stencil { scene, view, surface, casters, casters_are_seen, vertices, maker, judged, mask, pipelines })
     }
 }
 
@@ -154,8 +98,6 @@ impl Technique for Stencil {
             View::Plan(_) => false,
             View::Camera(camera) => near_clip_volume_touched(camera, to_sun, &self.scene.casters),
         };
-        let counted = self.find_volumes(to_sun, z_fail, z_fail || !self.casters_are_seen);
-        self.upload_indices()?;
         self.surface.set_sun(to_sun);
         let gpu = &self.surface.gpu;
         let counting = match self.view {
@@ -163,8 +105,23 @@ impl Technique for Stencil {
             View::Camera(_) if z_fail => &self.pipelines.z_fail,
             View::Camera(_) => &self.pipelines.z_pass,
         };
+        let sought = Sought {
+            local_light: self.scene.casters.local_light(to_sun.extend(0.0)),
+            to_infinity: z_fail,
+            with_cap: z_fail || !self.casters_are_seen,
+            halved: false,
+            borders: Some(Borders {
+                clip_from_local: self.surface.clip_from_local,
+                lowest_z: (!z_fail).then_some(self.surface.lowest_z),
+                to_sun,
+            }),
+        };
 
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+        let mut found = Vec::new();
+        for batch in &mut self.casters {
+            batch.find(&self.maker, sought, &mut encoder, &mut found)?;
+        }
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("stencil"),
             color_attachments: &[Some(RenderPassColorAttachment {
@@ -183,19 +140,27 @@ impl Technique for Stencil {
         pass.set_bind_group(0, &self.surface.frame, &[]);
         pass.set_bind_group(1, &self.surface.seen, &[]);
         pass.set_vertex_buffer(0, self.vertices.slice(..));
-        pass.set_index_buffer(self.indices.slice(..), IndexFormat::Uint32);
         pass.set_pipeline(&self.pipelines.facing);
         pass.draw(0..3, 0..1);
-        for Counted { walls, cap } in counted {
-            pass.set_pipeline(&counting.wall);
-            pass.draw_indexed(walls, 0, 0..1);
-            if !cap.is_empty() {
-                pass.set_pipeline(&counting.cap);
-                pass.draw_indexed(cap, 0, 0..1);
-            }
+        let cover = |pass: &mut RenderPass<'_>| {
             pass.set_pipeline(&self.pipelines.covered);
             pass.draw(0..3, 0..1);
+        };
+        let mut counted = 0;
+        for (walls, most) in found {
+            if counted + most > MOST_COUNTED {
+                cover(&mut pass);
+                counted = 0;
+            }
+            counted += most;
+            pass.set_pipeline(&counting.wall);
+            walls.draw_walls(&mut pass);
+            if sought.with_cap {
+                pass.set_pipeline(&counting.cap);
+                walls.draw_cap(&mut pass);
+            }
         }
+        cover(&mut pass);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
         Ok(DrawnMask::Texture(gpu, &self.mask))
@@ -234,20 +199,30 @@ pub fn near_clip_volume_touched(camera: &Camera, to_sun: DVec3, casters: &Mesh) 
 }
 
 impl Pipelines {
-    fn new(gpu: &Gpu, surface: &GpuSurface) -> Pipelines {
+    fn new(gpu: &Gpu, surface: &GpuSurface, maker: &Maker) -> Pipelines {
         let module = gpu.shader("stencil", shaders::STENCIL);
-        let layout = surface.seeing_layout();
+        let layout = surface.seeing_layout(None);
         let corner = VertexBufferLayout {
             array_stride: size_of::<[f32; 4]>() as u64,
             step_mode: VertexStepMode::Vertex,
             attributes: &vertex_attr_array![0 => Float32x4],
         };
         let buffers = [Some(corner)];
-        let pipeline = |label: &str, vertex, fragment, writes, depth_stencil| {
+        let pipeline = |label: &str, vertex: &str, fragment: &str, writes, depth_stencil| {
             let buffers: &[_] = if vertex == "whole_picture" { &[] } else { &buffers };
             let target = Some((SHARE, writes));
             let stages = Stages { module: &module, vertex, fragment, buffers, target, layout: Some(&layout) };
             gpu.pipeline(label, stages, Some(depth_stencil))
+        };
+        let wall_pipeline = |label: &str, end: &str, fragment: &str, depth_stencil| match maker.in_vertex_shader() {
+            None => pipeline(label, &format!("wall_to_{end}"), fragment, ColorWrites::empty(), depth_stencil),
+            Some((module, edges_layout)) => {
+                let vertex = &format!("quadrilateral_to_{end}");
+                let target = Some((SHARE, ColorWrites::empty()));
+                let layout = surface.seeing_layout(Some(edges_layout));
+                let stages = Stages { module, vertex, fragment, buffers: &[], target, layout: Some(&layout) };
+                gpu.pipeline(label, stages, Some(depth_stencil))
+            }
         };
         let whole_picture = |compare, pass_op| {
             let face = StencilFaceState { compare, pass_op, ..StencilFaceState::default() };
@@ -257,11 +232,11 @@ impl Pipelines {
             .map(|pass_op| StencilFaceState { pass_op, ..StencilFaceState::default() });
         let [fail_front, fail_back] = [StencilOperation::DecrementWrap, StencilOperation::IncrementWrap]
             .map(|depth_fail_op| StencilFaceState { depth_fail_op, ..StencilFaceState::default() });
-        let counting = |name: &str, wall, counted, front, back| {
+        let counting = |name: &str, end, counted, front, back| {
             // strictly nearer than what is judged
             let state = || state(CompareFunction::Greater, front, back);
             Counting {
-                wall: pipeline(&format!("stencil.{name}.wall"), wall, counted, ColorWrites::empty(), state()),
+                wall: wall_pipeline(&format!("stencil.{name}.wall"), end, counted, state()),
                 cap: pipeline(&format!("stencil.{name}.cap"), "cap", "counted", ColorWrites::empty(), state()),
             }
         };
@@ -280,9 +255,9 @@ impl Pipelines {
                 ColorWrites::ALL,
                 whole_picture(CompareFunction::NotEqual, StencilOperation::Zero),
             ),
-            plan: counting("plan", "wall_to_lowest", "counted_in_plan", pass_front, pass_back),
-            z_pass: counting("z_pass", "wall_to_lowest", "counted", pass_front, pass_back),
-            z_fail: counting("z_fail", "wall_to_infinity", "counted", fail_front, fail_back),
+            plan: counting("plan", "lowest", "counted_in_plan", pass_front, pass_back),
+            z_pass: counting("z_pass", "lowest", "counted", pass_front, pass_back),
+            z_fail: counting("z_fail", "infinity", "counted", fail_front, fail_back),
         }
     }
 }

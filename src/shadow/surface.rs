@@ -4,7 +4,7 @@
 use super::{JUDGED_ABOVE_M, Scene, ShadowError};
 use crate::gpu::layout::{self, Light};
 use crate::gpu::targets::{COUNTED, DEPTH, NUMBER, Stages, whole};
-use crate::gpu::{Gpu, readback, shaders};
+use crate::gpu::{Gpu, GpuError, readback, shaders};
 use crate::mesh::Mesh;
 use crate::view::{Surface, View};
 use glam::{DMat4, DVec3, DVec4};
@@ -22,7 +22,9 @@ pub struct GpuSurface {
     pub(super) gpu: Arc<Gpu>,
     view: View,
     origin: DVec3,
-    clip_from_local: DMat4,
+    pub(super) clip_from_local: DMat4,
+    /// The lowest point that is judged, metres above the origin.
+    pub(super) lowest_z: f64,
     depth: Texture,
     faces: Texture,
     light: Buffer,
@@ -46,7 +48,7 @@ impl GpuSurface {
             TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
         let depth = gpu.texture("surface.depth", view.size(), DEPTH, drawn_and_read);
         let faces = gpu.texture("surface.faces", view.size(), NUMBER, drawn_and_read);
-        let planes = planes(&gpu, &scene.receivers);
+        let planes = planes(&gpu, &scene.receivers)?;
 
         let uniform = uniform(scene, &view);
         let view_buffer = gpu.uniform::<layout::View>("view");
@@ -81,6 +83,7 @@ impl GpuSurface {
             view,
             origin,
             clip_from_local,
+            lowest_z: f64::from(uniform.lowest_z),
             depth,
             faces,
             light,
@@ -173,9 +176,10 @@ impl GpuSurface {
         Ok(gpu.check()?)
     }
 
-    /// The layout of pipelines that read the view, and what is seen.
-    pub(super) fn seeing_layout(&self) -> PipelineLayout {
-        self.pipeline_layout(&[&self.frame_layout, &self.seen_layout])
+    /// The layout of pipelines that read the view, what is seen, and what else they may need.
+    pub(super) fn seeing_layout(&self, further: Option<&BindGroupLayout>) -> PipelineLayout {
+        let groups: Vec<_> = [&self.frame_layout, &self.seen_layout].into_iter().chain(further).collect();
+        self.pipeline_layout(&groups)
     }
 
     fn pipeline_layout(&self, groups: &[&BindGroupLayout]) -> PipelineLayout {
@@ -206,7 +210,7 @@ impl GpuSurface {
             fragment: "judged_depth",
             buffers: &[],
             target: None,
-            layout: Some(&self.seeing_layout()),
+            layout: Some(&self.seeing_layout(None)),
         };
         let pipeline = gpu.pipeline("judged", stages, Some(always));
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
@@ -317,8 +321,13 @@ fn uniform(scene: &Scene, view: &View) -> layout::View {
 }
 
 /// The planes of faces as a texture, which no adapter limits to the size of a binding.
-fn planes(gpu: &Gpu, mesh: &Mesh) -> Texture {
+pub(super) fn planes(gpu: &Gpu, mesh: &Mesh) -> Result<Texture, GpuError> {
     let rows = mesh.planes.len().div_ceil(PLANES_WIDTH).max(1);
+    let most = gpu.limits.max_texture_dimension_2d as usize;
+    if rows > most {
+        let (faces, most) = (mesh.planes.len(), most * PLANES_WIDTH);
+        return Err(gpu.failed(format!("{faces} triangles are more than the {most} that its largest texture holds")));
+    }
     let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
     let texture = gpu.texture("surface.planes", (PLANES_WIDTH as u32, rows as u32), TextureFormat::Rgba32Float, usage);
     let mut texels: Vec<[f32; 4]> = mesh.planes.iter().map(|plane| plane.as_vec4().to_array()).collect();
@@ -329,7 +338,7 @@ fn planes(gpu: &Gpu, mesh: &Mesh) -> Texture {
         TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(PLANES_WIDTH as u32 * 16), rows_per_image: None },
         texture.size(),
     );
-    texture
+    Ok(texture)
 }
 
 const UNIFORM: BindingType =
@@ -339,7 +348,7 @@ fn texture_binding(sample_type: TextureSampleType) -> BindingType {
     BindingType::Texture { sample_type, view_dimension: TextureViewDimension::D2, multisampled: false }
 }
 
-fn bind_group_layout(gpu: &Gpu, label: &str, types: &[BindingType]) -> BindGroupLayout {
+pub(super) fn bind_group_layout(gpu: &Gpu, label: &str, types: &[BindingType]) -> BindGroupLayout {
     let entry = |(binding, ty): (usize, &BindingType)| BindGroupLayoutEntry {
         binding: binding as u32,
         visibility: ShaderStages::VERTEX_FRAGMENT,

@@ -77,8 +77,13 @@ words!(
 );
 words!(
     Finder,
-    ["auto" => Finder::Auto, "brute" => Finder::Brute, "hextree" => Finder::Hextree],
-    later ["gpu"]
+    [
+        "auto" => Finder::Auto,
+        "brute" => Finder::Brute,
+        "hextree" => Finder::Hextree,
+        "gpu" => Finder::Gpu
+    ],
+    later []
 );
 words!(Engine, ["auto" => Engine::Auto, "gpu" => Engine::Gpu, "cpu" => Engine::Cpu], later []);
 words!(Receivers, ["top" => Receivers::Top, "ground" => Receivers::Ground], later ["surfaces"]);

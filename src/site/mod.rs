@@ -52,10 +52,12 @@ pub enum Finder {
     /// The fastest that exists.
     #[default]
     Auto,
-    /// One pass over all edges.
+    /// One pass over all edges, on the processor.
     Brute,
     /// A search in dual space: classes of edges under a hierarchy, or with a depth the paper's tree.
     Hextree,
+    /// One pass over all edges, on the graphics adapter.
+    Gpu,
 }
 
 /// Which machine draws, as the user asked.

@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::hash::Hash;
 
 /// Edges with how often they are run along less how often against; those that cancel are left out.
-fn sums<V: Copy + Ord + Hash>(edges: impl IntoIterator<Item = [V; 2]>) -> BTreeMap<[V; 2], i32> {
+pub(crate) fn sums<V: Copy + Ord + Hash>(edges: impl IntoIterator<Item = [V; 2]>) -> BTreeMap<[V; 2], i32> {
     let mut sums: HashMap<[V; 2], i32> = HashMap::new();
     for [from, to] in edges {
         if from < to {
@@ -29,7 +29,7 @@ fn sides<V: Copy>([a, b, c]: [V; 3]) -> [[V; 2]; 3] {
 }
 
 /// Face by face, each turned towards the light.
-fn naive(mesh: &Mesh, facing: &[bool]) -> BTreeMap<[u32; 2], i32> {
+pub(crate) fn naive(mesh: &Mesh, facing: &[bool]) -> BTreeMap<[u32; 2], i32> {
     let turned = |(&[a, b, c], &facing): (&[u32; 3], &bool)| if facing { [a, b, c] } else { [a, c, b] };
     sums(mesh.faces.iter().zip(facing).map(turned).flat_map(sides))
 }

@@ -2,23 +2,23 @@
 //!
 //! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera.
 
-use crate::gpu::{Gpu, GpuError};
+mod machine;
+
+use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Timings};
 use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
-use crate::shadow::stencil::Stencil;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
-use crate::silhouette::Kind;
-use crate::site::{Engine, Finder, Method, Receivers, Site};
+use crate::site::{Receivers, Site};
 use crate::sun::SunTrack;
 use crate::view::{Camera, Mask, Overlay, Surface, View};
 use chrono::DateTime;
 use chrono_tz::Tz;
 use glam::DVec3;
+use machine::{Machine, choose, stencil_alone};
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::time::Instant;
 
 /// What is made beside the profile.
@@ -162,7 +162,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
     let mut technique = look.technique()?;
     let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
-    let mut sum = Sum::new(machine.gpu.clone(), site.grid.width, site.grid.height);
+    let mut sum = Sum::new(machine.gpu(), site.grid.width, site.grid.height);
     watch.lap("prepare");
 
     let count = site.track.instants.len();
@@ -279,101 +279,6 @@ fn day_and_night(track: &SunTrack) -> Result<(u32, u32), StudyError> {
     Ok((day_secs as u32, weights(true).sum::<u64>() as u32))
 }
 
-/// Who draws: the stencil on the graphics adapter, or ray casting on the processor.
-struct Machine {
-    gpu: Option<Arc<Gpu>>,
-    /// Of the stencil's silhouettes.
-    finder: Kind,
-}
-
-/// The finder asked. The hierarchy is the fastest on the processor (docs/benchmarks/silhouettes.md).
-fn finder(site: &Site) -> Kind {
-    match (site.finder, site.hextree_depth) {
-        (Finder::Brute, _) => Kind::BruteForce,
-        (Finder::Hextree, Some(depth)) => Kind::Hextree { depth },
-        (Finder::Hextree | Finder::Auto, _) => Kind::Hierarchy,
-    }
-}
-
-impl Machine {
-    fn drawn(&self) -> Drawn {
-        match &self.gpu {
-            Some(gpu) => Drawn {
-                technique: Method::Stencil.word(),
-                silhouette: Some(match self.finder {
-                    Kind::BruteForce => Finder::Brute.word(),
-                    Kind::Hextree { .. } | Kind::Hierarchy => Finder::Hextree.word(),
-                }),
-                engine: Engine::Gpu.word(),
-                adapter: Some(gpu.name().to_owned()),
-            },
-            None => {
-                Drawn { technique: Method::RayCast.word(), silhouette: None, engine: Engine::Cpu.word(), adapter: None }
-            }
-        }
-    }
-
-    fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
-        Ok(match &self.gpu {
-            Some(gpu) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, self.finder)?),
-            None => Box::new(RayCast::new(scene, view)),
-        })
-    }
-}
-
-/// Technique and engine as asked; else the stencil on a real graphics adapter, and ray casting on the processor.
-fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
-    let conflict = |option, what| Err(StudyError::Conflict { option, what });
-    let finder = finder(site);
-    let open = || Gpu::open().map(|gpu| Machine { gpu: Some(Arc::new(gpu)), finder });
-    let machine = match (site.method, site.engine) {
-        (Method::Stencil, Engine::Cpu) => {
-            return conflict("--engine", "the technique stencil draws on the gpu; take --technique ray-cast with cpu");
-        }
-        (Method::RayCast, Engine::Gpu) => {
-            return conflict("--engine", "the technique ray-cast works on the cpu; take --technique stencil with gpu");
-        }
-        (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => Machine { gpu: None, finder },
-        (Method::Stencil, _) | (Method::Auto, Engine::Gpu) => open()?,
-        // silhouettes are asked, and only the stencil has them
-        (Method::Auto, Engine::Auto) if site.finder != Finder::Auto => open()?,
-        (Method::Auto, Engine::Auto) => match open() {
-            // measured (docs/benchmarks): a stencil drawn in software is slower than casting the rays outright
-            Ok(machine) if machine.gpu.as_ref().is_some_and(|gpu| gpu.software()) => Machine { gpu: None, finder },
-            Ok(machine) => machine,
-            Err(error) => {
-                tell(on_event, Event::Note(format!("{}: drawing on the processor", why_none(error))))?;
-                Machine { gpu: None, finder }
-            }
-        },
-    };
-    if machine.gpu.is_none() && site.finder != Finder::Auto {
-        return conflict("--silhouette", "ray casting on the processor uses no silhouettes; leave the option out");
-    }
-    Ok(machine)
-}
-
-/// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.
-fn stencil_alone(site: &Site) -> Result<Machine, StudyError> {
-    if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {
-        let what = "volumes and silhouette are drawn by the technique stencil on the gpu alone; \
-                    take --technique stencil without --engine cpu, or leave them out";
-        return Err(StudyError::Conflict { option: "--show", what });
-    }
-    let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(why_none(error)))?;
-    Ok(Machine { gpu: Some(Arc::new(gpu)), finder: finder(site) })
-}
-
-/// Why no graphics adapter draws.
-fn why_none(error: GpuError) -> String {
-    match error {
-        GpuError::NoAdapter => "no graphics adapter was found".to_owned(),
-        GpuError::Unusable { adapter, reason } | GpuError::Failed { adapter, reason } => {
-            format!("the graphics adapter '{adapter}' cannot be used ({reason})")
-        }
-    }
-}
-
 /// One view of a site, by one machine.
 struct Look<'a> {
     site: &'a Site,
@@ -400,13 +305,13 @@ impl Look<'_> {
     /// Volumes and silhouette before a camera's picture, in cells half as large as its pixels: a drawing on paper holds
     /// more than the picture's.
     fn overlay(&self, wants: &InstantWants, to_sun: DVec3) -> Result<Option<Overlay>, ShadowError> {
-        let (Some(gpu), View::Camera(camera)) = (&self.machine.gpu, self.view) else { return Ok(None) };
+        let (Some(gpu), View::Camera(camera)) = (self.machine.gpu(), self.view) else { return Ok(None) };
         if !(wants.volumes || wants.silhouette) {
             return Ok(None);
         }
         let fine = Camera { width: camera.width * 2, height: camera.height * 2, ..camera };
         let scene = self.scene();
-        let picture = VolumePicture::new(Arc::clone(gpu), &scene, fine, to_sun)?;
+        let picture = VolumePicture::new(gpu, &scene, fine, to_sun)?;
         Ok(Some(Overlay {
             width: fine.width,
             height: fine.height,
@@ -429,8 +334,8 @@ impl Look<'_> {
         }
         let casters = self.site.mesh.of_components(&[]);
         let scene = Scene { casters, receivers: self.surface_mesh(), ground: self.site.ground };
-        match &self.machine.gpu {
-            Some(gpu) => GpuSurface::draw(Arc::clone(gpu), &scene, self.view)?.read(),
+        match self.machine.gpu() {
+            Some(gpu) => GpuSurface::draw(gpu, &scene, self.view)?.read(),
             None => RayCast::new(scene, self.view).surface(),
         }
     }

@@ -1,0 +1,216 @@
+//! Silhouettes found on the GPU: one pass over all edges writes the list of walls and the arguments with which it is
+//! drawn, and nothing comes back.
+//!
+//! The twin of [`crate::silhouette::brute_force`]. (Seed 003 extracts in the vertex shader, for want of compute passes:
+//! [`super::Silhouettes::InVertexShader`]. Here only silhouette edges become vertices.) Facing is a bit of
+//! [`super::faces`]. Edges come in runs, each so short that its buffers fit the adapter's bindings however many of its
+//! edges are silhouette.
+
+use super::faces::{self, Faces, GROUP};
+use super::{NO_FACE, Sought, Walls, packed, top_first};
+use crate::gpu::{Gpu, GpuError, layout, readback, shaders};
+use crate::mesh::Mesh;
+use std::sync::Arc;
+use wgpu::{
+    BindGroup, Buffer, BufferUsages, CommandEncoder, ComputePassDescriptor, ComputePipeline, IndexFormat, RenderPass,
+};
+
+/// Flags an edge with more than two faces (`CROWDED` of `shaders/extraction.wgsl`).
+const CROWDED: u32 = 1 << 31;
+
+/// Before an edge is asked.
+const NOTHING_DRAWN: layout::Arguments =
+    layout::Arguments { index_count: 0, instance_count: 1, first_index: 0, base_vertex: 0, first_instance: 0 };
+
+/// What all meshes share.
+pub struct Program {
+    pub(super) faces: Arc<faces::Program>,
+    extract: ComputePipeline,
+}
+
+impl Program {
+    /// Compiles the shaders.
+    pub fn new(gpu: &Arc<Gpu>) -> Program {
+        let module = gpu.shader("extraction", shaders::EXTRACTION);
+        Program { faces: Arc::new(faces::Program::new(gpu)), extract: gpu.compute("extraction", &module, "extract") }
+    }
+}
+
+/// The edges of one mesh on the GPU.
+pub struct Extraction {
+    gpu: Arc<Gpu>,
+    extract: ComputePipeline,
+    most: u64,
+    faces: Faces,
+    runs: Vec<Run>,
+}
+
+/// A run of edges.
+struct Run {
+    count: u32,
+    edges: Buffer,
+    /// Faces at crowded edges.
+    crowds: Buffer,
+    /// How many faces all edges have together: the most walls that can hang there.
+    most_walls: u64,
+    arguments: Buffer,
+    /// Made when first sought, and again where more is sought.
+    list: Option<List>,
+}
+
+/// Where a run's walls are written.
+struct List {
+    indices: Buffer,
+    bound: BindGroup,
+}
+
+/// A run on its way to the GPU.
+#[derive(Default)]
+struct Gathered {
+    edges: Vec<layout::Edge>,
+    crowds: Vec<u32>,
+    most_walls: u64,
+}
+
+impl Gathered {
+    fn add(&mut self, mesh: &Mesh, edge: usize) {
+        let [top, other] = top_first(mesh, mesh.edges[edge]);
+        let turned = top != mesh.edges[edge][0];
+        let faces = mesh.faces_at(edge);
+        let [a, b] = match *faces {
+            [a] => [packed(a, turned), NO_FACE],
+            [a, b] => [packed(a, turned), packed(b, turned)],
+            _ => [CROWDED | self.crowds.len() as u32, faces.len() as u32],
+        };
+        if faces.len() > 2 {
+            self.crowds.extend(faces.iter().map(|&face| packed(face, turned)));
+        }
+        self.edges.push(layout::Edge { top, other, a, b });
+        self.most_walls += faces.len() as u64;
+    }
+
+    /// Whether the next edge, which so many faces share, still fits into buffers of `most` bytes.
+    fn has_room(&self, faces: usize, most: u64) -> bool {
+        let edges = (self.edges.len() as u64 + 1) * size_of::<layout::Edge>() as u64;
+        let crowds = (self.crowds.len() + faces) as u64 * 4;
+        let list = (self.most_walls + faces as u64) * 24; // six indices a wall
+        edges.max(crowds).max(list) <= most
+    }
+
+    fn uploaded(self, gpu: &Gpu, most: u64) -> Result<Run, GpuError> {
+        let edges_size = size_of_val(&self.edges[..]) as u64;
+        let edges = gpu.storage("extraction.edges", edges_size, most, BufferUsages::COPY_DST)?;
+        let crowds_size = size_of_val(&self.crowds[..]) as u64;
+        let crowds = gpu.storage("extraction.crowds", crowds_size, most, BufferUsages::COPY_DST)?;
+        let usage = BufferUsages::INDIRECT | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
+        let arguments_size = size_of::<layout::Arguments>() as u64;
+        let arguments = gpu.storage("extraction.arguments", arguments_size, most, usage)?;
+        gpu.queue.write_buffer(&edges, 0, bytemuck::cast_slice(&self.edges));
+        gpu.queue.write_buffer(&crowds, 0, bytemuck::cast_slice(&self.crowds));
+        let Gathered { edges: gathered, most_walls, .. } = self;
+        Ok(Run { count: gathered.len() as u32, edges, crowds, most_walls, arguments, list: None })
+    }
+}
+
+impl Extraction {
+    /// Uploads the edges of a mesh, in runs whose buffers have at most `most` bytes.
+    pub fn new(program: &Program, mesh: &Mesh, most: u64) -> Result<Extraction, GpuError> {
+        let gpu = Arc::clone(&program.faces.gpu);
+        let mut runs = Vec::new();
+        let mut run = Gathered::default();
+        for edge in 0..mesh.edges.len() {
+            if !run.edges.is_empty() && !run.has_room(mesh.faces_at(edge).len(), most) {
+                runs.push(std::mem::take(&mut run).uploaded(&gpu, most)?);
+            }
+            run.add(mesh, edge);
+        }
+        if !run.edges.is_empty() {
+            runs.push(run.uploaded(&gpu, most)?);
+        }
+        let faces = Faces::new(&program.faces, mesh, most)?;
+        gpu.check()?;
+        Ok(Extraction { gpu, extract: program.extract.clone(), most, faces, runs })
+    }
+
+    /// In how many runs the edges are asked.
+    pub fn runs(&self) -> usize {
+        self.runs.len()
+    }
+
+    /// The lists that were written last, walls and cap. For tests: what is drawn stays on the GPU.
+    pub fn read(&self) -> Result<[Vec<u32>; 2], GpuError> {
+        let mut walls = Vec::new();
+        for run in &self.runs {
+            let drawn: Vec<u32> = readback::values(&self.gpu, &run.arguments)?;
+            if let Some(list) = &run.list {
+                let indices: Vec<u32> = readback::values(&self.gpu, &list.indices)?;
+                walls.extend(&indices[..drawn[0] as usize]);
+            }
+        }
+        let mut cap = Vec::new();
+        for (indices, count) in self.faces.cap() {
+            cap.extend(&readback::values::<u32>(&self.gpu, indices)?[..count as usize]);
+        }
+        Ok([walls, cap])
+    }
+}
+
+impl Run {
+    /// Makes the list as long as it can become.
+    fn make_list(&mut self, extraction: &Extraction, sought: &Sought) -> Result<(), GpuError> {
+        let gpu = &extraction.gpu;
+        let most_walls = self.most_walls >> u32::from(sought.halved);
+        let size = most_walls * u64::from(sought.indices_per_wall()) * 4;
+        if self.list.as_ref().is_some_and(|list| list.indices.size() >= size) {
+            return Ok(());
+        }
+        let usage = BufferUsages::INDEX | BufferUsages::COPY_SRC;
+        let indices = gpu.storage("extraction.walls", size, extraction.most, usage)?;
+        let bound = gpu.bind(
+            "extraction",
+            &extraction.extract.get_bind_group_layout(GROUP),
+            &[
+                (0, extraction.faces.search.as_entire_binding()),
+                (1, extraction.faces.facing.as_entire_binding()),
+                (2, self.edges.as_entire_binding()),
+                (3, self.crowds.as_entire_binding()),
+                (4, indices.as_entire_binding()),
+                (5, self.arguments.as_entire_binding()),
+            ],
+        );
+        self.list = Some(List { indices, bound });
+        Ok(())
+    }
+}
+
+impl Walls for Extraction {
+    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<bool, GpuError> {
+        let mut runs = std::mem::take(&mut self.runs);
+        let made = runs.iter_mut().try_for_each(|run| run.make_list(self, sought));
+        self.runs = runs;
+        made?;
+        self.faces.find(mesh, sought, encoder)?;
+        let mut pass =
+            encoder.begin_compute_pass(&ComputePassDescriptor { label: Some("extraction"), ..Default::default() });
+        pass.set_pipeline(&self.extract);
+        for run in &self.runs {
+            let Some(list) = &run.list else { continue };
+            self.gpu.queue.write_buffer(&run.arguments, 0, bytemuck::bytes_of(&NOTHING_DRAWN));
+            pass.set_bind_group(GROUP, &list.bound, &[]);
+            self.gpu.dispatch(&mut pass, run.count);
+        }
+        Ok(true)
+    }
+
+    fn draw_walls(&self, pass: &mut RenderPass<'_>) {
+        for run in &self.runs {
+            let Some(list) = &run.list else { continue };
+            pass.set_index_buffer(list.indices.slice(..), IndexFormat::Uint32);
+            pass.draw_indexed_indirect(&run.arguments, 0);
+        }
+    }
+
+    fn draw_cap(&self, pass: &mut RenderPass<'_>) {
+        self.faces.draw_cap(pass);
+    }
+}

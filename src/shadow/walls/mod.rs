@@ -1,0 +1,131 @@
+//! Where the walls of shadow volumes come from: found on the processor and uploaded, extracted on the GPU, or decided
+//! vertex by vertex. All give the same walls.
+
+pub mod borders;
+pub mod extraction;
+pub mod faces;
+mod quadrilaterals;
+mod uploaded;
+
+use crate::gpu::{Gpu, GpuError, layout};
+use crate::mesh::{Incidence, Mesh};
+use crate::silhouette::Kind;
+use borders::Borders;
+use extraction::Extraction;
+use glam::DVec4;
+use quadrilaterals::Quadrilaterals;
+use std::sync::Arc;
+use uploaded::Uploaded;
+use wgpu::{BindGroupLayout, CommandEncoder, RenderPass, ShaderModule};
+
+/// Who finds the silhouettes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Silhouettes {
+    /// A finder on the processor; its walls are uploaded.
+    OnProcessor(Kind),
+    /// A compute pass over all edges.
+    OnGpu,
+    /// The vertex shader, for each edge of the mesh. To compare with: it is the older way (seed 003).
+    InVertexShader,
+}
+
+impl From<Kind> for Silhouettes {
+    fn from(kind: Kind) -> Silhouettes {
+        Silhouettes::OnProcessor(kind)
+    }
+}
+
+/// Which volume is sought.
+#[derive(Clone, Copy, Debug)]
+pub struct Sought {
+    /// The light around the mesh's origin (sun: w = 0, lamp: w = 1).
+    pub local_light: DVec4,
+    /// Walls end in one point at infinity, so that each is one triangle; else two.
+    pub to_infinity: bool,
+    /// The light cap is drawn too.
+    pub with_cap: bool,
+    /// Walls stand half as often; every multiplicity is even.
+    pub halved: bool,
+    /// Walls beyond these may be left out, where leaving them out costs less than handing them to the adapter.
+    pub borders: Option<Borders>,
+}
+
+impl Sought {
+    fn indices_per_wall(&self) -> u32 {
+        if self.to_infinity { 3 } else { 6 }
+    }
+
+    fn uniform(&self) -> layout::Search {
+        layout::Search {
+            light: self.local_light.as_vec4().to_array(),
+            indices_per_wall: self.indices_per_wall(),
+            halved: u32::from(self.halved),
+            unused: [0; 2],
+        }
+    }
+}
+
+/// The walls and caps of one mesh. Where indices are drawn, they count vertices that come twice: where they are, and
+/// where their walls end.
+pub trait Walls {
+    /// Finds the volume that is drawn next; what the GPU has to do for it goes into `encoder`. Says whether there may be
+    /// something to draw.
+    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<bool, GpuError>;
+
+    /// Draws its walls.
+    fn draw_walls(&self, pass: &mut RenderPass<'_>);
+
+    /// Draws its light cap, where that was sought.
+    fn draw_cap(&self, pass: &mut RenderPass<'_>);
+}
+
+/// Makes walls for meshes, in the way that was chosen.
+pub(super) enum Maker {
+    OnProcessor(Arc<Gpu>, Kind),
+    OnGpu(extraction::Program),
+    InVertexShader(quadrilaterals::Program),
+}
+
+impl Maker {
+    pub(super) fn new(gpu: &Arc<Gpu>, silhouettes: Silhouettes) -> Maker {
+        match silhouettes {
+            Silhouettes::OnProcessor(kind) => Maker::OnProcessor(Arc::clone(gpu), kind),
+            Silhouettes::OnGpu => Maker::OnGpu(extraction::Program::new(gpu)),
+            Silhouettes::InVertexShader => Maker::InVertexShader(quadrilaterals::Program::new(gpu)),
+        }
+    }
+
+    pub(super) fn walls(&self, mesh: &Mesh) -> Result<Box<dyn Walls>, GpuError> {
+        Ok(match self {
+            Maker::OnProcessor(gpu, kind) => Box::new(Uploaded::new(Arc::clone(gpu), *kind, mesh)?),
+            Maker::OnGpu(program) => Box::new(Extraction::new(program, mesh, program.faces.gpu.most_storage())?),
+            Maker::InVertexShader(program) => Box::new(Quadrilaterals::new(program, mesh)?),
+        })
+    }
+
+    /// Where the vertex shader decides the edges: its module, and the layout of what it reads of them.
+    pub(super) fn in_vertex_shader(&self) -> Option<(&ShaderModule, &BindGroupLayout)> {
+        match self {
+            Maker::InVertexShader(program) => Some((&program.module, &program.layout)),
+            _ => None,
+        }
+    }
+}
+
+/// The vertex of an edge from which its wall's triangles begin, and the other one: the higher one, as the plan's shader
+/// bounds a wall's depth by the first; the lower number among equals, so that a wall and its opposite are the same
+/// triangles and cancel.
+fn top_first(mesh: &Mesh, [first, second]: [u32; 2]) -> [u32; 2] {
+    let height = |vertex: u32| mesh.vertices[vertex as usize].z;
+    let is_top = height(first) > height(second) || (height(first) == height(second) && first < second);
+    if is_top { [first, second] } else { [second, first] }
+}
+
+/// Instead of a second face, where an edge has one (`NO_FACE` of `shaders/common/edge.wgsl`).
+const NO_FACE: u32 = u32::MAX;
+
+/// A face and which way it runs along an edge, turned round where `turned` says so, as `shaders/common/edge.wgsl` reads
+/// it.
+fn packed(incidence: Incidence, turned: bool) -> u32 {
+    incidence.face() << 1 | u32::from((incidence.direction() < 0) != turned)
+}

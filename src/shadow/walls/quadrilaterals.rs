@@ -1,0 +1,103 @@
+//! Silhouettes decided in the vertex shader: every edge is a quadrilateral, collapsed where it is no silhouette.
+//!
+//! Seed 003, pages on extrusion; kept to compare with. Every edge costs its twelve vertices, silhouette or not. Seed and
+//! shader know edges with two faces: one with more comes as several, a pair of its faces each, whose walls add up.
+
+use super::faces::{self, Faces, GROUP};
+use super::{NO_FACE, Sought, Walls, packed, top_first};
+use crate::gpu::{Gpu, GpuError, layout, shaders};
+use crate::mesh::Mesh;
+use crate::shadow::surface::bind_group_layout;
+use std::sync::Arc;
+use wgpu::{
+    BindGroup, BindGroupLayout, BindingType, BufferBindingType, BufferUsages, CommandEncoder, RenderPass, ShaderModule,
+};
+
+/// What all meshes share.
+pub(in crate::shadow) struct Program {
+    faces: Arc<faces::Program>,
+    /// The stencil's shader with these vertex stages.
+    pub(in crate::shadow) module: ShaderModule,
+    pub(super) layout: BindGroupLayout,
+}
+
+impl Program {
+    pub(super) fn new(gpu: &Arc<Gpu>) -> Program {
+        let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+        let read = buffer(BufferBindingType::Storage { read_only: true });
+        Program {
+            faces: Arc::new(faces::Program::new(gpu)),
+            module: gpu.shader("quadrilaterals", shaders::QUADRILATERALS),
+            layout: bind_group_layout(gpu, "quadrilaterals", &[buffer(BufferBindingType::Uniform), read, read]),
+        }
+    }
+}
+
+/// The edges of one mesh on the GPU.
+pub(super) struct Quadrilaterals {
+    faces: Faces,
+    /// Runs that fit the adapter's bindings, and how many edges they are.
+    runs: Vec<(BindGroup, u32)>,
+    /// How often a wall of two faces can stand.
+    instances: u32,
+}
+
+impl Quadrilaterals {
+    pub(super) fn new(program: &Program, mesh: &Mesh) -> Result<Quadrilaterals, GpuError> {
+        let gpu = &program.faces.gpu;
+        let most = gpu.most_storage();
+        let faces = Faces::new(&program.faces, mesh, most)?;
+        let pairs: Vec<layout::Quadrilateral> = (0..mesh.edges.len()).flat_map(|edge| pairs(mesh, edge)).collect();
+        let mut runs = Vec::new();
+        // 256 MiB at most, so that six vertices an edge stay countable
+        let at_once = most.min(1 << 28) as usize / size_of::<layout::Quadrilateral>();
+        for pairs in pairs.chunks(at_once) {
+            let buffer = gpu.storage("quadrilaterals", size_of_val(pairs) as u64, most, BufferUsages::COPY_DST)?;
+            gpu.queue.write_buffer(&buffer, 0, bytemuck::cast_slice(pairs));
+            let bound = gpu.bind(
+                "quadrilaterals",
+                &program.layout,
+                &[
+                    (0, faces.search.as_entire_binding()),
+                    (1, faces.facing.as_entire_binding()),
+                    (2, buffer.as_entire_binding()),
+                ],
+            );
+            runs.push((bound, pairs.len() as u32));
+        }
+        gpu.check()?;
+        Ok(Quadrilaterals { faces, runs, instances: 0 })
+    }
+}
+
+/// An edge as pairs of its faces.
+fn pairs(mesh: &Mesh, edge: usize) -> impl Iterator<Item = layout::Quadrilateral> {
+    let ends = top_first(mesh, mesh.edges[edge]);
+    let turned = ends != mesh.edges[edge];
+    let [top, other] = ends.map(|vertex| mesh.vertices[vertex as usize].to_array());
+    mesh.faces_at(edge).chunks(2).map(move |pair| layout::Quadrilateral {
+        top,
+        a: packed(pair[0], turned),
+        other,
+        b: pair.get(1).map_or(NO_FACE, |&face| packed(face, turned)),
+    })
+}
+
+impl Walls for Quadrilaterals {
+    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<bool, GpuError> {
+        self.instances = if sought.halved { 1 } else { 2 };
+        self.faces.find(mesh, sought, encoder)?;
+        Ok(true)
+    }
+
+    fn draw_walls(&self, pass: &mut RenderPass<'_>) {
+        for (bound, count) in &self.runs {
+            pass.set_bind_group(GROUP, bound, &[]);
+            pass.draw(0..count * 6, 0..self.instances);
+        }
+    }
+
+    fn draw_cap(&self, pass: &mut RenderPass<'_>) {
+        self.faces.draw_cap(pass);
+    }
+}
