@@ -12,3 +12,4 @@ mod site;
 mod sites;
 mod sums;
 mod sun;
+mod try_models;

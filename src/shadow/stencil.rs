@@ -41,6 +41,7 @@ pub struct Stencil {
     judged: TextureView,
     mask: Texture,
     pipelines: Pipelines,
+    forced_z_fail: Option<bool>,
     /// What is uploaded at an instant; kept for its memory.
     upload: Vec<u32>,
 }
@@ -96,8 +97,15 @@ impl Stencil {
             judged,
             mask,
             pipelines,
+            forced_z_fail: None,
             upload: Vec::new(),
         })
+    }
+
+    /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong: z-fail always is right, and z-pass must be
+    /// seen to fail where it is not chosen.
+    pub fn force_z_fail(&mut self, z_fail: bool) {
+        self.forced_z_fail = Some(z_fail);
     }
 
     /// Finds the volumes for a sun and writes their indices: walls and, with `cap`, the light cap.
@@ -152,7 +160,9 @@ impl Technique for Stencil {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
         let z_fail = match &self.view {
             View::Plan(_) => false,
-            View::Camera(camera) => near_clip_volume_touched(camera, to_sun, &self.scene.casters),
+            View::Camera(camera) => {
+                self.forced_z_fail.unwrap_or_else(|| near_clip_volume_touched(camera, to_sun, &self.scene.casters))
+            }
         };
         let counted = self.find_volumes(to_sun, z_fail, z_fail || !self.casters_are_seen);
         self.upload_indices()?;
@@ -257,14 +267,19 @@ impl Pipelines {
             .map(|pass_op| StencilFaceState { pass_op, ..StencilFaceState::default() });
         let [fail_front, fail_back] = [StencilOperation::DecrementWrap, StencilOperation::IncrementWrap]
             .map(|depth_fail_op| StencilFaceState { depth_fail_op, ..StencilFaceState::default() });
-        let counting = |name: &str, wall, counted, front, back| {
+        let counting = |name: &str,
+                        [wall, cap]: [&'static str; 2],
+                        [wall_counted, cap_counted]: [&'static str; 2],
+                        front,
+                        back| {
             // strictly nearer than what is judged
-            let state = || state(CompareFunction::Greater, front, back);
-            Counting {
-                wall: pipeline(&format!("stencil.{name}.wall"), wall, counted, ColorWrites::empty(), state()),
-                cap: pipeline(&format!("stencil.{name}.cap"), "cap", "counted", ColorWrites::empty(), state()),
-            }
+            let part = |part: &str, vertex: &'static str, counted: &'static str| {
+                let state = state(CompareFunction::Greater, front, back);
+                pipeline(&format!("stencil.{name}.{part}"), vertex, counted, ColorWrites::empty(), state)
+            };
+            Counting { wall: part("wall", wall, wall_counted), cap: part("cap", cap, cap_counted) }
         };
+        let in_plan = ["counted_in_plan", "cap_counted_in_plan"];
         Pipelines {
             facing: pipeline(
                 "stencil.facing",
@@ -280,9 +295,9 @@ impl Pipelines {
                 ColorWrites::ALL,
                 whole_picture(CompareFunction::NotEqual, StencilOperation::Zero),
             ),
-            plan: counting("plan", "wall_to_lowest", "counted_in_plan", pass_front, pass_back),
-            z_pass: counting("z_pass", "wall_to_lowest", "counted", pass_front, pass_back),
-            z_fail: counting("z_fail", "wall_to_infinity", "counted", fail_front, fail_back),
+            plan: counting("plan", ["wall_to_lowest", "cap_in_plan"], in_plan, pass_front, pass_back),
+            z_pass: counting("z_pass", ["wall_to_lowest", "cap"], ["counted"; 2], pass_front, pass_back),
+            z_fail: counting("z_fail", ["wall_to_infinity", "cap"], ["counted"; 2], fail_front, fail_back),
         }
     }
 }
