@@ -118,7 +118,7 @@ impl Stencil {
             for wall in volume.walls {
                 let [from, to] = wall.map(|vertex| [vertex * 2, vertex * 2 + 1]);
                 let height = |index: u32| mesh.vertices[index as usize / 2].z;
-                // counter-clockwise seen from outside, and first the highest vertex, by which the shader bounds depth
+                // counter-clockwise seen from outside, and first the highest vertex, from which the shader takes slivers' depth
                 if z_fail {
                     upload.extend([from[0], to[1], to[0]]); // far ends are one point
                 } else if height(from[0]) >= height(to[0]) {

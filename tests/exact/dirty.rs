@@ -129,7 +129,7 @@ fn day() -> Vec<DVec3> {
 
 /// Outside, above, within the solids and close to a wall.
 fn cameras() -> Vec<Camera> {
-    let camera = |eye, target| Camera { eye, target, up: DVec3::Z, fov_rad: 1.1, width: 128, height: 96 };
+    let camera = |eye, target| Camera { eye, target, up: DVec3::Z, fov_rad: 1.1, width: 104, height: 78 };
     vec![
         camera(dvec3(17.1, -19.3, 11.2), dvec3(0.0, 0.0, 3.0)),
         camera(dvec3(-9.4, 13.2, 21.7), dvec3(1.0, 1.0, 2.0)),
@@ -162,9 +162,9 @@ fn pictures_of_dirty_meshes_agree_with_ray_casting() {
         // casters that are not all seen: then the light cap is drawn, and no wall is saved
         let keep: Vec<bool> = (0..mesh.components.len()).map(|component| component > 0).collect();
         let partly = Scene { receivers: mesh.of_components(&keep), ..whole.clone() };
-        for scene in [whole, partly] {
+        for (scene, every) in [(whole, 1), (partly, 2)] {
             let mut total = Difference::default();
-            for camera in cameras() {
+            for camera in cameras().into_iter().step_by(every) {
                 for (_, _, difference) in masks(&scene, View::Camera(camera), &day()[..2]) {
                     assert!(difference.holds(0.05), "{name} from {}: {difference}", camera.eye);
                     total.add(difference);
