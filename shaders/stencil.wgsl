@@ -11,23 +11,33 @@ fn cap(corner: Corner) -> @builtin(position) @invariant vec4f {
     return view.clip_from_local * vec4f(corner.vertex.xyz, 1.0);
 }
 
-struct Wall {
-    @builtin(position) @invariant position: vec4f,
-    // Depth of the triangle's first vertex: in the plan the wall's highest.
-    @location(0) @interpolate(flat, first) top: f32,
+// Caps in the plan, with what of a wall their depth needs.
+@vertex
+fn cap_in_plan(corner: Corner) -> Wall {
+    let vertex = corner.vertex.xyz;
+    let sunk = select(0.0, 1.0, vertex.z < view.lowest_z);
+    return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, sunk);
 }
 
-// Walls that end at the lowest receiver. The end is v − to_sun · height / to_sun.z, scaled by to_sun.z, so that a sun
-// on the horizon needs no division.
-fn at_lowest(vertex: vec4f) -> Wall {
-    let here = view.clip_from_local * vec4f(vertex.xyz, 1.0);
+struct Wall {
+    @builtin(position) @invariant position: vec4f,
+    // Where the triangle's first vertex comes from: of the wall's two casting vertices the higher.
+    @location(0) @interpolate(flat, first) highest: vec3f,
+    // More than 0 where the wall reaches below the lowest point that is judged.
+    @location(1) sunk: f32,
+}
+
+// Walls that end at the lowest point that is judged. The end is v − to_sun · height / to_sun.z, scaled by to_sun.z, so
+// that a sun on the horizon needs no division.
+fn at_lowest(corner: vec4f) -> Wall {
+    let vertex = corner.xyz;
     let height = vertex.z - view.lowest_z;
-    if vertex.w > 0.5 || height <= 0.0 {
-        return Wall(here, here.z);
+    if corner.w > 0.5 || height <= 0.0 {
+        return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, select(0.0, 1.0, height < 0.0));
     }
     let rise = light.to_sun.z;
-    let end = view.clip_from_local * vec4f(vertex.xyz * rise - light.to_sun.xyz * height, rise);
-    return Wall(end, here.z);
+    let end = view.clip_from_local * vec4f(vertex * rise - light.to_sun.xyz * height, rise);
+    return Wall(end, vertex, 0.0);
 }
 
 @vertex
@@ -59,15 +69,47 @@ struct Counted {
     @location(0) nothing: vec4f,
 }
 
-// The plan sees many walls edge-on: slivers whose depth, extrapolated to a cell's centre that they do not hold, can be
-// anything. A wall is never below the lowest receiver, and never above its highest vertex. The latter bounds slivers
-// alone (steeper than 1 km a cell): wider walls that meet in an edge have equal depths there, which must stay equal.
+// The plan sees many walls edge-on: slivers that no cell's centre should meet, but that some do once corners are rounded
+// to the raster, and whose depth there can be anything. Their depth is taken from the sun's ray through their highest
+// vertex, which lies in them; any depth between their upper and their lower end is as good.
+//
+// A sliver is so steep that its whole height fits into 1/64 of a cell. Wider walls keep their own depth: where two meet
+// in an edge it must be equal.
 @fragment
 fn counted_in_plan(wall: Wall) -> Counted {
     let depth = wall.position.z;
-    let lowest = view.clip_from_local * vec4f(0.0, 0.0, view.lowest_z + 1.5 * view.judged_above, 1.0);
-    let steep = fwidth(depth) > view.depth_scale * 1000.0;
-    return Counted(max(select(depth, min(depth, wall.top), steep), lowest.z), vec4f(0.0));
+    let height = wall.highest.z - view.lowest_z;
+    // written so that what is no number is steep
+    if !(fwidth(depth) <= 64.0 * height * view.depth_scale) {
+        return Counted(max(depth_in_plan(height_of_sliver(wall)), above_lowest()), vec4f(0.0));
+    }
+    return Counted(not_below_lowest(wall), vec4f(0.0));
+}
+
+@fragment
+fn cap_counted_in_plan(cap: Wall) -> Counted {
+    return Counted(not_below_lowest(cap), vec4f(0.0));
+}
+
+// What does not run into the ground is above the lowest point that is judged, whatever the rounding.
+fn not_below_lowest(wall: Wall) -> f32 {
+    return select(max(wall.position.z, above_lowest()), wall.position.z, wall.sunk > 0.0);
+}
+
+fn above_lowest() -> f32 {
+    return depth_in_plan(view.lowest_z + 0.5 * view.judged_above);
+}
+
+fn depth_in_plan(z: f32) -> f32 {
+    return view.clip_from_local[2].z * z + view.clip_from_local[3].z;
+}
+
+fn height_of_sliver(wall: Wall) -> f32 {
+    let clip = (wall.position.xy / view.size * 2.0 - 1.0) * vec2f(1.0, -1.0);
+    let at = (clip - view.clip_from_local[3].xy) / vec2f(view.clip_from_local[0].x, view.clip_from_local[1].y);
+    let across = light.to_sun.xy;
+    let along = dot(wall.highest.xy - at, across) / max(dot(across, across), 1e-12);
+    return wall.highest.z - max(along, 0.0) * light.to_sun.z;
 }
 
 // Before any volume: what faces away from the sun, or is edge-on to it, is in shadow; the sky is not.

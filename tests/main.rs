@@ -15,4 +15,5 @@ mod site;
 mod sites;
 mod sums;
 mod sun;
+mod try_models;
 mod volumes;

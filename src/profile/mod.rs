@@ -1,6 +1,7 @@
 //! The answer: shaded time per cell, and where it lies on the ground.
 
 pub mod accumulate;
+pub mod compare;
 
 use crate::view::Grid;
 

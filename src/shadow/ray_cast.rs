@@ -8,7 +8,7 @@
 
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
-use crate::view::{Mask, Surface, View};
+use crate::view::{Camera, Mask, Surface, View};
 use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
 use obvhs::ray::{Ray, RayHit};
@@ -132,6 +132,7 @@ struct Seen {
 pub struct RayCast {
     scene: Scene,
     rays: Rays,
+    receivers: RayCaster,
     casters: RayCaster,
     seen: Vec<Seen>,
     mask: Mask,
@@ -143,16 +144,25 @@ impl RayCast {
         let reach = reach(&scene, &view);
         let receivers = RayCaster::new(&scene.receivers, reach);
         let casters = RayCaster::new(&scene.casters, reach);
+        let mask = Mask { width: 0, height: 0, share: Vec::new() };
         let rays = Rays::new(&scene, view);
+        let mut cast = RayCast { scene, rays, receivers, casters, seen: Vec::new(), mask };
+        cast.look_at(view);
+        cast
+    }
+
+    /// Turns to another view, whose rays begin no farther away than those of the first.
+    pub fn look_at(&mut self, view: View) {
+        self.rays = Rays::new(&self.scene, view);
+        let RayCast { scene, rays, receivers, seen, mask, .. } = self;
         let (width, height) = view.size();
-        let mut seen = vec![Seen { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
+        *seen = vec![Seen { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
         seen.par_chunks_mut(width as usize).enumerate().for_each(|(row, cells)| {
             for (column, cell) in cells.iter_mut().enumerate() {
-                *cell = look(&scene, &receivers, rays.of(column as u32, row as u32));
+                *cell = look(scene, receivers, rays.of(column as u32, row as u32));
             }
         });
-        let mask = Mask { width, height, share: vec![255; seen.len()] };
-        RayCast { scene, rays, casters, seen, mask }
+        *mask = Mask { width, height, share: vec![255; seen.len()] };
     }
 }
 
@@ -168,11 +178,17 @@ struct Rays {
     origin: DVec3,
     /// A height above everything, in the world frame: whence the plan looks down.
     top: f64,
+    /// The camera's; its rays begin at the near plane.
+    forward: DVec3,
 }
 
 impl Rays {
     fn new(scene: &Scene, view: View) -> Rays {
-        Rays { view, origin: scene.casters.origin, top: scene.receivers.top().max(scene.ground) + 1.0 }
+        let forward = match view {
+            View::Plan(_) => DVec3::NEG_Z,
+            View::Camera(camera) => camera.axes()[2],
+        };
+        Rays { view, origin: scene.casters.origin, top: scene.receivers.top().max(scene.ground) + 1.0, forward }
     }
 
     /// A cell's ray: from where (around the scene's origin), and the unit direction.
@@ -182,7 +198,11 @@ impl Rays {
                 let at = grid.centre(column, row) + TIE * grid.cell;
                 (at.extend(self.top) - self.origin, DVec3::NEG_Z)
             }
-            View::Camera(camera) => (camera.eye - self.origin, camera.direction(column, row)),
+            View::Camera(camera) => {
+                let direction = camera.direction(column, row);
+                let near = direction * (Camera::NEAR_M / direction.dot(self.forward));
+                (camera.eye + near - self.origin, direction)
+            }
         }
     }
 }
@@ -214,7 +234,7 @@ fn reach(scene: &Scene, view: &View) -> f64 {
 
 impl Technique for RayCast {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
-        let RayCast { scene, rays, casters, seen, mask } = self;
+        let RayCast { scene, rays, casters, seen, mask, .. } = self;
         let origin = scene.casters.origin;
         let world_viewer = rays.view.viewer();
         let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;

@@ -41,6 +41,7 @@ pub struct Stencil {
     judged: TextureView,
     mask: Texture,
     pipelines: Pipelines,
+    forced_z_fail: Option<bool>,
 }
 
 struct Pipelines {
@@ -82,7 +83,25 @@ impl Stencil {
         let casters_are_seen = holds_all(&scene);
         let casters = Batch::of(&scene.casters);
         gpu.check()?;
-        Ok(Stencil { scene, view, surface, casters, casters_are_seen, vertices, maker, judged, mask, pipelines })
+        Ok(Stencil {
+            scene,
+            view,
+            surface,
+            casters,
+            casters_are_seen,
+            vertices,
+            maker,
+            judged,
+            mask,
+            pipelines,
+            forced_z_fail: None,
+        })
+    }
+
+    /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong: z-fail always is right, and z-pass must be
+    /// seen to fail where it is not chosen.
+    pub fn force_z_fail(&mut self, z_fail: bool) {
+        self.forced_z_fail = Some(z_fail);
     }
 }
 
@@ -96,7 +115,9 @@ impl Technique for Stencil {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
         let z_fail = match &self.view {
             View::Plan(_) => false,
-            View::Camera(camera) => near_clip_volume_touched(camera, to_sun, &self.scene.casters),
+            View::Camera(camera) => {
+                self.forced_z_fail.unwrap_or_else(|| near_clip_volume_touched(camera, to_sun, &self.scene.casters))
+            }
         };
         self.surface.set_sun(to_sun);
         let gpu = &self.surface.gpu;
@@ -232,14 +253,15 @@ impl Pipelines {
             .map(|pass_op| StencilFaceState { pass_op, ..StencilFaceState::default() });
         let [fail_front, fail_back] = [StencilOperation::DecrementWrap, StencilOperation::IncrementWrap]
             .map(|depth_fail_op| StencilFaceState { depth_fail_op, ..StencilFaceState::default() });
-        let counting = |name: &str, end, counted, front, back| {
+        let counting = |name: &str, end, [wall_counted, cap, cap_counted]: [&str; 3], front, back| {
             // strictly nearer than what is judged
             let state = || state(CompareFunction::Greater, front, back);
             Counting {
-                wall: wall_pipeline(&format!("stencil.{name}.wall"), end, counted, state()),
-                cap: pipeline(&format!("stencil.{name}.cap"), "cap", "counted", ColorWrites::empty(), state()),
+                wall: wall_pipeline(&format!("stencil.{name}.wall"), end, wall_counted, state()),
+                cap: pipeline(&format!("stencil.{name}.cap"), cap, cap_counted, ColorWrites::empty(), state()),
             }
         };
+        let in_plan = ["counted_in_plan", "cap_in_plan", "cap_counted_in_plan"];
         Pipelines {
             facing: pipeline(
                 "stencil.facing",
@@ -255,9 +277,9 @@ impl Pipelines {
                 ColorWrites::ALL,
                 whole_picture(CompareFunction::NotEqual, StencilOperation::Zero),
             ),
-            plan: counting("plan", "lowest", "counted_in_plan", pass_front, pass_back),
-            z_pass: counting("z_pass", "lowest", "counted", pass_front, pass_back),
-            z_fail: counting("z_fail", "infinity", "counted", fail_front, fail_back),
+            plan: counting("plan", "lowest", in_plan, pass_front, pass_back),
+            z_pass: counting("z_pass", "lowest", ["counted", "cap", "counted"], pass_front, pass_back),
+            z_fail: counting("z_fail", "infinity", ["counted", "cap", "counted"], fail_front, fail_back),
         }
     }
 }

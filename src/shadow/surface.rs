@@ -160,12 +160,13 @@ impl GpuSurface {
                 let count = at_once.min(receivers.faces.len() - first);
                 let corners: Vec<Corner> = (first..first + count)
                     .into_par_iter()
+                    .filter(|&face| !seen_edge_on(receivers, face, &self.view))
                     .flat_map_iter(|face| receivers.corners(face).map(|corner| Corner(corner.to_array(), face as u32)))
                     .collect();
                 gpu.queue.write_buffer(&vertices, 0, bytemuck::cast_slice(&corners));
                 pass.set_pipeline(&receiver);
                 pass.set_vertex_buffer(0, vertices.slice(..));
-                pass.draw(0..count as u32 * 3, 0..1);
+                pass.draw(0..corners.len() as u32, 0..1);
             } else {
                 pass.set_pipeline(&ground);
                 pass.draw(0..3, 0..1);
@@ -264,6 +265,16 @@ impl GpuSurface {
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct Corner([f32; 3], u32);
 
+/// Whether the plan sees a steep face so much from its edge that it is thinner than the raster's rounding of corners:
+/// no cell's centre should see it, and one that did would find any depth. Slivers in a roof fill it, and stay.
+fn seen_edge_on(mesh: &Mesh, face: usize, view: &View) -> bool {
+    let View::Plan(grid) = view else { return false };
+    let [a, b, c] = mesh.corners(face).map(|corner| corner.as_dvec3().truncate());
+    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+    let twice_area = (b - a).perp_dot(c - a).abs();
+    mesh.planes[face].z.abs() < 0.01 && twice_area < longest * grid.cell / 256.0
+}
+
 /// Metres around the scene's origin → clip space, depth 1 near and 0 far.
 fn clip_from_local(scene: &Scene, view: &View) -> DMat4 {
     let to_world = DMat4::from_translation(scene.casters.origin);
@@ -293,15 +304,15 @@ fn uniform(scene: &Scene, view: &View) -> layout::View {
     let (width, height) = view.size();
     let lowest_receiver = scene.receivers.bounds().map_or(scene.ground, |(low, _)| low.z.min(scene.ground));
     let ([right, up, forward], lowest, depth_scale) = match view {
-        // the plan sees nothing below the ground
+        // the plan sees nothing below the ground, nor any underside
         View::Plan(_) => {
             let (low, high) = heights(scene);
-            ([DVec3::X, DVec3::Y, DVec3::NEG_Z], scene.ground, 1.0 / (high - low))
+            ([DVec3::X, DVec3::Y, DVec3::NEG_Z], scene.ground + JUDGED_ABOVE_M, 1.0 / (high - low))
         }
         View::Camera(camera) => {
             let [right, up, forward] = camera.axes();
             let half = camera.half_size();
-            ([right * half.x, up * half.y, forward], lowest_receiver, crate::view::Camera::NEAR_M)
+            ([right * half.x, up * half.y, forward], lowest_receiver - JUDGED_ABOVE_M, crate::view::Camera::NEAR_M)
         }
     };
     let direction = |axis: DVec3| axis.extend(0.0).as_vec4().to_array();

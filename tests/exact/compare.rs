@@ -1,88 +1,68 @@
-//! How two masks differ, in the terms of the design: at shadow edges, and elsewhere.
+//! The comparison of masks is seen to fail.
 
-use gnomon::view::Mask;
-use std::fmt;
-
-/// Counts of cells. An edge cell is one whose 3 × 3 neighbourhood in the truth is not uniform.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Difference {
-    pub(crate) edge_cells: u64,
-    pub(crate) edge_differ: u64,
-    pub(crate) other_cells: u64,
-    pub(crate) other_differ: u64,
-    /// Columns and rows of the other cells that differ.
-    pub(crate) other_at: Vec<(u32, u32)>,
-}
-
-impl Difference {
-    pub(crate) fn add(&mut self, other: Difference) {
-        self.edge_cells += other.edge_cells;
-        self.edge_differ += other.edge_differ;
-        self.other_cells += other.other_cells;
-        self.other_differ += other.other_differ;
-        self.other_at.extend(other.other_at);
-    }
-
-    /// At most this share of edge cells differ, and at most one in 100,000 of the others (one cell may always).
-    pub(crate) fn holds(&self, edge_share: f64) -> bool {
-        let most_edge = (self.edge_cells as f64 * edge_share).max(1.0);
-        let most_other = (self.other_cells as f64 / 1e5).max(1.0);
-        self.edge_differ as f64 <= most_edge && self.other_differ as f64 <= most_other
-    }
-}
-
-impl fmt::Display for Difference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let share = 100.0 * self.edge_differ as f64 / self.edge_cells.max(1) as f64;
-        write!(
-            f,
-            "{} of {} edge cells differ ({share:.3}%), {} of {} others",
-            self.edge_differ, self.edge_cells, self.other_differ, self.other_cells
-        )
-    }
-}
-
-/// Counts where `drawn` differs from `truth`.
-pub(crate) fn compare(drawn: &Mask, truth: &Mask) -> Difference {
-    assert_eq!((drawn.width, drawn.height), (truth.width, truth.height));
-    let (width, height) = (truth.width as usize, truth.height as usize);
-    let mut difference = Difference::default();
-    for row in 0..height {
-        for column in 0..width {
-            let share = truth.share[row * width + column];
-            let edge = (row.saturating_sub(1)..(row + 2).min(height)).any(|row| {
-                let cells = &truth.share[row * width..][column.saturating_sub(1)..(column + 2).min(width)];
-                cells.iter().any(|&other| other != share)
-            });
-            let differs = u64::from(drawn.share[row * width + column] != share);
-            if edge {
-                difference.edge_cells += 1;
-                difference.edge_differ += differs;
-            } else {
-                difference.other_cells += 1;
-                difference.other_differ += differs;
-                if differs > 0 {
-                    difference.other_at.push((column as u32, row as u32));
-                }
-            }
-        }
-    }
-    difference
-}
+use super::scenes::cuboid;
+use super::{plan, scene_of, to_sun};
+use glam::{DVec3, dvec3};
+use gnomon::mesh::Mesh;
+use gnomon::profile::compare::Difference;
+use gnomon::shadow::Technique;
+use gnomon::shadow::ray_cast::RayCast;
+use gnomon::site::Receivers;
+use gnomon::view::{Camera, Mask, View};
 
 #[test]
 fn one_wrong_cell_is_seen() {
     let truth = Mask { width: 40, height: 30, share: (0..1200).map(|at| if at % 40 < 20 { 0 } else { 255 }).collect() };
-    let same = compare(&truth, &truth);
+    let same = Difference::between(&truth, &truth);
     assert_eq!((same.edge_differ, same.other_differ, same.edge_cells), (0, 0, 60));
     for (at, edge) in [(10 * 40 + 19, 1), (10 * 40 + 5, 0)] {
         let mut wrong = truth.clone();
         wrong.share[at] = 255;
-        let difference = compare(&wrong, &truth);
+        let difference = Difference::between(&wrong, &truth);
         assert_eq!((difference.edge_differ, difference.other_differ), (edge, 1 - edge));
+        assert_eq!((difference.edge_at.len(), difference.other_at.len()), (edge as usize, 1 - edge as usize));
     }
     let mut two_wrong = truth.clone();
     two_wrong.share[5] = 255;
     two_wrong.share[7] = 255;
-    assert!(!compare(&two_wrong, &truth).holds(0.01));
+    assert!(!Difference::between(&two_wrong, &truth).holds(0.01));
+    let mut edge_wrong = truth.clone();
+    edge_wrong.share[5 * 40 + 20] = 0;
+    edge_wrong.share[9 * 40 + 20] = 0;
+    let difference = Difference::between(&edge_wrong, &truth);
+    assert!(difference.holds(0.04) && !difference.holds(0.02), "{difference}");
+}
+
+#[test]
+fn only_what_is_thinner_than_a_cell_is_excepted() {
+    let sun = to_sun(180.0, 45.0);
+    let beam =
+        |name: &str, x: f64, half: f64| cuboid(name, dvec3(x - half, -8.0, 4.0), dvec3(x + half, 8.0, 4.0 + half));
+    let mesh = Mesh::build(vec![beam("wire", -3.1, 0.03), beam("beam", 4.0, 1.0)]).unwrap();
+    let scene = scene_of(&mesh, Receivers::Ground, 0.0);
+    // its picture shows the ground just as the plan does
+    let from_above = Camera {
+        eye: dvec3(0.0, 0.0, 40.0),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        fov_rad: 2.0 * 0.25f64.atan(),
+        width: 200,
+        height: 200,
+    };
+    for view in [plan(10.0, 200), View::Camera(from_above)] {
+        let mut cast = RayCast::new(scene.clone(), view);
+        let truth = cast.draw(sun).unwrap().read().unwrap();
+        // beneath the wire, beneath the beam, and in the sun
+        let mut wrong = truth.clone();
+        for column in [69, 140, 190] {
+            assert_eq!(truth.share[100 * 200 + column], if column == 140 { 0 } else { 255 });
+            wrong.share[100 * 200 + column] ^= 255;
+        }
+        let mut difference = Difference::between(&wrong, &truth);
+        assert_eq!((difference.edge_differ, difference.other_differ), (0, 3));
+        difference.except_thin(&mut cast, view, sun).unwrap();
+        assert_eq!(difference.other_at, [(140, 100), (190, 100)]);
+        assert_eq!(difference.other_differ, 2);
+        assert_eq!(cast.draw(sun).unwrap().read().unwrap(), truth, "it looks at the view again");
+    }
 }

@@ -31,7 +31,7 @@ pub(crate) fn joined(parts: Vec<Part>) -> Part {
 }
 
 /// A page from an edge at (x, y), standing up: an open sheet.
-fn sheet(corners: [DVec3; 4]) -> Part {
+pub(crate) fn sheet(corners: [DVec3; 4]) -> Part {
     Part { name: "sheet".into(), positions: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Part::default() }
 }
 

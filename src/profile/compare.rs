@@ -1,0 +1,136 @@
+//! How two masks differ, in the terms of the design: at shadow edges, and elsewhere.
+//!
+//! An *edge cell* is one whose 3 × 3 neighbourhood in the truth is not uniform. There a rasteriser may differ a little,
+//! since it rounds corners to 1/256 of a cell; elsewhere it may not, except beside what is thinner than a cell.
+
+use crate::shadow::ray_cast::RayCast;
+use crate::shadow::{ShadowError, Technique};
+use crate::view::{Camera, Grid, Mask, View};
+use glam::{DVec3, dvec2};
+use std::fmt;
+
+/// Counts of cells, of one pair of masks or of several.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Difference {
+    /// Edge cells of the truth.
+    pub edge_cells: u64,
+    /// Edge cells that differ.
+    pub edge_differ: u64,
+    /// All other cells.
+    pub other_cells: u64,
+    /// Other cells that differ.
+    pub other_differ: u64,
+    /// Columns and rows of the edge cells that differ.
+    pub edge_at: Vec<(u32, u32)>,
+    /// Columns and rows of the other cells that differ.
+    pub other_at: Vec<(u32, u32)>,
+}
+
+impl Difference {
+    /// Counts where `drawn` differs from `truth`, a mask of the same size.
+    pub fn between(drawn: &Mask, truth: &Mask) -> Difference {
+        assert_eq!((drawn.width, drawn.height), (truth.width, truth.height));
+        let (width, height) = (truth.width as usize, truth.height as usize);
+        let mut difference = Difference::default();
+        for row in 0..height {
+            for column in 0..width {
+                let share = truth.share[row * width + column];
+                let edge = (row.saturating_sub(1)..(row + 2).min(height)).any(|row| {
+                    let cells = &truth.share[row * width..][column.saturating_sub(1)..(column + 2).min(width)];
+                    cells.iter().any(|&other| other != share)
+                });
+                let differs = drawn.share[row * width + column] != share;
+                difference.count(edge, differs.then_some((column as u32, row as u32)));
+            }
+        }
+        difference
+    }
+
+    fn count(&mut self, edge: bool, differs_at: Option<(u32, u32)>) {
+        let (cells, differ, at) = match edge {
+            true => (&mut self.edge_cells, &mut self.edge_differ, &mut self.edge_at),
+            false => (&mut self.other_cells, &mut self.other_differ, &mut self.other_at),
+        };
+        *cells += 1;
+        *differ += u64::from(differs_at.is_some());
+        at.extend(differs_at);
+    }
+
+    /// Drops the other cells at which a shadow or a sunlit spot thinner than a cell lies: the neighbourhood in the
+    /// truth, cast again in finer cells, is not uniform. `truth` is left looking at `view`.
+    ///
+    /// # Errors
+    /// As [`Technique::draw`].
+    pub fn except_thin(&mut self, truth: &mut RayCast, view: View, to_sun: DVec3) -> Result<(), ShadowError> {
+        if self.other_at.is_empty() {
+            return Ok(());
+        }
+        let mut thick = Vec::new();
+        match view {
+            View::Plan(grid) => {
+                for &(column, row) in &self.other_at {
+                    let corner = grid.centre(column, row) + dvec2(-1.5, 1.5) * grid.cell;
+                    let fine = Grid { west: corner.x, north: corner.y, cell: grid.cell / 8.0, width: 24, height: 24 };
+                    truth.look_at(View::Plan(fine));
+                    let fine = truth.draw(to_sun)?.read()?;
+                    if fine.share.iter().all(|&share| share == fine.share[0]) {
+                        thick.push((column, row));
+                    }
+                }
+            }
+            View::Camera(camera) => {
+                let (width, height) = (camera.width * 5, camera.height * 5);
+                truth.look_at(View::Camera(Camera { width, height, ..camera }));
+                let fine = truth.draw(to_sun)?.read()?;
+                let uniform = |&(column, row): &(u32, u32)| {
+                    let rows = (row.max(1) - 1) * 5..((row + 2) * 5).min(height);
+                    let columns = (column.max(1) - 1) * 5..((column + 2) * 5).min(width);
+                    let share = |column, row| fine.share[(row * width + column) as usize];
+                    let first = share(columns.start, rows.start);
+                    rows.into_iter().all(|row| columns.clone().all(|column| share(column, row) == first))
+                };
+                thick.extend(self.other_at.iter().copied().filter(uniform));
+            }
+        }
+        truth.look_at(view);
+        self.other_differ = thick.len() as u64;
+        self.other_at = thick;
+        Ok(())
+    }
+
+    /// Adds the counts of another pair of masks.
+    pub fn add(&mut self, other: Difference) {
+        self.edge_cells += other.edge_cells;
+        self.edge_differ += other.edge_differ;
+        self.other_cells += other.other_cells;
+        self.other_differ += other.other_differ;
+        self.edge_at.extend(other.edge_at);
+        self.other_at.extend(other.other_at);
+    }
+
+    /// Which part of the edge cells differs.
+    pub fn edge_share(&self) -> f64 {
+        self.edge_differ as f64 / self.edge_cells.max(1) as f64
+    }
+
+    /// At most this share of edge cells differ, and at most one in 100,000 of the others (one cell may always).
+    pub fn holds(&self, edge_share: f64) -> bool {
+        let most_edge = (self.edge_cells as f64 * edge_share).max(1.0);
+        let most_other = (self.other_cells as f64 / 1e5).max(1.0);
+        self.edge_differ as f64 <= most_edge && self.other_differ as f64 <= most_other
+    }
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} of {} edge cells differ ({:.3}%), {} of {} others",
+            self.edge_differ,
+            self.edge_cells,
+            100.0 * self.edge_share(),
+            self.other_differ,
+            self.other_cells
+        )
+    }
+}

@@ -1,0 +1,262 @@
+//! Tries every glTF model below some folders: `cargo run --example try-models -- FOLDER...`
+//!
+//! A row a model: its triangles and casting edges, whether every finder gives the silhouettes of the plain rule, and how
+//! the stencil's plan differs from ray casting over a day that begins and ends with a low sun. The exit status is 1 when
+//! something does not hold. A model that cannot be read is told and counted, and is no failure.
+//!
+//! The tests include this file to see that its comparisons can fail.
+
+use glam::{DVec3, DVec4, dvec4};
+use gnomon::gpu::Gpu;
+use gnomon::mesh::Mesh;
+use gnomon::profile::compare::Difference;
+use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::stencil::Stencil;
+use gnomon::shadow::{Scene, ShadowError, Technique};
+use gnomon::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
+use gnomon::site::{Overrides, Receivers, Site};
+use gnomon::view::View;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Makes a finder for a mesh.
+type Make = fn(&Mesh) -> Box<dyn SilhouetteFinder>;
+
+/// The finders that are held against the plain rule. A new finder is a line here.
+const FINDERS: &[(&str, Make)] = &[("brute force", |mesh| Kind::BruteForce.build(mesh))];
+
+/// Cells along the plan's longer side.
+const SIZE: u32 = 700;
+/// What part of the edge cells may differ: models are dirty.
+const EDGE_SHARE: f64 = 0.01;
+
+/// A day with a low sun at both ends.
+fn asked(receivers: Receivers) -> Overrides {
+    let some = |text: &str| Some(text.to_owned());
+    Overrides {
+        place: some("51.9984,4.3737"),
+        date: some("2026-09-18"),
+        from: some("sunrise+25min"),
+        to: some("sunset-35min"),
+        step: some("2h20"),
+        size: Some(SIZE),
+        receivers: Some(receivers),
+        ..Overrides::default()
+    }
+}
+
+/// What a silhouette is: each edge, lower vertex first, and how often it is run along less how often against.
+type Sums = BTreeMap<[u32; 2], i32>;
+
+fn sums(edges: impl IntoIterator<Item = DirectedEdge>) -> Sums {
+    let mut sums = Sums::new();
+    for [from, to] in edges {
+        *sums.entry([from.min(to), from.max(to)]).or_default() += if from < to { 1 } else { -1 };
+    }
+    sums.retain(|_, sum| *sum != 0);
+    sums
+}
+
+/// The rule itself: every face turned towards the light, its three sides added up.
+fn plain_rule(mesh: &Mesh, local_light: DVec4) -> Sums {
+    let turned = |(&[a, b, c], facing): (&[u32; 3], bool)| if facing { [a, b, c] } else { [a, c, b] };
+    let faces = mesh.faces.iter().zip(mesh.facing(local_light)).map(turned);
+    sums(faces.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]))
+}
+
+/// The finders whose silhouette is not that of the plain rule.
+fn disagreeing(mesh: &Mesh, lights: &[DVec4], finders: &[(&'static str, Make)]) -> Vec<&'static str> {
+    let truths: Vec<Sums> = lights.iter().map(|&light| plain_rule(mesh, light)).collect();
+    let agrees = |make: &Make| {
+        let mut finder = make(mesh);
+        lights.iter().zip(&truths).all(|(&light, truth)| {
+            let mut found = Vec::new();
+            finder.find(mesh, light, &mut found);
+            // as often as it stands there, not more often to and fro
+            let length: i32 = truth.values().map(|sum| sum.abs()).sum();
+            found.len() == length as usize && sums(found) == *truth
+        })
+    };
+    finders.iter().filter(|(_, make)| !agrees(make)).map(|(name, _)| *name).collect()
+}
+
+/// What a model came to.
+struct Row {
+    triangles: usize,
+    edges: usize,
+    wrong_finders: Vec<&'static str>,
+    /// Altitude of the lowest sun, degrees.
+    lowest_deg: f64,
+    suns: usize,
+    /// Under ground and top receivers.
+    differences: [Difference; 2],
+}
+
+impl Row {
+    fn holds(&self) -> bool {
+        self.wrong_finders.is_empty() && self.differences.iter().all(|difference| difference.holds(EDGE_SHARE))
+    }
+}
+
+/// The stencil's plan against ray casting, over all suns.
+fn stencil_against_rays(gpu: &Arc<Gpu>, scene: Scene, view: View, suns: &[DVec3]) -> Result<Difference, ShadowError> {
+    let mut stencil = Stencil::new(Arc::clone(gpu), scene.clone(), view, Kind::BruteForce)?;
+    let mut truth = RayCast::new(scene, view);
+    let mut total = Difference::default();
+    for &sun in suns {
+        let mut difference = Difference::between(&stencil.draw(sun)?.read()?, &truth.draw(sun)?.read()?);
+        difference.except_thin(&mut truth, view, sun)?;
+        total.add(difference);
+    }
+    Ok(total)
+}
+
+fn try_model(gpu: &Arc<Gpu>, path: &Path) -> Result<Row, Box<dyn std::error::Error>> {
+    let site = Site::load(path, &asked(Receivers::Top))?;
+    let mesh = &site.mesh;
+    let instants: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
+    let suns: Vec<DVec3> = instants.iter().map(|instant| instant.to_sun).collect();
+    let (low, high) = mesh.bounds().ok_or("no faces")?;
+    // a lamp beside the model's middle, and one above a corner
+    let lamps = [(low + high) / 2.0 + (high - low) * 0.13, high + (high - low) * 0.4].map(|at| at - mesh.origin);
+    let lights: Vec<DVec4> = suns
+        .iter()
+        .map(|sun| sun.extend(0.0))
+        .chain(lamps.map(|lamp| lamp.extend(1.0)))
+        .chain([dvec4(0.3, -0.4, -0.8, 0.0), DVec4::Z])
+        .collect();
+    let scene = |receivers: Mesh| Scene { casters: mesh.clone(), receivers, ground: site.ground };
+    let none = vec![false; mesh.components.len()];
+    let view = View::Plan(site.grid);
+    let ground = stencil_against_rays(gpu, scene(mesh.of_components(&none)), view, &suns)?;
+    let top = stencil_against_rays(gpu, scene(mesh.clone()), view, &suns)?;
+    Ok(Row {
+        triangles: mesh.faces.len(),
+        edges: mesh.edges.len(),
+        wrong_finders: disagreeing(mesh, &lights, FINDERS),
+        lowest_deg: instants.iter().map(|instant| instant.altitude_deg()).fold(90.0, f64::min),
+        suns: suns.len(),
+        differences: [ground, top],
+    })
+}
+
+/// The models in a folder and its folders, in the order of their names.
+fn models(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    if folder.is_file() {
+        return Ok(vec![folder.to_owned()]);
+    }
+    let mut paths: Vec<PathBuf> =
+        std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?;
+    paths.sort();
+    let mut found = Vec::new();
+    for path in paths {
+        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        if path.is_dir() {
+            found.extend(models(&path)?);
+        } else if extension == "glb" || extension == "gltf" {
+            found.push(path);
+        }
+    }
+    Ok(found)
+}
+
+#[cfg(not(test))]
+fn main() -> Result<std::process::ExitCode, Box<dyn std::error::Error>> {
+    let folders: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    if folders.is_empty() {
+        return Err("which folder? cargo run --example try-models -- FOLDER...".into());
+    }
+    let gpu = Arc::new(Gpu::open()?);
+    println!("{SIZE} cells on the plan's longer side; {}", gpu.name());
+    println!("model: triangles, edges, finders; edge cells and other cells that differ, ground and top receivers");
+    let (mut tried, mut refused, mut failed) = (0, 0, 0);
+    for folder in &folders {
+        for path in models(folder)? {
+            let name = path.strip_prefix(folder).unwrap_or(&path).display();
+            match try_model(&gpu, &path) {
+                Err(why) => {
+                    refused += 1;
+                    println!("{name}: cannot be read: {why}");
+                }
+                Ok(row) => {
+                    tried += 1;
+                    failed += usize::from(!row.holds());
+                    let finders = match row.wrong_finders.is_empty() {
+                        true => "all finders agree".to_owned(),
+                        false => format!("WRONG: {}", row.wrong_finders.join(", ")),
+                    };
+                    let [ground, top] = &row.differences;
+                    println!(
+                        "{name}: {} triangles, {} edges, {finders}, {} suns from {:.1}°; ground: {ground}; top: {top}{}",
+                        row.triangles,
+                        row.edges,
+                        row.suns,
+                        row.lowest_deg,
+                        if row.holds() { "" } else { "; DOES NOT HOLD" }
+                    );
+                }
+            }
+        }
+    }
+    println!("{tried} models tried, {failed} do not hold, {refused} cannot be read");
+    Ok(std::process::ExitCode::from(u8::from(failed > 0 || tried == 0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gnomon::silhouette::Looked;
+
+    /// A finder that loses, turns or doubles an edge.
+    struct Wrong(fn(&mut Vec<DirectedEdge>));
+
+    impl SilhouetteFinder for Wrong {
+        fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked {
+            let looked = Kind::BruteForce.build(mesh).find(mesh, local_light, silhouette);
+            (self.0)(silhouette);
+            looked
+        }
+    }
+
+    #[test]
+    fn a_finder_that_is_wrong_is_named() {
+        let parts = crate::exact::scenes::small().remove(4).1;
+        let mesh = Mesh::build(parts).unwrap();
+        let lights = [dvec4(0.3, 0.2, 0.8, 0.0), dvec4(3.0, -9.0, 12.0, 1.0)];
+        assert!(disagreeing(&mesh, &lights, FINDERS).is_empty());
+        let wrong: &[(&str, Make)] = &[
+            ("loses", |_| Box::new(Wrong(|edges| edges.truncate(edges.len() - 1)))),
+            ("turns", |_| Box::new(Wrong(|edges| edges[0].reverse()))),
+            ("doubles", |_| Box::new(Wrong(|edges| edges.push(edges[0])))),
+            ("goes to and fro", |_| Box::new(Wrong(|edges| edges.extend([[0, 1], [1, 0]])))),
+        ];
+        assert_eq!(disagreeing(&mesh, &lights, wrong).len(), wrong.len());
+    }
+
+    #[test]
+    fn a_row_fails_for_a_finder_or_a_mask() {
+        let row = |wrong_finders, edge_differ| {
+            let top = Difference { edge_cells: 1000, edge_differ, other_cells: 1000, ..Difference::default() };
+            Row {
+                triangles: 1,
+                edges: 3,
+                wrong_finders,
+                lowest_deg: 3.0,
+                suns: 5,
+                differences: [Difference::default(), top],
+            }
+        };
+        assert!(row(vec![], 10).holds());
+        assert!(!row(vec!["hextree"], 0).holds() && !row(vec![], 11).holds());
+    }
+
+    #[test]
+    fn a_site_s_model_is_found_and_holds() {
+        let found = models(Path::new("sites/tower")).unwrap();
+        assert_eq!(found, [Path::new("sites/tower/tower.glb")]);
+        let row = try_model(&crate::exact::gpu(), &found[0]).unwrap();
+        assert!(row.holds() && row.suns >= 5 && row.lowest_deg < 5.0 && row.triangles > 0 && row.edges > 0);
+        assert!(try_model(&crate::exact::gpu(), Path::new("sites/tower/site.toml.glb")).is_err());
+    }
+}
