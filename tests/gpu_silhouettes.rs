@@ -4,6 +4,7 @@ use crate::exact::scenes::{cuboid, joined, small, stack};
 use crate::exact::{day, gpu, plan, scene_of, to_sun};
 use crate::geometry::silhouettes::{naive, sums};
 use crate::geometry::{light, modelled, part, soup, sphere};
+use crate::try_models::extracted::{edges_of, facing_of, near_edge_on};
 use glam::{DVec3, DVec4, dvec3, dvec4};
 use gnomon::gpu::GpuError;
 use gnomon::mesh::Mesh;
@@ -40,38 +41,6 @@ fn extracted(mesh: &Mesh, sought: &Sought, most: u64) -> Result<([Vec<u32>; 2], 
     Ok((extraction.read()?, extraction.runs()))
 }
 
-/// The edges of walls, whose triangles must stand in the order that the stencil's shader needs: from the highest vertex
-/// on, or from their edge to the one point in which they end.
-fn edges_of(mesh: &Mesh, indices: &[u32], to_infinity: bool) -> Vec<DirectedEdge> {
-    let end = |index: u32| index % 2 == 1;
-    let edge_of = |wall: &[u32]| {
-        if to_infinity {
-            assert_eq!([end(wall[0]), end(wall[1]), end(wall[2])], [false, true, false]);
-            return [wall[0] / 2, wall[2] / 2];
-        }
-        let [top, a, b, again, b_again, c] = *wall else { panic!("a wall of {} indices", wall.len()) };
-        assert_eq!((top, b), (again, b_again));
-        assert_eq!([end(top), end(a), end(b), end(c)], [false, end(a), true, !end(a)]);
-        let (ends, other) = if end(a) { ([top, b], c) } else { ([b, top], a) };
-        assert_eq!((a / 2, c / 2), if end(a) { (top / 2, b / 2) } else { (b / 2, top / 2) });
-        let height = |index: u32| mesh.vertices[index as usize / 2].z;
-        assert!(height(top) >= height(other), "the first vertex is the highest");
-        ends.map(|index| index / 2)
-    };
-    indices.chunks(if to_infinity { 3 } else { 6 }).map(edge_of).collect()
-}
-
-/// The bits by which the cap's faces were turned.
-fn facing_of(mesh: &Mesh, cap: &[u32]) -> Vec<bool> {
-    assert_eq!(cap.len(), mesh.faces.len() * 3);
-    let facing = |(&[a, b, c], turned): (&[u32; 3], &[u32])| {
-        let is_as_wound = turned == [a * 2, b * 2, c * 2];
-        assert!(is_as_wound || turned == [a * 2, c * 2, b * 2], "a face of the cap is none of the mesh");
-        is_as_wound
-    };
-    mesh.faces.iter().zip(cap.chunks(3)).map(facing).collect()
-}
-
 fn brute_force(mesh: &Mesh, light: DVec4) -> Vec<DirectedEdge> {
     let mut edges = Vec::new();
     BruteForce.find(mesh, light, &mut edges);
@@ -84,13 +53,11 @@ fn check(name: &str, mesh: &Mesh, light: DVec4, to_infinity: bool, most: u64) ->
     let sought = Sought { local_light: light, to_infinity, with_cap: true, halved: false, borders: None };
     let ([walls, cap], runs) = extracted(mesh, &sought, most).unwrap();
     let (facing, expected_facing) = (facing_of(mesh, &cap), mesh.facing(light));
-    // so near to edge-on, a face may fall either way
-    let is_open = |face: usize| {
-        let plane = mesh.planes[face];
-        plane.dot(light).abs() <= 1e-6 * plane.length() * light.length()
-    };
     for face in 0..mesh.faces.len() {
-        assert!(facing[face] == expected_facing[face] || is_open(face), "{name}: face {face} faces {light}");
+        assert!(
+            facing[face] == expected_facing[face] || near_edge_on(mesh, face, light),
+            "{name}: face {face} faces {light}"
+        );
     }
     let mut edges = edges_of(mesh, &walls, to_infinity);
     edges.sort_unstable();

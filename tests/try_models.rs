@@ -7,12 +7,15 @@
 //! The tests include this file to see that its comparisons can fail.
 
 use glam::{DVec3, DVec4, dvec4};
-use gnomon::gpu::Gpu;
+use gnomon::gpu::{Gpu, GpuError};
 use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Difference;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
+use gnomon::shadow::walls::extraction::{Extraction, Program};
+use gnomon::shadow::walls::{Sought, Walls};
 use gnomon::shadow::{Scene, ShadowError, Technique};
+use gnomon::silhouette::hextree::{DEEPEST, PAPER_DEPTH};
 use gnomon::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
 use gnomon::site::{Overrides, Receivers, Site};
 use gnomon::view::View;
@@ -20,11 +23,19 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+#[path = "extracted.rs"]
+pub(crate) mod extracted;
+
 /// Makes a finder for a mesh.
 type Make = fn(&Mesh) -> Box<dyn SilhouetteFinder>;
 
 /// The finders that are held against the plain rule. A new finder is a line here.
-const FINDERS: &[(&str, Make)] = &[("brute force", |mesh| Kind::BruteForce.build(mesh))];
+const FINDERS: &[(&str, Make)] = &[
+    ("brute force", |mesh| Kind::BruteForce.build(mesh)),
+    ("hextree of the paper's depth", |mesh| Kind::Hextree { depth: PAPER_DEPTH }.build(mesh)),
+    ("deepest hextree", |mesh| Kind::Hextree { depth: DEEPEST }.build(mesh)),
+    ("hierarchy", |mesh| Kind::Hierarchy.build(mesh)),
+];
 
 /// Cells along the plan's longer side.
 const SIZE: u32 = 700;
@@ -59,26 +70,53 @@ fn sums(edges: impl IntoIterator<Item = DirectedEdge>) -> Sums {
 }
 
 /// The rule itself: every face turned towards the light, its three sides added up.
-fn plain_rule(mesh: &Mesh, local_light: DVec4) -> Sums {
-    let turned = |(&[a, b, c], facing): (&[u32; 3], bool)| if facing { [a, b, c] } else { [a, c, b] };
-    let faces = mesh.faces.iter().zip(mesh.facing(local_light)).map(turned);
+fn plain_rule(mesh: &Mesh, facing: &[bool]) -> Sums {
+    let turned = |(&[a, b, c], &facing): (&[u32; 3], &bool)| if facing { [a, b, c] } else { [a, c, b] };
+    let faces = mesh.faces.iter().zip(facing).map(turned);
     sums(faces.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]))
 }
 
 /// The finders whose silhouette is not that of the plain rule.
 fn disagreeing(mesh: &Mesh, lights: &[DVec4], finders: &[(&'static str, Make)]) -> Vec<&'static str> {
-    let truths: Vec<Sums> = lights.iter().map(|&light| plain_rule(mesh, light)).collect();
+    let truths: Vec<Sums> = lights.iter().map(|&light| plain_rule(mesh, &mesh.facing(light))).collect();
     let agrees = |make: &Make| {
         let mut finder = make(mesh);
         lights.iter().zip(&truths).all(|(&light, truth)| {
             let mut found = Vec::new();
             finder.find(mesh, light, &mut found);
-            // as often as it stands there, not more often to and fro
-            let length: i32 = truth.values().map(|sum| sum.abs()).sum();
-            found.len() == length as usize && sums(found) == *truth
+            is_silhouette(found, truth)
         })
     };
     finders.iter().filter(|(_, make)| !agrees(make)).map(|(name, _)| *name).collect()
+}
+
+/// Whether edges are those of the plain rule: as often as they stand there, not more often to and fro.
+fn is_silhouette(found: Vec<DirectedEdge>, truth: &Sums) -> bool {
+    let length: i32 = truth.values().map(|sum| sum.abs()).sum();
+    found.len() == length as usize && sums(found) == *truth
+}
+
+/// Whether the adapter's silhouettes are those of the plain rule, by the adapter's own facing; and whether that is the
+/// processor's but for faces so near to edge-on that they may fall either way.
+fn adapter_agrees(program: &Program, gpu: &Gpu, mesh: &Mesh, lights: &[DVec4]) -> Result<bool, GpuError> {
+    let most = gpu.limits.max_storage_buffer_binding_size;
+    let mut extraction = Extraction::new(program, mesh, most)?;
+    for &local_light in lights {
+        let sought = Sought { local_light, to_infinity: true, with_cap: true, halved: false, borders: None };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        extraction.find(mesh, &sought, &mut encoder)?;
+        gpu.queue.submit([encoder.finish()]);
+        let [walls, cap] = extraction.read()?;
+        let facing = extracted::facing_of(mesh, &cap);
+        let found = extracted::edges_of(mesh, &walls, sought.to_infinity);
+        let turned =
+            mesh.facing(local_light).into_iter().zip(&facing).enumerate().filter(|(_, (one, other))| one != *other);
+        let all_near = turned.into_iter().all(|(face, _)| extracted::near_edge_on(mesh, face, local_light));
+        if !all_near || !is_silhouette(found, &plain_rule(mesh, &facing)) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// What a model came to.
@@ -112,7 +150,7 @@ fn stencil_against_rays(gpu: &Arc<Gpu>, scene: Scene, view: View, suns: &[DVec3]
     Ok(total)
 }
 
-fn try_model(gpu: &Arc<Gpu>, path: &Path) -> Result<Row, Box<dyn std::error::Error>> {
+fn try_model(gpu: &Arc<Gpu>, program: &Program, path: &Path) -> Result<Row, Box<dyn std::error::Error>> {
     let site = Site::load(path, &asked(Receivers::Top))?;
     let mesh = &site.mesh;
     let instants: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
@@ -131,10 +169,14 @@ fn try_model(gpu: &Arc<Gpu>, path: &Path) -> Result<Row, Box<dyn std::error::Err
     let view = View::Plan(site.grid);
     let ground = stencil_against_rays(gpu, scene(mesh.of_components(&none)), view, &suns)?;
     let top = stencil_against_rays(gpu, scene(mesh.clone()), view, &suns)?;
+    let mut wrong_finders = disagreeing(mesh, &lights, FINDERS);
+    if !adapter_agrees(program, gpu, mesh, &lights)? {
+        wrong_finders.push("gpu");
+    }
     Ok(Row {
         triangles: mesh.faces.len(),
         edges: mesh.edges.len(),
-        wrong_finders: disagreeing(mesh, &lights, FINDERS),
+        wrong_finders,
         lowest_deg: instants.iter().map(|instant| instant.altitude_deg()).fold(90.0, f64::min),
         suns: suns.len(),
         differences: [ground, top],
@@ -168,13 +210,14 @@ fn main() -> Result<std::process::ExitCode, Box<dyn std::error::Error>> {
         return Err("which folder? cargo run --example try-models -- FOLDER...".into());
     }
     let gpu = Arc::new(Gpu::open()?);
+    let program = Program::new(&gpu);
     println!("{SIZE} cells on the plan's longer side; {}", gpu.name());
     println!("model: triangles, edges, finders; edge cells and other cells that differ, ground and top receivers");
     let (mut tried, mut refused, mut failed) = (0, 0, 0);
     for folder in &folders {
         for path in models(folder)? {
             let name = path.strip_prefix(folder).unwrap_or(&path).display();
-            match try_model(&gpu, &path) {
+            match try_model(&gpu, &program, &path) {
                 Err(why) => {
                     refused += 1;
                     println!("{name}: cannot be read: {why}");
@@ -255,8 +298,15 @@ mod tests {
     fn a_site_s_model_is_found_and_holds() {
         let found = models(Path::new("sites/tower")).unwrap();
         assert_eq!(found, [Path::new("sites/tower/tower.glb")]);
-        let row = try_model(&crate::exact::gpu(), &found[0]).unwrap();
+        let row = try_model(&crate::exact::gpu(), &Program::new(&crate::exact::gpu()), &found[0]).unwrap();
         assert!(row.holds() && row.suns >= 5 && row.lowest_deg < 5.0 && row.triangles > 0 && row.edges > 0);
-        assert!(try_model(&crate::exact::gpu(), Path::new("sites/tower/site.toml.glb")).is_err());
+        assert!(
+            try_model(
+                &crate::exact::gpu(),
+                &Program::new(&crate::exact::gpu()),
+                Path::new("sites/tower/site.toml.glb")
+            )
+            .is_err()
+        );
     }
 }
