@@ -3,17 +3,22 @@
 //! Per model: building time and memory, nodes and edges (or classes) looked at for each one found, and the time of a
 //! query, the median over the instants of the site's study. All finders answer the same instant one after the other, so
 //! ratios hold whatever else the machine does. `docs/benchmarks/silhouettes.md` keeps a run with its machine.
-//! `-- --copies 10,100` adds `headquarters` copied so often.
+//! *gpu* stands with the number of runs in which edges were handed to the adapter; it tells nobody what it found, and
+//! its time is that of the whole submission. `-- --copies 10,100` adds `headquarters` copied so often.
 
 #[path = "../tests/dome.rs"]
 mod dome;
 
 use glam::{DVec3, DVec4, dvec3};
+use gnomon::gpu::Gpu;
 use gnomon::mesh::{Mesh, Part};
+use gnomon::shadow::walls::extraction::{Extraction, Program};
+use gnomon::shadow::walls::{Sought, Walls};
 use gnomon::silhouette::hierarchy::Hierarchy;
 use gnomon::silhouette::{DirectedEdge, Kind, Looked, SilhouetteFinder, hextree};
 use gnomon::site::{Overrides, Site};
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 fn main() {
@@ -23,23 +28,37 @@ fn main() {
         return;
     }
     let copies = arguments.iter().position(|argument| argument == "--copies").and_then(|at| arguments.get(at + 1));
+    let gpu = Gpu::open().ok().map(|gpu| {
+        let gpu = Arc::new(gpu);
+        let program = Program::new(&gpu);
+        (gpu, program)
+    });
+    println!("adapter: {}\n", gpu.as_ref().map_or("none", |(gpu, _)| gpu.name()));
     println!(
         "| model | casting triangles | edges | silhouette | finder | built, ms | MiB | looked at | found | looked at a find | query, ms | of brute force |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
     for name in ["tower", "industry", "headquarters"] {
         let (mesh, suns) = site(name, None);
-        rows(name, &mesh, &suns);
+        rows(gpu.as_ref(), name, &mesh, &suns);
     }
     let (everything, suns) = site("headquarters", Some(()));
-    rows("headquarters, all cast", &everything, &suns);
-    rows("dome", &Mesh::build(vec![dome::dome()]).expect("a dome"), &suns);
+    rows(gpu.as_ref(), "headquarters, all cast", &everything, &suns);
+    rows(gpu.as_ref(), "dome", &Mesh::build(vec![dome::dome()]).expect("a dome"), &suns);
     for copies in copies.into_iter().flat_map(|list| list.split(',')) {
         let copies: usize = copies.parse().expect("--copies takes numbers");
-        rows(&format!("headquarters × {copies}"), &copied(&everything, copies), &suns[..suns.len().min(3)]);
+        rows(
+            gpu.as_ref(),
+            &format!("headquarters × {copies}"),
+            &copied(&everything, copies),
+            &suns[..suns.len().min(3)],
+        );
     }
     println!("\nMedians over the instants. Classes: edges that answer together count once.");
 }
+
+/// An adapter, with the finder's shaders.
+type Machine = (Arc<Gpu>, Program);
 
 /// A site's casters and its suns; with `all`, every component casts.
 fn site(name: &str, all: Option<()>) -> (Mesh, Vec<DVec4>) {
@@ -96,7 +115,7 @@ struct Entry {
     looked: Vec<(usize, usize)>,
 }
 
-fn entries(mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
+fn entries(gpu: Option<&Machine>, mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
     let entry = |name: &str, built, bytes, query: Query| Entry {
         name: name.into(),
         built,
@@ -130,11 +149,27 @@ fn entries(mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
         hierarchy.classes(mesh, sun).ask(sun, &mut runs)
     });
     entries.push(entry("hierarchy, runs", built, bytes, query));
+    if let Some((gpu, program)) = gpu {
+        let most = gpu.limits.max_storage_buffer_binding_size;
+        let (built, extraction) = timed(|| Extraction::new(program, mesh, most));
+        let mut extraction = extraction.expect("edges that fit the adapter");
+        let name = format!("gpu, in {}", extraction.runs());
+        let gpu = Arc::clone(gpu);
+        let query = Box::new(move |mesh: &Mesh, local_light, _: &mut Vec<_>| {
+            let sought = Sought { local_light, to_infinity: true, with_cap: false, halved: false, borders: None };
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            extraction.find(mesh, &sought, &mut encoder).expect("a list");
+            gpu.queue.submit([encoder.finish()]);
+            gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter answers");
+            Looked { at: mesh.edges.len(), found: 0 }
+        });
+        entries.push(entry(&name, built, 0, query));
+    }
     entries
 }
 
-fn rows(model: &str, mesh: &Mesh, suns: &[DVec4]) {
-    let mut entries = entries(mesh, suns[0]);
+fn rows(gpu: Option<&Machine>, model: &str, mesh: &Mesh, suns: &[DVec4]) {
+    let mut entries = entries(gpu, mesh, suns[0]);
     let mut found = Vec::new();
     let mut silhouette = Vec::new();
     for _ in 0..3 {

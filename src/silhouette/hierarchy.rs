@@ -17,6 +17,7 @@ use crate::mesh::{Mesh, plane_faces};
 use glam::{DVec4, Vec4};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use std::hint::black_box;
 use std::ops::Range;
 
 /// The finder: one hierarchy for suns and one for lamps.
@@ -194,48 +195,69 @@ impl Classes {
                 runs.push(Run { edges: sum.edges.clone(), multiplicity });
             }
         }
-        let mut looked = Looked { at: self.sums.len(), found: 0 };
         let light = self.frame.light(local_light).as_vec4();
-        let mut waiting = Vec::with_capacity(64);
-        waiting.extend((!self.nodes.is_empty()).then_some(0));
-        while let Some(at) = waiting.pop() {
-            let node: &Node = &self.nodes[at as usize];
-            for (child, distance) in node.distances(light).into_iter().enumerate() {
-                looked.at += usize::from(node.radius[child] >= 0.0);
-                if distance > MARGIN {
-                    continue;
+        let (leaves, visited) = self.leaves(light);
+        let mut looked = Looked { at: self.sums.len() + visited, found: 0 };
+        let mut crossed = Vec::new();
+        for leaf in leaves {
+            looked.at += leaf.len();
+            for pair in leaf {
+                let [one, other] = self.segments[pair].map(|end| light.dot(end));
+                let certain = one.abs().min(other.abs()) > MARGIN;
+                if !certain || (one > 0.0) != (other > 0.0) {
+                    crossed.push((pair, certain, one > 0.0));
                 }
-                let (at, classes) = (node.at[child], node.classes[child]);
-                if classes == 0 {
-                    waiting.push(at);
-                } else {
-                    looked.at += classes as usize;
-                    self.ask_pairs(at as usize..(at + classes) as usize, light, local_light, runs);
-                }
+            }
+        }
+        for (pair, certain, before_first) in crossed {
+            let Pair { planes, times, turned, first_edge, edges } = self.pairs[pair];
+            let multiplicity = if certain {
+                // the ends lie on two sides: both planes' sums have the first one's sign
+                if before_first { 2 * times } else { -2 * times }
+            } else {
+                let [one, other] = planes.map(|plane| self.facing(plane, local_light));
+                times * (one + if turned { -other } else { other })
+            };
+            if multiplicity != 0 {
+                runs.push(Run { edges: first_edge..first_edge + edges, multiplicity });
             }
         }
         looked.found = runs.len() - before;
         looked
     }
 
-    fn ask_pairs(&self, leaf: Range<usize>, light: Vec4, local_light: DVec4, runs: &mut Vec<Run>) {
-        for (ends, pair) in self.segments[leaf.clone()].iter().zip(&self.pairs[leaf]) {
-            let [one, other] = ends.map(|end| light.dot(end));
-            let certain = one.abs().min(other.abs()) > MARGIN;
-            if certain && (one > 0.0) == (other > 0.0) {
-                continue;
+    /// The pairs in the boxes that a light's hyperplane crosses, and how many boxes were looked at.
+    ///
+    /// Level by level: what a level needs is touched before it is asked, so that memory brings it all at once. Between
+    /// two queries much else has been in the caches, and waiting for each node in turn would take most of the time.
+    fn leaves(&self, light: Vec4) -> (Vec<Range<usize>>, usize) {
+        let (mut leaves, mut visited) = (Vec::new(), 0);
+        let mut level = Vec::from_iter((!self.nodes.is_empty()).then_some(0));
+        while !level.is_empty() {
+            black_box(level.iter().map(|&at| self.nodes[at as usize].touched()).sum::<f32>());
+            let mut below = Vec::new();
+            for at in level {
+                let node: &Node = &self.nodes[at as usize];
+                for (child, distance) in node.distances(light).into_iter().enumerate() {
+                    visited += usize::from(node.radius[child] >= 0.0);
+                    if distance > MARGIN {
+                        continue;
+                    }
+                    let (at, classes) = (node.at[child], node.classes[child]);
+                    if classes == 0 {
+                        below.push(at);
+                    } else {
+                        leaves.push(at as usize..(at + classes) as usize);
+                    }
+                }
             }
-            let multiplicity = if certain {
-                // the ends lie on two sides: both planes' sums have the first one's sign
-                if one > 0.0 { 2 * pair.times } else { -2 * pair.times }
-            } else {
-                let [one, other] = pair.planes.map(|plane| self.facing(plane, local_light));
-                pair.times * (one + if pair.turned { -other } else { other })
-            };
-            if multiplicity != 0 {
-                runs.push(Run { edges: pair.first_edge..pair.first_edge + pair.edges, multiplicity });
-            }
+            level = below;
         }
+        // a line of 64 bytes holds two segments
+        let touched =
+            |leaf: &Range<usize>| self.segments[leaf.clone()].iter().step_by(2).map(|ends| ends[0].x).sum::<f32>();
+        black_box(leaves.iter().map(touched).sum::<f32>());
+        (leaves, visited)
     }
 
     /// +1 where the light is on the front side of a plane or in it, else −1.
@@ -273,6 +295,11 @@ struct Segment {
 }
 
 impl Node {
+    /// Something of each 64 bytes.
+    fn touched(&self) -> f32 {
+        self.centre[0][0] + self.centre[2][0] + self.half[0][0] + self.half[2][0] + self.radius[0]
+    }
+
     /// Per child, how far the hyperplane of a light passes its box, or its sphere; not above 0 where it crosses both.
     fn distances(&self, light: Vec4) -> [f32; WIDTH] {
         let (light, light_abs) = (light.to_array(), light.abs().to_array());
