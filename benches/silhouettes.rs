@@ -192,14 +192,18 @@ fn rows(gpu: Option<&Machine>, model: &str, mesh: &Mesh, suns: &[DVec4]) {
         entry.looked.sort_unstable();
         let (at, found) = entry.looked[entry.looked.len() / 2];
         let time = median(entry.times);
+        // the adapter tells nobody what it found
+        let [finds, a_find] = match found {
+            0 => [(); 2].map(|()| "–".to_owned()),
+            _ => [found.to_string(), format!("{:.1}", at as f64 / found as f64)],
+        };
         println!(
-            "| {model} | {} | {} | {silhouette} | {} | {:.1} | {:.1} | {at} | {found} | {:.1} | {time:.3} | {:.3} |",
+            "| {model} | {} | {} | {silhouette} | {} | {:.1} | {:.1} | {at} | {finds} | {a_find} | {time:.3} | {:.3} |",
             mesh.faces.len(),
             mesh.edges.len(),
             entry.name,
             entry.built,
             entry.bytes as f64 / f64::from(1 << 20),
-            at as f64 / found.max(1) as f64,
             time / brute
         );
     }
