@@ -15,7 +15,7 @@ fn cap(corner: Corner) -> @builtin(position) @invariant vec4f {
 @vertex
 fn cap_in_plan(corner: Corner) -> Wall {
     let vertex = corner.vertex.xyz;
-    let sunk = select(0.0, 1.0, vertex.z < view.lowest_z);
+    let sunk = max(view.lowest_z - vertex.z, 0.0);
     return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, sunk);
 }
 
@@ -23,8 +23,9 @@ struct Wall {
     @builtin(position) @invariant position: vec4f,
     // Where the triangle's first vertex comes from: of the wall's two casting vertices the higher.
     @location(0) @interpolate(flat, first) highest: vec3f,
-    // More than 0 where the wall reaches below the lowest point that is judged.
-    @location(1) sunk: f32,
+    // How far the wall reaches below the lowest point that is judged, metres; 0 where its edge is above that.
+    // Linear in the picture, as depth is: far ends have another w.
+    @location(1) @interpolate(linear) sunk: f32,
 }
 
 // Walls that end at the lowest point that is judged. The end is v − to_sun · height / to_sun.z, scaled by to_sun.z, so
@@ -33,7 +34,7 @@ fn at_lowest(corner: vec4f) -> Wall {
     let vertex = corner.xyz;
     let height = vertex.z - view.lowest_z;
     if corner.w > 0.5 || height <= 0.0 {
-        return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, select(0.0, 1.0, height < 0.0));
+        return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, max(-height, 0.0));
     }
     let rise = light.to_sun.z;
     let end = view.clip_from_local * vec4f(vertex * rise - light.to_sun.xyz * height, rise);
@@ -74,10 +75,11 @@ struct Counted {
 // vertex, which lies in them; any depth between their upper and their lower end is as good.
 //
 // A sliver is so steep that its whole height fits into 1/64 of a cell. Wider walls keep their own depth: where two meet
-// in an edge it must be equal.
+// in an edge it must be equal. What reaches into the ground has its height from above the ground alone, and so is taken
+// as if it ended there: else gentle slopes that come out of the ground by a hand's breadth would be slivers.
 @fragment
 fn counted_in_plan(wall: Wall) -> Counted {
-    let depth = wall.position.z;
+    let depth = wall.position.z + view.depth_scale * wall.sunk;
     let height = wall.highest.z - view.lowest_z;
     // written so that what is no number is steep
     if !(fwidth(depth) <= 64.0 * height * view.depth_scale) {

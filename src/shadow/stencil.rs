@@ -7,8 +7,8 @@
 //! - **z-pass** counts the walls in front of what is seen, so it needs no dark cap and walls that end at the lowest
 //!   receiver. It is right where nothing of a volume is cut by the near plane: always in the plan, whose near plane
 //!   lies above everything; in a camera view where no caster reaches into the near-clip volume, which is spanned by the
-//!   near rectangle and the direction to the sun (seed 004, section 7). It needs the light cap where casters are not
-//!   among what is seen.
+//!   near rectangle and the direction to the sun (seed 004, section 7), and that looks from above the ground, so that no
+//!   ray meets the walls' open lower end. It needs the light cap where casters are not among what is seen.
 //! - **z-fail** counts behind what is seen, in all other views: with light cap, and walls to the sun's point at infinity,
 //!   which needs no dark cap. Depth is reversed, so that point has depth 0 exactly and no far plane cuts it.
 //! - The stencil holds 8 bits: casters come in batches, none of which counts further (`batch.rs`).
@@ -115,9 +115,7 @@ impl Technique for Stencil {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
         let z_fail = match &self.view {
             View::Plan(_) => false,
-            View::Camera(camera) => {
-                self.forced_z_fail.unwrap_or_else(|| near_clip_volume_touched(camera, to_sun, &self.scene.casters))
-            }
+            View::Camera(camera) => self.forced_z_fail.unwrap_or_else(|| needs_z_fail(camera, to_sun, &self.scene)),
         };
         self.surface.set_sun(to_sun);
         let gpu = &self.surface.gpu;
@@ -192,14 +190,27 @@ impl Technique for Stencil {
     }
 }
 
+/// Whether z-pass may be wrong for a camera: the near plane may cut a volume, or the near rectangle is not wholly above the
+/// ground, so that a ray may come from below the walls' lower end or go there.
+fn needs_z_fail(camera: &Camera, to_sun: DVec3, scene: &Scene) -> bool {
+    near_rectangle(camera).iter().any(|corner| corner.z < scene.ground)
+        || near_clip_volume_touched(camera, to_sun, &scene.casters)
+}
+
+/// The corners of what a camera sees of its near plane, in the world frame.
+fn near_rectangle(camera: &Camera) -> [DVec3; 4] {
+    let [right, up, forward] = camera.axes();
+    let half = camera.half_size();
+    let corner = |x: f64, y: f64| camera.eye + (forward + right * half.x * x + up * half.y * y) * Camera::NEAR_M;
+    [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]
+}
+
 /// Whether a caster may reach into the near-clip volume, the near rectangle swept towards the sun. Boxes around
 /// components stand for them, so the answer may be yes too often, never no.
 pub fn near_clip_volume_touched(camera: &Camera, to_sun: DVec3, casters: &Mesh) -> bool {
-    let [right, up, forward] = camera.axes();
+    let forward = camera.axes()[2];
     let middle = camera.eye + forward * Camera::NEAR_M;
-    let half = camera.half_size() * Camera::NEAR_M;
-    let corner = |x: f64, y: f64| middle + right * half.x * x + up * half.y * y;
-    let rectangle = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    let rectangle = near_rectangle(camera);
     // planes with what is outside in front: four sides, and the rectangle itself on the side away from the sun
     let mut planes = Vec::from([forward * -forward.dot(to_sun).signum()].map(|normal| (normal, middle)));
     for index in 0..4 {

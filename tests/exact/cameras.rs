@@ -103,3 +103,24 @@ fn the_wrong_way_of_counting_is_seen_to_fail_and_z_fail_is_always_right() {
         assert!(difference.holds(0.02), "z-fail is always right: {difference}");
     }
 }
+
+/// A walk below the ground, along receivers that stand there, agrees with the truth; z-pass alone would not.
+#[test]
+fn below_the_ground_and_below_every_receiver() {
+    let (wall, blind) = (dvec3(-10.0, 0.0, -5.0), dvec3(-2.0, -3.0, -4.0));
+    let [wall, blind] = [(wall, dvec3(10.0, 0.0, -0.5)), (blind, dvec3(2.0, -4.0, -1.0))]
+        .map(|(low, high)| sheet([low, dvec3(high.x, low.y, low.z), high, dvec3(low.x, high.y, high.z)]));
+    let mesh = Mesh::build(vec![wall, blind]).unwrap();
+    let scene = scene_of(&mesh, Receivers::Top, 0.0);
+    let sun = to_sun(200.0, 30.0);
+    // from below the receivers upwards; and beside them downwards, where the sky is
+    let mut cameras = walk(dvec3(-6.0, -12.0, -15.0), dvec3(6.0, -6.0, -12.0), 6, dvec3(0.0, 0.0, -3.0));
+    cameras.extend(walk(dvec3(-6.0, -9.0, -0.5), dvec3(6.0, -9.0, -2.0), 6, dvec3(0.0, 1.0, -7.0)));
+    for (_, difference) in differences(&scene, sun, &cameras, None) {
+        assert!(difference.holds(0.02), "{difference}");
+    }
+    let z_pass = differences(&scene, sun, &cameras, Some(false));
+    for half in z_pass.chunks(6) {
+        assert!(half.iter().any(|(_, difference)| !difference.holds(0.02)), "z-pass must be wrong somewhere");
+    }
+}

@@ -175,6 +175,26 @@ fn pictures_of_dirty_meshes_agree_with_ray_casting() {
     }
 }
 
+#[test]
+fn slopes_that_hardly_come_out_of_the_ground_stay_in_it() {
+    let mut drawn_dark = 0;
+    for (height, depth, out) in [(0.006, 8.0, 6.0), (0.01, 8.0, 3.0), (0.3, 8.0, 3.0)] {
+        let base = [(-out, -out), (out, -out), (out, out), (-out, out)];
+        let mut part = pyramid(depth);
+        part.positions = base.iter().map(|&(x, y)| dvec3(x, y, -depth)).chain([dvec3(0.0, 0.0, height)]).collect();
+        let mesh = Mesh::build(vec![part]).unwrap();
+        for (azimuth, altitude) in [(180.0, 0.2), (190.0, 0.5), (230.0, 3.0)] {
+            let suns = [to_sun(azimuth, altitude)];
+            let scene = scene_of(&mesh, Receivers::Ground, 0.0);
+            let (drawn, _, difference) = masks(&scene, super::plan(10.0, 80), &suns).remove(0);
+            drawn_dark += drawn.share.iter().filter(|share| **share == 0).count();
+            // a shadow of millimetres: hardly a cell's centre lies in it
+            assert!(difference.edge_differ <= 1 && difference.other_differ == 0, "{height} {azimuth}: {difference}");
+        }
+    }
+    assert!(drawn_dark > 0);
+}
+
 /// Triangles between few points, some of them below the ground, of one or two components.
 fn soup() -> impl Strategy<Value = Mesh> {
     (4_usize..10).prop_flat_map(|points| {
