@@ -1,13 +1,14 @@
 // All edges asked at once: the walls of those that are silhouette, as the list that is drawn next.
 
 struct Edge {
-    // The vertex from which a wall's triangles begin, and the other one.
-    top: u32,
-    other: u32,
-    // The faces at it, as they run from `top` to `other`; `b` may be NO_FACE. Where there are more than two: CROWDED and
+    first: u32,
+    second: u32,
+    // The faces at it, as they run from `first` to `second`; `b` may be NO_FACE. Where there are more than two: CROWDED and
     // where they begin in `crowds`, and how many they are.
     a: u32,
     b: u32,
+    // East and north from the first vertex to the second.
+    along: vec2f,
 }
 
 const CROWDED: u32 = 0x80000000u;
@@ -63,22 +64,24 @@ fn extract(
     }
     let first = workgroupUniformLoad(&before_group) + before;
 
-    // a vertex comes twice: where it is, and where its wall ends
-    let top = edge.top * 2u;
-    let other = edge.other * 2u;
+    // a wall's triangles begin at the vertex nearer to the sun; a vertex comes twice: where it is, and where its wall ends
+    let turns = dot(edge.along, search.light.xy) > 0.0;
+    let sunward = select(edge.first, edge.second, turns) * 2u;
+    let other = select(edge.second, edge.first, turns) * 2u;
+    sum = select(sum, -sum, turns);
     for (var wall = 0u; wall < walls; wall++) {
         let place = first + wall * search.indices_per_wall;
         if search.indices_per_wall == 3u {
-            indices[place] = select(other, top, sum > 0);
-            indices[place + 1u] = top + 1u;
-            indices[place + 2u] = select(top, other, sum > 0);
+            indices[place] = select(other, sunward, sum > 0);
+            indices[place + 1u] = sunward + 1u;
+            indices[place + 2u] = select(sunward, other, sum > 0);
         } else {
-            indices[place] = top;
-            indices[place + 1u] = select(other, top + 1u, sum > 0);
+            indices[place] = sunward;
+            indices[place + 1u] = select(other, sunward + 1u, sum > 0);
             indices[place + 2u] = other + 1u;
-            indices[place + 3u] = top;
+            indices[place + 3u] = sunward;
             indices[place + 4u] = other + 1u;
-            indices[place + 5u] = select(top + 1u, other, sum > 0);
+            indices[place + 5u] = select(sunward + 1u, other, sum > 0);
         }
     }
 }

@@ -2,10 +2,9 @@
 // point where its multiplicity says so. Joined to the stencil's own stages.
 
 struct Quadrilateral {
-    // The vertex from which a wall's triangles begin.
-    top: vec3f,
+    first: vec3f,
     a: u32,
-    other: vec3f,
+    second: vec3f,
     b: u32,
 }
 
@@ -14,18 +13,20 @@ struct Quadrilateral {
 // Where a corner is; and 1 if it stays there, 0 if it goes to where its wall ends.
 fn corner_of(vertex: u32, instance: u32) -> vec4f {
     let edge = quadrilaterals[vertex / 6u];
-    let top = vec4f(edge.top, 1.0);
-    let sum = turned(edge.a) + turned(edge.b);
+    // a wall's triangles begin at the vertex nearer to the sun
+    let turns = dot(edge.second.xy - edge.first.xy, search.light.xy) > 0.0;
+    let sunward = vec4f(select(edge.first, edge.second, turns), 1.0);
+    let sum = (turned(edge.a) + turned(edge.b)) * select(1, -1, turns);
     if (u32(abs(sum)) >> search.halved) <= instance {
-        return top;
+        return sunward;
     }
-    let other = vec4f(edge.other, 1.0);
-    let top_end = vec4f(edge.top, 0.0);
+    let other = vec4f(select(edge.second, edge.first, turns), 1.0);
+    let sunward_end = vec4f(sunward.xyz, 0.0);
     switch vertex % 6u {
-        case 1u: { return select(other, top_end, sum > 0); }
-        case 2u, 4u: { return vec4f(edge.other, 0.0); }
-        case 5u: { return select(top_end, other, sum > 0); }
-        default: { return top; }
+        case 1u: { return select(other, sunward_end, sum > 0); }
+        case 2u, 4u: { return vec4f(other.xyz, 0.0); }
+        case 5u: { return select(sunward_end, other, sum > 0); }
+        default: { return sunward; }
     }
 }
 

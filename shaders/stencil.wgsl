@@ -16,16 +16,18 @@ fn cap(corner: Corner) -> @builtin(position) @invariant vec4f {
 fn cap_in_plan(corner: Corner) -> Wall {
     let vertex = corner.vertex.xyz;
     let sunk = max(view.lowest_z - vertex.z, 0.0);
-    return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, sunk);
+    return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, sunk, 0.0);
 }
 
 struct Wall {
     @builtin(position) @invariant position: vec4f,
-    // Where the triangle's first vertex comes from: of the wall's two casting vertices the higher.
-    @location(0) @interpolate(flat, first) highest: vec3f,
+    // Where the triangle's first vertex comes from: of the wall's two casting vertices the one nearer to the sun.
+    @location(0) @interpolate(flat, first) sunward: vec3f,
     // How far the wall reaches below the lowest point that is judged, metres; 0 where its edge is above that.
     // Linear in the picture, as depth is: far ends have another w.
     @location(1) @interpolate(linear) sunk: f32,
+    // 0 where the wall hangs from its edge, 1 where it ends.
+    @location(2) @interpolate(linear) fallen: f32,
 }
 
 // Walls that end at the lowest point that is judged. The end is v − to_sun · height / to_sun.z, scaled by to_sun.z, so
@@ -34,11 +36,11 @@ fn at_lowest(corner: vec4f) -> Wall {
     let vertex = corner.xyz;
     let height = vertex.z - view.lowest_z;
     if corner.w > 0.5 || height <= 0.0 {
-        return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, max(-height, 0.0));
+        return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, max(-height, 0.0), 1.0 - corner.w);
     }
     let rise = light.to_sun.z;
     let end = view.clip_from_local * vec4f(vertex * rise - light.to_sun.xyz * height, rise);
-    return Wall(end, vertex, 0.0);
+    return Wall(end, vertex, 0.0, 1.0);
 }
 
 @vertex
@@ -71,18 +73,20 @@ struct Counted {
 }
 
 // The plan sees many walls edge-on: slivers that no cell's centre should meet, but that some do once corners are rounded
-// to the raster, and whose depth there can be anything. Their depth is taken from the sun's ray through their highest
-// vertex, which lies in them; any depth between their upper and their lower end is as good.
+// to the raster, and whose depth there can be anything. Their depth is taken from the sun's ray through their sunward
+// vertex, which is their lower end or lies in them; any depth between their lower and their upper end is as good.
 //
-// A sliver is so steep that its whole height fits into 1/64 of a cell. Wider walls keep their own depth: where two meet
-// in an edge it must be equal. What reaches into the ground has its height from above the ground alone, and so is taken
-// as if it ended there: else gentle slopes that come out of the ground by a hand's breadth would be slivers.
+// A sliver is so narrow that from its edge to its end it fits into 1/64 of a cell. Wider walls keep their own depth:
+// where two meet in an edge it must be equal. What reaches into the ground has its height from above the ground alone,
+// and so must be steep as if it ended there: else gentle slopes that come out of the ground by a hand's breadth would be
+// slivers.
 @fragment
 fn counted_in_plan(wall: Wall) -> Counted {
     let depth = wall.position.z + view.depth_scale * wall.sunk;
-    let height = wall.highest.z - view.lowest_z;
-    // written so that what is no number is steep
-    if !(fwidth(depth) <= 64.0 * height * view.depth_scale) {
+    let height = wall.sunward.z - view.lowest_z;
+    // written so that what is no number is narrow and steep
+    let wide = fwidth(wall.fallen) <= 64.0 || fwidth(depth) <= 64.0 * height * view.depth_scale;
+    if !wide && height > 0.0 {
         return Counted(max(depth_in_plan(height_of_sliver(wall)), above_lowest()), vec4f(0.0));
     }
     return Counted(not_below_lowest(wall), vec4f(0.0));
@@ -110,8 +114,8 @@ fn height_of_sliver(wall: Wall) -> f32 {
     let clip = (wall.position.xy / view.size * 2.0 - 1.0) * vec2f(1.0, -1.0);
     let at = (clip - view.clip_from_local[3].xy) / vec2f(view.clip_from_local[0].x, view.clip_from_local[1].y);
     let across = light.to_sun.xy;
-    let along = dot(wall.highest.xy - at, across) / max(dot(across, across), 1e-12);
-    return wall.highest.z - max(along, 0.0) * light.to_sun.z;
+    let along = dot(wall.sunward.xy - at, across) / max(dot(across, across), 1e-12);
+    return wall.sunward.z - max(along, 0.0) * light.to_sun.z;
 }
 
 // Before any volume: what faces away from the sun, or is edge-on to it, is in shadow; the sky is not.

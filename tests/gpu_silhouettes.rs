@@ -59,7 +59,7 @@ fn check(name: &str, mesh: &Mesh, light: DVec4, to_infinity: bool, most: u64) ->
             "{name}: face {face} faces {light}"
         );
     }
-    let mut edges = edges_of(mesh, &walls, to_infinity);
+    let mut edges = edges_of(mesh, &walls, light, to_infinity);
     edges.sort_unstable();
     if facing == expected_facing {
         assert_eq!(edges, brute_force(mesh, light), "{name}");
@@ -78,7 +78,7 @@ fn one_wrong_edge_is_seen() {
         let sought = Sought { local_light: light, to_infinity, with_cap: true, halved: false, borders: None };
         let ([walls, _], _) = extracted(&mesh, &sought, PLENTY).unwrap();
         let sorted = |walls: &[u32]| {
-            let mut edges = edges_of(&mesh, walls, to_infinity);
+            let mut edges = edges_of(&mesh, walls, light, to_infinity);
             edges.sort_unstable();
             edges
         };
@@ -93,7 +93,7 @@ fn one_wrong_edge_is_seen() {
         let wrong = std::panic::catch_unwind(|| {
             let mut walls = walls.clone();
             walls.swap(0, 1);
-            edges_of(&mesh, &walls, to_infinity)
+            edges_of(&mesh, &walls, light, to_infinity)
         });
         assert!(wrong.is_err(), "a triangle that begins elsewhere");
     }
@@ -134,7 +134,7 @@ fn halved_walls_stand_half_as_often() {
         let ([walls, cap], _) = extracted(&mesh, &sought, PLENTY).unwrap();
         assert!(cap.is_empty());
         let mut twice: Vec<_> =
-            edges_of(&mesh, &walls, to_infinity).into_iter().flat_map(|edge| [edge, edge]).collect();
+            edges_of(&mesh, &walls, light, to_infinity).into_iter().flat_map(|edge| [edge, edge]).collect();
         twice.sort_unstable();
         assert_eq!(twice, brute_force(&mesh, light));
     }

@@ -108,7 +108,7 @@ fn adapter_agrees(program: &Program, gpu: &Gpu, mesh: &Mesh, lights: &[DVec4]) -
         gpu.queue.submit([encoder.finish()]);
         let [walls, cap] = extraction.read()?;
         let facing = extracted::facing_of(mesh, &cap);
-        let found = extracted::edges_of(mesh, &walls, sought.to_infinity);
+        let found = extracted::edges_of(mesh, &walls, local_light, sought.to_infinity);
         let turned =
             mesh.facing(local_light).into_iter().zip(&facing).enumerate().filter(|(_, (one, other))| one != *other);
         let all_near = turned.into_iter().all(|(face, _)| extracted::near_edge_on(mesh, face, local_light));

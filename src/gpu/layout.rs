@@ -75,14 +75,16 @@ pub struct Face {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Edge {
-    /// The vertex from which a wall's triangles begin.
-    pub top: u32,
-    /// The other vertex.
-    pub other: u32,
+    /// One vertex.
+    pub first: u32,
+    /// The other.
+    pub second: u32,
     /// A face at it, or where many begin.
     pub a: u32,
     /// Another face at it, or none, or how many they are.
     pub b: u32,
+    /// Metres east and north from the first vertex to the second.
+    pub along: [f32; 2],
 }
 
 /// `Arguments` of `shaders/extraction.wgsl`: those of an indirect draw.
@@ -105,12 +107,12 @@ pub struct Arguments {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Quadrilateral {
-    /// The vertex from which a wall's triangles begin.
-    pub top: [f32; 3],
+    /// One vertex, metres around the mesh's origin.
+    pub first: [f32; 3],
     /// A face at it.
     pub a: u32,
-    /// The other vertex.
-    pub other: [f32; 3],
+    /// The other vertex, likewise.
+    pub second: [f32; 3],
     /// Another face at it, or none.
     pub b: u32,
 }
@@ -141,8 +143,8 @@ pub const ALL: &[Layout] = &[
     layout!(Light: to_sun),
     layout!(Search: light, indices_per_wall, halved, unused),
     layout!(Face: corners, number),
-    layout!(Edge: top, other, a, b),
+    layout!(Edge: first, second, a, b, along),
     layout!(Arguments: index_count, instance_count, first_index, base_vertex, first_instance),
-    layout!(Quadrilateral: top, a, other, b),
+    layout!(Quadrilateral: first, a, second, b),
     layout!(Weight: secs),
 ];

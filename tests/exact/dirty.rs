@@ -195,6 +195,26 @@ fn slopes_that_hardly_come_out_of_the_ground_stay_in_it() {
     assert!(drawn_dark > 0);
 }
 
+/// A wall seen edge-on, whose edge rises away from the sun through a row of cells' centres, over a plate in the sun.
+#[test]
+fn a_wall_seen_edge_on_shades_nothing_above_its_edge() {
+    let fin = [dvec3(0.25, -10.0, 1.0), dvec3(0.25, 10.0, 9.0), dvec3(0.25, 10.0, 0.0), dvec3(0.25, -10.0, 0.0)];
+    let plate = [dvec3(-4.0, -12.0, 5.0), dvec3(4.0, -12.0, 5.0), dvec3(4.0, -1.0, 5.0), dvec3(-4.0, -1.0, 5.0)];
+    let parts = [fin, plate].map(|corners| Part {
+        name: "sheet".into(),
+        positions: corners.to_vec(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Part::default()
+    });
+    let scene = scene_of(&Mesh::build(parts.to_vec()).unwrap(), Receivers::Top, 0.0);
+    let azimuths = [180.0, 180.001, 180.005, 180.01, 180.02, 180.05, 179.98];
+    let suns = azimuths.map(|azimuth| to_sun(azimuth, 40.0));
+    for ((_, truth, difference), azimuth) in masks(&scene, super::plan(20.0, 80), &suns).into_iter().zip(azimuths) {
+        assert!(truth.share.iter().any(|share| *share == 0));
+        assert!(difference.other_differ == 0 && difference.edge_differ <= 16, "{azimuth}: {difference}");
+    }
+}
+
 /// Triangles between few points, some of them below the ground, of one or two components.
 fn soup() -> impl Strategy<Value = Mesh> {
     (4_usize..10).prop_flat_map(|points| {

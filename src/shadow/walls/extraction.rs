@@ -7,7 +7,7 @@
 //! edges are silhouette.
 
 use super::faces::{self, Faces, GROUP};
-use super::{NO_FACE, Sought, Walls, packed, top_first};
+use super::{NO_FACE, Sought, Walls, along, packed};
 use crate::gpu::{Gpu, GpuError, layout, readback, shaders};
 use crate::mesh::Mesh;
 use std::sync::Arc;
@@ -74,18 +74,18 @@ struct Gathered {
 
 impl Gathered {
     fn add(&mut self, mesh: &Mesh, edge: usize) {
-        let [top, other] = top_first(mesh, mesh.edges[edge]);
-        let turned = top != mesh.edges[edge][0];
+        let [first, second] = mesh.edges[edge];
         let faces = mesh.faces_at(edge);
         let [a, b] = match *faces {
-            [a] => [packed(a, turned), NO_FACE],
-            [a, b] => [packed(a, turned), packed(b, turned)],
+            [a] => [packed(a), NO_FACE],
+            [a, b] => [packed(a), packed(b)],
             _ => [CROWDED | self.crowds.len() as u32, faces.len() as u32],
         };
         if faces.len() > 2 {
-            self.crowds.extend(faces.iter().map(|&face| packed(face, turned)));
+            self.crowds.extend(faces.iter().map(|&face| packed(face)));
         }
-        self.edges.push(layout::Edge { top, other, a, b });
+        let along = along(&mesh.vertices, [first, second]).to_array();
+        self.edges.push(layout::Edge { first, second, a, b, along });
         self.most_walls += faces.len() as u64;
     }
 

@@ -12,7 +12,7 @@ use crate::mesh::{Incidence, Mesh};
 use crate::silhouette::Kind;
 use borders::Borders;
 use extraction::Extraction;
-use glam::DVec4;
+use glam::{DVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
 use quadrilaterals::Quadrilaterals;
 use std::sync::Arc;
 use uploaded::Uploaded;
@@ -112,20 +112,23 @@ impl Maker {
     }
 }
 
-/// The vertex of an edge from which its wall's triangles begin, and the other one: the higher one, as the plan's shader
-/// bounds a wall's depth by the first; the lower number among equals, so that a wall and its opposite are the same
-/// triangles and cancel.
-fn top_first(mesh: &Mesh, [first, second]: [u32; 2]) -> [u32; 2] {
-    let height = |vertex: u32| mesh.vertices[vertex as usize].z;
-    let is_top = height(first) > height(second) || (height(first) == height(second) && first < second);
-    if is_top { [first, second] } else { [second, first] }
+/// The vertex of an edge from which its wall's triangles begin: the one nearer to the sun, from which the plan's shader
+/// takes the depth of slivers; the lower number among equals, so that a wall and its opposite are the same triangles and
+/// cancel. The shaders decide by the same sum in `f32`.
+fn sunward(vertices: &[Vec3], [one, other]: [u32; 2], light: Vec4) -> u32 {
+    let (first, second) = (one.min(other), one.max(other));
+    if along(vertices, [first, second]).dot(light.xy()) > 0.0 { second } else { first }
+}
+
+/// Metres east and north along an edge.
+fn along(vertices: &[Vec3], [first, second]: [u32; 2]) -> Vec2 {
+    (vertices[second as usize] - vertices[first as usize]).xy()
 }
 
 /// Instead of a second face, where an edge has one (`NO_FACE` of `shaders/common/edge.wgsl`).
 const NO_FACE: u32 = u32::MAX;
 
-/// A face and which way it runs along an edge, turned round where `turned` says so, as `shaders/common/edge.wgsl` reads
-/// it.
-fn packed(incidence: Incidence, turned: bool) -> u32 {
-    incidence.face() << 1 | u32::from((incidence.direction() < 0) != turned)
+/// A face and which way it runs along an edge, as `shaders/common/edge.wgsl` reads it.
+fn packed(incidence: Incidence) -> u32 {
+    incidence.face() << 1 | u32::from(incidence.direction() < 0)
 }

@@ -4,7 +4,7 @@
 //! shader know edges with two faces: one with more comes as several, a pair of its faces each, whose walls add up.
 
 use super::faces::{self, Faces, GROUP};
-use super::{NO_FACE, Sought, Walls, packed, top_first};
+use super::{NO_FACE, Sought, Walls, packed};
 use crate::gpu::{Gpu, GpuError, layout, shaders};
 use crate::mesh::Mesh;
 use crate::shadow::surface::bind_group_layout;
@@ -72,14 +72,12 @@ impl Quadrilaterals {
 
 /// An edge as pairs of its faces.
 fn pairs(mesh: &Mesh, edge: usize) -> impl Iterator<Item = layout::Quadrilateral> {
-    let ends = top_first(mesh, mesh.edges[edge]);
-    let turned = ends != mesh.edges[edge];
-    let [top, other] = ends.map(|vertex| mesh.vertices[vertex as usize].to_array());
+    let [first, second] = mesh.edges[edge].map(|vertex| mesh.vertices[vertex as usize].to_array());
     mesh.faces_at(edge).chunks(2).map(move |pair| layout::Quadrilateral {
-        top,
-        a: packed(pair[0], turned),
-        other,
-        b: pair.get(1).map_or(NO_FACE, |&face| packed(face, turned)),
+        first,
+        a: packed(pair[0]),
+        second,
+        b: pair.get(1).map_or(NO_FACE, |&face| packed(face)),
     })
 }
 

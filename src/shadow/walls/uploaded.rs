@@ -1,6 +1,6 @@
 //! Walls from a finder on the processor, as a list of indices that is uploaded at each instant.
 
-use super::{Sought, Walls, top_first};
+use super::{Sought, Walls, sunward};
 use crate::gpu::{Gpu, GpuError};
 use crate::mesh::Mesh;
 use crate::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
@@ -30,11 +30,11 @@ fn buffer(gpu: &Gpu, size: u64) -> Result<Buffer, GpuError> {
 }
 
 /// Appends a wall's triangles, counter-clockwise seen from outside.
-fn append(upload: &mut Vec<u32>, mesh: &Mesh, wall: DirectedEdge, to_infinity: bool) {
+fn append(upload: &mut Vec<u32>, mesh: &Mesh, wall: DirectedEdge, sought: &Sought) {
     let [from, to] = wall.map(|vertex| [vertex * 2, vertex * 2 + 1]);
-    if to_infinity {
+    if sought.to_infinity {
         upload.extend([from[0], to[1], to[0]]); // far ends are one point
-    } else if top_first(mesh, wall) == wall {
+    } else if sunward(&mesh.vertices, wall, sought.local_light.as_vec4()) == wall[0] {
         upload.extend([from[0], from[1], to[1], from[0], to[1], to[0]]);
     } else {
         upload.extend([to[0], from[0], from[1], to[0], from[1], to[1]]);
@@ -48,7 +48,7 @@ impl Walls for Uploaded {
         // an edge's walls stand in a row
         for &wall in volume.walls.iter().step_by(if sought.halved { 2 } else { 1 }) {
             if !sought.borders.is_some_and(|borders| borders.hide(&mesh.vertices, wall)) {
-                append(&mut self.upload, mesh, wall, sought.to_infinity);
+                append(&mut self.upload, mesh, wall, sought);
             }
         }
         self.of_walls = self.upload.len() as u32;
