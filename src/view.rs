@@ -179,3 +179,10 @@ pub struct Overlay {
     /// Per cell how much of it the silhouette's lines cover, in 1/255; where wanted.
     pub silhouette: Option<Vec<u8>>,
 }
+
+impl Overlay {
+    /// Nothing is to be seen of it.
+    pub fn is_empty(&self) -> bool {
+        [&self.layers, &self.silhouette].into_iter().flatten().flatten().all(|cell| *cell == 0)
+    }
+}

@@ -48,9 +48,27 @@ pub(crate) fn sphere(radius: f64, around: u32, rings: u32) -> Part {
     part(positions, triangles)
 }
 
+/// Any mesh: triangles between few points, or a closed surface, which may cross itself.
+pub(crate) fn soup() -> impl Strategy<Value = Mesh> {
+    prop_oneof![2 => triangles(), 1 => dented()]
+}
+
+/// Closed and well wound: a ball whose vertices are moved outwards and inwards.
+fn dented() -> impl Strategy<Value = Mesh> {
+    (3_u32..8, 2_u32..6).prop_flat_map(|(around, rings)| {
+        let ball = sphere(3.0, around, rings);
+        prop::collection::vec(-0.4..1.7, ball.positions.len()).prop_map(move |moved| {
+            let positions = ball.positions.iter().zip(moved).map(|(position, by)| position * by).collect();
+            let mesh = Mesh::build(vec![Part { positions, ..ball.clone() }]).unwrap();
+            assert!(gnomon::mesh::report::components(&mesh)[0].closed);
+            mesh
+        })
+    })
+}
+
 /// Triangles between few points, so that edges are open, shared, crowded and run both ways; some repeat and some
 /// collapse.
-pub(crate) fn soup() -> impl Strategy<Value = Mesh> {
+fn triangles() -> impl Strategy<Value = Mesh> {
     (4_usize..12).prop_flat_map(|points| {
         let position = prop::array::uniform3(-5.0..5.0);
         let corner = 0..points as u32;

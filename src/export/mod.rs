@@ -28,7 +28,7 @@ pub enum ExportError {
         way_out: &'static str,
     },
     /// The path names no file: it ends in none, or a folder or a device stands there.
-    #[error("cannot write {}: that is no file; give a file name with --out, such as shadow.png", path.display())]
+    #[error("cannot write {}: that is no file; give the name of a file with --out", path.display())]
     NoFileName {
         /// The path as given.
         path: PathBuf,

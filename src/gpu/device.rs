@@ -23,7 +23,7 @@ pub struct Gpu {
 pub enum GpuError {
     /// Nothing to draw with.
     #[error(
-        "no graphics adapter was found; install a driver (on Linux mesa-vulkan-drivers draws in software) or use --engine cpu"
+        "no graphics adapter was found; install a driver (on Linux mesa-vulkan-drivers draws in software) or draw on the processor with --engine cpu, without --silhouette"
     )]
     NoAdapter,
     /// There is one, but too little of one.

@@ -219,6 +219,10 @@ pub fn instant(
         night(&view)
     } else {
         overlay = look.overlay(wants, instant.to_sun)?;
+        if overlay.as_ref().is_some_and(Overlay::is_empty) {
+            let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
+            tell(on_event, Event::Note(note.to_owned()))?;
+        }
         technique.draw(instant.to_sun)?.read()?
     };
     tell(on_event, Event::Drawn { index: 0, count: 1, time: instant.time, mask: Some(&mask) })?;

@@ -143,6 +143,8 @@ struct Light {
 impl Light {
     const SKY: f64 = 0.50;
     const SKY_SLOPE: f64 = 0.09;
+    /// What the sun grazes is still told from shade: the drawing says where it shines, not how warm it is there.
+    const LEAST_SUN: f64 = 0.26;
 
     /// Exposed so that level ground in the sun is nearly the paper's white, even at a low sun.
     fn new(to_sun: DVec3) -> Light {
@@ -152,8 +154,9 @@ impl Light {
 
     fn on(&self, normal: DVec3, share: f64) -> DVec3 {
         let sky = Self::SKY + Self::SKY_SLOPE * normal.z;
-        let sun = self.sun * normal.dot(self.to_sun).max(0.0) * share;
-        SKY_LIGHT * sky + SUN_LIGHT * sun
+        let across = normal.dot(self.to_sun);
+        let sun = if across > 0.0 { (self.sun * across).max(Self::LEAST_SUN) } else { 0.0 };
+        SKY_LIGHT * sky + SUN_LIGHT * sun * share
     }
 }
 
