@@ -3,6 +3,8 @@
 //! All figures of a row come from one run, stage beside stage; compare ratios, since absolute times drift with the
 //! machine. `docs/benchmarks/instants.md` keeps a run with the machine it ran on.
 
+mod timing;
+
 use gnomon::gpu::Gpu;
 use gnomon::profile::accumulate::Sum;
 use gnomon::shadow::ray_cast::RayCast;
@@ -15,20 +17,7 @@ use gnomon::view::View;
 use gnomon::volume::{Volume, layers_bound};
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
-
-/// Milliseconds of each call, the median.
-fn median(mut calls: Vec<f64>) -> f64 {
-    calls.sort_by(f64::total_cmp);
-    calls.get(calls.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
-fn timed<T>(times: &mut Vec<f64>, work: impl FnOnce() -> T) -> T {
-    let start = Instant::now();
-    let result = work();
-    times.push(start.elapsed().as_secs_f64() * 1e3);
-    result
-}
+use timing::{median, timed};
 
 fn main() {
     // `cargo test --benches` only asks whether it runs

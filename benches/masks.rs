@@ -4,6 +4,8 @@
 //! Ways take turns at each sun, so that what else the machine does falls on all alike; compare ratios.
 //! `docs/benchmarks/silhouettes.md` keeps a run.
 
+mod timing;
+
 use gnomon::gpu::Gpu;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
@@ -13,7 +15,7 @@ use gnomon::view::{Camera, Grid, View};
 use gnomon::volume::layers_bound;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
+use timing::{median, timed};
 
 const WAYS: [Silhouettes; 4] = [
     Silhouettes::OnProcessor(Kind::BruteForce),
@@ -21,19 +23,6 @@ const WAYS: [Silhouettes; 4] = [
     Silhouettes::OnGpu,
     Silhouettes::InVertexShader,
 ];
-
-/// Milliseconds of each call, the median.
-fn median(mut calls: Vec<f64>) -> f64 {
-    calls.sort_by(f64::total_cmp);
-    calls.get(calls.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
-fn timed<T>(times: &mut Vec<f64>, work: impl FnOnce() -> T) -> T {
-    let start = Instant::now();
-    let result = work();
-    times.push(start.elapsed().as_secs_f64() * 1e3);
-    result
-}
 
 fn main() {
     // `cargo test --benches` only asks whether it runs

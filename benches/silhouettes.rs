@@ -8,6 +8,7 @@
 
 #[path = "../tests/dome.rs"]
 mod dome;
+mod timing;
 
 use glam::{DVec3, DVec4, dvec3};
 use gnomon::gpu::Gpu;
@@ -19,7 +20,7 @@ use gnomon::silhouette::{DirectedEdge, Kind, Looked, SilhouetteFinder, hextree};
 use gnomon::site::{Overrides, Site};
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
+use timing::{median, timed};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
@@ -90,18 +91,6 @@ fn copied(mesh: &Mesh, copies: usize) -> Mesh {
     Mesh::build(parts.collect()).expect("a mesh")
 }
 
-/// Milliseconds of a call, and its result.
-fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {
-    let start = Instant::now();
-    let result = work();
-    (start.elapsed().as_secs_f64() * 1e3, result)
-}
-
-fn median(mut calls: Vec<f64>) -> f64 {
-    calls.sort_by(f64::total_cmp);
-    calls.get(calls.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
 /// Appends the silhouette; asked for runs alone, nothing.
 type Query = Box<dyn FnMut(&Mesh, DVec4, &mut Vec<DirectedEdge>) -> Looked>;
 
@@ -128,19 +117,21 @@ fn entries(gpu: Option<&Machine>, mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
     let mut brute = Kind::BruteForce.build(mesh);
     entries.push(entry("brute force", 0.0, 0, Box::new(move |mesh, sun, out| brute.find(mesh, sun, out))));
     for depth in [hextree::PAPER_DEPTH, hextree::DEEPEST] {
-        let (built, mut tree) = timed(|| hextree::Hextree::new(mesh, depth));
+        let mut built = Vec::new();
+        let mut tree = timed(&mut built, || hextree::Hextree::new(mesh, depth));
         let bytes = tree.bytes();
         let query = Box::new(move |mesh: &Mesh, sun, out: &mut Vec<_>| tree.find(mesh, sun, out));
-        entries.push(entry(&format!("hextree, depth {depth}"), built, bytes, query));
+        entries.push(entry(&format!("hextree, depth {depth}"), built[0], bytes, query));
     }
-    let (built, mut hierarchy) = timed(|| {
+    let mut built = Vec::new();
+    let mut hierarchy = timed(&mut built, || {
         let mut hierarchy = Hierarchy::default();
         hierarchy.classes(mesh, sun);
         hierarchy
     });
     let bytes = hierarchy.classes(mesh, sun).bytes();
     let query = Box::new(move |mesh: &Mesh, sun, out: &mut Vec<_>| hierarchy.find(mesh, sun, out));
-    entries.push(entry("hierarchy, edges", built, bytes, query));
+    entries.push(entry("hierarchy, edges", built[0], bytes, query));
     let mut hierarchy = Hierarchy::default();
     hierarchy.classes(mesh, sun);
     let mut runs = Vec::new();
@@ -148,10 +139,11 @@ fn entries(gpu: Option<&Machine>, mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
         runs.clear();
         hierarchy.classes(mesh, sun).ask(sun, &mut runs)
     });
-    entries.push(entry("hierarchy, runs", built, bytes, query));
+    entries.push(entry("hierarchy, runs", built[0], bytes, query));
     if let Some((gpu, program)) = gpu {
         let most = gpu.limits.max_storage_buffer_binding_size;
-        let (built, extraction) = timed(|| Extraction::new(program, mesh, most));
+        let mut built = Vec::new();
+        let extraction = timed(&mut built, || Extraction::new(program, mesh, most));
         let mut extraction = extraction.expect("edges that fit the adapter");
         let name = format!("gpu, in {}", extraction.runs());
         let gpu = Arc::clone(gpu);
@@ -163,7 +155,7 @@ fn entries(gpu: Option<&Machine>, mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
             gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter answers");
             Looked { at: mesh.edges.len(), found: 0 }
         });
-        entries.push(entry(&name, built, 0, query));
+        entries.push(entry(&name, built[0], 0, query));
     }
     entries
 }
@@ -176,8 +168,7 @@ fn rows(gpu: Option<&Machine>, model: &str, mesh: &Mesh, suns: &[DVec4]) {
         for &sun in suns {
             for entry in &mut entries {
                 found.clear();
-                let (time, looked) = timed(|| (entry.query)(mesh, sun, &mut found));
-                entry.times.push(time);
+                let looked = timed(&mut entry.times, || (entry.query)(mesh, sun, &mut found));
                 entry.looked.push((looked.at, looked.found));
                 if !found.is_empty() {
                     silhouette.push(found.len());
