@@ -92,6 +92,14 @@ fn the_default_region_holds_models_and_shadows() {
     assert!(west > -120.0 && north < 120.0);
 }
 
+/// A model of less than a millimetre still has a plan, which `gnomon volumes` does not even draw.
+#[test]
+fn a_tiny_model_has_a_plan() {
+    let tiny = SITE.replace("path = \"tower.glb\"", "path = \"tower.glb\"\nscale = 0.00001");
+    let grid = load(&tiny, &Overrides::default()).unwrap().grid;
+    assert!(grid.cell == 0.001 && (1000..1100).contains(&grid.width), "{grid:?}");
+}
+
 /// Before nine in December the sun is below 13.1°: the shadow is cut at 4.3 heights.
 #[test]
 fn long_shadows_are_cut() {

@@ -9,7 +9,7 @@ use glam::DVec2;
 /// The smallest cell, metres: a receiver is judged a millimetre above itself, and models are no finer either.
 const LEAST_CELL_M: f64 = 0.001;
 
-/// Cells along the longer side where nobody says.
+/// Cells along the longer side where nobody says, or fewer where cells would be smaller than the smallest.
 const DEFAULT_SIZE: u32 = 2048;
 /// A raster of floats would take 8 GiB.
 const MOST_CELLS: f64 = 2_147_483_648.0;
@@ -36,7 +36,7 @@ pub(super) fn grid(written: &Written, asked: &Overrides, models_and_shadows: [DV
         }
         (None, Some(size), _) => (longer / f64::from(size), At::Option("--size")),
         (None, None, Some(cell)) => (cell, written.key("plan", "cell")),
-        (None, None, None) => (longer / f64::from(DEFAULT_SIZE), written.key("plan", "region")),
+        (None, None, None) => ((longer / f64::from(DEFAULT_SIZE)).max(LEAST_CELL_M), written.key("plan", "region")),
     };
     // A NaN is not above zero either.
     if !(cell.is_finite() && cell > 0.0) {
