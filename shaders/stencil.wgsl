@@ -24,14 +24,13 @@ struct Wall {
     // Where the triangle's first vertex comes from: of the wall's two casting vertices the one nearer to the sun.
     @location(0) @interpolate(flat, first) sunward: vec3f,
     // How far the wall reaches below the lowest point that is judged, metres; 0 where its edge is above that.
-    // Linear in the picture, as depth is: far ends have another w.
-    @location(1) @interpolate(linear) sunk: f32,
+    @location(1) sunk: f32,
     // 0 where the wall hangs from its edge, 1 where it ends.
-    @location(2) @interpolate(linear) fallen: f32,
+    @location(2) fallen: f32,
 }
 
-// Walls that end at the lowest point that is judged. The end is v − to_sun · height / to_sun.z, scaled by to_sun.z, so
-// that a sun on the horizon needs no division.
+// Walls that end at the lowest point that is judged, at v − to_sun · height / to_sun.z. A sun on the horizon has it scaled
+// by to_sun.z, so that nothing is divided by 0; all others not, so that in the plan everything is linear.
 fn at_lowest(corner: vec4f) -> Wall {
     let vertex = corner.xyz;
     let height = vertex.z - view.lowest_z;
@@ -39,6 +38,10 @@ fn at_lowest(corner: vec4f) -> Wall {
         return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, max(-height, 0.0), 1.0 - corner.w);
     }
     let rise = light.to_sun.z;
+    if rise > 1e-3 {
+        let end = vec3f(vertex.xy - light.to_sun.xy * (height / rise), view.lowest_z);
+        return Wall(view.clip_from_local * vec4f(end, 1.0), vertex, 0.0, 1.0);
+    }
     let end = view.clip_from_local * vec4f(vertex * rise - light.to_sun.xyz * height, rise);
     return Wall(end, vertex, 0.0, 1.0);
 }

@@ -215,6 +215,25 @@ fn a_wall_seen_edge_on_shades_nothing_above_its_edge() {
     }
 }
 
+/// A triangle with one corner just below the ground, whose wall is far longer than the view.
+#[test]
+fn a_corner_in_the_ground_shades_nothing_outside() {
+    let part = Part {
+        name: "triangle".into(),
+        positions: vec![dvec3(-5.837_056, 0.0, -0.072_523), dvec3(-4.142_79, -3.346_309, 5.753_491), DVec3::ZERO],
+        triangles: vec![[2, 1, 0]],
+        ..Part::default()
+    };
+    let mesh = Mesh::build(vec![part]).unwrap();
+    for receivers in [Receivers::Top, Receivers::Ground] {
+        let scene = scene_of(&mesh, receivers, 0.0);
+        let suns = [to_sun(40.573_723, 4.0), to_sun(40.573_723, 0.02), to_sun(40.573_723, 40.0)];
+        for (_, _, difference) in masks(&scene, super::plan(20.371_93, 300), &suns) {
+            assert!(difference.edge_differ <= 2 && difference.other_differ == 0, "{receivers:?}: {difference}");
+        }
+    }
+}
+
 /// Triangles between few points, some of them below the ground, of one or two components.
 fn soup() -> impl Strategy<Value = Mesh> {
     (4_usize..10).prop_flat_map(|points| {
