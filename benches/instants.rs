@@ -74,7 +74,7 @@ fn row(name: &str, gpu: Option<Arc<Gpu>>) {
             });
         }
     }
-    let mut rays = RayCast::new(scene.clone(), view);
+    let mut rays = RayCast::new(scene.clone(), view, None);
     let mut sum = Sum::new(None, width, height);
     for instant in &suns {
         let drawn = timed(&mut times[6], || rays.draw(instant.to_sun).expect("a mask"));

@@ -70,6 +70,12 @@ fn counted() -> @location(0) vec4f {
     return vec4f(0.0);
 }
 
+// To be added up.
+@fragment
+fn one() -> @location(0) vec4f {
+    return vec4f(1.0);
+}
+
 struct Counted {
     @builtin(frag_depth) depth: f32,
     @location(0) nothing: vec4f,
@@ -114,10 +120,8 @@ fn depth_in_plan(z: f32) -> f32 {
 }
 
 fn height_of_sliver(wall: Wall) -> f32 {
-    let clip = (wall.position.xy / view.size * 2.0 - 1.0) * vec2f(1.0, -1.0);
-    let at = (clip - view.clip_from_local[3].xy) / vec2f(view.clip_from_local[0].x, view.clip_from_local[1].y);
     let across = light.to_sun.xy;
-    let along = dot(wall.sunward.xy - at, across) / max(dot(across, across), 1e-12);
+    let along = dot(wall.sunward.xy - at_in_plan(wall.position.xy), across) / max(dot(across, across), 1e-12);
     return wall.sunward.z - max(along, 0.0) * light.to_sun.z;
 }
 

@@ -28,7 +28,7 @@ pub(crate) fn gpu() -> Arc<Gpu> {
 /// For each sun the stencil's mask, the truth's, and how they differ.
 fn masks(scene: &Scene, view: View, suns: &[DVec3]) -> Vec<(Mask, Mask, Difference)> {
     let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::BruteForce).unwrap();
-    let mut truth = RayCast::new(scene.clone(), view);
+    let mut truth = RayCast::new(scene.clone(), view, None);
     let both = |&sun: &DVec3| {
         let [drawn, cast] =
             [&mut stencil as &mut dyn Technique, &mut truth].map(|it| it.draw(sun).unwrap().read().unwrap());

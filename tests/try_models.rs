@@ -140,7 +140,7 @@ impl Row {
 /// The stencil's plan against ray casting, over all suns.
 fn stencil_against_rays(gpu: &Arc<Gpu>, scene: Scene, view: View, suns: &[DVec3]) -> Result<Difference, ShadowError> {
     let mut stencil = Stencil::new(Arc::clone(gpu), scene.clone(), view, Kind::BruteForce)?;
-    let mut truth = RayCast::new(scene, view);
+    let mut truth = RayCast::new(scene, view, None);
     let mut total = Difference::default();
     for &sun in suns {
         let mut difference = Difference::between(&stencil.draw(sun)?.read()?, &truth.draw(sun)?.read()?);

@@ -13,6 +13,21 @@ fn seen_face(pixel: vec2f) -> u32 {
     return textureLoad(faces, vec2u(pixel), 0).x;
 }
 
+// Metres east and north of a pixel's centre in the plan.
+fn at_in_plan(pixel: vec2f) -> vec2f {
+    let clip = (pixel / view.size * 2.0 - 1.0) * vec2f(1.0, -1.0);
+    return (clip - view.clip_from_local[3].xy) / vec2f(view.clip_from_local[0].x, view.clip_from_local[1].y);
+}
+
+// What a pixel sees, metres around the scene's origin; not the sky.
+fn seen_point(pixel: vec2f) -> vec3f {
+    let depth = textureLoad(depths, vec2u(pixel), 0);
+    if is_plan() {
+        return vec3f(at_in_plan(pixel), (depth - view.clip_from_local[3].z) / view.clip_from_local[2].z);
+    }
+    return view.viewer.xyz + ray(pixel) * (view.depth_scale / depth);
+}
+
 // Zero where a face has no area.
 fn seen_normal(face: u32) -> vec3f {
     var plane = vec4f(0.0, 0.0, 1.0, -view.ground_z);

@@ -1,7 +1,7 @@
 //! The options, as the user writes them. Each stands with the subcommands that use it, and nowhere else.
 
 use crate::silhouette::hextree::DEEPEST;
-use crate::site::{Engine, Finder, Method, Overrides, Receivers};
+use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use std::path::PathBuf;
 
@@ -87,7 +87,9 @@ pub(super) struct WindowArgs {
 /// How shadows are found.
 #[derive(Debug, Args)]
 pub(super) struct DrawArgs {
-    /// auto, stencil or ray-cast
+    /// auto, stencil or ray-cast (exact), hybrid (exact but for casters thinner than a map's texel), shadow-map (quick),
+    /// smoothie (the soft edge of a real sun, drawn outside of the hard edge alone: shadows come out too large by up to
+    /// the width of their edge)
     #[arg(long, value_name = "NAME")]
     technique: Option<Method>,
     /// auto, brute, hextree or gpu
@@ -100,6 +102,27 @@ pub(super) struct DrawArgs {
     /// auto, gpu or cpu
     #[arg(long, value_name = "NAME")]
     engine: Option<Engine>,
+    #[command(flatten)]
+    settings: SettingsArgs,
+}
+
+/// What single techniques can be told.
+#[derive(Debug, Args)]
+pub(super) struct SettingsArgs {
+    /// With shadow-map, hybrid and smoothie: texels along the map's side, 256 to 8192 [default: 2048]
+    #[arg(long, value_name = "TEXELS", value_parser = value_parser!(u32).range(256..=8192),
+          allow_negative_numbers = true)]
+    map_size: Option<u32>,
+    /// With shadow-map: how comparisons are filtered: none, 2x2, fast-2x2 or fast-4x4 [default: fast-2x2]
+    #[arg(long, value_name = "NAME")]
+    pcf: Option<Pcf>,
+    /// With smoothie: how wide the soft edge is at most, metres across the sun's rays [default: as wide as the sun's
+    /// disc makes it on the lowest receiver]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    smoothie_width: Option<f64>,
+    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
+    sun_samples: Option<u32>,
 }
 
 /// The plan.
@@ -262,8 +285,16 @@ impl WindowArgs {
 
 impl DrawArgs {
     fn onto(&self, asked: Overrides) -> Overrides {
-        let DrawArgs { technique, silhouette, hextree_depth, engine } = *self;
-        Overrides { technique, silhouette, hextree_depth, engine, ..asked }
+        let DrawArgs { technique, silhouette, hextree_depth, engine, ref settings } = *self;
+        settings.onto(Overrides { technique, silhouette, hextree_depth, engine, ..asked })
+    }
+}
+
+impl SettingsArgs {
+    fn onto(&self, asked: Overrides) -> Overrides {
+        let SettingsArgs { map_size, pcf, smoothie_width, sun_samples } = *self;
+        let settings = Settings { map_size, pcf, smoothie_width_m: smoothie_width, sun_samples };
+        Overrides { settings, ..asked }
     }
 }
 

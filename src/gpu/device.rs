@@ -46,6 +46,8 @@ pub enum GpuError {
 
 /// What drawing needs beyond the least that WebGPU promises: a float depth beside the stencil.
 const NEEDED: Features = Features::DEPTH32FLOAT_STENCIL8;
+/// What some techniques need, and some adapters (all of GL) lack.
+const WANTED: Features = Features::FLOAT32_BLENDABLE;
 
 impl Gpu {
     /// Opens the fastest adapter of the system. The usual environment variables of wgpu choose another one.
@@ -67,7 +69,7 @@ impl Gpu {
             let limits = adapter.limits();
             let description = DeviceDescriptor {
                 label: Some("gnomon"),
-                required_features: NEEDED,
+                required_features: NEEDED | (adapter.features() & WANTED),
                 required_limits: limits.clone(),
                 ..DeviceDescriptor::default()
             };
@@ -92,6 +94,17 @@ impl Gpu {
     /// Whether the adapter is a program on the processor.
     pub fn software(&self) -> bool {
         self.software
+    }
+
+    /// Says so where the adapter cannot blend 32-bit floats, by which `what` is done.
+    ///
+    /// # Errors
+    /// [`GpuError::Failed`]
+    pub fn blends_float32(&self, what: &str) -> Result<(), GpuError> {
+        match self.device.features().contains(Features::FLOAT32_BLENDABLE) {
+            true => Ok(()),
+            false => Err(self.failed(format!("{what} by blending 32-bit floats, which it cannot"))),
+        }
     }
 
     /// Says what went wrong since the device was opened. wgpu reports faults (memory above all) beside the calls that

@@ -39,6 +39,34 @@ pub struct Light {
     pub to_sun: [f32; 4],
 }
 
+/// `Map` of `shaders/common/map.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Map {
+    /// Metres around the scene's origin → column and row in texels, and metres from the map's near side.
+    pub from_local: [[f32; 4]; 4],
+    /// One texel to the right, metres around the scene's origin.
+    pub across: [f32; 4],
+    /// One texel downwards, likewise.
+    pub along: [f32; 4],
+    /// The ground's depth: metres a column, metres a row, metres at the map's corner.
+    pub ground: [f32; 4],
+    /// A texel's width and height, metres.
+    pub texel: [f32; 2],
+    /// Texels a side.
+    pub size: f32,
+    /// Metres from the near side to the far one.
+    pub range: f32,
+    /// How much nearer to the light a texel must be to shade a cell, metres.
+    pub bias: f32,
+    /// The same, in texels of the cell's slope.
+    pub slope_bias: f32,
+    /// Width of the penumbra a metre behind an edge.
+    pub spread: f32,
+    /// Width of smoothies, metres; 0 where the light's disc decides.
+    pub width: f32,
+}
+
 /// `Weight` of `shaders/accumulate.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -141,6 +169,7 @@ macro_rules! layout {
 pub const ALL: &[Layout] = &[
     layout!(View: clip_from_local, viewer, right, up, forward, ground_z, lowest_z, judged_above, depth_scale, size, unused),
     layout!(Light: to_sun),
+    layout!(Map: from_local, across, along, ground, texel, size, range, bias, slope_bias, spread, width),
     layout!(Search: light, indices_per_wall, halved, unused),
     layout!(Face: corners, number),
     layout!(Edge: first, second, a, b, along),

@@ -15,6 +15,14 @@ pub const SURFACE: &str = joined!("common/view", "surface");
 pub const JUDGED: &str = joined!("common/view", "common/seen", "judged");
 /// Stencil shadow volumes.
 pub const STENCIL: &str = joined!("common/view", "common/seen", "stencil");
+/// Depth as a light sees it.
+pub const MAP: &str = joined!("common/map", "map");
+/// Shadow maps.
+pub const SHADOW_MAP: &str = joined!("common/view", "common/seen", "common/map", "common/compared", "shadow_map");
+/// Which cells a map decides.
+pub const HYBRID: &str = joined!("common/view", "common/seen", "common/map", "common/compared", "hybrid");
+/// Soft edges beside a map.
+pub const SMOOTHIE: &str = joined!("common/view", "common/seen", "common/map", "common/compared", "smoothie");
 /// Silhouettes as lines.
 pub const OVERLAY: &str = joined!("common/view", "common/seen", "overlay");
 /// Which faces a light shines on, and the light cap.
@@ -32,6 +40,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("surface", SURFACE),
     ("judged", JUDGED),
     ("stencil", STENCIL),
+    ("map", MAP),
+    ("shadow_map", SHADOW_MAP),
+    ("hybrid", HYBRID),
+    ("smoothie", SMOOTHIE),
     ("overlay", OVERLAY),
     ("faces", FACES),
     ("extraction", EXTRACTION),

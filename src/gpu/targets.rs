@@ -9,6 +9,8 @@ pub const COUNTED: TextureFormat = TextureFormat::Depth32FloatStencil8;
 pub const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 /// Faces that are seen, and sums.
 pub const NUMBER: TextureFormat = TextureFormat::R32Uint;
+/// Fragments that are added up.
+pub const SUMMED: TextureFormat = TextureFormat::R32Float;
 /// Masks.
 pub const SHARE: TextureFormat = TextureFormat::R8Unorm;
 
@@ -43,6 +45,19 @@ impl Gpu {
             )));
         }
         Ok(self.device.create_buffer(&BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false }))
+    }
+
+    /// A buffer with these values, and room for one even where there are none.
+    pub fn uploaded<T: bytemuck::Pod>(
+        &self,
+        label: &str,
+        usage: BufferUsages,
+        values: &[T],
+    ) -> Result<Buffer, GpuError> {
+        let size = values.len().max(1) * size_of::<T>();
+        let buffer = self.buffer(label, size as u64, usage | BufferUsages::COPY_DST)?;
+        self.queue.write_buffer(&buffer, 0, bytemuck::cast_slice(values));
+        Ok(buffer)
     }
 
     /// A buffer for one struct of [`super::layout`].
@@ -95,7 +110,7 @@ impl Gpu {
             primitive: PrimitiveState::default(),
             depth_stencil,
             multisample: MultisampleState::default(),
-            fragment: Some(FragmentState {
+            fragment: (!stages.fragment.is_empty()).then(|| FragmentState {
                 module: stages.module,
                 entry_point: Some(stages.fragment),
                 compilation_options: PipelineCompilationOptions::default(),
@@ -108,12 +123,13 @@ impl Gpu {
 }
 
 /// What varies between render pipelines.
+#[derive(Clone, Copy)]
 pub struct Stages<'a> {
     /// The compiled shader.
     pub module: &'a ShaderModule,
     /// Its vertex entry point.
     pub vertex: &'a str,
-    /// Its fragment entry point.
+    /// Its fragment entry point; empty where depth alone is drawn.
     pub fragment: &'a str,
     /// Vertex buffers.
     pub buffers: &'a [Option<VertexBufferLayout<'a>>],

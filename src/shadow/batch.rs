@@ -1,17 +1,14 @@
 //! Casters that are counted together, so few over each other that the stencil holds their count.
 //!
-//! The stencil holds 8 bits, and a count of exactly 256 would read as light. Casters are halved until a bound shows
-//! that no count of a half can reach 256 ([`layers_bound`]). What is found tells its bound, so that as much as fits is
-//! counted together before the mask takes the trace.
+//! The stencil holds 8 bits (7 beside a computation mask), and a count of exactly 256 (128) would read as light. Casters
+//! are halved until a bound shows that no count of a half can reach that ([`layers_bound`]). What is found tells its
+//! bound, so that as much as fits is counted together before the mask takes the trace.
 
 use super::walls::{Maker, Sought, Walls};
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::volume::layers_bound;
 use wgpu::CommandEncoder;
-
-/// The most that an 8-bit stencil counts without passing through 0.
-pub(super) const MOST_COUNTED: u32 = 255;
 
 /// Walls, and the most that they count.
 pub(super) type Found<'a> = (&'a dyn Walls, u32);
@@ -40,7 +37,7 @@ impl Batch {
         Batch { mesh, even, walls: None, halves: None }
     }
 
-    /// Appends walls that together are those of these casters, none of which count beyond the stencil.
+    /// Appends walls that together are those of these casters, none of which count beyond `most_counted`.
     ///
     /// Without caps, walls of even shells stand half as often. There, every wall that a view ray crosses on its way
     /// to what it sees stands an even number of times, for the ray crosses no cap; so half the count is as whole a
@@ -49,12 +46,13 @@ impl Batch {
         &'a mut self,
         maker: &Maker,
         sought: Sought,
+        most_counted: u32,
         encoder: &mut CommandEncoder,
         found: &mut Vec<Found<'a>>,
     ) -> Result<(), GpuError> {
         let halved = self.even && !sought.with_cap;
         let faces = self.mesh.faces.len() as u32;
-        let most = MOST_COUNTED << u32::from(halved);
+        let most = most_counted << u32::from(halved);
         let bound = if faces > most { layers_bound(&self.mesh, sought.local_light.truncate()) } else { faces };
         if bound > most {
             // the cut leaves the shells that it goes through odd, and no others
@@ -62,7 +60,7 @@ impl Batch {
                 let half = |low: bool| self.mesh.of_faces(|face| (face < faces / 2) == low);
                 [true, false].iter().flat_map(|&low| Batch::of(&half(low))).collect()
             });
-            return halves.iter_mut().try_for_each(|half| half.find(maker, sought, encoder, found));
+            return halves.iter_mut().try_for_each(|half| half.find(maker, sought, most_counted, encoder, found));
         }
         let walls = match &mut self.walls {
             Some(walls) => walls,

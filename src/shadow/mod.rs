@@ -4,15 +4,22 @@
 //! same name where it draws on the GPU.
 
 mod batch;
+mod counting;
+pub mod hybrid;
+mod light_view;
+pub mod map;
+pub mod near_clip;
 pub mod overlay;
 pub mod ray_cast;
+pub mod shadow_map;
+pub mod smoothie;
 pub mod stencil;
 mod surface;
 pub mod walls;
 
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
-use crate::view::{Mask, Surface};
+use crate::view::{Counted, Mask, Surface};
 use glam::{DVec3, DVec4};
 
 pub use surface::GpuSurface;
@@ -62,6 +69,11 @@ pub trait Technique {
 
     /// What the cells see of the receivers.
     fn surface(&self) -> Result<Surface, ShadowError>;
+
+    /// What counting takes for that sun; none where nothing is counted. Slow: it is read back.
+    fn counted(&mut self, _to_sun: DVec3) -> Result<Option<Counted>, ShadowError> {
+        Ok(None)
+    }
 }
 
 /// Why there is no mask.
@@ -77,6 +89,18 @@ pub enum ShadowError {
         width: u32,
         /// Rows asked.
         height: u32,
+        /// The adapter's limit.
+        largest: u32,
+        /// The adapter's name.
+        adapter: String,
+    },
+    /// The map does not fit the adapter.
+    #[error(
+        "a shadow map of {size} texels a side is larger than the {largest} that '{adapter}' draws; take a smaller --map-size"
+    )]
+    MapTooLarge {
+        /// Texels asked.
+        size: u32,
         /// The adapter's limit.
         largest: u32,
         /// The adapter's name.

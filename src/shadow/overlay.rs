@@ -42,16 +42,16 @@ impl VolumePicture<'_> {
         let gpu = &self.surface.gpu;
         let twice =
             self.scene.casters.vertices.iter().flat_map(|v| [v.extend(1.0).to_array(), v.extend(0.0).to_array()]);
-        let vertices = self.upload("overlay.casters", BufferUsages::VERTEX, &twice.collect::<Vec<_>>())?;
+        let vertices = gpu.uploaded("overlay.casters", BufferUsages::VERTEX, &twice.collect::<Vec<_>>())?;
         let walls = self.volume.walls.iter().flat_map(|&wall| Volume::wall(wall));
         let walls = walls.flatten().map(|(vertex, far)| vertex * 2 + u32::from(far));
         let cap = self.volume.light_cap.iter().flatten().map(|vertex| vertex * 2);
         let wall_count = self.volume.walls.len() as u32 * 6;
         let indices: Vec<u32> = walls.chain(cap).collect();
-        let index_buffer = self.upload("overlay.indices", BufferUsages::INDEX, &indices)?;
+        let index_buffer = gpu.uploaded("overlay.indices", BufferUsages::INDEX, &indices)?;
 
         let module = gpu.shader("overlay.volumes", shaders::STENCIL);
-        let layout = self.surface.seeing_layout(None);
+        let layout = self.surface.seeing_layout(&[]);
         let corner = VertexBufferLayout {
             array_stride: size_of::<[f32; 4]>() as u64,
             step_mode: VertexStepMode::Vertex,
@@ -100,7 +100,7 @@ impl VolumePicture<'_> {
         let gpu = &self.surface.gpu;
         let place = |vertex: u32| self.scene.casters.vertices[vertex as usize];
         let lines: Vec<[Vec3; 2]> = self.volume.walls.iter().map(|edge| edge.map(place)).collect();
-        let buffer = self.upload("overlay.lines", BufferUsages::VERTEX, &lines)?;
+        let buffer = gpu.uploaded("overlay.lines", BufferUsages::VERTEX, &lines)?;
         let ends = VertexBufferLayout {
             array_stride: size_of::<[Vec3; 2]>() as u64,
             step_mode: VertexStepMode::Instance,
@@ -112,7 +112,7 @@ impl VolumePicture<'_> {
             fragment: "ink",
             buffers: &[Some(ends)],
             target: Some((SHARE, ColorWrites::ALL)),
-            layout: Some(&self.surface.seeing_layout(None)),
+            layout: Some(&self.surface.seeing_layout(&[])),
         };
         // where lines overlap, the one that covers more
         let most = BlendComponent {
@@ -134,15 +134,6 @@ impl VolumePicture<'_> {
 
     fn size(&self) -> (u32, u32) {
         (self.camera.width, self.camera.height)
-    }
-
-    /// A buffer with these values, and room for one even where there are none.
-    fn upload<T: bytemuck::Pod>(&self, label: &str, usage: BufferUsages, values: &[T]) -> Result<Buffer, ShadowError> {
-        let gpu = &self.surface.gpu;
-        let size = values.len().max(1) * size_of::<T>();
-        let buffer = gpu.buffer(label, size as u64, usage | BufferUsages::COPY_DST)?;
-        gpu.queue.write_buffer(&buffer, 0, bytemuck::cast_slice(values));
-        Ok(buffer)
     }
 
     /// One pass over the picture.

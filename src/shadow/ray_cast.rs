@@ -8,6 +8,7 @@
 
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
+use crate::sun::disc;
 use crate::view::{Camera, Mask, Surface, View};
 use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
@@ -136,17 +137,18 @@ pub struct RayCast {
     casters: RayCaster,
     seen: Vec<Seen>,
     mask: Mask,
+    sun_samples: Option<u32>,
 }
 
 impl RayCast {
-    /// Builds the trees and finds what the cells see.
-    pub fn new(scene: Scene, view: View) -> RayCast {
+    /// Builds the trees and finds what the cells see. Rays go to so many points of the sun's disc, or to its centre.
+    pub fn new(scene: Scene, view: View, sun_samples: Option<u32>) -> RayCast {
         let reach = reach(&scene, &view);
         let receivers = RayCaster::new(&scene.receivers, reach);
         let casters = RayCaster::new(&scene.casters, reach);
         let mask = Mask { width: 0, height: 0, share: Vec::new() };
         let rays = Rays::new(&scene, view);
-        let mut cast = RayCast { scene, rays, receivers, casters, seen: Vec::new(), mask };
+        let mut cast = RayCast { scene, rays, receivers, casters, seen: Vec::new(), mask, sun_samples };
         cast.look_at(view);
         cast
     }
@@ -234,12 +236,18 @@ fn reach(scene: &Scene, view: &View) -> f64 {
 
 impl Technique for RayCast {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
-        let RayCast { scene, rays, casters, seen, mask, .. } = self;
+        let RayCast { scene, rays, casters, seen, mask, sun_samples, .. } = self;
         let origin = scene.casters.origin;
         let world_viewer = rays.view.viewer();
         let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
         let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
-        let shear = Shear::along(to_sun);
+        let suns: Vec<(DVec3, Shear)> = match *sun_samples {
+            None => vec![to_sun],
+            Some(samples) => disc(to_sun, samples).collect(),
+        }
+        .into_iter()
+        .map(|to_point| (to_point, Shear::along(to_point)))
+        .collect();
         let width = mask.width as usize;
         mask.share.par_chunks_mut(width).enumerate().for_each(|(row, shares)| {
             for (column, share) in shares.iter_mut().enumerate() {
@@ -252,8 +260,11 @@ impl Technique for RayCast {
                 let normal = seen_normal(plane, viewer);
                 let (from, along) = rays.of(column as u32, row as u32);
                 let judged = from + along * distance + normal * JUDGED_ABOVE_M;
-                let lit = normal.dot(to_sun) > 0.0 && !casters.blocked(judged, &shear);
-                *share = if lit { 255 } else { 0 };
+                let lit = |(to_point, shear): &&(DVec3, Shear)| {
+                    normal.dot(*to_point) > 0.0 && !casters.blocked(judged, shear)
+                };
+                let seen = suns.iter().filter(lit).count();
+                *share = (255.0 * seen as f64 / suns.len() as f64).round() as u8;
             }
         });
         Ok(DrawnMask::Memory(mask))

@@ -3,7 +3,7 @@
 
 use super::{JUDGED_ABOVE_M, Scene, ShadowError};
 use crate::gpu::layout::{self, Light};
-use crate::gpu::targets::{COUNTED, DEPTH, NUMBER, Stages, whole};
+use crate::gpu::targets::{COUNTED, DEPTH, NUMBER, SHARE, Stages, whole};
 use crate::gpu::{Gpu, GpuError, readback, shaders};
 use crate::mesh::Mesh;
 use crate::view::{Surface, View};
@@ -16,6 +16,9 @@ use wgpu::*;
 const PLANES_WIDTH: usize = 4096;
 /// Faces that are uploaded at once: a receiver is drawn once, so no buffer of all of them is kept.
 const FACES_AT_ONCE: usize = 1 << 18;
+
+/// Tiles along a picture's longer side, each of which has a box around what it shows.
+const TILES: u32 = 24;
 
 /// Depth and face of what each cell sees, and the uniforms of the view.
 pub struct GpuSurface {
@@ -177,9 +180,75 @@ impl GpuSurface {
         Ok(gpu.check()?)
     }
 
+    /// An empty mask of the view.
+    pub(super) fn mask(&self, label: &str) -> Texture {
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+        self.gpu.texture(label, self.view.size(), SHARE, usage)
+    }
+
+    /// A pass over all of a mask, without depth.
+    pub(super) fn draw_mask(
+        &self,
+        encoder: &mut CommandEncoder,
+        label: &str,
+        mask: &Texture,
+        what: impl FnOnce(&mut RenderPass<'_>),
+    ) {
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some(label),
+            color_attachments: &[Some(RenderPassColorAttachment {
+                view: &whole(mask),
+                depth_slice: None,
+                resolve_target: None,
+                ops: Operations { load: LoadOp::Clear(Color::BLACK), store: StoreOp::Store },
+            })],
+            ..RenderPassDescriptor::default()
+        });
+        pass.set_bind_group(0, &self.frame, &[]);
+        pass.set_bind_group(1, &self.seen, &[]);
+        what(&mut pass);
+    }
+
+    /// Boxes around what is seen, metres around the scene's origin: one a tile of the picture, the sky left out.
+    pub(super) fn boxes_of_seen(&self) -> Result<Vec<(DVec3, DVec3)>, ShadowError> {
+        let face: Vec<u32> = readback::texels(&self.gpu, &self.faces, TextureAspect::All)?;
+        let depth: Vec<f32> = readback::texels(&self.gpu, &self.depth, TextureAspect::DepthOnly)?;
+        let (width, height) = self.view.size();
+        let tile = (width.max(height).div_ceil(TILES)).max(1) as usize;
+        let across = (width as usize).div_ceil(tile);
+        let local_from_clip = self.clip_from_local.inverse();
+        let boxes = (0..(height as usize).div_ceil(tile)).into_par_iter().flat_map_iter(|tile_row| {
+            let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); across];
+            let first = tile_row * tile * width as usize;
+            let last = ((tile_row + 1) * tile * width as usize).min(face.len());
+            for at in (first..last).filter(|&at| face[at] != Surface::SKY) {
+                let point = self.point(&local_from_clip, at as u32, depth[at]);
+                let (low, high) = &mut boxes[at % width as usize / tile];
+                (*low, *high) = (low.min(point), high.max(point));
+            }
+            boxes.into_iter().filter(|(low, high)| low.x <= high.x)
+        });
+        Ok(boxes.collect())
+    }
+
+    /// The point that a pixel sees at a depth, metres around the scene's origin.
+    fn point(&self, local_from_clip: &DMat4, at: u32, depth: f32) -> DVec3 {
+        let (width, height) = self.view.size();
+        let (column, row) = (at % width, at / width);
+        let x = (f64::from(column) + 0.5) / f64::from(width) * 2.0 - 1.0;
+        let y = 1.0 - (f64::from(row) + 0.5) / f64::from(height) * 2.0;
+        local_from_clip.project_point3(DVec3::new(x, y, f64::from(depth)))
+    }
+
+    /// Takes the commands of an instant.
+    pub(super) fn encoder(&self) -> CommandEncoder {
+        self.gpu.device.create_command_encoder(&CommandEncoderDescriptor::default())
+    }
+
     /// The layout of pipelines that read the view, what is seen, and what else they may need.
-    pub(super) fn seeing_layout(&self, further: Option<&BindGroupLayout>) -> PipelineLayout {
-        let groups: Vec<_> = [&self.frame_layout, &self.seen_layout].into_iter().chain(further).collect();
+    pub(super) fn seeing_layout(&self, further: &[&BindGroupLayout]) -> PipelineLayout {
+        let groups: Vec<_> =
+            [&self.frame_layout, &self.seen_layout].into_iter().chain(further.iter().copied()).collect();
         self.pipeline_layout(&groups)
     }
 
@@ -211,7 +280,7 @@ impl GpuSurface {
             fragment: "judged_depth",
             buffers: &[],
             target: None,
-            layout: Some(&self.seeing_layout(None)),
+            layout: Some(&self.seeing_layout(&[])),
         };
         let pipeline = gpu.pipeline("judged", stages, Some(always));
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
@@ -249,11 +318,7 @@ impl GpuSurface {
             if face == Surface::SKY {
                 return f32::NAN;
             }
-            let (column, row) = (at as u32 % width, at as u32 / width);
-            let x = (f64::from(column) + 0.5) / f64::from(width) * 2.0 - 1.0;
-            let y = 1.0 - (f64::from(row) + 0.5) / f64::from(height) * 2.0;
-            let point = local_from_clip * DVec4::new(x, y, f64::from(depth), 1.0);
-            (point.z / point.w + self.origin.z) as f32
+            (self.point(&local_from_clip, at as u32, depth).z + self.origin.z) as f32
         };
         let height_m = face.par_iter().zip(&depth).enumerate().map(height_of).collect();
         Ok(Surface { width, height, face, height_m })
@@ -352,10 +417,10 @@ pub(super) fn planes(gpu: &Gpu, mesh: &Mesh) -> Result<Texture, GpuError> {
     Ok(texture)
 }
 
-const UNIFORM: BindingType =
+pub(super) const UNIFORM: BindingType =
     BindingType::Buffer { ty: BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
 
-fn texture_binding(sample_type: TextureSampleType) -> BindingType {
+pub(super) fn texture_binding(sample_type: TextureSampleType) -> BindingType {
     BindingType::Texture { sample_type, view_dimension: TextureViewDimension::D2, multisampled: false }
 }
 

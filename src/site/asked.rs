@@ -1,7 +1,7 @@
 //! What the command line asks beside the site file, and the reading of its values.
 
 use super::error::{At, SiteError};
-use super::{Engine, Finder, Method, Receivers};
+use super::{Engine, Finder, Method, Receivers, Settings};
 
 /// Options of the command line; each, where given, goes before the site file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +34,8 @@ pub struct Overrides {
     pub hextree_depth: Option<u32>,
     /// `--engine auto|gpu|cpu`
     pub engine: Option<Engine>,
+    /// `--map-size`, `--pcf`, `--smoothie-width`, `--sun-samples`
+    pub settings: Settings,
     /// `--no-refraction`
     pub no_refraction: bool,
 }

@@ -1,7 +1,7 @@
 //! The words by which people choose a technique, a finder, an engine and receivers.
 
 use super::error::nearest;
-use super::{Engine, Finder, Method, Receivers};
+use super::{Engine, Finder, Method, Pcf, Receivers};
 use std::fmt;
 use std::str::FromStr;
 
@@ -72,8 +72,25 @@ macro_rules! words {
 
 words!(
     Method,
-    ["auto" => Method::Auto, "stencil" => Method::Stencil, "ray-cast" => Method::RayCast],
-    later ["projected", "shadow-map", "hybrid", "smoothie", "soft-texture"]
+    [
+        "auto" => Method::Auto,
+        "stencil" => Method::Stencil,
+        "shadow-map" => Method::ShadowMap,
+        "hybrid" => Method::Hybrid,
+        "smoothie" => Method::Smoothie,
+        "ray-cast" => Method::RayCast
+    ],
+    later ["projected", "soft-texture"]
+);
+words!(
+    Pcf,
+    [
+        "none" => Pcf::None,
+        "2x2" => Pcf::TwoByTwo,
+        "fast-2x2" => Pcf::FastTwoByTwo,
+        "fast-4x4" => Pcf::FastFourByFour
+    ],
+    later []
 );
 words!(
     Finder,

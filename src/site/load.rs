@@ -87,6 +87,11 @@ impl Site {
             let what = "is the depth of the paper's hextree; say --silhouette hextree with it, or leave it out";
             return Err(refuse(At::Option("--hextree-depth"), what));
         }
+        // a NaN is not above zero either
+        if let Some(width) = asked.settings.smoothie_width_m.filter(|width| !(width.is_finite() && *width > 0.0)) {
+            let what = format!("{width} is no width; write metres above 0, for example --smoothie-width 0.5");
+            return Err(refuse(At::Option("--smoothie-width"), what));
+        }
         let level = written.site.ground.level;
         if let Some(level) = level.filter(|level| !level.is_finite()) {
             return Err(refuse(
@@ -128,6 +133,7 @@ impl Site {
             finder: asked.silhouette.unwrap_or_default(),
             hextree_depth: asked.hextree_depth,
             engine: asked.engine.unwrap_or_default(),
+            settings: asked.settings,
         })
     }
 }

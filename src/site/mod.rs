@@ -42,6 +42,12 @@ pub enum Method {
     Auto,
     /// Stencil shadow volumes.
     Stencil,
+    /// A depth map drawn from the sun.
+    ShadowMap,
+    /// A depth map, and volumes where it cannot tell.
+    Hybrid,
+    /// A depth map with soft edges.
+    Smoothie,
     /// Ray casting.
     RayCast,
 }
@@ -58,6 +64,32 @@ pub enum Finder {
     Hextree,
     /// One pass over all edges, on the graphics adapter.
     Gpu,
+}
+
+/// How a shadow map's comparisons are filtered, as the user asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pcf {
+    /// The nearest texel alone.
+    None,
+    /// Four maps, a quarter of a texel apart.
+    TwoByTwo,
+    /// The four nearest texels of one map.
+    FastTwoByTwo,
+    /// The sixteen nearest texels of one map.
+    FastFourByFour,
+}
+
+/// What was asked of single techniques; each has its own default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// Texels along a shadow map's side.
+    pub map_size: Option<u32>,
+    /// How its comparisons are filtered.
+    pub pcf: Option<Pcf>,
+    /// How wide smoothies are, metres across the sun's rays.
+    pub smoothie_width_m: Option<f64>,
+    /// Points of the sun's disc to which rays are cast.
+    pub sun_samples: Option<u32>,
 }
 
 /// Which machine draws, as the user asked.
@@ -101,4 +133,6 @@ pub struct Site {
     pub hextree_depth: Option<u32>,
     /// On which machine.
     pub engine: Engine,
+    /// What was asked of single techniques.
+    pub settings: Settings,
 }

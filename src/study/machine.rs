@@ -3,53 +3,106 @@
 use super::{Event, OnEvent, StudyError, tell};
 use crate::gpu::{Gpu, GpuError};
 use crate::profile::Drawn;
+use crate::shadow::hybrid::Hybrid;
+use crate::shadow::map;
 use crate::shadow::ray_cast::RayCast;
+use crate::shadow::shadow_map::{Filter, ShadowMap};
+use crate::shadow::smoothie::Smoothie;
 use crate::shadow::stencil::Stencil;
 use crate::shadow::{Scene, ShadowError, Silhouettes, Technique};
 use crate::silhouette::Kind;
-use crate::site::{Engine, Finder, Method, Site};
+use crate::site::{Engine, Finder, Method, Pcf, Settings, Site};
 use crate::view::View;
 use std::sync::Arc;
 
-/// The stencil on the graphics adapter, with who finds its silhouettes; or ray casting on the processor.
-pub(super) struct Machine {
-    stencil: Option<(Arc<Gpu>, Silhouettes)>,
+/// A technique with all that it needs to be made for a view.
+#[derive(Clone)]
+pub(super) enum Machine {
+    /// Rays on the processor, to so many points of the sun's disc, or its centre.
+    RayCast { sun_samples: Option<u32> },
+    /// Anything else.
+    OnGpu(Arc<Gpu>, Drawing),
+}
+
+/// A technique of the graphics adapter.
+#[derive(Clone, Copy)]
+pub(super) enum Drawing {
+    Stencil(Silhouettes),
+    ShadowMap { size: u32, filter: Filter },
+    Hybrid { silhouettes: Silhouettes, map_size: u32 },
+    Smoothie { finder: Kind, map_size: u32, width_m: Option<f64> },
+}
+
+impl Drawing {
+    /// A technique as a site asks for it; [`Method::Auto`] is the stencil.
+    pub(super) fn of(method: Method, site: &Site, gpu: &Gpu) -> Drawing {
+        let settings = &site.settings;
+        let map_size = settings.map_size.unwrap_or(map::DEFAULT_SIZE);
+        match method {
+            Method::ShadowMap => Drawing::ShadowMap {
+                size: map_size,
+                filter: match settings.pcf {
+                    Some(Pcf::None) => Filter::None,
+                    Some(Pcf::TwoByTwo) => Filter::TwoByTwo,
+                    Some(Pcf::FastTwoByTwo) | None => Filter::FastTwoByTwo,
+                    Some(Pcf::FastFourByFour) => Filter::FastFourByFour,
+                },
+            },
+            Method::Hybrid => Drawing::Hybrid { silhouettes: silhouettes(site, gpu), map_size },
+            Method::Smoothie => Drawing::Smoothie { finder: kind(site), map_size, width_m: settings.smoothie_width_m },
+            Method::Stencil | Method::Auto | Method::RayCast => Drawing::Stencil(silhouettes(site, gpu)),
+        }
+    }
 }
 
 impl Machine {
-    const RAY_CASTING: Machine = Machine { stencil: None };
-
-    fn stencil(gpu: Gpu, site: &Site) -> Machine {
-        let silhouettes = silhouettes(site, &gpu);
-        Machine { stencil: Some((Arc::new(gpu), silhouettes)) }
+    fn open(site: &Site) -> Result<Machine, GpuError> {
+        let gpu = Gpu::open()?;
+        let drawing = Drawing::of(site.method, site, &gpu);
+        Ok(Machine::OnGpu(Arc::new(gpu), drawing))
     }
 
     pub(super) fn gpu(&self) -> Option<Arc<Gpu>> {
-        self.stencil.as_ref().map(|(gpu, _)| Arc::clone(gpu))
-    }
-
-    pub(super) fn drawn(&self) -> Drawn {
-        match &self.stencil {
-            Some((gpu, silhouettes)) => Drawn {
-                technique: Method::Stencil.word(),
-                silhouette: Some(match silhouettes {
-                    Silhouettes::OnProcessor(Kind::BruteForce) => Finder::Brute.word(),
-                    Silhouettes::OnProcessor(Kind::Hextree { .. } | Kind::Hierarchy) => Finder::Hextree.word(),
-                    Silhouettes::OnGpu | Silhouettes::InVertexShader => Finder::Gpu.word(),
-                }),
-                engine: Engine::Gpu.word(),
-                adapter: Some(gpu.name().to_owned()),
-            },
-            None => {
-                Drawn { technique: Method::RayCast.word(), silhouette: None, engine: Engine::Cpu.word(), adapter: None }
-            }
+        match self {
+            Machine::RayCast { .. } => None,
+            Machine::OnGpu(gpu, _) => Some(Arc::clone(gpu)),
         }
     }
 
+    pub(super) fn drawn(&self) -> Drawn {
+        let found = |silhouettes: &Silhouettes| match silhouettes {
+            Silhouettes::OnProcessor(Kind::BruteForce) => Finder::Brute.word(),
+            Silhouettes::OnProcessor(Kind::Hextree { .. } | Kind::Hierarchy) => Finder::Hextree.word(),
+            Silhouettes::OnGpu | Silhouettes::InVertexShader => Finder::Gpu.word(),
+        };
+        let (method, silhouette) = match self {
+            Machine::RayCast { .. } => (Method::RayCast, None),
+            Machine::OnGpu(_, Drawing::Stencil(silhouettes)) => (Method::Stencil, Some(found(silhouettes))),
+            Machine::OnGpu(_, Drawing::ShadowMap { .. }) => (Method::ShadowMap, None),
+            Machine::OnGpu(_, Drawing::Hybrid { silhouettes, .. }) => (Method::Hybrid, Some(found(silhouettes))),
+            Machine::OnGpu(_, Drawing::Smoothie { finder, .. }) => (Method::Smoothie, Some(found(&(*finder).into()))),
+        };
+        let (engine, adapter) = match self {
+            Machine::RayCast { .. } => (Engine::Cpu, None),
+            Machine::OnGpu(gpu, _) => (Engine::Gpu, Some(gpu.name().to_owned())),
+        };
+        Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter }
+    }
+
     pub(super) fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
-        Ok(match &self.stencil {
-            Some((gpu, silhouettes)) => Box::new(Stencil::new(Arc::clone(gpu), scene, view, *silhouettes)?),
-            None => Box::new(RayCast::new(scene, view)),
+        let (gpu, drawing) = match self {
+            Machine::RayCast { sun_samples } => return Ok(Box::new(RayCast::new(scene, view, *sun_samples))),
+            Machine::OnGpu(gpu, drawing) => (Arc::clone(gpu), *drawing),
+        };
+        Ok(match drawing {
+            Drawing::Stencil(silhouettes) => Box::new(Stencil::new(gpu, scene, view, silhouettes)?),
+            Drawing::ShadowMap { size, filter } => Box::new(ShadowMap::new(gpu, &scene, view, size, filter)?),
+            Drawing::Hybrid { silhouettes, map_size } => {
+                Box::new(Hybrid::new(gpu, scene, view, silhouettes, map_size)?)
+            }
+            Drawing::Smoothie { finder, map_size, width_m } => {
+                Box::new(Smoothie::new(gpu, scene, view, finder, map_size, width_m)?)
+            }
         })
     }
 }
@@ -60,44 +113,115 @@ impl Machine {
 /// takes less time than a shader's pass over all edges. A real adapter has that pass for nothing beside the drawing, and
 /// is spared the upload of what is found.
 fn silhouettes(site: &Site, gpu: &Gpu) -> Silhouettes {
-    match (site.finder, site.hextree_depth) {
-        (Finder::Brute, _) => Kind::BruteForce.into(),
-        (Finder::Hextree, Some(depth)) => Kind::Hextree { depth }.into(),
-        (Finder::Hextree, None) => Kind::Hierarchy.into(),
-        (Finder::Gpu, _) => Silhouettes::OnGpu,
-        (Finder::Auto, _) if gpu.software() => Kind::Hierarchy.into(),
-        (Finder::Auto, _) => Silhouettes::OnGpu,
+    match site.finder {
+        Finder::Gpu => Silhouettes::OnGpu,
+        Finder::Auto if !gpu.software() => Silhouettes::OnGpu,
+        _ => kind(site).into(),
     }
+}
+
+/// Which of the processor's finders, as asked; else the fastest.
+fn kind(site: &Site) -> Kind {
+    match (site.finder, site.hextree_depth) {
+        (Finder::Brute, _) => Kind::BruteForce,
+        (Finder::Hextree, Some(depth)) => Kind::Hextree { depth },
+        _ => Kind::Hierarchy,
+    }
+}
+
+/// Options that what was asked to draw does not use.
+fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
+    use Method::{Hybrid, RayCast, ShadowMap, Smoothie, Stencil};
+    let Settings { map_size, pcf, smoothie_width_m, sun_samples } = site.settings;
+    let finder = site.finder;
+    let rules: [(bool, &[Method], &str, &str); 6] = [
+        (
+            map_size.is_some(),
+            &[ShadowMap, Hybrid, Smoothie],
+            "--map-size",
+            "only the techniques shadow-map, hybrid and smoothie draw a map; say --technique with one of them, or leave it out",
+        ),
+        (
+            pcf.is_some(),
+            &[ShadowMap],
+            "--pcf",
+            "only the technique shadow-map filters so; say --technique shadow-map, or leave it out",
+        ),
+        (
+            smoothie_width_m.is_some(),
+            &[Smoothie],
+            "--smoothie-width",
+            "only the technique smoothie has smoothies; say --technique smoothie, or leave it out",
+        ),
+        (
+            sun_samples.is_some(),
+            &[RayCast],
+            "--sun-samples",
+            "only ray casting takes points of the sun's disc; say --technique ray-cast, or leave it out",
+        ),
+        (
+            finder != Finder::Auto,
+            &[Stencil, Hybrid, Smoothie],
+            "--silhouette",
+            "ray casting and shadow maps use no silhouettes; leave the option out",
+        ),
+        (
+            finder == Finder::Gpu,
+            &[Stencil, Hybrid],
+            "--silhouette",
+            "smoothies take their silhouettes from the processor; say brute or hextree, or leave the option out",
+        ),
+    ];
+    for (given, users, option, what) in rules {
+        if given && !users.contains(&method) {
+            return Err(StudyError::Conflict { option, what });
+        }
+    }
+    Ok(())
 }
 
 /// Technique and engine as asked; else the stencil on a real graphics adapter, and ray casting on the processor.
 pub(super) fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
-    let conflict = |option, what| Err(StudyError::Conflict { option, what });
-    let open = || Gpu::open().map(|gpu| Machine::stencil(gpu, site));
+    let conflict = |what| Err(StudyError::Conflict { option: "--engine", what });
+    let cast = Machine::RayCast { sun_samples: site.settings.sun_samples };
     let machine = match (site.method, site.engine) {
-        (Method::Stencil, Engine::Cpu) => {
-            return conflict("--engine", "the technique stencil draws on the gpu; take --technique ray-cast with cpu");
-        }
         (Method::RayCast, Engine::Gpu) => {
-            return conflict("--engine", "the technique ray-cast works on the cpu; take --technique stencil with gpu");
+            return conflict("the technique ray-cast works on the cpu; take --technique stencil with gpu");
         }
-        (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => Machine::RAY_CASTING,
-        (Method::Stencil, _) | (Method::Auto, Engine::Gpu) => open()?,
+        (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => {
+            unused(site, Method::RayCast)?;
+            cast
+        }
+        (Method::Auto, Engine::Gpu) => {
+            unused(site, Method::Stencil)?;
+            Machine::open(site)?
+        }
         // silhouettes are asked, and only the stencil has them
-        (Method::Auto, Engine::Auto) if site.finder != Finder::Auto => open()?,
-        (Method::Auto, Engine::Auto) => match open() {
-            // measured (docs/benchmarks): a stencil drawn in software is slower than casting the rays outright
-            Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => Machine::RAY_CASTING,
-            Ok(machine) => machine,
-            Err(error) => {
-                tell(on_event, Event::Note(format!("{}: drawing on the processor", why_none(error))))?;
-                Machine::RAY_CASTING
+        (Method::Auto, Engine::Auto) if site.finder != Finder::Auto => {
+            unused(site, Method::Stencil)?;
+            Machine::open(site)?
+        }
+        (Method::Auto, Engine::Auto) => {
+            // what it will be does not depend on the machine's adapter alone: a setting of one technique names it
+            unused(site, Method::Auto)?;
+            match Machine::open(site) {
+                // measured (docs/benchmarks): a stencil drawn in software is slower than casting the rays outright
+                Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => cast,
+                Ok(machine) => machine,
+                Err(error) => {
+                    tell(on_event, Event::Note(format!("{}: drawing on the processor", why_none(error))))?;
+                    cast
+                }
             }
-        },
+        }
+        (_, Engine::Cpu) => {
+            return conflict("that technique draws on the gpu; take --technique ray-cast with cpu");
+        }
+        (method, _) => {
+            unused(site, method)?;
+            Machine::open(site)?
+        }
     };
-    if machine.stencil.is_none() && site.finder != Finder::Auto {
-        return conflict("--silhouette", "ray casting on the processor uses no silhouettes; leave the option out");
-    }
     Ok(machine)
 }
 
@@ -108,12 +232,14 @@ pub(super) fn stencil_alone(site: &Site) -> Result<Machine, StudyError> {
                     take --technique stencil without --engine cpu, or leave them out";
         return Err(StudyError::Conflict { option: "--show", what });
     }
+    unused(site, Method::Stencil)?;
     let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(why_none(error)))?;
-    Ok(Machine::stencil(gpu, site))
+    let drawing = Drawing::of(Method::Stencil, site, &gpu);
+    Ok(Machine::OnGpu(Arc::new(gpu), drawing))
 }
 
 /// Why no graphics adapter draws.
-fn why_none(error: GpuError) -> String {
+pub(super) fn why_none(error: GpuError) -> String {
     match error {
         GpuError::NoAdapter => "no graphics adapter was found".to_owned(),
         GpuError::Unusable { adapter, reason } | GpuError::Failed { adapter, reason } => {

@@ -340,7 +340,7 @@ impl Look<'_> {
         let scene = Scene { casters, receivers: self.surface_mesh(), ground: self.site.ground };
         match self.machine.gpu() {
             Some(gpu) => GpuSurface::draw(gpu, &scene, self.view)?.read(),
-            None => RayCast::new(scene, self.view).surface(),
+            None => RayCast::new(scene, self.view, None).surface(),
         }
     }
 }

@@ -2,12 +2,14 @@
 
 mod clock;
 mod day;
+mod disc;
 mod error;
 mod place;
 mod position;
 mod window;
 
 pub use clock::{Reading, TimeOfDay, parse_date, parse_duration_secs};
+pub use disc::{SUN_DISC_RAD, disc};
 pub use error::SunError;
 pub use place::{zone_at, zone_named};
 pub use position::{Air, Position, delta_t_secs, position};

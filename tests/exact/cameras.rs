@@ -5,8 +5,9 @@ use super::{gpu, scene_of, to_sun};
 use glam::{DVec3, dvec3};
 use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Difference;
+use gnomon::shadow::near_clip::near_clip_volume_touched;
 use gnomon::shadow::ray_cast::RayCast;
-use gnomon::shadow::stencil::{Stencil, near_clip_volume_touched};
+use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::Kind;
 use gnomon::site::Receivers;
@@ -34,7 +35,7 @@ fn walk(from: DVec3, to: DVec3, steps: u32, target: DVec3) -> Vec<Camera> {
 
 /// How each camera's mask, drawn as chosen or as forced, differs from the truth, and whether z-fail is right for it.
 fn differences(scene: &Scene, sun: DVec3, cameras: &[Camera], forced: Option<bool>) -> Vec<(bool, Difference)> {
-    let mut truth = RayCast::new(scene.clone(), View::Camera(cameras[0]));
+    let mut truth = RayCast::new(scene.clone(), View::Camera(cameras[0]), None);
     let of = |&camera: &Camera| {
         let view = View::Camera(camera);
         let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::BruteForce).unwrap();

@@ -50,7 +50,7 @@ fn only_what_is_thinner_than_a_cell_is_excepted() {
         height: 200,
     };
     for view in [plan(10.0, 200), View::Camera(from_above)] {
-        let mut cast = RayCast::new(scene.clone(), view);
+        let mut cast = RayCast::new(scene.clone(), view, None);
         let truth = cast.draw(sun).unwrap().read().unwrap();
         // beneath the wire, beneath the beam, and in the sun
         let mut wrong = truth.clone();

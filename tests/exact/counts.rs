@@ -51,7 +51,7 @@ fn from_above_from_below_and_from_the_side() {
                 let view = View::Camera(camera);
                 let (drawn, truth, _) = masks(&scene, view, &[to_sun(140.0, 50.0)]).remove(0);
                 // only the ground: a pixel holds many plates, and which one it sees is a matter of rounding
-                let face = RayCast::new(scene.clone(), view).surface().unwrap().face;
+                let face = RayCast::new(scene.clone(), view, None).surface().unwrap().face;
                 let ground = || (0..face.len()).filter(|&at| face[at] == Surface::GROUND);
                 let wrong = ground().filter(|&at| drawn.share[at] != truth.share[at]).count();
                 let dark = ground().filter(|&at| truth.share[at] == 0).count();

@@ -1,0 +1,79 @@
+// Shadow maps: the share of a cell's comparisons that see the sun.
+
+@group(3) @binding(0) var packed: texture_2d<f32>;
+
+// A cell that the map decides, or the share of all others: the sky sees the sun, what faces away does not.
+struct Asked {
+    share: f32,
+    is_open: bool,
+    cell: Cell,
+}
+
+fn asked(pixel: vec2f) -> Asked {
+    let face = seen_face(pixel);
+    if face == SKY {
+        return Asked(1.0, false, Cell());
+    }
+    let normal = seen_normal(face);
+    if dot(normal, light.to_sun.xyz) <= 0.0 {
+        return Asked(0.0, false, Cell());
+    }
+    return Asked(1.0, true, cell_in_map(pixel, normal));
+}
+
+// The nearest texel.
+@fragment
+fn none(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let asked = asked(pixel.xy);
+    if !asked.is_open {
+        return vec4f(asked.share);
+    }
+    return vec4f(1.0 - f32(shaded(asked.cell, vec2i(floor(asked.cell.at.xy)))));
+}
+
+// The four depths that are packed into the nearest texel: 5 levels.
+@fragment
+fn two_by_two(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let asked = asked(pixel.xy);
+    if !asked.is_open {
+        return vec4f(asked.share);
+    }
+    let cell = asked.cell;
+    let texel = vec2i(floor(cell.at.xy));
+    if is_outside(texel) {
+        return vec4f(1.0);
+    }
+    let depths = textureLoad(packed, texel, 0);
+    let bias = margin(cell);
+    var count = 0u;
+    for (var index = 0u; index < 4u; index++) {
+        let shift = vec2f(f32(index & 1u), f32(index >> 1u)) * 0.5 - 0.25;
+        count += u32(metres_of(depths[index]) < plane_depth(cell, vec2f(texel) + 0.5 + shift) - bias);
+    }
+    return vec4f(1.0 - f32(count) / 4.0);
+}
+
+// The four nearest texels of one map: 5 levels.
+@fragment
+fn fast_two_by_two(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let asked = asked(pixel.xy);
+    if !asked.is_open {
+        return vec4f(asked.share);
+    }
+    return vec4f(1.0 - f32(shaded_of_four(asked.cell, first_of_four(asked.cell))) / 4.0);
+}
+
+// The sixteen nearest texels, in four fours: 17 levels.
+@fragment
+fn fast_four_by_four(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let asked = asked(pixel.xy);
+    if !asked.is_open {
+        return vec4f(asked.share);
+    }
+    let first = first_of_four(asked.cell) - 1;
+    var count = 0u;
+    for (var index = 0; index < 4; index++) {
+        count += shaded_of_four(asked.cell, first + 2 * vec2i(index & 1, index >> 1u));
+    }
+    return vec4f(1.0 - f32(count) / 16.0);
+}

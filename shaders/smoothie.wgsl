@@ -1,0 +1,122 @@
+// Smoothies: silhouette edges pushed outwards in the sun's view, and how much of the sun is seen past them.
+
+@group(3) @binding(1) var receivers_depth: texture_depth_2d;
+@group(3) @binding(2) var smoothies: texture_2d<f32>;
+
+const PI: f32 = 3.14159265;
+
+struct Smoothie {
+    @builtin(position) position: vec4f,
+    // The edge's ends in the map: metres rightwards and upwards, and depth.
+    @location(0) @interpolate(flat) start: vec3f,
+    @location(1) @interpolate(flat) end: vec3f,
+    // How wide the smoothie is there, metres.
+    @location(2) @interpolate(flat) widths: vec2f,
+}
+
+// The plane of the map in metres, rightwards and upwards: seen from the sun.
+fn metric(at: vec2f) -> vec2f {
+    return vec2f(at.x, -at.y) * map.texel;
+}
+
+// As wide as the penumbra can become on its way to the lowest receiver, or as the user says.
+fn width_at(local: vec3f, depth: f32) -> f32 {
+    if map.width > 0.0 {
+        return map.width;
+    }
+    let farthest = min((local.z - view.lowest_z) / light.to_sun.z, map.range - depth);
+    return map.spread * max(farthest, 0.0);
+}
+
+// One rectangle an edge, from the edge outwards and beyond its ends as far: there it is the corner, whose alpha is the
+// distance to the vertex. So corners meet whatever number of edges they have. The blocker lies on the edge's left.
+@vertex
+fn smoothie(@builtin(vertex_index) index: u32, @location(0) from_local: vec3f, @location(1) to_local: vec3f) -> Smoothie {
+    let ends = array(in_map(from_local), in_map(to_local));
+    let start = vec3f(metric(ends[0].xy), ends[0].z);
+    let end = vec3f(metric(ends[1].xy), ends[1].z);
+    let length = distance(start.xy, end.xy);
+    let widths = vec2f(width_at(from_local, start.z), width_at(to_local, end.z));
+    let width = max(widths.x, widths.y);
+    if length < 1e-6 || width <= 0.0 {
+        return Smoothie(vec4f(0.0), vec3f(0.0), vec3f(0.0), vec2f(0.0)); // seen end-on, or on the lowest receiver: no area
+    }
+    let along = (end.xy - start.xy) / length;
+    let outwards = vec2f(along.y, -along.x);
+    // two triangles; odd corners lie at the end
+    var corners = array(0u, 1u, 2u, 2u, 1u, 3u);
+    let corner = corners[index];
+    // a hair inwards, so that no texel is left out between blocker and smoothie
+    let inwards = 0.05 * max(map.texel.x, map.texel.y);
+    let side = select(-inwards, width, corner >= 2u);
+    let at = select(start.xy - along * width, end.xy + along * width, (corner & 1u) == 1u) + outwards * side;
+    let clip = clip_from_map(vec3f(vec2f(at.x, -at.y) / map.texel, 0.0));
+    return Smoothie(vec4f(clip.xy, 0.5, 1.0), start, end, widths);
+}
+
+// How much of a disc is seen past a straight edge that covers all but this part of its width.
+fn falloff(alpha: f32) -> f32 {
+    let x = clamp(2.0 * alpha - 1.0, -1.0, 1.0);
+    return 0.5 + (x * sqrt(1.0 - x * x) + asin(x)) / PI;
+}
+
+// How much of the sun is seen, and how deep the edge lies.
+@fragment
+fn alpha(smoothie: Smoothie) -> @location(0) vec4f {
+    let edge = smoothie.end.xy - smoothie.start.xy;
+    let at = metric(smoothie.position.xy);
+    let share = clamp(dot(at - smoothie.start.xy, edge) / dot(edge, edge), 0.0, 1.0);
+    let nearest = mix(smoothie.start, smoothie.end, share);
+    let texel = vec2i(smoothie.position.xy);
+    let ground = dot(map.ground.xy, smoothie.position.xy) + map.ground.z;
+    let blockers = metres_of(textureLoad(map_depth, texel, 0));
+    let receiver = min(min(blockers, metres_of(textureLoad(receivers_depth, texel, 0))), ground);
+    let behind = receiver - nearest.z;
+    // behind a blocker
+    if behind <= map.bias {
+        discard;
+    }
+    var penumbra = map.spread * behind;
+    if map.width > 0.0 {
+        penumbra = min(penumbra, map.width);
+    }
+    let remapped = distance(at, nearest.xy) / penumbra;
+    if remapped >= 1.0 {
+        discard;
+    }
+    return vec4f(falloff(remapped), nearest.z, 0.0, 0.0);
+}
+
+// What a texel says of a cell: behind a blocker nothing is seen, behind a smoothie a part. A smoothie must lie nearer to
+// the sun by all that the cell's plane falls away over a texel: at a roof's own edge it does not.
+fn seen_past(cell: Cell, texel: vec2i) -> f32 {
+    if is_outside(texel) {
+        return 1.0;
+    }
+    if shaded(cell, texel) {
+        return 0.0;
+    }
+    let smoothie = textureLoad(smoothies, texel, 0);
+    let slope = abs(cell.slope.x) + abs(cell.slope.y);
+    let is_behind = smoothie.y < plane_depth(cell, vec2f(texel) + 0.5) - margin(cell) - slope;
+    return select(1.0, smoothie.x, is_behind);
+}
+
+// The four nearest texels, each compared, then interpolated.
+@fragment
+fn softened(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let face = seen_face(pixel.xy);
+    if face == SKY {
+        return vec4f(1.0);
+    }
+    let normal = seen_normal(face);
+    if dot(normal, light.to_sun.xyz) <= 0.0 {
+        return vec4f(0.0);
+    }
+    let cell = cell_in_map(pixel.xy, normal);
+    let first = first_of_four(cell);
+    let part = cell.at.xy - 0.5 - vec2f(first);
+    let upper = mix(seen_past(cell, first), seen_past(cell, first + vec2i(1, 0)), part.x);
+    let lower = mix(seen_past(cell, first + vec2i(0, 1)), seen_past(cell, first + vec2i(1, 1)), part.x);
+    return vec4f(mix(upper, lower, part.y));
+}

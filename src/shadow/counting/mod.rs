@@ -1,0 +1,291 @@
+//! The count of shadow volumes in the stencil, for [`super::stencil`] and, behind a mask, for [`super::hybrid`].
+//!
+//! Crow 1977; Heidmann's z-pass and Carmack's z-fail after seed 004, sections 3 to 6. Walls hang from the silhouette and
+//! are extruded in the vertex shader; two-sided stencil with wrap counts them; a cell is in shadow where the count is
+//! not 0.
+//!
+//! - **z-pass** counts the walls in front of what is seen, so it needs no dark cap and walls that end at the lowest
+//!   receiver. It is right where nothing of a volume is cut by the near plane: always in the plan, whose near plane
+//!   lies above everything; in a camera view where no caster reaches into the near-clip volume, which is spanned by the
+//!   near rectangle and the direction to the sun (seed 004, section 7), and that looks from above the ground, so that no
+//!   ray meets the walls' open lower end. It needs the light cap where casters are not among what is seen.
+//! - **z-fail** counts behind what is seen, in all other views: with light cap, and walls to the sun's point at infinity,
+//!   which needs no dark cap. Depth is reversed, so that point has depth 0 exactly and no far plane cuts it.
+//! - The stencil holds 8 bits, or 7 beside the mask: casters come in batches, none of which counts further (`batch.rs`).
+
+mod ways;
+
+use super::batch::{Batch, Found};
+use super::near_clip::needs_z_fail;
+use super::walls::borders::Borders;
+use super::walls::{Maker, Sought};
+use super::{GpuSurface, Scene, ShadowError, Silhouettes};
+use crate::gpu::targets::{SUMMED, whole};
+use crate::gpu::{Gpu, readback};
+use crate::view::View;
+use glam::DVec3;
+use std::sync::Arc;
+use ways::{Way, Ways, covered};
+use wgpu::*;
+
+/// What of the stencil counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bits {
+    /// All of it, in every cell.
+    All,
+    /// The low seven bits, in the cells whose top bit is set; the top bit is never written.
+    BelowMask,
+}
+
+impl Bits {
+    /// The top bit.
+    pub(super) const MASK: u32 = 0x80;
+
+    /// The bits that count, and so the most that is counted without passing through 0.
+    fn most(self) -> u32 {
+        match self {
+            Bits::All => 0xff,
+            Bits::BelowMask => 0x7f,
+        }
+    }
+
+    /// What the stencil is compared with, by the bits that are compared.
+    fn reference(self) -> u32 {
+        match self {
+            Bits::All => 0,
+            Bits::BelowMask => Self::MASK,
+        }
+    }
+
+    /// Which cells count.
+    fn face(self, pass_op: StencilOperation, depth_fail_op: StencilOperation) -> StencilFaceState {
+        let compare = match self {
+            Bits::All => CompareFunction::Always,
+            Bits::BelowMask => CompareFunction::Equal,
+        };
+        StencilFaceState { compare, pass_op, depth_fail_op, fail_op: StencilOperation::Keep }
+    }
+}
+
+/// What counts one scene's volumes in one view.
+pub(super) struct Counting {
+    pub(super) scene: Scene,
+    pub(super) view: View,
+    pub(super) surface: GpuSurface,
+    /// The depth at which cells are judged, and the stencil.
+    pub(super) judged: Texture,
+    bits: Bits,
+    casters: Vec<Batch>,
+    /// Every caster is among what is seen, so that z-pass needs no light cap.
+    casters_are_seen: bool,
+    /// Each vertex twice: where it is, and where its wall ends.
+    vertices: Buffer,
+    maker: Maker,
+    ways: Ways,
+    /// The same, adding up fragments instead; made when first sought.
+    adding: Option<Ways>,
+    covered: RenderPipeline,
+    forced_z_fail: Option<bool>,
+}
+
+/// The volumes of one sun, ready to be drawn.
+pub(super) struct Count<'a> {
+    bits: Bits,
+    found: Vec<Found<'a>>,
+    with_cap: bool,
+    surface: &'a GpuSurface,
+    judged: &'a Texture,
+    vertices: &'a Buffer,
+    way: &'a Way,
+    adding: Option<&'a Way>,
+    covered: &'a RenderPipeline,
+}
+
+impl Counting {
+    /// Draws what is seen, uploads the casters, builds the pipelines.
+    pub(super) fn new(
+        gpu: Arc<Gpu>,
+        scene: Scene,
+        view: View,
+        silhouettes: Silhouettes,
+        bits: Bits,
+    ) -> Result<Counting, ShadowError> {
+        let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
+        let judged = surface.judged();
+        let twice: Vec<[f32; 4]> = scene
+            .casters
+            .vertices
+            .iter()
+            .flat_map(|vertex| [vertex.extend(1.0).to_array(), vertex.extend(0.0).to_array()])
+            .collect();
+        let vertices = gpu.uploaded("counting.casters", BufferUsages::VERTEX, &twice)?;
+        let maker = Maker::new(&gpu, silhouettes);
+        let ways = Ways::counting(&surface, &maker, bits);
+        let covered = covered(&surface, bits);
+        let casters_are_seen = holds_all(&scene);
+        let casters = Batch::of(&scene.casters);
+        gpu.check()?;
+        Ok(Counting {
+            scene,
+            view,
+            surface,
+            judged,
+            bits,
+            casters,
+            casters_are_seen,
+            vertices,
+            maker,
+            ways,
+            adding: None,
+            covered,
+            forced_z_fail: None,
+        })
+    }
+
+    /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong: z-fail always is right, and z-pass must be
+    /// seen to fail where it is not chosen.
+    pub(super) fn force_z_fail(&mut self, z_fail: bool) {
+        self.forced_z_fail = Some(z_fail);
+    }
+
+    /// Also makes what adds up fragments, for [`Count::fragments`].
+    ///
+    /// # Errors
+    /// Where the adapter cannot blend what is added up.
+    pub(super) fn prepare_adding(&mut self) -> Result<(), ShadowError> {
+        if self.adding.is_none() {
+            self.surface.gpu.blends_float32("overdraw is added up")?;
+            self.adding = Some(Ways::adding(&self.surface, &self.maker, self.bits));
+        }
+        Ok(())
+    }
+
+    /// Sets the sun, and finds its volumes; what the adapter has to do for that goes into `encoder`.
+    pub(super) fn find(&mut self, to_sun: DVec3, encoder: &mut CommandEncoder) -> Result<Count<'_>, ShadowError> {
+        let z_fail = match &self.view {
+            View::Plan(_) => false,
+            View::Camera(camera) => self.forced_z_fail.unwrap_or_else(|| needs_z_fail(camera, to_sun, &self.scene)),
+        };
+        self.surface.set_sun(to_sun);
+        let sought = Sought {
+            local_light: self.scene.casters.local_light(to_sun.extend(0.0)),
+            to_infinity: z_fail,
+            with_cap: z_fail || !self.casters_are_seen,
+            halved: false,
+            borders: Some(Borders {
+                clip_from_local: self.surface.clip_from_local,
+                lowest_z: (!z_fail).then_some(self.surface.lowest_z),
+                to_sun,
+            }),
+        };
+        let mut found = Vec::new();
+        for batch in &mut self.casters {
+            batch.find(&self.maker, sought, self.bits.most(), encoder, &mut found)?;
+        }
+        Ok(Count {
+            bits: self.bits,
+            found,
+            with_cap: sought.with_cap,
+            surface: &self.surface,
+            judged: &self.judged,
+            vertices: &self.vertices,
+            way: self.ways.of(&self.view, z_fail),
+            adding: self.adding.as_ref().map(|ways| ways.of(&self.view, z_fail)),
+            covered: &self.covered,
+        })
+    }
+}
+
+/// Whether every component that casts also receives.
+fn holds_all(scene: &Scene) -> bool {
+    let received: rustc_hash::FxHashSet<[u32; 3]> = scene.receivers.faces.iter().copied().collect();
+    scene.casters.faces.iter().all(|face| received.contains(face))
+}
+
+impl Count<'_> {
+    /// A pass over the view's cells that starts with `first` in the target, and `stencil` in the stencil where it is not
+    /// kept from an earlier pass.
+    pub(super) fn pass<'e>(
+        &self,
+        encoder: &'e mut CommandEncoder,
+        label: &str,
+        target: &TextureView,
+        first: Color,
+        stencil: Option<Operations<u32>>,
+    ) -> RenderPass<'e> {
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some(label),
+            color_attachments: &[Some(RenderPassColorAttachment {
+                view: target,
+                depth_slice: None,
+                resolve_target: None,
+                ops: Operations { load: LoadOp::Clear(first), store: StoreOp::Store },
+            })],
+            depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
+                view: &whole(self.judged),
+                depth_ops: None,
+                stencil_ops: stencil,
+            }),
+            ..RenderPassDescriptor::default()
+        });
+        pass.set_bind_group(0, &self.surface.frame, &[]);
+        pass.set_bind_group(1, &self.surface.seen, &[]);
+        pass
+    }
+
+    /// Counts, and leaves the trace of the count in the target: 0 wherever it is not 0.
+    pub(super) fn draw(&self, pass: &mut RenderPass<'_>) {
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_stencil_reference(self.bits.reference());
+        let cover = |pass: &mut RenderPass<'_>| {
+            pass.set_pipeline(self.covered);
+            pass.draw(0..3, 0..1);
+        };
+        let mut counted = 0;
+        for (walls, most) in &self.found {
+            if counted + most > self.bits.most() {
+                cover(pass);
+                counted = 0;
+            }
+            counted += most;
+            pass.set_pipeline(&self.way.wall);
+            walls.draw_walls(pass);
+            if self.with_cap {
+                pass.set_pipeline(&self.way.cap);
+                walls.draw_cap(pass);
+            }
+        }
+        cover(pass);
+    }
+
+    /// Per cell how many fragments of walls and caps reach the count, before any depth is compared; in the cells that
+    /// `stencil` selects, or an earlier pass of the encoder has. To be told, not to be drawn: it is read back.
+    ///
+    /// # Errors
+    /// Where the adapter fails, or cannot add up.
+    pub(super) fn fragments(
+        &self,
+        mut encoder: CommandEncoder,
+        stencil: Option<Operations<u32>>,
+    ) -> Result<Vec<u32>, ShadowError> {
+        let gpu = &self.surface.gpu;
+        let Some(way) = self.adding else { return Err(gpu.failed("nothing adds up overdraw").into()) };
+        let size = (self.judged.width(), self.judged.height());
+        let sum = gpu.texture("adding.sum", size, SUMMED, TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC);
+        let mut pass = self.pass(&mut encoder, "adding", &whole(&sum), Color::BLACK, stencil);
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_stencil_reference(self.bits.reference());
+        for (walls, _) in &self.found {
+            pass.set_pipeline(&way.wall);
+            walls.draw_walls(&mut pass);
+            if self.with_cap {
+                pass.set_pipeline(&way.cap);
+                walls.draw_cap(&mut pass);
+            }
+        }
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+        let sum: Vec<f32> = readback::texels(gpu, &sum, TextureAspect::All)?;
+        Ok(sum.into_iter().map(|fragments| fragments as u32).collect())
+    }
+}

@@ -1,0 +1,136 @@
+//! The hybrid of map and volumes: exact hard shadows, counted only where the map cannot tell.
+//!
+//! Seed 000, chapter 3. A map is drawn from the sun; a cell whose four nearest texels agree takes their answer; the
+//! others, along the shadows' edges, are counted. The computation mask is the stencil's top bit, which the count's test
+//! reads and nothing writes (WebGPU has no depth-bounds test, and early stencil tests reject whole tiles as well). The
+//! count keeps the low seven bits, so batches stay at 127 or below.
+//!
+//! Deviations: the view's own z-pass or z-fail instead of z-fail alone; the comparison by the cell's own plane, so that
+//! no bias leaves light between a shadow and its caster; cells whose plane the sun all but grazes are always counted.
+//!
+//! It is wrong where a caster, or a gap, is so thin that the four texels around it miss it together.
+
+use super::counting::{Bits, Counting};
+use super::map::{DepthMap, compared_layout};
+use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
+use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
+use crate::gpu::{Gpu, readback, shaders};
+use crate::view::{Counted, Decided, Surface, View};
+use glam::DVec3;
+use std::sync::Arc;
+use wgpu::*;
+
+/// The technique, made for one scene and one view.
+pub struct Hybrid {
+    counting: Counting,
+    map: DepthMap,
+    compared: BindGroup,
+    decided: RenderPipeline,
+    mask: Texture,
+}
+
+/// Every cell counts until the map decides it.
+const ALL_COUNT: LoadOp<u32> = LoadOp::Clear(Bits::MASK);
+
+impl Hybrid {
+    /// Draws what is seen, uploads the casters, builds the pipelines; the map has `map_size` texels a side.
+    pub fn new(
+        gpu: Arc<Gpu>,
+        scene: Scene,
+        view: View,
+        silhouettes: impl Into<Silhouettes>,
+        map_size: u32,
+    ) -> Result<Hybrid, ShadowError> {
+        let counting = Counting::new(Arc::clone(&gpu), scene, view, silhouettes.into(), Bits::BelowMask)?;
+        let map = DepthMap::new(&counting.scene, &counting.surface, map_size)?;
+        let group = compared_layout(&gpu, &[]);
+        let compared = gpu.bind("hybrid", &group, &[(0, BindingResource::TextureView(&whole(&map.depth)))]);
+        let drop_bit = StencilFaceState { pass_op: StencilOperation::Zero, ..StencilFaceState::default() };
+        let state = DepthStencilState {
+            format: COUNTED,
+            depth_write_enabled: Some(false),
+            depth_compare: Some(CompareFunction::Always),
+            stencil: StencilState { front: drop_bit, back: drop_bit, read_mask: 0, write_mask: Bits::MASK },
+            bias: DepthBiasState::default(),
+        };
+        let stages = Stages {
+            module: &gpu.shader("hybrid", shaders::HYBRID),
+            vertex: "whole_picture",
+            fragment: "decided",
+            buffers: &[],
+            target: Some((SHARE, ColorWrites::ALL)),
+            layout: Some(&counting.surface.seeing_layout(&[&map.layout, &group])),
+        };
+        let decided = gpu.pipeline("hybrid.decided", stages, Some(state));
+        let mask = counting.surface.mask("hybrid.mask");
+        gpu.check()?;
+        Ok(Hybrid { counting, map, compared, decided, mask })
+    }
+
+    /// As for the stencil: z-fail (`true`) or z-pass (`false`), right or wrong.
+    pub fn force_z_fail(&mut self, z_fail: bool) {
+        self.counting.force_z_fail(z_fail);
+    }
+
+    /// Draws the mask; the stencil's mask is kept where `store` says so, and nothing is counted unless `count` does.
+    fn draw_into(
+        &mut self,
+        to_sun: DVec3,
+        mask: &Texture,
+        store: StoreOp,
+        counts: bool,
+    ) -> Result<CommandEncoder, ShadowError> {
+        self.map.aim(to_sun, 0.0);
+        let mut encoder = self.counting.surface.encoder();
+        self.map.draw(&self.counting.surface, &mut encoder);
+        let count = self.counting.find(to_sun, &mut encoder)?;
+        let stencil = Operations { load: ALL_COUNT, store };
+        let mut pass = count.pass(&mut encoder, "hybrid", &whole(mask), Color::WHITE, Some(stencil));
+        pass.set_bind_group(2, &self.map.bound, &[]);
+        pass.set_bind_group(3, &self.compared, &[]);
+        pass.set_pipeline(&self.decided);
+        pass.draw(0..3, 0..1);
+        if counts {
+            count.draw(&mut pass);
+        }
+        drop(pass);
+        Ok(encoder)
+    }
+}
+
+impl Technique for Hybrid {
+    fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
+        let mask = self.mask.clone();
+        let encoder = self.draw_into(to_sun, &mask, StoreOp::Discard, true)?;
+        let gpu = &self.counting.surface.gpu;
+        gpu.queue.submit([encoder.finish()]);
+        Ok(DrawnMask::Texture(gpu, &self.mask))
+    }
+
+    fn surface(&self) -> Result<Surface, ShadowError> {
+        self.counting.surface.read()
+    }
+
+    fn counted(&mut self, to_sun: DVec3) -> Result<Option<Counted>, ShadowError> {
+        self.counting.prepare_adding()?;
+        let gpu = Arc::clone(&self.counting.surface.gpu);
+        let share = self.draw(to_sun)?.read()?.share;
+        // the mask alone is drawn again and kept, and what passes it is added up
+        let unused = self.counting.surface.mask("hybrid.unused");
+        let mut encoder = self.draw_into(to_sun, &unused, StoreOp::Store, false)?;
+        let reached = self.counting.find(to_sun, &mut encoder)?.fragments(encoder, None)?;
+        let bits: Vec<u8> = readback::texels(&gpu, &self.counting.judged, TextureAspect::StencilOnly)?;
+        let mut encoder = self.counting.surface.encoder();
+        let everywhere = Operations { load: ALL_COUNT, store: StoreOp::Discard };
+        let all = self.counting.find(to_sun, &mut encoder)?.fragments(encoder, Some(everywhere))?;
+        let decided = bits.iter().zip(&share).map(|(bits, share)| match (*bits >= Bits::MASK as u8, *share > 0) {
+            (true, true) => Decided::VolumeLight,
+            (true, false) => Decided::VolumeShadow,
+            (false, true) => Decided::MapLight,
+            (false, false) => Decided::MapShadow,
+        });
+        let (width, height) = self.counting.view.size();
+        let all = all.iter().map(|&fragments| u64::from(fragments)).sum();
+        Ok(Some(Counted { width, height, reached, all, decided: Some(decided.collect()) }))
+    }
+}

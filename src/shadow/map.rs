@@ -1,0 +1,237 @@
+//! The map: depth as the sun sees it, for [`super::shadow_map`], [`super::hybrid`] and [`super::smoothie`].
+//!
+//! Williams 1978, after seeds 000, 001 and 003. The light is parallel, so depth is linear: metres along the rays.
+//!
+//! What of a cell is compared with a texel is the depth of the cell's own plane at the place of the texel's sample, as
+//! the view knows the plane. What is left for the slope-scaled bias of seed 003 is the rounding of corners in the map.
+
+use super::light_view::{Extents, LightView};
+use super::surface::{UNIFORM, bind_group_layout, texture_binding};
+use super::{GpuSurface, Scene, ShadowError};
+use crate::gpu::targets::{DEPTH, Stages, whole};
+use crate::gpu::{Gpu, layout, shaders};
+use crate::mesh::Mesh;
+use glam::DVec3;
+use std::sync::Arc;
+use wgpu::*;
+
+/// Texels a side where nobody asks.
+pub const DEFAULT_SIZE: u32 = 2048;
+
+/// Four depths to a texel.
+const PACKED: TextureFormat = TextureFormat::Rgba32Float;
+
+/// The shift of `shaders/map.wgsl` that is none.
+const UNSHIFTED: u32 = 4;
+
+/// The map of one scene's casters, aimed anew at each sun.
+pub(super) struct DepthMap {
+    gpu: Arc<Gpu>,
+    size: u32,
+    extents: Extents,
+    uniform: Buffer,
+    /// The uniform alone, group 2.
+    pub(super) bound: BindGroup,
+    pub(super) layout: BindGroupLayout,
+    pub(super) depth: Texture,
+    casters: Triangles,
+    pipeline: RenderPipeline,
+}
+
+impl DepthMap {
+    /// Uploads the casters and makes an empty map of `size` texels a side.
+    pub(super) fn new(scene: &Scene, surface: &GpuSurface, size: u32) -> Result<DepthMap, ShadowError> {
+        let gpu = Arc::clone(&surface.gpu);
+        let largest = gpu.limits.max_texture_dimension_2d;
+        if size > largest {
+            return Err(ShadowError::MapTooLarge { size, largest, adapter: gpu.name().to_owned() });
+        }
+        let uniform = gpu.uniform::<layout::Map>("map");
+        let layout = bind_group_layout(&gpu, "map", &[UNIFORM]);
+        let bound = gpu.bind("map", &layout, &[(0, uniform.as_entire_binding())]);
+        let module = gpu.shader("map", shaders::MAP);
+        let pipeline_layout = surface.seeing_layout(&[&layout]);
+        let stages = Stages {
+            module: &module,
+            vertex: "seen_from_sun",
+            fragment: "",
+            buffers: &[Some(Triangles::LAYOUT)],
+            target: None,
+            layout: Some(&pipeline_layout),
+        };
+        let pipeline = gpu.pipeline("map.casters", stages, Some(nearest()));
+        Ok(DepthMap {
+            extents: Extents::new(scene, surface)?,
+            uniform,
+            bound,
+            layout,
+            depth: depth(&gpu, "map.depth", size),
+            casters: Triangles::uploaded(&gpu, &scene.casters, |_| true)?,
+            pipeline,
+            size,
+            gpu,
+        })
+    }
+
+    /// Texels a side.
+    pub(super) fn size(&self) -> (u32, u32) {
+        (self.size, self.size)
+    }
+
+    /// Turns to a sun. Smoothies have a fixed width, metres, or 0 where the sun's disc decides.
+    pub(super) fn aim(&self, to_sun: DVec3, smoothie_width_m: f64) -> LightView {
+        let view = self.extents.from_sun(to_sun);
+        let uniform = view.uniform(&self.extents, self.size, smoothie_width_m);
+        self.gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        view
+    }
+
+    /// Draws the casters' depth.
+    pub(super) fn draw(&self, surface: &GpuSurface, encoder: &mut CommandEncoder) {
+        self.draw_triangles(surface, encoder, &self.depth, &self.casters);
+    }
+
+    /// Draws the depth of some triangles into a map of the same view.
+    pub(super) fn draw_triangles(
+        &self,
+        surface: &GpuSurface,
+        encoder: &mut CommandEncoder,
+        depth: &Texture,
+        triangles: &Triangles,
+    ) {
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("map"),
+            depth_stencil_attachment: Some(cleared(&whole(depth))),
+            ..RenderPassDescriptor::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        self.bind(surface, &mut pass);
+        triangles.draw(&mut pass, UNSHIFTED);
+    }
+
+    /// Binds the view, what is seen, and the map's uniform.
+    pub(super) fn bind(&self, surface: &GpuSurface, pass: &mut RenderPass<'_>) {
+        pass.set_bind_group(0, &surface.frame, &[]);
+        pass.set_bind_group(1, &surface.seen, &[]);
+        pass.set_bind_group(2, &self.bound, &[]);
+    }
+}
+
+/// Four maps, a quarter of a texel from its centre each, in the channels of one (seed 001, section 3).
+pub(super) struct PackedMap {
+    pub(super) packed: Texture,
+    /// One pipeline a channel.
+    pipelines: [RenderPipeline; 4],
+}
+
+impl PackedMap {
+    pub(super) fn new(map: &DepthMap, surface: &GpuSurface) -> PackedMap {
+        let gpu = &map.gpu;
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        let module = gpu.shader("map", shaders::MAP);
+        let layout = surface.seeing_layout(&[&map.layout]);
+        let channels = [ColorWrites::RED, ColorWrites::GREEN, ColorWrites::BLUE, ColorWrites::ALPHA];
+        let pipeline = |channel: ColorWrites| {
+            let stages = Stages {
+                module: &module,
+                vertex: "seen_from_sun",
+                fragment: "depth_as_colour",
+                buffers: &[Some(Triangles::LAYOUT)],
+                target: Some((PACKED, channel)),
+                layout: Some(&layout),
+            };
+            gpu.pipeline("map.packed", stages, Some(nearest()))
+        };
+        PackedMap { packed: gpu.texture("map.packed", map.size(), PACKED, usage), pipelines: channels.map(pipeline) }
+    }
+
+    /// Draws the casters four times.
+    pub(super) fn draw(&self, map: &DepthMap, surface: &GpuSurface, encoder: &mut CommandEncoder) {
+        for (shift, pipeline) in self.pipelines.iter().enumerate() {
+            let load = if shift == 0 { LoadOp::Clear(Color::WHITE) } else { LoadOp::Load };
+            let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+                label: Some("map.packed"),
+                color_attachments: &[Some(RenderPassColorAttachment {
+                    view: &whole(&self.packed),
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: Operations { load, store: StoreOp::Store },
+                })],
+                depth_stencil_attachment: Some(cleared(&whole(&map.depth))),
+                ..RenderPassDescriptor::default()
+            });
+            pass.set_pipeline(pipeline);
+            map.bind(surface, &mut pass);
+            map.casters.draw(&mut pass, shift as u32);
+        }
+    }
+}
+
+/// An empty map's depth.
+pub(super) fn depth(gpu: &Gpu, label: &str, size: u32) -> Texture {
+    gpu.texture(label, (size, size), DEPTH, TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING)
+}
+
+/// A map's depth for shaders that compare with it: group 3, binding 0.
+pub(super) const COMPARED: BindingType = BindingType::Texture {
+    sample_type: TextureSampleType::Depth,
+    view_dimension: TextureViewDimension::D2,
+    multisampled: false,
+};
+
+/// The layout of a group of textures for shaders that compare with the map.
+pub(super) fn compared_layout(gpu: &Gpu, further: &[TextureSampleType]) -> BindGroupLayout {
+    let further = further.iter().map(|&sample_type| texture_binding(sample_type));
+    bind_group_layout(gpu, "compared", &[COMPARED].into_iter().chain(further).collect::<Vec<_>>())
+}
+
+fn nearest() -> DepthStencilState {
+    DepthStencilState {
+        format: DEPTH,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(CompareFunction::Less),
+        stencil: StencilState::default(),
+        bias: DepthBiasState::default(),
+    }
+}
+
+fn cleared(depth: &TextureView) -> RenderPassDepthStencilAttachment<'_> {
+    RenderPassDepthStencilAttachment {
+        view: depth,
+        depth_ops: Some(Operations { load: LoadOp::Clear(1.0), store: StoreOp::Store }),
+        stencil_ops: None,
+    }
+}
+
+/// Some faces of a mesh on the GPU.
+pub(super) struct Triangles {
+    vertices: Buffer,
+    indices: Buffer,
+    count: u32,
+}
+
+impl Triangles {
+    const LAYOUT: VertexBufferLayout<'static> = VertexBufferLayout {
+        array_stride: 12,
+        step_mode: VertexStepMode::Vertex,
+        attributes: &vertex_attr_array![0 => Float32x3],
+    };
+
+    /// Uploads the faces of a mesh that are to be kept.
+    pub(super) fn uploaded(gpu: &Gpu, mesh: &Mesh, keep: impl Fn(&[u32; 3]) -> bool) -> Result<Triangles, ShadowError> {
+        let faces: Vec<[u32; 3]> = mesh.faces.iter().copied().filter(keep).collect();
+        let vertices = gpu.uploaded("map.vertices", BufferUsages::VERTEX, &mesh.vertices[..])?;
+        let indices = gpu.uploaded("map.indices", BufferUsages::INDEX, &faces)?;
+        Ok(Triangles { vertices, indices, count: faces.len() as u32 * 3 })
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    fn draw(&self, pass: &mut RenderPass<'_>, shift: u32) {
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), IndexFormat::Uint32);
+        pass.draw_indexed(0..self.count, 0, shift..shift + 1);
+    }
+}

@@ -1,0 +1,98 @@
+//! Shadow maps with percentage closer filtering: the quick look.
+//!
+//! Seed 001: unfiltered (section 2), 2×2 by four renders in four channels (3), fast 2×2 and 4×4 from one map (4).
+//! Fast filters gather their texels in the comparison itself, so that no packed copy of the map is made: that pass only
+//! served machines without loops in their shaders. The paper's 4 × 5 = 20 levels are 17: four counts of 0 to 4 add up.
+
+use super::map::{DepthMap, PackedMap, compared_layout};
+use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
+use crate::gpu::targets::{SHARE, Stages, whole};
+use crate::gpu::{Gpu, shaders};
+use crate::view::{Surface, View};
+use glam::DVec3;
+use std::sync::Arc;
+use wgpu::*;
+
+/// How comparisons are filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filter {
+    /// The nearest texel alone: 2 levels.
+    None,
+    /// Four maps, each a quarter of a texel aside, in four channels: 5 levels.
+    TwoByTwo,
+    /// The four nearest texels of one map: 5 levels.
+    FastTwoByTwo,
+    /// The sixteen nearest texels of one map: 17 levels.
+    FastFourByFour,
+}
+
+/// The technique, made for one scene and one view.
+pub struct ShadowMap {
+    surface: GpuSurface,
+    map: DepthMap,
+    packed: Option<PackedMap>,
+    compared: BindGroup,
+    pipeline: RenderPipeline,
+    mask: Texture,
+}
+
+impl ShadowMap {
+    /// Draws what is seen, uploads the casters, builds the pipelines.
+    pub fn new(gpu: Arc<Gpu>, scene: &Scene, view: View, size: u32, filter: Filter) -> Result<ShadowMap, ShadowError> {
+        let surface = GpuSurface::draw(Arc::clone(&gpu), scene, view)?;
+        let map = DepthMap::new(scene, &surface, size)?;
+        let packed = (filter == Filter::TwoByTwo).then(|| PackedMap::new(&map, &surface));
+        let (group, texture) = match &packed {
+            Some(packed) => (packed_layout(&gpu), whole(&packed.packed)),
+            None => (compared_layout(&gpu, &[]), whole(&map.depth)),
+        };
+        let compared = gpu.bind("shadow_map", &group, &[(0, BindingResource::TextureView(&texture))]);
+        let stages = Stages {
+            module: &gpu.shader("shadow_map", shaders::SHADOW_MAP),
+            vertex: "whole_picture",
+            fragment: match filter {
+                Filter::None => "none",
+                Filter::TwoByTwo => "two_by_two",
+                Filter::FastTwoByTwo => "fast_two_by_two",
+                Filter::FastFourByFour => "fast_four_by_four",
+            },
+            buffers: &[],
+            target: Some((SHARE, ColorWrites::ALL)),
+            layout: Some(&surface.seeing_layout(&[&map.layout, &group])),
+        };
+        let pipeline = gpu.pipeline("shadow_map", stages, None);
+        let mask = surface.mask("shadow_map.mask");
+        gpu.check()?;
+        Ok(ShadowMap { surface, map, packed, compared, pipeline, mask })
+    }
+}
+
+/// The layout of the packed depths where else the map's depth is bound.
+fn packed_layout(gpu: &Gpu) -> BindGroupLayout {
+    let packed = super::surface::texture_binding(TextureSampleType::Float { filterable: false });
+    super::surface::bind_group_layout(gpu, "packed", &[packed])
+}
+
+impl Technique for ShadowMap {
+    fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
+        self.surface.set_sun(to_sun);
+        self.map.aim(to_sun, 0.0);
+        let mut encoder = self.surface.encoder();
+        match &self.packed {
+            Some(packed) => packed.draw(&self.map, &self.surface, &mut encoder),
+            None => self.map.draw(&self.surface, &mut encoder),
+        }
+        self.surface.draw_mask(&mut encoder, "shadow_map", &self.mask, |pass| {
+            pass.set_bind_group(2, &self.map.bound, &[]);
+            pass.set_bind_group(3, &self.compared, &[]);
+            pass.set_pipeline(&self.pipeline);
+            pass.draw(0..3, 0..1);
+        });
+        self.surface.gpu.queue.submit([encoder.finish()]);
+        Ok(DrawnMask::Texture(&self.surface.gpu, &self.mask))
+    }
+
+    fn surface(&self) -> Result<Surface, ShadowError> {
+        self.surface.read()
+    }
+}

@@ -1,0 +1,197 @@
+//! Smoothies: a shadow map with the soft edge of a real sun.
+//!
+//! Seed 000, chapter 4. Silhouette edges, pushed outwards in the sun's view, are drawn beside the map: how much of the
+//! sun is seen past each, and how deep it lies. A cell behind the map's casters is in shadow, one behind a smoothie in
+//! part.
+//!
+//! Deviations, for the sun and for clean corners:
+//! - The penumbra d metres behind an edge is 2·d·tan(θ/2) wide, θ = 0.533°; the paper's 1 − b/r is a lamp's.
+//! - A smoothie is as wide as its own penumbra can become on the lowest receiver, instead of one width for all.
+//! - It is one rectangle around its edge, longer than it by its width at both ends, and alpha is the distance to the edge
+//!   (beyond its ends, to the vertex). With minimum blending that is the union of what the paper draws as edges, as
+//!   corners, and as corners of more than two edges, and has no seams.
+//! - What alone receives, and the ground, have their depth in the sun's view, but shade nothing.
+//!
+//! Smoothies grow outwards only: the umbra is as large as the hard shadow, all of the penumbra lies outside of it, and
+//! the line of half the light is half a penumbra too far out.
+
+use super::map::{DepthMap, Triangles, compared_layout, depth};
+use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
+use crate::gpu::targets::{SHARE, Stages, whole};
+use crate::gpu::{Gpu, shaders};
+use crate::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
+use crate::view::{Surface, View};
+use glam::{DVec3, Vec3};
+use std::sync::Arc;
+use wgpu::*;
+
+/// The share past a smoothie, and how deep it lies.
+const SMOOTHIES: TextureFormat = TextureFormat::Rg32Float;
+
+/// The technique, made for one scene and one view.
+pub struct Smoothie {
+    scene: Scene,
+    surface: GpuSurface,
+    map: DepthMap,
+    finder: Box<dyn SilhouetteFinder>,
+    /// 0 where the sun's disc decides.
+    width_m: f64,
+    /// What receives and does not cast, where there is any.
+    receivers: Option<(Triangles, Texture)>,
+    smoothies: Texture,
+    edges: Buffer,
+    /// What is uploaded; kept for its memory.
+    upload: Vec<[Vec3; 2]>,
+    depths: BindGroup,
+    compared: BindGroup,
+    edge: RenderPipeline,
+    softened: RenderPipeline,
+    mask: Texture,
+}
+
+impl Smoothie {
+    /// Draws what is seen, uploads casters and receivers, builds the pipelines. Smoothies are `width_m` metres wide, or as
+    /// wide as the sun's disc makes them.
+    pub fn new(
+        gpu: Arc<Gpu>,
+        scene: Scene,
+        view: View,
+        finder: Kind,
+        map_size: u32,
+        width_m: Option<f64>,
+    ) -> Result<Smoothie, ShadowError> {
+        gpu.blends_float32("smoothies are laid over each other")?;
+        let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
+        let map = DepthMap::new(&scene, &surface, map_size)?;
+        let cast: rustc_hash::FxHashSet<[u32; 3]> = scene.casters.faces.iter().copied().collect();
+        let receivers = Triangles::uploaded(&gpu, &scene.receivers, |face| !cast.contains(face))?;
+        let receivers = (!receivers.is_empty()).then(|| (receivers, depth(&gpu, "smoothie.receivers", map_size)));
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        let smoothies = gpu.texture("smoothie.smoothies", map.size(), SMOOTHIES, usage);
+
+        let float = TextureSampleType::Float { filterable: false };
+        let depths_layout = compared_layout(&gpu, &[TextureSampleType::Depth]);
+        let compared_layout = compared_layout(&gpu, &[TextureSampleType::Depth, float]);
+        let casters_view = whole(&map.depth);
+        let receivers_view =
+            receivers.as_ref().map_or(&map.depth, |(_, depth)| depth).create_view(&TextureViewDescriptor::default());
+        let smoothies_view = whole(&smoothies);
+        let resources = [(0, &casters_view), (1, &receivers_view), (2, &smoothies_view)];
+        let resources = resources.map(|(binding, view)| (binding, BindingResource::TextureView(view)));
+        let depths = gpu.bind("smoothie.depths", &depths_layout, &resources[..2]);
+        let compared = gpu.bind("smoothie.compared", &compared_layout, &resources);
+
+        let module = gpu.shader("smoothie", shaders::SMOOTHIE);
+        let ends = VertexBufferLayout {
+            array_stride: size_of::<[Vec3; 2]>() as u64,
+            step_mode: VertexStepMode::Instance,
+            attributes: &vertex_attr_array![0 => Float32x3, 1 => Float32x3],
+        };
+        let stages = |vertex, fragment, buffers, target, layout| Stages {
+            module: &module,
+            vertex,
+            fragment,
+            buffers,
+            target: Some((target, ColorWrites::ALL)),
+            layout: Some(layout),
+        };
+        // where smoothies overlap, the darker one; and the one that lies nearer to the sun
+        let least = BlendComponent {
+            src_factor: BlendFactor::One,
+            dst_factor: BlendFactor::One,
+            operation: BlendOperation::Min,
+        };
+        let blend = Some(BlendState { color: least, alpha: least });
+        let layout = surface.seeing_layout(&[&map.layout, &depths_layout]);
+        let ends = [Some(ends)];
+        let stages_of_edges = stages("smoothie", "alpha", &ends, SMOOTHIES, &layout);
+        let edge = gpu.blending_pipeline("smoothie.edge", stages_of_edges, None, blend);
+        let layout = surface.seeing_layout(&[&map.layout, &compared_layout]);
+        let softened =
+            gpu.pipeline("smoothie.softened", stages("whole_picture", "softened", &[], SHARE, &layout), None);
+        let mask = surface.mask("smoothie.mask");
+        let edges = gpu.uploaded("smoothie.edges", BufferUsages::VERTEX, &[[Vec3::ZERO; 2]])?;
+        gpu.check()?;
+        Ok(Smoothie {
+            finder: finder.build(&scene.casters),
+            scene,
+            surface,
+            map,
+            width_m: width_m.unwrap_or(0.0),
+            receivers,
+            smoothies,
+            edges,
+            upload: Vec::new(),
+            depths,
+            compared,
+            edge,
+            softened,
+            mask,
+        })
+    }
+
+    /// Uploads the silhouette, each edge once however often its walls would stand.
+    fn find(&mut self, to_sun: DVec3) -> Result<u32, ShadowError> {
+        let casters = &self.scene.casters;
+        let mut silhouette: Vec<DirectedEdge> = Vec::new();
+        self.finder.find(casters, casters.local_light(to_sun.extend(0.0)), &mut silhouette);
+        // an edge stands in a row
+        silhouette.dedup();
+        self.upload.clear();
+        self.upload.extend(silhouette.iter().map(|edge| edge.map(|vertex| casters.vertices[vertex as usize])));
+        let gpu = &self.surface.gpu;
+        let bytes: &[u8] = bytemuck::cast_slice(&self.upload);
+        if bytes.len() as u64 > self.edges.size() {
+            // room for the next instants, whose silhouettes are much alike
+            let size = (bytes.len() as u64 * 3 / 2).next_multiple_of(4);
+            self.edges = gpu.buffer("smoothie.edges", size, BufferUsages::VERTEX | BufferUsages::COPY_DST)?;
+        }
+        gpu.queue.write_buffer(&self.edges, 0, bytes);
+        Ok(self.upload.len() as u32)
+    }
+}
+
+impl Technique for Smoothie {
+    fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
+        let count = self.find(to_sun)?;
+        let Smoothie { surface, map, .. } = self;
+        surface.set_sun(to_sun);
+        map.aim(to_sun, self.width_m);
+        let mut encoder = surface.encoder();
+        map.draw(surface, &mut encoder);
+        if let Some((triangles, depth)) = &self.receivers {
+            map.draw_triangles(surface, &mut encoder, depth, triangles);
+        }
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("smoothie.edges"),
+            color_attachments: &[Some(RenderPassColorAttachment {
+                view: &whole(&self.smoothies),
+                depth_slice: None,
+                resolve_target: None,
+                ops: Operations { load: LoadOp::Clear(NOTHING), store: StoreOp::Store },
+            })],
+            ..RenderPassDescriptor::default()
+        });
+        map.bind(surface, &mut pass);
+        pass.set_bind_group(3, &self.depths, &[]);
+        pass.set_pipeline(&self.edge);
+        pass.set_vertex_buffer(0, self.edges.slice(..));
+        pass.draw(0..6, 0..count);
+        drop(pass);
+        surface.draw_mask(&mut encoder, "smoothie", &self.mask, |pass| {
+            pass.set_bind_group(2, &map.bound, &[]);
+            pass.set_bind_group(3, &self.compared, &[]);
+            pass.set_pipeline(&self.softened);
+            pass.draw(0..3, 0..1);
+        });
+        surface.gpu.queue.submit([encoder.finish()]);
+        Ok(DrawnMask::Texture(&self.surface.gpu, &self.mask))
+    }
+
+    fn surface(&self) -> Result<Surface, ShadowError> {
+        self.surface.read()
+    }
+}
+
+/// No smoothie: all of the sun, and infinitely deep.
+const NOTHING: Color = Color { r: 1.0, g: 1e30, b: 0.0, a: 0.0 };
