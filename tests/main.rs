@@ -15,5 +15,6 @@ mod site;
 mod sites;
 mod sums;
 mod sun;
+mod techniques;
 mod try_models;
 mod volumes;

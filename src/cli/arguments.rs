@@ -171,6 +171,9 @@ pub(super) struct ProfileArgs {
     /// Also every instant's bare mask, as mask-0000.png … in this folder
     #[arg(long, value_name = "DIR")]
     pub(super) masks: Option<PathBuf>,
+    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells
+    #[arg(long)]
+    pub(super) stats: bool,
     /// Which files
     #[arg(long, value_name = "png,tif,json", value_delimiter = ',', default_value = "png,tif,json")]
     pub(super) write: Vec<Written>,
@@ -200,11 +203,16 @@ pub(super) struct ShadowArgs {
     draw: DrawArgs,
     #[command(flatten)]
     pub(super) plan: PlanArgs,
+    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells
+    #[arg(long)]
+    pub(super) stats: bool,
     /// From above, or in perspective
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
     pub(super) view: Eye,
-    /// Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours
-    #[arg(long, value_name = "volumes,silhouette,components", value_delimiter = ',')]
+    /// Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours.
+    /// Or instead of sun and shadow, on the plan too: mask (with hybrid: what the map decided and what the volumes did),
+    /// overdraw (with stencil or hybrid: fragments that were counted, as brightness)
+    #[arg(long, value_name = "volumes,silhouette,components|mask|overdraw", value_delimiter = ',')]
     pub(super) show: Vec<Show>,
     /// The drawing [default: shadow.png, or none with --mask]
     #[arg(long, value_name = "FILE.png")]
@@ -229,6 +237,8 @@ pub(super) enum Show {
     Volumes,
     Silhouette,
     Components,
+    Mask,
+    Overdraw,
 }
 
 #[derive(Debug, Args)]
