@@ -16,4 +16,5 @@ mod sites;
 mod sums;
 mod sun;
 mod try_models;
+mod verify;
 mod volumes;
