@@ -17,4 +17,5 @@ mod sums;
 mod sun;
 mod techniques;
 mod try_models;
+mod verify;
 mod volumes;

@@ -80,7 +80,7 @@ pub(super) struct PlaceReport<'a> {
 }
 
 #[derive(Serialize)]
-struct InstantReport {
+pub(super) struct InstantReport {
     time: String,
     azimuth_deg: f64,
     altitude_deg: f64,
@@ -253,7 +253,7 @@ pub(super) fn place_report(place: &Place) -> PlaceReport<'_> {
 }
 
 // Angles are not rounded: the sign of the altitude and `night` then always agree.
-fn instant_report(instant: &Instant) -> InstantReport {
+pub(super) fn instant_report(instant: &Instant) -> InstantReport {
     InstantReport {
         time: stamp(&instant.time),
         azimuth_deg: instant.azimuth_rad.to_degrees(),

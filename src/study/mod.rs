@@ -1,9 +1,11 @@
 //! The flow: a checked request in, its shadow profile out.
 //!
-//! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera.
+//! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
+//! [`verify`] holds every technique against ray casting.
 
 mod machine;
 mod stopwatch;
+pub mod verify;
 
 pub use stopwatch::Stopwatch;
 
@@ -142,6 +144,17 @@ pub enum StudyError {
          (on Linux mesa-vulkan-drivers draws in software) or leave them out"
     )]
     NoVolumes(String),
+    /// Techniques are held against ray casting where they draw.
+    #[error(
+        "verify draws with every technique on a graphics adapter, and {0}; install a driver \
+         (on Linux mesa-vulkan-drivers draws in software)"
+    )]
+    NoVerification(String),
+    /// All instants are at night.
+    #[error(
+        "there is no sun at any of the study's instants, and nothing to compare; take a window by day with --from and --to"
+    )]
+    NoDay,
     /// Drawing failed.
     #[error(transparent)]
     Shadow(#[from] ShadowError),
