@@ -1,5 +1,7 @@
 //! The command, driven as its users drive it: files, streams and exit statuses.
 
+mod techniques;
+
 use crate::model::{F32, Model, U16};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
