@@ -2,6 +2,7 @@
 
 mod architecture;
 mod command;
+mod dense;
 mod dome;
 mod exact;
 mod export;
@@ -9,6 +10,7 @@ mod geometry;
 mod gpu_silhouettes;
 mod mistakes;
 mod model;
+mod overdraw;
 mod overlay;
 mod shaders;
 mod site;
