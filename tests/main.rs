@@ -17,5 +17,6 @@ mod site;
 mod sites;
 mod sums;
 mod sun;
+mod timers;
 mod try_models;
 mod volumes;

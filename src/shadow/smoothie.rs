@@ -170,6 +170,7 @@ impl Technique for Smoothie {
                 resolve_target: None,
                 ops: Operations { load: LoadOp::Clear(NOTHING), store: StoreOp::Store },
             })],
+            timestamp_writes: surface.gpu.timed("smoothie.edges"),
             ..RenderPassDescriptor::default()
         });
         map.bind(surface, &mut pass);
