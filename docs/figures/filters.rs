@@ -1,0 +1,50 @@
+//! The map's filters side by side (seed 001, figure 7).
+
+use crate::picture::{Part, RED};
+use crate::scenes;
+use crate::sheet::{Panel, Row, Sheet};
+use crate::stage::{Stage, camera};
+use anyhow::Result;
+use glam::{DVec3, dvec3};
+use gnomon::gpu::Gpu;
+use gnomon::shadow::shadow_map::Filter;
+use std::sync::Arc;
+
+/// The house from the yard, in the afternoon.
+pub(crate) fn yard(gpu: &Arc<Gpu>) -> Result<Stage> {
+    let view = camera(dvec3(10.5, -18.5, 7.5), dvec3(-0.6, -2.0, 2.4), 38.0, (1480, 960));
+    Stage::new(gpu, scenes::house(), view, afternoon())
+}
+
+/// The sun in the south-west.
+pub(crate) fn afternoon() -> DVec3 {
+    crate::dense::to_sun(222.0, 39.0)
+}
+
+/// The shadow of the balcony and its railing on the wall.
+const DETAIL: Part = [560, 330, 124, 80];
+
+pub(crate) fn filters(gpu: &Arc<Gpu>) -> Result<Sheet> {
+    const FILTERS: [(Filter, &str, &str); 4] = [
+        (Filter::None, "No filter", "2 levels"),
+        (Filter::TwoByTwo, "PCF 2×2", "4 renders, 5 levels"),
+        (Filter::FastTwoByTwo, "Fast PCF 2×2", "5 levels"),
+        (Filter::FastFourByFour, "Fast PCF 4×4", "17 levels"),
+    ];
+    let stage = yard(gpu)?;
+    let mut rows = [Row::default(), Row::default()];
+    for (filter, name, levels) in FILTERS {
+        let (mask, millis) = stage.timed(&mut stage.map(512, filter)?)?;
+        let picture = stage.shaded(&mask);
+        let whole = picture.clone().framed(DETAIL, 5, RED).shrunk(4);
+        rows[0].panels.push(Panel { picture: whole, caption: vec![] });
+        let caption = vec![name.to_owned(), format!("{levels}, {millis:.0} ms")];
+        rows[1].panels.push(Panel { picture: picture.cropped(DETAIL).magnified(3), caption });
+    }
+    Ok(Sheet {
+        title: "Shadow map: its filters".into(),
+        note: "A map of 512 × 512; below, what is framed, three times as large.".into(),
+        rows: rows.into(),
+        ..Sheet::default()
+    })
+}
