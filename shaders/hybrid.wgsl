@@ -4,22 +4,37 @@
 // over one texel it is no plane any more.
 const STEEPEST: f32 = 50.0;
 
+// How many of the four texels from `first` on shade the cell. What of the cell is compared with a texel is the depth of
+// the cell's own plane there: then a caster that stands on the plane is told from it however near, and what is left for a
+// bias is rounding. Where that is too strict, texels disagree, and the volumes decide.
+fn shaded_of_four(cell: Cell, first: vec2i) -> u32 {
+    let bias = map.bias + map.slope_bias * (abs(cell.slope.x) + abs(cell.slope.y));
+    var count = 0u;
+    for (var index = 0; index < 4; index++) {
+        let texel = first + vec2i(index & 1, index >> 1u);
+        if is_outside(texel) {
+            continue;
+        }
+        let plane = cell.at.z + dot(cell.slope, vec2f(texel) + 0.5 - cell.at.xy);
+        count += u32(metres_of(textureLoad(map_depth, texel, 0)) < plane - bias);
+    }
+    return count;
+}
+
 @fragment
 fn decided(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let face = seen_face(pixel.xy);
     if face == SKY {
         return vec4f(1.0);
     }
-    let normal = seen_normal(face);
-    let towards = dot(normal, light.to_sun.xyz);
-    if towards <= 0.0 {
+    let cell = cell_in_map(pixel.xy, seen_normal(face));
+    if cell.towards <= 0.0 {
         return vec4f(0.0);
     }
-    let cell = cell_in_map(pixel.xy, normal);
     let first = first_of_four(cell);
     let count = shaded_of_four(cell, first);
     let is_beyond = is_outside(first) && is_outside(first + 1);
-    if (count > 0u && count < 4u) || (towards * STEEPEST < 1.0 && !is_beyond) {
+    if (count > 0u && count < 4u) || (cell.towards * STEEPEST < 1.0 && !is_beyond) {
         discard;
     }
     return vec4f(1.0 - f32(count) / 4.0);

@@ -14,11 +14,17 @@ fn asked(pixel: vec2f) -> Asked {
     if face == SKY {
         return Asked(1.0, false, Cell());
     }
-    let normal = seen_normal(face);
-    if dot(normal, light.to_sun.xyz) <= 0.0 {
-        return Asked(0.0, false, Cell());
+    let cell = cell_in_map(pixel, seen_normal(face));
+    return Asked(0.0, cell.towards > 0.0, cell);
+}
+
+// How many of the four texels from `corner` on shade the cell.
+fn shaded_of_four(cell: Cell, corner: vec2i) -> u32 {
+    var count = 0u;
+    for (var index = 0; index < 4; index++) {
+        count += u32(shaded(cell, corner + vec2i(index & 1, index >> 1u)));
     }
-    return Asked(1.0, true, cell_in_map(pixel, normal));
+    return count;
 }
 
 // The nearest texel.
@@ -44,11 +50,9 @@ fn two_by_two(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         return vec4f(1.0);
     }
     let depths = textureLoad(packed, texel, 0);
-    let bias = margin(cell);
     var count = 0u;
     for (var index = 0u; index < 4u; index++) {
-        let shift = vec2f(f32(index & 1u), f32(index >> 1u)) * 0.5 - 0.25;
-        count += u32(metres_of(depths[index]) < plane_depth(cell, vec2f(texel) + 0.5 + shift) - bias);
+        count += u32(metres_of(depths[index]) < cell.at.z - map.bias);
     }
     return vec4f(1.0 - f32(count) / 4.0);
 }

@@ -1,4 +1,4 @@
-// Smoothies: silhouette edges pushed outwards in the sun's view, and how much of the sun is seen past them.
+// Smoothies: silhouette edges pushed outwards in the light's view, and how much of the light is seen past them.
 
 @group(3) @binding(1) var receivers_depth: texture_depth_2d;
 @group(3) @binding(2) var smoothies: texture_2d<f32>;
@@ -7,14 +7,14 @@ const PI: f32 = 3.14159265;
 
 struct Smoothie {
     @builtin(position) position: vec4f,
-    // The edge's ends in the map: metres rightwards and upwards, and depth.
+    // The edge's ends in the map's plane, rightwards and upwards, and their depth.
     @location(0) @interpolate(flat) start: vec3f,
     @location(1) @interpolate(flat) end: vec3f,
     // How wide the smoothie is there, metres.
     @location(2) @interpolate(flat) widths: vec2f,
 }
 
-// The plane of the map in metres, rightwards and upwards: seen from the sun.
+// The plane of the map in metres, rightwards and upwards: seen from the light.
 fn metric(at: vec2f) -> vec2f {
     return vec2f(at.x, -at.y) * map.texel;
 }
@@ -24,7 +24,7 @@ fn width_at(local: vec3f, depth: f32) -> f32 {
     if map.width > 0.0 {
         return map.width;
     }
-    let farthest = min((local.z - view.lowest_z) / light.to_sun.z, map.range - depth);
+    let farthest = min((local.z - view.lowest_z) / light.towards.z, map.range - depth);
     return map.spread * max(farthest, 0.0);
 }
 
@@ -38,8 +38,9 @@ fn smoothie(@builtin(vertex_index) index: u32, @location(0) from_local: vec3f, @
     let length = distance(start.xy, end.xy);
     let widths = vec2f(width_at(from_local, start.z), width_at(to_local, end.z));
     let width = max(widths.x, widths.y);
-    if length < 1e-6 || width <= 0.0 {
-        return Smoothie(vec4f(0.0), vec3f(0.0), vec3f(0.0), vec2f(0.0)); // seen end-on, or on the lowest receiver: no area
+    // seen end-on, on the lowest receiver, or behind a lamp: no area
+    if length < 1e-6 || width <= 0.0 || min(start.z, end.z) < map.near {
+        return Smoothie(vec4f(0.0), vec3f(0.0), vec3f(0.0), vec2f(0.0));
     }
     let along = (end.xy - start.xy) / length;
     let outwards = vec2f(along.y, -along.x);
@@ -50,7 +51,7 @@ fn smoothie(@builtin(vertex_index) index: u32, @location(0) from_local: vec3f, @
     let inwards = 0.05 * max(map.texel.x, map.texel.y);
     let side = select(-inwards, width, corner >= 2u);
     let at = select(start.xy - along * width, end.xy + along * width, (corner & 1u) == 1u) + outwards * side;
-    let clip = clip_from_map(vec3f(vec2f(at.x, -at.y) / map.texel, 0.0));
+    let clip = clip_from_map(vec4f(vec2f(at.x, -at.y) / map.texel, 0.0, 1.0));
     return Smoothie(vec4f(clip.xy, 0.5, 1.0), start, end, widths);
 }
 
@@ -60,15 +61,38 @@ fn falloff(alpha: f32) -> f32 {
     return 0.5 + (x * sqrt(1.0 - x * x) + asin(x)) / PI;
 }
 
-// How much of the sun is seen, and how deep the edge lies.
+// How wide the penumbra of an edge is on a receiver, in the map's plane: alpha is divided by it. The sun's by its disc; a
+// lamp's t · (1 − b/r) (seed 000, equation 4.1).
+fn penumbra(edge: f32, receiver: f32) -> f32 {
+    if map.near > 0.0 {
+        return map.width * (1.0 - edge / receiver);
+    }
+    let of_disc = map.spread * (receiver - edge);
+    return select(of_disc, min(of_disc, map.width), map.width > 0.0);
+}
+
+// How deep the ground lies at a place in the map; nowhere, where a lamp looks above the horizon.
+fn ground_at(at: vec2f) -> f32 {
+    let sum = dot(map.ground.xy, at) + map.ground.z;
+    if map.near > 0.0 {
+        return select(1e30, map.ground.w / sum, map.ground.w * sum > 0.0);
+    }
+    return sum;
+}
+
+// How much of the light is seen, and how deep the edge lies.
 @fragment
 fn alpha(smoothie: Smoothie) -> @location(0) vec4f {
     let edge = smoothie.end.xy - smoothie.start.xy;
     let at = metric(smoothie.position.xy);
     let share = clamp(dot(at - smoothie.start.xy, edge) / dot(edge, edge), 0.0, 1.0);
-    let nearest = mix(smoothie.start, smoothie.end, share);
+    var nearest = mix(smoothie.start, smoothie.end, share);
+    if map.near > 0.0 {
+        // in perspective it is the inverse that is linear
+        nearest.z = 1.0 / mix(1.0 / smoothie.start.z, 1.0 / smoothie.end.z, share);
+    }
     let texel = vec2i(smoothie.position.xy);
-    let ground = dot(map.ground.xy, smoothie.position.xy) + map.ground.z;
+    let ground = ground_at(smoothie.position.xy);
     let blockers = metres_of(textureLoad(map_depth, texel, 0));
     let receiver = min(min(blockers, metres_of(textureLoad(receivers_depth, texel, 0))), ground);
     let behind = receiver - nearest.z;
@@ -76,11 +100,8 @@ fn alpha(smoothie: Smoothie) -> @location(0) vec4f {
     if behind <= map.bias {
         discard;
     }
-    var penumbra = map.spread * behind;
-    if map.width > 0.0 {
-        penumbra = min(penumbra, map.width);
-    }
-    let remapped = distance(at, nearest.xy) / penumbra;
+    let drawn = mix(smoothie.widths.x, smoothie.widths.y, share);
+    let remapped = distance(at, nearest.xy) / select(penumbra(nearest.z, receiver), drawn, map.linear > 0.0);
     if remapped >= 1.0 {
         discard;
     }
@@ -98,7 +119,7 @@ fn seen_past(cell: Cell, texel: vec2i) -> f32 {
     }
     let smoothie = textureLoad(smoothies, texel, 0);
     let slope = abs(cell.slope.x) + abs(cell.slope.y);
-    let is_behind = smoothie.y < plane_depth(cell, vec2f(texel) + 0.5) - margin(cell) - slope;
+    let is_behind = smoothie.y < cell.at.z - map.bias - slope;
     return select(1.0, smoothie.x, is_behind);
 }
 
@@ -109,11 +130,10 @@ fn softened(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     if face == SKY {
         return vec4f(1.0);
     }
-    let normal = seen_normal(face);
-    if dot(normal, light.to_sun.xyz) <= 0.0 {
+    let cell = cell_in_map(pixel.xy, seen_normal(face));
+    if cell.towards <= 0.0 {
         return vec4f(0.0);
     }
-    let cell = cell_in_map(pixel.xy, normal);
     let first = first_of_four(cell);
     let part = cell.at.xy - 0.5 - vec2f(first);
     let upper = mix(seen_past(cell, first), seen_past(cell, first + vec2i(1, 0)), part.x);

@@ -37,12 +37,12 @@ fn at_lowest(corner: vec4f) -> Wall {
     if corner.w > 0.5 || height <= 0.0 {
         return Wall(view.clip_from_local * vec4f(vertex, 1.0), vertex, max(-height, 0.0), 1.0 - corner.w);
     }
-    let rise = light.to_sun.z;
+    let rise = light.towards.z;
     if rise > 1e-3 {
-        let end = vec3f(vertex.xy - light.to_sun.xy * (height / rise), view.lowest_z);
+        let end = vec3f(vertex.xy - light.towards.xy * (height / rise), view.lowest_z);
         return Wall(view.clip_from_local * vec4f(end, 1.0), vertex, 0.0, 1.0);
     }
-    let end = view.clip_from_local * vec4f(vertex * rise - light.to_sun.xyz * height, rise);
+    let end = view.clip_from_local * vec4f(vertex * rise - light.towards.xyz * height, rise);
     return Wall(end, vertex, 0.0, 1.0);
 }
 
@@ -56,7 +56,7 @@ fn at_infinity(vertex: vec4f) -> vec4f {
     if vertex.w > 0.5 {
         return view.clip_from_local * vec4f(vertex.xyz, 1.0);
     }
-    return view.clip_from_local * vec4f(-light.to_sun.xyz, 0.0);
+    return view.clip_from_local * vec4f(-light.towards.xyz, 0.0);
 }
 
 @vertex
@@ -120,16 +120,16 @@ fn depth_in_plan(z: f32) -> f32 {
 }
 
 fn height_of_sliver(wall: Wall) -> f32 {
-    let across = light.to_sun.xy;
+    let across = light.towards.xy;
     let along = dot(wall.sunward.xy - at_in_plan(wall.position.xy), across) / max(dot(across, across), 1e-12);
-    return wall.sunward.z - max(along, 0.0) * light.to_sun.z;
+    return wall.sunward.z - max(along, 0.0) * light.towards.z;
 }
 
 // Before any volume: what faces away from the sun, or is edge-on to it, is in shadow; the sky is not.
 @fragment
 fn facing(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let face = seen_face(pixel.xy);
-    let lit = face == SKY || dot(seen_normal(face), light.to_sun.xyz) > 0.0;
+    let lit = face == SKY || dot(seen_normal(face), light.towards.xyz) > 0.0;
     return vec4f(select(0.0, 1.0, lit));
 }
 

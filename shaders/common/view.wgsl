@@ -21,8 +21,8 @@ struct View {
 }
 
 struct Light {
-    // Unit vector; w = 0.
-    to_sun: vec4f,
+    // Homogeneous: the unit vector to the sun (w = 0), or a lamp's place around the scene's origin (w = 1).
+    towards: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> view: View;

@@ -35,36 +35,43 @@ pub struct View {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Light {
-    /// Unit vector; w = 0.
-    pub to_sun: [f32; 4],
+    /// Homogeneous: a unit vector towards a light at infinity (w = 0), or a lamp's place (w = 1).
+    pub towards: [f32; 4],
 }
 
 /// `Map` of `shaders/common/map.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Map {
-    /// Metres around the scene's origin → column and row in texels, and metres from the map's near side.
+    /// Metres around the scene's origin → homogeneous column and row in texels, and depth in metres.
     pub from_local: [[f32; 4]; 4],
-    /// One texel to the right, metres around the scene's origin.
+    /// One texel to the right, metres around the scene's origin (a lamp's: a metre before it).
     pub across: [f32; 4],
     /// One texel downwards, likewise.
     pub along: [f32; 4],
-    /// The ground's depth: metres a column, metres a row, metres at the map's corner.
+    /// The ground's depth: metres a column, metres a row, metres at the map's corner, and 0; or, where the last is not
+    /// 0, what that is divided by the same sum.
     pub ground: [f32; 4],
-    /// A texel's width and height, metres.
+    /// A texel's width and height, metres (a lamp's: a metre before it).
     pub texel: [f32; 2],
     /// Texels a side.
     pub size: f32,
-    /// Metres from the near side to the far one.
+    /// Depth at the map's far side, metres.
     pub range: f32,
+    /// Depth at its near side, metres: 0 for the sun, more for a lamp.
+    pub near: f32,
     /// How much nearer to the light a texel must be to shade a cell, metres.
     pub bias: f32,
-    /// The same, in texels of the cell's slope.
+    /// The same, in texels of a slope.
     pub slope_bias: f32,
     /// Width of the penumbra a metre behind an edge.
     pub spread: f32,
     /// Width of smoothies, metres; 0 where the light's disc decides.
     pub width: f32,
+    /// 1 where smoothies keep their alpha as it is drawn.
+    pub linear: f32,
+    /// WGSL rounds a struct up to its alignment.
+    pub unused: [f32; 2],
 }
 
 /// `Weight` of `shaders/accumulate.wgsl`.
@@ -168,8 +175,8 @@ macro_rules! layout {
 /// All structs that shaders share with us.
 pub const ALL: &[Layout] = &[
     layout!(View: clip_from_local, viewer, right, up, forward, ground_z, lowest_z, judged_above, depth_scale, size, unused),
-    layout!(Light: to_sun),
-    layout!(Map: from_local, across, along, ground, texel, size, range, bias, slope_bias, spread, width),
+    layout!(Light: towards),
+    layout!(Map: from_local, across, along, ground, texel, size, range, near, bias, slope_bias, spread, width, linear, unused),
     layout!(Search: light, indices_per_wall, halved, unused),
     layout!(Face: corners, number),
     layout!(Edge: first, second, a, b, along),

@@ -11,7 +11,8 @@
 //! It is wrong where a caster, or a gap, is so thin that the four texels around it miss it together.
 
 use super::counting::{Bits, Counting};
-use super::map::{DepthMap, compared_layout};
+use super::light_view::Smoothies;
+use super::map::{Bias, DepthMap, compared_layout};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
@@ -29,6 +30,9 @@ pub struct Hybrid {
     mask: Texture,
 }
 
+/// How much the map's own rounding of corners moves a depth, in texels of its slope: corners lie on 1/256 of a texel.
+const ROUNDING_TEXELS: f32 = 0.02;
+
 /// Every cell counts until the map decides it.
 const ALL_COUNT: LoadOp<u32> = LoadOp::Clear(Bits::MASK);
 
@@ -42,7 +46,7 @@ impl Hybrid {
         map_size: u32,
     ) -> Result<Hybrid, ShadowError> {
         let counting = Counting::new(Arc::clone(&gpu), scene, view, silhouettes.into(), Bits::BelowMask)?;
-        let map = DepthMap::new(&counting.scene, &counting.surface, map_size)?;
+        let map = DepthMap::new(&counting.scene, &counting.surface, map_size, Bias::Compared(ROUNDING_TEXELS))?;
         let group = compared_layout(&gpu, &[]);
         let compared = gpu.bind("hybrid", &group, &[(0, BindingResource::TextureView(&whole(&map.depth)))]);
         let drop_bit = StencilFaceState { pass_op: StencilOperation::Zero, ..StencilFaceState::default() };
@@ -80,7 +84,7 @@ impl Hybrid {
         store: StoreOp,
         counts: bool,
     ) -> Result<CommandEncoder, ShadowError> {
-        self.map.aim(to_sun, 0.0);
+        self.map.aim(to_sun.extend(0.0), Smoothies::default());
         let mut encoder = self.counting.surface.encoder();
         self.map.draw(&self.counting.surface, &mut encoder);
         let count = self.counting.find(to_sun, &mut encoder)?;

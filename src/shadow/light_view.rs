@@ -1,9 +1,10 @@
-//! The sun's view of a scene: parallel, and no larger than what can be in shadow needs.
+//! A light's view of a scene: the sun's is parallel, and no larger than what can be in shadow needs.
 //!
 //! Only what a view sees is judged, and only what lies behind casters, seen from the sun, can be in shadow. So the map's
 //! rectangle is what of two rectangles overlaps, around what is seen and around the casters, turned about the sun's rays
 //! to where it is smallest. A caster outside of the view that shades something in it lies in that rectangle, however far
-//! away it is; along the rays the map reaches over all casters.
+//! away it is; along the rays the map reaches over all casters. A lamp's view is in perspective; it is for smoothies, whose
+//! paper has lamps.
 
 use super::{GpuSurface, Scene, ShadowError};
 use crate::gpu::layout;
@@ -50,18 +51,23 @@ impl Extents {
 
     /// The view along the sun's rays.
     pub(super) fn from_sun(&self, to_sun: DVec3) -> LightView {
-        let (right, up) = to_sun.any_orthonormal_pair();
-        // right × up must point to the viewer, who is the sun
-        let up = if right.cross(up).dot(to_sun) < 0.0 { -up } else { up };
-        let away = |points: &[DVec3]| {
-            let ends = (f64::INFINITY, f64::NEG_INFINITY);
-            points.iter().map(|point| -point.dot(to_sun)).fold(ends, |(low, high), at| (low.min(at), high.max(at)))
+        let (right, up) = axes(-to_sun);
+        let away = |points: &[DVec3]| ends(points.iter().map(|point| -point.dot(to_sun)));
+        let nothing = LightView {
+            light: to_sun.extend(0.0),
+            away: -to_sun,
+            right,
+            up,
+            low: DVec2::ZERO,
+            high: DVec2::ONE,
+            near: 0.0,
+            far: 1.0,
         };
+        if self.casters.is_empty() || self.seen.is_empty() {
+            return nothing;
+        }
         let (near, of_casters) = away(&self.casters);
         let far = of_casters.max(away(&self.receivers).1);
-        if self.casters.is_empty() || self.seen.is_empty() {
-            return LightView { to_sun, right, up, low: DVec2::ZERO, high: DVec2::ONE, near: 0.0, far: 1.0 };
-        }
         let slack = 1e-3 * (far - near) + 0.01;
         let (near, far) = (near - slack, far + slack);
         let flat =
@@ -70,9 +76,7 @@ impl Extents {
         let penumbra = DVec2::splat(spread() * (far - near));
         let rectangle = |turn: DVec2| {
             let around = |points: &[DVec2]| {
-                let ends = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-                let turned = points.iter().map(|point| DVec2::new(turn.dot(*point), turn.perp().dot(*point)));
-                turned.fold(ends, |(low, high), at| (low.min(at), high.max(at)))
+                bounds(points.iter().map(|point| DVec2::new(turn.dot(*point), turn.perp().dot(*point))))
             };
             let ((low, high), (seen_low, seen_high)) = (around(&casters), around(&seen));
             (turn, (low - penumbra).max(seen_low), (high + penumbra).min(seen_high))
@@ -83,12 +87,62 @@ impl Extents {
         };
         let turns = (0..TURNS).map(|turn| DVec2::from_angle(FRAC_PI_2 * f64::from(turn) / f64::from(TURNS)));
         let smallest = turns.map(rectangle).min_by(|one, other| area(one).total_cmp(&area(other)));
-        let (turn, low, high) = smallest.unwrap_or((DVec2::X, DVec2::ZERO, DVec2::ONE));
+        let Some((turn, low, high)) = smallest else { return nothing };
         // where nothing overlaps, nothing is in shadow, and any rectangle will do
         let high = high.max(low + 0.01);
         let (right, up) = (right * turn.x + up * turn.y, up * turn.x - right * turn.y);
-        LightView { to_sun, right, up, low, high, near, far }
+        LightView { right, up, low, high, near, far, ..nothing }
     }
+
+    /// A lamp's view of what is seen, towards its middle: as far aside as [`LAMP_SEES`], and not behind the lamp.
+    pub(super) fn from_lamp(&self, lamp: DVec3) -> LightView {
+        let middle =
+            self.seen.iter().chain(&self.casters).sum::<DVec3>() / (self.seen.len() + self.casters.len()).max(1) as f64;
+        let away = (middle - lamp).try_normalize().unwrap_or(DVec3::NEG_Z);
+        let (right, up) = axes(away);
+        let depths = self.casters.iter().chain(&self.receivers).chain(&self.seen).map(|point| (point - lamp).dot(away));
+        let far = ends(depths).1.max(1.0) * 1.001;
+        let before = |points: &[DVec3]| {
+            // a box that reaches behind the lamp is seen from border to border
+            let is_behind = points.iter().any(|point| (point - lamp).dot(away) < LAMP_NEAR_M);
+            let at = |point: &DVec3| {
+                DVec2::new((point - lamp).dot(right), (point - lamp).dot(up)) / (point - lamp).dot(away)
+            };
+            if is_behind { (-DVec2::INFINITY, DVec2::INFINITY) } else { bounds(points.iter().map(at)) }
+        };
+        let ((low, high), (seen_low, seen_high)) = (before(&self.casters), before(&self.seen));
+        let sees = DVec2::splat(LAMP_SEES);
+        let low = low.max(seen_low).max(-sees);
+        LightView {
+            light: lamp.extend(1.0),
+            away,
+            right,
+            up,
+            low,
+            high: high.min(seen_high).min(sees).max(low + 1e-3),
+            near: LAMP_NEAR_M,
+            far,
+        }
+    }
+}
+
+/// How far aside a lamp's map reaches a metre before it, metres: 63° to each side.
+const LAMP_SEES: f64 = 2.0;
+/// What lies nearer before a lamp is not in its map, metres.
+const LAMP_NEAR_M: f64 = 0.05;
+
+/// Right and up of a view in a direction: right × up points to the viewer.
+fn axes(away: DVec3) -> (DVec3, DVec3) {
+    let (right, up) = away.any_orthonormal_pair();
+    if right.cross(up).dot(away) > 0.0 { (right, -up) } else { (right, up) }
+}
+
+fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
+}
+
+fn bounds(points: impl Iterator<Item = DVec2>) -> (DVec2, DVec2) {
+    points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
 }
 
 /// Boxes around groups of points that lie near to each other.
@@ -130,61 +184,89 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
-/// A parallel view along the sun's rays, in metres around the scene's origin.
+/// What is asked of smoothies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Smoothies {
+    /// Metres; 0 where the sun's disc decides.
+    pub(super) width_m: f64,
+    /// Their alpha is not remapped.
+    pub(super) linear: bool,
+}
+
+/// A light's view, around the scene's origin: parallel along the sun's rays, or in perspective before a lamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LightView {
-    to_sun: DVec3,
-    /// The map's axes: right × up points to the sun.
+    /// Sun: w = 0; lamp: w = 1.
+    light: DVec4,
+    /// The direction in which depth is measured.
+    away: DVec3,
+    /// The map's axes: right × up points to the light.
     right: DVec3,
     up: DVec3,
-    /// The rectangle on these axes.
+    /// The rectangle on these axes, metres; a lamp's a metre before it.
     low: DVec2,
     high: DVec2,
-    /// From where to where along the rays, away from the sun.
+    /// From where to where depth reaches, metres: along the rays from the scene's origin, or from the lamp.
     near: f64,
     far: f64,
 }
 
 impl LightView {
-    /// The uniform for a map of `size` texels a side, and smoothies of a fixed width, or 0 where it is the sun's.
-    pub(super) fn uniform(&self, extents: &Extents, size: u32, width_m: f64) -> layout::Map {
-        let &LightView { to_sun, right, up, near, far, .. } = self;
+    /// The uniform for a map of `size` texels a side.
+    pub(super) fn uniform(&self, extents: &Extents, size: u32, slope_bias: f32, smoothies: Smoothies) -> layout::Map {
+        let &LightView { light, away, right, up, near, far, .. } = self;
         let border = (self.high - self.low) * (BORDER_TEXELS / (f64::from(size) - 2.0 * BORDER_TEXELS));
         let (low, high) = (self.low - border, self.high + border);
         let texel = (high - low) / f64::from(size);
+        let lamp = light.truncate() * light.w;
+        // what a lamp sees grows with the depth, what the sun sees does not
+        let row =
+            |axis: DVec3, offset: f64| (axis + away * offset * light.w).extend(offset * (1.0 - light.w)).to_array();
+        let depth = away.extend(-near * (1.0 - light.w));
+        let w = away.extend(0.0) * light.w + DVec4::W * (1.0 - light.w);
         let rows = [
-            (right / texel.x).extend(-low.x / texel.x),
-            (-up / texel.y).extend(high.y / texel.y),
-            (-to_sun).extend(-near),
-            DVec4::W,
+            row(right / texel.x, -low.x / texel.x),
+            row(-up / texel.y, high.y / texel.y),
+            depth.to_array(),
+            w.to_array(),
         ];
-        let from_local = DMat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose();
-        // the ground's depth where a ray through the map's corner meets it, and how it grows over the map
-        let rise = to_sun.z.max(1e-4);
-        let ground_at_corner = (right.z * low.x + up.z * high.y - extents.ground_z) / rise - near;
-        let ground = [right.z * texel.x / rise, -up.z * texel.y / rise, ground_at_corner, 0.0];
-        let reach = [low.abs(), high.abs(), DVec2::new(near.abs(), far.abs())]
+        let from_local = DMat4::from_cols_array_2d(&rows).transpose() * DMat4::from_translation(-lamp);
+        let reach = [low.abs(), high.abs()]
+            .map(|ends| ends.max_element())
             .into_iter()
-            .fold(0.0, |reach: f64, ends| reach.max(ends.max_element()));
+            .fold(near.abs().max(far.abs()), f64::max);
         let vector = |vector: DVec3| vector.extend(0.0).as_vec4().to_array();
         layout::Map {
             from_local: from_local.as_mat4().to_cols_array_2d(),
             across: vector(right * texel.x),
             along: vector(-up * texel.y),
-            ground: ground.map(|value| value as f32),
+            ground: self.ground(extents.ground_z, low, high, texel).map(|value| value as f32),
             texel: texel.as_vec2().to_array(),
             size: size as f32,
-            range: (far - near) as f32,
+            range: (far - near * (1.0 - light.w)) as f32,
+            near: (near * light.w) as f32,
             bias: (BIAS_M + 4.0 * f64::from(f32::EPSILON) * reach) as f32,
-            slope_bias: SLOPE_BIAS_TEXELS as f32,
+            slope_bias,
             spread: spread() as f32,
-            width: width_m as f32,
+            width: smoothies.width_m as f32,
+            linear: f32::from(u8::from(smoothies.linear)),
+            unused: [0.0; 2],
         }
+    }
+
+    /// How deep the ground lies where a ray through the map meets it: a sum over column and row, or what is to be divided by
+    /// that sum.
+    fn ground(&self, ground_z: f64, low: DVec2, high: DVec2, texel: DVec2) -> [f64; 4] {
+        let &LightView { light, away, right, up, near, .. } = self;
+        let sum = [right.z * texel.x, -up.z * texel.y, right.z * low.x + up.z * high.y];
+        if light.w > 0.0 {
+            // a ray that is a metre deep sinks by the sum
+            return [sum[0], sum[1], sum[2] + away.z, ground_z - light.z];
+        }
+        let rise = light.z.max(1e-4);
+        [sum[0] / rise, sum[1] / rise, (sum[2] - ground_z) / rise - near, 0.0]
     }
 }
 
 /// How much nearer to the sun than a cell a texel must be to shade it, metres along the rays; and rounding beside it.
 const BIAS_M: f64 = 0.0002;
-/// The same for each metre that the cell's plane falls away over a texel, in texels: the map's own rounding of corners is
-/// 1/256 of a texel. Measured: docs/benchmarks/techniques.md.
-const SLOPE_BIAS_TEXELS: f64 = 0.02;

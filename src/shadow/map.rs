@@ -2,16 +2,17 @@
 //!
 //! Williams 1978, after seeds 000, 001 and 003. The light is parallel, so depth is linear: metres along the rays.
 //!
-//! What of a cell is compared with a texel is the depth of the cell's own plane at the place of the texel's sample, as
-//! the view knows the plane. What is left for the slope-scaled bias of seed 003 is the rounding of corners in the map.
+//! A texel stands for all of its area, and for its neighbours' where comparisons are filtered. A face that falls away
+//! from the sun is drawn deeper by as much as it does over that reach (the slope-scaled bias of seed 003), so that it does
+//! not shade itself; solids are lit from their far side no sooner, as what is drawn deeper is their front.
 
-use super::light_view::{Extents, LightView};
+use super::light_view::{Extents, Smoothies};
 use super::surface::{UNIFORM, bind_group_layout, texture_binding};
 use super::{GpuSurface, Scene, ShadowError};
 use crate::gpu::targets::{DEPTH, Stages, whole};
 use crate::gpu::{Gpu, layout, shaders};
 use crate::mesh::Mesh;
-use glam::DVec3;
+use glam::DVec4;
 use std::sync::Arc;
 use wgpu::*;
 
@@ -24,10 +25,20 @@ const PACKED: TextureFormat = TextureFormat::Rgba32Float;
 /// The shift of `shaders/map.wgsl` that is none.
 const UNSHIFTED: u32 = 4;
 
+/// The bias that grows with a slope, in texels of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Bias {
+    /// Of the casters, drawn deeper by so much.
+    Drawn(f32),
+    /// Of the cells, when they are compared.
+    Compared(f32),
+}
+
 /// The map of one scene's casters, aimed anew at each sun.
 pub(super) struct DepthMap {
     gpu: Arc<Gpu>,
     size: u32,
+    slope_bias: f32,
     extents: Extents,
     uniform: Buffer,
     /// The uniform alone, group 2.
@@ -40,7 +51,7 @@ pub(super) struct DepthMap {
 
 impl DepthMap {
     /// Uploads the casters and makes an empty map of `size` texels a side.
-    pub(super) fn new(scene: &Scene, surface: &GpuSurface, size: u32) -> Result<DepthMap, ShadowError> {
+    pub(super) fn new(scene: &Scene, surface: &GpuSurface, size: u32, bias: Bias) -> Result<DepthMap, ShadowError> {
         let gpu = Arc::clone(&surface.gpu);
         let largest = gpu.limits.max_texture_dimension_2d;
         if size > largest {
@@ -49,17 +60,21 @@ impl DepthMap {
         let uniform = gpu.uniform::<layout::Map>("map");
         let layout = bind_group_layout(&gpu, "map", &[UNIFORM]);
         let bound = gpu.bind("map", &layout, &[(0, uniform.as_entire_binding())]);
+        let (drawn_bias, slope_bias) = match bias {
+            Bias::Drawn(texels) => (texels, texels),
+            Bias::Compared(texels) => (0.0, texels),
+        };
         let module = gpu.shader("map", shaders::MAP);
         let pipeline_layout = surface.seeing_layout(&[&layout]);
         let stages = Stages {
             module: &module,
-            vertex: "seen_from_sun",
+            vertex: "seen_from_light",
             fragment: "",
             buffers: &[Some(Triangles::LAYOUT)],
             target: None,
             layout: Some(&pipeline_layout),
         };
-        let pipeline = gpu.pipeline("map.casters", stages, Some(nearest()));
+        let pipeline = gpu.pipeline("map.casters", stages, Some(nearest(drawn_bias)));
         Ok(DepthMap {
             extents: Extents::new(scene, surface)?,
             uniform,
@@ -69,6 +84,7 @@ impl DepthMap {
             casters: Triangles::uploaded(&gpu, &scene.casters, |_| true)?,
             pipeline,
             size,
+            slope_bias,
             gpu,
         })
     }
@@ -78,12 +94,14 @@ impl DepthMap {
         (self.size, self.size)
     }
 
-    /// Turns to a sun. Smoothies have a fixed width, metres, or 0 where the sun's disc decides.
-    pub(super) fn aim(&self, to_sun: DVec3, smoothie_width_m: f64) -> LightView {
-        let view = self.extents.from_sun(to_sun);
-        let uniform = view.uniform(&self.extents, self.size, smoothie_width_m);
+    /// Turns to a light around the scene's origin (sun: w = 0, lamp: w = 1).
+    pub(super) fn aim(&self, local_light: DVec4, smoothies: Smoothies) {
+        let view = match local_light.w > 0.0 {
+            false => self.extents.from_sun(local_light.truncate()),
+            true => self.extents.from_lamp(local_light.truncate()),
+        };
+        let uniform = view.uniform(&self.extents, self.size, self.slope_bias, smoothies);
         self.gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        view
     }
 
     /// Draws the casters' depth.
@@ -135,13 +153,13 @@ impl PackedMap {
         let pipeline = |channel: ColorWrites| {
             let stages = Stages {
                 module: &module,
-                vertex: "seen_from_sun",
+                vertex: "seen_from_light",
                 fragment: "depth_as_colour",
                 buffers: &[Some(Triangles::LAYOUT)],
                 target: Some((PACKED, channel)),
                 layout: Some(&layout),
             };
-            gpu.pipeline("map.packed", stages, Some(nearest()))
+            gpu.pipeline("map.packed", stages, Some(nearest(0.0)))
         };
         PackedMap { packed: gpu.texture("map.packed", map.size(), PACKED, usage), pipelines: channels.map(pipeline) }
     }
@@ -187,13 +205,13 @@ pub(super) fn compared_layout(gpu: &Gpu, further: &[TextureSampleType]) -> BindG
     bind_group_layout(gpu, "compared", &[COMPARED].into_iter().chain(further).collect::<Vec<_>>())
 }
 
-fn nearest() -> DepthStencilState {
+fn nearest(slope_scale: f32) -> DepthStencilState {
     DepthStencilState {
         format: DEPTH,
         depth_write_enabled: Some(true),
         depth_compare: Some(CompareFunction::Less),
         stencil: StencilState::default(),
-        bias: DepthBiasState::default(),
+        bias: DepthBiasState { constant: 0, slope_scale, clamp: 0.0 },
     }
 }
 

@@ -4,7 +4,8 @@
 //! Fast filters gather their texels in the comparison itself, so that no packed copy of the map is made: that pass only
 //! served machines without loops in their shaders. The paper's 4 × 5 = 20 levels are 17: four counts of 0 to 4 add up.
 
-use super::map::{DepthMap, PackedMap, compared_layout};
+use super::light_view::Smoothies;
+use super::map::{Bias, DepthMap, PackedMap, compared_layout};
 use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
@@ -26,6 +27,19 @@ pub enum Filter {
     FastFourByFour,
 }
 
+impl Filter {
+    /// How far from a cell a texel's sample may lie that it is compared with, texels along both axes together: what a face
+    /// falls away over that is what it must be drawn deeper.
+    fn reach(self) -> f32 {
+        match self {
+            Filter::None => 1.0,
+            Filter::TwoByTwo => 1.5,
+            Filter::FastTwoByTwo => 2.0,
+            Filter::FastFourByFour => 4.0,
+        }
+    }
+}
+
 /// The technique, made for one scene and one view.
 pub struct ShadowMap {
     surface: GpuSurface,
@@ -40,7 +54,7 @@ impl ShadowMap {
     /// Draws what is seen, uploads the casters, builds the pipelines.
     pub fn new(gpu: Arc<Gpu>, scene: &Scene, view: View, size: u32, filter: Filter) -> Result<ShadowMap, ShadowError> {
         let surface = GpuSurface::draw(Arc::clone(&gpu), scene, view)?;
-        let map = DepthMap::new(scene, &surface, size)?;
+        let map = DepthMap::new(scene, &surface, size, Bias::Drawn(filter.reach()))?;
         let packed = (filter == Filter::TwoByTwo).then(|| PackedMap::new(&map, &surface));
         let (group, texture) = match &packed {
             Some(packed) => (packed_layout(&gpu), whole(&packed.packed)),
@@ -76,7 +90,7 @@ fn packed_layout(gpu: &Gpu) -> BindGroupLayout {
 impl Technique for ShadowMap {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
         self.surface.set_sun(to_sun);
-        self.map.aim(to_sun, 0.0);
+        self.map.aim(to_sun.extend(0.0), Smoothies::default());
         let mut encoder = self.surface.encoder();
         match &self.packed {
             Some(packed) => packed.draw(&self.map, &self.surface, &mut encoder),

@@ -1,11 +1,12 @@
 //! Smoothies: a shadow map with the soft edge of a real sun.
 //!
-//! Seed 000, chapter 4. Silhouette edges, pushed outwards in the sun's view, are drawn beside the map: how much of the
-//! sun is seen past each, and how deep it lies. A cell behind the map's casters is in shadow, one behind a smoothie in
+//! Seed 000, chapter 4. Silhouette edges, pushed outwards in the light's view, are drawn beside the map: how much of the
+//! light is seen past each, and how deep it lies. A cell behind the map's casters is in shadow, one behind a smoothie in
 //! part.
 //!
 //! Deviations, for the sun and for clean corners:
-//! - The penumbra d metres behind an edge is 2·d·tan(θ/2) wide, θ = 0.533°; the paper's 1 − b/r is a lamp's.
+//! - The penumbra d metres behind an edge is 2·d·tan(θ/2) wide, θ = 0.533°; the paper's 1 − b/r is a lamp's, and is kept
+//!   for lamps ([`Smoothie::draw_lamp`]).
 //! - A smoothie is as wide as its own penumbra can become on the lowest receiver, instead of one width for all.
 //! - It is one rectangle around its edge, longer than it by its width at both ends, and alpha is the distance to the edge
 //!   (beyond its ends, to the vertex). With minimum blending that is the union of what the paper draws as edges, as
@@ -15,18 +16,22 @@
 //! Smoothies grow outwards only: the umbra is as large as the hard shadow, all of the penumbra lies outside of it, and
 //! the line of half the light is half a penumbra too far out.
 
-use super::map::{DepthMap, Triangles, compared_layout, depth};
+use super::light_view::Smoothies;
+use super::map::{Bias, DepthMap, Triangles, compared_layout, depth};
 use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
 use crate::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
 use crate::view::{Surface, View};
-use glam::{DVec3, Vec3};
+use glam::{DVec3, DVec4, Vec3};
 use std::sync::Arc;
 use wgpu::*;
 
 /// The share past a smoothie, and how deep it lies.
 const SMOOTHIES: TextureFormat = TextureFormat::Rg32Float;
+
+/// The four texels that are compared lie so far from a cell, along both axes together.
+const REACH_TEXELS: f32 = 2.0;
 
 /// The technique, made for one scene and one view.
 pub struct Smoothie {
@@ -34,8 +39,7 @@ pub struct Smoothie {
     surface: GpuSurface,
     map: DepthMap,
     finder: Box<dyn SilhouetteFinder>,
-    /// 0 where the sun's disc decides.
-    width_m: f64,
+    asked: Smoothies,
     /// What receives and does not cast, where there is any.
     receivers: Option<(Triangles, Texture)>,
     smoothies: Texture,
@@ -62,7 +66,7 @@ impl Smoothie {
     ) -> Result<Smoothie, ShadowError> {
         gpu.blends_float32("smoothies are laid over each other")?;
         let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
-        let map = DepthMap::new(&scene, &surface, map_size)?;
+        let map = DepthMap::new(&scene, &surface, map_size, Bias::Drawn(REACH_TEXELS))?;
         let cast: rustc_hash::FxHashSet<[u32; 3]> = scene.casters.faces.iter().copied().collect();
         let receivers = Triangles::uploaded(&gpu, &scene.receivers, |face| !cast.contains(face))?;
         let receivers = (!receivers.is_empty()).then(|| (receivers, depth(&gpu, "smoothie.receivers", map_size)));
@@ -117,7 +121,7 @@ impl Smoothie {
             scene,
             surface,
             map,
-            width_m: width_m.unwrap_or(0.0),
+            asked: Smoothies { width_m: width_m.unwrap_or(0.0), linear: false },
             receivers,
             smoothies,
             edges,
@@ -130,11 +134,27 @@ impl Smoothie {
         })
     }
 
+    /// Leaves alpha as it is drawn (`true`): every penumbra as wide as its smoothie, wherever it falls. To compare with, as in
+    /// the paper's figures 4-4 and 4-10.
+    pub fn force_linear(&mut self, linear: bool) {
+        self.asked.linear = linear;
+    }
+
+    /// Draws the mask for a lamp in the world frame, with alpha remapped by the paper's α / (1 − b/r): `width` is the paper's t,
+    /// metres in a plane a metre before the lamp. The lamp sees 63° to each side of the middle of what is seen, and what
+    /// lies beyond that in its light.
+    ///
+    /// # Errors
+    /// As [`Technique::draw`].
+    pub fn draw_lamp(&mut self, lamp: DVec3, width: f64) -> Result<DrawnMask<'_>, ShadowError> {
+        self.draw_light(self.scene.casters.local_light(lamp.extend(1.0)), Smoothies { width_m: width, ..self.asked })
+    }
+
     /// Uploads the silhouette, each edge once however often its walls would stand.
-    fn find(&mut self, to_sun: DVec3) -> Result<u32, ShadowError> {
+    fn find(&mut self, local_light: DVec4) -> Result<u32, ShadowError> {
         let casters = &self.scene.casters;
         let mut silhouette: Vec<DirectedEdge> = Vec::new();
-        self.finder.find(casters, casters.local_light(to_sun.extend(0.0)), &mut silhouette);
+        self.finder.find(casters, local_light, &mut silhouette);
         // an edge stands in a row
         silhouette.dedup();
         self.upload.clear();
@@ -149,14 +169,12 @@ impl Smoothie {
         gpu.queue.write_buffer(&self.edges, 0, bytes);
         Ok(self.upload.len() as u32)
     }
-}
 
-impl Technique for Smoothie {
-    fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
-        let count = self.find(to_sun)?;
+    fn draw_light(&mut self, local_light: DVec4, asked: Smoothies) -> Result<DrawnMask<'_>, ShadowError> {
+        let count = self.find(local_light)?;
         let Smoothie { surface, map, .. } = self;
-        surface.set_sun(to_sun);
-        map.aim(to_sun, self.width_m);
+        surface.set_light(local_light);
+        map.aim(local_light, asked);
         let mut encoder = surface.encoder();
         map.draw(surface, &mut encoder);
         if let Some((triangles, depth)) = &self.receivers {
@@ -187,6 +205,12 @@ impl Technique for Smoothie {
         });
         surface.gpu.queue.submit([encoder.finish()]);
         Ok(DrawnMask::Texture(&self.surface.gpu, &self.mask))
+    }
+}
+
+impl Technique for Smoothie {
+    fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
+        self.draw_light(to_sun.extend(0.0), self.asked)
     }
 
     fn surface(&self) -> Result<Surface, ShadowError> {

@@ -305,7 +305,12 @@ impl GpuSurface {
 
     /// Sets the sun for what is drawn next.
     pub(super) fn set_sun(&self, to_sun: DVec3) {
-        let light = Light { to_sun: to_sun.extend(0.0).as_vec4().to_array() };
+        self.set_light(to_sun.extend(0.0));
+    }
+
+    /// Sets a light around the scene's origin (sun: w = 0, lamp: w = 1).
+    pub(super) fn set_light(&self, local_light: DVec4) {
+        let light = Light { towards: local_light.as_vec4().to_array() };
         self.gpu.queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
     }
 
