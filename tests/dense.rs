@@ -74,7 +74,7 @@ pub(crate) fn tree() -> Dense {
         }
         branches = next;
     }
-    let camera = camera(dvec3(13.0, -15.0, 7.0), dvec3(-3.5, 2.5, 3.6), 42.0);
+    let camera = camera(dvec3(9.0, -11.5, 6.5), dvec3(-2.0, 0.9, 4.3), 46.0);
     Dense { parts: vec![tree], camera, to_sun: to_sun(118.0, 38.0) }
 }
 

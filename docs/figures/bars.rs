@@ -34,7 +34,7 @@ pub(crate) fn bars(gpu: &Arc<Gpu>) -> Result<Sheet> {
     let mut svg = String::new();
     for share in [0, 20, 40, 60, 80, 100] {
         let x = left + (right - left) * f64::from(share) / 100.0;
-        svg += &rectangle([x - 0.5, 34.0, 1.0, group * stages.len() as f64], [210, 206, 196]);
+        svg += &rectangle([x - 0.5, 34.0, 1.0, group * stages.len() as f64], [226, 222, 213]);
         svg += &text_element([x, 24.0], 22.0, 400, "middle", GRAY, &format!("{share}%"));
     }
     for (index, (name, stage)) in stages.iter().enumerate() {

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// The house from the yard, in the afternoon.
 pub(crate) fn yard(gpu: &Arc<Gpu>) -> Result<Stage> {
-    let view = camera(dvec3(10.5, -18.5, 7.5), dvec3(-0.6, -2.0, 2.4), 38.0, (1480, 960));
+    let view = camera(dvec3(9.5, -21.5, 9.0), dvec3(1.4, -1.5, 3.9), 36.0, (1488, 960));
     Stage::new(gpu, scenes::house(), view, afternoon())
 }
 
@@ -21,8 +21,10 @@ pub(crate) fn afternoon() -> DVec3 {
     crate::dense::to_sun(222.0, 39.0)
 }
 
-/// The shadow of the balcony and its railing on the wall.
-const DETAIL: Part = [560, 330, 124, 80];
+/// Of the yard's picture, the shadow of the balcony's corner on the wall.
+pub(crate) fn detail(stage: &Stage) -> Part {
+    stage.around(dvec3(2.1, 0.0, 2.3), 124, 80)
+}
 
 pub(crate) fn filters(gpu: &Arc<Gpu>) -> Result<Sheet> {
     const FILTERS: [(Filter, &str, &str); 4] = [
@@ -32,14 +34,15 @@ pub(crate) fn filters(gpu: &Arc<Gpu>) -> Result<Sheet> {
         (Filter::FastFourByFour, "Fast PCF 4×4", "17 levels"),
     ];
     let stage = yard(gpu)?;
+    let detail = detail(&stage);
     let mut rows = [Row::default(), Row::default()];
     for (filter, name, levels) in FILTERS {
         let (mask, millis) = stage.timed(&mut stage.map(512, filter)?)?;
         let picture = stage.shaded(&mask);
-        let whole = picture.clone().framed(DETAIL, 5, RED).shrunk(4);
+        let whole = picture.clone().framed(detail, 5, RED).shrunk(4);
         rows[0].panels.push(Panel { picture: whole, caption: vec![] });
         let caption = vec![name.to_owned(), format!("{levels}, {millis:.0} ms")];
-        rows[1].panels.push(Panel { picture: picture.cropped(DETAIL).magnified(3), caption });
+        rows[1].panels.push(Panel { picture: picture.cropped(detail).magnified(3), caption });
     }
     Ok(Sheet {
         title: "Shadow map: its filters".into(),

@@ -1,11 +1,12 @@
 //! How the hybrid works, where it fails, and what it looks like beside its parents (seed 000, figures 3-5 and 3-7 to 3-9).
 
 use crate::dense::{self, Dense};
-use crate::filters::yard;
-use crate::picture::{Part, Picture, RED, Rgb, mix};
+use crate::filters::{detail, yard};
+use crate::picture::{Picture, RED, Rgb, mix};
 use crate::sheet::{Panel, Row, Sheet};
 use crate::stage::Stage;
 use anyhow::{Context as _, Result};
+use glam::{DVec3, dvec3};
 use gnomon::gpu::Gpu;
 use gnomon::shadow::Technique;
 use gnomon::shadow::shadow_map::Filter;
@@ -52,11 +53,11 @@ pub(crate) fn silhouette_share(counted: &Counted) -> f64 {
 
 /// Figure 3-5.
 pub(crate) fn mask(gpu: &Arc<Gpu>) -> Result<Sheet> {
-    const DETAIL: Part = [560, 330, 124, 80];
     let stage = yard(gpu)?;
+    let part = detail(&stage);
     let panel = |picture: Picture, caption: [String; 2]| {
-        let detail = picture.cropped(DETAIL).magnified(3);
-        let whole = picture.framed(DETAIL, 5, RED).shrunk(4);
+        let detail = picture.cropped(part).magnified(3);
+        let whole = picture.framed(part, 5, RED).shrunk(4);
         [Panel { picture: whole, caption: vec![] }, Panel { picture: detail, caption: caption.into() }]
     };
     let by_map = stage.mask(&mut stage.map(256, Filter::None)?)?;
@@ -128,11 +129,11 @@ fn bright(layers: u32) -> Rgb {
 }
 
 /// In shadow where the truth sees the sun, and the other way round.
-const FALSE_SHADOW: Rgb = [214, 30, 30];
-const FALSE_LIGHT: Rgb = [20, 160, 60];
+const FALSE_SHADOW: Rgb = [224, 30, 30];
+const FALSE_LIGHT: Rgb = [16, 168, 62];
 
-/// Marks what differs from the truth; counts it.
-fn marked(stage: &Stage, mask: &Mask, truth: &Mask) -> (Picture, usize) {
+/// What differs from the truth, and how many cells of all that are.
+fn marked(stage: &Stage, mask: &Mask, truth: &Mask) -> (Picture, String) {
     let mark = |(&share, &truth): (&u8, &u8)| match (share >= 128, truth >= 128) {
         (false, true) => Some(FALSE_SHADOW),
         (true, false) => Some(FALSE_LIGHT),
@@ -140,14 +141,21 @@ fn marked(stage: &Stage, mask: &Mask, truth: &Mask) -> (Picture, usize) {
     };
     let marks: Vec<Option<Rgb>> = mask.share.iter().zip(&truth.share).map(mark).collect();
     let wrong = marks.iter().flatten().count();
-    (stage.shaded(mask).marked(1, &marks), wrong)
+    let mut picture = stage.shaded(mask);
+    for (pixel, mark) in picture.pixels.iter_mut().zip(marks) {
+        *pixel = mark.unwrap_or(*pixel);
+    }
+    (picture, format!("{wrong} cells are wrong"))
 }
+
+/// The middle of the tree's shadow.
+const SHADOW: DVec3 = dvec3(-6.3, 4.0, 0.0);
 
 /// Figure 3-8.
 pub(crate) fn artifacts(gpu: &Arc<Gpu>) -> Result<Sheet> {
-    const SHADOW: Part = [130, 330, 380, 330];
     let stage = stage(gpu, dense::tree())?;
-    let truth = stage.mask(&mut stage.rays(None))?;
+    let part = stage.around(SHADOW, 190, 124);
+    let truth = stage.mask(&mut stage.stencil()?)?;
     let mut rows = Vec::new();
     for head in ["Map", "Hybrid"] {
         let mut row = Row { head: head.into(), ..Row::default() };
@@ -157,21 +165,17 @@ pub(crate) fn artifacts(gpu: &Arc<Gpu>) -> Result<Sheet> {
                 _ => stage.mask(&mut stage.hybrid(size)?)?,
             };
             let (picture, wrong) = marked(&stage, &mask, &truth);
-            let share = 100.0 * wrong as f64 / truth.share.len() as f64;
-            row.panels.push(Panel {
-                picture: picture.cropped(SHADOW),
-                caption: vec![format!("{wrong} cells wrong ({share:.2}%)")],
-            });
+            row.panels.push(Panel { picture: picture.cropped(part).magnified(2), caption: vec![wrong] });
         }
-        let picture = stage.shaded(&truth).cropped(SHADOW);
+        let picture = stage.shaded(&truth).cropped(part).magnified(2);
         row.panels.push(Panel { picture, caption: vec![] });
         rows.push(row);
     }
     Ok(Sheet {
-        title: "What low resolution costs".into(),
-        note: "The shadow of a tree’s branches, thinner than a texel of the map.".into(),
+        title: "What a low resolution costs".into(),
+        note: "The shadow of a tree, many of whose branches are thinner than a texel; of 1280 × 800 cells.".into(),
         legend: vec![(FALSE_SHADOW, "shadow that is not there".into()), (FALSE_LIGHT, "shadow that is missing".into())],
-        columns: ["256²", "512²", "1024²", "Ray casting"].map(String::from).to_vec(),
+        columns: ["256²", "512²", "1024²", "Volumes"].map(String::from).to_vec(),
         rows,
     })
 }
@@ -179,11 +183,10 @@ pub(crate) fn artifacts(gpu: &Arc<Gpu>) -> Result<Sheet> {
 /// Figure 3-7.
 pub(crate) fn beside(gpu: &Arc<Gpu>) -> Result<Sheet> {
     let mut rows = Vec::new();
-    for (head, dense, detail) in
-        [("Cage", dense::cage(), [620, 420, 170, 106]), ("Tree", dense::tree(), [250, 440, 170, 106])]
-    {
+    for (head, dense, middle) in [("Cage", dense::cage(), dvec3(3.9, 1.2, 0.1)), ("Tree", dense::tree(), SHADOW)] {
         let stage = stage(gpu, dense)?;
-        let (mut above, mut below) = (Row { head: head.into(), ..Row::default() }, Row::default());
+        let detail = stage.around(middle, 142, 88);
+        let (mut whole, mut below) = (Row { head: head.into(), ..Row::default() }, Row::default());
         let techniques: [Box<dyn Technique>; 3] = [
             Box::new(stage.map(1024, Filter::FastTwoByTwo)?),
             Box::new(stage.hybrid(1024)?),
@@ -193,15 +196,15 @@ pub(crate) fn beside(gpu: &Arc<Gpu>) -> Result<Sheet> {
             let (mask, millis) = stage.timed(&mut *technique)?;
             let picture = stage.shaded(&mask);
             let magnified = picture.cropped(detail).magnified(3);
-            above.panels.push(Panel { picture: magnified, caption: vec![format!("{millis:.0} ms")] });
-            let whole = picture.framed(detail, 4, RED).shrunk(2).cropped([0, 0, 510, 400]);
-            below.panels.push(Panel { picture: whole, caption: vec![] });
+            below.panels.push(Panel { picture: magnified, caption: vec![format!("{millis:.0} ms")] });
+            let picture = picture.framed(detail, 4, RED).shrunk(3);
+            whole.panels.push(Panel { picture, caption: vec![] });
         }
-        rows.extend([below, above]);
+        rows.extend([whole, below]);
     }
     Ok(Sheet {
         title: "Map, hybrid and volumes".into(),
-        note: "1280 × 800 cells, maps of 1024²; times on a graphics adapter that is a program on two cores.".into(),
+        note: "1280 × 800 cells, maps of 1024²; below, what is framed, three times as large.".into(),
         columns: ["Shadow map, fast PCF 2×2", "Hybrid", "Stencil shadow volumes"].map(String::from).to_vec(),
         rows,
         ..Sheet::default()

@@ -28,6 +28,7 @@ const SHEETS: &[(&str, Draw)] = &[
     ("map-filters", filters::filters),
     ("shadow-edges", soft::edges),
     ("smoothie-truth", soft::beside_truth),
+    ("smoothie-remap", soft::remap),
     ("smoothie-overlap", soft::overlap),
     ("hybrid-mask", hybrid::mask),
     ("hybrid-overdraw", hybrid::overdraw),

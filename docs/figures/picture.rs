@@ -77,20 +77,6 @@ impl Picture {
         }
         self
     }
-
-    /// With a colour where cells are marked, and around them.
-    pub(crate) fn marked(mut self, radius: i32, marks: &[Option<Rgb>]) -> Picture {
-        let (width, height) = (self.width as i32, self.height as i32);
-        for (at, colour) in marks.iter().enumerate().filter_map(|(at, mark)| Some((at as i32, (*mark)?))) {
-            let (column, row) = (at % width, at / width);
-            for y in (row - radius).max(0)..=(row + radius).min(height - 1) {
-                for x in (column - radius).max(0)..=(column + radius).min(width - 1) {
-                    self.pixels[(y * width + x) as usize] = colour;
-                }
-            }
-        }
-        self
-    }
 }
 
 /// From `a` (share 0) to `b` (share 1).

@@ -9,20 +9,25 @@ pub(crate) fn house() -> Vec<Part> {
     let mut parts = vec![
         slab("house", dvec3(-6.0, 0.0, 0.0), dvec3(6.0, 8.0, 6.2)),
         slab("roof", dvec3(-6.4, -0.4, 6.2), dvec3(6.4, 8.4, 6.5)),
-        slab("chimney", dvec3(3.0, 3.0, 6.5), dvec3(3.8, 3.8, 8.6)),
+        slab("chimney", dvec3(5.0, 0.5, 6.5), dvec3(5.8, 1.3, 10.5)),
         slab("balcony", dvec3(-4.5, -1.7, 2.8), dvec3(1.5, 0.0, 3.0)),
     ];
     let mut railing = Part { name: "railing".into(), ..Part::default() };
     let mut bar = |from: DVec3, to: DVec3, radius: f64| prism(&mut railing, [from, to], 4, [radius; 2]);
-    for index in 0..41 {
+    for index in 0..=40 {
         let x = -4.45 + 5.9 * f64::from(index) / 40.0;
         bar(dvec3(x, -1.65, 3.0), dvec3(x, -1.65, 3.95), 0.02);
     }
+    for index in 1..=10 {
+        let y = -1.65 + 1.6 * f64::from(index) / 10.0;
+        bar(dvec3(1.45, y, 3.0), dvec3(1.45, y, 3.95), 0.02);
+    }
     bar(dvec3(-4.5, -1.65, 3.97), dvec3(1.5, -1.65, 3.97), 0.04);
+    bar(dvec3(1.45, -1.65, 3.97), dvec3(1.45, 0.0, 3.97), 0.04);
     parts.push(railing);
     parts.push(fence(dvec3(-9.0, -8.0, 0.0), dvec3(9.0, -8.0, 0.0)));
     let mut column = Part { name: "column".into(), ..Part::default() };
-    prism(&mut column, [dvec3(3.6, -5.2, 0.0), dvec3(3.6, -5.2, 3.2)], 32, [0.45, 0.45]);
+    prism(&mut column, [dvec3(6.6, -4.6, 0.0), dvec3(6.6, -4.6, 3.2)], 32, [0.45, 0.45]);
     parts.push(column);
     parts
 }
@@ -41,20 +46,24 @@ fn fence(from: DVec3, to: DVec3) -> Part {
     fence
 }
 
-/// A plate over a smaller plate over the ground, all level.
+/// A plate 6 m above the ground, and a lower one that catches part of its shadow's edge.
 pub(crate) fn two_plates() -> Vec<Part> {
     vec![
-        slab("upper", dvec3(-3.0, -2.0, 6.0), dvec3(2.0, 2.0, 6.2)),
-        slab("lower", dvec3(-2.2, 0.6, 4.2), dvec3(3.6, 4.2, 4.4)),
+        slab("upper", dvec3(-1.0, -9.0, 6.0), dvec3(2.0, 3.0, 6.2)),
+        slab("lower", dvec3(-1.85, 0.0, 4.2), dvec3(2.6, 2.4, 4.4)),
     ]
 }
 
-/// Two beams that cross below each other, and a slit between two plates: penumbrae over penumbrae.
+/// A slit between two plates 9 m above the ground, and two poles below it.
 pub(crate) fn crossing() -> Vec<Part> {
-    vec![
-        slab("west", dvec3(-4.0, -1.0, 9.0), dvec3(-0.05, 3.0, 9.2)),
-        slab("east", dvec3(0.05, -1.0, 9.0), dvec3(4.0, 3.0, 9.2)),
-        slab("beam", dvec3(-4.5, -2.4, 5.0), dvec3(4.5, -2.15, 5.2)),
-        slab("post", dvec3(-2.2, -4.0, 7.0), dvec3(-1.95, 0.0, 7.2)),
-    ]
+    let mut parts = vec![
+        slab("west", dvec3(-3.0, -1.5, 9.0), dvec3(-0.06, 1.2, 9.2)),
+        slab("east", dvec3(0.06, -1.5, 9.0), dvec3(3.0, 1.2, 9.2)),
+    ];
+    for (from, to) in [(dvec3(-3.0, 2.9, 5.0), dvec3(3.0, 6.4, 5.0)), (dvec3(-2.6, 7.1, 7.0), dvec3(2.2, -0.9, 7.0))] {
+        let mut pole = Part { name: "pole".into(), ..Part::default() };
+        prism(&mut pole, [from, to], 8, [0.07, 0.07]);
+        parts.push(pole);
+    }
+    parts
 }

@@ -5,6 +5,8 @@ use anyhow::{Context as _, Result};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::fontdb::{Database, Source};
 use resvg::usvg::{Options, Tree};
+use skrifa::instance::{LocationRef, Size};
+use skrifa::{FontRef, MetadataProvider as _};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -99,7 +101,7 @@ impl Sheet {
             y = (bottom + GAP * 0.7).round();
         }
         let right = starts.last().map_or(left, |start| start + width_of(columns - 1));
-        page.render((right + MARGIN) as u32, (y + MARGIN * 0.5) as u32)?.write(path)
+        page.render((right.max(page.right) + MARGIN) as u32, (y + MARGIN * 0.5) as u32)?.write(path)
     }
 }
 
@@ -108,12 +110,15 @@ impl Sheet {
 struct Page<'a> {
     svg: String,
     pictures: Vec<(u32, u32, &'a Picture)>,
+    /// Where the longest line ends.
+    right: f64,
 }
 
 impl<'a> Page<'a> {
     /// A line of text whose top is at y; returns where the next one may begin.
     fn line(&mut self, x: f64, y: f64, size: f64, weight: u32, colour: Rgb, text: &str) -> f64 {
         self.svg.push_str(&text_element([x, y + size * 0.95], size, weight, "start", colour, text));
+        self.right = self.right.max(x + width(text, weight, size));
         (y + size * LEADING).round()
     }
 
@@ -123,8 +128,7 @@ impl<'a> Page<'a> {
             let side = TEXT * 0.8;
             self.svg.push_str(&rectangle([x, y + 5.0, side, side], *colour));
             self.line(x + side + 9.0, y, TEXT, 400, INK, text);
-            // Noto Sans is about half as wide as it is high
-            x += side + 46.0 + text.chars().count() as f64 * TEXT * 0.53;
+            x += side + 40.0 + width(text, 400, TEXT);
         }
         y + TEXT * LEADING + 4.0
     }
@@ -136,6 +140,14 @@ impl<'a> Page<'a> {
         }
         drawn_over(page, &self.svg)
     }
+}
+
+/// How wide a line of text is.
+fn width(text: &str, weight: u32, size: f64) -> f64 {
+    let face = if weight == 400 { notosans::REGULAR_TTF } else { notosans::BOLD_TTF };
+    let Ok(font) = FontRef::new(face) else { return 0.0 };
+    let (map, metrics) = (font.charmap(), font.glyph_metrics(Size::new(size as f32), LocationRef::default()));
+    text.chars().filter_map(|letter| metrics.advance_width(map.map(letter)?)).map(f64::from).sum()
 }
 
 /// A filled rectangle, as SVG.

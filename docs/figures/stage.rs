@@ -1,10 +1,10 @@
 //! A scene with its view and its sun, on which techniques draw.
 
-use crate::picture::{Picture, Rgb};
+use crate::picture::{Part, Picture, Rgb};
 use anyhow::Result;
-use glam::{DVec3, DVec4};
+use glam::{DVec3, DVec4, dvec3};
 use gnomon::gpu::Gpu;
-use gnomon::mesh::{Mesh, Part};
+use gnomon::mesh::{self, Mesh};
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
@@ -12,7 +12,7 @@ use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique, seen_normal};
 use gnomon::silhouette::Kind;
-use gnomon::view::{Camera, Mask, Surface, View};
+use gnomon::view::{Camera, Grid, Mask, Surface, View};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -30,7 +30,7 @@ pub(crate) struct Stage {
 
 impl Stage {
     /// Everything casts and receives; the ground lies at 0.
-    pub(crate) fn new(gpu: &Arc<Gpu>, parts: Vec<Part>, view: View, to_sun: DVec3) -> Result<Stage> {
+    pub(crate) fn new(gpu: &Arc<Gpu>, parts: Vec<mesh::Part>, view: View, to_sun: DVec3) -> Result<Stage> {
         let mesh = Mesh::build(parts)?;
         Stage::of(gpu, Scene { casters: mesh.clone(), receivers: mesh, ground: 0.0 }, view, to_sun)
     }
@@ -80,6 +80,38 @@ impl Stage {
         Ok((mask, times[times.len() / 2]))
     }
 
+    /// The part of the picture that is so large and has a point in its middle.
+    pub(crate) fn around(&self, point: DVec3, width: u32, height: u32) -> Part {
+        let (columns, rows) = self.view.size();
+        let [x, y] = self.at(point);
+        let start = |at: f64, cells: u32, length: u32| {
+            (at - f64::from(length) / 2.0).clamp(0.0, f64::from(cells - length)) as u32
+        };
+        [start(x, columns, width), start(y, rows, height), width, height]
+    }
+
+    /// The part of the picture that shows a region of the ground.
+    pub(crate) fn part_of(&self, grid: &Grid) -> Part {
+        let [west, south, east, north] = grid.region();
+        let corners = [(west, south), (east, south), (east, north), (west, north)];
+        let at = corners.map(|(x, y)| self.at(dvec3(x, y, 0.0)));
+        let low = at.iter().fold([f64::INFINITY; 2], |low, at| [low[0].min(at[0]), low[1].min(at[1])]);
+        let high = at.iter().fold([0.0f64; 2], |high, at| [high[0].max(at[0]), high[1].max(at[1])]);
+        [low[0] as u32, low[1] as u32, (high[0] - low[0]) as u32, (high[1] - low[1]) as u32]
+    }
+
+    /// Where a point of the world lies in the picture.
+    fn at(&self, point: DVec3) -> [f64; 2] {
+        let (columns, rows) = self.view.size();
+        match self.view {
+            View::Plan(grid) => [(point.x - grid.west) / grid.cell, (grid.north - point.y) / grid.cell],
+            View::Camera(camera) => {
+                let at = camera.clip_from_world().project_point3(point);
+                [(at.x + 1.0) / 2.0 * f64::from(columns), (1.0 - at.y) / 2.0 * f64::from(rows)]
+            }
+        }
+    }
+
     /// Matt card in sun and shade.
     pub(crate) fn shaded(&self, mask: &Mask) -> Picture {
         let light = self.lights();
@@ -112,6 +144,13 @@ impl Stage {
         };
         self.surface.face.iter().map(light).collect()
     }
+}
+
+/// A plan around a point.
+pub(crate) fn plan(middle: DVec3, cell: f64, (width, height): (u32, u32)) -> Grid {
+    let west = middle.x - cell * f64::from(width) / 2.0;
+    let north = middle.y + cell * f64::from(height) / 2.0;
+    Grid { west, north, cell, width, height }
 }
 
 /// A camera's view, from degrees.
