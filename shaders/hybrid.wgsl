@@ -4,19 +4,18 @@
 // over one texel it is no plane any more.
 const STEEPEST: f32 = 50.0;
 
-// How many of the four texels from `first` on shade the cell. What of the cell is compared with a texel is the depth of
-// the cell's own plane there: then a caster that stands on the plane is told from it however near, and what is left for a
-// bias is rounding. Where that is too strict, texels disagree, and the volumes decide.
+// How many of the four texels from `first` on shade the cell: lie before the cell's own plane. A caster that stands on the
+// plane is told from it however near. Where that is too strict, texels disagree, and the volumes decide.
 fn shaded_of_four(cell: Cell, first: vec2i) -> u32 {
-    let bias = map.bias + map.slope_bias * (abs(cell.slope.x) + abs(cell.slope.y));
+    let rounding = rounding(cell);
     var count = 0u;
     for (var index = 0; index < 4; index++) {
         let texel = first + vec2i(index & 1, index >> 1u);
         if is_outside(texel) {
             continue;
         }
-        let plane = cell.at.z + dot(cell.slope, vec2f(texel) + 0.5 - cell.at.xy);
-        count += u32(metres_of(textureLoad(map_depth, texel, 0)) < plane - bias);
+        let plane = plane_depth(cell, vec2f(texel) + 0.5);
+        count += u32(metres_of(textureLoad(map_depth, texel, 0)) < plane - rounding);
     }
     return count;
 }

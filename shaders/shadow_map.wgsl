@@ -52,7 +52,8 @@ fn two_by_two(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let depths = textureLoad(packed, texel, 0);
     var count = 0u;
     for (var index = 0u; index < 4u; index++) {
-        count += u32(metres_of(depths[index]) < cell.at.z - map.bias);
+        let shift = vec2f(f32(index & 1u), f32(index >> 1u)) * 0.5 - 0.25;
+        count += u32(shades(depths[index], vec2f(texel) + 0.5 + shift, cell));
     }
     return vec4f(1.0 - f32(count) / 4.0);
 }

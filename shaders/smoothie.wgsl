@@ -20,12 +20,11 @@ fn metric(at: vec2f) -> vec2f {
 }
 
 // As wide as the penumbra can become on its way to the lowest receiver, or as the user says.
-fn width_at(local: vec3f, depth: f32) -> f32 {
+fn width_at(local: vec3f) -> f32 {
     if map.width > 0.0 {
         return map.width;
     }
-    let farthest = min((local.z - view.lowest_z) / light.towards.z, map.range - depth);
-    return map.spread * max(farthest, 0.0);
+    return map.spread * max(local.z - view.lowest_z, 0.0) / max(light.towards.z, 1e-4);
 }
 
 // One rectangle an edge, from the edge outwards and beyond its ends as far: there it is the corner, whose alpha is the
@@ -36,7 +35,7 @@ fn smoothie(@builtin(vertex_index) index: u32, @location(0) from_local: vec3f, @
     let start = vec3f(metric(ends[0].xy), ends[0].z);
     let end = vec3f(metric(ends[1].xy), ends[1].z);
     let length = distance(start.xy, end.xy);
-    let widths = vec2f(width_at(from_local, start.z), width_at(to_local, end.z));
+    let widths = vec2f(width_at(from_local), width_at(to_local));
     let width = max(widths.x, widths.y);
     // seen end-on, on the lowest receiver, or behind a lamp: no area
     if length < 1e-6 || width <= 0.0 || min(start.z, end.z) < map.near {
@@ -119,7 +118,7 @@ fn seen_past(cell: Cell, texel: vec2i) -> f32 {
     }
     let smoothie = textureLoad(smoothies, texel, 0);
     let slope = abs(cell.slope.x) + abs(cell.slope.y);
-    let is_behind = smoothie.y < cell.at.z - map.bias - slope;
+    let is_behind = smoothie.y < cell.at.z - rounding(cell) - slope;
     return select(1.0, smoothie.x, is_behind);
 }
 

@@ -17,6 +17,8 @@ mod site;
 mod sites;
 mod sums;
 mod sun;
+mod techniques;
 mod timers;
 mod try_models;
+mod verify;
 mod volumes;

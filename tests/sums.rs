@@ -100,7 +100,7 @@ fn asked(engine: Engine, receivers: Receivers) -> Overrides {
 fn sunlit(site: &Site) -> (Vec<u64>, Profile) {
     let mut sun = vec![0_u64; site.grid.cells()];
     let mut heard = 0;
-    let outcome = study::run(site, &Wants { masks: true, surface: false }, &mut |event| {
+    let outcome = study::run(site, &Wants { masks: true, ..Wants::default() }, &mut |event| {
         if let Event::Drawn { index, mask, time, .. } = event {
             let (instant, mask) = (&site.track.instants[index], mask.expect("masks are wanted"));
             assert_eq!((index, time), (heard, instant.time));

@@ -26,13 +26,26 @@ fn is_outside(texel: vec2i) -> bool {
     return any(texel < vec2i(0)) || any(texel >= vec2i(i32(map.size)));
 }
 
-// Whether what a texel holds shades the cell. Beyond the map nothing does. The map's depth has its slope-scaled bias: as
-// deep as the face is anywhere that this texel may be asked from, so that no surface shades itself.
+// Depth of the cell's plane at a place in the map.
+fn plane_depth(cell: Cell, at: vec2f) -> f32 {
+    return cell.at.z + dot(cell.slope, at - cell.at.xy);
+}
+
+// What rounding does to a depth: metres, and the map's corners lie on 1/256 of a texel.
+fn rounding(cell: Cell) -> f32 {
+    return map.bias + 0.02 * (abs(cell.slope.x) + abs(cell.slope.y));
+}
+
+// Whether a depth of the map, sampled at a place in it, shades the cell: it must lie nearer to the light than the cell, and
+// than the cell's plane at that place. By the first a lit wall does not shade the ground at its foot, by the second no
+// plane shades itself; what is left for the slope-scaled bias, which the map's depth has, is curvature and corners.
+fn shades(depth: f32, sampled_at: vec2f, cell: Cell) -> bool {
+    return metres_of(depth) < min(cell.at.z, plane_depth(cell, sampled_at)) - rounding(cell);
+}
+
+// Whether what a texel holds shades the cell. Beyond the map nothing does.
 fn shaded(cell: Cell, texel: vec2i) -> bool {
-    if is_outside(texel) {
-        return false;
-    }
-    return metres_of(textureLoad(map_depth, texel, 0)) < cell.at.z - map.bias;
+    return !is_outside(texel) && shades(textureLoad(map_depth, texel, 0), vec2f(texel) + 0.5, cell);
 }
 
 // The first of the four texels whose centres lie around the cell: half a texel aside (seed 001, figure 6).

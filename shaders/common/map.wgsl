@@ -17,8 +17,9 @@ struct Map {
     // Depth at the far side and, for a lamp, at the near side, metres.
     range: f32,
     near: f32,
-    // How much nearer to the light a texel must be to shade a cell: metres, and texels of a slope.
+    // What rounding does to a depth, metres.
     bias: f32,
+    // How many texels of its slope deeper a face is drawn.
     slope_bias: f32,
     // Width of the sun's penumbra a metre behind an edge.
     spread: f32,

@@ -2,6 +2,7 @@
 
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
+use crate::study::verify::SIZE;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use std::path::PathBuf;
 
@@ -25,6 +26,9 @@ pub(super) enum Command {
     Check(CheckArgs),
     /// The shadow volumes at one instant as solids down to the ground, in a .glb for other programs
     Volumes(VolumesArgs),
+    /// Every technique against ray casting on this site: how many cells differ, how far, by how many hours
+    #[command(mut_arg("size", |size| size.help("Cells along the longer side [default: 512]")))]
+    Verify(VerifyArgs),
 }
 
 impl Command {
@@ -35,6 +39,7 @@ impl Command {
             Command::Sun(asked) => &asked.common,
             Command::Check(asked) => &asked.common,
             Command::Volumes(asked) => &asked.common,
+            Command::Verify(asked) => &asked.common,
         }
     }
 }
@@ -92,6 +97,21 @@ pub(super) struct DrawArgs {
     /// the width of their edge)
     #[arg(long, value_name = "NAME")]
     technique: Option<Method>,
+    #[command(flatten)]
+    finder: FinderArgs,
+    /// auto, gpu or cpu
+    #[arg(long, value_name = "NAME")]
+    engine: Option<Engine>,
+    #[command(flatten)]
+    maps: MapArgs,
+    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
+    sun_samples: Option<u32>,
+}
+
+/// Who finds silhouettes.
+#[derive(Debug, Args)]
+struct FinderArgs {
     /// auto, brute, hextree or gpu
     #[arg(long, value_name = "NAME")]
     silhouette: Option<Finder>,
@@ -99,16 +119,11 @@ pub(super) struct DrawArgs {
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=i64::from(DEEPEST)),
           allow_negative_numbers = true)]
     hextree_depth: Option<u32>,
-    /// auto, gpu or cpu
-    #[arg(long, value_name = "NAME")]
-    engine: Option<Engine>,
-    #[command(flatten)]
-    settings: SettingsArgs,
 }
 
-/// What single techniques can be told.
+/// What techniques with a map can be told.
 #[derive(Debug, Args)]
-pub(super) struct SettingsArgs {
+struct MapArgs {
     /// With shadow-map, hybrid and smoothie: texels along the map's side, 256 to 8192 [default: 2048]
     #[arg(long, value_name = "TEXELS", value_parser = value_parser!(u32).range(256..=8192),
           allow_negative_numbers = true)]
@@ -120,9 +135,6 @@ pub(super) struct SettingsArgs {
     /// disc makes it on the lowest receiver]
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     smoothie_width: Option<f64>,
-    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
-    sun_samples: Option<u32>,
 }
 
 /// The plan.
@@ -171,6 +183,9 @@ pub(super) struct ProfileArgs {
     /// Also every instant's bare mask, as mask-0000.png … in this folder
     #[arg(long, value_name = "DIR")]
     pub(super) masks: Option<PathBuf>,
+    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells
+    #[arg(long)]
+    pub(super) stats: bool,
     /// Which files
     #[arg(long, value_name = "png,tif,json", value_delimiter = ',', default_value = "png,tif,json")]
     pub(super) write: Vec<Written>,
@@ -200,11 +215,16 @@ pub(super) struct ShadowArgs {
     draw: DrawArgs,
     #[command(flatten)]
     pub(super) plan: PlanArgs,
+    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells
+    #[arg(long)]
+    pub(super) stats: bool,
     /// From above, or in perspective
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
     pub(super) view: Eye,
-    /// Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours
-    #[arg(long, value_name = "volumes,silhouette,components", value_delimiter = ',')]
+    /// Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours.
+    /// Or instead of sun and shadow, on the plan too: mask (with hybrid: what the map decided and what the volumes did),
+    /// overdraw (with stencil or hybrid: fragments that were counted, as brightness)
+    #[arg(long, value_name = "volumes,silhouette,components|mask|overdraw", value_delimiter = ',')]
     pub(super) show: Vec<Show>,
     /// The drawing [default: shadow.png, or none with --mask]
     #[arg(long, value_name = "FILE.png")]
@@ -229,6 +249,8 @@ pub(super) enum Show {
     Volumes,
     Silhouette,
     Components,
+    Mask,
+    Overdraw,
 }
 
 #[derive(Debug, Args)]
@@ -270,6 +292,28 @@ pub(super) struct VolumesArgs {
     pub(super) common: Common,
 }
 
+#[derive(Debug, Args)]
+pub(super) struct VerifyArgs {
+    #[command(flatten)]
+    pub(super) site: SiteArgs,
+    #[command(flatten)]
+    window: WindowArgs,
+    /// One instant instead of the study, local clock time: 2026-09-18T15:00
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    at: Option<String>,
+    #[command(flatten)]
+    finder: FinderArgs,
+    #[command(flatten)]
+    maps: MapArgs,
+    /// Points of the sun's disc to which rays are cast for smoothies, 1 to 1024 [default: 64]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
+    sun_samples: Option<u32>,
+    #[command(flatten)]
+    plan: PlanArgs,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
 impl SiteArgs {
     fn overrides(&self) -> Overrides {
         Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..Overrides::default() }
@@ -285,16 +329,22 @@ impl WindowArgs {
 
 impl DrawArgs {
     fn onto(&self, asked: Overrides) -> Overrides {
-        let DrawArgs { technique, silhouette, hextree_depth, engine, ref settings } = *self;
-        settings.onto(Overrides { technique, silhouette, hextree_depth, engine, ..asked })
+        let DrawArgs { technique, ref finder, engine, ref maps, sun_samples } = *self;
+        let settings = maps.settings(sun_samples);
+        finder.onto(Overrides { technique, engine, settings, ..asked })
     }
 }
 
-impl SettingsArgs {
+impl FinderArgs {
     fn onto(&self, asked: Overrides) -> Overrides {
-        let SettingsArgs { map_size, pcf, smoothie_width, sun_samples } = *self;
-        let settings = Settings { map_size, pcf, smoothie_width_m: smoothie_width, sun_samples };
-        Overrides { settings, ..asked }
+        Overrides { silhouette: self.silhouette, hextree_depth: self.hextree_depth, ..asked }
+    }
+}
+
+impl MapArgs {
+    fn settings(&self, sun_samples: Option<u32>) -> Settings {
+        let MapArgs { map_size, pcf, smoothie_width } = *self;
+        Settings { map_size, pcf, smoothie_width_m: smoothie_width, sun_samples }
     }
 }
 
@@ -327,5 +377,13 @@ impl SunArgs {
 impl VolumesArgs {
     pub(super) fn overrides(&self) -> Overrides {
         Overrides { at: Some(self.at.clone()), date: self.date.clone(), ..self.site.overrides() }
+    }
+}
+
+impl VerifyArgs {
+    pub(super) fn overrides(&self) -> Overrides {
+        let asked = self.plan.onto(self.finder.onto(self.window.onto(self.site.overrides())));
+        let size = asked.size.or(asked.cell.is_none().then_some(SIZE));
+        Overrides { at: self.at.clone(), settings: self.maps.settings(self.sun_samples), size, ..asked }
     }
 }

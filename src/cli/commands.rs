@@ -3,10 +3,12 @@
 use super::arguments::{CheckArgs, Eye, ProfileArgs, ShadowArgs, Show, SunArgs, Written};
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
+use crate::export::figure::Diagram;
+use crate::export::report::Told;
 use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
-use crate::profile::{Drawn, Profile};
-use crate::site::{Site, load_mesh, load_sun};
+use crate::profile::{Drawn, Profile, Statistics};
+use crate::site::{Method, Site, load_mesh, load_sun};
 use crate::study::{self, Event, InstantWants, Stopwatch, Wants};
 use crate::sun::SunTrack;
 use crate::view::View;
@@ -25,7 +27,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     watch.lap("load");
 
     let wanted = |kind| asked.write.contains(&kind);
-    let wants = Wants { masks: asked.masks.is_some(), surface: wanted(Written::Png) };
+    let wants = Wants { masks: asked.masks.is_some(), surface: wanted(Written::Png), statistics: asked.stats };
     let outcome = draw_masks(&site, &wants, asked)?;
     watch.laps(outcome.timings);
 
@@ -44,7 +46,9 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         watch.lap("raster");
         interrupt::check()?;
     }
-    let json = report::profile_json(profile, &site.place, &site.track, site.receivers, drawn, &watch.timings())?;
+    let (statistics, timings) = (outcome.statistics.as_ref(), &watch.timings());
+    let told = Told { receivers: site.receivers, drawn, timings, statistics };
+    let json = report::profile_json(profile, &site.place, &site.track, &told)?;
     if wanted(Written::Json) {
         files.push(("profile.json", json.clone().into_bytes()));
     }
@@ -62,6 +66,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         return say(&json);
     }
     let _ = writeln!(text, "{}", drawn_by(drawn));
+    text.push_str(&statistics.map(took).unwrap_or_default());
     text.push_str(&hours(profile, &site.track));
     say(&text)
 }
@@ -98,14 +103,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         (None, Some(_)) => None,
         (None, None) => Some(PathBuf::from("shadow.png")),
     };
-    if !asked.show.is_empty() {
-        let wrong = |what: &str| Err(WrongUse(format!("--show {what}")).into());
-        match (asked.view, &out) {
-            (Eye::Plan, _) => return wrong("is for the camera's picture; add --view camera, or leave it out"),
-            (_, None) => return wrong("is for a drawing, and --mask alone makes none; add --out FILE.png"),
-            (Eye::Camera, Some(_)) => {}
-        }
-    }
+    let diagram = check_show(asked, out.is_some())?;
     let written: Vec<(&str, &Path)> = [("--out", out.as_deref()), ("--mask", asked.mask.as_deref())]
         .into_iter()
         .filter_map(|(option, path)| Some((option, path?)))
@@ -132,8 +130,12 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         Eye::Camera => View::Camera(site.camera),
     };
     let shows = |what| asked.show.contains(&what);
-    let wants =
-        InstantWants { surface: out.is_some(), volumes: shows(Show::Volumes), silhouette: shows(Show::Silhouette) };
+    let wants = InstantWants {
+        surface: out.is_some(),
+        volumes: shows(Show::Volumes),
+        silhouette: shows(Show::Silhouette),
+        counted: asked.stats || diagram.is_some(),
+    };
     let mut progress = Progress::new(asked.common.quiet);
     let outcome = study::instant(&site, view, &wants, &mut |event| {
         progress.hear(&event);
@@ -150,7 +152,8 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         let casts: Vec<bool> =
             site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect();
         let casts = shows(Show::Components).then_some(casts.as_slice());
-        let shown = figure::Shown { overlay: outcome.overlay.as_ref(), casts };
+        let counted = outcome.counted.as_ref().zip(diagram);
+        let shown = figure::Shown { overlay: outcome.overlay.as_ref(), casts, counted };
         let bytes = figure::instant(&scene, &view, &outcome.mask, &shown)?;
         interrupt::check()?;
         file::write(path, &bytes)?;
@@ -163,11 +166,46 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         watch.lap("mask");
         let _ = writeln!(text, "{}", path.display());
     }
+    let statistics = outcome.counted.as_ref().filter(|_| asked.stats).map(Statistics::of);
     if asked.common.json {
-        return say(&report::shadow_json(&view, place, track, receivers, drawn, &watch.timings())?);
+        let (statistics, timings) = (statistics.as_ref(), &watch.timings());
+        return say(&report::shadow_json(&view, place, track, &Told { receivers, drawn, timings, statistics })?);
     }
     let _ = writeln!(text, "{}", drawn_by(drawn));
+    text.push_str(&statistics.as_ref().map(took).unwrap_or_default());
     say(&text)
+}
+
+/// Which diagram is to be shown, if any; or why what is to be shown does not go together.
+fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagram>> {
+    let wrong = |what: &str| Err(WrongUse(format!("--show {what}")).into());
+    let diagrams = [(Show::Mask, Diagram::Mask), (Show::Overdraw, Diagram::Overdraw)];
+    let diagram = diagrams.into_iter().find(|(show, _)| asked.show.contains(show)).map(|(_, diagram)| diagram);
+    match (asked.show.as_slice(), asked.view) {
+        ([], _) => Ok(None),
+        _ if !is_drawn => wrong("is for a drawing, and --mask alone makes none; add --out FILE.png"),
+        ([_, _, ..], _) if diagram.is_some() => {
+            wrong("mask and overdraw stand instead of all else; show one of them alone")
+        }
+        ([Show::Mask], _) if asked.overrides().technique != Some(Method::Hybrid) => {
+            wrong("mask is the hybrid's; add --technique hybrid, or leave it out")
+        }
+        (_, Eye::Plan) if diagram.is_none() => wrong("is for the camera's picture; add --view camera, or leave it out"),
+        _ => Ok(diagram),
+    }
+}
+
+/// What counting took, in a line.
+fn took(statistics: &Statistics) -> String {
+    let [with, without] = statistics.overdraw();
+    let cells = statistics.cells.max(1) as f64;
+    match statistics.silhouette_cells {
+        None => format!("overdraw: {without:.1} fragments of shadow volumes a cell\n"),
+        Some(silhouette) => format!(
+            "silhouette cells: {:.2}%; overdraw: {with:.2} fragments of shadow volumes a cell, {without:.1} without the mask\n",
+            100.0 * silhouette as f64 / cells
+        ),
+    }
 }
 
 /// `gnomon sun`

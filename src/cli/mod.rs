@@ -6,6 +6,7 @@ mod arguments;
 mod commands;
 mod interrupt;
 mod progress;
+mod verify;
 mod volumes;
 
 use crate::site::SiteError;
@@ -45,6 +46,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Sun(asked) => commands::sun(asked),
         Command::Check(asked) => commands::check(asked),
         Command::Volumes(asked) => volumes::volumes(asked),
+        Command::Verify(asked) => verify::verify(asked),
     }
 }
 

@@ -8,6 +8,7 @@ pub mod file;
 mod places;
 pub mod raster;
 pub mod report;
+pub mod verify;
 pub mod volumes;
 
 use std::path::PathBuf;

@@ -3,7 +3,7 @@
 //! Keys and their order are a contract that other programs rely on; keys may be added, never changed.
 
 use super::ExportError;
-use crate::profile::{Drawn, Profile, Timings};
+use crate::profile::{Drawn, Profile, Statistics, Timings};
 use crate::site::Receivers;
 use crate::sun::{Air, Day, Instant, Place, SunTrack};
 use crate::view::View;
@@ -36,6 +36,16 @@ struct DrawnReport<'a> {
     days: Vec<DayReport>,
     #[serde(serialize_with = "in_order")]
     timings_secs: &'a Timings,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    statistics: Option<StatisticsReport>,
+}
+
+#[derive(Serialize)]
+struct StatisticsReport {
+    cells: u64,
+    silhouette_cells: Option<u64>,
+    fragments: u64,
+    fragments_without_mask: u64,
 }
 
 #[derive(Serialize)]
@@ -70,7 +80,7 @@ pub(super) struct PlaceReport<'a> {
 }
 
 #[derive(Serialize)]
-struct InstantReport {
+pub(super) struct InstantReport {
     time: String,
     azimuth_deg: f64,
     altitude_deg: f64,
@@ -86,6 +96,19 @@ struct DayReport {
     sunset: Option<String>,
 }
 
+/// What a report tells beside the instants.
+#[derive(Clone, Copy, Debug)]
+pub struct Told<'a> {
+    /// Which surfaces were judged.
+    pub receivers: Receivers,
+    /// What drew.
+    pub drawn: &'a Drawn,
+    /// How long that took.
+    pub timings: &'a Timings,
+    /// What counting took, where that was asked.
+    pub statistics: Option<&'a Statistics>,
+}
+
 /// `profile.json`, as the design's contract has it, with how refraction and ΔT were found beside them.
 ///
 /// # Errors
@@ -94,25 +117,17 @@ pub fn profile_json(
     profile: &Profile,
     place: &Place,
     track: &SunTrack,
-    receivers: Receivers,
-    drawn: &Drawn,
-    timings: &Timings,
+    told: &Told<'_>,
 ) -> Result<String, ExportError> {
-    shadow_json(&View::Plan(profile.grid), place, track, receivers, drawn, timings)
+    shadow_json(&View::Plan(profile.grid), place, track, told)
 }
 
 /// `shadow --json`: as [`profile_json`]; a camera stands as the site file writes it where a plan has region and cell.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn shadow_json(
-    view: &View,
-    place: &Place,
-    track: &SunTrack,
-    receivers: Receivers,
-    drawn: &Drawn,
-    timings: &Timings,
-) -> Result<String, ExportError> {
+pub fn shadow_json(view: &View, place: &Place, track: &SunTrack, told: &Told<'_>) -> Result<String, ExportError> {
+    let Told { receivers, drawn, timings, statistics } = *told;
     let air = Air::standard(place.elevation_m);
     let refracted = |value| track.refraction.then_some(value);
     let (width, height) = view.size();
@@ -136,6 +151,12 @@ pub fn shadow_json(
         instants: track.instants.iter().map(instant_report).collect(),
         days: track.days.iter().map(day_report).collect(),
         timings_secs: timings,
+        statistics: statistics.map(|it| StatisticsReport {
+            cells: it.cells,
+            silhouette_cells: it.silhouette_cells,
+            fragments: it.fragments,
+            fragments_without_mask: it.fragments_without_mask,
+        }),
     })
 }
 
@@ -232,7 +253,7 @@ pub(super) fn place_report(place: &Place) -> PlaceReport<'_> {
 }
 
 // Angles are not rounded: the sign of the altitude and `night` then always agree.
-fn instant_report(instant: &Instant) -> InstantReport {
+pub(super) fn instant_report(instant: &Instant) -> InstantReport {
     InstantReport {
         time: stamp(&instant.time),
         azimuth_deg: instant.azimuth_rad.to_degrees(),

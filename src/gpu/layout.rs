@@ -60,9 +60,9 @@ pub struct Map {
     pub range: f32,
     /// Depth at its near side, metres: 0 for the sun, more for a lamp.
     pub near: f32,
-    /// How much nearer to the light a texel must be to shade a cell, metres.
+    /// What rounding does to a depth, metres.
     pub bias: f32,
-    /// The same, in texels of a slope.
+    /// How many texels of its slope deeper a face is drawn.
     pub slope_bias: f32,
     /// Width of the penumbra a metre behind an edge.
     pub spread: f32,

@@ -9,6 +9,73 @@ use crate::view::{Camera, Grid, Mask, View};
 use glam::{DVec3, dvec2};
 use std::fmt;
 
+/// How far the cells of a mask lie from its shadow edge: from the nearest cell on the other side of half the sun.
+///
+/// The first half of Meijster, Roerdink and Hesselink, *A general algorithm for computing distance transforms in linear
+/// time* (2000): distances along the columns. The second, along the rows, is left to the few cells that are asked.
+pub struct Edges<'a> {
+    mask: &'a Mask,
+    /// Per cell, to the nearest cell of its column on the other side; `u32::MAX` where there is none.
+    along_column: Vec<u32>,
+}
+
+impl Edges<'_> {
+    /// Looks along all columns, down and up.
+    pub fn of(mask: &Mask) -> Edges<'_> {
+        let width = mask.width as usize;
+        let mut along_column = vec![u32::MAX; mask.share.len()];
+        let mut step = |cell: usize, from: usize| {
+            let steps = if lit(mask, cell) == lit(mask, from) { along_column[from].saturating_add(1) } else { 1 };
+            along_column[cell] = along_column[cell].min(steps);
+        };
+        (width..mask.share.len()).for_each(|cell| step(cell, cell - width));
+        (0..mask.share.len().saturating_sub(width)).rev().for_each(|cell| step(cell, cell + width));
+        Edges { mask, along_column }
+    }
+
+    /// The distance between the centres, in cells: 1 right at the edge; none where the mask has no edge.
+    pub fn distance(&self, column: u32, row: u32) -> Option<f64> {
+        let Mask { width, .. } = *self.mask;
+        let first = row as usize * width as usize;
+        let side = lit(self.mask, first + column as usize);
+        let mut least = u64::MAX;
+        for aside in 0..width {
+            let aside_squared = u64::from(aside).pow(2);
+            if aside_squared >= least {
+                break;
+            }
+            let beside = [column.checked_sub(aside), column.checked_add(aside).filter(|&column| column < width)];
+            for column in beside.into_iter().flatten() {
+                let cell = first + column as usize;
+                match (lit(self.mask, cell) != side, self.along_column[cell]) {
+                    (true, _) => least = least.min(aside_squared),
+                    (false, u32::MAX) => (),
+                    (false, along) => least = least.min(aside_squared + u64::from(along).pow(2)),
+                }
+            }
+        }
+        (least < u64::MAX).then(|| (least as f64).sqrt())
+    }
+}
+
+fn lit(mask: &Mask, cell: usize) -> bool {
+    mask.share[cell] > 127
+}
+
+/// Whether the 3 × 3 neighbourhood of a cell is not uniform.
+pub fn is_edge_cell(truth: &Mask, column: u32, row: u32) -> bool {
+    let [width, height, column, row] = [truth.width, truth.height, column, row].map(|number| number as usize);
+    let share = truth.share[row * width + column];
+    (row.saturating_sub(1)..(row + 2).min(height)).any(|row| {
+        let cells = &truth.share[row * width..][column.saturating_sub(1)..(column + 2).min(width)];
+        cells.iter().any(|&other| other != share)
+    })
+}
+
+fn off_by_half(share: u8, truth: u8) -> bool {
+    share.abs_diff(truth) > 127
+}
+
 /// Counts of cells, of one pair of masks or of several.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Difference {
@@ -29,19 +96,34 @@ pub struct Difference {
 impl Difference {
     /// Counts where `drawn` differs from `truth`, a mask of the same size.
     pub fn between(drawn: &Mask, truth: &Mask) -> Difference {
+        Difference::in_all(drawn, truth, |share, truth| share != truth)
+    }
+
+    /// The same for soft shadows: a cell differs where its share is off by more than half the sun.
+    pub fn by_half(drawn: &Mask, truth: &Mask) -> Difference {
+        Difference::in_all(drawn, truth, off_by_half)
+    }
+
+    fn in_all(drawn: &Mask, truth: &Mask, differs: fn(u8, u8) -> bool) -> Difference {
         assert_eq!((drawn.width, drawn.height), (truth.width, truth.height));
-        let (width, height) = (truth.width as usize, truth.height as usize);
         let mut difference = Difference::default();
-        for row in 0..height {
-            for column in 0..width {
-                let share = truth.share[row * width + column];
-                let edge = (row.saturating_sub(1)..(row + 2).min(height)).any(|row| {
-                    let cells = &truth.share[row * width..][column.saturating_sub(1)..(column + 2).min(width)];
-                    cells.iter().any(|&other| other != share)
-                });
-                let differs = drawn.share[row * width + column] != share;
-                difference.count(edge, differs.then_some((column as u32, row as u32)));
+        for row in 0..truth.height {
+            for column in 0..truth.width {
+                let cell = (row * truth.width + column) as usize;
+                let differs = differs(drawn.share[cell], truth.share[cell]);
+                difference.count(is_edge_cell(truth, column, row), differs.then_some((column, row)));
             }
+        }
+        difference
+    }
+
+    /// Counts where some cells (column and row) of a mask are off by more than half the sun; `truth` has their shares.
+    pub fn at(cells: &[(u32, u32)], mask: &Mask, truth: &[u8]) -> Difference {
+        assert_eq!(cells.len(), truth.len());
+        let mut difference = Difference::default();
+        for (&(column, row), &truth) in cells.iter().zip(truth) {
+            let differs = off_by_half(mask.share[(row * mask.width + column) as usize], truth);
+            difference.count(is_edge_cell(mask, column, row), differs.then_some((column, row)));
         }
         difference
     }
@@ -106,6 +188,16 @@ impl Difference {
         self.other_differ += other.other_differ;
         self.edge_at.extend(other.edge_at);
         self.other_at.extend(other.other_at);
+    }
+
+    /// How many cells were counted.
+    pub fn cells(&self) -> u64 {
+        self.edge_cells + self.other_cells
+    }
+
+    /// How many of them differ.
+    pub fn differ(&self) -> u64 {
+        self.edge_differ + self.other_differ
     }
 
     /// Which part of the edge cells differs.

@@ -12,7 +12,7 @@
 
 use super::counting::{Bits, Counting};
 use super::light_view::Smoothies;
-use super::map::{Bias, DepthMap, compared_layout};
+use super::map::{DepthMap, compared_layout};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
@@ -30,9 +30,6 @@ pub struct Hybrid {
     mask: Texture,
 }
 
-/// How much the map's own rounding of corners moves a depth, in texels of its slope: corners lie on 1/256 of a texel.
-const ROUNDING_TEXELS: f32 = 0.02;
-
 /// Every cell counts until the map decides it.
 const ALL_COUNT: LoadOp<u32> = LoadOp::Clear(Bits::MASK);
 
@@ -46,7 +43,7 @@ impl Hybrid {
         map_size: u32,
     ) -> Result<Hybrid, ShadowError> {
         let counting = Counting::new(Arc::clone(&gpu), scene, view, silhouettes.into(), Bits::BelowMask)?;
-        let map = DepthMap::new(&counting.scene, &counting.surface, map_size, Bias::Compared(ROUNDING_TEXELS))?;
+        let map = DepthMap::new(&counting.scene, &counting.surface, map_size, 0.0)?;
         let group = compared_layout(&gpu, &[]);
         let compared = gpu.bind("hybrid", &group, &[(0, BindingResource::TextureView(&whole(&map.depth)))]);
         let drop_bit = StencilFaceState { pass_op: StencilOperation::Zero, ..StencilFaceState::default() };

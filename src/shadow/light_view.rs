@@ -31,6 +31,8 @@ pub(super) struct Extents {
     /// Receivers that may lie beyond all casters.
     receivers: Vec<DVec3>,
     ground_z: f64,
+    /// From the highest caster to the lowest point that is judged, metres.
+    fall: f64,
 }
 
 impl Extents {
@@ -46,11 +48,12 @@ impl Extents {
             seen: corners_of(surface.boxes_of_seen()?),
             receivers: corners_of(bounds(receivers.bounds()).into_iter().collect()),
             ground_z: ground - casters.origin.z,
+            fall: (casters.top() - casters.origin.z - surface.lowest_z).max(0.0),
         })
     }
 
     /// The view along the sun's rays.
-    pub(super) fn from_sun(&self, to_sun: DVec3) -> LightView {
+    pub(super) fn along_sun(&self, to_sun: DVec3) -> LightView {
         let (right, up) = axes(-to_sun);
         let away = |points: &[DVec3]| ends(points.iter().map(|point| -point.dot(to_sun)));
         let nothing = LightView {
@@ -73,7 +76,7 @@ impl Extents {
         let flat =
             |points: &[DVec3]| hull(points.iter().map(|point| DVec2::new(point.dot(right), point.dot(up))).collect());
         let (casters, seen) = (flat(&self.casters), flat(&self.seen));
-        let penumbra = DVec2::splat(spread() * (far - near));
+        let penumbra = DVec2::splat(spread() * self.fall / to_sun.z.max(1e-4));
         let rectangle = |turn: DVec2| {
             let around = |points: &[DVec2]| {
                 bounds(points.iter().map(|point| DVec2::new(turn.dot(*point), turn.perp().dot(*point))))
@@ -95,7 +98,7 @@ impl Extents {
     }
 
     /// A lamp's view of what is seen, towards its middle: as far aside as [`LAMP_SEES`], and not behind the lamp.
-    pub(super) fn from_lamp(&self, lamp: DVec3) -> LightView {
+    pub(super) fn before_lamp(&self, lamp: DVec3) -> LightView {
         let middle =
             self.seen.iter().chain(&self.casters).sum::<DVec3>() / (self.seen.len() + self.casters.len()).max(1) as f64;
         let away = (middle - lamp).try_normalize().unwrap_or(DVec3::NEG_Z);

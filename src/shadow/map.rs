@@ -2,9 +2,9 @@
 //!
 //! Williams 1978, after seeds 000, 001 and 003. The light is parallel, so depth is linear: metres along the rays.
 //!
-//! A texel stands for all of its area, and for its neighbours' where comparisons are filtered. A face that falls away
-//! from the sun is drawn deeper by as much as it does over that reach (the slope-scaled bias of seed 003), so that it does
-//! not shade itself; solids are lit from their far side no sooner, as what is drawn deeper is their front.
+//! A texel shades a cell only where it lies nearer to the light than the cell, and than the cell's own plane at the texel's
+//! sample, which the view knows: so no plane shades itself, and no lit wall the ground at its foot. What is left for the
+//! slope-scaled bias of seed 003 is curvature, and half a texel of it is enough for all filters.
 
 use super::light_view::{Extents, Smoothies};
 use super::surface::{UNIFORM, bind_group_layout, texture_binding};
@@ -12,27 +12,22 @@ use super::{GpuSurface, Scene, ShadowError};
 use crate::gpu::targets::{DEPTH, Stages, whole};
 use crate::gpu::{Gpu, layout, shaders};
 use crate::mesh::Mesh;
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 use std::sync::Arc;
 use wgpu::*;
 
 /// Texels a side where nobody asks.
 pub const DEFAULT_SIZE: u32 = 2048;
 
+/// How many texels of its slope deeper a face is drawn. Measured: of 0 to 4, the one that leaves the fewest wrong cells
+/// (docs/benchmarks/techniques.md).
+pub const SLOPE_BIAS_TEXELS: f32 = 0.5;
+
 /// Four depths to a texel.
 const PACKED: TextureFormat = TextureFormat::Rgba32Float;
 
 /// The shift of `shaders/map.wgsl` that is none.
 const UNSHIFTED: u32 = 4;
-
-/// The bias that grows with a slope, in texels of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Bias {
-    /// Of the casters, drawn deeper by so much.
-    Drawn(f32),
-    /// Of the cells, when they are compared.
-    Compared(f32),
-}
 
 /// The map of one scene's casters, aimed anew at each sun.
 pub(super) struct DepthMap {
@@ -50,8 +45,14 @@ pub(super) struct DepthMap {
 }
 
 impl DepthMap {
-    /// Uploads the casters and makes an empty map of `size` texels a side.
-    pub(super) fn new(scene: &Scene, surface: &GpuSurface, size: u32, bias: Bias) -> Result<DepthMap, ShadowError> {
+    /// Uploads the casters and makes an empty map of `size` texels a side, in which a face is drawn deeper by so many texels of
+    /// its slope.
+    pub(super) fn new(
+        scene: &Scene,
+        surface: &GpuSurface,
+        size: u32,
+        slope_bias: f32,
+    ) -> Result<DepthMap, ShadowError> {
         let gpu = Arc::clone(&surface.gpu);
         let largest = gpu.limits.max_texture_dimension_2d;
         if size > largest {
@@ -60,10 +61,6 @@ impl DepthMap {
         let uniform = gpu.uniform::<layout::Map>("map");
         let layout = bind_group_layout(&gpu, "map", &[UNIFORM]);
         let bound = gpu.bind("map", &layout, &[(0, uniform.as_entire_binding())]);
-        let (drawn_bias, slope_bias) = match bias {
-            Bias::Drawn(texels) => (texels, texels),
-            Bias::Compared(texels) => (0.0, texels),
-        };
         let module = gpu.shader("map", shaders::MAP);
         let pipeline_layout = surface.seeing_layout(&[&layout]);
         let stages = Stages {
@@ -74,7 +71,7 @@ impl DepthMap {
             target: None,
             layout: Some(&pipeline_layout),
         };
-        let pipeline = gpu.pipeline("map.casters", stages, Some(nearest(drawn_bias)));
+        let pipeline = gpu.pipeline("map.casters", stages, Some(nearest(slope_bias)));
         Ok(DepthMap {
             extents: Extents::new(scene, surface)?,
             uniform,
@@ -94,11 +91,16 @@ impl DepthMap {
         (self.size, self.size)
     }
 
+    /// How large a texel is across the rays of that sun, metres along the map's axes.
+    pub(super) fn texel_m(&self, to_sun: DVec3) -> [f32; 2] {
+        self.extents.along_sun(to_sun).uniform(&self.extents, self.size, 0.0, Smoothies::default()).texel
+    }
+
     /// Turns to a light around the scene's origin (sun: w = 0, lamp: w = 1).
     pub(super) fn aim(&self, local_light: DVec4, smoothies: Smoothies) {
         let view = match local_light.w > 0.0 {
-            false => self.extents.from_sun(local_light.truncate()),
-            true => self.extents.from_lamp(local_light.truncate()),
+            false => self.extents.along_sun(local_light.truncate()),
+            true => self.extents.before_lamp(local_light.truncate()),
         };
         let uniform = view.uniform(&self.extents, self.size, self.slope_bias, smoothies);
         self.gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));

@@ -166,6 +166,32 @@ impl RayCast {
         });
         *mask = Mask { width, height, share: vec![255; seen.len()] };
     }
+
+    /// Which share of the sun's centre a cell sees, found without the trees: every face is asked. Slow; by this the trees
+    /// themselves are proven.
+    pub fn share_without_trees(&self, column: u32, row: u32, to_sun: DVec3) -> u8 {
+        let RayCast { scene, rays, .. } = self;
+        let origin = scene.casters.origin;
+        let hits = |mesh: &Mesh, from: DVec3, shear: &Shear| -> Vec<(u32, f64)> {
+            let hit = |face: u32| Some((face, shear.hit(from, &mesh.corners(face as usize))?));
+            (0..mesh.faces.len() as u32).filter_map(hit).collect()
+        };
+        let (from, along) = rays.of(column, row);
+        let faces = hits(&scene.receivers, from, &Shear::along(along));
+        let first = faces.into_iter().min_by(|(_, one), (_, other)| one.total_cmp(other));
+        let Seen { face, distance } = seen(scene, (from, along), first);
+        if face == Surface::SKY {
+            return 255;
+        }
+        let world_viewer = rays.view.viewer();
+        let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
+        let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
+        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes[face as usize] };
+        let normal = seen_normal(plane, viewer);
+        let judged = from + along * distance + normal * JUDGED_ABOVE_M;
+        let lit = normal.dot(to_sun) > 0.0 && hits(&scene.casters, judged, &Shear::along(to_sun)).is_empty();
+        if lit { 255 } else { 0 }
+    }
 }
 
 /// What a cell takes when an edge runs through its very centre, in cells: what lies east of it, and on an edge from west
@@ -209,14 +235,19 @@ impl Rays {
     }
 }
 
-fn look(scene: &Scene, receivers: &RayCaster, (origin, direction): (DVec3, DVec3)) -> Seen {
+fn look(scene: &Scene, receivers: &RayCaster, ray: (DVec3, DVec3)) -> Seen {
+    seen(scene, ray, receivers.first_hit(ray.0, ray.1))
+}
+
+/// What a ray sees whose first face that is.
+fn seen(scene: &Scene, (origin, direction): (DVec3, DVec3), first_hit: Option<(u32, f64)>) -> Seen {
     let to_ground = (scene.ground - scene.casters.origin.z - origin.z) / direction.z;
     let ground = if to_ground > 0.0 && to_ground.is_finite() {
         Seen { face: Surface::GROUND, distance: to_ground }
     } else {
         Seen { face: Surface::SKY, distance: f64::INFINITY }
     };
-    match receivers.first_hit(origin, direction) {
+    match first_hit {
         Some((face, distance)) if distance <= ground.distance => Seen { face, distance },
         _ => ground,
     }

@@ -5,7 +5,7 @@
 //! served machines without loops in their shaders. The paper's 4 × 5 = 20 levels are 17: four counts of 0 to 4 add up.
 
 use super::light_view::Smoothies;
-use super::map::{Bias, DepthMap, PackedMap, compared_layout};
+use super::map::{DepthMap, PackedMap, SLOPE_BIAS_TEXELS, compared_layout};
 use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
@@ -27,19 +27,6 @@ pub enum Filter {
     FastFourByFour,
 }
 
-impl Filter {
-    /// How far from a cell a texel's sample may lie that it is compared with, texels along both axes together: what a face
-    /// falls away over that is what it must be drawn deeper.
-    fn reach(self) -> f32 {
-        match self {
-            Filter::None => 1.0,
-            Filter::TwoByTwo => 1.5,
-            Filter::FastTwoByTwo => 2.0,
-            Filter::FastFourByFour => 4.0,
-        }
-    }
-}
-
 /// The technique, made for one scene and one view.
 pub struct ShadowMap {
     surface: GpuSurface,
@@ -53,8 +40,21 @@ pub struct ShadowMap {
 impl ShadowMap {
     /// Draws what is seen, uploads the casters, builds the pipelines.
     pub fn new(gpu: Arc<Gpu>, scene: &Scene, view: View, size: u32, filter: Filter) -> Result<ShadowMap, ShadowError> {
+        Self::with_bias(gpu, scene, view, size, filter, SLOPE_BIAS_TEXELS)
+    }
+
+    /// The same with another slope-scaled bias, in texels: too small a one leaves surfaces that shade themselves, too large
+    /// a one leaves light between a shadow and its caster.
+    pub fn with_bias(
+        gpu: Arc<Gpu>,
+        scene: &Scene,
+        view: View,
+        size: u32,
+        filter: Filter,
+        slope_bias: f32,
+    ) -> Result<ShadowMap, ShadowError> {
         let surface = GpuSurface::draw(Arc::clone(&gpu), scene, view)?;
-        let map = DepthMap::new(scene, &surface, size, Bias::Drawn(filter.reach()))?;
+        let map = DepthMap::new(scene, &surface, size, slope_bias)?;
         let packed = (filter == Filter::TwoByTwo).then(|| PackedMap::new(&map, &surface));
         let (group, texture) = match &packed {
             Some(packed) => (packed_layout(&gpu), whole(&packed.packed)),
@@ -78,6 +78,11 @@ impl ShadowMap {
         let mask = surface.mask("shadow_map.mask");
         gpu.check()?;
         Ok(ShadowMap { surface, map, packed, compared, pipeline, mask })
+    }
+
+    /// How large a texel is across the rays of that sun, metres along the map's axes.
+    pub fn texel_m(&self, to_sun: DVec3) -> [f32; 2] {
+        self.map.texel_m(to_sun)
     }
 }
 

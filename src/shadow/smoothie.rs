@@ -17,7 +17,7 @@
 //! the line of half the light is half a penumbra too far out.
 
 use super::light_view::Smoothies;
-use super::map::{Bias, DepthMap, Triangles, compared_layout, depth};
+use super::map::{DepthMap, SLOPE_BIAS_TEXELS, Triangles, compared_layout, depth};
 use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
@@ -29,9 +29,6 @@ use wgpu::*;
 
 /// The share past a smoothie, and how deep it lies.
 const SMOOTHIES: TextureFormat = TextureFormat::Rg32Float;
-
-/// The four texels that are compared lie so far from a cell, along both axes together.
-const REACH_TEXELS: f32 = 2.0;
 
 /// The technique, made for one scene and one view.
 pub struct Smoothie {
@@ -66,7 +63,7 @@ impl Smoothie {
     ) -> Result<Smoothie, ShadowError> {
         gpu.blends_float32("smoothies are laid over each other")?;
         let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
-        let map = DepthMap::new(&scene, &surface, map_size, Bias::Drawn(REACH_TEXELS))?;
+        let map = DepthMap::new(&scene, &surface, map_size, SLOPE_BIAS_TEXELS)?;
         let cast: rustc_hash::FxHashSet<[u32; 3]> = scene.casters.faces.iter().copied().collect();
         let receivers = Triangles::uploaded(&gpu, &scene.receivers, |face| !cast.contains(face))?;
         let receivers = (!receivers.is_empty()).then(|| (receivers, depth(&gpu, "smoothie.receivers", map_size)));

@@ -225,6 +225,21 @@ pub(super) fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine,
     Ok(machine)
 }
 
+/// A technique that counts, as something asks what that took: as asked, else the stencil.
+pub(super) fn counting(site: &Site, option: &'static str) -> Result<Machine, StudyError> {
+    let method = match site.method {
+        Method::Auto => Method::Stencil,
+        method => method,
+    };
+    if !matches!(method, Method::Stencil | Method::Hybrid) || site.engine == Engine::Cpu {
+        let what = "only the techniques stencil and hybrid count, on the gpu; \
+                    take --technique hybrid without --engine cpu, or leave it out";
+        return Err(StudyError::Conflict { option, what });
+    }
+    unused(site, method)?;
+    Ok(Machine::open(site)?)
+}
+
 /// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.
 pub(super) fn stencil_alone(site: &Site) -> Result<Machine, StudyError> {
     if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {

@@ -1,25 +1,29 @@
 //! The flow: a checked request in, its shadow profile out.
 //!
-//! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera.
+//! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
+//! [`verify`] holds every technique against ray casting.
 
 mod machine;
+mod stopwatch;
+pub mod verify;
+
+pub use stopwatch::Stopwatch;
 
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::profile::accumulate::Sum;
-use crate::profile::{Drawn, Profile, Timings};
+use crate::profile::{Drawn, Profile, Statistics, Timings};
 use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
 use crate::site::{Receivers, Site};
 use crate::sun::SunTrack;
-use crate::view::{Camera, Mask, Overlay, Surface, View};
+use crate::view::{Camera, Counted, Mask, Overlay, Surface, View};
 use chrono::DateTime;
 use chrono_tz::Tz;
 use glam::DVec3;
-use machine::{Machine, choose, stencil_alone};
+use machine::{Machine, choose, counting, stencil_alone};
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 /// What is made beside the profile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,6 +32,8 @@ pub struct Wants {
     pub masks: bool,
     /// What the cells see, for a drawing.
     pub surface: bool,
+    /// What counting took.
+    pub statistics: bool,
 }
 
 /// What is made beside the mask of one instant.
@@ -39,6 +45,8 @@ pub struct InstantWants {
     pub volumes: bool,
     /// The silhouette's lines over a camera's picture.
     pub silhouette: bool,
+    /// What counting took, cell by cell.
+    pub counted: bool,
 }
 
 /// What happens on the way.
@@ -78,6 +86,8 @@ pub struct Outcome {
     pub surface: Option<Surface>,
     /// Whose faces [`Surface::face`] counts.
     pub surface_mesh: Mesh,
+    /// What counting took, where wanted.
+    pub statistics: Option<Statistics>,
     /// `prepare` and `shadows`.
     pub timings: Timings,
 }
@@ -93,6 +103,8 @@ pub struct InstantOutcome {
     pub surface: Option<Surface>,
     /// Volumes and silhouette, where wanted and where there is a camera and a sun.
     pub overlay: Option<Overlay>,
+    /// What counting took, where wanted and where there is a sun.
+    pub counted: Option<Counted>,
     /// Whose faces [`Surface::face`] counts.
     pub surface_mesh: Mesh,
     /// `prepare` and `shadows`.
@@ -132,6 +144,17 @@ pub enum StudyError {
          (on Linux mesa-vulkan-drivers draws in software) or leave them out"
     )]
     NoVolumes(String),
+    /// Techniques are held against ray casting where they draw.
+    #[error(
+        "verify draws with every technique on a graphics adapter, and {0}; install a driver \
+         (on Linux mesa-vulkan-drivers draws in software)"
+    )]
+    NoVerification(String),
+    /// All instants are at night.
+    #[error(
+        "there is no sun at any of the study's instants, and nothing to compare; take a window by day with --from and --to"
+    )]
+    NoDay,
     /// Drawing failed.
     #[error(transparent)]
     Shadow(#[from] ShadowError),
@@ -158,7 +181,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     let mut watch = Stopwatch::start();
     let (day_secs, night_secs) = day_and_night(&site.track)?;
     note_distance(site, on_event)?;
-    let machine = choose(site, on_event)?;
+    let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, on_event)? };
     let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
     let mut technique = look.technique()?;
     let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
@@ -166,6 +189,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     watch.lap("prepare");
 
     let count = site.track.instants.len();
+    let mut statistics = wants.statistics.then(Statistics::default);
     tell(on_event, Event::Started { instants: count })?;
     for (index, instant) in site.track.instants.iter().enumerate() {
         let mut mask = None;
@@ -173,6 +197,11 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
             let drawn = technique.draw(instant.to_sun)?;
             sum.add(&drawn, instant.weight_secs)?;
             mask = wants.masks.then(|| drawn.read()).transpose()?;
+            if let Some(statistics) = &mut statistics
+                && let Some(counted) = technique.counted(instant.to_sun)?
+            {
+                statistics.add(&counted);
+            }
         } else if wants.masks {
             mask = Some(night(&look.view));
         }
@@ -182,7 +211,14 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     watch.lap("shadows");
 
     let profile = Profile { grid: site.grid, shaded, day_secs, night_secs };
-    Ok(Outcome { profile, surface, surface_mesh: look.surface_mesh(), timings: watch.stages, drawn: machine.drawn() })
+    Ok(Outcome {
+        profile,
+        surface,
+        surface_mesh: look.surface_mesh(),
+        statistics,
+        timings: watch.stages,
+        drawn: machine.drawn(),
+    })
 }
 
 /// The first instant alone; at night nothing sees the sun, and a note says so.
@@ -201,7 +237,11 @@ pub fn instant(
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
     note_distance(site, on_event)?;
     let shows_volumes = wants.volumes || wants.silhouette;
-    let machine = if shows_volumes { stencil_alone(site)? } else { choose(site, on_event)? };
+    let machine = match (shows_volumes, wants.counted) {
+        (true, _) => stencil_alone(site)?,
+        (false, true) => counting(site, "--stats, --show mask and --show overdraw")?,
+        (false, false) => choose(site, on_event)?,
+    };
     let receivers = judged(site, &view);
     let look = Look { site, machine: &machine, view, receivers };
     let mut technique = look.technique()?;
@@ -209,7 +249,7 @@ pub fn instant(
     watch.lap("prepare");
 
     tell(on_event, Event::Started { instants: 1 })?;
-    let mut overlay = None;
+    let (mut overlay, mut counted) = (None, None);
     let mask = if instant.night {
         let below = -instant.altitude_deg();
         tell(on_event, Event::Note(format!("night: the sun is {below:.1}° below the horizon, and nothing sees it")))?;
@@ -223,6 +263,9 @@ pub fn instant(
             let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
             tell(on_event, Event::Note(note.to_owned()))?;
         }
+        if wants.counted {
+            counted = technique.counted(instant.to_sun)?;
+        }
         technique.draw(instant.to_sun)?.read()?
     };
     tell(on_event, Event::Drawn { index: 0, count: 1, time: instant.time, mask: Some(&mask) })?;
@@ -231,6 +274,7 @@ pub fn instant(
         mask,
         surface,
         overlay,
+        counted,
         surface_mesh: look.surface_mesh(),
         timings: watch.stages,
         drawn: machine.drawn(),
@@ -355,41 +399,5 @@ fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> 
     match on_event(event) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(StudyError::Interrupted),
-    }
-}
-
-/// Takes the time of stages, one after the other.
-#[derive(Clone, Debug)]
-pub struct Stopwatch {
-    started: Instant,
-    lap: Instant,
-    stages: Timings,
-}
-
-impl Stopwatch {
-    /// From now on.
-    pub fn start() -> Stopwatch {
-        let now = Instant::now();
-        Stopwatch { started: now, lap: now, stages: Timings::default() }
-    }
-
-    /// A stage ends; the next begins.
-    pub fn lap(&mut self, stage: &'static str) {
-        let now = Instant::now();
-        self.stages.0.push((stage, (now - self.lap).as_secs_f64()));
-        self.lap = now;
-    }
-
-    /// Stages end that were timed elsewhere; the next begins.
-    pub fn laps(&mut self, stages: Timings) {
-        self.stages.0.extend(stages.0);
-        self.lap = Instant::now();
-    }
-
-    /// The stages so far, and `total`.
-    pub fn timings(&self) -> Timings {
-        let mut timings = self.stages.clone();
-        timings.0.push(("total", self.started.elapsed().as_secs_f64()));
-        timings
     }
 }

@@ -119,7 +119,7 @@ fn overlays_and_components() {
     let mut overlay = Overlay { width: 600, height: 400, layers: None, silhouette: Some(vec![0; cells]) };
     overlay.silhouette.as_mut().unwrap()[..cells / 4].fill(255);
     let black = [10, 10, 12];
-    let lines = draw(&Shown { overlay: Some(&overlay), casts: None }).unwrap();
+    let lines = draw(&Shown { overlay: Some(&overlay), casts: None, ..Shown::default() }).unwrap();
     let picture = in_colour(&lines, black);
     let plain = in_colour(&draw(&Shown::default()).unwrap(), black);
     assert!(picture > 1_000_000 && plain == 0, "{picture} black pixels, {plain} without a silhouette");
@@ -127,20 +127,24 @@ fn overlays_and_components() {
     // many layers hide no more than some do
     let with = |layers: u8| {
         let overlay = Overlay { width: 600, height: 400, layers: Some(vec![layers; cells]), silhouette: None };
-        let png = draw(&Shown { overlay: Some(&overlay), casts: None }).unwrap();
+        let png = draw(&Shown { overlay: Some(&overlay), casts: None, ..Shown::default() }).unwrap();
         image::load_from_memory(&png).unwrap().to_rgb8().get_pixel(1700, 1500).0
     };
     let tones = [0, 1, 2, 8, 255].map(with);
     assert!(tones.windows(2).take(3).all(|pair| pair[0][2] > pair[1][2]), "each layer is yellower: {tones:?}");
     assert_eq!(tones[3], tones[4], "and then they are as opaque as they get");
 
-    let [casting, not] = [[true], [false]].map(|casts| draw(&Shown { overlay: None, casts: Some(&casts) }).unwrap());
+    let [casting, not] =
+        [[true], [false]].map(|casts| draw(&Shown { overlay: None, casts: Some(&casts), ..Shown::default() }).unwrap());
     keep("component", &casting);
     let mint = [139, 212, 188];
     assert!(in_colour(&casting, mint) > 3000 && in_colour(&not, mint) == 0, "{}", in_colour(&casting, mint));
 
     overlay.width = 601;
-    assert!(draw(&Shown { overlay: Some(&overlay), casts: None }).is_err(), "a raster of another size");
+    assert!(
+        draw(&Shown { overlay: Some(&overlay), casts: None, ..Shown::default() }).is_err(),
+        "a raster of another size"
+    );
 }
 
 /// CIE L* of an sRGB colour (IEC 61966-2-1 and CIE 15).

@@ -1,7 +1,7 @@
 //! The reports' keys and words.
 
 use super::synthetic::{self, Town};
-use gnomon::export::report;
+use gnomon::export::report::{self, Told};
 use gnomon::profile::{Profile, Timings};
 use gnomon::site::Receivers;
 use serde_json::Value;
@@ -19,7 +19,8 @@ fn profile_json_is_the_contract() {
     let profile = Profile { grid, shaded: vec![0; 32], day_secs: 28_800, night_secs: 0 };
     let timings = Timings(vec![("load", 0.5), ("draw", 1.5), ("total", 2.25)]);
     let write = |town: &Town| {
-        report::profile_json(&profile, &town.place, &town.track, Receivers::Ground, &town.drawn, &timings).unwrap()
+        let told = Told { receivers: Receivers::Ground, drawn: &town.drawn, timings: &timings, statistics: None };
+        report::profile_json(&profile, &town.place, &town.track, &told).unwrap()
     };
     let text = write(&town);
     let contract = [

@@ -3,6 +3,7 @@
 //! The picture is made cell by cell in Rust; everything that is lines and letters is one SVG, drawn by resvg over it.
 
 mod components;
+mod counted;
 mod overlay;
 mod page;
 mod panel;
@@ -14,6 +15,7 @@ mod svg;
 mod text;
 mod words;
 
+pub use counted::Diagram;
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 
@@ -22,8 +24,9 @@ use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile};
 use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
-use crate::view::{Mask, Overlay, Surface, View};
+use crate::view::{Counted, Mask, Overlay, Surface, View};
 use components::Components;
+use counted::Colours;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
 
@@ -51,6 +54,8 @@ pub struct Shown<'a> {
     pub overlay: Option<&'a Overlay>,
     /// Each component of [`Scene::mesh`] in its own colour; here is said which of them cast.
     pub casts: Option<&'a [bool]>,
+    /// What counting took, instead of sun and shadow; in the plan's picture, too.
+    pub counted: Option<(&'a Counted, Diagram)>,
 }
 
 /// `profile.png`: the hours of shadow on the plan, in bands of whole steps.
@@ -79,7 +84,7 @@ pub fn profile(scene: &Scene, profile: &Profile) -> Result<Vec<u8>, ExportError>
     page::page(&panel, (grid.width, grid.height), Some(grid.cell), |fit| plan::profile(scene, profile, &bands, fit))
 }
 
-/// One instant, the first of the track, on the plan or in the camera's picture; `shown` is for the latter.
+/// One instant, the first of the track, on the plan or in the camera's picture; what is `shown` over it is for the latter.
 ///
 /// # Errors
 /// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay; [`ExportError::Encode`] from the encoder, or
@@ -93,10 +98,18 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result
             check_size("overlay", values.len(), overlay.width, overlay.height)?;
         }
     }
+    if let Some((counted, _)) = shown.counted {
+        check_size("count", counted.reached.len(), size.0, size.1)?;
+    }
     let now = scene.track.instants.first();
     let now = now.ok_or_else(|| ExportError::encode("drawing", "it has no instant"))?;
 
-    let mut panel = panel(scene, if now.night { "Night" } else { "Shadow" });
+    let kicker = match shown.counted {
+        _ if now.night => "Night",
+        Some((_, diagram)) => diagram.title(),
+        None => "Shadow",
+    };
+    let mut panel = panel(scene, kicker);
     if let (View::Camera(_), Receivers::Top) = (view, scene.receivers) {
         let judged = panel.facts.iter_mut().filter(|(label, _)| *label == JUDGED);
         judged.for_each(|(_, said)| *said = "what the camera sees".to_owned());
@@ -119,17 +132,24 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result
     if scene.receivers == Receivers::Ground {
         panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
     }
+    let colours = shown.counted.and_then(|(counted, diagram)| Colours::of(counted, diagram));
+    if let Some(colours) = &colours {
+        panel.legend_head.clone_from(&colours.legend_head);
+        panel.legend.clone_from(&colours.legend);
+    }
+    let of_cells = colours.as_ref().map(|colours| &colours.of_cells[..]);
     match view {
         View::Plan(grid) => {
             panel.facts.push(("Cells", cells(grid.width, grid.height, grid.cell)));
-            page::page(&panel, size, Some(grid.cell), |fit| plan::instant(scene, grid.cell, mask, fit))
+            page::page(&panel, size, Some(grid.cell), |fit| plan::instant(scene, grid.cell, mask, of_cells, fit))
         }
         View::Camera(camera) => {
             panel.facts.push(("Picture", format!("{} × {}", size.0, size.1)));
             let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
             show(&mut panel, shown, tones[0], components.as_ref());
+            let painted = perspective::Painted { components: components.as_ref(), of_cells };
             page::page(&panel, size, None, |fit| {
-                let mut picture = perspective::instant(scene, camera, mask, now.to_sun, components.as_ref(), fit);
+                let mut picture = perspective::instant(scene, camera, mask, now.to_sun, painted, fit);
                 if let Some(overlay) = shown.overlay {
                     overlay::lay(&mut picture, overlay);
                 }

@@ -24,13 +24,22 @@ const CREASE_COS: f64 = 0.985;
 /// A gap in depth this much of the distance is a step.
 const STEP_SHARE: f64 = 0.004;
 
-/// Sun and shadow at one instant, as the camera sees them; of matt card where components have no colours of their own.
+/// What has colours of its own.
+#[derive(Clone, Copy)]
+pub(super) struct Painted<'a> {
+    /// Components, in sun and shadow.
+    pub(super) components: Option<&'a Components>,
+    /// Cells, instead of sun and shadow; not the sky.
+    pub(super) of_cells: Option<&'a [Rgb]>,
+}
+
+/// Sun and shadow at one instant, as the camera sees them; of matt card where nothing is painted.
 pub(super) fn instant(
     scene: &Scene,
     camera: &Camera,
     mask: &Mask,
     to_sun: DVec3,
-    components: Option<&Components>,
+    Painted { components, of_cells }: Painted<'_>,
     fit: Fit,
 ) -> Picture {
     let lens = Lens::new(camera);
@@ -40,6 +49,9 @@ pub(super) fn instant(
     let colours: Vec<Rgb> = (0..scene.surface.face.len())
         .into_par_iter()
         .map(|pixel| {
+            if let Some(of_cells) = of_cells.filter(|_| scene.surface.face[pixel] != Surface::SKY) {
+                return of_cells[pixel];
+            }
             let ray = lens.ray(pixel % width, pixel / width);
             let share = f64::from(mask.share[pixel]) / 255.0;
             let colour = match scene.surface.face[pixel] {

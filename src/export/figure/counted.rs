@@ -1,0 +1,85 @@
+//! What counting took, as colours of cells: seed 000, figures 3-5 and 3-9.
+
+use super::scale::{Rgb, mix};
+use crate::view::{Counted, Decided};
+
+/// Which picture of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Diagram {
+    /// Who decided each cell, and how.
+    Mask,
+    /// How many fragments reached the count, as brightness.
+    Overdraw,
+}
+
+/// The paper's colours, a little quieter.
+const MAP_SHADOW: Rgb = [196, 60, 48];
+const MAP_LIGHT: Rgb = [122, 164, 220];
+const VOLUME_SHADOW: Rgb = [12, 12, 14];
+const VOLUME_LIGHT: Rgb = [70, 190, 80];
+
+/// No fragment, and the most of the picture.
+const NO_FRAGMENT: Rgb = [18, 18, 22];
+const MOST_FRAGMENTS: Rgb = [255, 255, 255];
+
+/// Colours of cells, and what they mean.
+pub(super) struct Colours {
+    pub(super) of_cells: Vec<Rgb>,
+    pub(super) legend_head: String,
+    pub(super) legend: Vec<(Rgb, String)>,
+}
+
+impl Diagram {
+    /// What a drawing of it is called.
+    pub(super) fn title(self) -> &'static str {
+        match self {
+            Diagram::Mask => "Computation mask",
+            Diagram::Overdraw => "Overdraw",
+        }
+    }
+}
+
+impl Colours {
+    /// None where a mask is to be shown and there was none.
+    pub(super) fn of(counted: &Counted, diagram: Diagram) -> Option<Colours> {
+        match diagram {
+            Diagram::Mask => Some(of_mask(counted.decided.as_ref()?)),
+            Diagram::Overdraw => Some(of_overdraw(counted)),
+        }
+    }
+}
+
+fn of_mask(decided: &[Decided]) -> Colours {
+    let colour = |decided: &Decided| match decided {
+        Decided::MapShadow => MAP_SHADOW,
+        Decided::MapLight => MAP_LIGHT,
+        Decided::VolumeShadow => VOLUME_SHADOW,
+        Decided::VolumeLight => VOLUME_LIGHT,
+    };
+    let volumes = decided.iter().filter(|it| matches!(it, Decided::VolumeShadow | Decided::VolumeLight)).count();
+    let legend = [
+        (MAP_LIGHT, "sun, by the map"),
+        (MAP_SHADOW, "shadow, by the map"),
+        (VOLUME_LIGHT, "sun, by volumes"),
+        (VOLUME_SHADOW, "shadow, by volumes"),
+    ];
+    Colours {
+        of_cells: decided.iter().map(colour).collect(),
+        legend_head: format!("Decided by volumes: {:.1}%", 100.0 * volumes as f64 / decided.len().max(1) as f64),
+        legend: legend.map(|(colour, what)| (colour, what.to_owned())).to_vec(),
+    }
+}
+
+/// Brightness grows with the root of the fragments: else a few dense cells would leave all others black.
+fn of_overdraw(counted: &Counted) -> Colours {
+    let most = counted.reached.iter().copied().max().unwrap_or(0).max(1);
+    let colour = |fragments: u32| mix(NO_FRAGMENT, MOST_FRAGMENTS, (f64::from(fragments) / f64::from(most)).sqrt());
+    let mut legend: Vec<u32> = vec![0, most.div_ceil(16), most.div_ceil(4), most];
+    legend.dedup();
+    let sum: u64 = counted.reached.iter().map(|&fragments| u64::from(fragments)).sum();
+    Colours {
+        of_cells: counted.reached.iter().map(|&fragments| colour(fragments)).collect(),
+        legend_head: format!("Fragments counted a cell: {:.2}", sum as f64 / counted.reached.len().max(1) as f64),
+        legend: legend.into_iter().map(|fragments| (colour(fragments), fragments.to_string())).collect(),
+    }
+}

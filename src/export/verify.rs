@@ -1,0 +1,291 @@
+//! What `gnomon verify` says: `verify --json`, and a table with a legend.
+
+use super::{ExportError, report};
+use crate::profile::verify::{HoursOff, Promise, Row, Truth, Verification};
+use crate::site::Receivers;
+use crate::sun::{Place, SunTrack};
+use serde::Serialize;
+use std::fmt::Write;
+
+/// Of the cells that are not edge cells, one in so many may differ.
+const OTHERS: u32 = 100_000;
+
+#[derive(Serialize)]
+struct VerifyReport<'a> {
+    gnomon: &'static str,
+    place: report::PlaceReport<'a>,
+    region: [f64; 4],
+    cell: f64,
+    width: u32,
+    height: u32,
+    receivers: &'static str,
+    refraction: bool,
+    instants: Vec<report::InstantReport>,
+    instants_compared: usize,
+    sun_samples: u32,
+    sun_samples_secs_per_instant: f64,
+    clean: bool,
+    edge_share_bound: f64,
+    holds: bool,
+    techniques: Vec<RowReport<'a>>,
+}
+
+#[derive(Serialize)]
+struct RowReport<'a> {
+    technique: &'static str,
+    silhouette: Option<&'static str>,
+    engine: &'static str,
+    adapter: Option<&'a str>,
+    against: &'static str,
+    cells: u64,
+    edge_cells: u64,
+    edge_differ: u64,
+    other_differ: u64,
+    thin_differ: u64,
+    map_missed: Option<u64>,
+    furthest_cells: Option<f64>,
+    mean_share_off: f64,
+    largest_hours_off: Option<f64>,
+    mean_hours_off: Option<f64>,
+    secs_per_instant: f64,
+    holds: Option<bool>,
+}
+
+/// `verify --json`: place, plan and instants as in `profile.json`, then
+///
+/// - `instants_compared`: those with a sun;
+/// - `sun_samples`, `sun_samples_secs_per_instant`: the points of the sun's disc, and how long an instant took to them;
+/// - `clean`: every part that casts is closed and well wound; `edge_share_bound`: the part of the edge cells of an exact
+///   technique that may therefore differ (of other cells, one in 100,000);
+/// - `holds`: whether every technique that decides does;
+/// - `techniques`, each with what drew it and `against` (`centre`: ray casting to the sun's centre, `disc`: to the points
+///   of its disc, `every-face`: rays without the trees, at some cells), the `cells` compared, how many of them are
+///   `edge_cells`; how many of these and of the others differ by more than half the sun (`edge_differ`,
+///   `other_differ`), counted apart where they lie beside what is thinner than a cell (`thin_differ`) and where the
+///   hybrid's map missed something (`map_missed`); how far the furthest of those that differ lies from a shadow edge
+///   (`furthest_cells`); by how much the share of the sun, 0 to 1, and the hours of the profile are off
+///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the technique
+///   decides nothing.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn json(
+    verification: &Verification,
+    place: &Place,
+    track: &SunTrack,
+    receivers: Receivers,
+) -> Result<String, ExportError> {
+    let Verification { grid, instants, clean, edge_share, sun_samples, disc_secs, rows } = verification;
+    report::json(&VerifyReport {
+        gnomon: env!("CARGO_PKG_VERSION"),
+        place: report::place_report(place),
+        region: grid.region(),
+        cell: grid.cell,
+        width: grid.width,
+        height: grid.height,
+        receivers: receivers.word(),
+        refraction: track.refraction,
+        instants: track.instants.iter().map(report::instant_report).collect(),
+        instants_compared: *instants,
+        sun_samples: *sun_samples,
+        sun_samples_secs_per_instant: *disc_secs,
+        clean: *clean,
+        edge_share_bound: *edge_share,
+        holds: verification.failed().next().is_none(),
+        techniques: rows.iter().map(|row| row_report(row, verification.row_holds(row))).collect(),
+    })
+}
+
+fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
+    RowReport {
+        technique: row.drawn.technique,
+        silhouette: row.drawn.silhouette,
+        engine: row.drawn.engine,
+        adapter: row.drawn.adapter.as_deref(),
+        against: match row.against {
+            Truth::Centre => "centre",
+            Truth::Disc => "disc",
+            Truth::EveryFace => "every-face",
+        },
+        cells: row.difference.cells(),
+        edge_cells: row.difference.edge_cells,
+        edge_differ: row.difference.edge_differ,
+        other_differ: row.difference.other_differ,
+        thin_differ: row.thin,
+        map_missed: row.missed,
+        furthest_cells: row.furthest,
+        mean_share_off: row.share_off,
+        largest_hours_off: row.hours_off.map(|off| off.largest),
+        mean_hours_off: row.hours_off.map(|off| off.mean),
+        secs_per_instant: row.secs,
+        holds,
+    }
+}
+
+/// Where, when and with what, then a line a technique, then what the columns mean; ends with a line break.
+pub fn table(verification: &Verification, place: &Place, track: &SunTrack, receivers: Receivers) -> String {
+    let Verification { grid, instants, .. } = verification;
+    let mut table = String::new();
+    let night = track.instants.len() - instants;
+    let adapter = verification.rows.iter().find_map(|row| row.drawn.adapter.as_deref()).unwrap_or("no adapter");
+    let silhouette = verification.rows.iter().find_map(|row| row.drawn.silhouette).unwrap_or("none");
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        table,
+        "{}: {}, {}{}\n{} × {} cells of {:.3} m, receivers {}\ndrawn on {adapter}, silhouettes {silhouette}\n",
+        words(place),
+        window(track),
+        counted(*instants, "instant"),
+        if night > 0 { format!(" by day ({night} at night left out)") } else { String::new() },
+        grid.width,
+        grid.height,
+        grid.cell,
+        receivers.word(),
+    );
+    let _ = writeln!(
+        table,
+        "{:<10} {:<7} {:>9} {:>9} {:>7} {:>8} {:>6} {:>6} {:>8} {:>7} {:>6} {:>7} {:>9}",
+        "",
+        "",
+        "compared",
+        "edge",
+        "differ",
+        "at edges",
+        "else-",
+        "map",
+        "furthest",
+        "share",
+        "most",
+        "mean",
+        "time per",
+    );
+    let _ = writeln!(
+        table,
+        "{:<10} {:<7} {:>9} {:>9} {:>7} {:>8} {:>6} {:>6} {:>8} {:>7} {:>6} {:>7} {:>9}",
+        "technique",
+        "against",
+        "cells",
+        "cells",
+        "cells",
+        "%",
+        "where",
+        "missed",
+        "cells",
+        "off %",
+        "h off",
+        "h off",
+        "instant s",
+    );
+    for row in &verification.rows {
+        line(&mut table, row, verification.row_holds(row));
+    }
+    legend(&mut table, verification);
+    table
+}
+
+fn line(table: &mut String, row: &Row, holds: Option<bool>) {
+    let difference = &row.difference;
+    let or_dash = |number: Option<String>| number.unwrap_or_else(|| "-".to_owned());
+    let hours = |of: fn(&HoursOff) -> f64, digits: usize| {
+        or_dash(row.hours_off.as_ref().map(|off| format!("{:.digits$}", of(off))))
+    };
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        table,
+        "{:<10} {:<7} {:>9} {:>9} {:>7} {:>8.3} {:>6} {:>6} {:>8} {:>7.3} {:>6} {:>7} {:>9.4}{}",
+        row.drawn.technique,
+        match row.against {
+            Truth::Centre => "centre",
+            Truth::Disc => "disc",
+            Truth::EveryFace => "faces",
+        },
+        difference.cells(),
+        difference.edge_cells,
+        difference.edge_differ,
+        100.0 * difference.edge_share(),
+        difference.other_differ,
+        or_dash(row.missed.map(|missed| missed.to_string())),
+        or_dash(row.furthest.map(|furthest| format!("{furthest:.1}"))),
+        100.0 * row.share_off,
+        hours(|off| off.largest, 2),
+        hours(|off| off.mean, 4),
+        row.secs,
+        match holds {
+            Some(true) => "  holds",
+            Some(false) => "  FAILS",
+            None => "",
+        },
+    );
+}
+
+fn legend(table: &mut String, verification: &Verification) {
+    let Verification { sun_samples, disc_secs, rows, .. } = verification;
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        table,
+        "\n\
+         against: ray casting to the sun's centre, or to {sun_samples} points of its disc ({disc_secs:.4} s an instant); ray casting\n\
+         \u{20}        itself against every face of the model without a search tree, at some cells\n\
+         edge cells: a shadow's edge runs past the cell or a neighbour; differ: by more than half the sun\n\
+         elsewhere: cells away from edges that differ{}\n\
+         map missed: cells that the hybrid's map decided otherwise than the stencil, as under what is thinner than its\n\
+         \u{20}           texels; counted here alone\n\
+         furthest: how far the furthest cell that differs lies from a shadow edge, in cells: 1 is right at the edge\n\
+         share off: of the sun, in the mean of all cells; h off: hours of the profile, in the worst cell and in the mean\n\
+         {}",
+        match rows.iter().map(|row| row.thin).max().unwrap_or(0) {
+            0 => String::new(),
+            thin => format!(", without up to {thin} beside what is thinner than a cell"),
+        },
+        bound(verification),
+    );
+}
+
+/// What has to hold, and why so much.
+fn bound(verification: &Verification) -> String {
+    let why = if verification.clean {
+        ""
+    } else {
+        "\n         (as not every part that casts is clean: gnomon check says more)"
+    };
+    format!(
+        "holds: of the stencil's edge cells at most {}% differ, and of its others one in {OTHERS}; of ray casting's none{why}",
+        100.0 * verification.edge_share
+    )
+}
+
+/// Which techniques do not hold, in one line; none where all do.
+pub fn failure(verification: &Verification) -> Option<String> {
+    let told = |row: &Row| {
+        let most = match row.promise {
+            Promise::Same => "none may".to_owned(),
+            _ => format!("at most {}% of the former may, and one in {OTHERS} others", 100.0 * verification.edge_share),
+        };
+        format!("{} does not hold: {}; {most}", row.drawn.technique, row.difference)
+    };
+    let failed: Vec<String> = verification.failed().map(told).collect();
+    (!failed.is_empty()).then(|| failed.join("; "))
+}
+
+/// The place's name, or where it is.
+fn words(place: &Place) -> String {
+    match place.name.as_str() {
+        "" => format!("{}°, {}°", place.latitude_deg, place.longitude_deg),
+        name => name.replace(char::is_control, " "),
+    }
+}
+
+/// From the first instant to the last.
+fn window(track: &SunTrack) -> String {
+    let [Some(first), Some(last)] = [track.instants.first(), track.instants.last()] else { return String::new() };
+    let from = first.time.format("%Y-%m-%d %H:%M");
+    if first.time == last.time {
+        return from.to_string();
+    }
+    let same_day = first.time.date_naive() == last.time.date_naive();
+    format!("{from} to {}", last.time.format(if same_day { "%H:%M" } else { "%Y-%m-%d %H:%M" }))
+}
+
+fn counted(count: usize, one: &str) -> String {
+    if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
+}

@@ -1,0 +1,40 @@
+//! How long the stages of the work take.
+
+use crate::profile::Timings;
+use std::time::Instant;
+
+/// Takes the time of stages, one after the other.
+#[derive(Clone, Debug)]
+pub struct Stopwatch {
+    started: Instant,
+    lap: Instant,
+    pub(super) stages: Timings,
+}
+
+impl Stopwatch {
+    /// From now on.
+    pub fn start() -> Stopwatch {
+        let now = Instant::now();
+        Stopwatch { started: now, lap: now, stages: Timings::default() }
+    }
+
+    /// A stage ends; the next begins.
+    pub fn lap(&mut self, stage: &'static str) {
+        let now = Instant::now();
+        self.stages.0.push((stage, (now - self.lap).as_secs_f64()));
+        self.lap = now;
+    }
+
+    /// Stages end that were timed elsewhere; the next begins.
+    pub fn laps(&mut self, stages: Timings) {
+        self.stages.0.extend(stages.0);
+        self.lap = Instant::now();
+    }
+
+    /// The stages so far, and `total`.
+    pub fn timings(&self) -> Timings {
+        let mut timings = self.stages.clone();
+        timings.0.push(("total", self.started.elapsed().as_secs_f64()));
+        timings
+    }
+}

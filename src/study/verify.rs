@@ -1,0 +1,223 @@
+//! Every technique against ray casting, so that users can see on their own site how far to trust each.
+//!
+//! [`verify`] makes the techniques, [`hold`] holds them against the truth, instant by instant. Ray casting is held against
+//! itself without its trees, at some cells.
+
+use super::machine::{Drawing, Machine, why_none};
+use super::{Event, Look, OnEvent, StudyError, day_and_night, note_distance, tell};
+use crate::gpu::Gpu;
+use crate::mesh::report;
+use crate::profile::Drawn;
+use crate::profile::compare::{Difference, is_edge_cell};
+use crate::profile::verify::{Promise, Row, Tally, Truth, Verification};
+use crate::shadow::ray_cast::RayCast;
+use crate::shadow::{ShadowError, Technique};
+use crate::site::{Method, Receivers, Site};
+use crate::sun::Instant;
+use crate::view::{Decided, Mask, View};
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::time;
+
+/// Cells along the plan's longer side where nobody asks.
+pub const SIZE: u32 = 512;
+/// Points of the sun's disc where nobody asks.
+const SUN_SAMPLES: u32 = 64;
+/// At so many cells of a study ray casting is held against itself without its trees; half of them are edge cells.
+const MOST_SAMPLED: usize = 200;
+
+/// Which part of an exact technique's edge cells may differ: on the ground under clean models, and elsewhere.
+const EDGE_SHARE_CLEAN: f64 = 0.005;
+const EDGE_SHARE: f64 = 0.01;
+
+/// The techniques that draw, what each is held against, and what it promises. A new technique is a line here; the hybrid
+/// comes after the stencil, of which it is to miss nothing.
+const TECHNIQUES: [(Method, Truth, Promise); 4] = [
+    (Method::Stencil, Truth::Centre, Promise::Exact),
+    (Method::Hybrid, Truth::Centre, Promise::ExactButForMap),
+    (Method::ShadowMap, Truth::Centre, Promise::Near),
+    (Method::Smoothie, Truth::Disc, Promise::Near),
+];
+
+/// A technique that is to be held against the truth.
+pub struct Trial {
+    /// What draws.
+    pub drawn: Drawn,
+    /// What it is held against.
+    pub against: Truth,
+    /// What it promises.
+    pub promise: Promise,
+    /// Made for the site's plan.
+    pub technique: Box<dyn Technique>,
+}
+
+/// Every technique against ray casting, at the study's instants.
+///
+/// # Errors
+/// [`StudyError`]; a study all at night, and a machine without a graphics adapter, before anything is drawn.
+pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
+    by_day(site)?;
+    note_distance(site, on_event)?;
+    let gpu = Arc::new(Gpu::open().map_err(|error| StudyError::NoVerification(why_none(error)))?);
+    let mut trials = Vec::new();
+    for (method, against, promise) in TECHNIQUES {
+        if method == Method::Smoothie && gpu.blends_float32("").is_err() {
+            let note = format!("smoothie is left out: '{}' cannot blend 32-bit floats", gpu.name());
+            tell(on_event, Event::Note(note))?;
+            continue;
+        }
+        let machine = Machine::OnGpu(Arc::clone(&gpu), Drawing::of(method, site, &gpu));
+        let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
+        trials.push(Trial { drawn: machine.drawn(), against, promise, technique: look.technique()? });
+    }
+    hold(site, trials, on_event)
+}
+
+/// Holds techniques, and ray casting itself, against the truth.
+///
+/// # Errors
+/// As [`verify`].
+pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
+    let instants = by_day(site)?;
+    let (day_secs, _) = day_and_night(&site.track)?;
+    let sun_samples = site.settings.sun_samples.unwrap_or(SUN_SAMPLES);
+    let mut centre = Cast::new(site, None);
+    let mut disc = Cast::new(site, Some(sun_samples));
+    let mut held: Vec<_> = trials.into_iter().map(|trial| (trial, Tally::new(&site.grid))).collect();
+    let mut trees = Tally::new(&site.grid);
+
+    let count = instants.len();
+    tell(on_event, Event::Started { instants: count })?;
+    for (index, instant) in instants.iter().enumerate() {
+        centre.draw(instant)?;
+        disc.draw(instant)?;
+        let mut exact = None;
+        for (trial, tally) in &mut held {
+            let truth = if trial.against == Truth::Disc { &mut disc } else { &mut centre };
+            let mask = compare(trial, tally, truth, instant, exact.as_ref())?;
+            if trial.promise == Promise::Exact {
+                exact.get_or_insert(mask);
+            }
+        }
+        let sampled = MOST_SAMPLED * index / count..MOST_SAMPLED * (index + 1) / count;
+        without_trees(&centre, instant, &spread(&centre.mask, sampled), &mut trees);
+        tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None })?;
+    }
+
+    let (cast, disc_secs) = (centre.machine.drawn(), disc.tally.secs());
+    let centre_secs = centre.tally.secs();
+    let [centre, disc] = [centre.tally.sum()?, disc.tally.sum()?];
+    let mut rows = Vec::new();
+    for (Trial { drawn, against, promise, .. }, tally) in held {
+        let truth = if against == Truth::Disc { &disc } else { &centre };
+        rows.push(tally.row(drawn, against, promise, (day_secs > 0).then_some(truth))?);
+    }
+    let trees = trees.row(cast, Truth::EveryFace, Promise::Same, None)?;
+    rows.push(Row { secs: centre_secs, ..trees });
+    let clean = report::components(&site.mesh).iter().zip(&site.casts).all(|(part, casts)| !casts || part.clean());
+    let edge_share = if clean && site.receivers == Receivers::Ground { EDGE_SHARE_CLEAN } else { EDGE_SHARE };
+    Ok(Verification { grid: site.grid, instants: count, clean, edge_share, sun_samples, disc_secs, rows })
+}
+
+/// The instants with a sun.
+fn by_day(site: &Site) -> Result<Vec<&Instant>, StudyError> {
+    let instants: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
+    if instants.is_empty() { Err(StudyError::NoDay) } else { Ok(instants) }
+}
+
+/// Ray casting as the truth.
+struct Cast {
+    machine: Machine,
+    view: View,
+    rays: RayCast,
+    mask: Mask,
+    tally: Tally,
+}
+
+impl Cast {
+    fn new(site: &Site, sun_samples: Option<u32>) -> Cast {
+        let machine = Machine::RayCast { sun_samples };
+        let view = View::Plan(site.grid);
+        let scene = Look { site, machine: &machine, view, receivers: site.receivers }.scene();
+        Cast {
+            machine,
+            view,
+            rays: RayCast::new(scene, view, sun_samples),
+            mask: Mask { width: 0, height: 0, share: Vec::new() },
+            tally: Tally::new(&site.grid),
+        }
+    }
+
+    fn draw(&mut self, instant: &Instant) -> Result<(), ShadowError> {
+        let started = time::Instant::now();
+        self.mask = self.rays.draw(instant.to_sun)?.read()?;
+        self.tally.draw(&self.mask, instant.weight_secs, started.elapsed().as_secs_f64())
+    }
+}
+
+/// Draws one instant and compares it with the truth. `exact` is the mask of a technique without a map.
+fn compare(
+    trial: &mut Trial,
+    tally: &mut Tally,
+    truth: &mut Cast,
+    instant: &Instant,
+    exact: Option<&Mask>,
+) -> Result<Mask, ShadowError> {
+    let started = time::Instant::now();
+    let mask = trial.technique.draw(instant.to_sun)?.read()?;
+    tally.draw(&mask, instant.weight_secs, started.elapsed().as_secs_f64())?;
+    tally.compare(mask.share.iter().zip(&truth.mask.share));
+
+    // what the map missed counts apart, and so as right here
+    let mut judged = mask.clone();
+    let mut missed = 0;
+    if let (Promise::ExactButForMap, Some(exact)) = (trial.promise, exact)
+        && mask != *exact
+        && let Some(decided) = trial.technique.counted(instant.to_sun)?.and_then(|counted| counted.decided)
+    {
+        for (cell, decided) in decided.into_iter().enumerate() {
+            let by_map = matches!(decided, Decided::MapShadow | Decided::MapLight);
+            if by_map && mask.share[cell] != exact.share[cell] {
+                judged.share[cell] = truth.mask.share[cell];
+                missed += 1;
+            }
+        }
+    }
+    let mut difference = Difference::by_half(&judged, &truth.mask);
+    let with_thin = difference.other_differ;
+    if trial.promise != Promise::Near {
+        difference.except_thin(&mut truth.rays, truth.view, instant.to_sun)?;
+    }
+    let thin = with_thin - difference.other_differ;
+    tally.differ(difference, thin, missed, &truth.mask);
+    Ok(mask)
+}
+
+/// Holds some cells of ray casting against every face.
+fn without_trees(cast: &Cast, instant: &Instant, cells: &[(u32, u32)], tally: &mut Tally) {
+    let Cast { rays, mask, .. } = cast;
+    let share = |&(column, row): &(u32, u32)| rays.share_without_trees(column, row, instant.to_sun);
+    let truth: Vec<u8> = cells.par_iter().map(share).collect();
+    let shares: Vec<u8> = cells.iter().map(|&(column, row)| mask.share[(row * mask.width + column) as usize]).collect();
+    tally.compare(shares.iter().zip(&truth));
+    tally.differ(Difference::at(cells, mask, &truth), 0, 0, mask);
+}
+
+/// Cells spread over a mask, every second one an edge cell, where there are any; each number has its own.
+pub fn spread(mask: &Mask, numbers: std::ops::Range<usize>) -> Vec<(u32, u32)> {
+    let at = |cell: usize| (cell as u32 % mask.width, cell as u32 / mask.width);
+    let all = mask.share.len();
+    let edge: Vec<usize> = (0..all)
+        .filter(|&cell| {
+            let (column, row) = at(cell);
+            is_edge_cell(mask, column, row)
+        })
+        .collect();
+    // multiples of the golden ratio fall evenly, however many there are
+    let place = |number: usize, among: usize| ((number as f64 * 0.618_033_988_749_895).fract() * among as f64) as usize;
+    let cell = |number: usize| match number % 2 {
+        0 if !edge.is_empty() => edge[place(number / 2, edge.len())],
+        _ => place(number, all),
+    };
+    numbers.map(|number| at(cell(number))).collect()
+}

@@ -1,0 +1,44 @@
+//! The techniques beside the stencil, each against ray casting or a closed form.
+
+mod disc;
+mod hybrid;
+mod shadow_map;
+mod smoothie;
+
+use glam::DVec3;
+use gnomon::shadow::{Scene, Technique};
+use gnomon::site::{Overrides, Receivers, Site};
+use gnomon::view::{Mask, View};
+use std::path::Path;
+
+/// A site's scene under top receivers, its plan, and its suns that stand at 10° or more.
+fn site(name: &str, size: u32) -> (Scene, View, Vec<DVec3>) {
+    let asked = Overrides { size: Some(size), receivers: Some(Receivers::Top), ..Overrides::default() };
+    let site = Site::load(Path::new(&format!("sites/{name}")), &asked).unwrap();
+    let scene = Scene {
+        casters: site.mesh.of_components(&site.casts),
+        receivers: site.mesh.of_components(&site.receives),
+        ground: site.ground,
+    };
+    let high = site.track.instants.iter().filter(|instant| instant.altitude_deg() >= 10.0);
+    (scene, View::Plan(site.grid), high.map(|instant| instant.to_sun).collect())
+}
+
+fn draw(technique: &mut dyn Technique, to_sun: DVec3) -> Mask {
+    technique.draw(to_sun).unwrap().read().unwrap()
+}
+
+/// How far a cell lies from the nearest one on the other side of half the sun, in cells, as far as is looked.
+fn to_edge(truth: &Mask, at: usize, reach: i64) -> f64 {
+    let (width, height) = (i64::from(truth.width), i64::from(truth.height));
+    let (column, row) = (at as i64 % width, at as i64 / width);
+    let mut nearest = f64::INFINITY;
+    for y in (row - reach).max(0)..(row + reach + 1).min(height) {
+        for x in (column - reach).max(0)..(column + reach + 1).min(width) {
+            if (truth.share[(y * width + x) as usize] > 127) != (truth.share[at] > 127) {
+                nearest = nearest.min((((x - column).pow(2) + (y - row).pow(2)) as f64).sqrt());
+            }
+        }
+    }
+    nearest
+}

@@ -1,0 +1,153 @@
+//! Shadow maps: the levels of each filter, the bias, and casters outside of the view.
+
+use super::{draw, site, to_edge};
+use crate::exact::scenes::{cuboid, sheet};
+use crate::exact::{gpu, plan, scene_of, to_sun};
+use glam::{DVec3, dvec3};
+use gnomon::mesh::Mesh;
+use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::shadow_map::{Filter, ShadowMap};
+use gnomon::shadow::{Scene, ShadowError};
+use gnomon::site::Receivers;
+use gnomon::view::{Grid, Mask, View};
+use std::collections::BTreeSet;
+
+const FILTERS: [(Filter, u32); 4] =
+    [(Filter::None, 1), (Filter::TwoByTwo, 4), (Filter::FastTwoByTwo, 4), (Filter::FastFourByFour, 16)];
+
+#[test]
+fn filters_have_their_levels_and_no_others() {
+    let plate = [dvec3(-7.1, -5.3, 6.0), dvec3(6.2, -6.4, 6.0), dvec3(8.3, 5.1, 6.0), dvec3(-5.4, 7.2, 6.0)];
+    let scene = scene_of(&Mesh::build(vec![sheet(plate)]).unwrap(), Receivers::Ground, 0.0);
+    for (filter, comparisons) in FILTERS {
+        let mut map = ShadowMap::new(gpu(), &scene, plan(20.0, 600), 256, filter).unwrap();
+        let levels: BTreeSet<u8> = draw(&mut map, to_sun(200.0, 50.0)).share.into_iter().collect();
+        let expected: BTreeSet<u8> =
+            (0..=comparisons).map(|seen| (255.0 * f64::from(seen) / f64::from(comparisons)).round() as u8).collect();
+        assert_eq!(levels, expected, "{filter:?}");
+    }
+}
+
+/// Cells on the wrong side of half the sun: lighter than the truth, darker, and of both those that lie further from a
+/// shadow's edge than two texels.
+#[derive(Debug, Default)]
+struct Wrong {
+    cells: usize,
+    lighter: usize,
+    darker: usize,
+}
+
+impl Wrong {
+    fn share(&self) -> f64 {
+        (self.lighter + self.darker) as f64 / self.cells as f64
+    }
+}
+
+/// Wrong cells that lie further from an edge than two texels, which are `texel_cells` large.
+fn far_wrong(drawn: &Mask, truth: &Mask, texel_cells: f64) -> Wrong {
+    let mut wrong = Wrong { cells: truth.share.len(), ..Wrong::default() };
+    let far = 2.0 * texel_cells;
+    for (at, (&share, &right)) in drawn.share.iter().zip(&truth.share).enumerate() {
+        if (share > 127) != (right > 127) && to_edge(truth, at, far.ceil() as i64 + 1) > far {
+            *(if share > right { &mut wrong.lighter } else { &mut wrong.darker }) += 1;
+        }
+    }
+    wrong
+}
+
+/// Over the suns, at the size of map and with the bias.
+fn measured(scene: &Scene, view: View, suns: &[DVec3], size: u32, filter: Filter, bias: Option<f32>) -> Wrong {
+    let View::Plan(grid) = view else { panic!("a plan") };
+    let mut map = match bias {
+        None => ShadowMap::new(gpu(), scene, view, size, filter).unwrap(),
+        Some(bias) => ShadowMap::with_bias(gpu(), scene, view, size, filter, bias).unwrap(),
+    };
+    let mut truth = RayCast::new(scene.clone(), view, None);
+    let mut sum = Wrong::default();
+    for &sun in suns {
+        let [across, along] = map.texel_m(sun);
+        // as a texel lies on level ground
+        let texel_cells = f64::from(across.max(along)) / sun.z / grid.cell;
+        let wrong = far_wrong(&draw(&mut map, sun), &draw(&mut truth, sun), texel_cells);
+        sum.cells += wrong.cells;
+        sum.lighter += wrong.lighter;
+        sum.darker += wrong.darker;
+    }
+    sum
+}
+
+/// The day's suns of a site, and lower ones down to 10°.
+fn suns(of_day: &[DVec3]) -> Vec<DVec3> {
+    of_day.iter().step_by(3).copied().chain([to_sun(112.0, 10.0), to_sun(250.3, 17.0)]).collect()
+}
+
+#[test]
+fn the_default_bias_leaves_neither_acne_nor_detached_shadows_on_the_sites() {
+    for name in ["tower", "industry", "headquarters"] {
+        let (scene, view, of_day) = site(name, 400);
+        for (filter, size) in [
+            (Filter::None, 1024),
+            (Filter::TwoByTwo, 512),
+            (Filter::FastTwoByTwo, 2048),
+            (Filter::FastFourByFour, 1024),
+        ] {
+            let wrong = measured(&scene, view, &suns(&of_day), size, filter, None);
+            println!("{name}, {filter:?} at {size}: {:.3}% far wrong, {wrong:?}", 100.0 * wrong.share());
+            assert!(wrong.share() <= 0.005, "{name}, {filter:?} at {size}: {wrong:?}");
+        }
+    }
+}
+
+#[test]
+fn too_small_a_bias_is_seen_as_acne_and_too_large_a_one_as_light() {
+    // a slope, and a thin wall on the ground
+    let slope = [dvec3(-20.0, -20.0, 2.0), dvec3(20.0, -20.0, 2.0), dvec3(20.0, 0.0, 14.0), dvec3(-20.0, 0.0, 14.0)];
+    let wall = cuboid("wall", dvec3(-15.0, 10.0, 0.0), dvec3(15.0, 10.2, 8.0));
+    let scene = scene_of(&Mesh::build(vec![sheet(slope), wall]).unwrap(), Receivers::Top, 0.0);
+    let suns = [to_sun(160.0, 24.0), to_sun(75.0, 31.0)];
+    let measured = |bias| measured(&scene, plan(30.0, 300), &suns, 256, Filter::FastTwoByTwo, bias);
+    let (none, fitting, huge) = (measured(Some(-1.0)), measured(None), measured(Some(60.0)));
+    println!("bias -1: {none:?}; as it is: {fitting:?}; 60 texels: {huge:?}");
+    assert!(fitting.share() <= 0.005, "{fitting:?}");
+    assert!(none.darker > 20 * fitting.darker.max(10), "acne is not seen: {none:?}");
+    assert!(huge.lighter > 20 * fitting.lighter.max(10), "detached shadows are not seen: {huge:?}");
+}
+
+#[test]
+fn casters_outside_of_the_view_are_not_forgotten() {
+    let mesh = Mesh::build(vec![cuboid("tower", dvec3(-5.0, -5.0, 0.0), dvec3(5.0, 5.0, 90.0))]).unwrap();
+    let scene = scene_of(&mesh, Receivers::Top, 0.0);
+    // north of the tower, which the view does not show
+    let view = View::Plan(Grid { west: -30.0, north: 130.0, cell: 0.25, width: 240, height: 240 });
+    let (mut map, mut truth) =
+        (ShadowMap::new(gpu(), &scene, view, 1024, Filter::None).unwrap(), RayCast::new(scene.clone(), view, None));
+    for sun in [to_sun(180.0, 40.0), to_sun(171.0, 33.0), to_sun(185.0, 12.0)] {
+        let (drawn, right) = (draw(&mut map, sun), draw(&mut truth, sun));
+        let dark = right.share.iter().filter(|share| **share == 0).count();
+        let wrong = drawn.share.iter().zip(&right.share).filter(|(one, other)| one != other).count();
+        assert!(dark > 2000 && wrong * 50 < dark, "{wrong} wrong of {dark} dark cells");
+        // the map holds what can shade the view, and no more
+        assert!(map.texel_m(sun).iter().all(|texel| *texel < 0.1), "{:?}", map.texel_m(sun));
+    }
+}
+
+#[test]
+fn a_map_that_no_adapter_draws_is_refused() {
+    let scene = scene_of(&Mesh::build(vec![]).unwrap(), Receivers::Top, 0.0);
+    let refused = ShadowMap::new(gpu(), &scene, plan(5.0, 20), 1 << 20, Filter::None).err();
+    let Some(error @ ShadowError::MapTooLarge { .. }) = refused else { panic!("not refused") };
+    assert!(error.to_string().contains("--map-size"), "{error}");
+}
+
+#[test]
+fn without_casters_or_far_from_them_all_is_light() {
+    let nothing = scene_of(&Mesh::build(vec![]).unwrap(), Receivers::Top, 0.0);
+    let tower = Mesh::build(vec![cuboid("tower", dvec3(-5.0, -5.0, 0.0), dvec3(5.0, 5.0, 9.0))]).unwrap();
+    let far = View::Plan(Grid { west: 5000.0, north: 5000.0, cell: 1.0, width: 30, height: 30 });
+    for (scene, view) in [(nothing, plan(10.0, 30)), (scene_of(&tower, Receivers::Top, 0.0), far)] {
+        for (filter, _) in FILTERS {
+            let mut map = ShadowMap::new(gpu(), &scene, view, 256, filter).unwrap();
+            assert!(draw(&mut map, to_sun(140.0, 30.0)).share.iter().all(|share| *share == 255), "{filter:?}");
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! Smoothies: the penumbra's width against the closed form, corners without seams, hard contact, and no light that the map
+//! alone would not give.
+
+use super::{draw, site};
+use crate::exact::scenes::{cuboid, joined, sheet};
+use crate::exact::{gpu, scene_of, to_sun};
+use glam::{DVec2, DVec3, dvec2, dvec3};
+use gnomon::mesh::Mesh;
+use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::smoothie::Smoothie;
+use gnomon::shadow::{DrawnMask, Scene};
+use gnomon::silhouette::Kind;
+use gnomon::site::Receivers;
+use gnomon::sun::SUN_DISC_RAD;
+use gnomon::view::{Grid, Mask, View};
+
+const SIDE: u32 = 700;
+
+/// A square of the ground around a point, so many metres wide.
+fn around(middle: DVec2, side_m: f64) -> View {
+    let cell = side_m / f64::from(SIDE);
+    View::Plan(Grid { west: middle.x - side_m / 2.0, north: middle.y + side_m / 2.0, cell, width: SIDE, height: SIDE })
+}
+
+fn smoothie(scene: &Scene, view: View, width_m: Option<f64>) -> Smoothie {
+    Smoothie::new(gpu(), scene.clone(), view, Kind::Hierarchy, 2048, width_m).unwrap()
+}
+
+/// The share at a place of a plan's mask.
+fn at(mask: &Mask, view: View, place: DVec2) -> u8 {
+    let View::Plan(grid) = view else { panic!("a plan") };
+    let (column, row) = ((place.x - grid.west) / grid.cell, (grid.north - place.y) / grid.cell);
+    mask.share[row as usize * mask.width as usize + column as usize]
+}
+
+/// How long the part of a line on which some of the sun is seen, but not all, is: metres.
+fn soft_length(mask: &Mask, view: View, from: DVec2, to: DVec2) -> f64 {
+    let steps = 4000;
+    let soft = (0..steps).filter(|&step| {
+        let place = from.lerp(to, (f64::from(step) + 0.5) / f64::from(steps));
+        !matches!(at(mask, view, place), 0 | 255)
+    });
+    soft.count() as f64 / f64::from(steps) * from.distance(to)
+}
+
+/// The width of the sun's penumbra so far behind an edge.
+fn width(behind: f64) -> f64 {
+    2.0 * behind * (SUN_DISC_RAD / 2.0).tan()
+}
+
+fn wall(height: f64) -> Scene {
+    let wall = cuboid("wall", dvec3(-40.0, -0.4, 0.0), dvec3(40.0, 0.0, height));
+    scene_of(&Mesh::build(vec![wall]).unwrap(), Receivers::Top, 0.0)
+}
+
+#[test]
+fn the_penumbra_of_a_walls_top_is_as_wide_as_the_disc_demands() {
+    for (height, altitude) in [(12.0, 15.0), (30.0, 15.0), (30.0, 22.0), (30.0, 40.0), (45.0, 65.0)] {
+        let scene = wall(height);
+        let (sin, tan) = (f64::sin(f64::to_radians(altitude)), f64::tan(f64::to_radians(altitude)));
+        let expected = width(height / sin) / sin;
+        let edge = dvec2(1.3, height / tan);
+        let view = around(edge, 4.0 * expected);
+        let mask = draw(&mut smoothie(&scene, view, None), to_sun(180.0, altitude));
+        let reach = dvec2(0.0, 1.9 * expected);
+        let found = soft_length(&mask, view, edge - reach, edge + reach);
+        println!("{height} m at {altitude}°: {found:.3} m instead of {expected:.3}");
+        assert!((found / expected - 1.0).abs() < 0.1, "{height} m at {altitude}°: {found} instead of {expected}");
+        // all of it lies outside of the hard shadow
+        assert_eq!(at(&mask, view, edge - dvec2(0.0, 0.05 * expected)), 0);
+        assert!(at(&mask, view, edge + dvec2(0.0, 0.9 * expected)) > 200);
+    }
+}
+
+#[test]
+fn along_an_upright_edge_the_penumbra_grows_from_a_hard_contact() {
+    let scene = wall(60.0);
+    let (azimuth, altitude) = (200.0_f64, 30.0_f64);
+    // the shadow of the wall's eastern end runs away from the sun
+    let (sin, cos) = azimuth.to_radians().sin_cos();
+    let (away, across) = (dvec2(-sin, -cos), dvec2(cos, -sin) * -1.0);
+    let corner = dvec2(40.0, -0.4);
+    for distance in [0.05, 4.0, 15.0, 40.0, 80.0] {
+        let expected = width(distance / altitude.to_radians().cos());
+        let middle = corner + away * distance;
+        let view = around(middle, (4.0 * expected).max(0.1));
+        let mask = draw(&mut smoothie(&scene, view, None), to_sun(azimuth, altitude));
+        let reach = across * (1.9 * expected).max(0.04);
+        let found = soft_length(&mask, view, middle - reach, middle + reach);
+        println!("{distance} m from the wall: {:.1} mm instead of {:.1}", found * 1e3, expected * 1e3);
+        let near_enough = (found / expected - 1.0).abs() < 0.1;
+        assert!(near_enough || expected < 1e-3 && found < 2e-3, "{distance} m: {found} instead of {expected}");
+    }
+}
+
+/// The largest difference of neighbours on a circle, of points a hundredth of a radius apart.
+fn largest_jump(mask: &Mask, view: View, middle: DVec2, radius: f64) -> u8 {
+    let steps = 640;
+    let share = |step: usize| {
+        let angle = std::f64::consts::TAU * step as f64 / steps as f64;
+        at(mask, view, middle + DVec2::from_angle(angle) * radius)
+    };
+    (0..steps).map(|step| share(step).abs_diff(share(step + 1))).max().unwrap()
+}
+
+/// Scenes whose corner's shadow falls on a point of the ground: a box's corner, an inner corner, a roof's tip, and the
+/// point in which two boxes touch, at which four silhouette edges meet.
+fn corners() -> Vec<(&'static str, Mesh, DVec3)> {
+    let (low, high) = (dvec3(-10.0, -10.0, 20.0), dvec3(0.0, 0.0, 22.0));
+    let box_at = |low: DVec3, high: DVec3| cuboid("boxes", low, high);
+    let tip = [dvec3(-6.0, -2.0, 24.0), dvec3(0.0, 0.0, 22.0), dvec3(-6.0, 2.0, 24.0), dvec3(-6.0, 0.0, 24.0)];
+    let step = dvec3(10.0, 10.0, 0.0);
+    vec![
+        ("a corner", vec![box_at(low, high)], high),
+        (
+            "an inner corner",
+            vec![joined(vec![
+                box_at(low, high),
+                box_at(dvec3(0.0, -10.0, 20.0), dvec3(10.0, 0.0, 22.0)),
+                box_at(dvec3(-10.0, 0.0, 20.0), dvec3(0.0, 10.0, 22.0)),
+            ])],
+            high,
+        ),
+        ("a tip", vec![sheet(tip)], tip[1]),
+        ("two boxes that touch", vec![joined(vec![box_at(low, high), box_at(low + step, high + step)])], high),
+    ]
+    .into_iter()
+    .map(|(name, parts, corner)| (name, Mesh::build(parts).unwrap(), corner))
+    .collect()
+}
+
+#[test]
+fn corners_of_any_number_of_edges_have_no_seams() {
+    for (name, mesh, corner) in corners() {
+        let scene = scene_of(&mesh, Receivers::Ground, 0.0);
+        let mut seen = 0;
+        for sun in [to_sun(225.0, 62.0), to_sun(200.0, 50.0), to_sun(110.0, 55.0)] {
+            let shadow = (corner - sun * (corner.z / sun.z)).truncate();
+            let soft = width(corner.z / sun.z);
+            let view = around(shadow, 5.0 * soft);
+            let mask = draw(&mut smoothie(&scene, view, None), sun);
+            let hard = draw(&mut smoothie(&scene, view, Some(1e-9)), sun);
+            for share in [0.3, 0.5, 0.8] {
+                let jump = largest_jump(&mask, view, shadow, share * soft);
+                assert!(jump <= 24, "{name}, sun {sun}, {share} of the width: {jump}");
+            }
+            // the same is seen to fail on the hard shadow
+            seen += usize::from(largest_jump(&hard, view, shadow, 0.5 * soft) > 100);
+        }
+        assert!(seen >= 1, "{name}: the corner's shadow is seen for {seen} suns");
+    }
+}
+
+#[test]
+fn it_is_never_lighter_than_its_map() {
+    for name in ["tower", "industry", "headquarters"] {
+        let (scene, view, suns) = site(name, 400);
+        let [mut soft, mut bare] = [None, Some(1e-9)].map(|width| smoothie(&scene, view, width));
+        for &sun in suns.iter().step_by(4) {
+            let (soft, bare) = (draw(&mut soft, sun), draw(&mut bare, sun));
+            let lighter = soft.share.iter().zip(&bare.share).filter(|(soft, bare)| soft > bare).count();
+            let darker = soft.share.iter().zip(&bare.share).filter(|(soft, bare)| soft < bare).count();
+            assert!(lighter == 0 && darker > 100, "{name}: {lighter} lighter, {darker} darker");
+        }
+    }
+}
+
+#[test]
+fn on_the_sites_it_holds_all_of_the_discs_shadow() {
+    for (name, most) in [("tower", 0.03), ("industry", 0.02), ("headquarters", 0.02)] {
+        let (scene, view, suns) = site(name, 400);
+        let mut soft = smoothie(&scene, view, None);
+        let mut truth = RayCast::new(scene.clone(), view, Some(32));
+        for &sun in suns.iter().step_by(4) {
+            let (drawn, right) = (draw(&mut soft, sun), draw(&mut truth, sun));
+            let pairs = || drawn.share.iter().zip(&right.share);
+            let cells = drawn.share.len() as f64;
+            let lighter = pairs().filter(|(drawn, right)| **drawn > right.saturating_add(127)).count() as f64 / cells;
+            let mean = pairs().map(|(drawn, right)| f64::from(drawn.abs_diff(*right)) / 255.0).sum::<f64>() / cells;
+            println!("{name}: {:.3}% far too light, {:.3}% off in the mean", 100.0 * lighter, 100.0 * mean);
+            assert!(lighter < 0.004 && mean < most, "{name}: {lighter} {mean}");
+        }
+    }
+}
+
+/// A plate above a table that covers half of the ground.
+fn two_receivers() -> Scene {
+    let plate = [dvec3(-30.0, -30.0, 10.0), dvec3(0.0, -30.0, 10.0), dvec3(0.0, 30.0, 10.0), dvec3(-30.0, 30.0, 10.0)];
+    let table = cuboid("table", dvec3(-30.0, 0.0, 0.0), dvec3(30.0, 30.0, 5.0));
+    scene_of(&Mesh::build(vec![sheet(plate), table]).unwrap(), Receivers::Top, 0.0)
+}
+
+/// How wide the plate's penumbra is on the ground and on the table, from west to east.
+fn on_both(drawn: DrawnMask<'_>, view: View, edges: [DVec2; 2], reach: f64) -> [f64; 2] {
+    let mask = drawn.read().unwrap();
+    edges.map(|edge| soft_length(&mask, view, edge - dvec2(reach, 0.0), edge + dvec2(reach, 0.0)))
+}
+
+#[test]
+fn the_remap_makes_one_edge_as_soft_as_each_receiver_demands() {
+    use gnomon::shadow::Technique;
+    let scene = two_receivers();
+    let sun = to_sun(270.0, 60.0);
+    let onto = |z: f64, y: f64| dvec2((10.0 - z) * sun.x.abs() / sun.z, y);
+    // where the shadow of the plate's edge falls, east of it
+    let edges = [onto(0.0, -0.3), onto(5.0, 0.9)];
+    let view = around((edges[0] + edges[1]) / 2.0, 4.0);
+    let mut technique = smoothie(&scene, view, None);
+    let [ground, table] = on_both(technique.draw(sun).unwrap(), view, edges, 0.4);
+    let expected = [10.0, 5.0].map(|fall| width(fall / sun.z) / sun.z);
+    assert!((ground / expected[0] - 1.0).abs() < 0.1, "{ground} instead of {}", expected[0]);
+    assert!((table / expected[1] - 1.0).abs() < 0.1, "{table} instead of {}", expected[1]);
+    // without it, both are as wide as the smoothie
+    technique.force_linear(true);
+    let [ground, table] = on_both(technique.draw(sun).unwrap(), view, edges, 0.4);
+    assert!((ground / table - 1.0).abs() < 0.1, "{ground} and {table}");
+}
+
+#[test]
+fn a_width_by_hand_bounds_the_penumbra() {
+    let scene = wall(30.0);
+    let view = around(dvec2(1.3, 30.0), 1.2);
+    // the sun's own would be 0.39 m across the rays
+    let mask = draw(&mut smoothie(&scene, view, Some(0.1)), to_sun(180.0, 45.0));
+    let found = soft_length(&mask, view, dvec2(1.3, 29.5), dvec2(1.3, 30.5));
+    let expected = 0.1 * 2.0_f64.sqrt();
+    assert!((found / expected - 1.0).abs() < 0.1, "{found} instead of {expected}");
+}
+
+#[test]
+fn a_lamps_penumbra_follows_the_papers_remap() {
+    let scene = two_receivers();
+    let lamp = dvec3(-0.4, 0.3, 20.0);
+    // on the ray past the plate's edge: b = 10, and r = 20 on the ground, 15 on the table
+    let onto = |z: f64, y: f64| dvec2(lamp.x + (0.0 - lamp.x) * (20.0 - z) / 10.0, y);
+    let edges = [onto(0.0, -1.0), onto(5.0, 1.2)];
+    let view = around(dvec2(0.0, 0.1), 4.0);
+    let mut technique = smoothie(&scene, view, None);
+    let t = 0.03;
+    let [ground, table] = on_both(technique.draw_lamp(lamp, t).unwrap(), view, edges, 1.0);
+    // t · (1 − b/r) in the plane a metre before the lamp, r times as far on the receiver
+    let expected = [t * (1.0 - 10.0 / 20.0) * 20.0, t * (1.0 - 10.0 / 15.0) * 15.0];
+    println!("{ground} {table} instead of {expected:?}");
+    assert!((ground / expected[0] - 1.0).abs() < 0.1, "{ground} instead of {}", expected[0]);
+    assert!((table / expected[1] - 1.0).abs() < 0.1, "{table} instead of {}", expected[1]);
+    // and its shadow lies where the lamp throws it
+    let mask = technique.draw_lamp(lamp, 1e-9).unwrap().read().unwrap();
+    // west of 0 the plate itself is seen
+    for (edge, expected) in edges.iter().zip([200, 100]) {
+        let share = |step: u32| at(&mask, view, *edge + dvec2(f64::from(step) * 0.002 - 0.4, 0.0));
+        let dark = (0..400).filter(|&step| share(step) < 128).count();
+        assert!(dark.abs_diff(expected) <= 6, "{dark} of 400 instead of {expected}");
+    }
+}
