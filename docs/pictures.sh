@@ -44,7 +44,7 @@ camera docs/pictures/headquarters-parts.png headquarters/facade-and-concrete.tom
 camera docs/pictures/headquarters-components.png headquarters 2026-09-18T15:00 --show components
 profile docs/pictures/headquarters-profile.png headquarters
 
-# The comparison sheets: figure 7 of seed 001, figures 3-5 to 3-10 and 4-8 to 4-11 of seed 000. The milliseconds in their
+# The comparison sheets after Brabec and Seidel and after Chan's thesis. The milliseconds in some of their
 # captions are measured as they are drawn.
 cargo run --release --example draw-figures
 
