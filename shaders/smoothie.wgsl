@@ -19,6 +19,11 @@ fn metric(at: vec2f) -> vec2f {
     return vec2f(at.x, -at.y) * map.texel;
 }
 
+// What is so thin in the map's plane is told from nothing.
+fn hair() -> f32 {
+    return 0.05 * max(map.texel.x, map.texel.y);
+}
+
 // As wide as the penumbra can become on its way to the lowest receiver, or as the user says.
 fn width_at(local: vec3f) -> f32 {
     if map.width > 0.0 {
@@ -47,8 +52,7 @@ fn smoothie(@builtin(vertex_index) index: u32, @location(0) from_local: vec3f, @
     var corners = array(0u, 1u, 2u, 2u, 1u, 3u);
     let corner = corners[index];
     // a hair inwards, so that no texel is left out between blocker and smoothie
-    let inwards = 0.05 * max(map.texel.x, map.texel.y);
-    let side = select(-inwards, width, corner >= 2u);
+    let side = select(-hair(), width, corner >= 2u);
     let at = select(start.xy - along * width, end.xy + along * width, (corner & 1u) == 1u) + outwards * side;
     let clip = clip_from_map(vec4f(vec2f(at.x, -at.y) / map.texel, 0.0, 1.0));
     return Smoothie(vec4f(clip.xy, 0.5, 1.0), start, end, widths);
@@ -94,13 +98,13 @@ fn alpha(smoothie: Smoothie) -> @location(0) vec4f {
     let ground = ground_at(smoothie.position.xy);
     let blockers = metres_of(textureLoad(map_depth, texel, 0));
     let receiver = min(min(blockers, metres_of(textureLoad(receivers_depth, texel, 0))), ground);
-    let behind = receiver - nearest.z;
-    // behind a blocker
-    if behind <= map.bias {
+    let remapped_width = penumbra(nearest.z, receiver);
+    // behind a blocker, or so near to its receiver that the edge is hard
+    if remapped_width <= hair() {
         discard;
     }
-    let drawn = mix(smoothie.widths.x, smoothie.widths.y, share);
-    let remapped = distance(at, nearest.xy) / select(penumbra(nearest.z, receiver), drawn, map.linear > 0.0);
+    let drawn_width = mix(smoothie.widths.x, smoothie.widths.y, share);
+    let remapped = distance(at, nearest.xy) / select(remapped_width, drawn_width, map.linear > 0.0);
     if remapped >= 1.0 {
         discard;
     }
