@@ -7,6 +7,7 @@ use crate::stage::{Stage, camera};
 use anyhow::Result;
 use glam::{DVec3, dvec3};
 use gnomon::gpu::Gpu;
+use gnomon::shadow::Technique;
 use gnomon::shadow::shadow_map::Filter;
 use std::sync::Arc;
 
@@ -36,8 +37,11 @@ pub(crate) fn filters(gpu: &Arc<Gpu>) -> Result<Sheet> {
     let stage = yard(gpu)?;
     let detail = detail(&stage);
     let mut rows = [Row::default(), Row::default()];
-    for (filter, name, levels) in FILTERS {
-        let (mask, millis) = stage.timed(&mut stage.map(512, filter)?)?;
+    let mut maps: Vec<Box<dyn Technique>> = Vec::new();
+    for (filter, ..) in FILTERS {
+        maps.push(Box::new(stage.map(512, filter)?));
+    }
+    for ((_, name, levels), (mask, millis)) in FILTERS.into_iter().zip(stage.timed(&mut maps)?) {
         let picture = stage.shaded(&mask);
         let whole = picture.clone().framed(detail, 5, RED).shrunk(4);
         rows[0].panels.push(Panel { picture: whole, caption: vec![] });

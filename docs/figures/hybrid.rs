@@ -187,13 +187,12 @@ pub(crate) fn beside(gpu: &Arc<Gpu>) -> Result<Sheet> {
         let stage = stage(gpu, dense)?;
         let detail = stage.around(middle, 142, 88);
         let (mut whole, mut below) = (Row { head: head.into(), ..Row::default() }, Row::default());
-        let techniques: [Box<dyn Technique>; 3] = [
+        let mut techniques: [Box<dyn Technique>; 3] = [
             Box::new(stage.map(1024, Filter::FastTwoByTwo)?),
             Box::new(stage.hybrid(1024)?),
             Box::new(stage.stencil()?),
         ];
-        for mut technique in techniques {
-            let (mask, millis) = stage.timed(&mut *technique)?;
+        for (mask, millis) in stage.timed(&mut techniques)? {
             let picture = stage.shaded(&mask);
             let magnified = picture.cropped(detail).magnified(3);
             below.panels.push(Panel { picture: magnified, caption: vec![format!("{millis:.0} ms")] });

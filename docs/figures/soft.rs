@@ -24,15 +24,14 @@ pub(crate) fn edges(gpu: &Arc<Gpu>) -> Result<Sheet> {
     let truth = small.shaded(&small.mask(&mut small.rays(Some(DISC_POINTS)))?);
     let mut rows = Vec::new();
     for size in [256, 512, 1024] {
-        let techniques: [Box<dyn Technique>; 4] = [
+        let mut techniques: [Box<dyn Technique>; 4] = [
             Box::new(stage.map(size, Filter::None)?),
             Box::new(stage.map(size, Filter::FastFourByFour)?),
             Box::new(stage.smoothie(size, Some(0.05))?),
             Box::new(stage.smoothie(size, None)?),
         ];
         let mut row = Row { head: format!("{size}²"), ..Row::default() };
-        for mut technique in techniques {
-            let (mask, millis) = stage.timed(&mut *technique)?;
+        for (mask, millis) in stage.timed(&mut techniques)? {
             let picture = stage.shaded(&mask).cropped(part);
             row.panels.push(Panel { picture, caption: vec![format!("{millis:.0} ms")] });
         }

@@ -66,18 +66,27 @@ impl Stage {
         Ok(technique.draw(self.to_sun)?.read()?)
     }
 
-    /// The mask, and the median of the milliseconds that an instant takes.
-    pub(crate) fn timed(&self, technique: &mut dyn Technique) -> Result<(Mask, f64)> {
-        let mask = self.mask(technique)?;
-        let mut times = Vec::new();
-        for _ in 0..7 {
-            let start = Instant::now();
-            technique.draw(self.to_sun)?;
-            self.gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
-            times.push(start.elapsed().as_secs_f64() * 1e3);
+    /// The masks, and the median of the milliseconds that an instant takes; techniques take turns, so that what else the
+    /// machine does falls on all alike.
+    pub(crate) fn timed(&self, techniques: &mut [Box<dyn Technique>]) -> Result<Vec<(Mask, f64)>> {
+        let mut masks = Vec::new();
+        for technique in &mut *techniques {
+            masks.push(self.mask(&mut **technique)?);
         }
-        times.sort_by(f64::total_cmp);
-        Ok((mask, times[times.len() / 2]))
+        let mut times = vec![Vec::new(); masks.len()];
+        for _ in 0..7 {
+            for (technique, times) in techniques.iter_mut().zip(&mut times) {
+                let start = Instant::now();
+                technique.draw(self.to_sun)?;
+                self.gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
+                times.push(start.elapsed().as_secs_f64() * 1e3);
+            }
+        }
+        let median = |mut times: Vec<f64>| {
+            times.sort_by(f64::total_cmp);
+            times[times.len() / 2]
+        };
+        Ok(masks.into_iter().zip(times.into_iter().map(median)).collect())
     }
 
     /// The part of the picture that is so large and has a point in its middle.
