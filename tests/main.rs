@@ -2,6 +2,7 @@
 
 mod architecture;
 mod command;
+mod dense;
 mod dome;
 mod exact;
 mod export;
@@ -9,6 +10,7 @@ mod geometry;
 mod gpu_silhouettes;
 mod mistakes;
 mod model;
+mod overdraw;
 mod overlay;
 mod shaders;
 mod site;
@@ -16,6 +18,7 @@ mod sites;
 mod sums;
 mod sun;
 mod techniques;
+mod timers;
 mod try_models;
 mod verify;
 mod volumes;
