@@ -6,6 +6,7 @@ mod dense;
 mod dome;
 mod exact;
 mod export;
+mod far_wrong;
 mod geometry;
 mod gpu_silhouettes;
 mod mistakes;
