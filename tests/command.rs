@@ -116,7 +116,7 @@ fn json_is_the_file_and_alone_on_stdout() {
     let json: Value = serde_json::from_str(&said).unwrap();
     assert_eq!(json["region"], json!([-20.0, -10.0, 20.0, 30.0]));
     assert_eq!((&json["width"], &json["height"], &json["cell"]), (&80.into(), &80.into(), &0.5.into()));
-    assert_eq!((&json["technique"], &json["engine"]), (&"ray-cast".into(), &"cpu".into()));
+    assert_eq!((&json["technique"], &json["engine"]), (&"projected".into(), &"cpu".into()));
     assert_eq!((&json["receivers"], &json["silhouette"]), (&"ground".into(), &Value::Null));
     assert_eq!(json["instants"].as_array().unwrap().len(), 5);
     assert_eq!(json["refraction"], true);
