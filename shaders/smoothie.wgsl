@@ -24,13 +24,15 @@ fn hair() -> f32 {
     return 0.05 * max(map.texel.x, map.texel.y);
 }
 
-// As wide as the penumbra can become on its way to the lowest receiver and within what is seen, or as the user says.
+// A lamp's as it is asked. The sun's as wide as the penumbra can become on its way to the lowest receiver and within what
+// is seen, and no wider than is asked.
 fn width_at(local: vec3f, depth: f32) -> f32 {
-    if map.width > 0.0 {
+    if map.near > 0.0 {
         return map.width;
     }
     let farthest = min((local.z - view.lowest_z) / max(light.towards.z, 1e-4), map.farthest - depth);
-    return map.spread * max(farthest, 0.0);
+    let of_disc = map.spread * max(farthest, 0.0);
+    return select(of_disc, min(of_disc, map.width), map.width > 0.0);
 }
 
 // One rectangle an edge, from the edge outwards and beyond its ends as far: there it is the corner, whose alpha is the

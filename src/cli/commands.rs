@@ -121,6 +121,11 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     }
 
     let site = Site::load(&asked.site.path, &asked.overrides())?;
+    // the site file may name the technique
+    if diagram == Some(Diagram::Mask) && site.method != Method::Hybrid {
+        let what = "--show mask is the hybrid's; add --technique hybrid, or leave it out";
+        return Err(WrongUse(what.to_owned()).into());
+    }
     for (_, path) in &written {
         file::check_folder(path.parent().unwrap_or(Path::new("")))?;
     }
@@ -186,9 +191,6 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
         _ if !is_drawn => wrong("is for a drawing, and --mask alone makes none; add --out FILE.png"),
         ([_, _, ..], _) if diagram.is_some() => {
             wrong("mask and overdraw stand instead of all else; show one of them alone")
-        }
-        ([Show::Mask], _) if asked.overrides().technique != Some(Method::Hybrid) => {
-            wrong("mask is the hybrid's; add --technique hybrid, or leave it out")
         }
         (_, Eye::Plan) if diagram.is_none() => wrong("is for the camera's picture; add --view camera, or leave it out"),
         _ => Ok(diagram),

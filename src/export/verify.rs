@@ -229,7 +229,7 @@ fn legend(table: &mut String, verification: &Verification) {
          edge cells: a shadow's edge runs past the cell or a neighbour; differ: by more than half the sun\n\
          elsewhere: cells away from edges that differ{}\n\
          map missed: cells that the hybrid's map decided otherwise than the stencil, as under what is thinner than its\n\
-         \u{20}           texels; counted here alone\n\
+         \u{20}           texels; not among the cells that differ, but in the share and the hours\n\
          furthest: how far the furthest cell that differs lies from a shadow edge, in cells: 1 is right at the edge\n\
          share off: of the sun, in the mean of all cells; h off: hours of the profile, in the worst cell and in the mean\n\
          {}",

@@ -208,6 +208,10 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
         }
         tell(on_event, Event::Drawn { index, count, time: instant.time, mask: mask.as_ref() })?;
     }
+    if statistics.is_some_and(|statistics| statistics.cells == 0) {
+        tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
+        statistics = None;
+    }
     let shaded = sum.finish()?;
     watch.lap("shadows");
 
@@ -257,6 +261,9 @@ pub fn instant(
         if shows_volumes {
             tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned()))?;
         }
+        if wants.counted {
+            tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
+        }
         night(&view)
     } else {
         overlay = look.overlay(wants, instant.to_sun)?;
@@ -281,6 +288,10 @@ pub fn instant(
         drawn: machine.drawn(),
     })
 }
+
+/// Where something asks what counting took.
+const NOTHING_COUNTED: &str =
+    "without a sun nothing is counted: there are no statistics, no mask and no overdraw to show";
 
 /// Beyond this distance a place's sun and its flat frame no longer hold to what the drawing says, metres.
 const FAR_M: f64 = 20_000.0;

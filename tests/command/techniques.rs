@@ -135,3 +135,22 @@ fn show_draws_the_mask_and_overdraw() {
         fails(folder.path(), &format!("{at} --out m.png {options}"), 2, &[said]);
     }
 }
+
+#[test]
+fn a_technique_in_the_site_file_is_shown_and_night_is_told() {
+    let folder = site();
+    let text = std::fs::read_to_string(folder.path().join("site.toml")).unwrap() + "\ntechnique = \"hybrid\"\n";
+    std::fs::write(folder.path().join("site.toml"), text).unwrap();
+    done(folder.path(), "shadow . --at 2026-09-18T15:00 --size 100 --show mask --out m.png");
+    assert!(pixels(folder.path().join("m.png"), |pixel| pixel == [196, 60, 48]) > 1000);
+    for night in [
+        "shadow . --at 2026-09-18T02:00 --size 32 --show mask --out n.png",
+        "shadow . --at 2026-09-18T02:00 --size 32 --stats --mask n.png",
+        "profile . --size 32 --write json --stats --from 1:00 --to 3:00",
+    ] {
+        let output = gnomon(folder.path(), night);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success() && told.contains("nothing is counted"), "{night}: {told}");
+        assert!(!String::from_utf8_lossy(&output.stdout).contains("overdraw"), "{night}");
+    }
+}

@@ -225,6 +225,12 @@ fn a_width_by_hand_bounds_the_penumbra() {
     let found = soft_length(&mask, view, dvec2(1.3, 29.5), dvec2(1.3, 30.5));
     let expected = 0.1 * 2.0_f64.sqrt();
     assert!((found / expected - 1.0).abs() < 0.1, "{found} instead of {expected}");
+    // what is wider than the sun makes it changes nothing
+    let of_disc = draw(&mut smoothie(&scene, view, None), to_sun(180.0, 45.0));
+    for huge in [5.0, 1e6, 1e30] {
+        let drawn = draw(&mut smoothie(&scene, view, Some(huge)), to_sun(180.0, 45.0));
+        assert!(drawn == of_disc, "a width of {huge} m is not bounded by the sun's");
+    }
 }
 
 #[test]
