@@ -10,6 +10,7 @@ mod gpu_silhouettes;
 mod mistakes;
 mod model;
 mod overlay;
+mod probe;
 mod shaders;
 mod site;
 mod sites;
