@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Draws the pictures of the documentation anew with the command itself (GNOMON=…, or built here), and shrinks them for
-# the screen with ImageMagick: half the size of the sheet, 256 colours.
+# Draws the pictures of the documentation anew: drawings by the command itself (GNOMON=…, or built here), shrunk for the
+# screen with ImageMagick to half the size of the sheet and 256 colours; comparison sheets by an example.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -43,5 +43,9 @@ camera sites/headquarters/picture.png headquarters 2026-09-18T15:00
 camera docs/pictures/headquarters-parts.png headquarters/facade-and-concrete.toml 2026-09-18T15:00 --show components
 camera docs/pictures/headquarters-components.png headquarters 2026-09-18T15:00 --show components
 profile docs/pictures/headquarters-profile.png headquarters
+
+# The comparison sheets after Brabec and Seidel and after Chan's thesis. The milliseconds in some of their
+# captions are measured as they are drawn.
+cargo run --release --example draw-figures
 
 ls -l docs/pictures/*.png sites/*/picture.png

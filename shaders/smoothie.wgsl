@@ -24,12 +24,13 @@ fn hair() -> f32 {
     return 0.05 * max(map.texel.x, map.texel.y);
 }
 
-// As wide as the penumbra can become on its way to the lowest receiver, or as the user says.
-fn width_at(local: vec3f) -> f32 {
+// As wide as the penumbra can become on its way to the lowest receiver and within what is seen, or as the user says.
+fn width_at(local: vec3f, depth: f32) -> f32 {
     if map.width > 0.0 {
         return map.width;
     }
-    return map.spread * max(local.z - view.lowest_z, 0.0) / max(light.towards.z, 1e-4);
+    let farthest = min((local.z - view.lowest_z) / max(light.towards.z, 1e-4), map.farthest - depth);
+    return map.spread * max(farthest, 0.0);
 }
 
 // One rectangle an edge, from the edge outwards and beyond its ends as far: there it is the corner, whose alpha is the
@@ -40,7 +41,7 @@ fn smoothie(@builtin(vertex_index) index: u32, @location(0) from_local: vec3f, @
     let start = vec3f(metric(ends[0].xy), ends[0].z);
     let end = vec3f(metric(ends[1].xy), ends[1].z);
     let length = distance(start.xy, end.xy);
-    let widths = vec2f(width_at(from_local), width_at(to_local));
+    let widths = vec2f(width_at(from_local, start.z), width_at(to_local, end.z));
     let width = max(widths.x, widths.y);
     // seen end-on, on the lowest receiver, or behind a lamp: no area
     if length < 1e-6 || width <= 0.0 || min(start.z, end.z) < map.near {

@@ -116,7 +116,7 @@ fn json_is_the_file_and_alone_on_stdout() {
     let json: Value = serde_json::from_str(&said).unwrap();
     assert_eq!(json["region"], json!([-20.0, -10.0, 20.0, 30.0]));
     assert_eq!((&json["width"], &json["height"], &json["cell"]), (&80.into(), &80.into(), &0.5.into()));
-    assert_eq!((&json["technique"], &json["engine"]), (&"ray-cast".into(), &"cpu".into()));
+    assert_eq!((&json["technique"], &json["engine"]), (&"projected".into(), &"cpu".into()));
     assert_eq!((&json["receivers"], &json["silhouette"]), (&"ground".into(), &Value::Null));
     assert_eq!(json["instants"].as_array().unwrap().len(), 5);
     assert_eq!(json["refraction"], true);
@@ -159,7 +159,7 @@ fn mistakes_are_told_in_one_line() {
     fails(path, "profile none.toml", 1, &["none.toml", "cannot be read"]);
     fails(path, "profile . --date 2026-02-30", 2, &["--date", "2026-02-30"]);
     fails(path, "profile . --tehnique auto", 2, &["--tehnique", "--technique", "--help"]);
-    fails(path, "profile . --technique projected", 2, &["projected", "not there yet"]);
+    fails(path, "profile . --technique soft-texture", 2, &["soft-texture", "not there yet"]);
     fails(path, "profile . --engine gup", 2, &["gup", "gpu"]);
     fails(path, "profile tower.glb", 2, &["--place LAT,LON"]);
     fails(path, "profile tower.glb --place 98,2 --date 2026-09-18", 2, &["--place", "-90"]);

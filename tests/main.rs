@@ -2,13 +2,16 @@
 
 mod architecture;
 mod command;
+mod dense;
 mod dome;
 mod exact;
 mod export;
+mod far_wrong;
 mod geometry;
 mod gpu_silhouettes;
 mod mistakes;
 mod model;
+mod overdraw;
 mod overlay;
 mod probe;
 mod shaders;
@@ -17,6 +20,7 @@ mod sites;
 mod sums;
 mod sun;
 mod techniques;
+mod timers;
 mod try_models;
 mod verify;
 mod volumes;

@@ -2,6 +2,7 @@
 
 mod disc;
 mod hybrid;
+mod projected;
 mod shadow_map;
 mod smoothie;
 
@@ -26,19 +27,4 @@ fn site(name: &str, size: u32) -> (Scene, View, Vec<DVec3>) {
 
 fn draw(technique: &mut dyn Technique, to_sun: DVec3) -> Mask {
     technique.draw(to_sun).unwrap().read().unwrap()
-}
-
-/// How far a cell lies from the nearest one on the other side of half the sun, in cells, as far as is looked.
-fn to_edge(truth: &Mask, at: usize, reach: i64) -> f64 {
-    let (width, height) = (i64::from(truth.width), i64::from(truth.height));
-    let (column, row) = (at as i64 % width, at as i64 / width);
-    let mut nearest = f64::INFINITY;
-    for y in (row - reach).max(0)..(row + reach + 1).min(height) {
-        for x in (column - reach).max(0)..(column + reach + 1).min(width) {
-            if (truth.share[(y * width + x) as usize] > 127) != (truth.share[at] > 127) {
-                nearest = nearest.min((((x - column).pow(2) + (y - row).pow(2)) as f64).sqrt());
-            }
-        }
-    }
-    nearest
 }

@@ -27,7 +27,9 @@ struct Map {
     width: f32,
     // Smoothies keep their alpha as it is drawn: 1, else 0.
     linear: f32,
-    unused: vec2f,
+    // Depth of the farthest receiver that is seen.
+    farthest: f32,
+    unused: f32,
 }
 
 @group(2) @binding(0) var<uniform> map: Map;

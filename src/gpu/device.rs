@@ -1,6 +1,7 @@
 //! One adapter, opened with all that it can do.
 
-use std::sync::{Arc, Mutex};
+use super::timers::Timers;
+use std::sync::{Arc, Mutex, OnceLock};
 use wgpu::{
     Backends, DeviceDescriptor, Features, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions,
 };
@@ -16,6 +17,8 @@ pub struct Gpu {
     name: String,
     software: bool,
     fault: Arc<Mutex<Option<String>>>,
+    /// Where passes are timed.
+    pub(super) timers: OnceLock<Timers>,
 }
 
 /// Why the GPU gives no answer.
@@ -46,8 +49,8 @@ pub enum GpuError {
 
 /// What drawing needs beyond the least that WebGPU promises: a float depth beside the stencil.
 const NEEDED: Features = Features::DEPTH32FLOAT_STENCIL8;
-/// What some techniques need, and some adapters (all of GL) lack.
-const WANTED: Features = Features::FLOAT32_BLENDABLE;
+/// What some techniques need, and some adapters (all of GL) lack; and the clock for timers.
+const WANTED: Features = Features::FLOAT32_BLENDABLE.union(Features::TIMESTAMP_QUERY);
 
 impl Gpu {
     /// Opens the fastest adapter of the system. The usual environment variables of wgpu choose another one.
@@ -82,7 +85,7 @@ impl Gpu {
                     fault.get_or_insert_with(|| error.to_string());
                 }
             }));
-            Ok(Gpu { device, queue, limits, name, software, fault })
+            Ok(Gpu { device, queue, limits, name, software, fault, timers: OnceLock::new() })
         })
     }
 

@@ -70,8 +70,10 @@ pub struct Map {
     pub width: f32,
     /// 1 where smoothies keep their alpha as it is drawn.
     pub linear: f32,
+    /// Depth of the farthest receiver that is seen, metres.
+    pub farthest: f32,
     /// WGSL rounds a struct up to its alignment.
-    pub unused: [f32; 2],
+    pub unused: f32,
 }
 
 /// `Weight` of `shaders/accumulate.wgsl`.
@@ -176,7 +178,7 @@ macro_rules! layout {
 pub const ALL: &[Layout] = &[
     layout!(View: clip_from_local, viewer, right, up, forward, ground_z, lowest_z, judged_above, depth_scale, size, unused),
     layout!(Light: towards),
-    layout!(Map: from_local, across, along, ground, texel, size, range, near, bias, slope_bias, spread, width, linear, unused),
+    layout!(Map: from_local, across, along, ground, texel, size, range, near, bias, slope_bias, spread, width, linear, farthest, unused),
     layout!(Search: light, indices_per_wall, halved, unused),
     layout!(Face: corners, number),
     layout!(Edge: first, second, a, b, along),

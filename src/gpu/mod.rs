@@ -1,4 +1,4 @@
-//! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, computing, readback.
+//! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, computing, readback, timers.
 
 pub mod compute;
 mod device;
@@ -6,5 +6,6 @@ pub mod layout;
 pub mod readback;
 pub mod shaders;
 pub mod targets;
+mod timers;
 
 pub use device::{Gpu, GpuError};

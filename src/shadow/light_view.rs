@@ -65,6 +65,7 @@ impl Extents {
             high: DVec2::ONE,
             near: 0.0,
             far: 1.0,
+            farthest: 1.0,
         };
         if self.casters.is_empty() || self.seen.is_empty() {
             return nothing;
@@ -76,7 +77,8 @@ impl Extents {
         let flat =
             |points: &[DVec3]| hull(points.iter().map(|point| DVec2::new(point.dot(right), point.dot(up))).collect());
         let (casters, seen) = (flat(&self.casters), flat(&self.seen));
-        let penumbra = DVec2::splat(spread() * self.fall / to_sun.z.max(1e-4));
+        let farthest = away(&self.seen).1;
+        let penumbra = DVec2::splat(spread() * (self.fall / to_sun.z.max(1e-4)).min((farthest - near).max(0.0)));
         let rectangle = |turn: DVec2| {
             let around = |points: &[DVec2]| {
                 bounds(points.iter().map(|point| DVec2::new(turn.dot(*point), turn.perp().dot(*point))))
@@ -94,7 +96,7 @@ impl Extents {
         // where nothing overlaps, nothing is in shadow, and any rectangle will do
         let high = high.max(low + 0.01);
         let (right, up) = (right * turn.x + up * turn.y, up * turn.x - right * turn.y);
-        LightView { right, up, low, high, near, far, ..nothing }
+        LightView { right, up, low, high, near, far, farthest, ..nothing }
     }
 
     /// A lamp's view of what is seen, towards its middle: as far aside as [`LAMP_SEES`], and not behind the lamp.
@@ -125,6 +127,7 @@ impl Extents {
             high: high.min(seen_high).min(sees).max(low + 1e-3),
             near: LAMP_NEAR_M,
             far,
+            farthest: far,
         }
     }
 }
@@ -212,6 +215,8 @@ pub(super) struct LightView {
     /// From where to where depth reaches, metres: along the rays from the scene's origin, or from the lamp.
     near: f64,
     far: f64,
+    /// As `far`, of what is seen.
+    farthest: f64,
 }
 
 impl LightView {
@@ -253,7 +258,8 @@ impl LightView {
             spread: spread() as f32,
             width: smoothies.width_m as f32,
             linear: f32::from(u8::from(smoothies.linear)),
-            unused: [0.0; 2],
+            farthest: (self.farthest - near * (1.0 - light.w)) as f32,
+            unused: 0.0,
         }
     }
 

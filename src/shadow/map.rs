@@ -122,6 +122,7 @@ impl DepthMap {
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("map"),
             depth_stencil_attachment: Some(cleared(&whole(depth))),
+            timestamp_writes: self.gpu.timed("map"),
             ..RenderPassDescriptor::default()
         });
         pass.set_pipeline(&self.pipeline);
@@ -178,6 +179,7 @@ impl PackedMap {
                     ops: Operations { load, store: StoreOp::Store },
                 })],
                 depth_stencil_attachment: Some(cleared(&whole(&map.depth))),
+                timestamp_writes: map.gpu.timed("map.packed"),
                 ..RenderPassDescriptor::default()
             });
             pass.set_pipeline(pipeline);

@@ -197,7 +197,7 @@ impl RayCast {
 /// What a cell takes when an edge runs through its very centre, in cells: what lies east of it, and on an edge from west
 /// to east what lies south. That is the rasterisers' top-left rule, so that drawing boards whose walls stand on whole
 /// cells give the same plan on every machine; a ten-thousandth is beyond the rounding of corners and nothing else.
-const TIE: DVec2 = DVec2::new(1e-4, -1e-5);
+pub(super) const TIE: DVec2 = DVec2::new(1e-4, -1e-5);
 
 /// The rays on which cells are seen.
 struct Rays {

@@ -185,6 +185,7 @@ impl Smoothie {
                 resolve_target: None,
                 ops: Operations { load: LoadOp::Clear(NOTHING), store: StoreOp::Store },
             })],
+            timestamp_writes: surface.gpu.timed("smoothie.edges"),
             ..RenderPassDescriptor::default()
         });
         map.bind(surface, &mut pass);

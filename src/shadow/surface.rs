@@ -202,6 +202,7 @@ impl GpuSurface {
                 resolve_target: None,
                 ops: Operations { load: LoadOp::Clear(Color::BLACK), store: StoreOp::Store },
             })],
+            timestamp_writes: self.gpu.timed(label),
             ..RenderPassDescriptor::default()
         });
         pass.set_bind_group(0, &self.frame, &[]);

@@ -75,12 +75,13 @@ words!(
     [
         "auto" => Method::Auto,
         "stencil" => Method::Stencil,
+        "projected" => Method::Projected,
         "shadow-map" => Method::ShadowMap,
         "hybrid" => Method::Hybrid,
         "smoothie" => Method::Smoothie,
         "ray-cast" => Method::RayCast
     ],
-    later ["projected", "soft-texture"]
+    later ["soft-texture"]
 );
 words!(
     Pcf,

@@ -44,6 +44,8 @@ pub enum Method {
     Auto,
     /// Stencil shadow volumes.
     Stencil,
+    /// Faces projected onto the ground.
+    Projected,
     /// A depth map drawn from the sun.
     ShadowMap,
     /// A depth map, and volumes where it cannot tell.

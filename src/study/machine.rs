@@ -5,14 +5,15 @@ use crate::gpu::{Gpu, GpuError};
 use crate::profile::Drawn;
 use crate::shadow::hybrid::Hybrid;
 use crate::shadow::map;
+use crate::shadow::projected::Projected;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::shadow_map::{Filter, ShadowMap};
 use crate::shadow::smoothie::Smoothie;
 use crate::shadow::stencil::Stencil;
 use crate::shadow::{Scene, ShadowError, Silhouettes, Technique};
 use crate::silhouette::Kind;
-use crate::site::{Engine, Finder, Method, Pcf, Settings, Site};
-use crate::view::View;
+use crate::site::{Engine, Finder, Method, Pcf, Receivers, Settings, Site};
+use crate::view::{Grid, View};
 use std::sync::Arc;
 
 /// A technique with all that it needs to be made for a view.
@@ -20,6 +21,8 @@ use std::sync::Arc;
 pub(super) enum Machine {
     /// Rays on the processor, to so many points of the sun's disc, or its centre.
     RayCast { sun_samples: Option<u32> },
+    /// Faces projected onto the ground below a plan, on the processor.
+    Projected(Grid),
     /// Anything else.
     OnGpu(Arc<Gpu>, Drawing),
 }
@@ -50,7 +53,9 @@ impl Drawing {
             },
             Method::Hybrid => Drawing::Hybrid { silhouettes: silhouettes(site, gpu), map_size },
             Method::Smoothie => Drawing::Smoothie { finder: kind(site), map_size, width_m: settings.smoothie_width_m },
-            Method::Stencil | Method::Auto | Method::RayCast => Drawing::Stencil(silhouettes(site, gpu)),
+            Method::Stencil | Method::Auto | Method::RayCast | Method::Projected => {
+                Drawing::Stencil(silhouettes(site, gpu))
+            }
         }
     }
 }
@@ -64,7 +69,7 @@ impl Machine {
 
     pub(super) fn gpu(&self) -> Option<Arc<Gpu>> {
         match self {
-            Machine::RayCast { .. } => None,
+            Machine::RayCast { .. } | Machine::Projected(_) => None,
             Machine::OnGpu(gpu, _) => Some(Arc::clone(gpu)),
         }
     }
@@ -77,13 +82,14 @@ impl Machine {
         };
         let (method, silhouette) = match self {
             Machine::RayCast { .. } => (Method::RayCast, None),
+            Machine::Projected(_) => (Method::Projected, None),
             Machine::OnGpu(_, Drawing::Stencil(silhouettes)) => (Method::Stencil, Some(found(silhouettes))),
             Machine::OnGpu(_, Drawing::ShadowMap { .. }) => (Method::ShadowMap, None),
             Machine::OnGpu(_, Drawing::Hybrid { silhouettes, .. }) => (Method::Hybrid, Some(found(silhouettes))),
             Machine::OnGpu(_, Drawing::Smoothie { finder, .. }) => (Method::Smoothie, Some(found(&(*finder).into()))),
         };
         let (engine, adapter) = match self {
-            Machine::RayCast { .. } => (Engine::Cpu, None),
+            Machine::RayCast { .. } | Machine::Projected(_) => (Engine::Cpu, None),
             Machine::OnGpu(gpu, _) => (Engine::Gpu, Some(gpu.name().to_owned())),
         };
         Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter }
@@ -92,6 +98,7 @@ impl Machine {
     pub(super) fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
         let (gpu, drawing) = match self {
             Machine::RayCast { sun_samples } => return Ok(Box::new(RayCast::new(scene, view, *sun_samples))),
+            Machine::Projected(grid) => return Ok(Box::new(Projected::new(scene, *grid))),
             Machine::OnGpu(gpu, drawing) => (Arc::clone(gpu), *drawing),
         };
         Ok(match drawing {
@@ -163,7 +170,7 @@ fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
             finder != Finder::Auto,
             &[Stencil, Hybrid, Smoothie],
             "--silhouette",
-            "ray casting and shadow maps use no silhouettes; leave the option out",
+            "only the techniques stencil, hybrid and smoothie use silhouettes; leave the option out",
         ),
         (
             finder == Finder::Gpu,
@@ -180,11 +187,34 @@ fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Technique and engine as asked; else the stencil on a real graphics adapter, and ray casting on the processor.
-pub(super) fn choose(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
+/// Technique and engine as asked; else, for the ground alone, projection; else the stencil on a real graphics adapter, and
+/// ray casting on the processor.
+///
+/// A projected instant takes less time than opening an adapter does, so none is opened for it.
+pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
     let conflict = |what| Err(StudyError::Conflict { option: "--engine", what });
     let cast = Machine::RayCast { sun_samples: site.settings.sun_samples };
+    let ground = match view {
+        View::Plan(grid) if site.receivers == Receivers::Ground => Some(*grid),
+        _ => None,
+    };
+    let is_plain = site.settings == Settings::default() && site.finder == Finder::Auto;
+    if let (Some(grid), Method::Auto, Engine::Auto | Engine::Cpu, true) = (ground, site.method, site.engine, is_plain) {
+        return Ok(Machine::Projected(grid));
+    }
     let machine = match (site.method, site.engine) {
+        (Method::Projected, Engine::Gpu) => {
+            return conflict("the technique projected works on the cpu; take --technique stencil with gpu");
+        }
+        (Method::Projected, _) => {
+            unused(site, Method::Projected)?;
+            let Some(grid) = ground else {
+                let what = "projected is for the ground alone, which is flat; add --receivers ground on the plan, \
+                            or take another technique";
+                return Err(StudyError::Conflict { option: "--technique", what });
+            };
+            Machine::Projected(grid)
+        }
         (Method::RayCast, Engine::Gpu) => {
             return conflict("the technique ray-cast works on the cpu; take --technique stencil with gpu");
         }

@@ -185,8 +185,9 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     let mut watch = Stopwatch::start();
     let (day_secs, night_secs) = day_and_night(&site.track)?;
     note_distance(&site.mesh, on_event)?;
-    let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, on_event)? };
-    let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
+    let view = View::Plan(site.grid);
+    let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, &view, on_event)? };
+    let look = Look { site, machine: &machine, view, receivers: site.receivers };
     let mut technique = look.technique()?;
     let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
     let mut sum = Sum::new(machine.gpu(), site.grid.width, site.grid.height);
@@ -244,7 +245,7 @@ pub fn instant(
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(site)?,
         (false, true) => counting(site, "--stats, --show mask and --show overdraw")?,
-        (false, false) => choose(site, on_event)?,
+        (false, false) => choose(site, &view, on_event)?,
     };
     let receivers = judged(site, &view);
     let look = Look { site, machine: &machine, view, receivers };

@@ -32,8 +32,9 @@ const EDGE_SHARE: f64 = 0.01;
 
 /// The techniques that draw, what each is held against, and what it promises. A new technique is a line here; the hybrid
 /// comes after the stencil, of which it is to miss nothing.
-const TECHNIQUES: [(Method, Truth, Promise); 4] = [
+const TECHNIQUES: [(Method, Truth, Promise); 5] = [
     (Method::Stencil, Truth::Centre, Promise::Exact),
+    (Method::Projected, Truth::Centre, Promise::Exact),
     (Method::Hybrid, Truth::Centre, Promise::ExactButForMap),
     (Method::ShadowMap, Truth::Centre, Promise::Near),
     (Method::Smoothie, Truth::Disc, Promise::Near),
@@ -66,7 +67,11 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
             tell(on_event, Event::Note(note))?;
             continue;
         }
-        let machine = Machine::OnGpu(Arc::clone(&gpu), Drawing::of(method, site, &gpu));
+        let machine = match (method, site.receivers) {
+            (Method::Projected, Receivers::Top) => continue, // for the ground alone
+            (Method::Projected, Receivers::Ground) => Machine::Projected(site.grid),
+            _ => Machine::OnGpu(Arc::clone(&gpu), Drawing::of(method, site, &gpu)),
+        };
         let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
         trials.push(Trial { drawn: machine.drawn(), against, promise, technique: look.technique()? });
     }

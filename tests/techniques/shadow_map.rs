@@ -1,15 +1,16 @@
 //! Shadow maps: the levels of each filter, the bias, and casters outside of the view.
 
-use super::{draw, site, to_edge};
+use super::{draw, site};
 use crate::exact::scenes::{cuboid, sheet};
 use crate::exact::{gpu, plan, scene_of, to_sun};
+use crate::far_wrong::far_wrong;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::Mesh;
+use gnomon::shadow::ShadowError;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
-use gnomon::shadow::{Scene, ShadowError};
 use gnomon::site::Receivers;
-use gnomon::view::{Grid, Mask, View};
+use gnomon::view::{Grid, View};
 use std::collections::BTreeSet;
 
 const FILTERS: [(Filter, u32); 4] =
@@ -28,54 +29,6 @@ fn filters_have_their_levels_and_no_others() {
     }
 }
 
-/// Cells on the wrong side of half the sun: lighter than the truth, darker, and of both those that lie further from a
-/// shadow's edge than two texels.
-#[derive(Debug, Default)]
-struct Wrong {
-    cells: usize,
-    lighter: usize,
-    darker: usize,
-}
-
-impl Wrong {
-    fn share(&self) -> f64 {
-        (self.lighter + self.darker) as f64 / self.cells as f64
-    }
-}
-
-/// Wrong cells that lie further from an edge than two texels, which are `texel_cells` large.
-fn far_wrong(drawn: &Mask, truth: &Mask, texel_cells: f64) -> Wrong {
-    let mut wrong = Wrong { cells: truth.share.len(), ..Wrong::default() };
-    let far = 2.0 * texel_cells;
-    for (at, (&share, &right)) in drawn.share.iter().zip(&truth.share).enumerate() {
-        if (share > 127) != (right > 127) && to_edge(truth, at, far.ceil() as i64 + 1) > far {
-            *(if share > right { &mut wrong.lighter } else { &mut wrong.darker }) += 1;
-        }
-    }
-    wrong
-}
-
-/// Over the suns, at the size of map and with the bias.
-fn measured(scene: &Scene, view: View, suns: &[DVec3], size: u32, filter: Filter, bias: Option<f32>) -> Wrong {
-    let View::Plan(grid) = view else { panic!("a plan") };
-    let mut map = match bias {
-        None => ShadowMap::new(gpu(), scene, view, size, filter).unwrap(),
-        Some(bias) => ShadowMap::with_bias(gpu(), scene, view, size, filter, bias).unwrap(),
-    };
-    let mut truth = RayCast::new(scene.clone(), view, None);
-    let mut sum = Wrong::default();
-    for &sun in suns {
-        let [across, along] = map.texel_m(sun);
-        // as a texel lies on level ground
-        let texel_cells = f64::from(across.max(along)) / sun.z / grid.cell;
-        let wrong = far_wrong(&draw(&mut map, sun), &draw(&mut truth, sun), texel_cells);
-        sum.cells += wrong.cells;
-        sum.lighter += wrong.lighter;
-        sum.darker += wrong.darker;
-    }
-    sum
-}
-
 /// The day's suns of a site, and lower ones down to 10°.
 fn suns(of_day: &[DVec3]) -> Vec<DVec3> {
     of_day.iter().step_by(3).copied().chain([to_sun(112.0, 10.0), to_sun(250.3, 17.0)]).collect()
@@ -91,7 +44,7 @@ fn the_default_bias_leaves_neither_acne_nor_detached_shadows_on_the_sites() {
             (Filter::FastTwoByTwo, 2048),
             (Filter::FastFourByFour, 1024),
         ] {
-            let wrong = measured(&scene, view, &suns(&of_day), size, filter, None);
+            let wrong = far_wrong(&gpu(), &scene, view, &suns(&of_day), (size, filter), None).unwrap();
             println!("{name}, {filter:?} at {size}: {:.3}% far wrong, {wrong:?}", 100.0 * wrong.share());
             assert!(wrong.share() <= 0.005, "{name}, {filter:?} at {size}: {wrong:?}");
         }
@@ -105,7 +58,8 @@ fn too_small_a_bias_is_seen_as_acne_and_too_large_a_one_as_light() {
     let wall = cuboid("wall", dvec3(-15.0, 10.0, 0.0), dvec3(15.0, 10.2, 8.0));
     let scene = scene_of(&Mesh::build(vec![sheet(slope), wall]).unwrap(), Receivers::Top, 0.0);
     let suns = [to_sun(160.0, 24.0), to_sun(75.0, 31.0)];
-    let measured = |bias| measured(&scene, plan(30.0, 300), &suns, 256, Filter::FastTwoByTwo, bias);
+    let of = (256, Filter::FastTwoByTwo);
+    let measured = |bias| far_wrong(&gpu(), &scene, plan(30.0, 300), &suns, of, bias).unwrap();
     let (none, fitting, huge) = (measured(Some(-1.0)), measured(None), measured(Some(60.0)));
     println!("bias -1: {none:?}; as it is: {fitting:?}; 60 texels: {huge:?}");
     assert!(fitting.share() <= 0.005, "{fitting:?}");

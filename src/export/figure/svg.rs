@@ -110,8 +110,11 @@ impl Block {
         self.push(format_args!("<polygon points=\"{list}\" fill=\"{}\"/>", hex(colour)));
     }
 
-    /// A line through points.
+    /// A line through points; none where there are none.
     pub(super) fn polyline(&mut self, points: &[[f64; 2]], line: f64, colour: Rgb) {
+        if points.is_empty() {
+            return;
+        }
         let mut list = String::new();
         for [x, y] in points {
             // Writing to a String cannot fail.

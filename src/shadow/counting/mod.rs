@@ -226,6 +226,7 @@ impl Count<'_> {
                 depth_ops: None,
                 stencil_ops: stencil,
             }),
+            timestamp_writes: self.surface.gpu.timed(label),
             ..RenderPassDescriptor::default()
         });
         pass.set_bind_group(0, &self.surface.frame, &[]);

@@ -190,8 +190,9 @@ impl Walls for Extraction {
         self.runs = runs;
         made?;
         self.faces.find(mesh, sought, encoder)?;
+        let timestamp_writes = self.gpu.timed_compute("extraction");
         let mut pass =
-            encoder.begin_compute_pass(&ComputePassDescriptor { label: Some("extraction"), ..Default::default() });
+            encoder.begin_compute_pass(&ComputePassDescriptor { label: Some("extraction"), timestamp_writes });
         pass.set_pipeline(&self.extract);
         for run in &self.runs {
             let Some(list) = &run.list else { continue };

@@ -91,8 +91,8 @@ impl Faces {
         }
         let gpu = &self.program.gpu;
         gpu.queue.write_buffer(&self.search, 0, bytemuck::bytes_of(&sought.uniform()));
-        let mut pass =
-            encoder.begin_compute_pass(&ComputePassDescriptor { label: Some("faces"), ..Default::default() });
+        let timestamp_writes = gpu.timed_compute("faces");
+        let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor { label: Some("faces"), timestamp_writes });
         pass.set_pipeline(&self.program.decide);
         pass.set_bind_group(GROUP, &self.decide, &[]);
         gpu.dispatch(&mut pass, self.count);

@@ -11,7 +11,7 @@ use super::text;
 use crate::export::ExportError;
 use crate::export::probe::{clock, counted, lies};
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight};
-use crate::sun::Place;
+use crate::sun::{Day, Place};
 use axes::{Hours, Tick, ticks};
 use chrono::{DateTime, NaiveDate};
 use chrono_tz::Tz;
@@ -173,7 +173,7 @@ fn head(lines: &mut Block, sunlight: &Sunlight, probed: &Probed, width: f64) {
     lines.text(0.0, -18.0, Anchor::Start, Style::HEAD, &name);
     let taken = text::width(&name, Style::HEAD.weight, Style::HEAD.size) + 26.0;
     room -= taken;
-    let lies = lies(&probed.probe);
+    let lies = lies(&probed.probe).replace("(-", "(−").replace(" -", " −");
     if sunlight.probes.len() > 1 && text::width(&lies, Style::LABEL.weight, Style::LABEL.size) <= room {
         lines.text(taken, -18.0, Anchor::Start, Style::LABEL, &lies);
     }
@@ -181,22 +181,25 @@ fn head(lines: &mut Block, sunlight: &Sunlight, probed: &Probed, width: f64) {
 
 /// Sunrise and sunset over a strip's days.
 fn curves(lines: &mut Block, sunlight: &Sunlight, hours: &Hours, strips: &Strips) {
+    /// A line goes on where clocks are put forward or back, but not from one midnight to the other: so many hours.
+    const FARTHEST: f64 = 3.0;
     let row = f64::from(strips.height) / sunlight.days.len() as f64;
-    let (sunrise, sunset) = (|day: &SunDay| day.window.day.sunrise, |day: &SunDay| day.window.day.sunset);
-    for event in [&sunrise as &dyn Fn(&SunDay) -> Option<DateTime<Tz>>, &sunset] {
-        let mut points = Vec::new();
+    let hour = f64::from(strips.width) / (hours.last - hours.first) as f64;
+    let mut curve = |event: fn(&Day) -> Option<DateTime<Tz>>| {
+        let mut points: Vec<[f64; 2]> = Vec::new();
         for (index, day) in sunlight.days.iter().enumerate() {
-            if let Some(time) = event(day) {
-                let x = hours.of_time(day, time) * f64::from(strips.width);
-                points.extend([0.0, 1.0].map(|part| [x, (index as f64 + part) * row]));
-            }
-            let last = index + 1 == sunlight.days.len();
-            if (last || event(day).is_none()) && !points.is_empty() {
+            let x = event(&day.window.day).map(|time| hours.of_time(day, time) * f64::from(strips.width));
+            let goes_on = |x: f64| points.last().is_none_or(|[last, _]| (x - last).abs() < FARTHEST * hour);
+            if !x.is_some_and(goes_on) {
                 lines.polyline(&points, 3.0, ACCENT);
                 points.clear();
             }
+            points.extend(x.into_iter().flat_map(|x| [0.0, 1.0].map(|part| [x, (index as f64 + part) * row])));
         }
-    }
+        lines.polyline(&points, 3.0, ACCENT);
+    };
+    curve(|day| day.sunrise);
+    curve(|day| day.sunset);
 }
 
 /// On a single day's strip: from when to when each interval is, and what blocks between them.

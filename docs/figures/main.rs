@@ -1,0 +1,51 @@
+//! Draws the comparison sheets of `docs/techniques.md` into `docs/pictures`: `cargo run --release --example draw-figures`,
+//! or with the names of some sheets, those alone.
+//!
+//! Everything is drawn by the library itself, and each run draws the same, but for the milliseconds in some captions,
+//! which are measured on the spot.
+
+mod bars;
+#[path = "../../tests/dense.rs"]
+mod dense;
+mod filters;
+mod hybrid;
+mod picture;
+mod scenes;
+mod sheet;
+mod soft;
+mod stage;
+
+use anyhow::Result;
+use gnomon::gpu::Gpu;
+use sheet::Sheet;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Draws one sheet.
+type Draw = fn(&Arc<Gpu>) -> Result<Sheet>;
+
+const SHEETS: &[(&str, Draw)] = &[
+    ("map-filters", filters::filters),
+    ("shadow-edges", soft::edges),
+    ("smoothie-truth", soft::beside_truth),
+    ("smoothie-remap", soft::remap),
+    ("smoothie-overlap", soft::overlap),
+    ("hybrid-mask", hybrid::mask),
+    ("hybrid-overdraw", hybrid::overdraw),
+    ("hybrid-artifacts", hybrid::artifacts),
+    ("hybrid-beside", hybrid::beside),
+    ("hybrid-bars", bars::bars),
+];
+
+fn main() -> Result<()> {
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    let gpu = Arc::new(Gpu::open()?);
+    for (name, draw) in SHEETS {
+        if wanted.is_empty() || wanted.iter().any(|wanted| wanted == name) {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("docs/pictures/{name}.png"));
+            draw(&gpu)?.write(&path)?;
+            println!("{} ({} KiB)", path.display(), std::fs::metadata(&path)?.len() >> 10);
+        }
+    }
+    Ok(())
+}

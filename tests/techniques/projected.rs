@@ -1,0 +1,102 @@
+//! Projected shadows: ray casting's own mask on the ground, cell for cell, but within a thousandth of a cell of an edge.
+
+use super::{draw, site};
+use crate::exact::scenes::{cuboid, sheet, small, stack};
+use crate::exact::{day, plan, scene_of, to_sun};
+use glam::{DVec3, dvec2, dvec3};
+use gnomon::mesh::Mesh;
+use gnomon::shadow::Scene;
+use gnomon::shadow::projected::Projected;
+use gnomon::shadow::ray_cast::RayCast;
+use gnomon::site::Receivers;
+use gnomon::view::{Grid, Mask, View};
+
+fn projected(scene: &Scene, view: View, sun: DVec3) -> Mask {
+    let View::Plan(grid) = view else { panic!("a plan") };
+    draw(&mut Projected::new(scene.clone(), grid), sun)
+}
+
+/// Cells that differ from ray casting, and those of them at which no edge runs within a thousandth of a cell.
+fn differing(scene: &Scene, view: View, sun: DVec3, drawn: &Mask) -> (usize, Vec<usize>) {
+    let View::Plan(grid) = view else { panic!("a plan") };
+    let mut truth = RayCast::new(scene.clone(), view, None);
+    let right = draw(&mut truth, sun);
+    let differ: Vec<usize> = (0..right.share.len()).filter(|&at| drawn.share[at] != right.share[at]).collect();
+    let all = differ.len();
+    let wrong = differ.into_iter().filter(|&at| {
+        let centre = grid.centre(at as u32 % grid.width, at as u32 / grid.width);
+        let cell = grid.cell * 1e-3;
+        let corner = centre + dvec2(-1.5, 1.5) * cell;
+        truth.look_at(View::Plan(Grid { west: corner.x, north: corner.y, cell, width: 3, height: 3 }));
+        let around = draw(&mut truth, sun).share;
+        around.iter().all(|share| *share == around[0])
+    });
+    (all, wrong.collect())
+}
+
+fn agree(what: &str, scene: &Scene, view: View, suns: &[DVec3]) {
+    for &sun in suns {
+        let drawn = projected(scene, view, sun);
+        let (all, wrong) = differing(scene, view, sun, &drawn);
+        assert!(wrong.is_empty(), "{what}, sun {sun}: {} of {all} that differ lie at no edge", wrong.len());
+        assert!(all * 2000 <= drawn.share.len(), "{what}, sun {sun}: {all} differ");
+    }
+}
+
+#[test]
+fn small_meshes_of_all_kinds_agree_cell_for_cell() {
+    let mut suns = day();
+    suns.extend([to_sun(20.0, 0.7), to_sun(180.0, 89.9)]);
+    for (name, parts) in small() {
+        let scene = scene_of(&Mesh::build(parts).unwrap(), Receivers::Ground, 0.0);
+        agree(name, &scene, plan(40.371_93, 500), &suns);
+        // a ground that cuts the model, and one far below it
+        for ground in [3.3, -50.0] {
+            agree(name, &Scene { ground, ..scene.clone() }, plan(40.371_93, 300), &suns[1..4]);
+        }
+    }
+    let stacked = scene_of(&Mesh::build(vec![stack(257, 0.0)]).unwrap(), Receivers::Ground, 0.0);
+    agree("257 sheets", &stacked, plan(9.0, 200), &day());
+}
+
+#[test]
+fn the_sites_agree_cell_for_cell() {
+    for name in ["tower", "industry", "headquarters"] {
+        let (scene, view, suns) = site(name, 600);
+        let ground = Scene { receivers: scene.receivers.of_components(&[]), ..scene };
+        let suns: Vec<DVec3> = suns.iter().step_by(4).copied().chain([to_sun(250.0, 4.0)]).collect();
+        agree(name, &ground, view, &suns);
+    }
+}
+
+#[test]
+fn what_lies_within_the_millimetre_shades_nothing() {
+    let slab = cuboid("slab", dvec3(-5.0, -5.0, -0.4), dvec3(5.0, 5.0, 0.0005));
+    let scene = scene_of(&Mesh::build(vec![slab]).unwrap(), Receivers::Ground, 0.0);
+    assert!(projected(&scene, plan(10.0, 200), to_sun(120.0, 20.0)).share.iter().all(|share| *share == 255));
+}
+
+#[test]
+fn rasters_of_any_width_are_filled_to_their_borders() {
+    // above all of the raster, and with its edges far beyond it
+    let roof = [dvec3(-1e5, -1e5, 5.0), dvec3(1e5, -1e5, 5.0), dvec3(1e5, 1e5, 5.0), dvec3(-1e5, 1e5, 5.0)];
+    let scene = scene_of(&Mesh::build(vec![sheet(roof)]).unwrap(), Receivers::Ground, 0.0);
+    for (width, height) in [(1, 1), (63, 2), (64, 3), (65, 1), (128, 5), (130, 7)] {
+        let view = View::Plan(Grid { west: -3.0, north: 4.0, cell: 0.5, width, height });
+        let mask = projected(&scene, view, to_sun(200.0, 30.0));
+        assert!(mask.share.len() == (width * height) as usize && mask.share.iter().all(|share| *share == 0));
+    }
+    let nothing = scene_of(&Mesh::build(vec![]).unwrap(), Receivers::Ground, 0.0);
+    assert!(projected(&nothing, plan(5.0, 20), to_sun(200.0, 30.0)).share.iter().all(|share| *share == 255));
+}
+
+#[test]
+fn one_wrong_cell_is_seen() {
+    let (_, parts) = small().swap_remove(0);
+    let scene = scene_of(&Mesh::build(parts).unwrap(), Receivers::Ground, 0.0);
+    let (view, sun) = (plan(40.371_93, 300), to_sun(130.0, 30.0));
+    let mut drawn = projected(&scene, view, sun);
+    let at = drawn.share.iter().position(|share| *share == 0).unwrap() + 6 * 300;
+    drawn.share[at] ^= 255;
+    assert_eq!(differing(&scene, view, sun, &drawn).1, [at]);
+}
