@@ -9,7 +9,7 @@ path = \"tower.glb\"
 
 [[probe]]
 name = \"window, \\\"north\\\"\"
-point = [0, 30, 1.5]
+point = [0, 20, 1.5]
 normal = [0, -2, 0]
 
 [[probe]]
@@ -87,7 +87,7 @@ fn text_tells_intervals_or_days_and_a_drawing_is_made() {
         "blocked before",
         "tower",
         "behind",
-        "at (0, 30, 1.5), facing south",
+        "at (0, 20, 1.5), facing south",
         "free on all sides",
         "day.png",
         "of sun in 2 intervals",
@@ -122,9 +122,9 @@ fn mistakes_are_told() {
         std::fs::write(path.join(name), text.replace(from, to)).unwrap();
     };
     for (from, to, words) in [
-        ("point = [0, 30, 1.5]", "", &["point in [[probe]] number 1", "point = ["][..]),
-        ("point = [0, 30, 1.5]", "point = [0, nan, 1]", &["[[probe]] number 1 point", "no point"]),
-        ("point = [0, 30, 1.5]", "point = [0, 30]", &["[[probe]] number 1 point", "length 3"]),
+        ("point = [0, 20, 1.5]", "", &["point in [[probe]] number 1", "point = ["][..]),
+        ("point = [0, 20, 1.5]", "point = [0, nan, 1]", &["[[probe]] number 1 point", "no point"]),
+        ("point = [0, 20, 1.5]", "point = [0, 20]", &["[[probe]] number 1 point", "length 3"]),
         ("[0, -2, 0]", "[0, 0, 0]", &["[[probe]] number 1 normal", "no direction"]),
         ("[0, -2, 0]", "[0, inf, 0]", &["[[probe]] number 1 normal", "no direction"]),
         ("normal =", "norml =", &["[[probe]] number 1 norml", "normal in [[probe]]"]),
