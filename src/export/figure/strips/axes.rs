@@ -62,7 +62,8 @@ pub(super) fn ticks(days: &[NaiveDate], row: f64) -> Vec<Tick> {
         let label = |date: NaiveDate| date.format(format(date)).to_string();
         begin.map(|(row_of, date)| Tick { row: row_of, label: label(*date), within: row >= PITCH }).collect()
     };
-    let of_month = |months: u32| move |_: usize, date: NaiveDate| date.day() == 1 && date.month0() % months == 0;
+    let of_month =
+        |months: u32| move |_: usize, date: NaiveDate| date.day() == 1 && date.month0().is_multiple_of(months);
     let by_month = |date: NaiveDate| if date.month() == 1 { "%b %Y" } else { "%b" };
     let mut ticks = match row {
         row if row >= PITCH => each(&|_, _| true, &|_| "%-d %b"),

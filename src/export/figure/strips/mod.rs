@@ -146,9 +146,9 @@ fn colours(day: &SunDay, intervals: &[Interval], hours: &Hours, columns: usize) 
     let mut paint = |from: DateTime<Tz>, to: DateTime<Tz>, colour: Rgb| {
         let [from, to] =
             [from, to].map(|time| hours.of_time(day, time) * columns as f64).map(|x| x.clamp(0.0, columns as f64));
-        for column in from as usize..(to.ceil() as usize) {
+        for (column, pixel) in line.iter_mut().enumerate().take(to.ceil() as usize).skip(from as usize) {
             let covered = to.min(column as f64 + 1.0) - from.max(column as f64);
-            line[column] = mix(line[column], colour, covered.clamp(0.0, 1.0));
+            *pixel = mix(*pixel, colour, covered.clamp(0.0, 1.0));
         }
     };
     paint(day.window.from, day.window.to, NIGHT);
