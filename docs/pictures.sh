@@ -29,6 +29,12 @@ profile() {
     shrink "$drawn/profile/profile.png" "$1"
 }
 
+# PICTURE SITE FIRST LAST: when the site's probes lie in the sun, from the first date to the last.
+probes() {
+    "$GNOMON" probe "sites/$2" --from-date "$3" --to-date "$4" --out "$drawn/sheet.png" --quiet > /dev/null
+    shrink "$drawn/sheet.png" "$1"
+}
+
 mkdir -p docs/pictures
 # Figures 5, 6 and 7 of "Geometry of Real Time Shadows", as docs/techniques.md shows them.
 camera sites/industry/picture.png industry 2026-09-18T15:00
@@ -43,6 +49,7 @@ camera sites/headquarters/picture.png headquarters 2026-09-18T15:00
 camera docs/pictures/headquarters-parts.png headquarters/facade-and-concrete.toml 2026-09-18T15:00 --show components
 camera docs/pictures/headquarters-components.png headquarters 2026-09-18T15:00 --show components
 profile docs/pictures/headquarters-profile.png headquarters
+probes docs/pictures/headquarters-probes.png headquarters 2026-01-01 2026-12-31
 
 # The comparison sheets after Brabec and Seidel and after Chan's thesis. The milliseconds in some of their
 # captions are measured as they are drawn.

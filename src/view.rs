@@ -1,4 +1,4 @@
-//! What is looked at: the plan's grid of cells, or a camera.
+//! What is looked at: the plan's grid of cells, a camera, or single points.
 //!
 //! Rasters are north up: row 0 is north, column 0 is west, and a cell is judged at its centre.
 
@@ -44,6 +44,17 @@ impl Grid {
     pub fn cells(&self) -> usize {
         self.width as usize * self.height as usize
     }
+}
+
+/// A point of which is asked when it lies in the sun.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// What people call it.
+    pub name: String,
+    /// Metres in the world frame.
+    pub point: DVec3,
+    /// The unit normal of the plane in which it lies, on the side that is judged; a point without one is free.
+    pub normal: Option<DVec3>,
 }
 
 /// A perspective camera in the world frame.

@@ -1,5 +1,6 @@
 //! The options, as the user writes them. Each stands with the subcommands that use it, and nowhere else.
 
+use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
 use crate::study::verify::SIZE;
@@ -29,6 +30,8 @@ pub(super) enum Command {
     /// Every technique against ray casting on this site: how many cells differ, how far, by how many hours
     #[command(mut_arg("size", |size| size.help("Cells along the longer side [default: 512]")))]
     Verify(VerifyArgs),
+    /// When points lie in the sun, on a day or over a range of dates: to the second, and what blocks in between
+    Probe(ProbeArgs),
 }
 
 impl Command {
@@ -40,6 +43,7 @@ impl Command {
             Command::Check(asked) => &asked.common,
             Command::Volumes(asked) => &asked.common,
             Command::Verify(asked) => &asked.common,
+            Command::Probe(asked) => &asked.common,
         }
     }
 }
@@ -315,7 +319,7 @@ pub(super) struct VerifyArgs {
 }
 
 impl SiteArgs {
-    fn overrides(&self) -> Overrides {
+    pub(super) fn overrides(&self) -> Overrides {
         Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..Overrides::default() }
     }
 }

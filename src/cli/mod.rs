@@ -5,6 +5,7 @@
 mod arguments;
 mod commands;
 mod interrupt;
+mod probe;
 mod progress;
 mod verify;
 mod volumes;
@@ -47,6 +48,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Check(asked) => commands::check(asked),
         Command::Volumes(asked) => volumes::volumes(asked),
         Command::Verify(asked) => verify::verify(asked),
+        Command::Probe(asked) => probe::probe(asked),
     }
 }
 

@@ -8,6 +8,8 @@ use std::io::{self, IsTerminal, Write};
 /// What is shown while work goes on.
 pub(super) struct Progress {
     quiet: bool,
+    /// What is counted.
+    what: &'static str,
     bar: Option<ProgressBar>,
     /// The tenth of the work that was told last.
     told: usize,
@@ -15,7 +17,12 @@ pub(super) struct Progress {
 
 impl Progress {
     pub(super) fn new(quiet: bool) -> Progress {
-        Progress { quiet, bar: None, told: 0 }
+        Progress::of("instants", quiet)
+    }
+
+    /// Where what is drawn is counted in something else.
+    pub(super) fn of(what: &'static str, quiet: bool) -> Progress {
+        Progress { quiet, what, bar: None, told: 0 }
     }
 
     /// Shows an event.
@@ -27,7 +34,7 @@ impl Progress {
             Event::Note(note) => self.line(&format!("note: {}", words(note))),
             // One instant is done before a bar is seen.
             Event::Started { instants } if *instants > 1 && io::stderr().is_terminal() => {
-                self.bar = Some(bar(*instants));
+                self.bar = Some(bar(*instants, self.what));
             }
             Event::Started { .. } => {}
             Event::Drawn { index, count, time, .. } => {
@@ -41,7 +48,7 @@ impl Progress {
                     }
                 } else if *count > 1 && done * 10 / count > self.told {
                     self.told = done * 10 / count;
-                    self.line(&format!("{:>3}%  {done} of {count} instants, {time}", done * 100 / count));
+                    self.line(&format!("{:>3}%  {done} of {count} {}, {time}", done * 100 / count, self.what));
                 }
             }
         }
@@ -66,7 +73,7 @@ impl Drop for Progress {
     }
 }
 
-fn bar(instants: usize) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:32} {pos} of {len} instants, {msg}, {eta} left");
-    ProgressBar::new(instants as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+fn bar(count: usize, what: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template(&format!("{{bar:32}} {{pos}} of {{len}} {what}, {{msg}}, {{eta}} left"));
+    ProgressBar::new(count as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

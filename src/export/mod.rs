@@ -6,6 +6,7 @@ pub mod check;
 pub mod figure;
 pub mod file;
 mod places;
+pub mod probe;
 pub mod raster;
 pub mod report;
 pub mod verify;

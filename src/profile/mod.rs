@@ -2,6 +2,7 @@
 
 pub mod accumulate;
 pub mod compare;
+pub mod probe;
 pub mod verify;
 
 use crate::view::{Counted, Decided, Grid};

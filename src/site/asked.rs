@@ -16,8 +16,16 @@ pub struct Overrides {
     pub to: Option<String>,
     /// `--step 30min`
     pub step: Option<String>,
+    /// `--from-date 2026-02-19`, the first of several days of a probe.
+    pub from_date: Option<String>,
+    /// `--to-date 2026-10-21`, the last of them.
+    pub to_date: Option<String>,
     /// `--at 2026-09-18T15:00`: this instant alone, instead of the study.
     pub at: Option<String>,
+    /// `--point X,Y,Z`, metres: this probe alone, instead of the file's.
+    pub point: Option<String>,
+    /// `--normal X,Y,Z`, with `--point`.
+    pub normal: Option<String>,
     /// `--region W,S,E,N`, metres.
     pub region: Option<String>,
     /// `--cell M`, metres.

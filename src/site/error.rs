@@ -112,6 +112,14 @@ pub enum SiteError {
         /// The options that would say it.
         options: String,
     },
+    /// The command needs a probe.
+    #[error(
+        "{file} has no [[probe]]; add one with point = [12.0, -3.0, 4.5] to the site file, or ask for one point with --point 12,-3,4.5"
+    )]
+    NoProbe {
+        /// As the user named it.
+        file: String,
+    },
     /// A name in `casts` or `receives` that no component has.
     #[error("{at}: no component, node, mesh or material is named \"{name}\"; the nearest is \"{nearest}\"")]
     UnknownName {
@@ -145,7 +153,7 @@ impl SiteError {
     /// Whether the command line was wrong (exit status 2) rather than a file (exit status 1).
     pub fn is_wrong_use(&self) -> bool {
         match self {
-            SiteError::NoPlaceForModel { .. } | SiteError::NoStudy { .. } => true,
+            SiteError::NoPlaceForModel { .. } | SiteError::NoStudy { .. } | SiteError::NoProbe { .. } => true,
             SiteError::Value { at, .. } | SiteError::Sun { at, .. } => matches!(at, At::Option(_)),
             _ => false,
         }

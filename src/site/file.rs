@@ -21,6 +21,8 @@ pub struct SiteFile {
     pub plan: PlanTable,
     /// `[camera]`
     pub camera: CameraTable,
+    /// `[[probe]]`, in their order.
+    pub probe: Vec<ProbeTable>,
 }
 
 /// `[place]`
@@ -101,6 +103,17 @@ pub struct CameraTable {
     pub fov: Option<f64>,
 }
 
+/// `[[probe]]`
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub struct ProbeTable {
+    /// What people call it.
+    pub name: Option<String>,
+    /// Metres.
+    pub point: Option<[f64; 3]>,
+    /// Any length but 0.
+    pub normal: Option<[f64; 3]>,
+}
+
 /// Which components of a model: all, none, or those of some names.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Names {
@@ -168,21 +181,22 @@ impl SiteFile {
             }
         })?;
         keys::check(file, &root)?;
-        let mut site = SiteFile {
+        Ok(SiteFile {
             ground: table(file, &root, "ground")?.unwrap_or_default(),
             study: table(file, &root, "study")?.unwrap_or_default(),
             plan: table(file, &root, "plan")?.unwrap_or_default(),
             camera: table(file, &root, "camera")?.unwrap_or_default(),
             place: table(file, &root, "place")?,
-            model: Vec::new(),
-        };
-        if let Some(Value::Array(models)) = root.get("model") {
-            for (index, model) in models.iter().enumerate() {
-                site.model.push(typed(file, "model", &keys::numbered(index, models.len()), model)?);
-            }
-        }
-        Ok(site)
+            model: list(file, &root, "model")?,
+            probe: list(file, &root, "probe")?,
+        })
     }
+}
+
+fn list<T: DeserializeOwned>(file: &str, root: &Table, name: &str) -> Result<Vec<T>, SiteError> {
+    let Some(Value::Array(tables)) = root.get(name) else { return Ok(Vec::new()) };
+    let read = |(index, table)| typed(file, name, &keys::numbered(name, index, tables.len()), table);
+    tables.iter().enumerate().map(read).collect()
 }
 
 fn table<T: DeserializeOwned>(file: &str, root: &Table, name: &str) -> Result<Option<T>, SiteError> {

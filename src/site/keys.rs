@@ -28,6 +28,9 @@ const KEYS: &[(&str, &str, &str)] = &[
     ("camera", "target", "target = [0, 0, 60]"),
     ("camera", "up", "up = [0, 0, 1]"),
     ("camera", "fov", "fov = 40.0"),
+    ("probe", "name", "name = \"kitchen window\""),
+    ("probe", "point", "point = [12.0, -3.0, 4.5]"),
+    ("probe", "normal", "normal = [0, -1, 0]"),
 ];
 
 /// How a key is written, for errors.
@@ -35,9 +38,12 @@ pub(super) fn example(table: &str, key: &str) -> &'static str {
     KEYS.iter().find(|known| (known.0, known.1) == (table, key)).map_or("", |known| known.2)
 }
 
+/// The tables of which there may be several.
+const LISTS: [&str; 2] = ["model", "probe"];
+
 /// A table's name as it is written.
 pub(super) fn bracketed(table: &str) -> String {
-    if table == "model" { "[[model]]".to_owned() } else { format!("[{table}]") }
+    if LISTS.contains(&table) { format!("[[{table}]]") } else { format!("[{table}]") }
 }
 
 /// Refuses every table and key that is not known, and tables that are no tables.
@@ -48,10 +54,12 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
     for (name, value) in root {
         let known = KEYS.iter().any(|known| known.0 == name);
         match value {
-            Value::Table(table) if known && name != "model" => check_keys(file, name, &bracketed(name), table)?,
-            Value::Array(tables) if name == "model" && tables.iter().all(Value::is_table) => {
+            Value::Table(table) if known && !LISTS.contains(&name.as_str()) => {
+                check_keys(file, name, &bracketed(name), table)?
+            }
+            Value::Array(tables) if LISTS.contains(&name.as_str()) && tables.iter().all(Value::is_table) => {
                 for (index, table) in tables.iter().filter_map(Value::as_table).enumerate() {
-                    check_keys(file, name, &numbered(index, tables.len()), table)?;
+                    check_keys(file, name, &numbered(name, index, tables.len()), table)?;
                 }
             }
             _ if known => {
@@ -71,9 +79,10 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
     Ok(())
 }
 
-/// What a model is called in errors: by its number where there are several.
-pub(super) fn numbered(index: usize, models: usize) -> String {
-    if models > 1 { format!("[[model]] number {}", index + 1) } else { "[[model]]".to_owned() }
+/// What one of a list's tables is called in errors: by its number where there are several.
+pub(super) fn numbered(list: &str, index: usize, tables: usize) -> String {
+    let brackets = bracketed(list);
+    if tables > 1 { format!("{brackets} number {}", index + 1) } else { brackets }
 }
 
 fn check_keys(file: &str, name: &str, brackets: &str, table: &Table) -> Result<(), SiteError> {

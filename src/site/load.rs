@@ -99,22 +99,7 @@ impl Site {
                 format!("{level} is no height; write metres, for example 0.0"),
             ));
         }
-        if written.site.model.is_empty() {
-            return Err(no_model(&written));
-        }
-
-        let mut parts = Vec::new();
-        let (mut casts, mut receives) = (Vec::new(), Vec::new());
-        for index in 0..written.site.model.len() {
-            let model = read(&written, index, &read_model)?;
-            let table = &written.site.model[index];
-            casts.extend(chosen(&written, index, "casts", &table.casts, &model)?);
-            receives.extend(chosen(&written, index, "receives", &table.receives, &model)?);
-            parts.extend(model);
-        }
-        // One component a part, in their order: `casts` and `receives` fit the mesh.
-        let mesh = Mesh::build(parts)?;
-        let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
+        let Models { mesh, casts, receives, bounds } = Models::read(&written, read_model)?;
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
         let grid = plan::grid(&written, asked, shadows(SHADOW_CUT))?;
@@ -135,6 +120,39 @@ impl Site {
             engine: asked.engine.unwrap_or_default(),
             settings: asked.settings,
         })
+    }
+}
+
+/// The models, and what the site file says of their components.
+pub(super) struct Models {
+    pub(super) mesh: Mesh,
+    pub(super) casts: Vec<bool>,
+    pub(super) receives: Vec<bool>,
+    pub(super) bounds: Bounds,
+}
+
+impl Models {
+    /// Reads all of them; there must be a triangle.
+    pub(super) fn read(
+        written: &Written,
+        read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
+    ) -> Result<Models, SiteError> {
+        if written.site.model.is_empty() {
+            return Err(no_model(written));
+        }
+        let mut parts = Vec::new();
+        let (mut casts, mut receives) = (Vec::new(), Vec::new());
+        for index in 0..written.site.model.len() {
+            let model = read(written, index, &read_model)?;
+            let table = &written.site.model[index];
+            casts.extend(chosen(written, index, "casts", &table.casts, &model)?);
+            receives.extend(chosen(written, index, "receives", &table.receives, &model)?);
+            parts.extend(model);
+        }
+        // One component a part, in their order: `casts` and `receives` fit the mesh.
+        let mesh = Mesh::build(parts)?;
+        let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
+        Ok(Models { mesh, casts, receives, bounds })
     }
 }
 
@@ -161,7 +179,7 @@ fn read(
     let table = &written.site.model[index];
     let at = |key: &str| written.model_key(index, key);
     let Some(path) = &table.path else {
-        let model = keys::numbered(index, written.site.model.len());
+        let model = keys::numbered("model", index, written.site.model.len());
         return Err(written.missing(format!("path in {model}"), keys::example("model", "path")));
     };
     let north_deg = table.north.unwrap_or(0.0);

@@ -12,6 +12,7 @@ mod keys;
 mod load;
 pub mod model;
 mod plan;
+mod probe;
 mod study;
 mod written;
 
@@ -19,6 +20,7 @@ pub use asked::Overrides;
 pub use choice::ChoiceError;
 pub use error::{At, SiteError};
 pub use load::{Frame, load_mesh, load_sun};
+pub use probe::{Probing, load_probes};
 
 use crate::mesh::Mesh;
 use crate::sun::{Place, SunTrack};

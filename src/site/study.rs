@@ -78,12 +78,12 @@ fn starts(window: &Window, place: &Place) -> bool {
     date.is_some_and(|date| window.from.at(place, date).is_ok())
 }
 
-fn date_of(said: Option<(String, At)>) -> Result<Option<NaiveDate>, SiteError> {
+pub(super) fn date_of(said: Option<(String, At)>) -> Result<Option<NaiveDate>, SiteError> {
     said.map(|(text, at)| parse_date(&text).map_err(|error| SiteError::sun(at, error))).transpose()
 }
 
 /// Which of date, from, to and step nobody said, and which options would say them.
-fn no_study(written: &Written, said: [bool; 4]) -> SiteError {
+pub(super) fn no_study(written: &Written, said: [bool; 4]) -> SiteError {
     const OPTIONS: [(&str, &str); 4] =
         [("date", "--date 2026-03-21"), ("from", "--from 9:00"), ("to", "--to 17:00"), ("step", "--step 1h")];
     let unsaid = || OPTIONS.iter().zip(said).filter(|(_, said)| !said).map(|(option, _)| option);

@@ -83,7 +83,20 @@ impl Written {
 
     /// Where a key of one of the models stands.
     pub(super) fn model_key(&self, index: usize, key: &str) -> At {
-        At::Key { file: self.file.clone(), table: keys::numbered(index, self.site.model.len()), key: key.to_owned() }
+        At::Key {
+            file: self.file.clone(),
+            table: keys::numbered("model", index, self.site.model.len()),
+            key: key.to_owned(),
+        }
+    }
+
+    /// Where a key of one of the probes stands.
+    pub(super) fn probe_key(&self, index: usize, key: &str) -> At {
+        At::Key {
+            file: self.file.clone(),
+            table: keys::numbered("probe", index, self.site.probe.len()),
+            key: key.to_owned(),
+        }
     }
 
     /// A key that must be there and is not.

@@ -1,9 +1,10 @@
 //! The flow: a checked request in, its shadow profile out.
 //!
 //! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
-//! [`verify`] holds every technique against ray casting.
+//! [`verify`] holds every technique against ray casting; [`probe`] finds when single points lie in the sun.
 
 mod machine;
+pub mod probe;
 mod stopwatch;
 pub mod verify;
 
@@ -17,7 +18,7 @@ use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
 use crate::site::{Receivers, Site};
-use crate::sun::SunTrack;
+use crate::sun::{SunError, SunTrack};
 use crate::view::{Camera, Counted, Mask, Overlay, Surface, View};
 use chrono::DateTime;
 use chrono_tz::Tz;
@@ -155,6 +156,9 @@ pub enum StudyError {
         "there is no sun at any of the study's instants, and nothing to compare; take a window by day with --from and --to"
     )]
     NoDay,
+    /// The sun's position at a time cannot be found.
+    #[error(transparent)]
+    Sun(#[from] SunError),
     /// Drawing failed.
     #[error(transparent)]
     Shadow(#[from] ShadowError),
@@ -180,7 +184,7 @@ const MOST_DAY_SECS: u64 = (u32::MAX / 255) as u64;
 pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
     let mut watch = Stopwatch::start();
     let (day_secs, night_secs) = day_and_night(&site.track)?;
-    note_distance(site, on_event)?;
+    note_distance(&site.mesh, on_event)?;
     let view = View::Plan(site.grid);
     let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, &view, on_event)? };
     let look = Look { site, machine: &machine, view, receivers: site.receivers };
@@ -240,7 +244,7 @@ pub fn instant(
 ) -> Result<InstantOutcome, StudyError> {
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
-    note_distance(site, on_event)?;
+    note_distance(&site.mesh, on_event)?;
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(site)?,
@@ -300,8 +304,8 @@ const FAR_M: f64 = 20_000.0;
 ///
 /// # Errors
 /// [`StudyError::Interrupted`] as asked by the listener.
-pub fn note_distance(site: &Site, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-    let distance = site.mesh.origin.truncate().length();
+pub fn note_distance(mesh: &Mesh, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let distance = mesh.origin.truncate().length();
     if distance > FAR_M {
         tell(
             on_event,

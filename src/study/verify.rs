@@ -58,7 +58,7 @@ pub struct Trial {
 /// [`StudyError`]; a study all at night, and a machine without a graphics adapter, before anything is drawn.
 pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
     by_day(site)?;
-    note_distance(site, on_event)?;
+    note_distance(&site.mesh, on_event)?;
     let gpu = Arc::new(Gpu::open().map_err(|error| StudyError::NoVerification(why_none(error)))?);
     let mut trials = Vec::new();
     for (method, against, promise) in TECHNIQUES {

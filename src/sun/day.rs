@@ -2,7 +2,7 @@
 
 use super::position::{check_year, delta_t_secs, location};
 use super::{Day, Place, SunError};
-use chrono::{DateTime, Datelike, DurationRound, NaiveDate, NaiveTime, TimeDelta};
+use chrono::{DateTime, Datelike, DurationRound, NaiveDate, NaiveTime, TimeDelta, TimeZone};
 use chrono_tz::Tz;
 use solar_positioning::{Events, Horizon, SolarEvents};
 
@@ -62,4 +62,24 @@ fn to_second(time: DateTime<Tz>) -> DateTime<Tz> {
         // Half a second before midnight.
         time.duration_trunc(second).unwrap_or(time)
     }
+}
+
+/// The first instant of a local date: its first midnight or, where clocks skip that, the instant with which they go on.
+pub(super) fn midnight(place: &Place, date: NaiveDate) -> DateTime<Tz> {
+    let (zone, midnight) = (place.time_zone, date.and_time(NaiveTime::MIN));
+    if let Some(time) = zone.from_local_datetime(&midnight).earliest() {
+        return time;
+    }
+    // No zone's clock jumps further than a day, and none is further than a day from UTC.
+    let at = |secs: i64| zone.from_utc_datetime(&(midnight + TimeDelta::seconds(secs)));
+    let (mut before, mut after) = (-2 * 86_400, 2 * 86_400);
+    while after - before > 1 {
+        let middle = (before + after) / 2;
+        if at(middle).naive_local() < midnight {
+            before = middle;
+        } else {
+            after = middle;
+        }
+    }
+    at(after)
 }

@@ -2,6 +2,7 @@
 
 mod clock;
 mod day;
+mod day_window;
 mod disc;
 mod error;
 mod place;
@@ -9,11 +10,12 @@ mod position;
 mod window;
 
 pub use clock::{Reading, TimeOfDay, parse_date, parse_duration_secs};
+pub use day_window::DayWindow;
 pub use disc::{SUN_DISC_RAD, disc};
 pub use error::SunError;
 pub use place::{zone_at, zone_named};
 pub use position::{Air, Position, delta_t_secs, position};
-pub use window::Window;
+pub use window::{MOST_DAYS, Window};
 
 use chrono::{DateTime, NaiveDate};
 use chrono_tz::Tz;
@@ -82,6 +84,30 @@ pub struct SunTrack {
 }
 
 impl Instant {
+    /// The sun at a time, with ΔT in seconds; without `air` there is no refraction.
+    ///
+    /// # Errors
+    /// As [`position()`].
+    pub fn at(
+        place: &Place,
+        time: DateTime<Tz>,
+        weight_secs: u32,
+        delta_t_secs: f64,
+        air: Option<Air>,
+    ) -> Result<Instant, SunError> {
+        let seen = position(place, time.to_utc(), delta_t_secs, air)?;
+        let mut instant = Instant {
+            time,
+            to_sun: seen.to_sun(),
+            azimuth_rad: seen.azimuth_deg.to_radians(),
+            altitude_rad: seen.altitude_deg.to_radians(),
+            weight_secs,
+            night: false,
+        };
+        instant.night = instant.altitude_deg() < 0.0;
+        Ok(instant)
+    }
+
     /// Clockwise from true north, degrees, as it is printed: to 0.00001°.
     pub fn azimuth_deg(&self) -> f64 {
         as_printed(self.azimuth_rad.to_degrees()) % 360.0

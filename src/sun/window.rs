@@ -1,7 +1,7 @@
 //! A study's window: its instants and how many seconds each stands for.
 
 use super::clock::When;
-use super::position::{Air, check_year, delta_t_secs, position};
+use super::position::{Air, check_year, delta_t_secs};
 use super::{Day, Instant, Place, Reading, SunError, SunTrack};
 use chrono::{DateTime, Datelike, NaiveDate, TimeDelta, Utc};
 use chrono_tz::Tz;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Beyond this a step is a slip of the pen.
 const MOST_INSTANTS: i64 = 1_000_000;
 /// Ten years: weights and their sums stay far inside their integers.
-const MOST_DAYS: i64 = 3660;
+pub const MOST_DAYS: i64 = 3660;
 
 /// The window of a study as asked: from one reading to another, in steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -155,19 +155,7 @@ fn track(
     let instants = times
         .par_iter()
         .zip(weights)
-        .map(|(time, weight_secs)| {
-            let seen = position(place, time.with_timezone(&Utc), delta_t_secs, air)?;
-            let mut instant = Instant {
-                time: *time,
-                to_sun: seen.to_sun(),
-                azimuth_rad: seen.azimuth_deg.to_radians(),
-                altitude_rad: seen.altitude_deg.to_radians(),
-                weight_secs: *weight_secs,
-                night: false,
-            };
-            instant.night = instant.altitude_deg() < 0.0;
-            Ok(instant)
-        })
+        .map(|(time, weight_secs)| Instant::at(place, *time, *weight_secs, delta_t_secs, air))
         .collect::<Result<Vec<_>, SunError>>()?;
     let days = first
         .date_naive()

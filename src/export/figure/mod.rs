@@ -11,6 +11,7 @@ mod perspective;
 mod picture;
 mod plan;
 pub mod scale;
+mod strips;
 mod svg;
 mod text;
 mod words;
@@ -18,6 +19,8 @@ mod words;
 pub use counted::Diagram;
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
+pub use strips::strips;
+pub(super) use words::duration;
 
 use super::{ExportError, check_size};
 use crate::mesh::Mesh;
@@ -207,7 +210,7 @@ fn panel(scene: &Scene, kicker: &str) -> Panel {
     }
     facts.push((JUDGED, words::receivers(scene.receivers).to_owned()));
     facts.push(("Technique", words::technique(scene.drawn)));
-    facts.push(("Refraction", words::refraction(track, place)));
+    facts.push(("Refraction", words::refraction(track.refraction, place)));
     let mut lead = Vec::new();
     if let (Some(first), Some(last)) = (track.instants.first(), track.instants.last()) {
         lead.push(words::dates(first, last));

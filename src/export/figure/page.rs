@@ -18,7 +18,7 @@ pub const HEIGHT: u32 = 2480;
 pub(super) const PAPER_METRES_A_PIXEL: f64 = 0.420 / WIDTH as f64;
 
 /// Off-white, so that the sheet's own white can stand for light.
-const PAPER: Rgb = [249, 247, 242];
+pub(super) const PAPER: Rgb = [249, 247, 242];
 
 /// From the page's edge to its frame, and from a frame to what it holds.
 const MARGIN: f64 = 56.0;
@@ -44,9 +44,33 @@ pub(super) fn page(
     cell_m: Option<f64>,
     draw: impl FnOnce(Fit) -> Picture,
 ) -> Result<Vec<u8>, ExportError> {
-    let layout = beside_or_below(panel, cells, cell_m);
+    let mut layout = beside_or_below(panel, cells, cell_m);
+    frame(&mut layout);
     let picture = draw(layout.fit);
-    let pixels = render(&layout, &picture)?;
+    sheet(&layout, &picture)
+}
+
+/// As [`page`] with the panel beside it, for what fills all of its field but the margins (left, top, right, bottom).
+/// `draw` makes it for so many pixels, and lines and letters over it, which may reach into the margins.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the page cannot be drawn or encoded.
+pub(super) fn chart(
+    panel: &Panel,
+    [left, top, right, bottom]: [f64; 4],
+    draw: impl FnOnce((u32, u32)) -> (Picture, Block),
+) -> Result<Vec<u8>, ExportError> {
+    let [x, y, width, height] = BESIDE;
+    let field = [x + left, y + top, width - left - right, height - top - bottom];
+    let mut layout = with_picture(field, (field[2] as u32, field[3] as u32));
+    stand_beside(panel, None, &mut layout.overlay);
+    let (picture, over) = draw(layout.fit.pixels);
+    layout.overlay.place(layout.corner.0.into(), layout.corner.1.into(), &over);
+    sheet(&layout, &picture)
+}
+
+fn sheet(layout: &Layout, picture: &Picture) -> Result<Vec<u8>, ExportError> {
+    let pixels = render(layout, picture)?;
     let dots = (1.0 / PAPER_METRES_A_PIXEL).round() as u32;
     crate::export::raster::png_bytes(WIDTH, HEIGHT, png::ColorType::Rgb, Some(dots), &pixels)
         .map_err(|error| ExportError::encode("drawing", error))
@@ -65,18 +89,28 @@ fn beside_or_below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Lay
 /// The sheet within its frame: x, y, width, height.
 const SHEET: [f64; 4] = [MARGIN, MARGIN, WIDTH as f64 - 2.0 * MARGIN, HEIGHT as f64 - 2.0 * MARGIN];
 
+/// What a panel leaves beside it.
+const BESIDE: [f64; 4] = [SHEET[0], SHEET[1], SHEET[2] - COLUMN - 2.0 * PAD, SHEET[3]];
+
 fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
-    let panel_width = COLUMN + 2.0 * PAD;
-    let field = [SHEET[0], SHEET[1], SHEET[2] - panel_width, SHEET[3]];
-    let mut layout = with_picture(field, cells);
-    let x = field[0] + field[2];
-    layout.overlay.fill([x - 1.0, SHEET[1], 2.0, SHEET[3]], HAIR);
+    let mut layout = with_picture(BESIDE, cells);
+    stand_beside(panel, cell_m.map(|cell_m| cell_m / layout.fit.scale()), &mut layout.overlay);
+    layout
+}
+
+/// The panel at the sheet's right.
+fn stand_beside(panel: &Panel, metres_a_pixel: Option<f64>, overlay: &mut Block) {
+    let x = BESIDE[0] + BESIDE[2];
+    overlay.fill([x - 1.0, SHEET[1], 2.0, SHEET[3]], HAIR);
 
     let room = SHEET[3] - 2.0 * PAD;
-    let top = [panel::title(panel), panel::facts(panel), panel::sun_table(panel)];
+    let mut top = vec![panel::title(panel), panel::facts(panel)];
+    if !panel.sun.is_empty() {
+        top.push(panel::sun_table(panel));
+    }
     let mut foot = vec![panel::footer()];
-    if let Some(cell_m) = cell_m {
-        foot.insert(0, panel::scale_and_north(cell_m / layout.fit.scale()));
+    if let Some(metres_a_pixel) = metres_a_pixel {
+        foot.insert(0, panel::scale_and_north(metres_a_pixel));
     }
     let taken: f64 = top.iter().chain(&foot).map(|block| block.height).sum();
     let gaps = (top.len() + foot.len()) as f64;
@@ -87,19 +121,18 @@ fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
     for (index, block) in top.iter().chain([&legend]).enumerate() {
         if index > 0 {
             y += gap;
-            layout.overlay.fill([x + PAD, y - gap / 2.0 - 1.0, COLUMN, 2.0], HAIR);
+            overlay.fill([x + PAD, y - gap / 2.0 - 1.0, COLUMN, 2.0], HAIR);
         }
-        layout.overlay.place(x + PAD, y, block);
+        overlay.place(x + PAD, y, block);
         y += block.height;
     }
     let mut y = SHEET[1] + SHEET[3] - PAD;
     for block in foot.iter().rev() {
         y -= block.height;
-        layout.overlay.place(x + PAD, y, block);
-        layout.overlay.fill([x + PAD, y - gap / 2.0 - 1.0, COLUMN, 2.0], HAIR);
+        overlay.place(x + PAD, y, block);
+        overlay.fill([x + PAD, y - gap / 2.0 - 1.0, COLUMN, 2.0], HAIR);
         y -= gap;
     }
-    layout
 }
 
 fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
@@ -133,7 +166,7 @@ fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
     layout
 }
 
-/// The picture in the middle of its field, both framed.
+/// The picture in the middle of its field; the sheet is framed.
 fn with_picture(field: [f64; 4], cells: (u32, u32)) -> Layout {
     const AROUND: f64 = 36.0;
     let room = (field[2] - 2.0 * AROUND, field[3] - 2.0 * AROUND);
@@ -143,9 +176,13 @@ fn with_picture(field: [f64; 4], cells: (u32, u32)) -> Layout {
     let corner = (middle(field[0], field[2], fit.pixels.0), middle(field[1], field[3], fit.pixels.1));
     let mut overlay = Block::default();
     overlay.frame(SHEET, 2.0, HAIR);
-    let [x, y, width, height] = [corner.0, corner.1, fit.pixels.0, fit.pixels.1].map(f64::from);
-    overlay.frame([x, y, width, height], 3.0, GRAY);
     Layout { fit, corner, overlay }
+}
+
+/// A line around the picture.
+fn frame(layout: &mut Layout) {
+    let Layout { fit, corner, overlay } = layout;
+    overlay.frame([corner.0, corner.1, fit.pixels.0, fit.pixels.1].map(f64::from), 3.0, GRAY);
 }
 
 /// Paper, picture, then everything that is lines and letters: RGB, row 0 first.

@@ -110,6 +110,22 @@ impl Block {
         self.push(format_args!("<polygon points=\"{list}\" fill=\"{}\"/>", hex(colour)));
     }
 
+    /// A line through points; none where there are none.
+    pub(super) fn polyline(&mut self, points: &[[f64; 2]], line: f64, colour: Rgb) {
+        if points.is_empty() {
+            return;
+        }
+        let mut list = String::new();
+        for [x, y] in points {
+            // Writing to a String cannot fail.
+            let _ = write!(list, "{x:.1},{y:.1} ");
+        }
+        self.push(format_args!(
+            "<polyline points=\"{list}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{line}\"/>",
+            hex(colour),
+        ));
+    }
+
     /// A circle's line.
     pub(super) fn ring(&mut self, x: f64, y: f64, radius: f64, line: f64, colour: Rgb) {
         self.push(format_args!(

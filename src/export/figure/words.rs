@@ -31,7 +31,7 @@ pub(super) fn dates(first: &Instant, last: &Instant) -> String {
     if first == last { date(first) } else { format!("{} – {}", date(first), date(last)) }
 }
 
-fn date(date: NaiveDate) -> String {
+pub(super) fn date(date: NaiveDate) -> String {
     date.format("%-d %B %Y").to_string()
 }
 
@@ -63,7 +63,7 @@ pub(super) fn window(track: &SunTrack, place: &Place) -> String {
 }
 
 /// `CEST (UTC+2)`, or `UTC+3` where people have no letters for it.
-fn zone(time: &DateTime<Tz>) -> String {
+pub(super) fn zone(time: &DateTime<Tz>) -> String {
     let secs = time.offset().fix().local_minus_utc();
     let (hours, minutes) = (secs.abs() / 3600, secs.abs() / 60 % 60);
     let mut utc = String::from("UTC");
@@ -79,7 +79,7 @@ fn zone(time: &DateTime<Tz>) -> String {
 }
 
 /// `8 h`, `1 h 30 min`, `1 min 30 s`.
-pub(super) fn duration(secs: u32) -> String {
+pub(in crate::export) fn duration(secs: u32) -> String {
     let parts = [(secs / 3600, "h"), (secs / 60 % 60, "min"), (secs % 60, "s")];
     let said: Vec<String> =
         parts.iter().filter(|(count, _)| *count > 0).map(|(count, unit)| format!("{count} {unit}")).collect();
@@ -141,8 +141,8 @@ pub(super) fn receivers(receivers: Receivers) -> &'static str {
 }
 
 /// Whether and how the air bends the light.
-pub(super) fn refraction(track: &SunTrack, place: &Place) -> String {
-    if track.refraction {
+pub(super) fn refraction(refraction: bool, place: &Place) -> String {
+    if refraction {
         let air = Air::standard(place.elevation_m);
         format!("included, at {:.0} °C and {:.0} hPa", air.temperature_c, air.pressure_hpa)
     } else {

@@ -1,0 +1,99 @@
+//! `gnomon probe`: when points lie in the sun.
+
+use super::arguments::{Common, SiteArgs};
+use super::progress::Progress;
+use super::{WrongUse, interrupt, say};
+use crate::export::{figure, file, probe as told};
+use crate::site::{Overrides, load_probes};
+use crate::study;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(super) struct ProbeArgs {
+    #[command(flatten)]
+    site: SiteArgs,
+    /// One point instead of the site file's [[probe]]s, metres east, north, up of the place: 12,-3,4.5
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    point: Option<String>,
+    /// With --point: it lies in a plane that looks this way, as a window does, and sees what is in front of that alone
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    normal: Option<String>,
+    /// The day [default: the study's date]
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    date: Option<String>,
+    /// Several days instead: the first one. With --to-date
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    from_date: Option<String>,
+    /// The last of them, at most ten years later
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    to_date: Option<String>,
+    /// On each day not before: 10:00, sunrise+1h30 [default: the whole day]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    from: Option<String>,
+    /// On each day not after: 14:00, sunset-1h30 [default: the whole day]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    to: Option<String>,
+    /// The search's grid: an interval of sun or of shade at least so long cannot be missed, a shorter one may be. Start
+    /// and end are to the second whatever the step [default: 1min]
+    #[arg(long, value_name = "STEP", allow_hyphen_values = true)]
+    step: Option<String>,
+    /// A drawing: time of day across, days down
+    #[arg(long, value_name = "FILE.png")]
+    out: Option<PathBuf>,
+    /// A table with a line an interval: probe,start,end,seconds,blocked_before,blocked_after
+    #[arg(long, value_name = "FILE.csv")]
+    csv: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+impl ProbeArgs {
+    fn overrides(&self) -> Overrides {
+        let [point, normal, date, from_date, to_date, from, to, step] =
+            [&self.point, &self.normal, &self.date, &self.from_date, &self.to_date, &self.from, &self.to, &self.step]
+                .map(Clone::clone);
+        Overrides { point, normal, date, from_date, to_date, from, to, step, ..self.site.overrides() }
+    }
+}
+
+pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
+    let files = [("--out", "png", &asked.out), ("--csv", "csv", &asked.csv)];
+    for (option, format, path) in
+        files.iter().filter_map(|(option, format, path)| Some((option, format, path.as_ref()?)))
+    {
+        if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case(format)) {
+            let what = format!(
+                "{option} writes {}; name a .{format} file instead of {}",
+                format.to_uppercase(),
+                path.display()
+            );
+            return Err(WrongUse(what).into());
+        }
+    }
+    let probing = load_probes(&asked.site.path, &asked.overrides())?;
+    for path in [&asked.out, &asked.csv].into_iter().flatten() {
+        file::check_folder(path.parent().unwrap_or(Path::new("")))?;
+    }
+    let mut progress = Progress::of("days", asked.common.quiet);
+    let sunlight = study::probe::probe(&probing, &mut |event| {
+        progress.hear(&event);
+        interrupt::flow()
+    })?;
+    let mut files = Vec::new();
+    if let Some(path) = &asked.csv {
+        files.push((path, told::csv(&sunlight).into_bytes()));
+    }
+    if let Some(path) = &asked.out {
+        files.push((path, figure::strips(&sunlight, &probing.place)?));
+    }
+    interrupt::check()?;
+    for (path, bytes) in &files {
+        file::write(path, bytes)?;
+    }
+    if asked.common.json {
+        return say(&told::json(&sunlight, &probing.place)?);
+    }
+    let written: String = files.iter().map(|(path, _)| format!("{}\n", path.display())).collect();
+    say(&(told::table(&sunlight, &probing.place) + &written))
+}

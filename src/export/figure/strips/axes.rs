@@ -1,0 +1,83 @@
+//! The chart's axes: whole hours of the local clock across, and which days have a line and a label.
+
+use crate::profile::probe::SunDay;
+use chrono::{DateTime, Datelike, NaiveDate, NaiveTime};
+use chrono_tz::Tz;
+
+/// The hours across, counted from the midnight with which the local date begins; beyond 24 on the next day.
+pub(super) struct Hours {
+    pub(super) first: i64,
+    pub(super) last: i64,
+}
+
+impl Hours {
+    /// The whole hours around all that the sun does on the days.
+    pub(super) fn of(days: &[SunDay]) -> Hours {
+        let times = |day: &SunDay| {
+            let of_day = [day.window.day.sunrise, day.window.day.sunset].into_iter().flatten();
+            let up = day.up.iter().flat_map(|up| [up.start, up.end]);
+            of_day.chain(up).map(|time| clock_secs(day, time)).collect::<Vec<_>>()
+        };
+        let times: Vec<i64> = days.iter().flat_map(times).collect();
+        let (Some(low), Some(high)) = (times.iter().min(), times.iter().max()) else {
+            return Hours { first: 0, last: 24 };
+        };
+        let first = low.div_euclid(3600);
+        Hours { first, last: (high + 3599).div_euclid(3600).max(first + 1) }
+    }
+
+    /// Where so many seconds after midnight lie: 0 at the left, 1 at the right.
+    pub(super) fn at(&self, secs: i64) -> f64 {
+        (secs - self.first * 3600) as f64 / ((self.last - self.first) * 3600) as f64
+    }
+
+    /// Where a time of a day lies by the local clock, also where that is put forward or back in between.
+    pub(super) fn of_time(&self, day: &SunDay, time: DateTime<Tz>) -> f64 {
+        self.at(clock_secs(day, time))
+    }
+}
+
+/// What the local clock reads, in seconds after the midnight with which the date begins.
+fn clock_secs(day: &SunDay, time: DateTime<Tz>) -> i64 {
+    (time.naive_local() - day.window.day.date.and_time(NaiveTime::MIN)).num_seconds()
+}
+
+/// A day with a line above it, and a label.
+pub(super) struct Tick {
+    /// Which of the days, from 0.
+    pub(super) row: usize,
+    pub(super) label: String,
+    /// Whether the label stands in the middle of the day's own row, or below its line.
+    pub(super) within: bool,
+}
+
+/// From one label to the next at least, page pixels.
+const PITCH: f64 = 42.0;
+
+/// Every day, every seventh, or the first ones of months, quarters or years, as rows of so many pixels leave room.
+pub(super) fn ticks(days: &[NaiveDate], row: f64) -> Vec<Tick> {
+    let each = |begins: &dyn Fn(usize, NaiveDate) -> bool, format: &dyn Fn(NaiveDate) -> &'static str| -> Vec<Tick> {
+        let room = |at: usize| (days.len() - at) as f64 * row >= PITCH - 8.0;
+        let begin = days.iter().enumerate().filter(|(at, date)| begins(*at, **date) && (row >= PITCH || room(*at)));
+        let label = |date: NaiveDate| date.format(format(date)).to_string();
+        begin.map(|(row_of, date)| Tick { row: row_of, label: label(*date), within: row >= PITCH }).collect()
+    };
+    let of_month =
+        |months: u32| move |_: usize, date: NaiveDate| date.day() == 1 && date.month0().is_multiple_of(months);
+    let by_month = |date: NaiveDate| if date.month() == 1 { "%b %Y" } else { "%b" };
+    let mut ticks = match row {
+        row if row >= PITCH => each(&|_, _| true, &|_| "%-d %b"),
+        row if 7.0 * row >= PITCH => each(&|at, _| at % 7 == 0, &|_| "%-d %b"),
+        row if 28.0 * row >= PITCH => each(&of_month(1), &by_month),
+        row if 90.0 * row >= PITCH => each(&of_month(3), &by_month),
+        _ => each(&|_, date| date.ordinal() == 1, &|_| "%Y"),
+    };
+    // the first day, where no other label is in its way
+    if let Some(first) = days.first()
+        && ticks.first().is_none_or(|tick| tick.row as f64 * row >= PITCH)
+    {
+        let label = first.format(if 90.0 * row >= PITCH { "%-d %b" } else { "%Y" }).to_string();
+        ticks.insert(0, Tick { row: 0, label, within: false });
+    }
+    ticks
+}

@@ -1,0 +1,263 @@
+//! What `gnomon probe` says: tables, `probe --json`, and a CSV file with a line an interval.
+
+use super::report::{PlaceReport, place_report, stamp};
+use super::{ExportError, figure, report};
+use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, longest, secs};
+use crate::sun::Place;
+use crate::view::Probe;
+use chrono::DateTime;
+use chrono_tz::Tz;
+use glam::DVec3;
+use serde::Serialize;
+use std::fmt::Write;
+
+#[derive(Serialize)]
+struct SunlightReport<'a> {
+    gnomon: &'static str,
+    place: PlaceReport<'a>,
+    refraction: bool,
+    probes: Vec<ProbeReport<'a>>,
+    shortest_found_secs: u32,
+}
+
+#[derive(Serialize)]
+struct ProbeReport<'a> {
+    name: &'a str,
+    point: [f64; 3],
+    normal: Option<[f64; 3]>,
+    days: Vec<DayReport>,
+    seconds: i64,
+    longest_seconds: i64,
+}
+
+#[derive(Serialize)]
+struct DayReport {
+    date: String,
+    sunrise: Option<String>,
+    sunset: Option<String>,
+    seconds: i64,
+    longest_seconds: i64,
+    intervals: Vec<IntervalReport>,
+}
+
+#[derive(Serialize)]
+struct IntervalReport {
+    start: String,
+    end: String,
+    seconds: i64,
+    blocked_before: String,
+    blocked_after: String,
+}
+
+/// `probe --json`: `gnomon`, `place` and `refraction` as in `profile.json`, then
+///
+/// - `probes`, each with its `name`, its `point` in metres, its `normal` (of length 1, or null) and its `days`; these with
+///   `date`, `sunrise` and `sunset` (null where there is none), and `intervals`: the first second in sunlight (`start`),
+///   the first no longer in it (`end`), the `seconds` between them, and what blocks one second before the start and at
+///   the end (`blocked_before`, `blocked_after`): the nearest component, `horizon` (the sun is down), `behind` (it is
+///   behind the probe's own plane) or `window` (what is asked begins or ends there);
+/// - of each day and each probe the `seconds` in sunlight and the longest interval's (`longest_seconds`);
+/// - `shortest_found_secs`: no interval of sun or of shade that is at least so long can have been missed.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn json(sunlight: &Sunlight, place: &Place) -> Result<String, ExportError> {
+    let day = |(day, intervals): (&SunDay, &Vec<Interval>)| DayReport {
+        date: day.window.day.date.to_string(),
+        sunrise: day.window.day.sunrise.as_ref().map(stamp),
+        sunset: day.window.day.sunset.as_ref().map(stamp),
+        seconds: secs(intervals),
+        longest_seconds: longest(intervals).map_or(0, Interval::secs),
+        intervals: intervals.iter().map(|interval| interval_report(sunlight, interval)).collect(),
+    };
+    report::json(&SunlightReport {
+        gnomon: env!("CARGO_PKG_VERSION"),
+        place: place_report(place),
+        refraction: sunlight.refraction,
+        probes: sunlight
+            .probes
+            .iter()
+            .map(|probed| ProbeReport {
+                name: &probed.probe.name,
+                point: probed.probe.point.to_array(),
+                normal: probed.probe.normal.map(|normal| normal.to_array()),
+                days: sunlight.days.iter().zip(&probed.days).map(day).collect(),
+                seconds: probed.secs(),
+                longest_seconds: probed.longest().map_or(0, Interval::secs),
+            })
+            .collect(),
+        shortest_found_secs: sunlight.step_secs,
+    })
+}
+
+fn interval_report(sunlight: &Sunlight, interval: &Interval) -> IntervalReport {
+    IntervalReport {
+        start: stamp(&interval.start),
+        end: stamp(&interval.end),
+        seconds: interval.secs(),
+        blocked_before: sunlight.name(interval.before),
+        blocked_after: sunlight.name(interval.after),
+    }
+}
+
+/// A line an interval, in the order of probes and of time, as RFC 4180 has it: lines end in CR LF, and fields that hold a
+/// comma, a quote or a line break are quoted.
+pub fn csv(sunlight: &Sunlight) -> String {
+    let mut text = "probe,start,end,seconds,blocked_before,blocked_after\r\n".to_owned();
+    for probed in &sunlight.probes {
+        for interval in probed.days.iter().flatten() {
+            let told = interval_report(sunlight, interval);
+            let [name, before, after] =
+                [&probed.probe.name, &told.blocked_before, &told.blocked_after].map(|it| field(it));
+            // Writing to a String cannot fail.
+            let _ = write!(text, "{name},{},{},{},{before},{after}\r\n", told.start, told.end, told.seconds);
+        }
+    }
+    text
+}
+
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+/// For each probe a table, of the intervals of a single day or of several days, and a summary; then what cannot have been
+/// missed. Ends with a line break.
+pub fn table(sunlight: &Sunlight, place: &Place) -> String {
+    let mut table = String::new();
+    for probed in &sunlight.probes {
+        // Writing to a String cannot fail.
+        let _ = writeln!(table, "{}: {}", plain(&probed.probe.name), lies(&probed.probe));
+        match (sunlight.days.as_slice(), probed.days.as_slice()) {
+            ([day], [intervals]) => day_table(&mut table, sunlight, day, intervals, place),
+            _ => range_table(&mut table, sunlight, probed),
+        }
+        table.push('\n');
+    }
+    let _ = writeln!(
+        table,
+        "Sun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it",
+        figure::duration(sunlight.step_secs)
+    );
+    table
+}
+
+fn day_table(table: &mut String, sunlight: &Sunlight, day: &SunDay, intervals: &[Interval], place: &Place) {
+    let event =
+        |time: Option<DateTime<Tz>>| time.map_or_else(|| "-".to_owned(), |time| time.format("%H:%M:%S").to_string());
+    let of_day = &day.window.day;
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        table,
+        "{}, {}: sunrise {}, sunset {}",
+        of_day.date,
+        place.time_zone.name(),
+        event(of_day.sunrise),
+        event(of_day.sunset)
+    );
+    let rows: Vec<_> = intervals.iter().map(|interval| interval_report(sunlight, interval)).collect();
+    let width = rows.iter().map(|row| plain(&row.blocked_before).chars().count()).fold(14, usize::max);
+    if !rows.is_empty() {
+        let _ = writeln!(
+            table,
+            "\n  {:<8}  {:<8}  {:>8}  {:<width$}  blocked after",
+            "start", "end", "duration", "blocked before"
+        );
+    }
+    for (interval, row) in intervals.iter().zip(&rows) {
+        let _ = writeln!(
+            table,
+            "  {}  {}  {:>8}  {:<width$}  {}",
+            interval.start.format("%H:%M:%S"),
+            interval.end.format("%H:%M:%S"),
+            clock(interval.secs()),
+            plain(&row.blocked_before),
+            plain(&row.blocked_after)
+        );
+    }
+    if let Some(longest) = longest(intervals) {
+        let total = clock(secs(intervals));
+        let _ = writeln!(table, "\n  {total} of sun in {}, the longest {}", counted(rows.len()), clock(longest.secs()));
+    } else {
+        let _ = writeln!(table, "\n  no sun: {}", why_none(day));
+    }
+}
+
+/// Why a day has no interval.
+fn why_none(day: &SunDay) -> &'static str {
+    match day.up.is_empty() {
+        true if day.window.from == day.window.to => "nothing is asked of this day",
+        true => "it stays below the horizon",
+        false => "it stays behind what casts, or behind the probe's own plane",
+    }
+}
+
+fn range_table(table: &mut String, sunlight: &Sunlight, probed: &Probed) {
+    // Writing to a String cannot fail.
+    let _ = writeln!(table, "\n  {:<10}  {:>8}  {:>8}  {:>9}", "date", "sun", "longest", "intervals");
+    for (day, intervals) in sunlight.days.iter().zip(&probed.days) {
+        let _ = writeln!(
+            table,
+            "  {:<10}  {:>8}  {:>8}  {:>9}",
+            day.window.day.date.to_string(),
+            clock(secs(intervals)),
+            clock(longest(intervals).map_or(0, Interval::secs)),
+            intervals.len()
+        );
+    }
+    let _ = write!(table, "\n  {} of sun in {} days", clock(probed.secs()), sunlight.days.len());
+    if let Some(longest) = probed.longest() {
+        let from = longest.start.format("%Y-%m-%d %H:%M:%S");
+        let _ = write!(table, "; the longest interval {} from {from}", clock(longest.secs()));
+    }
+    if let Some([(least_on, least), (most_on, most)]) = sunlight.least_and_most(probed) {
+        let equals = probed.days.iter().filter(|day| secs(day) == least).count() - 1;
+        let more = if equals > 0 { format!(" (and on {equals} more)") } else { String::new() };
+        let _ = write!(table, "\n  least on {least_on}{more}: {}; most on {most_on}: {}", clock(least), clock(most));
+    }
+    table.push('\n');
+}
+
+/// Where a probe lies, and which way it looks.
+pub(super) fn lies(probe: &Probe) -> String {
+    match probe.normal {
+        Some(normal) => format!("at {}, facing {}", triple(probe.point), facing(normal)),
+        None => format!("at {}, free on all sides", triple(probe.point)),
+    }
+}
+
+/// A direction by the compass and its tilt, and in numbers: `south (180.0°), upright`.
+pub(super) fn facing(normal: DVec3) -> String {
+    const WINDS: [&str; 8] = ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
+    let tilt = normal.z.clamp(-1.0, 1.0).asin().to_degrees();
+    let tilted = match tilt {
+        up if up > 89.9 => return "upwards".to_owned(),
+        down if down < -89.9 => return "downwards".to_owned(),
+        level if level.abs() < 0.05 => String::new(),
+        up if up > 0.0 => format!(", {up:.1}° upwards"),
+        down => format!(", {:.1}° downwards", -down),
+    };
+    let azimuth = normal.x.atan2(normal.y).to_degrees().rem_euclid(360.0);
+    let wind = WINDS[(azimuth / 45.0).round() as usize % WINDS.len()];
+    format!("{wind} ({azimuth:.1}°{tilted})")
+}
+
+/// Metres east, north, up, to the millimetre and no digit in vain.
+pub(super) fn triple(point: DVec3) -> String {
+    let number = |value: f64| ((value * 1000.0).round() / 1000.0 + 0.0).to_string();
+    format!("({}, {}, {})", number(point.x), number(point.y), number(point.z))
+}
+
+/// `2:05:30`.
+pub(super) fn clock(secs: i64) -> String {
+    format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60)
+}
+
+/// `1 interval`, `3 intervals`.
+pub(super) fn counted(intervals: usize) -> String {
+    if intervals == 1 { "1 interval".to_owned() } else { format!("{intervals} intervals") }
+}
+
+/// A name without what would break the line.
+fn plain(name: &str) -> String {
+    name.replace(char::is_control, " ")
+}

@@ -1,0 +1,118 @@
+//! When points lie in the sun, and what keeps it from them.
+
+use crate::sun::DayWindow;
+use crate::view::Probe;
+use chrono::{DateTime, NaiveDate};
+use chrono_tz::Tz;
+
+/// What bounds an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Blocked {
+    /// Nothing: the window asked begins or ends.
+    Window,
+    /// The sun is down.
+    Horizon,
+    /// The sun is behind the probe's own plane, or in it.
+    Behind,
+    /// A component that casts, the nearest to the probe on the way to the sun: by its number in [`Sunlight::components`].
+    Component(usize),
+}
+
+/// A time in sunlight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// The first second in sunlight.
+    pub start: DateTime<Tz>,
+    /// The first second no longer in it.
+    pub end: DateTime<Tz>,
+    /// What blocks one second before the start.
+    pub before: Blocked,
+    /// What blocks at the end.
+    pub after: Blocked,
+}
+
+impl Interval {
+    /// How long it is, seconds.
+    pub fn secs(&self) -> i64 {
+        (self.end - self.start).num_seconds()
+    }
+}
+
+/// The intervals of several probes on several days.
+#[derive(Clone, Debug)]
+pub struct Sunlight {
+    /// Seconds between the instants at which was looked first: no interval of sun or shade that is at least so long is
+    /// missed.
+    pub step_secs: u32,
+    /// Whether directions include atmospheric refraction.
+    pub refraction: bool,
+    /// The days in their order.
+    pub days: Vec<SunDay>,
+    /// The probes in their order.
+    pub probes: Vec<Probed>,
+    /// The names of the components that cast.
+    pub components: Vec<String>,
+}
+
+/// One day, as it is for all probes.
+#[derive(Clone, Debug)]
+pub struct SunDay {
+    /// The date, and what is asked of it.
+    pub window: DayWindow,
+    /// When the sun is above the horizon within the window.
+    pub up: Vec<Interval>,
+}
+
+/// One probe's intervals.
+#[derive(Clone, Debug)]
+pub struct Probed {
+    /// Which probe.
+    pub probe: Probe,
+    /// For each day its intervals, in time's order. A sun that shines on over midnight has one on either day.
+    pub days: Vec<Vec<Interval>>,
+}
+
+impl Sunlight {
+    /// What blocks, in a word or by the component's name. A component that is named as one of the words is told from it.
+    pub fn name(&self, blocked: Blocked) -> String {
+        match blocked {
+            Blocked::Window => "window".to_owned(),
+            Blocked::Horizon => "horizon".to_owned(),
+            Blocked::Behind => "behind".to_owned(),
+            Blocked::Component(component) => match self.components.get(component).map_or("", String::as_str) {
+                word @ ("window" | "horizon" | "behind") => format!("{word} (component)"),
+                name => name.to_owned(),
+            },
+        }
+    }
+
+    /// The dates with the least and with the most sun for a probe, the first of equals; seconds beside them.
+    pub fn least_and_most(&self, probed: &Probed) -> Option<[(NaiveDate, i64); 2]> {
+        let days = || self.days.iter().zip(&probed.days).map(|(day, found)| (day.window.day.date, secs(found)));
+        let least = days().min_by_key(|(_, secs)| *secs)?;
+        let most = days().min_by_key(|(_, secs)| -*secs)?;
+        Some([least, most])
+    }
+}
+
+impl Probed {
+    /// How long the probe lies in the sun on all days, seconds.
+    pub fn secs(&self) -> i64 {
+        self.days.iter().map(|day| secs(day)).sum()
+    }
+
+    /// The longest interval of all days, the first of equals.
+    pub fn longest(&self) -> Option<&Interval> {
+        longest(self.days.iter().flatten())
+    }
+}
+
+/// How long intervals are together, seconds.
+pub fn secs(intervals: &[Interval]) -> i64 {
+    intervals.iter().map(Interval::secs).sum()
+}
+
+/// The longest interval, the first of equals.
+pub fn longest<'a>(intervals: impl IntoIterator<Item = &'a Interval>) -> Option<&'a Interval> {
+    intervals.into_iter().min_by_key(|interval| -interval.secs())
+}

@@ -1,0 +1,169 @@
+//! What is asked of probes: which points, on which days.
+
+use super::asked::{Overrides, numbers, refuse};
+use super::error::{At, SiteError};
+use super::load::Models;
+use super::model;
+use super::study::{date_of, no_study};
+use super::written::Written;
+use crate::mesh::Mesh;
+use crate::sun::{DayWindow, MOST_DAYS, Place, Reading, SunError, parse_duration_secs};
+use crate::view::Probe;
+use chrono::NaiveDate;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::path::Path;
+
+/// The step where nobody asks.
+const STEP: &str = "1min";
+
+/// The checked request of `gnomon probe`: place, models, points, days.
+#[derive(Clone, Debug)]
+pub struct Probing {
+    /// Where on earth.
+    pub place: Place,
+    /// All models, welded, in the world frame.
+    pub mesh: Mesh,
+    /// Per component: whether it casts.
+    pub casts: Vec<bool>,
+    /// The points, at least one, each with its own name.
+    pub probes: Vec<Probe>,
+    /// The days in their order, at least one, and what is asked of each.
+    pub days: Vec<DayWindow>,
+    /// Seconds between the instants at which is looked first.
+    pub step_secs: u32,
+    /// Whether directions include atmospheric refraction.
+    pub refraction: bool,
+}
+
+/// Reads and checks a request for probes; of the study only the date is asked, and only where the command line names
+/// none.
+///
+/// # Errors
+/// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
+pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError> {
+    let written = Written::read(path, asked)?;
+    let place = written.place(asked)?;
+    let probes = probes(&written, asked)?;
+    let days = days(&place, &written, asked)?;
+    let step_secs = match parse_duration_secs(asked.step.as_deref().unwrap_or(STEP)) {
+        Ok(0) => Err(SunError::ZeroStep),
+        step => step,
+    }
+    .map_err(|error| SiteError::sun(At::Option("--step"), error))?;
+    let Models { mesh, casts, .. } = Models::read(&written, model::load)?;
+    Ok(Probing { place, mesh, casts, probes, days, step_secs, refraction: !asked.no_refraction })
+}
+
+/// The point of the command line, or else those of the file.
+fn probes(written: &Written, asked: &Overrides) -> Result<Vec<Probe>, SiteError> {
+    if let Some(point) = &asked.point {
+        let point = DVec3::from_array(numbers("--point", point, "12,-3,4.5")?);
+        let normal = match &asked.normal {
+            Some(text) => Some(unit(numbers("--normal", text, "0,-1,0")?, || At::Option("--normal"))?),
+            None => None,
+        };
+        return Ok(vec![Probe { name: "point".to_owned(), point, normal }]);
+    }
+    if asked.normal.is_some() {
+        return Err(refuse(At::Option("--normal"), "belongs to --point; add that, or leave it out"));
+    }
+    if written.site.probe.is_empty() {
+        return Err(SiteError::NoProbe { file: written.file.clone() });
+    }
+    let mut probes: Vec<Probe> = Vec::new();
+    for (index, table) in written.site.probe.iter().enumerate() {
+        let at = |key: &str| written.probe_key(index, key);
+        let name = table.name.clone().filter(|name| !name.trim().is_empty());
+        let name = name.unwrap_or_else(|| format!("probe {}", index + 1));
+        if probes.iter().any(|other| other.name == name) {
+            return Err(refuse(
+                at("name"),
+                format!("\"{name}\" is the name of another probe, too; name each otherwise"),
+            ));
+        }
+        let Some(point) = table.point.map(DVec3::from_array) else {
+            let probe = super::keys::numbered("probe", index, written.site.probe.len());
+            return Err(written.missing(format!("point in {probe}"), super::keys::example("probe", "point")));
+        };
+        if !point.is_finite() {
+            let what = format!("{point} is no point; write metres, for example [12.0, -3.0, 4.5]");
+            return Err(refuse(at("point"), what));
+        }
+        let normal = table.normal.map(|normal| unit(normal, || at("normal"))).transpose()?;
+        probes.push(Probe { name, point, normal });
+    }
+    Ok(probes)
+}
+
+/// A normal's direction, whatever its length.
+fn unit(normal: [f64; 3], at: impl Fn() -> At) -> Result<DVec3, SiteError> {
+    let normal = DVec3::from_array(normal);
+    // Brought near 1 first, so that no square overflows.
+    let unit = (normal / normal.abs().max_element()).normalize();
+    if unit.is_finite() {
+        return Ok(unit);
+    }
+    Err(refuse(at(), format!("{normal} is no direction; write one of any length but 0, for example [0, -1, 0]")))
+}
+
+/// The days asked, each with the part of it that is.
+fn days(place: &Place, written: &Written, asked: &Overrides) -> Result<Vec<DayWindow>, SiteError> {
+    let reading = |option: &'static str, text: &Option<String>| {
+        let Some(text) = text else { return Ok(None) };
+        let reading: Reading = text.parse().map_err(|error| SiteError::sun(At::Option(option), error))?;
+        if reading.date.is_some() {
+            let what = format!("{text} has a date, but is meant for each day; leave it out, and name days with --date");
+            return Err(refuse(At::Option(option), what));
+        }
+        Ok(Some(reading))
+    };
+    let (from, to) = (reading("--from", &asked.from)?, reading("--to", &asked.to)?);
+    dates(written, asked)?
+        .into_par_iter()
+        .map(|date| {
+            DayWindow::on(place, date, from.as_ref(), to.as_ref()).map_err(|error| {
+                let from_fails = from.as_ref().is_some_and(|from| from.at(place, date).is_err());
+                let option = match (from_fails, to.is_some()) {
+                    (true, _) => "--from",
+                    (false, true) => "--to",
+                    (false, false) => "--date",
+                };
+                SiteError::sun(At::Option(option), error)
+            })
+        })
+        .collect()
+}
+
+/// One date, of the command line or of the study, or a range of them.
+fn dates(written: &Written, asked: &Overrides) -> Result<Vec<NaiveDate>, SiteError> {
+    let study = &written.site.study;
+    let option = |name: &'static str, text: &Option<String>| date_of(text.clone().map(|text| (text, At::Option(name))));
+    let (first, last) = match (option("--from-date", &asked.from_date)?, option("--to-date", &asked.to_date)?) {
+        (Some(first), Some(last)) => (first, last),
+        (Some(_), None) => return Err(refuse(At::Option("--from-date"), "needs --to-date, the last of the days")),
+        (None, Some(_)) => return Err(refuse(At::Option("--to-date"), "needs --from-date, the first of the days")),
+        (None, None) => {
+            let written_date = study.date.as_ref().map(|text| (text.0.clone(), written.key("study", "date")));
+            // A study without a date has one in its beginning.
+            let in_from = || study.from.as_ref()?.0.parse::<Reading>().ok()?.date;
+            let date = match option("--date", &asked.date)? {
+                Some(date) => Some(date),
+                None => date_of(written_date)?.or_else(in_from),
+            };
+            return Ok(vec![date.ok_or_else(|| no_study(written, [false, true, true, true]))?]);
+        }
+    };
+    if asked.date.is_some() {
+        return Err(refuse(At::Option("--date"), "says nothing beside --from-date and --to-date; leave one out"));
+    }
+    let days = (last - first).num_days() + 1;
+    if days < 1 {
+        let what = format!("{last} is before --from-date {first}; exchange them");
+        return Err(refuse(At::Option("--to-date"), what));
+    }
+    if days > MOST_DAYS {
+        return Err(SiteError::sun(At::Option("--to-date"), SunError::WindowTooLong { days, most: MOST_DAYS }));
+    }
+    Ok(first.iter_days().take_while(|date| *date <= last).collect())
+}

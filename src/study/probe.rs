@@ -1,0 +1,162 @@
+//! When points lie in the sun: rays at the instants of a grid, and halving between two of them that differ.
+//!
+//! A probe lies in sunlight where the sun is above the horizon, in front of the probe's plane if it has one, and a ray
+//! to the sun's centre meets no caster. An interval of sun or of shade that is at least one step long holds an instant
+//! of the grid, and so cannot be missed; a shorter one may be. Each change that is found is exact to the second.
+
+use super::{Event, OnEvent, StudyError, note_distance, tell};
+use crate::mesh::Mesh;
+use crate::profile::probe::{Blocked, Interval, Probed, SunDay, Sunlight};
+use crate::shadow::JUDGED_ABOVE_M;
+use crate::shadow::ray_cast::RayCaster;
+use crate::site::Probing;
+use crate::sun::{Air, DayWindow, Instant, Place, SunError, delta_t_secs};
+use crate::view::Probe;
+use chrono::{DateTime, TimeDelta};
+use chrono_tz::Tz;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// The intervals in sunlight of all probes, on all days.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn probe(asked: &Probing, on_event: &mut OnEvent<'_>) -> Result<Sunlight, StudyError> {
+    note_distance(&asked.mesh, on_event)?;
+    let search = Search::new(asked);
+    let empty = |probe: &Probe| Probed { probe: probe.clone(), days: Vec::new() };
+    let mut sunlight = Sunlight {
+        step_secs: asked.step_secs,
+        refraction: asked.refraction,
+        days: Vec::new(),
+        probes: asked.probes.iter().map(empty).collect(),
+        components: search.casters.components.iter().map(|component| component.name.clone()).collect(),
+    };
+
+    let count = asked.days.len();
+    tell(on_event, Event::Started { instants: count })?;
+    // as many at a time as all processors have work for between two looks at the listener
+    for windows in asked.days.chunks(4 * rayon::current_num_threads()) {
+        let days: Vec<_> = windows.par_iter().map(|window| search.day(window)).collect::<Result<_, _>>()?;
+        for (window, (up, found)) in windows.iter().zip(days) {
+            let index = sunlight.days.len();
+            sunlight.days.push(SunDay { window: window.clone(), up });
+            sunlight.probes.iter_mut().zip(found).for_each(|(probed, intervals)| probed.days.push(intervals));
+            tell(on_event, Event::Drawn { index, count, time: window.from, mask: None })?;
+        }
+    }
+    Ok(sunlight)
+}
+
+/// What a day is searched with.
+struct Search<'a> {
+    place: &'a Place,
+    probes: &'a [Probe],
+    step: TimeDelta,
+    air: Option<Air>,
+    casters: Mesh,
+    rays: RayCaster,
+}
+
+impl Search<'_> {
+    fn new(asked: &Probing) -> Search<'_> {
+        let casters = asked.mesh.of_components(&asked.casts);
+        let reach = asked.probes.iter().map(|probe| (probe.point - casters.origin).abs().max_element());
+        let rays = RayCaster::new(&casters, reach.fold(0.0, f64::max) + JUDGED_ABOVE_M);
+        Search {
+            place: &asked.place,
+            probes: &asked.probes,
+            step: TimeDelta::seconds(asked.step_secs.into()),
+            air: asked.refraction.then(|| Air::standard(asked.place.elevation_m)),
+            casters,
+            rays,
+        }
+    }
+
+    /// When the sun is up within a window, and each probe's intervals.
+    fn day(&self, window: &DayWindow) -> Result<(Vec<Interval>, Vec<Vec<Interval>>), SunError> {
+        let delta_t_secs = delta_t_secs(window.from.to_utc())?;
+        let sun = |time| Instant::at(self.place, time, 0, delta_t_secs, self.air);
+        let grid = self.grid(window, sun)?;
+        let up = intervals(&grid, sun, |instant| instant.night.then_some(Blocked::Horizon))?;
+        let of_probe = |probe| intervals(&grid, sun, |instant| self.blocked(probe, instant));
+        Ok((up, self.probes.iter().map(of_probe).collect::<Result<_, _>>()?))
+    }
+
+    /// The window's instants, a step apart, and its end; those of which it is certain that they lie deep in the night
+    /// are left out.
+    fn grid(
+        &self,
+        window: &DayWindow,
+        sun: impl Fn(DateTime<Tz>) -> Result<Instant, SunError>,
+    ) -> Result<Vec<Instant>, SunError> {
+        /// The sun takes at least so long to rise by a degree, seconds: the sky turns by one in 239.
+        const SECS_A_DEGREE: f64 = 230.0;
+        /// More than refraction lifts the sun near the horizon, degrees.
+        const LIFTED_DEG: f64 = 1.0;
+        let mut grid = vec![sun(window.from)?];
+        let mut time = window.from;
+        while time < window.to {
+            let below = -grid.last().map_or(0.0, Instant::altitude_deg);
+            let night_secs = ((below - LIFTED_DEG) * SECS_A_DEGREE).max(0.0) as i64;
+            let steps = (night_secs / self.step.num_seconds()).max(1) as i32;
+            time = (time + self.step * steps).min(window.to);
+            grid.push(sun(time)?);
+        }
+        Ok(grid)
+    }
+
+    /// What keeps the sun from a probe; nothing in sunlight.
+    fn blocked(&self, probe: &Probe, instant: &Instant) -> Option<Blocked> {
+        if instant.night {
+            return Some(Blocked::Horizon);
+        }
+        if probe.normal.is_some_and(|normal| normal.dot(instant.to_sun) <= 0.0) {
+            return Some(Blocked::Behind);
+        }
+        let judged = probe.point + probe.normal.unwrap_or(DVec3::ZERO) * JUDGED_ABOVE_M;
+        let (face, _) = self.rays.first_hit(judged - self.casters.origin, instant.to_sun)?;
+        Some(Blocked::Component(self.casters.components.partition_point(|component| component.faces.end <= face)))
+    }
+}
+
+/// The intervals in which nothing blocks. Between instants of the grid that agree there is no change; between two that do
+/// not the one that halving finds.
+fn intervals(
+    grid: &[Instant],
+    sun: impl Fn(DateTime<Tz>) -> Result<Instant, SunError>,
+    blocked: impl Fn(&Instant) -> Option<Blocked>,
+) -> Result<Vec<Interval>, SunError> {
+    let mut found = Vec::new();
+    // since when there is sun, and what blocked before
+    let mut open = None;
+    let mut before: Option<(DateTime<Tz>, Option<Blocked>)> = None;
+    for instant in grid {
+        let now = (instant.time, blocked(instant));
+        match before {
+            None => open = now.1.is_none().then_some((now.0, Blocked::Window)),
+            Some((time, state)) if state.is_none() != now.1.is_none() => {
+                let (mut low, mut high) = ((time, state), now);
+                while high.0 - low.0 > TimeDelta::seconds(1) {
+                    let middle = sun(low.0 + TimeDelta::seconds((high.0 - low.0).num_seconds() / 2))?;
+                    let state = blocked(&middle);
+                    let half = if state.is_none() == low.1.is_none() { &mut low } else { &mut high };
+                    *half = (middle.time, state);
+                }
+                if let Some(before) = low.1 {
+                    open = Some((high.0, before));
+                } else if let (Some((start, before)), Some(after)) = (open.take(), high.1) {
+                    found.push(Interval { start, end: high.0, before, after });
+                }
+            }
+            Some(_) => {}
+        }
+        before = Some(now);
+    }
+    if let (Some((start, why)), Some((end, _))) = (open, before)
+        && start < end
+    {
+        found.push(Interval { start, end, before: why, after: Blocked::Window });
+    }
+    Ok(found)
+}

@@ -1,0 +1,46 @@
+//! The part of a day that is asked, for questions of single days.
+
+use super::day::midnight;
+use super::{Day, Place, Reading, SunError, TimeOfDay, Window};
+use chrono::{DateTime, NaiveDate};
+use chrono_tz::Tz;
+
+/// A day, and the part of it that is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DayWindow {
+    /// The date, and what the sun does on it.
+    pub day: Day,
+    /// Its first instant.
+    pub from: DateTime<Tz>,
+    /// Its end.
+    pub to: DateTime<Tz>,
+}
+
+impl DayWindow {
+    /// All of a local date, from midnight to midnight, or from and to readings without dates. As in a study's window a
+    /// `to` earlier than `from` is on the next day; but where `sunrise+…` is later than `sunset-…` nothing is asked.
+    ///
+    /// # Errors
+    /// Readings that are no instants on that date, or equal; a year outside 1600 to 2999.
+    pub fn on(
+        place: &Place,
+        date: NaiveDate,
+        from: Option<&Reading>,
+        to: Option<&Reading>,
+    ) -> Result<DayWindow, SunError> {
+        let day = Day::of(place, date)?;
+        if let (Some(from), Some(to)) = (from, to) {
+            if let (TimeOfDay::Sunrise(_), TimeOfDay::Sunset(_)) = (from.time, to.time) {
+                let from = from.at(place, date)?;
+                return Ok(DayWindow { day, from, to: to.at(place, date)?.max(from) });
+            }
+            let window = Window { date: Some(date), from: from.clone(), to: to.clone(), step_secs: 1 };
+            let [from, to] = window.bounds(place)?;
+            return Ok(DayWindow { day, from, to });
+        }
+        let next = date.succ_opt().unwrap_or(date);
+        let from = from.map_or_else(|| Ok(midnight(place, date)), |from| from.at(place, date))?;
+        let to = to.map_or_else(|| Ok(midnight(place, next)), |to| to.at(place, date))?;
+        Ok(DayWindow { day, from, to: to.max(from) })
+    }
+}

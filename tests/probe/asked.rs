@@ -1,0 +1,165 @@
+//! The command and the site file's `[[probe]]`.
+
+use crate::command::{PLACE, done, fails, site};
+use serde_json::{Value, json};
+
+const PROBES: &str = "
+[[model]]
+path = \"tower.glb\"
+
+[[probe]]
+name = \"window, \\\"north\\\"\"
+point = [0, 20, 1.5]
+normal = [0, -2, 0]
+
+[[probe]]
+point = [0.0, -30.0, 1.5]
+";
+
+/// A folder with a tower, and a site with two probes.
+fn probes() -> tempfile::TempDir {
+    let folder = site();
+    let text = format!("{PLACE}{PROBES}[study]\ndate = 2026-03-21\n");
+    std::fs::write(folder.path().join("site.toml"), text).unwrap();
+    folder
+}
+
+fn keys(of: &Value) -> Vec<&str> {
+    of.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+#[test]
+fn json_has_these_keys() {
+    let folder = probes();
+    let json: Value = serde_json::from_str(&done(folder.path(), "probe . --json --quiet")).unwrap();
+    assert_eq!(keys(&json), ["gnomon", "place", "probes", "refraction", "shortest_found_secs"]);
+    assert_eq!((&json["shortest_found_secs"], &json["place"]["name"]), (&60.into(), &"Paris".into()));
+    let [window, free] = json["probes"].as_array().unwrap().as_slice() else { panic!("{json}") };
+    assert_eq!(keys(window), ["days", "longest_seconds", "name", "normal", "point", "seconds"]);
+    assert_eq!((&window["name"], &window["normal"]), (&"window, \"north\"".into(), &json!([0.0, -1.0, 0.0])));
+    assert_eq!(
+        (&free["name"], &free["normal"], &free["point"]),
+        (&"probe 2".into(), &Value::Null, &json!([0.0, -30.0, 1.5]))
+    );
+    let day = &window["days"][0];
+    assert_eq!(keys(day), ["date", "intervals", "longest_seconds", "seconds", "sunrise", "sunset"]);
+    assert_eq!((&day["date"], &day["seconds"]), (&"2026-03-21".into(), &window["seconds"]));
+    let intervals = day["intervals"].as_array().unwrap();
+    assert_eq!(keys(&intervals[0]), ["blocked_after", "blocked_before", "end", "seconds", "start"]);
+    let seconds = |of: &Value| of["seconds"].as_i64().unwrap();
+    assert_eq!(intervals.iter().map(seconds).sum::<i64>(), seconds(window));
+    assert_eq!(intervals.iter().map(seconds).max(), window["longest_seconds"].as_i64());
+    // the tower stands in the south of the window at noon
+    let blocked: Vec<_> = intervals.iter().flat_map(|it| [&it["blocked_before"], &it["blocked_after"]]).collect();
+    assert_eq!(blocked, ["behind", "tower", "tower", "behind"]);
+    let plain: Value = serde_json::from_str(&done(folder.path(), "probe . --json --step 30s --no-refraction")).unwrap();
+    assert_eq!((&plain["refraction"], &plain["shortest_found_secs"]), (&false.into(), &30.into()));
+    assert!(seconds(&plain["probes"][1]) < seconds(free), "air bends the sun up");
+}
+
+#[test]
+fn csv_has_a_line_an_interval() {
+    let folder = probes();
+    let options = "--from-date 2026-03-20 --to-date 2026-03-21 --from 11:00 --to 14:00 --quiet --json";
+    let json: Value =
+        serde_json::from_str(&done(folder.path(), &format!("probe . {options} --csv a/sun.csv"))).unwrap();
+    let text = std::fs::read_to_string(folder.path().join("a/sun.csv")).unwrap();
+    let mut expected = "probe,start,end,seconds,blocked_before,blocked_after\r\n".to_owned();
+    for (probe, name) in json["probes"].as_array().unwrap().iter().zip(["\"window, \"\"north\"\"\"", "probe 2"]) {
+        for interval in probe["days"].as_array().unwrap().iter().flat_map(|day| day["intervals"].as_array().unwrap()) {
+            let [start, end, before, after] =
+                ["start", "end", "blocked_before", "blocked_after"].map(|key| interval[key].as_str().unwrap());
+            expected += &format!("{name},{start},{end},{},{before},{after}\r\n", interval["seconds"]);
+        }
+    }
+    assert_eq!(text, expected);
+    // the free one sees the sun all the while, and clock readings carry their offset
+    let free = "probe 2,2026-03-20T11:00:00+01:00,2026-03-20T14:00:00+01:00,10800,window,window\r\n";
+    assert!(text.contains(free), "{text}");
+    assert_eq!(text.lines().count(), 1 + 2 * 3);
+}
+
+#[test]
+fn text_tells_intervals_or_days_and_a_drawing_is_made() {
+    let folder = probes();
+    let said = done(folder.path(), "probe . --out day.png --quiet");
+    for word in [
+        "blocked before",
+        "tower",
+        "behind",
+        "at (0, 20, 1.5), facing south",
+        "free on all sides",
+        "day.png",
+        "of sun in 2 intervals",
+    ] {
+        assert!(said.contains(word), "{said}");
+    }
+    let said = done(folder.path(), "probe . --from-date 2026-03-01 --to-date 2026-03-31 --out a/range.png --quiet");
+    for word in ["in 31 days", "2026-03-29", "least on", "most on", "1 min or more cannot have been missed"] {
+        assert!(said.contains(word), "{said}");
+    }
+    assert!(said.lines().all(|line| line.chars().count() <= 130), "{said}");
+    for name in ["day.png", "a/range.png"] {
+        let picture = image::open(folder.path().join(name)).unwrap().into_rgb8();
+        let count = |colour: [u8; 3]| picture.pixels().filter(|pixel| pixel.0 == colour).count();
+        let [sun, shade, night] = [[250, 218, 128], [140, 152, 173], [62, 70, 88]].map(count);
+        assert!(sun > 100_000 && shade > 50_000 && night > 50_000, "{name}: {sun} {shade} {night}");
+    }
+    let one = done(folder.path(), "probe tower.glb --place 48.8583,2.2945 --point 0,-30,1 --date 2026-06-21 --quiet");
+    assert!(one.contains("point: at (0, -30, 1)") && one.contains("2026-06-21"), "{one}");
+    // the study's window is not the probe's, and the file's probes step back before the command line's
+    let study = done(folder.path(), "probe . --point 0,-30,1 --normal 0,0,1 --quiet");
+    assert!(study.contains("horizon") && study.contains("facing upwards") && !study.contains("probe 2"), "{study}");
+}
+
+#[test]
+fn mistakes_are_told() {
+    let folder = probes();
+    let path = folder.path();
+    let with = |name: &str, from: &str, to: &str| {
+        let text = std::fs::read_to_string(path.join("site.toml")).unwrap();
+        assert!(text.contains(from), "{from}");
+        std::fs::write(path.join(name), text.replace(from, to)).unwrap();
+    };
+    for (from, to, words) in [
+        ("point = [0, 20, 1.5]", "", &["point in [[probe]] number 1", "point = ["][..]),
+        ("point = [0, 20, 1.5]", "point = [0, nan, 1]", &["[[probe]] number 1 point", "no point"]),
+        ("point = [0, 20, 1.5]", "point = [0, 20]", &["[[probe]] number 1 point", "length 3"]),
+        ("[0, -2, 0]", "[0, 0, 0]", &["[[probe]] number 1 normal", "no direction"]),
+        ("[0, -2, 0]", "[0, inf, 0]", &["[[probe]] number 1 normal", "no direction"]),
+        ("normal =", "norml =", &["[[probe]] number 1 norml", "normal in [[probe]]"]),
+        ("[[probe]]\npoint", "[[prob]]\npoint", &["[prob]", "[[probe]]"]),
+        (
+            "[[probe]]\npoint",
+            "[[probe]]\nname = \"window, \\\"north\\\"\"\npoint",
+            &["[[probe]] number 2 name", "otherwise"],
+        ),
+    ] {
+        with("wrong.toml", from, to);
+        fails(path, "probe wrong.toml", 1, words);
+    }
+    with("none.toml", PROBES, "[[model]]\npath = \"tower.glb\"\n");
+    fails(path, "probe none.toml", 2, &["no [[probe]]", "--point 12,-3,4.5"]);
+    with("undated.toml", "date = 2026-03-21", "");
+    fails(path, "probe undated.toml", 2, &["date of the study", "--date 2026-03-21"]);
+    fails(path, "probe . --point 1,2", 2, &["--point", "3 numbers"]);
+    fails(path, "probe . --point 1,2,inf", 2, &["--point", "3 numbers"]);
+    fails(path, "probe . --point 1,2,3 --normal 0,0,0", 2, &["--normal", "no direction"]);
+    fails(path, "probe . --normal 0,0,1", 2, &["--normal", "--point"]);
+    fails(path, "probe . --to-date 2026-04-01", 2, &["--to-date", "needs --from-date"]);
+    fails(path, "probe . --from-date 2026-04-01", 2, &["--from-date", "needs --to-date"]);
+    fails(path, "probe . --from-date 2026-04-02 --to-date 2026-04-01", 2, &["--to-date", "before", "exchange"]);
+    fails(path, "probe . --from-date 2026-04-02 --to-date 2037-04-01", 2, &["--to-date", "3660"]);
+    fails(
+        path,
+        "probe . --from-date 2026-04-01 --to-date 2026-04-02 --date 2026-04-01",
+        2,
+        &["--date", "leave one out"],
+    );
+    fails(path, "probe . --from 2026-04-01T10:00", 2, &["--from", "each day", "--date"]);
+    fails(path, "probe . --from 10:00 --to 10:00", 2, &["--to", "empty"]);
+    fails(path, "probe . --step 0s", 2, &["--step"]);
+    fails(path, "probe . --out a.jpg", 2, &["--out", "PNG"]);
+    fails(path, "probe . --csv a.txt", 2, &["--csv", "CSV"]);
+    fails(path, "probe . --technique ray-cast", 2, &["--technique"]);
+}
