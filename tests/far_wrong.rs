@@ -39,7 +39,8 @@ impl FarWrong {
     }
 }
 
-/// A map of the plan over some suns, by its default bias or another. Texels are as large as they lie on level ground.
+/// A map of the plan over some suns, by its default bias or another. Texels are as large as they are across the rays: what a
+/// low sun makes of them on the ground is not allowed for.
 pub(crate) fn far_wrong(
     gpu: &Arc<Gpu>,
     scene: &Scene,
@@ -57,7 +58,7 @@ pub(crate) fn far_wrong(
     let mut sum = FarWrong::default();
     for &sun in suns {
         let [across, along] = map.texel_m(sun);
-        let texel_cells = f64::from(across.max(along)) / sun.z / grid.cell;
+        let texel_cells = f64::from(across.max(along)) / grid.cell;
         sum.add(&map.draw(sun)?.read()?, &truth.draw(sun)?.read()?, texel_cells);
     }
     Ok(sum)

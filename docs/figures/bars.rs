@@ -42,7 +42,11 @@ pub(crate) fn bars(gpu: &Arc<Gpu>) -> Result<Sheet> {
         svg += &text_element([left - 14.0, top + 66.0], 26.0, 700, "end", INK, name);
         let all = counted(stage, &mut stage.stencil()?)?;
         let covered = all.reached.iter().filter(|&&layers| layers > 0).count() as f64 / all.reached.len() as f64;
-        let layers = format!("{:.1} layers a cell", all.all as f64 / all.reached.len() as f64);
+        let layers = format!(
+            "{:.0}% of the cells, {:.1} layers a cell",
+            100.0 * covered,
+            all.all as f64 / all.reached.len() as f64
+        );
         let mut shares = vec![(covered, INK, layers)];
         for (size, colour) in MAPS {
             let masked = counted(stage, &mut stage.hybrid(size)?)?;

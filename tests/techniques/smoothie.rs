@@ -7,6 +7,7 @@ use crate::exact::{gpu, scene_of, to_sun};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use gnomon::mesh::Mesh;
 use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::{DrawnMask, Scene};
 use gnomon::silhouette::Kind;
@@ -151,16 +152,27 @@ fn corners_of_any_number_of_edges_have_no_seams() {
     }
 }
 
+/// Against another technique's shader: where all four texels around a cell shade it, whatever their weights, no sun is left;
+/// and all of the sun is seen only where none of the four that weigh anything shades it. And against its own map, filtered
+/// alike but without smoothies, in every cell.
 #[test]
 fn it_is_never_lighter_than_its_map() {
     for name in ["tower", "industry", "headquarters"] {
         let (scene, view, suns) = site(name, 400);
         let [mut soft, mut bare] = [None, Some(1e-9)].map(|width| smoothie(&scene, view, width));
+        let mut map = ShadowMap::new(gpu(), &scene, view, 2048, Filter::FastTwoByTwo).unwrap();
         for &sun in suns.iter().step_by(4) {
-            let (soft, bare) = (draw(&mut soft, sun), draw(&mut bare, sun));
+            let (soft, bare, map) = (draw(&mut soft, sun), draw(&mut bare, sun), draw(&mut map, sun));
             let lighter = soft.share.iter().zip(&bare.share).filter(|(soft, bare)| soft > bare).count();
             let darker = soft.share.iter().zip(&bare.share).filter(|(soft, bare)| soft < bare).count();
             assert!(lighter == 0 && darker > 100, "{name}: {lighter} lighter, {darker} darker");
+            let dark = || map.share.iter().zip(&soft.share).filter(|(map, _)| **map == 0);
+            let wrong = dark().filter(|(_, soft)| **soft > 0).count();
+            assert!(wrong == 0 && dark().count() > 1000, "{name}: {wrong} of {} see some sun", dark().count());
+            // a weight below half a level of the mask weighs nothing
+            let lit = map.share.iter().zip(&soft.share).filter(|(map, soft)| **map < 255 && **soft == 255).count();
+            let partial = map.share.iter().filter(|share| !matches!(share, 0 | 255)).count();
+            assert!(lit * 50 <= partial, "{name}: {lit} of {partial} see all of the sun");
         }
     }
 }
