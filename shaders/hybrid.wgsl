@@ -4,9 +4,9 @@
 // over one texel it is no plane any more.
 const STEEPEST: f32 = 50.0;
 
-// How many of the four texels from `first` on shade the cell: lie before the cell's own plane. A caster that stands on the
+// How many of the four texels from `first` on lie before the cell's own plane. A caster that stands on the
 // plane is told from it however near. Where that is too strict, texels disagree, and the volumes decide.
-fn shaded_of_four(cell: Cell, first: vec2i) -> u32 {
+fn before_plane_of_four(cell: Cell, first: vec2i) -> u32 {
     let rounding = rounding(cell);
     var count = 0u;
     for (var index = 0; index < 4; index++) {
@@ -22,16 +22,13 @@ fn shaded_of_four(cell: Cell, first: vec2i) -> u32 {
 
 @fragment
 fn decided(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let face = seen_face(pixel.xy);
-    if face == SKY {
-        return vec4f(1.0);
+    let asked = asked(pixel.xy);
+    if !asked.is_open {
+        return vec4f(asked.share);
     }
-    let cell = cell_in_map(pixel.xy, seen_normal(face));
-    if cell.towards <= 0.0 {
-        return vec4f(0.0);
-    }
+    let cell = asked.cell;
     let first = first_of_four(cell);
-    let count = shaded_of_four(cell, first);
+    let count = before_plane_of_four(cell, first);
     let is_beyond = is_outside(first) && is_outside(first + 1);
     if (count > 0u && count < 4u) || (cell.towards * STEEPEST < 1.0 && !is_beyond) {
         discard;

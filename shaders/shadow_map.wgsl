@@ -2,22 +2,6 @@
 
 @group(3) @binding(0) var packed: texture_2d<f32>;
 
-// A cell that the map decides, or the share of all others: the sky sees the sun, what faces away does not.
-struct Asked {
-    share: f32,
-    is_open: bool,
-    cell: Cell,
-}
-
-fn asked(pixel: vec2f) -> Asked {
-    let face = seen_face(pixel);
-    if face == SKY {
-        return Asked(1.0, false, Cell());
-    }
-    let cell = cell_in_map(pixel, seen_normal(face));
-    return Asked(0.0, cell.towards > 0.0, cell);
-}
-
 // How many of the four texels from `corner` on shade the cell.
 fn shaded_of_four(cell: Cell, corner: vec2i) -> u32 {
     var count = 0u;

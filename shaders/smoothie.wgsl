@@ -132,14 +132,11 @@ fn seen_past(cell: Cell, texel: vec2i) -> f32 {
 // The four nearest texels, each compared, then interpolated.
 @fragment
 fn softened(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let face = seen_face(pixel.xy);
-    if face == SKY {
-        return vec4f(1.0);
+    let asked = asked(pixel.xy);
+    if !asked.is_open {
+        return vec4f(asked.share);
     }
-    let cell = cell_in_map(pixel.xy, seen_normal(face));
-    if cell.towards <= 0.0 {
-        return vec4f(0.0);
-    }
+    let cell = asked.cell;
     let first = first_of_four(cell);
     let part = cell.at.xy - 0.5 - vec2f(first);
     let upper = mix(seen_past(cell, first), seen_past(cell, first + vec2i(1, 0)), part.x);

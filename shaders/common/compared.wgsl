@@ -52,3 +52,20 @@ fn shaded(cell: Cell, texel: vec2i) -> bool {
 fn first_of_four(cell: Cell) -> vec2i {
     return vec2i(floor(cell.at.xy - 0.5));
 }
+
+// A cell that is to be compared (open), or the share of one that needs no map: the sky sees the light, what faces away does
+// not.
+struct Asked {
+    share: f32,
+    is_open: bool,
+    cell: Cell,
+}
+
+fn asked(pixel: vec2f) -> Asked {
+    let face = seen_face(pixel);
+    if face == SKY {
+        return Asked(1.0, false, Cell());
+    }
+    let cell = cell_in_map(pixel, seen_normal(face));
+    return Asked(0.0, cell.towards > 0.0, cell);
+}
