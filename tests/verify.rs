@@ -210,6 +210,9 @@ fn a_box_is_verified_as_a_table_and_as_json() {
         assert_eq!(table.lines().filter(|line| line.starts_with(&format!("{row} "))).count(), 1, "{table}");
     }
     assert_eq!(table.matches("  holds\n").count(), 3, "{table}");
+    assert!(table.contains(", silhouettes hextree\n"), "{table}");
+    let on_gpu = done(folder.path(), "verify . --size 50 --sun-samples 1 --step 1h --silhouette gpu");
+    assert!(on_gpu.contains(", silhouettes gpu; smoothie hextree\n"), "{on_gpu}");
     assert!(table.lines().all(|line| line.chars().count() <= 120), "{table}");
 
     let options =

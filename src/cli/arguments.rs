@@ -187,7 +187,8 @@ pub(super) struct ProfileArgs {
     /// Also every instant's bare mask, as mask-0000.png … in this folder
     #[arg(long, value_name = "DIR")]
     pub(super) masks: Option<PathBuf>,
-    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells
+    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
+    /// cells, those of the sky too)
     #[arg(long)]
     pub(super) stats: bool,
     /// Which files
@@ -219,7 +220,8 @@ pub(super) struct ShadowArgs {
     draw: DrawArgs,
     #[command(flatten)]
     pub(super) plan: PlanArgs,
-    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells
+    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
+    /// cells, those of the sky too)
     #[arg(long)]
     pub(super) stats: bool,
     /// From above, or in perspective

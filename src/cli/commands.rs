@@ -197,14 +197,14 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
     }
 }
 
-/// What counting took, in a line.
+/// What counting took, in a line; cells are all of the picture's, those of the sky too.
 fn took(statistics: &Statistics) -> String {
     let [with, without] = statistics.overdraw();
     let cells = statistics.cells.max(1) as f64;
     match statistics.silhouette_cells {
         None => format!("overdraw: {without:.1} fragments of shadow volumes a cell\n"),
         Some(silhouette) => format!(
-            "silhouette cells: {:.2}%; overdraw: {with:.2} fragments of shadow volumes a cell, {without:.1} without the mask\n",
+            "silhouette cells: {:.2}% of all; overdraw: {with:.2} fragments of shadow volumes a cell, {without:.1} without the mask\n",
             100.0 * silhouette as f64 / cells
         ),
     }

@@ -122,17 +122,26 @@ fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
     }
 }
 
+/// The finder that drew, and the techniques for which it was another.
+fn silhouettes(rows: &[Row]) -> String {
+    let mut found = rows.iter().filter_map(|row| Some((row.drawn.silhouette?, row.drawn.technique)));
+    let Some((first, _)) = found.next() else { return "none".to_owned() };
+    let others = found.filter(|(finder, _)| *finder != first);
+    let others: Vec<_> = others.map(|(finder, technique)| format!("; {technique} {finder}")).collect();
+    format!("{first}{}", others.concat())
+}
+
 /// Where, when and with what, then a line a technique, then what the columns mean; ends with a line break.
 pub fn table(verification: &Verification, place: &Place, track: &SunTrack, receivers: Receivers) -> String {
     let Verification { grid, instants, .. } = verification;
     let mut table = String::new();
     let night = track.instants.len() - instants;
     let adapter = verification.rows.iter().find_map(|row| row.drawn.adapter.as_deref()).unwrap_or("no adapter");
-    let silhouette = verification.rows.iter().find_map(|row| row.drawn.silhouette).unwrap_or("none");
+    let silhouettes = silhouettes(&verification.rows);
     // Writing to a String cannot fail.
     let _ = writeln!(
         table,
-        "{}: {}, {}{}\n{} × {} cells of {:.3} m, receivers {}\ndrawn on {adapter}, silhouettes {silhouette}\n",
+        "{}: {}, {}{}\n{} × {} cells of {:.3} m, receivers {}\ndrawn on {adapter}, silhouettes {silhouettes}\n",
         words(place),
         window(track),
         counted(*instants, "instant"),

@@ -248,7 +248,7 @@ pub fn instant(
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(site)?,
-        (false, true) => counting(site, "--stats, --show mask and --show overdraw")?,
+        (false, true) => counting(site, "--stats, --show mask or --show overdraw")?,
         (false, false) => choose(site, &view, on_event)?,
     };
     let receivers = judged(site, &view);

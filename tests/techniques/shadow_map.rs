@@ -105,3 +105,39 @@ fn without_casters_or_far_from_them_all_is_light() {
         }
     }
 }
+
+/// What a filter makes of an edge lies evenly on both sides of it: were the four maps of 2×2 drawn to one side, it would be
+/// seen here. (Along a row of texels an edge can lie half a texel aside; with these suns none runs so.)
+#[test]
+fn no_filter_moves_an_edge() {
+    let plate = [dvec3(-7.1, -5.3, 6.0), dvec3(6.2, -6.4, 6.0), dvec3(8.3, 5.1, 6.0), dvec3(-5.4, 7.2, 6.0)];
+    let scene = scene_of(&Mesh::build(vec![sheet(plate)]).unwrap(), Receivers::Ground, 0.0);
+    let view = plan(16.0, 1000);
+    let View::Plan(grid) = view else { panic!("a plan") };
+    for sun in [to_sun(200.0, 50.0), to_sun(163.0, 44.0)] {
+        let corners = plate.map(|corner| (corner - sun * (corner.z / sun.z)).truncate());
+        for (filter, _) in FILTERS {
+            let mut map = ShadowMap::new(gpu(), &scene, view, 256, filter).unwrap();
+            let mask = draw(&mut map, sun);
+            let texel = f64::from(map.texel_m(sun).into_iter().fold(0.0, f32::max)) / sun.z;
+            for index in 0..4 {
+                let (from, to) = (corners[index], corners[(index + 1) % 4]);
+                let along = (to - from).normalize();
+                let (reach, length) = (4.0 * texel, from.distance(to));
+                // what of a band around the edge is dark, away from the corners: half of it
+                let (mut dark, mut cells) = (0.0, 0);
+                for (at, share) in mask.share.iter().enumerate() {
+                    let centre = grid.centre(at as u32 % grid.width, at as u32 / grid.width) - from;
+                    let (on, beside) = (centre.dot(along), centre.perp_dot(along));
+                    if on > reach && on < length - reach && beside.abs() < reach {
+                        dark += 1.0 - f64::from(*share) / 255.0;
+                        cells += 1;
+                    }
+                }
+                let moved = (2.0 * dark / f64::from(cells) - 1.0) * reach / texel;
+                println!("{filter:?}, edge {index}: moved by {moved:.3} texels, {cells} cells");
+                assert!(cells > 1000 && moved.abs() < 0.1, "{filter:?}, edge {index}: moved by {moved} texels");
+            }
+        }
+    }
+}

@@ -270,3 +270,33 @@ fn a_lamps_penumbra_follows_the_papers_remap() {
         assert!(dark.abs_diff(expected) <= 6, "{dark} of 400 instead of {expected}");
     }
 }
+
+/// A plate throws its penumbra onto a table, and under the table lies a slab whose own smoothies run, seen from the sun,
+/// through the plate's. They lie behind a blocker, and must not darken the table.
+#[test]
+fn smoothies_behind_a_blocker_are_discarded() {
+    let sun = to_sun(180.0, 50.0);
+    // where a point casts its shadow at another height
+    let thrown = |y: f64, from: f64, to: f64| y - sun.y / sun.z * (from - to);
+    let plate = |z: f64, north: f64, east: f64| {
+        let corner = |x: f64, y: f64| dvec3(x, y, z);
+        sheet([corner(-8.0, north - 6.0), corner(east, north - 6.0), corner(east, north), corner(-8.0, north)])
+    };
+    let above = plate(25.0, 0.0, 8.0);
+    let edge = thrown(0.0, 25.0, 5.0);
+    // beyond the table's eastern end the ground is seen: the slab is high enough above it to have smoothies
+    let table = cuboid("table", dvec3(-9.0, edge - 8.0, 4.9), dvec3(0.6, edge + 4.0, 5.0));
+    let under = plate(3.0, thrown(edge + 0.05, 5.0, 3.0), 0.5);
+    let view = around(dvec2(0.3, edge), 1.4);
+    let of = |parts: Vec<gnomon::mesh::Part>| {
+        let scene = scene_of(&Mesh::build(parts).unwrap(), Receivers::Top, 0.0);
+        draw(&mut smoothie(&scene, view, None), sun)
+    };
+    let alone = of(vec![above.clone(), table.clone()]);
+    let soft = soft_length(&alone, view, dvec2(0.2, edge - 0.3), dvec2(0.2, edge + 0.6));
+    assert!(soft > 0.15, "{soft} m of penumbra on the table");
+    let with_slab = of(vec![above, table, under]);
+    // (the map's depth reaches further down with the slab, and rounds otherwise)
+    let differ = alone.share.iter().zip(&with_slab.share).filter(|(one, other)| one.abs_diff(**other) > 3).count();
+    assert_eq!(differ, 0, "cells of the table and the ground behind it");
+}
