@@ -145,7 +145,7 @@ pub(super) fn plan(mesh: &Mesh, grid: &Grid) -> Surface {
         height_m: vec![0.0; grid.cells()],
     };
     for face in 0..mesh.faces.len() {
-        let plane = mesh.planes[face];
+        let plane = mesh.planes()[face];
         let normal = plane.truncate();
         if normal.z < 1e-6 {
             continue;

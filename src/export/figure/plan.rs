@@ -81,7 +81,7 @@ fn face(surface: &Surface, cell: usize) -> Option<usize> {
 
 /// The normal of the side that the plan sees; straight up where the face has no area.
 fn upward(mesh: &Mesh, face: usize) -> DVec3 {
-    let normal = mesh.planes.get(face).map_or(DVec3::Z, |plane| plane.truncate());
+    let normal = mesh.planes().get(face).map_or(DVec3::Z, |plane| plane.truncate());
     if normal.z < 0.0 {
         -normal
     } else if normal == DVec3::ZERO {
