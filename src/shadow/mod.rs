@@ -11,6 +11,7 @@ mod light_view;
 pub mod map;
 pub mod near_clip;
 pub mod overlay;
+mod plan_surface;
 pub mod projected;
 pub mod ray_cast;
 pub mod shadow_map;
@@ -24,6 +25,7 @@ use crate::mesh::Mesh;
 use crate::view::{Bits, Counted, Mask, Surface};
 use glam::{DVec3, DVec4};
 
+pub use plan_surface::plan_surface;
 pub use surface::GpuSurface;
 pub use walls::Silhouettes;
 

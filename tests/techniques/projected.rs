@@ -8,11 +8,11 @@ use crate::exact::{day, plan, scene_of, to_sun};
 use crate::{dense, dome};
 use glam::{DVec3, dvec2, dvec3};
 use gnomon::mesh::{Mesh, Part};
-use gnomon::shadow::Scene;
+use gnomon::shadow::{Scene, Technique, plan_surface};
 use gnomon::shadow::projected::Projected;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::site::Receivers;
-use gnomon::view::{Grid, Mask, View};
+use gnomon::view::{Grid, Mask, Surface, View};
 
 fn projected(scene: &Scene, view: View, sun: DVec3) -> Mask {
     let View::Plan(grid) = view else { panic!("a plan") };
@@ -140,4 +140,45 @@ fn one_wrong_cell_is_seen() {
     drawn.share[at] ^= 255;
     assert_eq!(differing(&scene, view, sun, &drawn, false).1, [at]);
     assert_eq!(differing(&scene, view, sun, &drawn, true).1, [at]);
+}
+
+/// Cells that see something else of the receivers than a ray does: another height, or another face at another height.
+fn seen_otherwise(scene: &Scene, view: View, surface: &Surface) -> Vec<usize> {
+    let truth = RayCast::new(scene.clone(), view, None).surface().unwrap();
+    let differs = |at: &usize| {
+        let (a, b) = (surface.height_m[*at], truth.height_m[*at]);
+        let is_ground = [surface.face[*at], truth.face[*at]].map(|face| face == Surface::GROUND);
+        (a - b).abs() > 1e-4 * (1.0 + b.abs()) || (is_ground[0] != is_ground[1])
+    };
+    (0..truth.face.len()).filter(differs).collect()
+}
+
+#[test]
+fn plans_see_what_rays_see() {
+    let mut scenes: Vec<(String, Scene, View)> = Vec::new();
+    for (name, parts) in small().into_iter().chain(dirty()) {
+        let scene = scene_of(&Mesh::build(parts).unwrap(), Receivers::Top, 0.0);
+        scenes.push((name.to_owned(), scene, plan(20.371_93, 300)));
+    }
+    for name in ["tower", "industry", "headquarters"] {
+        let (scene, view, _) = site(name, 700);
+        scenes.push((name.to_owned(), scene, view));
+    }
+    for (name, scene, view) in scenes {
+        let View::Plan(grid) = view else { panic!("a plan") };
+        let surface = plan_surface(&scene.receivers, scene.ground, &grid);
+        let otherwise = seen_otherwise(&scene, view, &surface);
+        assert!(otherwise.len() * 20_000 <= surface.face.len(), "{name}: {} cells", otherwise.len());
+    }
+}
+
+#[test]
+fn one_face_too_low_is_seen() {
+    let (scene, view, _) = site("tower", 100);
+    let View::Plan(grid) = view else { panic!("a plan") };
+    let mut surface = plan_surface(&scene.receivers, scene.ground, &grid);
+    let before = seen_otherwise(&scene, view, &surface).len();
+    let at = surface.face.iter().position(|face| *face != Surface::GROUND).unwrap();
+    surface.height_m[at] -= 0.5;
+    assert_eq!(seen_otherwise(&scene, view, &surface).len(), before + 1);
 }
