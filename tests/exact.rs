@@ -3,7 +3,7 @@
 mod cameras;
 mod compare;
 mod counts;
-mod dirty;
+pub(crate) mod dirty;
 pub(crate) mod scenes;
 
 use glam::{DVec3, dvec3};

@@ -5,6 +5,7 @@
 mod asked;
 mod camera;
 mod choice;
+mod dates;
 mod error;
 mod extent;
 pub mod file;

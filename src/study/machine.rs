@@ -98,7 +98,7 @@ impl Machine {
     pub(super) fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
         let (gpu, drawing) = match self {
             Machine::RayCast { sun_samples } => return Ok(Box::new(RayCast::new(scene, view, *sun_samples))),
-            Machine::Projected(grid) => return Ok(Box::new(Projected::new(scene, *grid))),
+            Machine::Projected(grid) => return Ok(Box::new(Projected::new(&scene, *grid))),
             Machine::OnGpu(gpu, drawing) => (Arc::clone(gpu), *drawing),
         };
         Ok(match drawing {

@@ -16,7 +16,7 @@ use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Statistics, Timings};
 use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
-use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
+use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
 use crate::sun::{SunError, SunTrack};
 use crate::view::{Camera, Counted, Mask, Overlay, Surface, View};
@@ -396,11 +396,17 @@ impl Look<'_> {
         if self.receivers == Receivers::Top {
             return technique.surface();
         }
-        let casters = self.site.mesh.of_components(&[]);
-        let scene = Scene { casters, receivers: self.surface_mesh(), ground: self.site.ground };
-        match self.machine.gpu() {
-            Some(gpu) => GpuSurface::draw(gpu, &scene, self.view)?.read(),
-            None => RayCast::new(scene, self.view, None).surface(),
+        let receivers = self.surface_mesh();
+        match (self.machine.gpu(), self.view) {
+            (None, View::Plan(grid)) => Ok(plan_surface(&receivers, self.site.ground, &grid)),
+            (gpu, view) => {
+                let casters = self.site.mesh.of_components(&[]);
+                let scene = Scene { casters, receivers, ground: self.site.ground };
+                match gpu {
+                    Some(gpu) => GpuSurface::draw(gpu, &scene, view)?.read(),
+                    None => RayCast::new(scene, view, None).surface(),
+                }
+            }
         }
     }
 }
