@@ -84,7 +84,7 @@ pub(super) fn unified(mesh: &Mesh) -> Vec<DVec4> {
 }
 
 /// Per face its three edges.
-fn sides(mesh: &Mesh) -> Vec<[u32; 3]> {
+pub(super) fn sides(mesh: &Mesh) -> Vec<[u32; 3]> {
     let mut sides = vec![[u32::MAX; 3]; mesh.faces.len()];
     for edge in 0..mesh.edges.len() {
         for incidence in mesh.faces_at(edge) {

@@ -53,6 +53,8 @@ pub enum Method {
     Hybrid,
     /// A depth map with soft edges.
     Smoothie,
+    /// Registered hard shadows on flat patches, added up.
+    SoftTexture,
     /// Ray casting.
     RayCast,
 }

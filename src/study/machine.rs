@@ -53,7 +53,7 @@ impl Drawing {
             },
             Method::Hybrid => Drawing::Hybrid { silhouettes: silhouettes(site, gpu), map_size },
             Method::Smoothie => Drawing::Smoothie { finder: kind(site), map_size, width_m: settings.smoothie_width_m },
-            Method::Stencil | Method::Auto | Method::RayCast | Method::Projected => {
+            Method::Stencil | Method::Auto | Method::RayCast | Method::Projected | Method::SoftTexture => {
                 Drawing::Stencil(silhouettes(site, gpu))
             }
         }
@@ -214,6 +214,10 @@ pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Re
                 return Err(StudyError::Conflict { option: "--technique", what });
             };
             Machine::Projected(grid)
+        }
+        (Method::SoftTexture, _) => {
+            let what = "soft-texture is for flat patches; add --receivers surfaces, or take another technique";
+            return Err(StudyError::Conflict { option: "--technique", what });
         }
         (Method::RayCast, Engine::Gpu) => {
             return conflict("the technique ray-cast works on the cpu; take --technique stencil with gpu");

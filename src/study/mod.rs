@@ -1,14 +1,17 @@
 //! The flow: a checked request in, its shadow profile out.
 //!
 //! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
-//! [`verify`] holds every technique against ray casting; [`probe`] finds when single points lie in the sun.
+//! [`surfaces()`] is the study on facades and roofs; [`verify`] holds every technique against ray casting; [`probe`] finds
+//! when single points lie in the sun.
 
 mod machine;
 pub mod probe;
 mod stopwatch;
+mod surfaces;
 pub mod verify;
 
 pub use stopwatch::Stopwatch;
+pub use surfaces::{SurfaceOutcome, surfaces};
 
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
@@ -127,12 +130,17 @@ pub enum StudyError {
     #[error(
         "the study has {} hours of daylight, and a profile sums at most {}; ask for a shorter window with --from and --to",
         day_secs / 3600,
-        MOST_DAY_SECS / 3600
+        most_secs / 3600
     )]
     TooLong {
         /// Seconds of the window with the sun above the horizon.
         day_secs: u64,
+        /// How many can be summed.
+        most_secs: u32,
     },
+    /// Nothing that receives has an area.
+    #[error("no component that receives has a surface; see `receives` in the site file")]
+    NoSurface,
     /// The track has no instant.
     #[error("there is no instant to draw")]
     NoInstant,
@@ -175,7 +183,7 @@ impl StudyError {
 }
 
 /// The longest daylight that a sum in 1/255 s holds, seconds.
-const MOST_DAY_SECS: u64 = (u32::MAX / 255) as u64;
+const MOST_DAY_SECS: u32 = u32::MAX / 255;
 
 /// The study: every instant's shadows, summed to the time in shadow.
 ///
@@ -183,7 +191,7 @@ const MOST_DAY_SECS: u64 = (u32::MAX / 255) as u64;
 /// [`StudyError`]; choices that exclude each other and windows that are too long before anything is drawn.
 pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
     let mut watch = Stopwatch::start();
-    let (day_secs, night_secs) = day_and_night(&site.track)?;
+    let (day_secs, night_secs) = day_and_night(&site.track, MOST_DAY_SECS)?;
     note_distance(&site.mesh, on_event)?;
     let view = View::Plan(site.grid);
     let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, &view, on_event)? };
@@ -326,8 +334,8 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
     }
 }
 
-/// The seconds of the window with the sun above the horizon, and without.
-fn day_and_night(track: &SunTrack) -> Result<(u32, u32), StudyError> {
+/// The seconds of the window with the sun above the horizon, and without; an error where the former are too many.
+fn day_and_night(track: &SunTrack, most_secs: u32) -> Result<(u32, u32), StudyError> {
     let weights = |night: bool| {
         track
             .instants
@@ -336,8 +344,8 @@ fn day_and_night(track: &SunTrack) -> Result<(u32, u32), StudyError> {
             .map(|instant| u64::from(instant.weight_secs))
     };
     let day_secs: u64 = weights(false).sum();
-    if day_secs > MOST_DAY_SECS {
-        return Err(StudyError::TooLong { day_secs });
+    if day_secs > most_secs.into() {
+        return Err(StudyError::TooLong { day_secs, most_secs });
     }
     // Both fit: a window is at most ten years, 3.2e8 s.
     Ok((day_secs as u32, weights(true).sum::<u64>() as u32))

@@ -84,7 +84,7 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
 /// As [`verify`].
 pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
     let instants = by_day(site)?;
-    let (day_secs, _) = day_and_night(&site.track)?;
+    let (day_secs, _) = day_and_night(&site.track, super::MOST_DAY_SECS)?;
     let sun_samples = site.settings.sun_samples.unwrap_or(SUN_SAMPLES);
     let mut centre = Cast::new(site, None);
     let mut disc = Cast::new(site, Some(sun_samples));
