@@ -139,7 +139,11 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         surface: out.is_some(),
         volumes: shows(Show::Volumes),
         silhouette: shows(Show::Silhouette),
-        counted: asked.stats || diagram.is_some(),
+        counted: match diagram {
+            Some(Diagram::Mask) => Some("--show mask"),
+            Some(Diagram::Overdraw) => Some("--show overdraw"),
+            None => asked.stats.then_some("--stats"),
+        },
     };
     let mut progress = Progress::new(asked.common.quiet);
     let outcome = study::instant(&site, view, &wants, &mut |event| {

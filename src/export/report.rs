@@ -3,7 +3,7 @@
 //! Keys and their order are a contract that other programs rely on; keys may be added, never changed.
 
 use super::ExportError;
-use crate::profile::{Drawn, Profile, Statistics, Timings};
+use crate::profile::{Drawn, DrawnSettings, Profile, Statistics, Timings};
 use crate::site::Receivers;
 use crate::sun::{Air, Day, Instant, Place, SunTrack};
 use crate::view::View;
@@ -26,6 +26,8 @@ struct DrawnReport<'a> {
     silhouette: Option<&'static str>,
     engine: &'static str,
     adapter: Option<&'a str>,
+    #[serde(flatten)]
+    settings: DrawnSettings,
     refraction: bool,
     refraction_celsius: Option<f64>,
     refraction_millibar: Option<f64>,
@@ -142,6 +144,7 @@ pub fn shadow_json(view: &View, place: &Place, track: &SunTrack, told: &Told<'_>
         silhouette: drawn.silhouette,
         engine: drawn.engine,
         adapter: drawn.adapter.as_deref(),
+        settings: drawn.settings,
         refraction: track.refraction,
         refraction_celsius: refracted(air.temperature_c),
         refraction_millibar: refracted(air.pressure_hpa),

@@ -2,7 +2,7 @@
 
 use super::{Event, OnEvent, StudyError, tell};
 use crate::gpu::{Gpu, GpuError};
-use crate::profile::Drawn;
+use crate::profile::{Drawn, DrawnSettings};
 use crate::shadow::hybrid::Hybrid;
 use crate::shadow::map;
 use crate::shadow::projected::Projected;
@@ -88,11 +88,25 @@ impl Machine {
             Machine::OnGpu(_, Drawing::Hybrid { silhouettes, .. }) => (Method::Hybrid, Some(found(silhouettes))),
             Machine::OnGpu(_, Drawing::Smoothie { finder, .. }) => (Method::Smoothie, Some(found(&(*finder).into()))),
         };
+        let mut settings = DrawnSettings::default();
+        match *self {
+            Machine::RayCast { sun_samples } => settings.sun_samples = sun_samples,
+            Machine::Projected(_) | Machine::OnGpu(_, Drawing::Stencil(_)) => {}
+            Machine::OnGpu(_, Drawing::ShadowMap { size, filter }) => {
+                settings.map_size = Some(size);
+                settings.pcf = Some(pcf(filter).word());
+            }
+            Machine::OnGpu(_, Drawing::Hybrid { map_size, .. }) => settings.map_size = Some(map_size),
+            Machine::OnGpu(_, Drawing::Smoothie { map_size, width_m, .. }) => {
+                settings.map_size = Some(map_size);
+                settings.smoothie_width = width_m;
+            }
+        }
         let (engine, adapter) = match self {
             Machine::RayCast { .. } | Machine::Projected(_) => (Engine::Cpu, None),
             Machine::OnGpu(gpu, _) => (Engine::Gpu, Some(gpu.name().to_owned())),
         };
-        Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter }
+        Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter, settings }
     }
 
     pub(super) fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
@@ -111,6 +125,16 @@ impl Machine {
                 Box::new(Smoothie::new(gpu, scene, view, finder, map_size, width_m)?)
             }
         })
+    }
+}
+
+/// The word of a filter.
+fn pcf(filter: Filter) -> Pcf {
+    match filter {
+        Filter::None => Pcf::None,
+        Filter::TwoByTwo => Pcf::TwoByTwo,
+        Filter::FastTwoByTwo => Pcf::FastTwoByTwo,
+        Filter::FastFourByFour => Pcf::FastFourByFour,
     }
 }
 

@@ -49,8 +49,8 @@ pub struct InstantWants {
     pub volumes: bool,
     /// The silhouette's lines over a camera's picture.
     pub silhouette: bool,
-    /// What counting took, cell by cell.
-    pub counted: bool,
+    /// What counting took, cell by cell: the option that asks for it.
+    pub counted: Option<&'static str>,
 }
 
 /// What happens on the way.
@@ -256,8 +256,8 @@ pub fn instant(
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(site)?,
-        (false, true) => counting(site, "--stats, --show mask or --show overdraw")?,
-        (false, false) => choose(site, &view, on_event)?,
+        (false, Some(option)) => counting(site, option)?,
+        (false, None) => choose(site, &view, on_event)?,
     };
     let receivers = judged(site, &view);
     let look = Look { site, machine: &machine, view, receivers };
@@ -273,7 +273,7 @@ pub fn instant(
         if shows_volumes {
             tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned()))?;
         }
-        if wants.counted {
+        if wants.counted.is_some() {
             tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
         }
         night(&view)
@@ -283,7 +283,7 @@ pub fn instant(
             let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
             tell(on_event, Event::Note(note.to_owned()))?;
         }
-        if wants.counted {
+        if wants.counted.is_some() {
             counted = technique.counted(instant.to_sun)?;
         }
         technique.draw(instant.to_sun)?.read()?

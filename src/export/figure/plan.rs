@@ -40,8 +40,8 @@ pub(super) fn profile(scene: &Scene, profile: &Profile, bands: &Bands, fit: Fit)
 /// Sun and shadow at one instant; or colours of the cells instead.
 pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, of_cells: Option<&[Rgb]>, fit: Fit) -> Picture {
     if let Some(of_cells) = of_cells {
-        // what is no roof's colour has no relief
-        return draw(scene, cell_m, fit, 0.0, |cell, _| of_cells[cell]);
+        // neither relief nor lines, which would be taken for cells
+        return compose(fit, Between::Sharp, of_cells, |_, _| None);
     }
     let ground_only = scene.receivers == Receivers::Ground;
     draw(scene, cell_m, fit, RELIEF, |cell, face| {

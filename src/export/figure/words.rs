@@ -131,7 +131,7 @@ pub(super) fn technique(drawn: &Drawn) -> String {
         "projected" => "projected shadows",
         "shadow-map" => "shadow map",
         "hybrid" => "shadow map and volumes",
-        "smoothie" => "smoothies (soft edges)",
+        "smoothie" => "smoothies (soft edges, outside of the hard ones)",
         "soft-texture" => "soft shadow textures",
         "ray-cast" => "ray casting",
         other => other,
