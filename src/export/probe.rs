@@ -116,7 +116,8 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
-fn field(text: &str) -> String {
+/// A field of a line of CSV.
+pub(super) fn field(text: &str) -> String {
     if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 

@@ -137,6 +137,7 @@ pub(super) fn receivers(receivers: Receivers) -> &'static str {
     match receivers {
         Receivers::Top => "highest surface",
         Receivers::Ground => "ground only",
+        Receivers::Surfaces => "walls and roofs, on their outer side",
     }
 }
 
