@@ -13,6 +13,7 @@ mod mistakes;
 mod model;
 mod overdraw;
 mod overlay;
+mod patches;
 mod probe;
 mod shaders;
 mod site;

@@ -5,8 +5,10 @@
 //! the rule in [`crate::volume`].
 
 mod adjacency;
+pub mod patches;
 mod planes;
 pub mod report;
+pub mod scan;
 mod weld;
 
 use glam::{DVec3, DVec4, Vec3};

@@ -82,7 +82,7 @@ pub(super) fn unify(mesh: &mut Mesh) {
 }
 
 /// Per face its three edges.
-fn sides(mesh: &Mesh) -> Vec<[u32; 3]> {
+pub(super) fn sides(mesh: &Mesh) -> Vec<[u32; 3]> {
     let mut sides = vec![[u32::MAX; 3]; mesh.faces.len()];
     for edge in 0..mesh.edges.len() {
         for incidence in mesh.faces_at(edge) {

@@ -3,6 +3,7 @@
 pub mod accumulate;
 pub mod compare;
 pub mod probe;
+pub mod surfaces;
 pub mod verify;
 
 use crate::view::{Counted, Decided, Grid};
