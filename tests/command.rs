@@ -1,5 +1,6 @@
 //! The command, driven as its users drive it: files, streams and exit statuses.
 
+mod surfaces;
 mod techniques;
 
 use crate::model::{F32, Model, U16};

@@ -259,6 +259,6 @@ pub(super) fn counted(intervals: usize) -> String {
 }
 
 /// A name without what would break the line.
-fn plain(name: &str) -> String {
+pub(super) fn plain(name: &str) -> String {
     name.replace(char::is_control, " ")
 }

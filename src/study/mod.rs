@@ -6,6 +6,7 @@
 mod machine;
 pub mod probe;
 mod stopwatch;
+pub mod surfaces;
 pub mod verify;
 
 pub use stopwatch::Stopwatch;
@@ -359,7 +360,7 @@ impl Look<'_> {
     fn scene(&self) -> Scene {
         let mesh = &self.site.mesh;
         let receivers = match self.receivers {
-            Receivers::Top => mesh.of_components(&self.site.receives),
+            Receivers::Top | Receivers::Surfaces => mesh.of_components(&self.site.receives),
             Receivers::Ground => mesh.of_components(&[]),
         };
         let casters = mesh.of_components(&self.site.casts);
@@ -387,13 +388,13 @@ impl Look<'_> {
     /// What the drawing shows: the receivers, or over a ground that is judged alone all models.
     fn surface_mesh(&self) -> Mesh {
         match self.receivers {
-            Receivers::Top => self.site.mesh.of_components(&self.site.receives),
+            Receivers::Top | Receivers::Surfaces => self.site.mesh.of_components(&self.site.receives),
             Receivers::Ground => self.site.mesh.clone(),
         }
     }
 
     fn surface(&self, technique: &dyn Technique) -> Result<Surface, ShadowError> {
-        if self.receivers == Receivers::Top {
+        if self.receivers != Receivers::Ground {
             return technique.surface();
         }
         let casters = self.site.mesh.of_components(&[]);

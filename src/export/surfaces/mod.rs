@@ -6,8 +6,9 @@ pub(super) mod pages;
 
 pub use glb::glb;
 
+use super::figure::duration;
 use super::figure::scale::Bands;
-use super::probe::field;
+use super::probe::{field, plain};
 use crate::mesh::Mesh;
 use crate::mesh::patches::{Patch, Patches};
 use crate::profile::surfaces::{Exposure, SurfaceHours};
@@ -75,3 +76,33 @@ pub fn csv(surfaces: &Surfaces) -> String {
     }
     text
 }
+
+/// What it comes to, a line a component, the largest areas first; ends with a line break.
+pub fn summary(surfaces: &Surfaces) -> String {
+    let patches = surfaces.patches;
+    let mut text = format!(
+        "{} patches, {} texels of {:.3} m; {} of daylight\n",
+        patches.list.len(),
+        patches.texels.len(),
+        patches.cell,
+        duration(surfaces.hours.day_secs)
+    );
+    let mut components: Vec<_> = surfaces.components().collect();
+    components.sort_by(|(_, _, one), (_, _, other)| other.area_m2.total_cmp(&one.area_m2));
+    for (name, _, exposure) in components.iter().take(MOST_LINES) {
+        let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "{}: {area_m2:.0} m², {hours_mean:.2} h of sun ({hours_min:.2} to {hours_max:.2})",
+            plain(name)
+        );
+    }
+    if let Some(more) = components.len().checked_sub(MOST_LINES).filter(|more| *more > 0) {
+        let _ = writeln!(text, "and {more} smaller components");
+    }
+    text
+}
+
+/// Components that are told on the terminal.
+const MOST_LINES: usize = 12;
