@@ -87,8 +87,8 @@ fn cases() -> Vec<Case> {
         to_sun: dense::curved().to_sun,
     };
     let of_camera = [
-        ("cage", dense::cage(dense::CLOSE)),
-        ("wide cage", dense::cage(dense::WIDE)),
+        ("cage", dense::cage(0.4)),
+        ("wide cage", dense::cage(0.85)),
         ("tree", dense::tree()),
         ("dome", dome),
         ("ring", dense::curved()),

@@ -18,6 +18,7 @@ mod probe;
 mod shaders;
 mod site;
 mod sites;
+mod soft_texture;
 mod sums;
 mod sun;
 mod techniques;

@@ -28,7 +28,7 @@ fn overdraw(Dense { parts, camera, to_sun }: Dense, map_size: u32) -> [f64; 2] {
 #[test]
 fn the_mask_keeps_four_fifths_away_where_volumes_are_dense() {
     // bars that stand closer than a coarse map can tell are left to the volumes
-    for (pitch, sizes) in [(dense::WIDE, &[256, 512, 1024][..]), (dense::CLOSE, &[1024, 2048])] {
+    for (pitch, sizes) in [(0.85, &[256, 512, 1024][..]), (0.4, &[1024, 2048])] {
         for &size in sizes {
             let [all, behind_mask] = overdraw(dense::cage(pitch), size);
             println!("bars {pitch} m apart, {size}²: {all:.1} fragments a cell, {behind_mask:.1} behind the mask");
@@ -40,7 +40,7 @@ fn the_mask_keeps_four_fifths_away_where_volumes_are_dense() {
 
 #[test]
 fn dense_scenes_are_closed() {
-    for (least, dense) in [(1_000, dense::cage(dense::CLOSE)), (30_000, dense::tree()), (40_000, dense::curved())] {
+    for (least, dense) in [(1_000, dense::cage(0.4)), (30_000, dense::tree()), (40_000, dense::curved())] {
         let mesh = scene(dense.parts).casters;
         assert!(mesh.faces.len() >= least, "{} triangles", mesh.faces.len());
         let open = (0..mesh.edges.len()).filter(|&edge| mesh.faces_at(edge).len() != 2).count();

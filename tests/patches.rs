@@ -50,7 +50,7 @@ fn whole(mesh: &Mesh, receives: &[bool], patches: &Patches) {
     }
     for (face, count) in count.into_iter().enumerate() {
         let component = mesh.components.iter().position(|it| it.faces.contains(&(face as u32))).expect("a component");
-        let has_area = mesh.planes[face] != glam::DVec4::ZERO;
+        let has_area = mesh.planes()[face] != glam::DVec4::ZERO;
         assert_eq!(count, u32::from(receives[component] && has_area), "face {face}");
     }
 }

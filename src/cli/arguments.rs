@@ -83,10 +83,16 @@ pub(super) struct WindowArgs {
     /// The study's date: 2026-09-18
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     date: Option<String>,
-    /// Its beginning: 10:00, sunrise+1h30
+    /// Several days instead, with the same window on each: the first one. With --to-date
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    from_date: Option<String>,
+    /// The last of them, at most ten years later
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    to_date: Option<String>,
+    /// Its beginning: 10:00, sunrise+1h30 [default: with several days the whole of each]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     from: Option<String>,
-    /// Its end: 14:00, sunset-1h30
+    /// Its end: 14:00, sunset-1h30 [default: as --from]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     to: Option<String>,
     /// From instant to instant: 30min, 1h, 1h30, 90s
@@ -334,8 +340,9 @@ impl SiteArgs {
 
 impl WindowArgs {
     fn onto(&self, asked: Overrides) -> Overrides {
-        let [date, from, to, step] = [&self.date, &self.from, &self.to, &self.step].map(Clone::clone);
-        Overrides { date, from, to, step, ..asked }
+        let [date, from_date, to_date, from, to, step] =
+            [&self.date, &self.from_date, &self.to_date, &self.from, &self.to, &self.step].map(Clone::clone);
+        Overrides { date, from_date, to_date, from, to, step, ..asked }
     }
 }
 

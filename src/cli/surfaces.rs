@@ -24,16 +24,18 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
     watch.lap("load");
 
     let mut progress = Progress::new(asked.common.quiet);
-    let outcome = study::surfaces::run(site, kinds.contains(&Written::Png), &mut |event| {
+    let outcome = study::surfaces(site, site.patch_cell, &mut |event| {
         progress.hear(&event);
         interrupt::flow()
     })?;
     watch.laps(outcome.timings);
 
-    let (place, track, mesh, drawn) = (&site.place, &site.track, &outcome.mesh, &outcome.drawn);
-    let answer = Surfaces { place, track, mesh, patches: &outcome.patches, hours: &outcome.hours };
+    let Site { place, track, mesh, receives, .. } = site;
+    let drawn = &outcome.drawn;
+    let answer = Surfaces { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours };
     let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
-    if let Some(surface) = &outcome.surface {
+    if kinds.contains(&Written::Png) {
+        let (mesh, surface) = &study::seen_receivers(site)?;
         let scene = figure::Scene { place, track, mesh, surface, receivers: Receivers::Surfaces, drawn };
         files.push(("surfaces.png", figure::surfaces(&scene, &site.camera, &answer)?));
         watch.lap("picture");

@@ -154,6 +154,16 @@ pub struct Quadrilateral {
     pub b: u32,
 }
 
+/// `Run` of `shaders/soft_texture.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Run {
+    /// The first texel of a page.
+    pub first: u32,
+    /// How many it has.
+    pub count: u32,
+}
+
 /// A struct as Rust lays it out.
 pub struct Layout {
     /// Its name, in Rust and in WGSL.
@@ -185,4 +195,5 @@ pub const ALL: &[Layout] = &[
     layout!(Arguments: index_count, instance_count, first_index, base_vertex, first_instance),
     layout!(Quadrilateral: first, a, second, b),
     layout!(Weight: secs),
+    layout!(Run: first, count),
 ];

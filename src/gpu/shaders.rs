@@ -35,6 +35,9 @@ pub const QUADRILATERALS: &str =
 /// Masks times weights.
 pub const ACCUMULATE: &str = joined!("accumulate");
 
+/// Hard shadows on patches, added up.
+pub const SOFT_TEXTURE: &str = joined!("soft_texture");
+
 /// All shaders, by name.
 pub const ALL: &[(&str, &str)] = &[
     ("surface", SURFACE),
@@ -49,6 +52,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("extraction", EXTRACTION),
     ("quadrilaterals", QUADRILATERALS),
     ("accumulate", ACCUMULATE),
+    ("soft_texture", SOFT_TEXTURE),
 ];
 
 impl Gpu {

@@ -186,7 +186,7 @@ impl RayCast {
         let world_viewer = rays.view.viewer();
         let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
         let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
-        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes[face as usize] };
+        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
         let normal = seen_normal(plane, viewer);
         let judged = from + along * distance + normal * JUDGED_ABOVE_M;
         let lit = normal.dot(to_sun) > 0.0 && hits(&scene.casters, judged, &Shear::along(to_sun)).is_empty();
@@ -287,7 +287,7 @@ impl Technique for RayCast {
                     *share = 255;
                     continue;
                 }
-                let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes[face as usize] };
+                let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
                 let normal = seen_normal(plane, viewer);
                 let (from, along) = rays.of(column as u32, row as u32);
                 let judged = from + along * distance + normal * JUDGED_ABOVE_M;

@@ -79,9 +79,10 @@ words!(
         "shadow-map" => Method::ShadowMap,
         "hybrid" => Method::Hybrid,
         "smoothie" => Method::Smoothie,
+        "soft-texture" => Method::SoftTexture,
         "ray-cast" => Method::RayCast
     ],
-    later ["soft-texture"]
+    later []
 );
 words!(
     Pcf,

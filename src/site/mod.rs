@@ -5,6 +5,7 @@
 mod asked;
 mod camera;
 mod choice;
+mod dates;
 mod error;
 mod extent;
 pub mod file;
@@ -54,6 +55,8 @@ pub enum Method {
     Hybrid,
     /// A depth map with soft edges.
     Smoothie,
+    /// Registered hard shadows on flat patches, added up.
+    SoftTexture,
     /// Ray casting.
     RayCast,
 }

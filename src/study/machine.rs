@@ -53,7 +53,7 @@ impl Drawing {
             },
             Method::Hybrid => Drawing::Hybrid { silhouettes: silhouettes(site, gpu), map_size },
             Method::Smoothie => Drawing::Smoothie { finder: kind(site), map_size, width_m: settings.smoothie_width_m },
-            Method::Stencil | Method::Auto | Method::RayCast | Method::Projected => {
+            Method::Stencil | Method::Auto | Method::RayCast | Method::Projected | Method::SoftTexture => {
                 Drawing::Stencil(silhouettes(site, gpu))
             }
         }
@@ -98,7 +98,7 @@ impl Machine {
     pub(super) fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
         let (gpu, drawing) = match self {
             Machine::RayCast { sun_samples } => return Ok(Box::new(RayCast::new(scene, view, *sun_samples))),
-            Machine::Projected(grid) => return Ok(Box::new(Projected::new(scene, *grid))),
+            Machine::Projected(grid) => return Ok(Box::new(Projected::new(&scene, *grid))),
             Machine::OnGpu(gpu, drawing) => (Arc::clone(gpu), *drawing),
         };
         Ok(match drawing {
@@ -215,6 +215,10 @@ pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Re
             };
             Machine::Projected(grid)
         }
+        (Method::SoftTexture, _) => {
+            let what = "soft-texture is for flat patches; add --receivers surfaces, or take another technique";
+            return Err(StudyError::Conflict { option: "--technique", what });
+        }
         (Method::RayCast, Engine::Gpu) => {
             return conflict("the technique ray-cast works on the cpu; take --technique stencil with gpu");
         }
@@ -281,6 +285,15 @@ pub(super) fn stencil_alone(site: &Site) -> Result<Machine, StudyError> {
     let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(why_none(error)))?;
     let drawing = Drawing::of(Method::Stencil, site, &gpu);
     Ok(Machine::OnGpu(Arc::new(gpu), drawing))
+}
+
+/// Masks are of a plan or of a camera's picture.
+pub(super) fn not_surfaces(site: &Site) -> Result<(), StudyError> {
+    if site.receivers == Receivers::Surfaces {
+        let what = "surfaces are judged by gnomon profile alone; take top or ground, or leave it out";
+        return Err(StudyError::Conflict { option: "--receivers", what });
+    }
+    Ok(())
 }
 
 /// Why no graphics adapter draws.

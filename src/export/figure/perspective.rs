@@ -150,7 +150,7 @@ impl Lens {
 
 /// A face's plane (n, d) with n·p + d > 0 at the eye, in the world frame.
 pub(super) fn facing(scene: &Scene, face: u32, eye: DVec3) -> DVec4 {
-    let Some(plane) = scene.mesh.planes.get(face as usize) else {
+    let Some(plane) = scene.mesh.planes().get(face as usize) else {
         return DVec3::Z.extend(0.0);
     };
     let offset = plane.w - plane.xyz().dot(scene.mesh.origin);

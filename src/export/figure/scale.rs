@@ -72,7 +72,12 @@ impl Bands {
             return NO_SHADOW;
         }
         // A shadow of exactly one band belongs to that band, not to the next.
-        let band = (u64::from(shaded) - 1) / (255 * u64::from(self.band_secs));
+        let band_units = u64::from(self.band_secs) * 255;
+        let band = match u32::try_from(band_units) {
+            // the shorter division takes half the time
+            Ok(units) => u64::from((shaded - 1) / units),
+            Err(_) => u64::from(shaded - 1) / band_units,
+        };
         let last = self.colours.len().saturating_sub(1);
         let band = usize::try_from(band).unwrap_or(last).min(last);
         self.colours.get(band).copied().unwrap_or(NO_SHADOW)

@@ -14,7 +14,8 @@ use rayon::prelude::*;
 /// The colour of what is not judged: the ground, and sides that look into the model.
 const UNJUDGED: Rgb = plan::ROOF_UNJUDGED;
 
-/// `surfaces.png`: the hours of sun on the surfaces that `camera` sees. `scene`'s mesh is that of the patches.
+/// `surfaces.png`: the hours of sun on the surfaces that `camera` sees. `scene`'s mesh is that of what
+/// receives alone.
 ///
 /// # Errors
 /// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder.
@@ -60,6 +61,10 @@ fn painted(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Vec<Rgb> {
             patch_of[face as usize] = Some(patch);
         }
     }
+    // the scene's faces are those of the components that receive
+    let received = surfaces.mesh.components.iter().zip(surfaces.receives).filter(|(_, receives)| **receives);
+    let patch_of: Vec<Option<&Patch>> =
+        received.flat_map(|(component, _)| component.faces.clone()).map(|face| patch_of[face as usize]).collect();
     let lens = Lens::new(camera);
     let width = camera.width as usize;
     let colour = |pixel: usize| {
@@ -69,7 +74,7 @@ fn painted(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Vec<Rgb> {
         }
         let plane = facing(scene, face, camera.eye);
         let seen_side = |patch: &&Patch| patch.two_sided || patch.normal().dot(plane.xyz()) > 0.0;
-        let Some(patch) = patch_of[face as usize].filter(seen_side) else { return UNJUDGED };
+        let Some(patch) = patch_of.get(face as usize).copied().flatten().filter(seen_side) else { return UNJUDGED };
         let ray = lens.ray(pixel % width, pixel / width);
         let depth = -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray);
         let place = patches.in_page(patch, camera.eye + ray * depth - patches.origin);

@@ -200,7 +200,9 @@ impl File {
         let total = 12 + 8 + document.len().next_multiple_of(4) as u64 + 8 + self.data.len() as u64;
         let Ok(length) = u32::try_from(total) else {
             let gib = total as f64 / f64::from(1 << 30);
-            return Err(refused(format!("the file would be {gib:.1} GiB, and GLB ends at 4; take a larger --patch-cell")));
+            return Err(refused(format!(
+                "the file would be {gib:.1} GiB, and GLB ends at 4; take a larger --patch-cell"
+            )));
         };
         let header = Header { magic: *b"glTF", version: 2, length };
         Glb { header, json: Cow::Owned(document), bin: Some(Cow::Owned(self.data)) }.to_vec().map_err(refused)
@@ -227,7 +229,7 @@ fn append(
                 positions.len() as u32 - 1
             })
         });
-        if mesh.planes[face as usize].truncate().dot(patch.normal()) < 0.0 {
+        if mesh.planes()[face as usize].truncate().dot(patch.normal()) < 0.0 {
             face_corners.swap(1, 2);
         }
         corners.extend(face_corners);

@@ -24,6 +24,8 @@ pub struct Surfaces<'a> {
     pub track: &'a SunTrack,
     /// Whose faces the patches hold.
     pub mesh: &'a Mesh,
+    /// Per component of it whether it receives.
+    pub receives: &'a [bool],
     /// The flat parts of what receives.
     pub patches: &'a Patches,
     /// Their time in the sun.

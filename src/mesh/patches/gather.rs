@@ -50,7 +50,7 @@ fn of_component(
         component.faces.clone().map(|face| (area_vector(mesh, face).length(), face)).collect();
     largest_first.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let plane_of = |face: u32| {
-        let plane = mesh.planes[face as usize];
+        let plane = mesh.planes()[face as usize];
         if seen[(face - first) as usize].turned { -plane } else { plane }
     };
     let least_cosine = FLAT_ANGLE_DEG.to_radians().cos();
