@@ -1,5 +1,6 @@
 //! The command, driven as its users drive it: files, streams and exit statuses.
 
+mod surfaces;
 mod techniques;
 
 use crate::model::{F32, Model, U16};
@@ -104,7 +105,7 @@ fn write_chooses_the_files() {
     assert_eq!(names(folder.path().join("a")), ["shadow-hours.tif"]);
     done(folder.path(), "profile . --engine cpu --size 32 --write json,png --out deep/b");
     assert_eq!(names(folder.path().join("deep/b")), ["profile.json", "profile.png"]);
-    fails(folder.path(), "profile . --write svg", 2, &["svg", "--write", "png, tif, json"]);
+    fails(folder.path(), "profile . --write svg", 2, &["svg", "--write", "png, tif, glb, csv, json"]);
 }
 
 #[test]

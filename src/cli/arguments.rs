@@ -1,5 +1,6 @@
 //! The options, as the user writes them. Each stands with the subcommands that use it, and nowhere else.
 
+use super::WrongUse;
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
@@ -159,7 +160,7 @@ pub(super) struct PlanArgs {
     /// Cells along the longer side [default: 2048]
     #[arg(long, value_name = "PIXELS", allow_negative_numbers = true)]
     size: Option<u32>,
-    /// What is judged: top (the highest surface, ground included) or ground
+    /// What is judged: top (the highest surface, ground included), ground, or with profile surfaces (walls and roofs)
     #[arg(long, value_name = "NAME")]
     receivers: Option<Receivers>,
 }
@@ -186,7 +187,10 @@ pub(super) struct ProfileArgs {
     #[command(flatten)]
     draw: DrawArgs,
     #[command(flatten)]
-    plan: PlanArgs,
+    pub(super) plan: PlanArgs,
+    /// With --receivers surfaces: side of a texel on them, metres; larger where they would be too many [default: 0.25]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    patch_cell: Option<f64>,
     /// The folder for the files
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub(super) out: PathBuf,
@@ -197,9 +201,9 @@ pub(super) struct ProfileArgs {
     /// cells, those of the sky too)
     #[arg(long)]
     pub(super) stats: bool,
-    /// Which files
-    #[arg(long, value_name = "png,tif,json", value_delimiter = ',', default_value = "png,tif,json")]
-    pub(super) write: Vec<Written>,
+    /// Which files [default: png,tif,json; with --receivers surfaces png,glb,csv,json]
+    #[arg(long, value_name = "png,tif,json", value_delimiter = ',')]
+    write: Vec<Written>,
     #[command(flatten)]
     pub(super) common: Common,
 }
@@ -209,6 +213,8 @@ pub(super) struct ProfileArgs {
 pub(super) enum Written {
     Png,
     Tif,
+    Glb,
+    Csv,
     Json,
 }
 
@@ -370,7 +376,19 @@ impl PlanArgs {
 
 impl ProfileArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())))
+        let asked = self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())));
+        Overrides { patch_cell: self.patch_cell, ..asked }
+    }
+
+    /// The files asked, of those that there can be; all of them where none is named.
+    pub(super) fn wanted(&self, possible: &[Written]) -> Result<Vec<Written>, WrongUse> {
+        let word = |kind: &Written| kind.to_possible_value().map_or_else(String::new, |it| it.get_name().to_owned());
+        if let Some(kind) = self.write.iter().find(|kind| !possible.contains(kind)) {
+            let known: Vec<_> = possible.iter().map(word).collect();
+            let what = format!("--write {}: these receivers have {}; take one of them", word(kind), known.join(", "));
+            return Err(WrongUse(what));
+        }
+        Ok(if self.write.is_empty() { possible.to_vec() } else { self.write.clone() })
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::arguments::{CheckArgs, Eye, ProfileArgs, ShadowArgs, Show, SunArgs, Written};
 use super::progress::Progress;
-use super::{WrongUse, interrupt, say};
+use super::{WrongUse, interrupt, say, surfaces};
 use crate::export::figure::Diagram;
 use crate::export::report::Told;
 use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Profile, Statistics};
-use crate::site::{Method, Site, load_mesh, load_sun};
+use crate::site::{Method, Receivers, Site, load_mesh, load_sun};
 use crate::study::{self, Event, InstantWants, Stopwatch, Wants};
 use crate::sun::SunTrack;
 use crate::view::View;
@@ -20,13 +20,17 @@ use std::path::{Path, PathBuf};
 pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let mut watch = Stopwatch::start();
     let site = Site::load(&asked.site.path, &asked.overrides())?;
+    if site.receivers == Receivers::Surfaces {
+        return surfaces::profile(asked, &site, watch);
+    }
+    let kinds = asked.wanted(&[Written::Png, Written::Tif, Written::Json])?;
     // A folder that cannot be written to is told before the work, not after it.
     for folder in [Some(&asked.out), asked.masks.as_ref()].into_iter().flatten() {
         file::check_folder(folder)?;
     }
     watch.lap("load");
 
-    let wanted = |kind| asked.write.contains(&kind);
+    let wanted = |kind| kinds.contains(&kind);
     let wants = Wants { masks: asked.masks.is_some(), surface: wanted(Written::Png), statistics: asked.stats };
     let outcome = draw_masks(&site, &wants, asked)?;
     watch.laps(outcome.timings);
@@ -236,7 +240,7 @@ pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
 }
 
 /// What drew, in a line.
-fn drawn_by(drawn: &Drawn) -> String {
+pub(super) fn drawn_by(drawn: &Drawn) -> String {
     let mut line = format!("{} on the {}", drawn.technique, drawn.engine);
     if let Some(adapter) = &drawn.adapter {
         let _ = write!(line, " ({adapter})");

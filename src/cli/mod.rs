@@ -7,6 +7,7 @@ mod commands;
 mod interrupt;
 mod probe;
 mod progress;
+mod surfaces;
 mod verify;
 mod volumes;
 

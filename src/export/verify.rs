@@ -1,6 +1,7 @@
 //! What `gnomon verify` says: `verify --json`, and a table with a legend.
 
 use super::{ExportError, report};
+use crate::profile::DrawnSettings;
 use crate::profile::verify::{HoursOff, Promise, Row, Truth, Verification};
 use crate::site::Receivers;
 use crate::sun::{Place, SunTrack};

@@ -32,8 +32,10 @@ pub struct Overrides {
     pub cell: Option<f64>,
     /// `--size PIXELS`: cells along the longer side.
     pub size: Option<u32>,
-    /// `--receivers top|ground`
+    /// `--receivers top|ground|surfaces`
     pub receivers: Option<Receivers>,
+    /// `--patch-cell M`, metres, with `--receivers surfaces`.
+    pub patch_cell: Option<f64>,
     /// `--technique auto|…`
     pub technique: Option<Method>,
     /// `--silhouette auto|…`

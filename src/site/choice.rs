@@ -105,4 +105,12 @@ words!(
     later []
 );
 words!(Engine, ["auto" => Engine::Auto, "gpu" => Engine::Gpu, "cpu" => Engine::Cpu], later []);
-words!(Receivers, ["top" => Receivers::Top, "ground" => Receivers::Ground], later ["surfaces"]);
+words!(
+    Receivers,
+    [
+        "top" => Receivers::Top,
+        "ground" => Receivers::Ground,
+        "surfaces" => Receivers::Surfaces
+    ],
+    later []
+);

@@ -35,6 +35,8 @@ pub enum Receivers {
     Top,
     /// The ground plane, as if the buildings only cast.
     Ground,
+    /// All receiving surfaces of the models, walls and undersides too, on their outer side.
+    Surfaces,
 }
 
 /// How shadows are found, as the user asked.
@@ -132,6 +134,8 @@ pub struct Site {
     pub camera: Camera,
     /// Which surfaces are judged.
     pub receivers: Receivers,
+    /// Side of a texel of [`Receivers::Surfaces`], metres.
+    pub patch_cell: f64,
     /// How.
     pub method: Method,
     /// With which finder.

@@ -311,6 +311,15 @@ pub(super) fn stencil_alone(site: &Site) -> Result<Machine, StudyError> {
     Ok(Machine::OnGpu(Arc::new(gpu), drawing))
 }
 
+/// Masks are of a plan or of a camera's picture.
+pub(super) fn not_surfaces(site: &Site) -> Result<(), StudyError> {
+    if site.receivers == Receivers::Surfaces {
+        let what = "surfaces are judged by gnomon profile alone; take top or ground, or leave it out";
+        return Err(StudyError::Conflict { option: "--receivers", what });
+    }
+    Ok(())
+}
+
 /// Why no graphics adapter draws.
 pub(super) fn why_none(error: GpuError) -> String {
     match error {

@@ -11,7 +11,7 @@ mod surfaces;
 pub mod verify;
 
 pub use stopwatch::Stopwatch;
-pub use surfaces::{SurfaceOutcome, surfaces};
+pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
@@ -26,7 +26,7 @@ use crate::view::{Camera, Counted, Mask, Overlay, Surface, View};
 use chrono::DateTime;
 use chrono_tz::Tz;
 use glam::DVec3;
-use machine::{Machine, choose, counting, stencil_alone};
+use machine::{Machine, choose, counting, not_surfaces, stencil_alone};
 use std::ops::ControlFlow;
 
 /// What is made beside the profile.
@@ -190,6 +190,7 @@ const MOST_DAY_SECS: u32 = u32::MAX / 255;
 /// # Errors
 /// [`StudyError`]; choices that exclude each other and windows that are too long before anything is drawn.
 pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
+    not_surfaces(site)?;
     let mut watch = Stopwatch::start();
     let (day_secs, night_secs) = day_and_night(&site.track, MOST_DAY_SECS)?;
     note_distance(&site.mesh, on_event)?;
@@ -250,6 +251,7 @@ pub fn instant(
     wants: &InstantWants,
     on_event: &mut OnEvent<'_>,
 ) -> Result<InstantOutcome, StudyError> {
+    not_surfaces(site)?;
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
     note_distance(&site.mesh, on_event)?;
@@ -367,7 +369,7 @@ impl Look<'_> {
     fn scene(&self) -> Scene {
         let mesh = &self.site.mesh;
         let receivers = match self.receivers {
-            Receivers::Top => mesh.of_components(&self.site.receives),
+            Receivers::Top | Receivers::Surfaces => mesh.of_components(&self.site.receives),
             Receivers::Ground => mesh.of_components(&[]),
         };
         let casters = mesh.of_components(&self.site.casts);
@@ -395,13 +397,13 @@ impl Look<'_> {
     /// What the drawing shows: the receivers, or over a ground that is judged alone all models.
     fn surface_mesh(&self) -> Mesh {
         match self.receivers {
-            Receivers::Top => self.site.mesh.of_components(&self.site.receives),
+            Receivers::Top | Receivers::Surfaces => self.site.mesh.of_components(&self.site.receives),
             Receivers::Ground => self.site.mesh.clone(),
         }
     }
 
     fn surface(&self, technique: &dyn Technique) -> Result<Surface, ShadowError> {
-        if self.receivers == Receivers::Top {
+        if self.receivers != Receivers::Ground {
             return technique.surface();
         }
         let receivers = self.surface_mesh();

@@ -3,13 +3,16 @@
 use super::machine::why_none;
 use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_distance, tell};
 use crate::gpu::Gpu;
+use crate::mesh::Mesh;
 use crate::mesh::patches::{MOST_TEXELS, Patches};
 use crate::profile::surfaces::SurfaceHours;
-use crate::profile::{Drawn, Timings};
-use crate::shadow::JUDGED_ABOVE_M;
+use crate::profile::{Drawn, DrawnSettings, Timings};
+use crate::shadow::ray_cast::RayCast;
 use crate::shadow::soft_texture::{Choice, Fill, Judged, Painter, Sample, SoftTexture};
+use crate::shadow::{JUDGED_ABOVE_M, Scene, Technique};
 use crate::site::{Engine, Finder, Method, Site};
 use crate::sun::{Instant, disc};
+use crate::view::{Surface, View};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -43,9 +46,9 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
     let (day_secs, night_secs) = day_and_night(&site.track, u32::MAX / samples)?;
     note_distance(&site.mesh, on_event)?;
     let choice = choice(site)?;
-    let painter = painter(site, choice, on_event)?;
     let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
     note_patches(&patches, on_event)?;
+    let painter = painter(site, choice, on_event)?;
     let drawn = Drawn {
         technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture }.word(),
         silhouette: None,
@@ -54,6 +57,7 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
             Painter::OnGpu(gpu) => Some(gpu.name().to_owned()),
             Painter::OnProcessor(_) => None,
         },
+        settings: DrawnSettings { sun_samples: site.settings.sun_samples, ..DrawnSettings::default() },
     };
     let casters = site.mesh.of_components(&site.casts);
     let mut texture = SoftTexture::new(casters, Arc::clone(&patches), painter, choice)?;
@@ -74,6 +78,17 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
 
     let hours = SurfaceHours { lit, samples, day_secs, night_secs };
     Ok(SurfaceOutcome { patches, hours, judged, drawn, gpu_bytes, timings: watch.stages })
+}
+
+/// What the site's camera sees of what receives, for a drawing of the surfaces, and the mesh whose faces it counts.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError> {
+    let receivers = site.mesh.of_components(&site.receives);
+    let scene = Scene { casters: site.mesh.of_components(&[]), receivers: receivers.clone(), ground: site.ground };
+    let surface = RayCast::new(scene, View::Camera(site.camera), None).surface()?;
+    Ok((receivers, surface))
 }
 
 /// An instant's samples: the sun's centre, or points of its disc.

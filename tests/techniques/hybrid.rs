@@ -96,7 +96,8 @@ fn on_the_sites_it_differs_only_where_the_map_missed_something_thin() {
             let cells = suns.len() * grid.cells();
             println!("{name} at {size}: {missed} of {cells} cells missed by the map, {far} far from an edge");
             // (on a thin beam below others, behind fins and lattices that a coarse map looks through, all may be dark)
-            assert!(far <= 1 || size == 512, "{name} at {size}: {far} of {missed}");
+            let most_far = if size == 512 { 10 } else { 1 };
+            assert!(far <= most_far, "{name} at {size}: {far} of {missed}");
             let most = if size == 512 { cells / 300 } else { cells / 5000 };
             assert!(missed <= most, "{name} at {size}: {missed} of {cells}");
         }

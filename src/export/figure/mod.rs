@@ -12,6 +12,7 @@ mod picture;
 mod plan;
 pub mod scale;
 mod strips;
+mod surfaces;
 mod svg;
 mod text;
 mod words;
@@ -20,6 +21,7 @@ pub use counted::Diagram;
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 pub use strips::strips;
+pub use surfaces::surfaces;
 pub(super) use words::duration;
 
 use super::{ExportError, check_size};

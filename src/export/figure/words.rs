@@ -1,6 +1,6 @@
 //! How a drawing says things: places, times, durations, techniques.
 
-use crate::profile::Drawn;
+use crate::profile::{Drawn, DrawnSettings};
 use crate::site::Receivers;
 use crate::sun::{Air, Day, EachDay, Instant, Place, SunTrack};
 use chrono::{DateTime, NaiveDate, Offset, Timelike};
@@ -146,7 +146,15 @@ pub(super) fn technique(drawn: &Drawn) -> String {
         ("gpu", Some(adapter)) => format!("GPU: {adapter}"),
         (engine, _) => engine.to_uppercase(),
     };
-    format!("{technique}{}, {machine}", silhouettes.unwrap_or_default())
+    let DrawnSettings { map_size, pcf, smoothie_width, sun_samples } = drawn.settings;
+    let settings = [
+        map_size.map(|size| format!(", map of {size}²")),
+        pcf.map(|pcf| format!(", filtered {pcf}")),
+        smoothie_width.map(|width| format!(", at most {width} m wide")),
+        sun_samples.map(|samples| format!(" to {samples} points of the sun’s disc")),
+    ];
+    let settings: String = settings.into_iter().flatten().collect();
+    format!("{technique}{settings}{}, {machine}", silhouettes.unwrap_or_default())
 }
 
 /// What is judged, in words.
@@ -154,6 +162,7 @@ pub(super) fn receivers(receivers: Receivers) -> &'static str {
     match receivers {
         Receivers::Top => "highest surface",
         Receivers::Ground => "ground only",
+        Receivers::Surfaces => "walls and roofs, on their outer side",
     }
 }
 
