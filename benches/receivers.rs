@@ -47,6 +47,7 @@ fn main() {
 
 fn sites(gpu: &Arc<Gpu>) {
     println!("## Sites\n");
+    let mut notes = Vec::new();
     println!(
         "| site | cell, m | way | ms a sample | µs a patch and sample | Mtexels a second | textures | faces a texture | rays | MiB on the adapter |"
     );
@@ -59,11 +60,13 @@ fn sites(gpu: &Arc<Gpu>) {
     ] {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
         let site = Site::load(&folder, &Overrides::default()).expect("a sample site");
-        let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
+        let mut times = Vec::new();
+        let patches = timed(&mut times, || Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS)));
+        let gathered = median(times);
         let casters = site.mesh.of_components(&site.casts);
         let suns: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).map(|it| it.to_sun).collect();
         let suns: Vec<_> = suns.iter().copied().step_by(suns.len().div_ceil(SUNS)).collect();
-        let mut sums: Vec<Vec<u32>> = Vec::new();
+        let (mut names, mut sums) = (Vec::new(), Vec::new());
         for (way, painter, choice) in ways(gpu) {
             // all textures of 73,000 patches at the finest cell take minutes
             if name == "headquarters" && cell < 1.0 && choice == Choice::Texture {
@@ -91,19 +94,31 @@ fn sites(gpu: &Arc<Gpu>) {
                 rays / count,
                 bytes as f64 / f64::from(1 << 20),
             );
+            names.push(way);
             sums.push(texture.finish().expect("sums"));
         }
-        let most = sums
+        let truth = &sums[names.iter().position(|name| *name == "rays").expect("rays")];
+        let differ: Vec<String> = names
             .iter()
-            .map(|of| of.iter().zip(&sums[sums.len() - 4]).filter(|(a, b)| a != b).count())
-            .collect::<Vec<_>>();
-        println!(
-            "| {name} | {} | {} patches, {} texels; texels that differ from rays: {most:?} | | | | | | | |",
+            .zip(&sums)
+            .map(|(name, sums)| {
+                format!("{name} {}", sums.iter().zip(truth).filter(|(one, other)| one != other).count())
+            })
+            .collect();
+        notes.push(format!(
+            "- {name}, {} m: {} patches, {} texels judged, atlas of {} page(s) of {}², gathered in {gathered:.0} ms. \
+             Texels that differ from rays at any of {} samples: {}.",
             patches.cell,
             patches.list.len(),
-            patches.texels.len()
-        );
+            patches.texels.len(),
+            patches.pages,
+            patches.page_size,
+            suns.len(),
+            differ.join(", ")
+        ));
     }
+    println!();
+    notes.iter().for_each(|note| println!("{note}"));
     println!();
 }
 

@@ -6,8 +6,9 @@ mod hours;
 mod scenes;
 mod sites;
 
+use glam::DVec3;
 use gnomon::gpu::Gpu;
-use gnomon::mesh::patches::{MOST_TEXELS, Patches};
+use gnomon::mesh::patches::{MOST_TEXELS, Patch, Patches, Texel};
 use gnomon::mesh::{Mesh, Part};
 use gnomon::shadow::soft_texture::{Choice, Fill, Painter, Sample, SoftTexture};
 use std::sync::{Arc, OnceLock};
@@ -83,6 +84,13 @@ impl Scene {
             assert_eq!((drawn[at] & !ever[at], !drawn[at] & always[at]), (0, 0), "texel {at} is far from any edge");
         }
         differing.len()
+    }
+
+    /// Where a patch's texels are judged in the world, and their sums.
+    fn of_patch<'a>(&'a self, patch: &'a Patch, sums: &'a [u32]) -> impl Iterator<Item = (DVec3, u32)> {
+        let texels = patch.texels.start as usize..patch.texels.end as usize;
+        let point = |texel: &Texel| self.patches.point(patch, *texel) + self.patches.origin;
+        self.patches.texels[texels.clone()].iter().map(point).zip(sums[texels].iter().copied())
     }
 
     /// The same judged so many texels aside.

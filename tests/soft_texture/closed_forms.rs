@@ -93,8 +93,7 @@ fn a_square_lamps_penumbra_is_as_wide_and_as_steep_as_geometry_says() {
         let on_gpu = matches!(painter, Painter::OnGpu(_));
         let sums = scene.sums(painter, Choice::Texture, &samples);
         let (mut first_light, mut first_whole) = (f64::INFINITY, f64::INFINITY);
-        for at in plate.texels.start as usize..plate.texels.end as usize {
-            let x = scene.patches.point(plate, scene.patches.texels[at]).x + scene.patches.origin.x;
+        for (DVec3 { x, .. }, sum) in scene.of_patch(plate, &sums) {
             let seen = |light: &&DVec4| {
                 let part = (sheet_z - JUDGED_ABOVE_M) / (lamp_z - JUDGED_ABOVE_M);
                 x + (light.x - x) * part > 0.0
@@ -102,11 +101,11 @@ fn a_square_lamps_penumbra_is_as_wide_and_as_steep_as_geometry_says() {
             let expected = lights.iter().filter(seen).count() as u32;
             // a column of the lamp may appear a texel's rounding sooner or later on the adapter
             let slack = if on_gpu { across } else { 0 };
-            assert!(sums[at].abs_diff(expected) <= slack, "{} of {expected} at {x}", sums[at]);
-            if sums[at] > 0 {
+            assert!(sum.abs_diff(expected) <= slack, "{} of {expected} at {x}", sum);
+            if sum > 0 {
                 first_light = first_light.min(x);
             }
-            if sums[at] == across * across {
+            if sum == across * across {
                 first_whole = first_whole.min(x);
             }
         }
@@ -127,14 +126,13 @@ fn the_suns_disc_has_the_penumbra_that_distance_gives() {
     for painter in painters() {
         let sums = scene.sums(painter, Choice::Texture, &samples);
         let mut most_off: f64 = 0.0;
-        for at in plate.texels.start as usize..plate.texels.end as usize {
-            let x = scene.patches.point(plate, scene.patches.texels[at]).x + scene.patches.origin.x;
+        for (DVec3 { x, .. }, sum) in scene.of_patch(plate, &sums) {
             // a uniform disc past a straight edge
             let past = (x / (width / 2.0)).clamp(-1.0, 1.0);
             let seen = 0.5 + (past * (1.0 - past * past).sqrt() + past.asin()) / PI;
-            most_off = most_off.max((f64::from(sums[at]) / 256.0 - seen).abs());
+            most_off = most_off.max((f64::from(sum) / 256.0 - seen).abs());
             if past.abs() == 1.0 {
-                assert_eq!(sums[at], if past > 0.0 { 256 } else { 0 }, "at {x}");
+                assert_eq!(sum, if past > 0.0 { 256 } else { 0 }, "at {x}");
             }
         }
         assert!(most_off < 0.02, "{most_off} of the sun off");

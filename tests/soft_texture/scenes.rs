@@ -125,13 +125,12 @@ fn no_light_comes_through_a_wall_that_touches() {
                 scene.patches.list.iter().find(|it| it.normal().z > 0.5 && it.plane.w.abs() < 3.0 && it.area_m2 > 30.0);
             let floor = floor.expect("the floor");
             let mut behind = 0;
-            for at in floor.texels.start as usize..floor.texels.end as usize {
-                let point = scene.patches.point(floor, scene.patches.texels[at]) + scene.patches.origin;
+            for (point, sum) in scene.of_patch(floor, &sums) {
                 if (2.021..4.0).contains(&point.y) && (1.0..5.0).contains(&point.x) {
-                    assert_eq!(sums[at], 0, "light at {point}");
+                    assert_eq!(sum, 0, "light at {point}");
                     behind += 1;
                 } else if point.y < 1.999 && (1.0..5.0).contains(&point.x) {
-                    assert_eq!(sums[at], 3, "shadow at {point}");
+                    assert_eq!(sum, 3, "shadow at {point}");
                 }
             }
             assert!(behind > 10_000);
