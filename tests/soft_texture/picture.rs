@@ -6,7 +6,10 @@ use gnomon::mesh::{Mesh, Part};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::soft_picture::SoftPicture;
 use gnomon::shadow::{Scene, Technique};
+use gnomon::site::{Engine, Method, Site};
+use gnomon::study::{InstantWants, instant};
 use gnomon::view::{Camera, Mask, View};
+use std::ops::ControlFlow;
 
 const SAMPLES: u32 = 48;
 
@@ -76,6 +79,27 @@ fn a_picture_is_that_of_rays_to_the_disc() {
         // the comparator sees a sun some degrees aside
         let (truth, aside) = (drawn(&mut rays, to_sun(215.0, 36.0)), drawn(&mut picture, to_sun(223.0, 33.0)));
         assert!(difference(&truth, &aside).0 * 500 > truth.share.len());
+    }
+}
+
+#[test]
+fn the_command_draws_it_for_a_camera_on_the_processor() {
+    let mut site = super::hours::house();
+    site.method = Method::SoftTexture;
+    let view = View::Camera(camera(dvec3(16.0, -26.0, 13.0), DVec3::ZERO));
+    let asked = |site: &Site, view| instant(site, view, &InstantWants::default(), &mut |_| ControlFlow::Continue(()));
+    let default = asked(&site, view).expect("a picture");
+    assert_eq!((default.drawn.technique, default.drawn.engine), ("soft-texture", "cpu"));
+    assert!(default.mask.share.iter().any(|share| !matches!(share, 0 | 255)), "a penumbra is seen");
+    site.settings.sun_samples = Some(64);
+    assert_eq!(asked(&site, view).expect("a picture").mask, default.mask);
+    site.settings.sun_samples = Some(8);
+    assert_ne!(asked(&site, view).expect("a picture").mask, default.mask);
+    for (view, engine, word) in
+        [(View::Plan(site.grid), Engine::Auto, "--receivers surfaces"), (view, Engine::Gpu, "on the cpu")]
+    {
+        let error = asked(&Site { engine, ..site.clone() }, view).expect_err("a conflict");
+        assert!(error.is_wrong_use() && error.to_string().contains(word), "{error}");
     }
 }
 
