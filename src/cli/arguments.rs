@@ -105,7 +105,7 @@ pub(super) struct WindowArgs {
 pub(super) struct DrawArgs {
     /// auto, stencil or ray-cast (exact), projected (exact, for --receivers ground), hybrid (exact but for casters thinner than a map's texel), shadow-map (quick),
     /// smoothie (the soft edge of a real sun, drawn outside of the hard edge alone: shadows come out too large by half of
-    /// the width of their edge)
+    /// the width of their edge), soft-texture (with --view camera: the sun's disc on what is flat)
     #[arg(long, value_name = "NAME")]
     technique: Option<Method>,
     #[command(flatten)]
@@ -115,7 +115,7 @@ pub(super) struct DrawArgs {
     engine: Option<Engine>,
     #[command(flatten)]
     maps: MapArgs,
-    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024
+    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024; with soft-texture [default: 64]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
     sun_samples: Option<u32>,
 }

@@ -17,6 +17,7 @@ pub mod ray_cast;
 pub mod registered;
 pub mod shadow_map;
 pub mod smoothie;
+pub mod soft_picture;
 pub mod soft_texture;
 pub mod stencil;
 mod surface;
@@ -78,6 +79,11 @@ pub trait Technique {
 
     /// What the cells see of the receivers.
     fn surface(&self) -> Result<Surface, ShadowError>;
+
+    /// Where the technique did not apply to the last mask, and what was done there; none where it did everywhere.
+    fn note(&self) -> Option<String> {
+        None
+    }
 
     /// What counting takes for that sun; none where nothing is counted. Slow: it is read back.
     fn counted(&mut self, _to_sun: DVec3) -> Result<Option<Counted>, ShadowError> {

@@ -9,11 +9,12 @@ use crate::shadow::projected::Projected;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::shadow_map::{Filter, ShadowMap};
 use crate::shadow::smoothie::Smoothie;
+use crate::shadow::soft_picture::{self, SoftPicture};
 use crate::shadow::stencil::Stencil;
 use crate::shadow::{Scene, ShadowError, Silhouettes, Technique};
 use crate::silhouette::Kind;
 use crate::site::{Engine, Finder, Method, Pcf, Receivers, Settings, Site};
-use crate::view::{Grid, View};
+use crate::view::{Camera, Grid, View};
 use std::sync::Arc;
 
 /// A technique with all that it needs to be made for a view.
@@ -23,6 +24,8 @@ pub(super) enum Machine {
     RayCast { sun_samples: Option<u32> },
     /// Faces projected onto the ground below a plan, on the processor.
     Projected(Grid),
+    /// Textures of what a camera sees, with so many points of the sun's disc, on the processor.
+    SoftPicture { camera: Camera, sun_samples: u32 },
     /// Anything else.
     OnGpu(Arc<Gpu>, Drawing),
 }
@@ -69,7 +72,7 @@ impl Machine {
 
     pub(super) fn gpu(&self) -> Option<Arc<Gpu>> {
         match self {
-            Machine::RayCast { .. } | Machine::Projected(_) => None,
+            Machine::RayCast { .. } | Machine::Projected(_) | Machine::SoftPicture { .. } => None,
             Machine::OnGpu(gpu, _) => Some(Arc::clone(gpu)),
         }
     }
@@ -83,6 +86,7 @@ impl Machine {
         let (method, silhouette) = match self {
             Machine::RayCast { .. } => (Method::RayCast, None),
             Machine::Projected(_) => (Method::Projected, None),
+            Machine::SoftPicture { .. } => (Method::SoftTexture, None),
             Machine::OnGpu(_, Drawing::Stencil(silhouettes)) => (Method::Stencil, Some(found(silhouettes))),
             Machine::OnGpu(_, Drawing::ShadowMap { .. }) => (Method::ShadowMap, None),
             Machine::OnGpu(_, Drawing::Hybrid { silhouettes, .. }) => (Method::Hybrid, Some(found(silhouettes))),
@@ -91,6 +95,7 @@ impl Machine {
         let mut settings = DrawnSettings::default();
         match *self {
             Machine::RayCast { sun_samples } => settings.sun_samples = sun_samples,
+            Machine::SoftPicture { sun_samples, .. } => settings.sun_samples = Some(sun_samples),
             Machine::Projected(_) | Machine::OnGpu(_, Drawing::Stencil(_)) => {}
             Machine::OnGpu(_, Drawing::ShadowMap { size, filter }) => {
                 settings.map_size = Some(size);
@@ -103,7 +108,7 @@ impl Machine {
             }
         }
         let (engine, adapter) = match self {
-            Machine::RayCast { .. } | Machine::Projected(_) => (Engine::Cpu, None),
+            Machine::RayCast { .. } | Machine::Projected(_) | Machine::SoftPicture { .. } => (Engine::Cpu, None),
             Machine::OnGpu(gpu, _) => (Engine::Gpu, Some(gpu.name().to_owned())),
         };
         Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter, settings }
@@ -113,6 +118,9 @@ impl Machine {
         let (gpu, drawing) = match self {
             Machine::RayCast { sun_samples } => return Ok(Box::new(RayCast::new(scene, view, *sun_samples))),
             Machine::Projected(grid) => return Ok(Box::new(Projected::new(&scene, *grid))),
+            Machine::SoftPicture { camera, sun_samples } => {
+                return Ok(Box::new(SoftPicture::new(scene, *camera, *sun_samples)));
+            }
             Machine::OnGpu(gpu, drawing) => (Arc::clone(gpu), *drawing),
         };
         Ok(match drawing {
@@ -162,7 +170,7 @@ fn kind(site: &Site) -> Kind {
 
 /// Options that what was asked to draw does not use.
 fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
-    use Method::{Hybrid, RayCast, ShadowMap, Smoothie, Stencil};
+    use Method::{Hybrid, RayCast, ShadowMap, Smoothie, SoftTexture, Stencil};
     let Settings { map_size, pcf, smoothie_width_m, sun_samples } = site.settings;
     let finder = site.finder;
     let rules: [(bool, &[Method], &str, &str); 6] = [
@@ -186,9 +194,9 @@ fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
         ),
         (
             sun_samples.is_some(),
-            &[RayCast],
+            &[RayCast, SoftTexture],
             "--sun-samples",
-            "only ray casting takes points of the sun's disc; say --technique ray-cast, or leave it out",
+            "only ray casting and soft-texture take points of the sun's disc; say --technique ray-cast, or leave it out",
         ),
         (
             finder != Finder::Auto,
@@ -239,9 +247,17 @@ pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Re
             };
             Machine::Projected(grid)
         }
-        (Method::SoftTexture, _) => {
-            let what = "soft-texture is for flat patches; add --receivers surfaces, or take another technique";
-            return Err(StudyError::Conflict { option: "--technique", what });
+        (Method::SoftTexture, engine) => {
+            let View::Camera(camera) = view else {
+                let what = "soft-texture is for flat patches; add --receivers surfaces, or take another technique";
+                return Err(StudyError::Conflict { option: "--technique", what });
+            };
+            if engine == Engine::Gpu {
+                return conflict("a camera's picture by soft-texture is drawn on the cpu; leave the option out");
+            }
+            unused(site, Method::SoftTexture)?;
+            let sun_samples = site.settings.sun_samples.unwrap_or(soft_picture::DEFAULT_SUN_SAMPLES);
+            Machine::SoftPicture { camera: *camera, sun_samples }
         }
         (Method::RayCast, Engine::Gpu) => {
             return conflict("the technique ray-cast works on the cpu; take --technique stencil with gpu");

@@ -290,6 +290,9 @@ pub fn instant(
         }
         technique.draw(instant.to_sun)?.read()?
     };
+    if let Some(note) = technique.note() {
+        tell(on_event, Event::Note(note))?;
+    }
     tell(on_event, Event::Drawn { index: 0, count: 1, time: instant.time, mask: Some(&mask) })?;
     watch.lap("shadows");
     Ok(InstantOutcome {
