@@ -24,3 +24,4 @@ mod timers;
 mod try_models;
 mod verify;
 mod volumes;
+mod year;

@@ -22,7 +22,8 @@ pub(super) fn find(mesh: &mut Mesh) {
     for (face, corners) in mesh.faces.iter().enumerate() {
         for [from, to] in sides(corners) {
             let slot = &mut next[lower([from, to])];
-            sorted[*slot as usize] = u64::from(from.max(to)) << 32 | u64::from(Incidence::new(face as u32, from > to).0);
+            sorted[*slot as usize] =
+                u64::from(from.max(to)) << 32 | u64::from(Incidence::new(face as u32, from > to).0);
             *slot += 1;
         }
     }

@@ -67,6 +67,15 @@ impl DrawnMask<'_> {
             }),
         }
     }
+
+    /// Which cells are in shadow: where at most half of the sun is seen.
+    pub fn bits(&self) -> Result<Bits, ShadowError> {
+        match self {
+            DrawnMask::Bits(bits) => Ok((*bits).clone()),
+            DrawnMask::Memory(mask) => Ok(Bits::of(mask)),
+            texture => Ok(Bits::of(&texture.read()?)),
+        }
+    }
 }
 
 /// A way to find shadows, made for one scene and one view.

@@ -129,7 +129,8 @@ impl SilhouetteFinder for Hextree {
         let mut test = |edges: &[u32]| {
             looked.at += edges.len();
             for &edge in edges {
-                let facing = |face: crate::mesh::Incidence| plane_faces(mesh.planes()[face.face() as usize], local_light);
+                let facing =
+                    |face: crate::mesh::Incidence| plane_faces(mesh.planes()[face.face() as usize], local_light);
                 let multiplicity = multiplicity(mesh.faces_at(edge as usize), facing);
                 looked.found += usize::from(multiplicity != 0);
                 append(silhouette, mesh.edges[edge as usize], multiplicity);

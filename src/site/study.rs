@@ -95,9 +95,8 @@ fn each_day(
         return Err(no_study(written, [true, true, true, false]));
     };
     let step_secs = parse_duration_secs(&step).map_err(|error| SiteError::sun(step_at.clone(), error))?;
-    let reading = |said: &Option<(String, At)>| {
-        said.as_ref().map(|(text, at)| of_each_day(text, at.clone())).transpose()
-    };
+    let reading =
+        |said: &Option<(String, At)>| said.as_ref().map(|(text, at)| of_each_day(text, at.clone())).transpose();
     let each = EachDay { from: reading(&from)?, to: reading(&to)? };
     let days_at = || At::Option("--from-date");
     SunTrack::days(place, dates, each, step_secs, refraction).map_err(|error| match (&error, &from, &to) {

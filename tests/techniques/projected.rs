@@ -8,9 +8,9 @@ use crate::exact::{day, plan, scene_of, to_sun};
 use crate::{dense, dome};
 use glam::{DVec3, dvec2, dvec3};
 use gnomon::mesh::{Mesh, Part};
-use gnomon::shadow::{Scene, Technique, plan_surface};
 use gnomon::shadow::projected::Projected;
 use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::{Scene, Technique, plan_surface};
 use gnomon::site::Receivers;
 use gnomon::view::{Grid, Mask, Surface, View};
 
@@ -83,7 +83,13 @@ fn triangles_in_any_disorder_agree_cell_for_cell() {
     };
     let mut soup = Part { name: "soup".into(), ..Part::default() };
     soup.positions = (0..120)
-        .map(|_| dvec3(random(4001) as f64 / 100.0 - 20.0, random(4001) as f64 / 100.0 - 20.0, random(17) as f64 - 4.0 + 0.001))
+        .map(|_| {
+            dvec3(
+                random(4001) as f64 / 100.0 - 20.0,
+                random(4001) as f64 / 100.0 - 20.0,
+                random(17) as f64 - 4.0 + 0.001,
+            )
+        })
         .collect();
     soup.triangles = (0..400).map(|_| [0; 3].map(|_: u32| random(120) as u32)).collect();
     let scene = scene_of(&Mesh::build(vec![soup]).unwrap(), Receivers::Ground, 0.0);
