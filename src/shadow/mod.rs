@@ -13,6 +13,7 @@ pub mod near_clip;
 pub mod overlay;
 mod plan_surface;
 pub mod projected;
+mod raised;
 pub mod ray_cast;
 pub mod shadow_map;
 pub mod smoothie;
