@@ -26,3 +26,4 @@ mod timers;
 mod try_models;
 mod verify;
 mod volumes;
+mod year;

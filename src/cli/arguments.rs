@@ -18,7 +18,8 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json
+    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped goes
+    /// on where it was when it is asked again
     Profile(ProfileArgs),
     /// The shadows at one instant, as a drawing or as a bare mask
     Shadow(ShadowArgs),
@@ -197,6 +198,9 @@ pub(super) struct ProfileArgs {
     /// Also every instant's bare mask, as mask-0000.png … in this folder
     #[arg(long, value_name = "DIR")]
     pub(super) masks: Option<PathBuf>,
+    /// Also shadow.bits: one bit a cell for every instant with a sun, for questions that come later
+    #[arg(long)]
+    pub(super) bits: bool,
     /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
     /// cells, those of the sky too)
     #[arg(long)]

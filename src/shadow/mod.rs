@@ -13,6 +13,7 @@ pub mod near_clip;
 pub mod overlay;
 mod plan_surface;
 pub mod projected;
+mod raised;
 pub mod ray_cast;
 pub mod registered;
 pub mod shadow_map;
@@ -68,6 +69,15 @@ impl DrawnMask<'_> {
                 height: texture.height(),
                 share: readback::texels(gpu, texture, wgpu::TextureAspect::All)?,
             }),
+        }
+    }
+
+    /// Which cells are in shadow: where at most half of the sun is seen.
+    pub fn bits(&self) -> Result<Bits, ShadowError> {
+        match self {
+            DrawnMask::Bits(bits) => Ok((*bits).clone()),
+            DrawnMask::Memory(mask) => Ok(Bits::of(mask)),
+            texture => Ok(Bits::of(&texture.read()?)),
         }
     }
 }

@@ -22,7 +22,7 @@ use std::sync::Arc;
 pub(super) enum Machine {
     /// Rays on the processor, to so many points of the sun's disc, or its centre.
     RayCast { sun_samples: Option<u32> },
-    /// Faces projected onto the ground below a plan, on the processor.
+    /// Faces projected onto what a plan sees, on the processor.
     Projected(Grid),
     /// Textures of what a camera sees, with so many points of the sun's disc, on the processor.
     SoftPicture { camera: Camera, sun_samples: u32 },
@@ -219,20 +219,28 @@ fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Technique and engine as asked; else, for the ground alone, projection; else the stencil on a real graphics adapter, and
-/// ray casting on the processor.
+/// Technique and engine as asked; else projection on the plan, and ray casting for a camera, but on a real graphics adapter
+/// the stencil, unless it is the ground alone that is judged.
 ///
-/// A projected instant takes less time than opening an adapter does, so none is opened for it.
+/// A projected instant on the ground takes less time than opening an adapter does, so none is opened for it
+/// (docs/benchmarks/peers.md).
 pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
     let conflict = |what| Err(StudyError::Conflict { option: "--engine", what });
     let cast = Machine::RayCast { sun_samples: site.settings.sun_samples };
-    let ground = match view {
-        View::Plan(grid) if site.receivers == Receivers::Ground => Some(*grid),
-        _ => None,
+    let plan = match view {
+        View::Plan(grid) => Some(*grid),
+        View::Camera(_) => None,
     };
     let is_plain = site.settings == Settings::default() && site.finder == Finder::Auto;
-    if let (Some(grid), Method::Auto, Engine::Auto | Engine::Cpu, true) = (ground, site.method, site.engine, is_plain) {
-        return Ok(Machine::Projected(grid));
+    let on_processor = match plan {
+        Some(grid) if is_plain => Machine::Projected(grid),
+        _ => cast.clone(),
+    };
+    let ground_alone = plan.is_some() && site.receivers == Receivers::Ground;
+    if let (Method::Auto, true) = (site.method, is_plain)
+        && (site.engine == Engine::Cpu || (site.engine == Engine::Auto && ground_alone))
+    {
+        return Ok(on_processor);
     }
     let machine = match (site.method, site.engine) {
         (Method::Projected, Engine::Gpu) => {
@@ -240,9 +248,8 @@ pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Re
         }
         (Method::Projected, _) => {
             unused(site, Method::Projected)?;
-            let Some(grid) = ground else {
-                let what = "projected is for the ground alone, which is flat; add --receivers ground on the plan, \
-                            or take another technique";
+            let Some(grid) = plan else {
+                let what = "projected draws the plan alone; leave --view camera out, or take another technique";
                 return Err(StudyError::Conflict { option: "--technique", what });
             };
             Machine::Projected(grid)
@@ -279,12 +286,12 @@ pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Re
             // what it will be does not depend on the machine's adapter alone: a setting of one technique names it
             unused(site, Method::Auto)?;
             match Machine::open(site) {
-                // measured (docs/benchmarks): a stencil drawn in software is slower than casting the rays outright
-                Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => cast,
+                // measured (docs/benchmarks): a stencil drawn in software is slower than either
+                Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => on_processor,
                 Ok(machine) => machine,
                 Err(error) => {
                     tell(on_event, Event::Note(format!("{}: drawing on the processor", why_none(error))))?;
-                    cast
+                    on_processor
                 }
             }
         }
