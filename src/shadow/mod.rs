@@ -10,6 +10,7 @@ mod light_view;
 pub mod map;
 pub mod near_clip;
 pub mod overlay;
+pub mod picture;
 pub mod projected;
 pub mod ray_cast;
 pub mod shadow_map;

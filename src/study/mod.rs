@@ -1,8 +1,10 @@
 //! The flow: a checked request in, its shadow profile out.
 //!
 //! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
-//! [`verify`] holds every technique against ray casting; [`probe`] finds when single points lie in the sun.
+//! [`verify`] holds every technique against ray casting; [`probe`] finds when single points lie in the sun; [`live`] draws
+//! one picture after another for whoever looks.
 
+pub mod live;
 mod machine;
 pub mod probe;
 mod stopwatch;

@@ -16,6 +16,7 @@ mod svg;
 mod text;
 mod words;
 
+pub use components::of_all as component_colours;
 pub use counted::Diagram;
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
@@ -160,6 +161,21 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result
             })
         }
     }
+}
+
+/// Colours of cells by what counting took, what they measure and what they mean; none where a mask is to be shown and there was
+/// none.
+pub fn counted_colours(
+    counted: &Counted,
+    diagram: Diagram,
+) -> Option<(Vec<scale::Rgb>, String, Vec<(scale::Rgb, String)>)> {
+    let colours = Colours::of(counted, diagram)?;
+    Some((colours.of_cells, colours.legend_head, colours.legend))
+}
+
+/// The colours of level ground in the sun and in the shade, before a camera.
+pub fn ground_tones(to_sun: glam::DVec3) -> [scale::Rgb; 2] {
+    perspective::ground_tones(to_sun)
 }
 
 /// The legend of what a picture shows besides sun and shadow.

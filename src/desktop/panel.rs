@@ -1,0 +1,319 @@
+//! The panel beside the picture: place, shadows, components, hours.
+
+use super::app::{App, Open};
+use super::hours::Laid;
+use super::{components, hours, look, view};
+use crate::export::figure::Diagram;
+use crate::profile::probe::{Sunlight, secs};
+use crate::site::Method;
+use crate::site::file::Text;
+use eframe::egui::{self, Color32, Sense, Ui, vec2};
+use std::sync::Arc;
+
+/// What each technique is good for, in a line.
+fn good_for(method: Method) -> &'static str {
+    match method {
+        Method::Auto => "The fastest exact one for this machine.",
+        Method::Stencil => "Exact, on the graphics adapter: shadow volumes are counted.",
+        Method::Projected => "Exact on the plan's ground alone, by far the fastest there.",
+        Method::ShadowMap => "A quick look: edges as coarse as a texel of its map.",
+        Method::Hybrid => "Exact but for parts thinner than a texel; quick where many thin parts cast.",
+        Method::Smoothie => "The soft edge of a real sun; shadows are a little too large.",
+        Method::RayCast => "Exact, on the processor; also with the sun as a disc.",
+    }
+}
+
+/// The whole panel.
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        section(ui, "Place", true, |ui| place(app, ui));
+        section(ui, "Shadows", true, |ui| shadows(app, ui));
+        section(ui, "Hours of shadow", true, |ui| study(app, ui));
+        section(ui, "Components", false, |ui| {
+            if let Some(open) = &app.open {
+                ui.checkbox(&mut app.settings.shown.tinted, "In their own colours");
+                components::list(ui, &open.project, &mut app.settings);
+            }
+        });
+    });
+}
+
+fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {
+    let title = egui::RichText::new(name).font(look::bold(13.5)).color(look::accent(ui.visuals()));
+    egui::CollapsingHeader::new(title).id_salt(name).default_open(open).show_unindented(ui, |ui| {
+        content(ui);
+        ui.add_space(8.0);
+    });
+}
+
+/// A label and fields beside it, aligned with all others.
+fn row(ui: &mut Ui, name: &str, field: impl FnOnce(&mut Ui, egui::Id)) {
+    ui.horizontal(|ui| {
+        let size = vec2(78.0, ui.spacing().interact_size.y);
+        let label = ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+            ui.set_min_size(size);
+            ui.weak(name).id
+        });
+        field(ui, label.inner);
+    });
+}
+
+/// The word before a second field in a row.
+fn then(ui: &mut Ui, name: &str) -> egui::Id {
+    ui.weak(name).id
+}
+
+fn place(app: &mut App, ui: &mut Ui) {
+    let Some(table) = &mut app.settings.site.place else { return };
+    let mut name = table.name.clone().unwrap_or_default();
+    row(ui, "Name", |ui, label| {
+        let edit = egui::TextEdit::singleline(&mut name).desired_width(f32::INFINITY);
+        if ui.add(edit).labelled_by(label).changed() {
+            table.name = Some(name.clone()).filter(|name| !name.trim().is_empty());
+        }
+    });
+    let coordinates = [("Latitude", &mut table.latitude, 90.0), ("Longitude", &mut table.longitude, 180.0)];
+    for (name, slot, most) in coordinates {
+        let mut value = slot.unwrap_or_default();
+        row(ui, name, |ui, label| {
+            let drag = egui::DragValue::new(&mut value).speed(0.01).range(-most..=most);
+            let drag = drag.suffix("°").min_decimals(4).max_decimals(6);
+            if ui.add(drag).labelled_by(label).changed() {
+                *slot = Some(value);
+            }
+        });
+    }
+    row(ui, "Elevation", |ui, label| {
+        let mut value = table.elevation.unwrap_or_default();
+        let drag = egui::DragValue::new(&mut value).speed(1.0).range(-500.0..=9000.0).suffix(" m").max_decimals(2);
+        if ui.add(drag).labelled_by(label).changed() {
+            table.elevation = Some(value);
+        }
+        if let [model] = app.settings.site.model.as_mut_slice() {
+            let label = then(ui, "Model north");
+            let mut north = model.north.unwrap_or_default();
+            let drag = egui::DragValue::new(&mut north).speed(0.5).range(-360.0..=360.0).suffix("°").max_decimals(3);
+            let response = ui.add(drag).labelled_by(label);
+            let response = response.on_hover_text("Degrees clockwise from the model's north to true north");
+            if response.changed() {
+                model.north = Some(north).filter(|north| *north != 0.0);
+            }
+        }
+    });
+}
+
+fn shadows(app: &mut App, ui: &mut Ui) {
+    let software = app.is_software();
+    let is_plan = app.is_plan();
+    let shown = &mut app.settings.shown;
+    row(ui, "Technique", |ui, label| {
+        let list = egui::ComboBox::from_id_salt("technique").selected_text(shown.method.word());
+        let response = list.width(ui.available_width()).show_ui(ui, |ui| {
+            for (word, method) in Method::WORDS {
+                let entry = ui.selectable_value(&mut shown.method, *method, *word);
+                entry.on_hover_text(good_for(*method));
+            }
+        });
+        response.response.labelled_by(label);
+    });
+    ui.weak(good_for(shown.method));
+    if shown.method == Method::Projected && !is_plan {
+        ui.weak("This view is no plan: auto draws it.");
+    }
+    if view::casts_rays(shown.method, software) {
+        ui.checkbox(&mut shown.disc, "The sun as a disc: soft edges");
+    }
+    if view::counts(shown.method) {
+        let name = |diagram: Option<Diagram>| match diagram {
+            None => "sun and shadow",
+            Some(Diagram::Mask) => "who decides a cell",
+            Some(Diagram::Overdraw) => "volumes counted",
+        };
+        row(ui, "Picture of", |ui, label| {
+            let list = egui::ComboBox::from_id_salt("diagram").selected_text(name(shown.diagram));
+            let response = list.width(ui.available_width()).show_ui(ui, |ui| {
+                let mut choices = vec![None, Some(Diagram::Overdraw)];
+                if shown.method == Method::Hybrid {
+                    choices.push(Some(Diagram::Mask));
+                }
+                for choice in choices {
+                    ui.selectable_value(&mut shown.diagram, choice, name(choice));
+                }
+            });
+            response.response.labelled_by(label);
+        });
+    }
+    if !is_plan {
+        ui.horizontal(|ui| {
+            ui.checkbox(&mut shown.volumes, "Volumes");
+            ui.checkbox(&mut shown.silhouette, "Silhouette");
+        });
+    }
+    if let Some((head, entries)) = app.viewer_legend() {
+        ui.add_space(2.0);
+        ui.label(head);
+        for (colour, what) in entries {
+            swatch(ui, colour, &what);
+        }
+    }
+}
+
+fn swatch(ui: &mut Ui, [r, g, b]: [u8; 3], what: &str) {
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(vec2(30.0, 15.0), Sense::hover());
+        ui.painter().rect_filled(rect, 2.0, Color32::from_rgb(r, g, b));
+        ui.label(what);
+    });
+}
+
+fn study(app: &mut App, ui: &mut Ui) {
+    let shown_date = app.open.as_ref().map(|open| open.clock.date());
+    let study = &mut app.settings.site.study;
+    // the loader has said what was left out; a date may stand in `from` instead
+    let text = |slot: &Option<Text>| slot.as_ref().map_or(String::new(), |text| text.0.clone());
+    let [mut date, mut from, mut to] = [&study.date, &study.from, &study.to].map(text);
+    let mut step = study.step.clone().unwrap_or_default();
+    let typed = &mut app.typed;
+    row(ui, "Window", |ui, label| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        field(ui, typed, ("From", Some(label)), &mut from, 70.0);
+        let label = then(ui, "to");
+        field(ui, typed, ("To", Some(label)), &mut to, 70.0);
+    });
+    row(ui, "Study date", |ui, label| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        field(ui, typed, ("Study date", Some(label)), &mut date, 86.0);
+        let label = then(ui, "step");
+        field(ui, typed, ("Step", Some(label)), &mut step, 50.0);
+    });
+    (study.from, study.to, study.step) = (Some(Text(from)), Some(Text(to)), Some(step));
+    if study.date.is_some() || !date.is_empty() {
+        study.date = Some(Text(date));
+    }
+    if let (Some(date), Some(Text(text))) = (shown_date, &mut study.date)
+        && date.to_string() != *text
+        && ui.button(format!("Take {date} from the clock")).clicked()
+    {
+        *text = date.to_string();
+    }
+    let context = ui.ctx().clone();
+    let Some(open) = &mut app.open else { return };
+    if let Some(adding) = &open.adding {
+        let (done, count) = adding.progress();
+        let share = done as f32 / count.max(1) as f32;
+        ui.add(egui::ProgressBar::new(share).text(if count == 0 {
+            "Preparing".to_owned()
+        } else {
+            format!("{done} of {count} instants")
+        }));
+        if ui.button("Cancel the hours").clicked() {
+            open.adding = None;
+        }
+    } else if ui.add_enabled(!app.is_reading, egui::Button::new("Find the hours")).clicked() {
+        open.answers += 1;
+        open.adding = Some(hours::add_up(Arc::clone(&open.project.site), open.answers, context));
+    }
+    if let Some(laid) = &open.laid {
+        if !Arc::ptr_eq(&laid.site, &open.project.site) {
+            ui.weak("The site has changed since: find them anew.");
+        }
+        ui.checkbox(&mut app.settings.shown.hours, "Show the hours");
+        if app.settings.shown.hours {
+            legend(ui, laid);
+        }
+    }
+    probe(open, ui);
+}
+
+/// A text that is read when it is finished.
+fn field(
+    ui: &mut Ui,
+    typed: &mut Option<(String, String)>,
+    (name, label): (&str, Option<egui::Id>),
+    text: &mut String,
+    width: f32,
+) {
+    let mut now = match typed {
+        Some((field, typed)) if field == name => typed.clone(),
+        _ => text.clone(),
+    };
+    let response = ui.add(egui::TextEdit::singleline(&mut now).desired_width(width));
+    let response = label.map_or(response.clone(), |label| response.labelled_by(label));
+    if response.changed() {
+        *typed = Some((name.to_owned(), now));
+    }
+    if response.lost_focus()
+        && typed.as_ref().is_some_and(|(field, _)| field == name)
+        && let Some((_, now)) = typed.take()
+    {
+        *text = now;
+    }
+}
+
+fn legend(ui: &mut Ui, laid: &Laid) {
+    let bands = &laid.bands;
+    let hours = |secs: u32| {
+        if bands.band_secs.is_multiple_of(60) {
+            format!("{}:{:02}", secs / 3600, secs / 60 % 60)
+        } else {
+            format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60)
+        }
+    };
+    ui.label(format!("Hours of shadow out of {}", hours(bands.day_secs)));
+    let entry = |band: usize| {
+        let (from, to) = bands.bounds(band);
+        (bands.colours[band], format!("{} – {}", hours(from), hours(to)))
+    };
+    let none = (crate::export::figure::scale::NO_SHADOW, "none".to_owned());
+    let entries: Vec<_> = std::iter::once(none).chain((0..bands.colours.len()).map(entry)).collect();
+    let rows = entries.len().div_ceil(2);
+    ui.horizontal_top(|ui| {
+        for column in entries.chunks(rows.max(1)) {
+            ui.vertical(|ui| {
+                ui.spacing_mut().item_spacing.y = 1.0;
+                column.iter().for_each(|(colour, what)| swatch(ui, *colour, what));
+            });
+        }
+    });
+}
+
+fn probe(open: &mut Open, ui: &mut Ui) {
+    if open.probing.is_some() {
+        ui.horizontal(|ui| {
+            ui.add(egui::Spinner::new().size(16.0));
+            ui.label("Searching the day of the point");
+        });
+    }
+    let Some(sunlight) = &open.sunlight else {
+        if open.probing.is_none() {
+            ui.weak("Click a point of the model: when does the sun reach it?");
+        }
+        return;
+    };
+    let (Some(probed), Some(day)) = (sunlight.probes.first(), sunlight.days.first()) else { return };
+    let Some(intervals) = probed.days.first() else { return };
+    ui.add_space(4.0);
+    ui.label(egui::RichText::new(format!("Sun at {}", probed.probe.name)).font(look::bold(13.5)));
+    let point = probed.probe.point;
+    ui.weak(format!("{:.2} m east, {:.2} m north, {:.2} m up", point.x, point.y, point.z).replace('-', "−"));
+    let total = secs(intervals);
+    let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);
+    ui.label(format!("{}: {} of sun", day.window.day.date, clock(total)));
+    for interval in intervals {
+        let (start, end) = (interval.start.format("%H:%M:%S"), interval.end.format("%H:%M:%S"));
+        ui.label(format!("{start} – {end}"));
+        ui.weak(format!("before: {}, after: {}", named(sunlight, interval.before), named(sunlight, interval.after)));
+    }
+    if ui.button("Forget the point").clicked() {
+        open.sunlight = None;
+    }
+}
+
+fn named(sunlight: &Sunlight, blocked: crate::profile::probe::Blocked) -> String {
+    match sunlight.name(blocked).as_str() {
+        "horizon" => "the horizon".to_owned(),
+        "behind" => "the sun is behind it".to_owned(),
+        "window" => "midnight".to_owned(),
+        name => name.to_owned(),
+    }
+}
