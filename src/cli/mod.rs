@@ -37,8 +37,8 @@ pub fn main(window: Option<Window>) -> ExitCode {
         }
         (Some(command), _) => run(command),
         (None, None) => {
-            // A closed pipe wants no more help.
-            let _ = Arguments::command().print_help();
+            // Nobody is left to tell that stderr is closed.
+            let _ = write!(io::stderr(), "{}", Arguments::command().render_help());
             return ExitCode::from(2);
         }
     };

@@ -8,7 +8,8 @@ use super::settings::{History, Settings};
 use super::stage::Stage;
 use super::time::Clock;
 use super::view::{Asked, Viewer};
-use super::{look, panel};
+use super::{cards, look, panel};
+use crate::export::figure::Colours;
 use crate::export::file;
 use crate::gpu::{Gpu, readback};
 use crate::profile::Drawn;
@@ -128,8 +129,8 @@ impl App {
     }
 
     /// What the colours of the shown diagram mean.
-    pub(super) fn viewer_legend(&self) -> Option<(String, Vec<([u8; 3], String)>)> {
-        self.open.as_ref()?.viewer.shown()?.legend.clone()
+    pub(super) fn legend(&self) -> Option<&Colours> {
+        self.open.as_ref()?.viewer.shown()?.legend.as_ref()
     }
 
     /// Whether nothing is on its way: no site, no picture, no hours.
@@ -284,7 +285,7 @@ impl App {
             let mut written = open.project.written.clone();
             written.site = self.settings.site.clone();
             let path = open.project.path.clone();
-            self.loading = Some(Loading::start(Wanted::Again(path, written), context.clone()));
+            self.loading = Some(Loading::start(Wanted::Again(path, Box::new(written)), context.clone()));
             self.is_reading = true;
         }
     }
@@ -356,9 +357,13 @@ impl App {
     }
 
     pub(super) fn fit(&mut self, width_by_height: f64) {
-        if let Some(open) = &mut self.open
-            && let Some(bounds) = open.project.site.mesh.bounds()
-        {
+        let Some(open) = &mut self.open else { return };
+        let site = &open.project.site;
+        // the plan holds the shadows, too
+        let [west, south, east, north] = site.grid.region();
+        let region = (DVec3::new(west, south, site.ground), DVec3::new(east, north, site.ground));
+        let is_plan = open.viewer.eye.stand == Stand::Plan;
+        if let Some(bounds) = if is_plan { Some(region) } else { site.mesh.bounds() } {
             open.viewer.eye.fit(bounds, width_by_height);
         }
     }
@@ -426,7 +431,13 @@ impl App {
             sun_path: !self.kept.no_sun_path,
             feet: self.kept.feet,
         };
-        if let Some(under) = viewer.show(ui, &self.stage, software, &asked, clock) {
+        let rect = ui.available_rect_before_wrap();
+        let clicked = viewer.show(ui, &self.stage, software, &asked, clock);
+        if let Some(view) = viewer.shown().map(|shown| shown.wish.view) {
+            cards::mark(ui, open, &view, rect);
+        }
+        cards::show(ui, open, &mut self.settings.site, rect, self.settings.shown.hours);
+        if let Some(under) = clicked {
             let name = if under.name.is_empty() { "the point".to_owned() } else { under.name };
             let normal = under.normal.try_normalize();
             let probe = Probe { name, point: under.point, normal };

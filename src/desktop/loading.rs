@@ -55,7 +55,7 @@ pub(super) enum Wanted {
     /// A bare model, where it stands.
     Placed(Bare),
     /// The open site, as it is written now.
-    Again(Option<PathBuf>, Written),
+    Again(Option<PathBuf>, Box<Written>),
 }
 
 /// Work that goes on beside the window.
@@ -165,7 +165,7 @@ fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
             }
             (None, written)
         }
-        Wanted::Again(path, written) => (path, written),
+        Wanted::Again(path, written) => (path, *written),
     };
     let mut written = written;
     complete(&mut written.site);

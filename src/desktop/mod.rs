@@ -4,6 +4,7 @@
 //! load sites and add up hours.
 
 mod app;
+mod cards;
 mod components;
 mod eye;
 mod files;

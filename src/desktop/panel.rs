@@ -1,13 +1,11 @@
 //! The panel beside the picture: place, shadows, components, hours.
 
-use super::app::{App, Open};
-use super::hours::Laid;
-use super::{components, hours, look, view};
+use super::app::App;
+use super::{cards, components, hours, look, view};
 use crate::export::figure::Diagram;
-use crate::profile::probe::{Sunlight, secs};
 use crate::site::Method;
 use crate::site::file::Text;
-use eframe::egui::{self, Color32, Sense, Ui, vec2};
+use eframe::egui::{self, Ui, vec2};
 use std::sync::Arc;
 
 /// What each technique is good for, in a line.
@@ -149,21 +147,13 @@ fn shadows(app: &mut App, ui: &mut Ui) {
             ui.checkbox(&mut shown.silhouette, "Silhouette");
         });
     }
-    if let Some((head, entries)) = app.viewer_legend() {
+    if let Some(colours) = app.legend() {
         ui.add_space(2.0);
-        ui.label(head);
-        for (colour, what) in entries {
-            swatch(ui, colour, &what);
+        ui.label(&colours.legend_head);
+        for (colour, what) in &colours.legend {
+            cards::swatch(ui, *colour, what);
         }
     }
-}
-
-fn swatch(ui: &mut Ui, [r, g, b]: [u8; 3], what: &str) {
-    ui.horizontal(|ui| {
-        let (rect, _) = ui.allocate_exact_size(vec2(30.0, 15.0), Sense::hover());
-        ui.painter().rect_filled(rect, 2.0, Color32::from_rgb(r, g, b));
-        ui.label(what);
-    });
 }
 
 fn study(app: &mut App, ui: &mut Ui) {
@@ -182,9 +172,9 @@ fn study(app: &mut App, ui: &mut Ui) {
     });
     row(ui, "Study date", |ui, label| {
         ui.spacing_mut().item_spacing.x = 5.0;
-        field(ui, typed, ("Study date", Some(label)), &mut date, 86.0);
+        field(ui, typed, ("Study date", Some(label)), &mut date, 94.0);
         let label = then(ui, "step");
-        field(ui, typed, ("Step", Some(label)), &mut step, 50.0);
+        field(ui, typed, ("Step", Some(label)), &mut step, 58.0);
     });
     (study.from, study.to, study.step) = (Some(Text(from)), Some(Text(to)), Some(step));
     if study.date.is_some() || !date.is_empty() {
@@ -218,11 +208,10 @@ fn study(app: &mut App, ui: &mut Ui) {
             ui.weak("The site has changed since: find them anew.");
         }
         ui.checkbox(&mut app.settings.shown.hours, "Show the hours");
-        if app.settings.shown.hours {
-            legend(ui, laid);
-        }
     }
-    probe(open, ui);
+    if open.sunlight.is_none() && open.probing.is_none() {
+        ui.weak("Click a point of the model: when does the sun reach it?");
+    }
 }
 
 /// A text that is read when it is finished.
@@ -247,73 +236,5 @@ fn field(
         && let Some((_, now)) = typed.take()
     {
         *text = now;
-    }
-}
-
-fn legend(ui: &mut Ui, laid: &Laid) {
-    let bands = &laid.bands;
-    let hours = |secs: u32| {
-        if bands.band_secs.is_multiple_of(60) {
-            format!("{}:{:02}", secs / 3600, secs / 60 % 60)
-        } else {
-            format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60)
-        }
-    };
-    ui.label(format!("Hours of shadow out of {}", hours(bands.day_secs)));
-    let entry = |band: usize| {
-        let (from, to) = bands.bounds(band);
-        (bands.colours[band], format!("{} – {}", hours(from), hours(to)))
-    };
-    let none = (crate::export::figure::scale::NO_SHADOW, "none".to_owned());
-    let entries: Vec<_> = std::iter::once(none).chain((0..bands.colours.len()).map(entry)).collect();
-    let rows = entries.len().div_ceil(2);
-    ui.horizontal_top(|ui| {
-        for column in entries.chunks(rows.max(1)) {
-            ui.vertical(|ui| {
-                ui.spacing_mut().item_spacing.y = 1.0;
-                column.iter().for_each(|(colour, what)| swatch(ui, *colour, what));
-            });
-        }
-    });
-}
-
-fn probe(open: &mut Open, ui: &mut Ui) {
-    if open.probing.is_some() {
-        ui.horizontal(|ui| {
-            ui.add(egui::Spinner::new().size(16.0));
-            ui.label("Searching the day of the point");
-        });
-    }
-    let Some(sunlight) = &open.sunlight else {
-        if open.probing.is_none() {
-            ui.weak("Click a point of the model: when does the sun reach it?");
-        }
-        return;
-    };
-    let (Some(probed), Some(day)) = (sunlight.probes.first(), sunlight.days.first()) else { return };
-    let Some(intervals) = probed.days.first() else { return };
-    ui.add_space(4.0);
-    ui.label(egui::RichText::new(format!("Sun at {}", probed.probe.name)).font(look::bold(13.5)));
-    let point = probed.probe.point;
-    ui.weak(format!("{:.2} m east, {:.2} m north, {:.2} m up", point.x, point.y, point.z).replace('-', "−"));
-    let total = secs(intervals);
-    let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);
-    ui.label(format!("{}: {} of sun", day.window.day.date, clock(total)));
-    for interval in intervals {
-        let (start, end) = (interval.start.format("%H:%M:%S"), interval.end.format("%H:%M:%S"));
-        ui.label(format!("{start} – {end}"));
-        ui.weak(format!("before: {}, after: {}", named(sunlight, interval.before), named(sunlight, interval.after)));
-    }
-    if ui.button("Forget the point").clicked() {
-        open.sunlight = None;
-    }
-}
-
-fn named(sunlight: &Sunlight, blocked: crate::profile::probe::Blocked) -> String {
-    match sunlight.name(blocked).as_str() {
-        "horizon" => "the horizon".to_owned(),
-        "behind" => "the sun is behind it".to_owned(),
-        "window" => "midnight".to_owned(),
-        name => name.to_owned(),
     }
 }

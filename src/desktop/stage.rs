@@ -2,7 +2,7 @@
 //! texture that the window shows as it is.
 
 use super::hours::Laid;
-use crate::export::figure::{Diagram, counted_colours};
+use crate::export::figure::{Colours, Diagram};
 use crate::gpu::Gpu;
 use crate::profile::Drawn;
 use crate::shadow::picture::{Picture, Style};
@@ -66,7 +66,7 @@ pub(super) struct Shown {
     /// How long that took, seconds.
     pub(super) secs: f64,
     /// What the colours of a diagram mean.
-    pub(super) legend: Option<(String, Vec<([u8; 3], String)>)>,
+    pub(super) legend: Option<Colours>,
 }
 
 /// The thread that draws, as the window knows it.
@@ -196,10 +196,10 @@ impl Shared {
         live.lay_overlay(wish.to_sun, volumes, silhouette).map_err(told)?;
         if let Some(diagram) = wish.diagram
             && let Some(counted) = live.counted(&wish.way, wish.to_sun).map_err(told)?
-            && let Some((colours, head, entries)) = counted_colours(&counted, diagram)
+            && let Some(colours) = Colours::of(&counted, diagram)
         {
-            live.picture().paint(wish.view.size(), &colours);
-            legend = Some((head, entries));
+            live.picture().paint(wish.view.size(), &colours.of_cells);
+            legend = Some(colours);
         }
         let size = wish.view.size();
         let fits = |texture: &wgpu::Texture| (texture.width(), texture.height()) == size;

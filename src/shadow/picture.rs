@@ -141,7 +141,7 @@ impl Picture {
         });
     }
 
-    /// Lays shadow volumes (layers) and silhouette (ink) over the view, rasters of its size.
+    /// Lays shadow volumes (layers) and silhouette (ink) over the view, rasters as fine or a whole number of times finer.
     pub fn lay_overlay(&mut self, size: (u32, u32), layers: Option<&[u8]>, ink: Option<&[u8]>) {
         self.overlay = [("picture.volumes", layers), ("picture.silhouette", ink)]
             .map(|(label, values)| values.map(|values| self.upload(label, size, SHARE, values)));

@@ -159,10 +159,14 @@ impl Live {
         if to_sun.z <= 0.0 || !(volumes || silhouette) {
             return Ok(());
         }
-        let seen = VolumePicture::new(Arc::clone(&self.gpu), &self.scene, camera, to_sun)?;
+        // twice as fine, so that lines are as thin as in a drawing
+        let most = self.gpu.limits.max_texture_dimension_2d;
+        let times = if camera.width.max(camera.height) * 2 <= most { 2 } else { 1 };
+        let fine = Camera { width: camera.width * times, height: camera.height * times, ..camera };
+        let seen = VolumePicture::new(Arc::clone(&self.gpu), &self.scene, fine, to_sun)?;
         let layers = volumes.then(|| seen.layers()).transpose()?;
         let ink = silhouette.then(|| seen.silhouette()).transpose()?;
-        self.picture.lay_overlay(self.view.size(), layers.as_deref(), ink.as_deref());
+        self.picture.lay_overlay((fine.width, fine.height), layers.as_deref(), ink.as_deref());
         Ok(())
     }
 

@@ -70,6 +70,9 @@ fn click_on_the_model_finds_when_the_sun_reaches_it() {
     settle(&mut harness);
     harness.get_by_label("Sun at ground");
     assert!(harness.query_all_by_label_contains("of sun").count() > 0);
+    click(&mut harness, "Keep in the site file");
+    settle(&mut harness);
+    assert_eq!(harness.state().site_file().probe.len(), 1);
     click(&mut harness, "Forget the point");
     assert!(harness.query_by_label("Sun at ground").is_none());
 }

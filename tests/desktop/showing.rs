@@ -167,3 +167,54 @@ fn eye_turns_comes_nearer_and_stands_elsewhere() {
     settle(&mut harness);
     assert_ne!(camera(&harness), nearer);
 }
+
+#[test]
+fn sun_is_dragged_along_its_day() {
+    let mut harness = window(Some(&sample("headquarters")));
+    let sun = harness.get_by_label("The sun: drag it along its day").rect().center();
+    // westwards along the arc, which from here goes to the left
+    drag(&mut harness, sun, sun - egui::vec2(110.0, -10.0));
+    settle(&mut harness);
+    let later = harness.query_by_label("Time of day: 13:00").is_none();
+    assert!(later, "the time follows the sun");
+    let azimuth = harness.state().shown().map(|(_, to_sun)| to_sun.x.atan2(to_sun.y).to_degrees().rem_euclid(360.0));
+    assert!(azimuth.is_some_and(|azimuth| azimuth > 200.0), "{azimuth:?}");
+}
+
+/// A component that is switched off casts no shadow any more, and is named in the site file.
+#[test]
+fn components_are_switched() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let before = harness.state().picture().unwrap();
+    click(&mut harness, "Components");
+    let loaded = Site::load(&site, &Overrides::default()).unwrap();
+    let name = loaded.mesh.components[0].name.clone();
+    click(&mut harness, &format!("{name} casts"));
+    settle(&mut harness);
+    assert!(before.2 != harness.state().picture().unwrap().2, "a shadow is gone");
+    let gnomon::site::file::Names::Some(casts) = harness.state().site_file().model[0].casts.clone() else {
+        panic!("some cast, not all")
+    };
+    assert_eq!(casts.len(), loaded.mesh.components.len() - 1);
+    assert!(!casts.contains(&name));
+    let switched = harness.state().picture().unwrap();
+    click(&mut harness, "In their own colours");
+    settle(&mut harness);
+    assert!(switched.2 != harness.state().picture().unwrap().2, "colours are seen");
+}
+
+/// At its smallest common size nothing is cut off: every named part of the frame lies within the window.
+#[test]
+fn nothing_is_cut_off() {
+    for theme in [egui::Theme::Light, egui::Theme::Dark] {
+        let mut harness = sized(Some(&sample("industry")), [1280.0, 720.0], theme);
+        for label in ["File", "Technique", "Window", "Study date", "step", "Find the hours", "Clock", "altitude"] {
+            let found = harness.query_all_by_label_contains(label).next();
+            let rect = found.unwrap_or_else(|| panic!("no {label}")).rect();
+            let inside = egui::Rect::from_min_size(Pos2::ZERO, egui::vec2(1280.0, 720.0)).expand(0.5);
+            assert!(inside.contains_rect(rect), "{label} is cut off: {rect:?}");
+        }
+        assert!(harness.render().is_ok());
+    }
+}

@@ -17,7 +17,7 @@ mod text;
 mod words;
 
 pub use components::of_all as component_colours;
-pub use counted::Diagram;
+pub use counted::{Colours, Diagram};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 pub use strips::strips;
@@ -30,7 +30,6 @@ use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{Counted, Mask, Overlay, Surface, View};
 use components::Components;
-use counted::Colours;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
 
@@ -161,16 +160,6 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result
             })
         }
     }
-}
-
-/// Colours of cells by what counting took, what they measure and what they mean; none where a mask is to be shown and there was
-/// none.
-pub fn counted_colours(
-    counted: &Counted,
-    diagram: Diagram,
-) -> Option<(Vec<scale::Rgb>, String, Vec<(scale::Rgb, String)>)> {
-    let colours = Colours::of(counted, diagram)?;
-    Some((colours.of_cells, colours.legend_head, colours.legend))
 }
 
 /// The colours of level ground in the sun and in the shade, before a camera.
