@@ -246,7 +246,15 @@ impl App {
                     clock.set_secs(f64::from(chrono::Timelike::num_seconds_from_midnight(&local)));
                     open.clock = clock;
                 }
+                let length = |project: &Project| {
+                    project.site.mesh.bounds().map_or(1.0, |(low, high)| (high - low).length().max(1e-6))
+                };
+                let grown = length(&project) / length(&open.project);
                 (open.project, open.number) = (project, self.loaded);
+                // another scale would leave the eye inside the model, or out of sight of it
+                if !(0.5..=2.0).contains(&grown) {
+                    self.fit(1.6);
+                }
             }
             _ => {
                 if let Some(path) = &project.path {

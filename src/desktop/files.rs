@@ -3,6 +3,7 @@
 use super::eye::{Eye, Stand};
 use super::hours::{Laid, Work};
 use super::loading::Project;
+use super::look;
 use super::settings::Settings;
 use crate::export::{figure, file};
 use crate::site::file::CameraTable;
@@ -56,6 +57,8 @@ pub(super) struct Asking {
     answer: mpsc::Receiver<Option<PathBuf>>,
     /// The dialog in the window: what is typed.
     typed: Option<String>,
+    /// It has been shown, and its field had the focus.
+    is_met: bool,
 }
 
 /// What an asking came to.
@@ -90,7 +93,7 @@ impl Asking {
             let _ = tell.send(path);
             context.request_repaint();
         });
-        Asking { purpose, begun: Instant::now(), answer, typed: None }
+        Asking { purpose, begun: Instant::now(), answer, typed: None, is_met: false }
     }
 
     /// Looks for the answer; shows the dialog in the window where the system showed none.
@@ -105,12 +108,16 @@ impl Asking {
         }
         let Some(typed) = &mut self.typed else { return Answer::None };
         let mut answer = Answer::None;
-        let modal = egui::Modal::new(egui::Id::unique("path")).show(context, |ui| {
+        let modal = look::modal(context, "path").show(context, |ui| {
             ui.set_width(520.0);
             ui.heading(self.purpose.title());
             ui.add_space(4.0);
             let label = ui.label("Path");
             let field = ui.add(egui::TextEdit::singleline(typed).desired_width(f32::INFINITY)).labelled_by(label.id);
+            if !self.is_met {
+                field.request_focus();
+                self.is_met = true;
+            }
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
             if self.purpose == Purpose::Open {
                 listing(ui, typed);

@@ -250,7 +250,7 @@ impl App {
         let Some(bare) = &mut self.bare else { return };
         let mut goes = false;
         let mut closes = false;
-        let modal = egui::Modal::new(egui::Id::unique("place")).show(context, |ui| {
+        let modal = look::modal(context, "place").show(context, |ui| {
             ui.set_width(420.0);
             ui.heading("Where does it stand?");
             ui.label(format!("{} is a model, and says not where.", name_of(&bare.path)));
@@ -260,6 +260,10 @@ impl App {
                 let field =
                     egui::TextEdit::singleline(&mut bare.place).hint_text("48.2082, 16.3738").desired_width(220.0);
                 let response = ui.add(field).labelled_by(label.id);
+                // the first thing that is to be said, and the only one that must be
+                if ui.memory(|memory| memory.focused().is_none()) && bare.place.is_empty() {
+                    response.request_focus();
+                }
                 goes |= response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
                 ui.end_row();
                 let label = ui.label("Model north");

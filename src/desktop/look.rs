@@ -19,6 +19,12 @@ pub(super) fn bold(size: f32) -> FontId {
     FontId::new(size, FontFamily::Name("bold".into()))
 }
 
+/// A dialog, with air around what it says.
+pub(super) fn modal(context: &egui::Context, name: &str) -> egui::Modal {
+    let frame = egui::Frame::popup(&context.global_style()).inner_margin(16.0);
+    egui::Modal::new(egui::Id::unique(name)).frame(frame)
+}
+
 /// The accent of a theme.
 pub(super) fn accent(visuals: &egui::Visuals) -> Color32 {
     if visuals.dark_mode { ACCENT_ON_DARK } else { ACCENT }

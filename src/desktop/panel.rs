@@ -87,8 +87,9 @@ fn place(app: &mut App, ui: &mut Ui) {
         if ui.add(drag).labelled_by(label).changed() {
             table.elevation = Some(value);
         }
-        if let [model] = app.settings.site.model.as_mut_slice() {
-            let label = then(ui, "Model north");
+    });
+    if let [model] = app.settings.site.model.as_mut_slice() {
+        row(ui, "Model north", |ui, label| {
             let mut north = model.north.unwrap_or_default();
             let drag = egui::DragValue::new(&mut north).speed(0.5).range(-360.0..=360.0).suffix("°").max_decimals(3);
             let response = ui.add(drag).labelled_by(label);
@@ -96,8 +97,15 @@ fn place(app: &mut App, ui: &mut Ui) {
             if response.changed() {
                 model.north = Some(north).filter(|north| *north != 0.0);
             }
-        }
-    });
+            let label = then(ui, "scale");
+            let mut scale = model.scale.unwrap_or(1.0);
+            let drag = egui::DragValue::new(&mut scale).speed(0.01).range(1e-6..=1e6).max_decimals(6);
+            let response = ui.add(drag).labelled_by(label).on_hover_text("Metres a unit of the model");
+            if response.changed() {
+                model.scale = Some(scale).filter(|scale| *scale != 1.0);
+            }
+        });
+    }
 }
 
 fn shadows(app: &mut App, ui: &mut Ui) {
