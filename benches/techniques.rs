@@ -1,4 +1,4 @@
-//! The techniques side by side: `cargo bench --bench techniques`. Prints tables in Markdown.
+//! The techniques side by side: `cargo bench --bench techniques [-- SCENE]`. Prints tables in Markdown.
 //!
 //! Per scene and size of map: milliseconds of a shadow map (fast 2×2), the hybrid, the stencil and smoothies, split by the
 //! adapter's passes; and how many fragments reach the count with and without the hybrid's mask. Techniques take turns at
@@ -45,9 +45,11 @@ fn main() {
     let with_passes = gpu.time_passes().is_ok();
     println!("adapter: {}\n", gpu.name());
     let mut tables = Tables::default();
-    for case in cases() {
+    // only scenes whose names hold what is asked for
+    let asked: Vec<_> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    for case in cases().iter().filter(|case| asked.iter().all(|word| case.name.contains(word))) {
         for map_size in MAP_SIZES {
-            tables.measure(&gpu, &case, map_size);
+            tables.measure(&gpu, case, map_size);
         }
     }
     tables.print(with_passes);
@@ -84,7 +86,13 @@ fn cases() -> Vec<Case> {
         camera: Camera { eye: dvec3(70.0, -110.0, 60.0), target: dvec3(-6.0, 6.0, 6.0), ..dense::curved().camera },
         to_sun: dense::curved().to_sun,
     };
-    let of_camera = [("cage", dense::cage()), ("tree", dense::tree()), ("dome", dome), ("ring", dense::curved())];
+    let of_camera = [
+        ("cage", dense::cage(0.4)),
+        ("wide cage", dense::cage(0.85)),
+        ("tree", dense::tree()),
+        ("dome", dome),
+        ("ring", dense::curved()),
+    ];
     cases.extend(of_camera.map(|(name, dense)| built(name, dense)));
     cases
 }

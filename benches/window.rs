@@ -1,5 +1,5 @@
 //! How soon a picture follows the hand: the view's own picture on all three sites, for a sun that moves, for an eye that
-//! moves, and whole. `cargo bench --bench window`; the numbers are kept in `docs/benchmarks/desktop.md`.
+//! moves, in milliseconds. `cargo bench --bench window` prints a table.
 
 use gnomon::gpu::Gpu;
 use gnomon::shadow::picture::{Picture, Style};

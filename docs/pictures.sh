@@ -29,6 +29,12 @@ profile() {
     shrink "$drawn/profile/profile.png" "$1"
 }
 
+# PICTURE SITE: the hours of sun on the site's surfaces.
+surfaces() {
+    "$GNOMON" profile "sites/$2" --receivers surfaces --write png --out "$drawn/profile"
+    shrink "$drawn/profile/surfaces.png" "$1"
+}
+
 # PICTURE SITE FIRST LAST: when the site's probes lie in the sun, from the first date to the last.
 probes() {
     "$GNOMON" probe "sites/$2" --from-date "$3" --to-date "$4" --out "$drawn/sheet.png" --quiet > /dev/null
@@ -49,6 +55,7 @@ camera sites/headquarters/picture.png headquarters 2026-09-18T15:00
 camera docs/pictures/headquarters-parts.png headquarters/facade-and-concrete.toml 2026-09-18T15:00 --show components
 camera docs/pictures/headquarters-components.png headquarters 2026-09-18T15:00 --show components
 profile docs/pictures/headquarters-profile.png headquarters
+surfaces docs/pictures/headquarters-surfaces.png headquarters
 probes docs/pictures/headquarters-probes.png headquarters 2026-01-01 2026-12-31
 
 # The comparison sheets after Brabec and Seidel and after Chan's thesis. The milliseconds in some of their

@@ -2,6 +2,8 @@
 
 @group(3) @binding(1) var receivers_depth: texture_depth_2d;
 @group(3) @binding(2) var smoothies: texture_2d<f32>;
+// The same for what lies behind receivers that shade nothing.
+@group(3) @binding(3) var smoothies_beyond: texture_2d<f32>;
 
 const PI: f32 = 3.14159265;
 
@@ -86,9 +88,28 @@ fn ground_at(at: vec2f) -> f32 {
     return sum;
 }
 
-// How much of the light is seen, and how deep the edge lies.
+// How deep what the light falls on first lies.
+fn receiver_at(at: vec2f) -> f32 {
+    return min(receiver_beyond(at), metres_of(textureLoad(receivers_depth, vec2i(at), 0)));
+}
+
+// The same without receivers that shade nothing: casters and the ground.
+fn receiver_beyond(at: vec2f) -> f32 {
+    return min(metres_of(textureLoad(map_depth, vec2i(at), 0)), ground_at(at));
+}
+
 @fragment
 fn alpha(smoothie: Smoothie) -> @location(0) vec4f {
+    return alpha_on(smoothie, receiver_at(smoothie.position.xy));
+}
+
+@fragment
+fn alpha_beyond(smoothie: Smoothie) -> @location(0) vec4f {
+    return alpha_on(smoothie, receiver_beyond(smoothie.position.xy));
+}
+
+// How much of the light is seen on a receiver so deep, and how deep the edge lies.
+fn alpha_on(smoothie: Smoothie, receiver: f32) -> vec4f {
     let edge = smoothie.end.xy - smoothie.start.xy;
     let at = metric(smoothie.position.xy);
     let share = clamp(dot(at - smoothie.start.xy, edge) / dot(edge, edge), 0.0, 1.0);
@@ -97,10 +118,6 @@ fn alpha(smoothie: Smoothie) -> @location(0) vec4f {
         // in perspective it is the inverse that is linear
         nearest.z = 1.0 / mix(1.0 / smoothie.start.z, 1.0 / smoothie.end.z, share);
     }
-    let texel = vec2i(smoothie.position.xy);
-    let ground = ground_at(smoothie.position.xy);
-    let blockers = metres_of(textureLoad(map_depth, texel, 0));
-    let receiver = min(min(blockers, metres_of(textureLoad(receivers_depth, texel, 0))), ground);
     let remapped_width = penumbra(nearest.z, receiver);
     // behind a blocker, or so near to its receiver that the edge is hard
     if remapped_width <= hair() {
@@ -123,9 +140,13 @@ fn seen_past(cell: Cell, texel: vec2i) -> f32 {
     if shaded(cell, texel) {
         return 0.0;
     }
-    let smoothie = textureLoad(smoothies, texel, 0);
     let slope = abs(cell.slope.x) + abs(cell.slope.y);
-    let is_behind = smoothie.y < cell.at.z - rounding(cell) - slope;
+    let before_cell = cell.at.z - rounding(cell) - slope;
+    var smoothie = textureLoad(smoothies, texel, 0);
+    if metres_of(textureLoad(receivers_depth, texel, 0)) < before_cell {
+        smoothie = textureLoad(smoothies_beyond, texel, 0);
+    }
+    let is_behind = smoothie.y < before_cell;
     return select(1.0, smoothie.x, is_behind);
 }
 

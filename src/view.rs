@@ -3,6 +3,7 @@
 //! Rasters are north up: row 0 is north, column 0 is west, and a cell is judged at its centre.
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
+use rayon::prelude::*;
 
 /// The plan's raster: square cells from the north-west corner, in metres of the world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -176,6 +177,45 @@ pub struct Mask {
     pub height: u32,
     /// Per cell the share of the sun that is seen, in 1/255, row 0 first.
     pub share: Vec<u8>,
+}
+
+/// Which cells are in shadow, where the sun is a point: one bit a cell.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bits {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// 1 in shadow, 0 where the sun is seen; each row begins a word of its own, and its first cell is the lowest bit. What a
+    /// row leaves over of its last word is 0.
+    pub words: Vec<u64>,
+}
+
+impl Bits {
+    /// No cell is in shadow.
+    pub fn new(width: u32, height: u32) -> Bits {
+        let words = vec![0; width.div_ceil(64) as usize * height as usize];
+        Bits { width, height, words }
+    }
+
+    /// Words of a row.
+    pub fn in_row(&self) -> usize {
+        self.width.div_ceil(64) as usize
+    }
+
+    /// The same with a byte a cell.
+    pub fn mask(&self) -> Mask {
+        let mut share = vec![0; self.width as usize * self.height as usize];
+        let rows = share.par_chunks_mut(self.width as usize).zip(self.words.par_chunks(self.in_row()));
+        rows.for_each(|(shares, words)| {
+            for (shares, word) in shares.chunks_mut(64).zip(words) {
+                for (at, share) in shares.iter_mut().enumerate() {
+                    *share = if word >> at & 1 == 1 { 0 } else { 255 };
+                }
+            }
+        });
+        Mask { width: self.width, height: self.height, share }
+    }
 }
 
 /// What decided a cell's share, where a map decides some and volumes the others.

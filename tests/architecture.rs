@@ -13,7 +13,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("volume", &["mesh", "silhouette"]),
     ("gpu", &[]),
     ("shadow", &["mesh", "sun", "view", "silhouette", "volume", "gpu"]),
-    ("profile", &["sun", "view", "gpu", "shadow"]),
+    ("profile", &["mesh", "sun", "view", "gpu", "shadow"]),
     ("study", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
     ("export", &["mesh", "sun", "view", "site", "volume", "profile"]),
     ("cli", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export"]),

@@ -1,5 +1,6 @@
 //! The command, driven as its users drive it: files, streams and exit statuses.
 
+mod surfaces;
 mod techniques;
 
 use crate::model::{F32, Model, U16};
@@ -104,7 +105,7 @@ fn write_chooses_the_files() {
     assert_eq!(names(folder.path().join("a")), ["shadow-hours.tif"]);
     done(folder.path(), "profile . --engine cpu --size 32 --write json,png --out deep/b");
     assert_eq!(names(folder.path().join("deep/b")), ["profile.json", "profile.png"]);
-    fails(folder.path(), "profile . --write svg", 2, &["svg", "--write", "png, tif, json"]);
+    fails(folder.path(), "profile . --write svg", 2, &["svg", "--write", "png, tif, glb, csv, json"]);
 }
 
 #[test]
@@ -159,7 +160,7 @@ fn mistakes_are_told_in_one_line() {
     fails(path, "profile none.toml", 1, &["none.toml", "cannot be read"]);
     fails(path, "profile . --date 2026-02-30", 2, &["--date", "2026-02-30"]);
     fails(path, "profile . --tehnique auto", 2, &["--tehnique", "--technique", "--help"]);
-    fails(path, "profile . --technique soft-texture", 2, &["soft-texture", "not there yet"]);
+    fails(path, "profile . --technique soft-texture", 2, &["--technique", "--receivers surfaces"]);
     fails(path, "profile . --engine gup", 2, &["gup", "gpu"]);
     fails(path, "profile tower.glb", 2, &["--place LAT,LON"]);
     fails(path, "profile tower.glb --place 98,2 --date 2026-09-18", 2, &["--place", "-90"]);

@@ -14,9 +14,9 @@ pub(crate) struct Dense {
     pub(crate) to_sun: DVec3,
 }
 
-/// A room of 8 × 7 × 4 m without a roof: two walls, and bars before its open sides and over it. The camera stands in it,
-/// and so in the volumes.
-pub(crate) fn cage() -> Dense {
+/// A room of 8 × 7 × 4 m without a roof: two walls, and bars before its open sides and over it, so many metres apart: 0.4
+/// for an overdraw of 109, 0.85 for one of 52. The camera stands in it, and so in the volumes.
+pub(crate) fn cage(pitch: f64) -> Dense {
     let (low, high) = (dvec3(-4.0, -3.5, 0.0), dvec3(4.0, 3.5, 4.0));
     let floor = slab("floor", low, dvec3(high.x, high.y, 0.05));
     let north = slab("north wall", dvec3(low.x, high.y, 0.0), dvec3(high.x, high.y + 0.2, high.z));
@@ -28,24 +28,21 @@ pub(crate) fn cage() -> Dense {
         let count = (length / pitch) as u32;
         (1..=count).map(move |index| length * (f64::from(index) - 0.47) / f64::from(count))
     };
-    for x in places(across, PITCH).map(|x| low.x + x) {
+    for x in places(across, pitch).map(|x| low.x + x) {
         bar(dvec3(x, low.y, high.z), dvec3(x, high.y, high.z));
         bar(dvec3(x, low.y, 0.1), dvec3(x, low.y, high.z));
     }
-    for y in places(along, PITCH).map(|y| low.y + y) {
+    for y in places(along, pitch).map(|y| low.y + y) {
         bar(dvec3(low.x, y, high.z + 0.05), dvec3(high.x, y, high.z + 0.05));
         bar(dvec3(low.x, y, 0.1), dvec3(low.x, y, high.z));
     }
-    for z in places(up, PITCH).map(|z| low.z + z) {
+    for z in places(up, pitch).map(|z| low.z + z) {
         bar(dvec3(low.x, low.y - 0.05, z), dvec3(high.x, low.y - 0.05, z));
         bar(dvec3(low.x - 0.05, low.y, z), dvec3(low.x - 0.05, high.y, z));
     }
     let camera = camera(dvec3(-3.2, -2.9, 1.7), dvec3(1.6, 1.7, 1.25), 65.0);
     Dense { parts: vec![floor, north, east, bars], camera, to_sun: to_sun(222.0, 41.0) }
 }
-
-/// From bar to bar, metres.
-const PITCH: f64 = 0.4;
 
 /// A tree without leaves, 13 m high: a trunk and four orders of branches, each a thin closed prism, turned from its
 /// neighbour by the golden angle.

@@ -3,7 +3,7 @@
 mod cameras;
 mod compare;
 mod counts;
-mod dirty;
+pub(crate) mod dirty;
 pub(crate) mod scenes;
 
 use glam::{DVec3, dvec3};
@@ -51,7 +51,7 @@ fn agree(name: &str, scene: &Scene, view: View, suns: &[DVec3], edge_share: f64)
 pub(crate) fn scene_of(mesh: &Mesh, receivers: Receivers, ground: f64) -> Scene {
     let none = vec![false; mesh.components.len()];
     let receivers = match receivers {
-        Receivers::Top => mesh.clone(),
+        Receivers::Top | Receivers::Surfaces => mesh.clone(),
         Receivers::Ground => mesh.of_components(&none),
     };
     Scene { casters: mesh.clone(), receivers, ground }

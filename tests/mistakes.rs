@@ -44,7 +44,6 @@ fn mistakes_in_the_site_file_are_told() {
     told("\"30min\"", "\"30\"", &["[study] step", "30min"]);
     told("\"30min\"", "\"0s\"", &["[study] step", "30min"]);
     told("\"30min\"", "\"30min\"\ntechnique = \"ray\"", &["[study] technique", "ray-cast"]);
-    told("\"30min\"", "\"30min\"\ntechnique = \"soft-texture\"", &["[study] technique", "not there yet"]);
     told("tower.glb", "towr.glb", &["[[model]] path", "towr.glb"]);
     told("path = \"tower.glb\"", "", &["path in [[model]]", "tower.glb"]);
     told("casts = [\"iron\"]", "casts = 1", &["[[model]] casts", "true, false or a list"]);

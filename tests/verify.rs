@@ -6,9 +6,9 @@ use crate::site::{SITE, load};
 use glam::{DVec3, dvec3};
 use gnomon::export::verify as told;
 use gnomon::mesh::Mesh;
-use gnomon::profile::Drawn;
 use gnomon::profile::compare::{Difference, Edges, is_edge_cell};
 use gnomon::profile::verify::{HoursOff, Promise, Truth, Verification};
+use gnomon::profile::{Drawn, DrawnSettings};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{DrawnMask, ShadowError, Technique};
 use gnomon::site::{Overrides, Receivers, Settings, Site};
@@ -140,7 +140,13 @@ fn trial(site: &Site, promise: Promise, cells: Vec<usize>, decided: Decided) -> 
     let scene = gnomon::shadow::Scene { receivers: casters.of_components(&[]), casters, ground: site.ground };
     let rays = RayCast::new(scene, View::Plan(site.grid), None);
     let mask = Mask { width: 0, height: 0, share: Vec::new() };
-    let drawn = Drawn { technique: "wrong", silhouette: None, engine: "cpu", adapter: None };
+    let drawn = Drawn {
+        technique: "wrong",
+        silhouette: None,
+        engine: "cpu",
+        adapter: None,
+        settings: DrawnSettings::default(),
+    };
     Trial { drawn, against: Truth::Centre, promise, technique: Box::new(Wrong { rays, mask, cells, decided }) }
 }
 
@@ -210,6 +216,12 @@ fn a_box_is_verified_as_a_table_and_as_json() {
         assert_eq!(table.lines().filter(|line| line.starts_with(&format!("{row} "))).count(), 1, "{table}");
     }
     assert_eq!(table.matches("  holds\n").count(), 3, "{table}");
+    assert!(
+        table.contains(", silhouettes hextree\nmaps of 2048 × 2048 texels, shadow-map filtered fast-2x2\n"),
+        "{table}"
+    );
+    let on_gpu = done(folder.path(), "verify . --size 50 --sun-samples 1 --step 1h --silhouette gpu");
+    assert!(on_gpu.contains(", silhouettes gpu; smoothie hextree\n"), "{on_gpu}");
     assert!(table.lines().all(|line| line.chars().count() <= 120), "{table}");
 
     let options =
@@ -223,6 +235,7 @@ fn a_box_is_verified_as_a_table_and_as_json() {
     assert_eq!((&json["instants_compared"], &json["sun_samples"], &json["cell"]), (&1.into(), &4.into(), &1.0.into()));
     let rows = json["techniques"].as_array().unwrap();
     let row = |name: &str| rows.iter().find(|row| row["technique"] == name).unwrap();
+    assert_eq!((&row("shadow-map")["map_size"], &row("shadow-map")["pcf"]), (&256.into(), &"none".into()));
     assert_eq!((&row("stencil")["against"], &row("stencil")["silhouette"]), (&"centre".into(), &"brute".into()));
     assert_eq!((&row("smoothie")["against"], &row("smoothie")["holds"]), (&"disc".into(), &Value::Null));
     assert_eq!((&row("ray-cast")["cells"], &row("ray-cast")["holds"]), (&200.into(), &true.into()));

@@ -26,7 +26,7 @@ pub(crate) fn bars(gpu: &Arc<Gpu>) -> Result<Sheet> {
         let instants: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
         stages.push((name, Stage::of(gpu, scene, view, instants[instants.len() / 2].to_sun)?));
     }
-    stages.push(("cage", stage(gpu, dense::cage())?));
+    stages.push(("cage", stage(gpu, dense::cage(0.4))?));
     stages.push(("tree", stage(gpu, dense::tree())?));
     stages.push(("ring", stage(gpu, dense::curved())?));
 

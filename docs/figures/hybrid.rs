@@ -86,7 +86,7 @@ pub(crate) fn mask(gpu: &Arc<Gpu>) -> Result<Sheet> {
 /// Figure 3-9.
 pub(crate) fn overdraw(gpu: &Arc<Gpu>) -> Result<Sheet> {
     let mut rows = Vec::new();
-    for (head, dense) in [("Cage", dense::cage()), ("Tree", dense::tree())] {
+    for (head, dense) in [("Cage", dense::cage(0.4)), ("Tree", dense::tree())] {
         let stage = stage(gpu, dense)?;
         let seen = stage.shaded(&stage.mask(&mut stage.stencil()?)?).shrunk(3);
         let all = counted(&stage, &mut stage.stencil()?)?;
@@ -183,7 +183,7 @@ pub(crate) fn artifacts(gpu: &Arc<Gpu>) -> Result<Sheet> {
 /// Figure 3-7.
 pub(crate) fn beside(gpu: &Arc<Gpu>) -> Result<Sheet> {
     let mut rows = Vec::new();
-    for (head, dense, middle) in [("Cage", dense::cage(), dvec3(3.9, 1.2, 0.1)), ("Tree", dense::tree(), SHADOW)] {
+    for (head, dense, middle) in [("Cage", dense::cage(0.4), dvec3(3.9, 1.2, 0.1)), ("Tree", dense::tree(), SHADOW)] {
         let stage = stage(gpu, dense)?;
         let detail = stage.around(middle, 142, 88);
         let (mut whole, mut below) = (Row { head: head.into(), ..Row::default() }, Row::default());

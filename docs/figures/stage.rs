@@ -141,7 +141,7 @@ impl Stage {
             }
             let (card, normal) = match face {
                 Surface::GROUND => (DVec3::new(0.955, 0.935, 0.89), DVec3::Z),
-                face => (DVec3::splat(0.99), seen_normal(self.scene.receivers.planes[face as usize], viewer)),
+                face => (DVec3::splat(0.99), seen_normal(self.scene.receivers.planes()[face as usize], viewer)),
             };
             // sides are told apart in the shade too
             let sky = 0.47 + 0.09 * normal.z + 0.05 * normal.x - 0.03 * normal.y;

@@ -1,5 +1,6 @@
 //! The options, as the user writes them. Each stands with the subcommands that use it, and nowhere else.
 
+use super::WrongUse;
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
@@ -93,10 +94,16 @@ pub(super) struct WindowArgs {
     /// The study's date: 2026-09-18
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     date: Option<String>,
-    /// Its beginning: 10:00, sunrise+1h30
+    /// Several days instead, with the same window on each: the first one. With --to-date
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    from_date: Option<String>,
+    /// The last of them, at most ten years later
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    to_date: Option<String>,
+    /// Its beginning: 10:00, sunrise+1h30 [default: with several days the whole of each]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     from: Option<String>,
-    /// Its end: 14:00, sunset-1h30
+    /// Its end: 14:00, sunset-1h30 [default: as --from]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     to: Option<String>,
     /// From instant to instant: 30min, 1h, 1h30, 90s
@@ -164,7 +171,7 @@ pub(super) struct PlanArgs {
     /// Cells along the longer side [default: 2048]
     #[arg(long, value_name = "PIXELS", allow_negative_numbers = true)]
     size: Option<u32>,
-    /// What is judged: top (the highest surface, ground included) or ground
+    /// What is judged: top (the highest surface, ground included), ground, or with profile surfaces (walls and roofs)
     #[arg(long, value_name = "NAME")]
     receivers: Option<Receivers>,
 }
@@ -191,19 +198,23 @@ pub(super) struct ProfileArgs {
     #[command(flatten)]
     draw: DrawArgs,
     #[command(flatten)]
-    plan: PlanArgs,
+    pub(super) plan: PlanArgs,
+    /// With --receivers surfaces: side of a texel on them, metres; larger where they would be too many [default: 0.25]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    patch_cell: Option<f64>,
     /// The folder for the files
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub(super) out: PathBuf,
     /// Also every instant's bare mask, as mask-0000.png … in this folder
     #[arg(long, value_name = "DIR")]
     pub(super) masks: Option<PathBuf>,
-    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells
+    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
+    /// cells, those of the sky too)
     #[arg(long)]
     pub(super) stats: bool,
-    /// Which files
-    #[arg(long, value_name = "png,tif,json", value_delimiter = ',', default_value = "png,tif,json")]
-    pub(super) write: Vec<Written>,
+    /// Which files [default: png,tif,json; with --receivers surfaces png,glb,csv,json]
+    #[arg(long, value_name = "png,tif,json", value_delimiter = ',')]
+    write: Vec<Written>,
     #[command(flatten)]
     pub(super) common: Common,
 }
@@ -213,6 +224,8 @@ pub(super) struct ProfileArgs {
 pub(super) enum Written {
     Png,
     Tif,
+    Glb,
+    Csv,
     Json,
 }
 
@@ -230,7 +243,8 @@ pub(super) struct ShadowArgs {
     draw: DrawArgs,
     #[command(flatten)]
     pub(super) plan: PlanArgs,
-    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells
+    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
+    /// cells, those of the sky too)
     #[arg(long)]
     pub(super) stats: bool,
     /// From above, or in perspective
@@ -337,8 +351,9 @@ impl SiteArgs {
 
 impl WindowArgs {
     fn onto(&self, asked: Overrides) -> Overrides {
-        let [date, from, to, step] = [&self.date, &self.from, &self.to, &self.step].map(Clone::clone);
-        Overrides { date, from, to, step, ..asked }
+        let [date, from_date, to_date, from, to, step] =
+            [&self.date, &self.from_date, &self.to_date, &self.from, &self.to, &self.step].map(Clone::clone);
+        Overrides { date, from_date, to_date, from, to, step, ..asked }
     }
 }
 
@@ -372,7 +387,19 @@ impl PlanArgs {
 
 impl ProfileArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())))
+        let asked = self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())));
+        Overrides { patch_cell: self.patch_cell, ..asked }
+    }
+
+    /// The files asked, of those that there can be; all of them where none is named.
+    pub(super) fn wanted(&self, possible: &[Written]) -> Result<Vec<Written>, WrongUse> {
+        let word = |kind: &Written| kind.to_possible_value().map_or_else(String::new, |it| it.get_name().to_owned());
+        if let Some(kind) = self.write.iter().find(|kind| !possible.contains(kind)) {
+            let known: Vec<_> = possible.iter().map(word).collect();
+            let what = format!("--write {}: these receivers have {}; take one of them", word(kind), known.join(", "));
+            return Err(WrongUse(what));
+        }
+        Ok(if self.write.is_empty() { possible.to_vec() } else { self.write.clone() })
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::arguments::{CheckArgs, Eye, ProfileArgs, ShadowArgs, Show, SunArgs, Written};
 use super::progress::Progress;
-use super::{WrongUse, interrupt, say};
+use super::{WrongUse, interrupt, say, surfaces};
 use crate::export::figure::Diagram;
 use crate::export::report::Told;
 use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Profile, Statistics};
-use crate::site::{Method, Site, load_mesh, load_sun};
+use crate::site::{Method, Receivers, Site, load_mesh, load_sun};
 use crate::study::{self, Event, InstantWants, Stopwatch, Wants};
 use crate::sun::SunTrack;
 use crate::view::View;
@@ -20,13 +20,17 @@ use std::path::{Path, PathBuf};
 pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let mut watch = Stopwatch::start();
     let site = Site::load(&asked.site.path, &asked.overrides())?;
+    if site.receivers == Receivers::Surfaces {
+        return surfaces::profile(asked, &site, watch);
+    }
+    let kinds = asked.wanted(&[Written::Png, Written::Tif, Written::Json])?;
     // A folder that cannot be written to is told before the work, not after it.
     for folder in [Some(&asked.out), asked.masks.as_ref()].into_iter().flatten() {
         file::check_folder(folder)?;
     }
     watch.lap("load");
 
-    let wanted = |kind| asked.write.contains(&kind);
+    let wanted = |kind| kinds.contains(&kind);
     let wants = Wants { masks: asked.masks.is_some(), surface: wanted(Written::Png), statistics: asked.stats };
     let outcome = draw_masks(&site, &wants, asked)?;
     watch.laps(outcome.timings);
@@ -139,7 +143,11 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         surface: out.is_some(),
         volumes: shows(Show::Volumes),
         silhouette: shows(Show::Silhouette),
-        counted: asked.stats || diagram.is_some(),
+        counted: match diagram {
+            Some(Diagram::Mask) => Some("--show mask"),
+            Some(Diagram::Overdraw) => Some("--show overdraw"),
+            None => asked.stats.then_some("--stats"),
+        },
     };
     let mut progress = Progress::new(asked.common.quiet);
     let outcome = study::instant(&site, view, &wants, &mut |event| {
@@ -197,14 +205,14 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
     }
 }
 
-/// What counting took, in a line.
+/// What counting took, in a line; cells are all of the picture's, those of the sky too.
 fn took(statistics: &Statistics) -> String {
     let [with, without] = statistics.overdraw();
     let cells = statistics.cells.max(1) as f64;
     match statistics.silhouette_cells {
         None => format!("overdraw: {without:.1} fragments of shadow volumes a cell\n"),
         Some(silhouette) => format!(
-            "silhouette cells: {:.2}%; overdraw: {with:.2} fragments of shadow volumes a cell, {without:.1} without the mask\n",
+            "silhouette cells: {:.2}% of all; overdraw: {with:.2} fragments of shadow volumes a cell, {without:.1} without the mask\n",
             100.0 * silhouette as f64 / cells
         ),
     }
@@ -232,7 +240,7 @@ pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
 }
 
 /// What drew, in a line.
-fn drawn_by(drawn: &Drawn) -> String {
+pub(super) fn drawn_by(drawn: &Drawn) -> String {
     let mut line = format!("{} on the {}", drawn.technique, drawn.engine);
     if let Some(adapter) = &drawn.adapter {
         let _ = write!(line, " ({adapter})");

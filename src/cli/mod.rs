@@ -7,6 +7,7 @@ mod commands;
 mod interrupt;
 mod probe;
 mod progress;
+mod surfaces;
 mod verify;
 mod volumes;
 
@@ -121,7 +122,9 @@ fn refuse(error: &clap::Error) -> ExitCode {
         _ => {
             let text = error.to_string();
             let told = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
-            let told: Vec<_> = told.filter(|line| !line.is_empty() && !line.starts_with("For more")).collect();
+            // that an option could be a value is no way out
+            let idle = |line: &str| ["For more", "tip: to pass"].iter().any(|idle| line.starts_with(idle));
+            let told: Vec<_> = told.filter(|line| !line.is_empty() && !idle(line)).collect();
             let told = told.join("; ").replace("error: ", "").replace(":; ", ": ").replace("tip: ", "");
             complain(&format!("{told}; --help says more"));
         }

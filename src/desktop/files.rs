@@ -5,6 +5,7 @@ use super::hours::{Laid, Work};
 use super::loading::Project;
 use super::look;
 use super::settings::Settings;
+use crate::export::figure::Diagram;
 use crate::export::{figure, file};
 use crate::site::file::CameraTable;
 use crate::site::{Method, Overrides, Site, Written, model};
@@ -240,7 +241,7 @@ pub(super) fn drawing(
     Work::start(context, move |on_event| {
         let is_plan = eye.stand == Stand::Plan;
         let method = match shown.method {
-            Method::Projected => Method::Auto,
+            Method::Projected | Method::SoftTexture => Method::Auto,
             // volumes and silhouette are the stencil's
             _ if (shown.volumes || shown.silhouette) && !is_plan => Method::Stencil,
             method => method,
@@ -254,7 +255,10 @@ pub(super) fn drawing(
             surface: true,
             volumes: shown.volumes && !is_plan,
             silhouette: shown.silhouette && !is_plan,
-            counted: shown.diagram.is_some() && super::view::counts(method),
+            counted: shown.diagram.filter(|_| super::view::counts(method)).map(|diagram| match diagram {
+                Diagram::Mask => "--show mask",
+                Diagram::Overdraw => "--show overdraw",
+            }),
         };
         let outcome = study::instant(&site, view, &wants, on_event)?;
         let Some(surface) = &outcome.surface else { anyhow::bail!("what is seen is not there") };

@@ -5,7 +5,7 @@ use super::eye::Stand;
 use super::files::{self, Purpose};
 use super::loading::{Wanted, name_of};
 use super::look;
-use super::time::Play;
+use super::time::{Play, steps};
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers, ThemePreference, Ui};
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
@@ -38,13 +38,11 @@ impl App {
         }
         let free = context.memory(|memory| memory.focused().is_none());
         let Some(open) = self.open.as_mut().filter(|_| free) else { return };
-        let steps = |back, on| context.input(|input| input.num_presses(on) as i64 - input.num_presses(back) as i64);
-        let many = if context.input(|input| input.modifiers.shift) { 12 } else { 1 };
-        let minutes = steps(Key::ArrowLeft, Key::ArrowRight) * 5 * many;
+        let minutes = steps(context, Key::ArrowLeft, Key::ArrowRight, 12) * 5;
         if minutes != 0 {
             open.clock.step_secs(minutes * 60);
         }
-        let days = steps(Key::ArrowDown, Key::ArrowUp) * if many > 1 { 30 } else { 1 };
+        let days = steps(context, Key::ArrowDown, Key::ArrowUp, 30);
         if days != 0 {
             open.clock.step_days(days);
         }

@@ -203,7 +203,7 @@ fn complete(site: &mut SiteFile) {
     let study = &mut site.study;
     let from = study.from.get_or_insert_with(|| Text("9:00".to_owned()));
     let dated = from.0.contains('T') || from.0.matches('-').count() >= 2;
-    if !dated {
+    if !dated && study.dates.is_none() {
         study.date.get_or_insert_with(|| Text("2026-03-21".to_owned()));
     }
     study.to.get_or_insert_with(|| Text("17:00".to_owned()));

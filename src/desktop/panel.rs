@@ -17,6 +17,7 @@ fn good_for(method: Method) -> &'static str {
         Method::ShadowMap => "A quick look: edges as coarse as a texel of its map.",
         Method::Hybrid => "Exact but for parts thinner than a texel; quick where many thin parts cast.",
         Method::Smoothie => "The soft edge of a real sun; shadows are a little too large.",
+        Method::SoftTexture => "Hours on façades and roofs, for gnomon profile --receivers surfaces.",
         Method::RayCast => "Exact, on the processor; also with the sun as a disc.",
     }
 }
@@ -115,7 +116,8 @@ fn shadows(app: &mut App, ui: &mut Ui) {
     row(ui, "Technique", |ui, label| {
         let list = egui::ComboBox::from_id_salt("technique").selected_text(shown.method.word());
         let response = list.width(ui.available_width()).show_ui(ui, |ui| {
-            for (word, method) in Method::WORDS {
+            let choices = Method::WORDS.iter().filter(|(_, method)| *method != Method::SoftTexture);
+            for (word, method) in choices {
                 let entry = ui.selectable_value(&mut shown.method, *method, *word);
                 entry.on_hover_text(good_for(*method));
             }
@@ -123,8 +125,8 @@ fn shadows(app: &mut App, ui: &mut Ui) {
         response.response.labelled_by(label);
     });
     ui.weak(good_for(shown.method));
-    if shown.method == Method::Projected && !is_plan {
-        ui.weak("This view is no plan: auto draws it.");
+    if !view::draws(shown.method, is_plan) {
+        ui.weak("Not this view's: auto draws it.");
     }
     if view::casts_rays(shown.method, software) {
         ui.checkbox(&mut shown.disc, "The sun as a disc: soft edges");
@@ -178,12 +180,22 @@ fn study(app: &mut App, ui: &mut Ui) {
         let label = then(ui, "to");
         field(ui, typed, ("To", Some(label)), &mut to, 70.0);
     });
-    row(ui, "Study date", |ui, label| {
-        ui.spacing_mut().item_spacing.x = 5.0;
-        field(ui, typed, ("Study date", Some(label)), &mut date, 94.0);
-        let label = then(ui, "step");
-        field(ui, typed, ("Step", Some(label)), &mut step, 58.0);
-    });
+    if let Some([Text(first), Text(last)]) = &mut study.dates {
+        row(ui, "Study days", |ui, label| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            field(ui, typed, ("First day", Some(label)), first, 82.0);
+            let label = then(ui, "to");
+            field(ui, typed, ("Last day", Some(label)), last, 82.0);
+        });
+        row(ui, "Step", |ui, label| field(ui, typed, ("Step", Some(label)), &mut step, 58.0));
+    } else {
+        row(ui, "Study date", |ui, label| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            field(ui, typed, ("Study date", Some(label)), &mut date, 94.0);
+            let label = then(ui, "step");
+            field(ui, typed, ("Step", Some(label)), &mut step, 58.0);
+        });
+    }
     (study.from, study.to, study.step) = (Some(Text(from)), Some(Text(to)), Some(step));
     if study.date.is_some() || !date.is_empty() {
         study.date = Some(Text(date));

@@ -387,9 +387,19 @@ fn keys(ui: &Ui, response: &Response) -> i64 {
     }
     let arrows = egui::EventFilter { horizontal_arrows: true, ..egui::EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-    ui.input(|input| {
-        let many = if input.modifiers.shift { 12 } else { 1 };
-        let presses = |key| i64::try_from(input.num_presses(key)).unwrap_or(0);
-        (presses(Key::ArrowRight) - presses(Key::ArrowLeft)) * many
+    steps(ui.ctx(), Key::ArrowLeft, Key::ArrowRight, 12)
+}
+
+/// How often one key was pressed more than another; with shift each press counts as `many`. Each press is asked for its own
+/// shift, which may be up again when the frame begins.
+pub(super) fn steps(context: &egui::Context, back: Key, on: Key, many: i64) -> i64 {
+    context.input(|input| {
+        let step = |event: &egui::Event| match event {
+            egui::Event::Key { key, pressed: true, modifiers, .. } if *key == back || *key == on => {
+                (if modifiers.shift { many } else { 1 }) * (if *key == on { 1 } else { -1 })
+            }
+            _ => 0,
+        };
+        input.events.iter().map(step).sum()
     })
 }

@@ -183,7 +183,7 @@ impl Viewer {
         let stand = self.eye.stand;
         let is_plan = stand == Stand::Plan;
         let on_ground = is_plan && choice.method == Method::Projected;
-        let method = if choice.method == Method::Projected && !is_plan { Method::Auto } else { choice.method };
+        let method = if draws(choice.method, is_plan) { choice.method } else { Method::Auto };
         let disc = choice.disc && casts_rays(method, software);
         let way = Way {
             method: if disc { Method::RayCast } else { method },
@@ -290,6 +290,16 @@ impl Viewer {
     }
 }
 
+/// Whether a technique draws such a view.
+pub(super) fn draws(method: Method, is_plan: bool) -> bool {
+    match method {
+        Method::Projected => is_plan,
+        // it is for façades and roofs, patch by patch
+        Method::SoftTexture => false,
+        _ => true,
+    }
+}
+
 /// Whether rays are cast, so that the sun's disc can be asked for.
 pub(super) fn casts_rays(method: Method, software: bool) -> bool {
     method == Method::RayCast || (method == Method::Auto && software)
@@ -332,7 +342,7 @@ fn under(project: &Project, view: &View, rect: Rect, pointer: egui::Pos2) -> Opt
     let ground = Some(ground).filter(|distance| *distance > 0.0 && distance.is_finite());
     match hit {
         Some((face, distance)) if ground.is_none_or(|ground| distance <= ground) => {
-            let plane = mesh.planes[face as usize].truncate();
+            let plane = mesh.planes()[face as usize].truncate();
             let normal = if plane.dot(along) > 0.0 { -plane } else { plane };
             let component = mesh.components.partition_point(|component| component.faces.end <= face);
             let name = mesh.components.get(component)?.name.clone();

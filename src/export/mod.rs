@@ -9,6 +9,7 @@ mod places;
 pub mod probe;
 pub mod raster;
 pub mod report;
+pub mod surfaces;
 pub mod verify;
 pub mod volumes;
 

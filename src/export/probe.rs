@@ -116,7 +116,8 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
-fn field(text: &str) -> String {
+/// A field of a line of CSV.
+pub(super) fn field(text: &str) -> String {
     if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
@@ -258,6 +259,6 @@ pub(super) fn counted(intervals: usize) -> String {
 }
 
 /// A name without what would break the line.
-fn plain(name: &str) -> String {
+pub(super) fn plain(name: &str) -> String {
     name.replace(char::is_control, " ")
 }

@@ -101,22 +101,21 @@ fn geo_keys(place: &Place) -> GeoKeys {
 /// [`ExportError::Size`] where the shares do not fill the mask; [`ExportError::Encode`] where the encoder refuses.
 pub fn mask_png(mask: &Mask) -> Result<Vec<u8>, ExportError> {
     check_size("mask", mask.share.len(), mask.width, mask.height)?;
-    png_bytes(mask.width, mask.height, png::ColorType::Grayscale, None, &mask.share)
+    png_bytes((mask.width, mask.height), (png::ColorType::Grayscale, png::BitDepth::Eight), None, &mask.share)
         .map_err(|error| ExportError::encode("mask PNG", error))
 }
 
-/// An 8-bit PNG, compressed fast; `dots_per_metre` is its size on paper.
+/// A PNG, compressed fast; `dots_per_metre` is its size on paper.
 pub(super) fn png_bytes(
-    width: u32,
-    height: u32,
-    color: png::ColorType,
+    (width, height): (u32, u32),
+    (color, depth): (png::ColorType, png::BitDepth),
     dots_per_metre: Option<u32>,
     pixels: &[u8],
 ) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(color);
-    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_depth(depth);
     encoder.set_compression(png::Compression::Fast);
     encoder.set_pixel_dims(dots_per_metre.map(|dots| png::PixelDimensions {
         xppu: dots,

@@ -3,7 +3,9 @@
 //! Keys and their order are a contract that other programs rely on; keys may be added, never changed.
 
 use super::ExportError;
-use crate::profile::{Drawn, Profile, Statistics, Timings};
+use super::surfaces::Surfaces;
+use crate::profile::surfaces::Exposure;
+use crate::profile::{Drawn, DrawnSettings, Profile, Statistics, Timings};
 use crate::site::Receivers;
 use crate::sun::{Air, Day, Instant, Place, SunTrack};
 use crate::view::View;
@@ -18,14 +20,14 @@ struct DrawnReport<'a> {
     gnomon: &'static str,
     place: PlaceReport<'a>,
     #[serde(flatten)]
-    view: ViewReport,
-    width: u32,
-    height: u32,
+    view: ViewReport<'a>,
     receivers: &'static str,
     technique: &'static str,
     silhouette: Option<&'static str>,
     engine: &'static str,
     adapter: Option<&'a str>,
+    #[serde(flatten)]
+    settings: DrawnSettings,
     refraction: bool,
     refraction_celsius: Option<f64>,
     refraction_millibar: Option<f64>,
@@ -50,9 +52,24 @@ struct StatisticsReport {
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum ViewReport {
-    Plan { region: [f64; 4], cell: f64 },
-    Camera { camera: CameraReport },
+enum ViewReport<'a> {
+    Plan { region: [f64; 4], cell: f64, width: u32, height: u32 },
+    Camera { camera: CameraReport, width: u32, height: u32 },
+    Surfaces { patch_cell: f64, patch_cell_asked: f64, texels: usize, components: Vec<ExposureReport<'a>> },
+}
+
+#[derive(Serialize)]
+struct ExposureReport<'a> {
+    component: &'a str,
+    patches: usize,
+    area_m2: f64,
+    hours_mean: f64,
+    hours_min: f64,
+    hours_max: f64,
+    share_1h: f64,
+    share_2h: f64,
+    share_3h: f64,
+    share_4h: f64,
 }
 
 #[derive(Serialize)]
@@ -127,21 +144,54 @@ pub fn profile_json(
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
 pub fn shadow_json(view: &View, place: &Place, track: &SunTrack, told: &Told<'_>) -> Result<String, ExportError> {
+    drawn_json(view_report(view), place, track, told)
+}
+
+/// `profile.json` of surfaces: as [`profile_json`]; cell, texels and components stand where a plan has region and cell.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn surfaces_json(surfaces: &Surfaces<'_>, told: &Told<'_>) -> Result<String, ExportError> {
+    let component = |(component, patches, exposure): (_, &[_], Exposure)| {
+        let [share_1h, share_2h, share_3h, share_4h] = exposure.shares;
+        let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;
+        let patches = patches.len();
+        ExposureReport {
+            component,
+            patches,
+            area_m2,
+            hours_mean,
+            hours_min,
+            hours_max,
+            share_1h,
+            share_2h,
+            share_3h,
+            share_4h,
+        }
+    };
+    let view = ViewReport::Surfaces {
+        patch_cell: surfaces.patches.cell,
+        patch_cell_asked: surfaces.patches.asked_cell,
+        texels: surfaces.patches.texels.len(),
+        components: surfaces.components().map(component).collect(),
+    };
+    drawn_json(view, surfaces.place, surfaces.track, told)
+}
+
+fn drawn_json(view: ViewReport<'_>, place: &Place, track: &SunTrack, told: &Told<'_>) -> Result<String, ExportError> {
     let Told { receivers, drawn, timings, statistics } = *told;
     let air = Air::standard(place.elevation_m);
     let refracted = |value| track.refraction.then_some(value);
-    let (width, height) = view.size();
     json(&DrawnReport {
         gnomon: env!("CARGO_PKG_VERSION"),
         place: place_report(place),
-        view: view_report(view),
-        width,
-        height,
+        view,
         receivers: receivers.word(),
         technique: drawn.technique,
         silhouette: drawn.silhouette,
         engine: drawn.engine,
         adapter: drawn.adapter.as_deref(),
+        settings: drawn.settings,
         refraction: track.refraction,
         refraction_celsius: refracted(air.temperature_c),
         refraction_millibar: refracted(air.pressure_hpa),
@@ -160,9 +210,10 @@ pub fn shadow_json(view: &View, place: &Place, track: &SunTrack, told: &Told<'_>
     })
 }
 
-fn view_report(view: &View) -> ViewReport {
+fn view_report(view: &View) -> ViewReport<'static> {
+    let (width, height) = view.size();
     match view {
-        View::Plan(grid) => ViewReport::Plan { region: grid.region(), cell: grid.cell },
+        View::Plan(grid) => ViewReport::Plan { region: grid.region(), cell: grid.cell, width, height },
         View::Camera(camera) => ViewReport::Camera {
             camera: CameraReport {
                 eye: camera.eye.to_array(),
@@ -170,6 +221,8 @@ fn view_report(view: &View) -> ViewReport {
                 up: camera.up.to_array(),
                 fov: camera.fov_rad.to_degrees(),
             },
+            width,
+            height,
         },
     }
 }

@@ -1,6 +1,7 @@
 //! What `gnomon verify` says: `verify --json`, and a table with a legend.
 
 use super::{ExportError, report};
+use crate::profile::DrawnSettings;
 use crate::profile::verify::{HoursOff, Promise, Row, Truth, Verification};
 use crate::site::Receivers;
 use crate::sun::{Place, SunTrack};
@@ -36,6 +37,8 @@ struct RowReport<'a> {
     silhouette: Option<&'static str>,
     engine: &'static str,
     adapter: Option<&'a str>,
+    #[serde(flatten)]
+    settings: DrawnSettings,
     against: &'static str,
     cells: u64,
     edge_cells: u64,
@@ -102,6 +105,7 @@ fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
         silhouette: row.drawn.silhouette,
         engine: row.drawn.engine,
         adapter: row.drawn.adapter.as_deref(),
+        settings: row.drawn.settings,
         against: match row.against {
             Truth::Centre => "centre",
             Truth::Disc => "disc",
@@ -122,17 +126,36 @@ fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
     }
 }
 
+/// The finder that drew, and the techniques for which it was another.
+fn silhouettes(rows: &[Row]) -> String {
+    let mut found = rows.iter().filter_map(|row| Some((row.drawn.silhouette?, row.drawn.technique)));
+    let Some((first, _)) = found.next() else { return "none".to_owned() };
+    let others = found.filter(|(finder, _)| *finder != first);
+    let others: Vec<_> = others.map(|(finder, technique)| format!("; {technique} {finder}")).collect();
+    format!("{first}{}", others.concat())
+}
+
+/// How large maps were, how the shadow map was filtered, and how wide smoothies were where that was set by hand.
+fn maps(rows: &[Row]) -> Option<String> {
+    let size = rows.iter().find_map(|row| row.drawn.settings.map_size)?;
+    let pcf = rows.iter().find_map(|row| row.drawn.settings.pcf).map(|pcf| format!(", shadow-map filtered {pcf}"));
+    let width = rows.iter().find_map(|row| row.drawn.settings.smoothie_width);
+    let width = width.map(|width| format!(", smoothies of at most {width} m"));
+    Some(format!("maps of {size} × {size} texels{}{}", pcf.unwrap_or_default(), width.unwrap_or_default()))
+}
+
 /// Where, when and with what, then a line a technique, then what the columns mean; ends with a line break.
 pub fn table(verification: &Verification, place: &Place, track: &SunTrack, receivers: Receivers) -> String {
     let Verification { grid, instants, .. } = verification;
     let mut table = String::new();
     let night = track.instants.len() - instants;
     let adapter = verification.rows.iter().find_map(|row| row.drawn.adapter.as_deref()).unwrap_or("no adapter");
-    let silhouette = verification.rows.iter().find_map(|row| row.drawn.silhouette).unwrap_or("none");
+    let drawn_by = [silhouettes(&verification.rows)].into_iter().chain(maps(&verification.rows));
+    let drawn_by = drawn_by.collect::<Vec<_>>().join("\n");
     // Writing to a String cannot fail.
     let _ = writeln!(
         table,
-        "{}: {}, {}{}\n{} × {} cells of {:.3} m, receivers {}\ndrawn on {adapter}, silhouettes {silhouette}\n",
+        "{}: {}, {}{}\n{} × {} cells of {:.3} m, receivers {}\ndrawn on {adapter}, silhouettes {drawn_by}\n",
         words(place),
         window(track),
         counted(*instants, "instant"),

@@ -144,7 +144,7 @@ fn document(volumes: &Volumes<'_>) -> Value {
 }
 
 /// East, north, up in glTF's axes, which are x east, y up, z south.
-fn in_gltf(point: Vec3) -> [f32; 3] {
+pub(super) fn in_gltf(point: Vec3) -> [f32; 3] {
     // + 0 makes −0 and 0 one
     [point.x, point.z, 0.0 - point.y].map(|metres| metres + 0.0)
 }

@@ -182,6 +182,16 @@ pub struct Quadrilateral {
     pub b: u32,
 }
 
+/// `Run` of `shaders/soft_texture.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Run {
+    /// The first texel of a page.
+    pub first: u32,
+    /// How many it has.
+    pub count: u32,
+}
+
 /// A struct as Rust lays it out.
 pub struct Layout {
     /// Its name, in Rust and in WGSL.
@@ -214,4 +224,5 @@ pub const ALL: &[Layout] = &[
     layout!(Quadrilateral: first, a, second, b),
     layout!(Shown: hours_corner, hours_cell, hours, focus, night, lines, both_sides, tinted, overlay, painted, ground_only),
     layout!(Weight: secs),
+    layout!(Run: first, count),
 ];

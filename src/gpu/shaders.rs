@@ -37,6 +37,9 @@ pub const PICTURE: &str = joined!("common/view", "common/seen", "picture");
 /// Masks times weights.
 pub const ACCUMULATE: &str = joined!("accumulate");
 
+/// Hard shadows on patches, added up.
+pub const SOFT_TEXTURE: &str = joined!("soft_texture");
+
 /// All shaders, by name.
 pub const ALL: &[(&str, &str)] = &[
     ("surface", SURFACE),
@@ -52,6 +55,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("quadrilaterals", QUADRILATERALS),
     ("picture", PICTURE),
     ("accumulate", ACCUMULATE),
+    ("soft_texture", SOFT_TEXTURE),
 ];
 
 impl Gpu {

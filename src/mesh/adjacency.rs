@@ -3,29 +3,57 @@
 //! Parts share no vertices, so neither an edge nor an order of edges by their vertices crosses a component.
 
 use super::{Incidence, Mesh};
-use rayon::prelude::*;
 
 /// Fills in the mesh's edges and what meets there.
+///
+/// Sides are sorted by their lower vertex in one pass, and then the few of each vertex by themselves.
 pub(super) fn find(mesh: &mut Mesh) {
-    let mut sides: Vec<([u32; 2], Incidence)> = Vec::with_capacity(mesh.faces.len() * 3);
-    for (face, &[a, b, c]) in mesh.faces.iter().enumerate() {
-        for [from, to] in [[a, b], [b, c], [c, a]] {
-            sides.push(([from.min(to), from.max(to)], Incidence::new(face as u32, from > to)));
+    let lower = |[from, to]: [u32; 2]| from.min(to) as usize;
+    let mut first = vec![0_u32; mesh.vertices.len() + 1];
+    for side in mesh.faces.iter().flat_map(sides) {
+        first[lower(side) + 1] += 1;
+    }
+    for vertex in 1..first.len() {
+        first[vertex] += first[vertex - 1];
+    }
+    // the higher vertex, then the incidence, in one number
+    let mut sorted = vec![0_u64; mesh.faces.len() * 3];
+    let mut next = first.clone();
+    for (face, corners) in mesh.faces.iter().enumerate() {
+        for [from, to] in sides(corners) {
+            let slot = &mut next[lower([from, to])];
+            sorted[*slot as usize] =
+                u64::from(from.max(to)) << 32 | u64::from(Incidence::new(face as u32, from > to).0);
+            *slot += 1;
         }
     }
-    sides.par_sort_unstable_by_key(|(edge, incidence)| (*edge, incidence.0));
 
-    mesh.edges.clear();
-    mesh.edge_first.clear();
-    for (index, (edge, _)) in sides.iter().enumerate() {
-        if mesh.edges.last() != Some(edge) {
-            mesh.edges.push(*edge);
-            mesh.edge_first.push(index as u32);
+    let mut edges = Vec::with_capacity(sorted.len() / 2);
+    let mut edge_first = Vec::with_capacity(sorted.len() / 2 + 1);
+    for vertex in 0..mesh.vertices.len() {
+        let (begin, end) = (first[vertex] as usize, first[vertex + 1] as usize);
+        let of_vertex = &mut sorted[begin..end];
+        of_vertex.sort_unstable();
+        let mut last = None;
+        for (at, side) in of_vertex.iter().enumerate() {
+            let higher = (side >> 32) as u32;
+            if last != Some(higher) {
+                last = Some(higher);
+                edges.push([vertex as u32, higher]);
+                edge_first.push((begin + at) as u32);
+            }
         }
     }
-    mesh.edge_first.push(sides.len() as u32);
-    mesh.incidences = sides.into_iter().map(|(_, incidence)| incidence).collect();
+    edge_first.push(sorted.len() as u32);
+    mesh.incidences = sorted.into_iter().map(|side| Incidence(side as u32)).collect();
+    mesh.edges = edges.into();
+    mesh.edge_first = edge_first.into();
     name_runs(mesh);
+}
+
+/// A face's sides, from vertex to vertex as it runs.
+fn sides(&[a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
+    [[a, b], [b, c], [c, a]]
 }
 
 /// Gives each component its run of edges. Components keep the order of their vertices, as of their faces.
@@ -42,7 +70,7 @@ fn name_runs(mesh: &mut Mesh) {
 }
 
 /// Follows a forest of unions, in which each element leads to a lower one of its set, to the set's lowest.
-pub(super) fn lowest(above: &mut [u32], mut element: u32) -> u32 {
+pub(crate) fn lowest(above: &mut [u32], mut element: u32) -> u32 {
     while above[element as usize] != element {
         above[element as usize] = above[above[element as usize] as usize];
         element = above[element as usize];

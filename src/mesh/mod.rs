@@ -5,13 +5,17 @@
 //! the rule in [`crate::volume`].
 
 mod adjacency;
+pub mod patches;
 mod planes;
 pub mod report;
+pub mod scan;
 mod weld;
+
+pub(crate) use adjacency::lowest;
 
 use glam::{DVec3, DVec4, Vec3};
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// One component as a model file gives it: triangles of one node and one material, before welding.
 #[derive(Clone, Debug, Default)]
@@ -61,7 +65,7 @@ impl Incidence {
     }
 }
 
-/// Welded triangles with planes and adjacency, `f32` around `origin`.
+/// Welded triangles with planes and adjacency, `f32` around `origin`. A copy shares all that is large.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     /// World position of the local origin, whole metres.
@@ -69,16 +73,15 @@ pub struct Mesh {
     /// Metres around `origin`; shared by the meshes that were taken from this one.
     pub vertices: Arc<[Vec3]>,
     /// Three vertices a face, counter-clockwise seen from outside; grouped by component.
-    pub faces: Vec<[u32; 3]>,
-    /// Per face the unit plane (n, −n·p) around `origin`, equal for coplanar neighbours; zero where the face has no area.
-    pub planes: Vec<DVec4>,
+    pub faces: Arc<[[u32; 3]]>,
+    planes: Arc<OnceLock<Vec<DVec4>>>,
     /// The parts.
     pub components: Vec<Component>,
     /// Two vertices an edge, the lower first; grouped by component.
-    pub edges: Vec<[u32; 2]>,
+    pub edges: Arc<[[u32; 2]]>,
     /// Where each edge's faces begin in `incidences`; one longer than `edges`.
-    edge_first: Vec<u32>,
-    incidences: Vec<Incidence>,
+    edge_first: Arc<[u32]>,
+    incidences: Arc<[Incidence]>,
 }
 
 /// Why there is no mesh.
@@ -131,19 +134,34 @@ impl Mesh {
                 collapsed: collapsed.into(),
             });
         }
+        Ok(Mesh::of(origin, vertices.into(), faces, components, OnceLock::new()))
+    }
+
+    fn of(
+        origin: DVec3,
+        vertices: Arc<[Vec3]>,
+        faces: Vec<[u32; 3]>,
+        components: Vec<Component>,
+        planes: OnceLock<Vec<DVec4>>,
+    ) -> Mesh {
         let mut mesh = Mesh {
             origin,
-            planes: planes::of_faces(&vertices, &faces),
-            vertices: vertices.into(),
-            faces,
+            vertices,
+            faces: faces.into(),
+            planes: planes.into(),
             components,
-            edges: Vec::new(),
-            edge_first: Vec::new(),
-            incidences: Vec::new(),
+            edges: [].into(),
+            edge_first: [].into(),
+            incidences: [].into(),
         };
         adjacency::find(&mut mesh);
-        planes::unify(&mut mesh);
-        Ok(mesh)
+        mesh
+    }
+
+    /// Per face the unit plane (n, −n·p) around `origin`, equal for coplanar neighbours; zero where the face has no area.
+    /// They are found when they are first asked for.
+    pub fn planes(&self) -> &[DVec4] {
+        self.planes.get_or_init(|| planes::unified(self))
     }
 
     /// The faces at an edge.
@@ -165,28 +183,19 @@ impl Mesh {
     }
 
     fn taken(&self, mut components: Vec<Component>, keep: impl Fn(u32) -> bool) -> Mesh {
-        let mut faces = Vec::new();
-        let mut planes = Vec::new();
+        let mut kept = Vec::new();
         for component in &mut components {
-            let first = faces.len() as u32;
-            for face in component.faces.clone().filter(|&face| keep(face)) {
-                faces.push(self.faces[face as usize]);
-                planes.push(self.planes[face as usize]);
-            }
-            component.faces = first..faces.len() as u32;
+            let first = kept.len() as u32;
+            kept.extend(component.faces.clone().filter(|&face| keep(face)));
+            component.faces = first..kept.len() as u32;
         }
-        let mut mesh = Mesh {
-            origin: self.origin,
-            vertices: Arc::clone(&self.vertices),
-            faces,
-            planes,
-            components,
-            edges: Vec::new(),
-            edge_first: Vec::new(),
-            incidences: Vec::new(),
-        };
-        adjacency::find(&mut mesh);
-        mesh
+        if kept.len() == self.faces.len() {
+            return Mesh { components, ..self.clone() };
+        }
+        let of_kept = |planes: &[DVec4]| kept.iter().map(|&face| planes[face as usize]).collect();
+        let planes = if kept.is_empty() { Vec::new() } else { of_kept(self.planes()) };
+        let faces = kept.iter().map(|&face| self.faces[face as usize]).collect();
+        Mesh::of(self.origin, Arc::clone(&self.vertices), faces, components, planes.into())
     }
 
     /// One bit a face: whether its shell, the faces that hang together by edges, has an even number of faces at each of
@@ -231,7 +240,7 @@ impl Mesh {
     /// Silhouettes, caps and shaders all read this bit, so that volumes are closed whatever the rounding. A face
     /// edge-on to the light, or without area, counts as facing it: its shadow is empty either way.
     pub fn facing(&self, local_light: DVec4) -> Vec<bool> {
-        self.planes.iter().map(|&plane| plane_faces(plane, local_light)).collect()
+        self.planes().iter().map(|&plane| plane_faces(plane, local_light)).collect()
     }
 }
 

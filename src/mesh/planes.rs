@@ -9,7 +9,7 @@ use glam::{DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 
 /// The unit plane of each face; zero where its corners lie in a line, as far as `f32` can tell.
-pub(super) fn of_faces(vertices: &[Vec3], faces: &[[u32; 3]]) -> Vec<DVec4> {
+fn of_faces(vertices: &[Vec3], faces: &[[u32; 3]]) -> Vec<DVec4> {
     let spacing = spacing(vertices);
     let plane = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|vertex| vertices[vertex as usize].as_dvec3());
@@ -31,12 +31,13 @@ fn through(normal: DVec3, point: DVec3) -> DVec4 {
 /// How many lengths of a face its plane is carried with growing tolerance.
 const FARTHEST_CARRIED: f32 = 8.0;
 
-/// Hands the plane of larger faces to their coplanar neighbours.
+/// The unit plane of each face; larger faces hand theirs to their coplanar neighbours.
 ///
 /// A neighbour joins when all its corners lie within two `f32` steps of the larger face's own plane (never of a
 /// neighbour's, so that a gentle curve is not flattened step by step); and, since a plane wavers the more the farther it
 /// is carried, within as many more as the corner is lengths of the larger face away, up to [`FARTHEST_CARRIED`].
-pub(super) fn unify(mesh: &mut Mesh) {
+pub(super) fn unified(mesh: &Mesh) -> Vec<DVec4> {
+    let mut planes = of_faces(&mesh.vertices, &mesh.faces);
     let tolerance = 2.0 * spacing(&mesh.vertices);
     let sides = sides(mesh);
     let size = |face: usize| {
@@ -50,10 +51,10 @@ pub(super) fn unify(mesh: &mut Mesh) {
     let mut joined = vec![false; mesh.faces.len()];
     let mut waiting = Vec::new();
     for (_, seed) in largest_first {
-        if joined[seed as usize] || mesh.planes[seed as usize] == DVec4::ZERO {
+        if joined[seed as usize] || planes[seed as usize] == DVec4::ZERO {
             continue;
         }
-        let plane = mesh.planes[seed as usize];
+        let plane = planes[seed as usize];
         let [a, b, c] = mesh.corners(seed as usize);
         let length = a.distance(b).max(b.distance(c)).max(c.distance(a));
         joined[seed as usize] = true;
@@ -63,7 +64,7 @@ pub(super) fn unify(mesh: &mut Mesh) {
                 let [first, last] = [mesh.edge_first[edge as usize], mesh.edge_first[edge as usize + 1]];
                 for at in first..last {
                     let other = mesh.incidences[at as usize].face() as usize;
-                    if joined[other] || mesh.planes[other].truncate().dot(plane.truncate()) < 0.9 {
+                    if joined[other] || planes[other].truncate().dot(plane.truncate()) < 0.9 {
                         continue;
                     }
                     let lies_in = |corner: Vec3| {
@@ -72,17 +73,18 @@ pub(super) fn unify(mesh: &mut Mesh) {
                     };
                     if mesh.corners(other).into_iter().all(lies_in) {
                         joined[other] = true;
-                        mesh.planes[other] = plane;
+                        planes[other] = plane;
                         waiting.push(other as u32);
                     }
                 }
             }
         }
     }
+    planes
 }
 
 /// Per face its three edges.
-fn sides(mesh: &Mesh) -> Vec<[u32; 3]> {
+pub(super) fn sides(mesh: &Mesh) -> Vec<[u32; 3]> {
     let mut sides = vec![[u32::MAX; 3]; mesh.faces.len()];
     for edge in 0..mesh.edges.len() {
         for incidence in mesh.faces_at(edge) {

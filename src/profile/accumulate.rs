@@ -4,6 +4,7 @@ use crate::gpu::layout::Weight;
 use crate::gpu::targets::{NUMBER, whole};
 use crate::gpu::{Gpu, readback, shaders};
 use crate::shadow::{DrawnMask, ShadowError};
+use crate::view::Bits;
 use rayon::prelude::*;
 use std::sync::Arc;
 use wgpu::*;
@@ -49,8 +50,10 @@ impl Sum {
         match (self, mask) {
             (Sum::Texture(sum), DrawnMask::Texture(_, texture)) => sum.add(texture, weight_secs),
             (Sum::Memory(sum), DrawnMask::Memory(mask)) => add(sum, &mask.share, weight_secs),
+            (Sum::Memory(sum), DrawnMask::Bits(bits)) => add_bits(sum, bits, weight_secs),
             (Sum::Memory(sum), mask) => add(sum, &mask.read()?.share, weight_secs),
-            (Sum::Texture(sum), DrawnMask::Memory(mask)) => {
+            (Sum::Texture(sum), mask) => {
+                let mask = mask.read()?;
                 let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
                 let texture =
                     sum.gpu.texture("accumulate.mask", (mask.width, mask.height), TextureFormat::R8Unorm, usage);
@@ -80,6 +83,33 @@ fn add(sum: &mut [u32], share: &[u8], weight_secs: u32) {
         *sum += u32::from(255 - share) * weight_secs;
     });
 }
+
+fn add_bits(sum: &mut [u32], bits: &Bits, weight_secs: u32) {
+    let rows = sum.par_chunks_mut(bits.width.max(1) as usize).zip(bits.words.par_chunks(bits.in_row().max(1)));
+    rows.with_min_len(16).for_each(|(sums, words)| {
+        for (sums, word) in sums.chunks_mut(64).zip(words).filter(|(_, word)| **word != 0) {
+            for (sums, byte) in sums.chunks_mut(8).zip(word.to_le_bytes()) {
+                let each = &EACH[usize::from(byte)];
+                sums.iter_mut().zip(each).for_each(|(sum, each)| *sum += each & (255 * weight_secs));
+            }
+        }
+    });
+}
+
+/// Per byte its bits, the lowest first, each as a word of ones or of zeros.
+static EACH: [[u32; 8]; 256] = {
+    let mut each = [[0; 8]; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let mut bit = 0;
+        while bit < 8 {
+            each[byte][bit] = if byte >> bit & 1 == 1 { u32::MAX } else { 0 };
+            bit += 1;
+        }
+        byte += 1;
+    }
+    each
+};
 
 impl GpuSum {
     fn add(&self, mask: &Texture, secs: u32) {

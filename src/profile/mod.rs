@@ -3,9 +3,11 @@
 pub mod accumulate;
 pub mod compare;
 pub mod probe;
+pub mod surfaces;
 pub mod verify;
 
 use crate::view::{Counted, Decided, Grid};
+use serde::Serialize;
 
 /// The raster of shaded time.
 ///
@@ -30,7 +32,7 @@ impl Profile {
 }
 
 /// What drew an answer: never `auto`, always the choice that was made.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
     /// The technique's name as the command takes it: `stencil`, `ray-cast`, …
     pub technique: &'static str,
@@ -40,6 +42,21 @@ pub struct Drawn {
     pub engine: &'static str,
     /// The graphics adapter's own name; absent where none was used.
     pub adapter: Option<String>,
+    /// How it was set.
+    pub settings: DrawnSettings,
+}
+
+/// The settings of what drew, by the command's names for them; each absent where the technique has none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct DrawnSettings {
+    /// Texels along a map's side.
+    pub map_size: Option<u32>,
+    /// How a shadow map was filtered.
+    pub pcf: Option<&'static str>,
+    /// How wide smoothies were at most, metres across the sun's rays, where that was set by hand.
+    pub smoothie_width: Option<f64>,
+    /// Points of the sun's disc; absent where the sun was its centre.
+    pub sun_samples: Option<u32>,
 }
 
 /// What counting shadow volumes took, over all cells and instants.

@@ -5,25 +5,30 @@
 
 mod batch;
 mod counting;
+mod flat;
 pub mod hybrid;
 mod light_view;
 pub mod map;
 pub mod near_clip;
 pub mod overlay;
 pub mod picture;
+mod plan_surface;
 pub mod projected;
 pub mod ray_cast;
+pub mod registered;
 pub mod shadow_map;
 pub mod smoothie;
+pub mod soft_texture;
 pub mod stencil;
 mod surface;
 pub mod walls;
 
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
-use crate::view::{Counted, Mask, Surface};
+use crate::view::{Bits, Counted, Mask, Surface};
 use glam::{DVec3, DVec4};
 
+pub use plan_surface::plan_surface;
 pub use surface::GpuSurface;
 pub use walls::Silhouettes;
 
@@ -46,6 +51,8 @@ pub struct Scene {
 pub enum DrawnMask<'a> {
     /// In the processor's memory.
     Memory(&'a Mask),
+    /// There, too, one bit a cell: the sun is a point.
+    Bits(&'a Bits),
     /// An R8Unorm texture: the share of the sun that is seen.
     Texture(&'a Gpu, &'a wgpu::Texture),
 }
@@ -55,6 +62,7 @@ impl DrawnMask<'_> {
     pub fn read(&self) -> Result<Mask, ShadowError> {
         match self {
             DrawnMask::Memory(mask) => Ok((*mask).clone()),
+            DrawnMask::Bits(bits) => Ok(bits.mask()),
             DrawnMask::Texture(gpu, texture) => Ok(Mask {
                 width: texture.width(),
                 height: texture.height(),

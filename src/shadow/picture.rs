@@ -169,11 +169,13 @@ impl Picture {
         style: &Style,
         target: &Texture,
     ) -> Result<(), ShadowError> {
-        if let DrawnMask::Memory(mask) = mask {
-            self.upload_mask(mask);
+        match mask {
+            DrawnMask::Memory(mask) => self.upload_mask(mask),
+            DrawnMask::Bits(bits) => self.upload_mask(&bits.mask()),
+            DrawnMask::Texture(..) => {}
         }
         let share = match mask {
-            DrawnMask::Memory(_) => self.uploaded.as_ref().unwrap_or(&self.nothing),
+            DrawnMask::Memory(_) | DrawnMask::Bits(_) => self.uploaded.as_ref().unwrap_or(&self.nothing),
             DrawnMask::Texture(_, texture) => *texture,
         };
         let gpu = &self.surface.gpu;
@@ -185,7 +187,8 @@ impl Picture {
             hours: is(style.hours && self.hours.is_some()),
             focus: style.focus_m.max(1e-3) as f32,
             night: is(to_sun.z <= 0.0),
-            lines: style.lines,
+            // lines would be taken for cells
+            lines: if self.cells.is_some() { 0.0 } else { style.lines },
             both_sides: is(style.wide_lines),
             tinted: is(style.tinted && self.tints.is_some()),
             overlay: is(self.overlay.iter().any(Option::is_some)),

@@ -1,65 +1,43 @@
 //! Projected shadows: exact hard shadows on the ground, on the processor, and the fastest of all.
 //!
 //! J. Blinn, *Me and My (Fake) Shadow*, 1988; seed 002 calls the same a hard shadow. The shadow on a flat receiver is the
-//! union of the casters' faces, projected along the sun, so every face is cut at the height that is judged, projected and
-//! scan-converted in double precision: no rays, no volumes, no tree. Which side of a face the sun sees does not matter, so
-//! casters need not be clean.
-//!
-//! A cell is covered where its centre lies in a face or on its edge. Two faces that share an edge find the same columns
-//! along it, as an edge's are computed from its upper to its lower end whichever way it is run.
+//! union of the casters' faces, cut at the height that is judged and projected along the sun. [`flat`](super::flat) finds
+//! it from the silhouette alone: no rays, no volumes, no tree, and nothing that a raster rounds.
 
+use super::flat::FlatShadow;
 use super::ray_cast::TIE;
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique};
-use crate::mesh::Mesh;
-use crate::view::{Grid, Mask, Surface};
-use glam::{DVec2, DVec3};
-use rayon::prelude::*;
+use crate::view::{Grid, Surface};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 /// The technique, made for the casters of one scene and the ground under one plan. What else receives is not judged.
 pub struct Projected {
-    casters: Mesh,
+    shadow: FlatShadow,
     ground: f64,
     grid: Grid,
-    mask: Mask,
 }
 
-/// Faces a task: enough that its own raster costs nothing beside them.
-const LEAST_FACES: usize = 1 << 14;
-
 impl Projected {
-    /// Nothing is prepared.
-    pub fn new(scene: Scene, grid: Grid) -> Projected {
-        let mask = Mask { width: grid.width, height: grid.height, share: vec![0; grid.cells()] };
-        Projected { casters: scene.casters, ground: scene.ground, grid, mask }
-    }
-
-    /// Which cells the faces cover, seen along the sun.
-    fn covered(&self, to_sun: DVec3) -> Bits {
-        let onto = Onto::new(&self.grid, self.casters.origin, self.ground + JUDGED_ABOVE_M, to_sun);
-        let places: Vec<Place> = self.casters.vertices.par_iter().map(|vertex| onto.place(vertex.as_dvec3())).collect();
-        let empty = || Bits::empty(&self.grid);
-        let faces = self.casters.faces.par_iter().with_min_len(LEAST_FACES);
-        let drawn = faces.fold(empty, |mut bits, face| {
-            bits.cover_face(face.map(|vertex| places[vertex as usize]));
-            bits
-        });
-        drawn.reduce(empty, Bits::or)
+    /// Cuts the casters at the height that is judged.
+    pub fn new(scene: &Scene, grid: Grid) -> Projected {
+        let Scene { casters, ground, .. } = scene;
+        // cells a metre, east and south
+        let scale = DVec2::new(1.0, -1.0) / grid.cell;
+        let corner = DVec2::new(grid.west, grid.north);
+        // as for rays, what lies east of an edge through a centre counts, then what lies south
+        let tie = DVec2::new(TIE.x, -TIE.y);
+        let origin = (casters.origin.truncate() - corner) * scale - 0.5 - tie;
+        let height = casters.origin.z - (ground + JUDGED_ABOVE_M);
+        let raster_from_local =
+            DAffine3 { matrix3: DMat3::from_diagonal(scale.extend(1.0)), translation: origin.extend(height) };
+        let shadow = FlatShadow::new(casters, raster_from_local, grid.width, grid.height);
+        Projected { shadow, ground: *ground, grid }
     }
 }
 
 impl Technique for Projected {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
-        let covered = self.covered(to_sun);
-        let rows =
-            self.mask.share.par_chunks_mut(self.grid.width as usize).zip(covered.words.par_chunks(covered.in_row));
-        rows.for_each(|(shares, words)| {
-            for (shares, word) in shares.chunks_mut(64).zip(words) {
-                for (at, share) in shares.iter_mut().enumerate() {
-                    *share = if word >> at & 1 == 1 { 0 } else { 255 };
-                }
-            }
-        });
-        Ok(DrawnMask::Memory(&self.mask))
+        Ok(DrawnMask::Bits(self.shadow.draw(to_sun)))
     }
 
     fn surface(&self) -> Result<Surface, ShadowError> {
@@ -70,159 +48,5 @@ impl Technique for Projected {
             face: vec![Surface::GROUND; cells],
             height_m: vec![self.ground as f32; cells],
         })
-    }
-}
-
-/// A vertex seen along the sun.
-#[derive(Clone, Copy)]
-struct Place {
-    /// Where it falls, in cells from the grid's north-west corner, such that centres are whole numbers.
-    at: DVec2,
-    /// How high above the judged height it stands, metres.
-    height: f64,
-}
-
-/// From vertices to where they fall.
-struct Onto {
-    /// The mesh's origin, in cells and metres.
-    origin: DVec2,
-    judged_z: f64,
-    /// Cells a metre, east and south.
-    scale: DVec2,
-    /// Metres of shadow a metre of height.
-    throw: DVec2,
-}
-
-impl Onto {
-    fn new(grid: &Grid, origin: DVec3, judged: f64, to_sun: DVec3) -> Onto {
-        let scale = DVec2::new(1.0, -1.0) / grid.cell;
-        let corner = DVec2::new(grid.west, grid.north);
-        // as for rays, what lies east of an edge through a centre counts, then what lies south
-        let tie = DVec2::new(TIE.x, -TIE.y);
-        Onto {
-            origin: (origin.truncate() - corner) * scale - 0.5 - tie,
-            judged_z: judged - origin.z,
-            scale,
-            throw: to_sun.truncate() / to_sun.z.max(1e-9),
-        }
-    }
-
-    fn place(&self, vertex: DVec3) -> Place {
-        let height = vertex.z - self.judged_z;
-        Place { at: self.origin + (vertex.truncate() - self.throw * height) * self.scale, height }
-    }
-}
-
-/// One bit a cell, 64 a word.
-struct Bits {
-    words: Vec<u64>,
-    in_row: usize,
-    width: i64,
-    height: i64,
-}
-
-impl Bits {
-    fn empty(grid: &Grid) -> Bits {
-        let in_row = grid.width.div_ceil(64) as usize;
-        let words = vec![0; in_row * grid.height as usize];
-        Bits { words, in_row, width: grid.width.into(), height: grid.height.into() }
-    }
-
-    fn or(mut self, other: Bits) -> Bits {
-        self.words.iter_mut().zip(other.words).for_each(|(word, other)| *word |= other);
-        self
-    }
-
-    /// Covers what a face does, cut at the judged height: the part above it is a triangle, or a quadrilateral.
-    fn cover_face(&mut self, face: [Place; 3]) {
-        let above = face.map(|place| place.height > 0.0);
-        match above.iter().filter(|above| **above).count() {
-            0 => {}
-            3 => self.cover(face.map(|place| place.at)),
-            count => {
-                // turned so that the one that stands alone on its side is first
-                let alone = (0..3).find(|&at| above[at] == (count == 1)).unwrap_or(0);
-                let [one, next, last] = [face[alone], face[(alone + 1) % 3], face[(alone + 2) % 3]];
-                let (to_next, to_last) = (cut(one, next), cut(one, last));
-                if count == 1 {
-                    self.cover([one.at, to_next, to_last]);
-                } else {
-                    self.cover([to_next, next.at, last.at]);
-                    self.cover([to_next, last.at, to_last]);
-                }
-            }
-        }
-    }
-
-    /// Covers all cells whose centres lie in a triangle or on its edge.
-    fn cover(&mut self, mut corners: [DVec2; 3]) {
-        corners.sort_unstable_by(|a, b| a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x)));
-        let [top, middle, bottom] = corners;
-        // beyond the raster, or where it is no number
-        let first = top.y.ceil().max(0.0);
-        let last = bottom.y.floor().min((self.height - 1) as f64);
-        let (west, east) = (top.x.min(middle.x).min(bottom.x), top.x.max(middle.x).max(bottom.x));
-        if !(first <= last && west.ceil().max(0.0) <= east.floor().min((self.width - 1) as f64)) {
-            return;
-        }
-        let [long, upper, lower] =
-            [Side::between(top, bottom), Side::between(top, middle), Side::between(middle, bottom)];
-        for row in first as i64..=last as i64 {
-            let y = row as f64;
-            // at the middle's height both short sides end
-            let [one, other] = match (y <= middle.y, y >= middle.y) {
-                (true, true) => [upper.x_at(y), lower.x_at(y)],
-                (true, false) => [upper.x_at(y); 2],
-                _ => [lower.x_at(y); 2],
-            };
-            let along = long.x_at(y);
-            self.cover_row(row, along.min(one).min(other), along.max(one).max(other));
-        }
-    }
-
-    /// Covers the cells of a row whose centres lie from one place to another.
-    fn cover_row(&mut self, row: i64, from: f64, to: f64) {
-        let first = from.ceil().max(0.0) as i64;
-        let last = to.floor().min((self.width - 1) as f64) as i64;
-        if first > last {
-            return;
-        }
-        let words = &mut self.words[row as usize * self.in_row..][..self.in_row];
-        let (first, last) = (first as usize, last as usize);
-        let (from_bit, to_bit) = (u64::MAX << (first % 64), u64::MAX >> (63 - last % 64));
-        match (first / 64, last / 64) {
-            (one, other) if one == other => words[one] |= from_bit & to_bit,
-            (one, other) => {
-                words[one] |= from_bit;
-                words[one + 1..other].fill(u64::MAX);
-                words[other] |= to_bit;
-            }
-        }
-    }
-}
-
-/// Where the line between two vertices crosses the judged height. The same whichever is named first.
-fn cut(one: Place, other: Place) -> DVec2 {
-    let (low, high) = if one.height < other.height { (one, other) } else { (other, one) };
-    // projection is linear, below the judged height as well
-    low.at + (high.at - low.at) * (-low.height / (high.height - low.height))
-}
-
-/// A triangle's side, from its upper to its lower end.
-struct Side {
-    start: DVec2,
-    end: DVec2,
-    /// Columns a row; not used where the side is level.
-    slope: f64,
-}
-
-impl Side {
-    fn between(start: DVec2, end: DVec2) -> Side {
-        Side { start, end, slope: (end.x - start.x) / (end.y - start.y) }
-    }
-
-    /// Its column at a row between its ends.
-    fn x_at(&self, y: f64) -> f64 {
-        if y >= self.end.y { self.end.x } else { self.start.x + (y - self.start.y) * self.slope }
     }
 }

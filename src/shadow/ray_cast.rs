@@ -4,7 +4,8 @@
 //! Plain on purpose. Intersection after Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2013):
 //! the triangle is sheared so that the ray is an axis, and the signs of three areas decide; a ray through a shared
 //! edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as hits.
-//! The tree only prunes: its boxes are padded beyond all rounding of its `f32` rays.
+//! The tree only prunes: its boxes are padded beyond all rounding of its `f32` rays, and beyond the first tenth of a
+//! millimetre of a ray, in which it finds nothing.
 
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
@@ -25,11 +26,16 @@ pub struct RayCaster {
     faces: Vec<u32>,
 }
 
+/// The tree looks past boxes that a ray has left so early, in lengths of the ray's direction (`EPSILON` of obvhs 0.4).
+const LOOKED_PAST: f64 = 1e-4;
+
 impl RayCaster {
     /// Builds the tree; `reach` is the farthest that a ray's origin lies from the mesh's origin, metres.
     pub fn new(mesh: &Mesh, reach: f64) -> RayCaster {
         let size = mesh.vertices.iter().fold(0.0f32, |size, vertex| size.max(vertex.abs().max_element()));
-        let padding = Vec3A::splat((f64::from(size) + reach) as f32 * f32::EPSILON * 8.0);
+        let rounding = (f64::from(size) + reach) * f64::from(f32::EPSILON) * 8.0;
+        // the tree's rays have unit directions: whatever they meet within the first of it lies in a box that they leave later
+        let padding = Vec3A::splat((rounding + 2.0 * LOOKED_PAST) as f32);
         let box_of = |face: usize| {
             let [a, b, c] = mesh.corners(face).map(Vec3A::from);
             Aabb::new(a.min(b).min(c) - padding, a.max(b).max(c) + padding)
@@ -44,6 +50,7 @@ impl RayCaster {
     /// The nearest face along a ray, and how many lengths of `direction` away.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
         let shear = Shear::along(direction);
+        let length = direction.length();
         let mut nearest = None;
         let mut distance = f64::INFINITY;
         let ray = ray(origin, direction);
@@ -53,7 +60,7 @@ impl RayCaster {
             {
                 distance = t;
                 nearest = Some((self.faces[at], t));
-                return (t as f32).next_up();
+                return ((t * length) as f32).next_up();
             }
             f32::INFINITY
         });
@@ -77,7 +84,7 @@ impl RayCaster {
 
 fn ray(origin: DVec3, direction: DVec3) -> Ray {
     // + 0 makes −0 into 0, of which the tree takes one sign for the direction and the other for its inverse
-    Ray::new_inf(origin.as_vec3a(), direction.as_vec3a() + Vec3A::ZERO)
+    Ray::new_inf(origin.as_vec3a(), direction.normalize().as_vec3a() + Vec3A::ZERO)
 }
 
 /// The frame in which a direction is an axis, the same for all parallel rays.
@@ -196,7 +203,7 @@ impl RayCast {
         let world_viewer = rays.view.viewer();
         let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
         let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
-        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes[face as usize] };
+        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
         let normal = seen_normal(plane, viewer);
         let judged = from + along * distance + normal * JUDGED_ABOVE_M;
         let lit = normal.dot(to_sun) > 0.0 && hits(&scene.casters, judged, &Shear::along(to_sun)).is_empty();
@@ -297,7 +304,7 @@ impl Technique for RayCast {
                     *share = 255;
                     continue;
                 }
-                let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes[face as usize] };
+                let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
                 let normal = seen_normal(plane, viewer);
                 let (from, along) = rays.of(column as u32, row as u32);
                 let judged = from + along * distance + normal * JUDGED_ABOVE_M;

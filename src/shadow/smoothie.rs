@@ -11,7 +11,8 @@
 //! - It is one rectangle around its edge, longer than it by its width at both ends, and alpha is the distance to the edge
 //!   (beyond its ends, to the vertex). With minimum blending that is the union of what the paper draws as edges, as
 //!   corners, and as corners of more than two edges, and has no seams.
-//! - What alone receives, and the ground, have their depth in the sun's view, but shade nothing.
+//! - What alone receives, and the ground, have their depth in the sun's view, but shade nothing. What lies behind such
+//!   receivers, glass say, has smoothies of its own, as wide as they are there; behind two of them, as on the last.
 //!
 //! Smoothies grow outwards only: the umbra is as large as the hard shadow, all of the penumbra lies outside of it, and
 //! the line of half the light is half a penumbra too far out.
@@ -38,16 +39,28 @@ pub struct Smoothie {
     finder: Box<dyn SilhouetteFinder>,
     asked: Smoothies,
     /// What receives and does not cast, where there is any.
-    receivers: Option<(Triangles, Texture)>,
-    smoothies: Texture,
+    receivers: Option<Receivers>,
+    smoothies: Layer,
     edges: Buffer,
     /// What is uploaded; kept for its memory.
     upload: Vec<[Vec3; 2]>,
     depths: BindGroup,
     compared: BindGroup,
-    edge: RenderPipeline,
     softened: RenderPipeline,
     mask: Texture,
+}
+
+/// What receives and does not cast, and the smoothies on what lies behind it.
+struct Receivers {
+    triangles: Triangles,
+    depth: Texture,
+    beyond: Layer,
+}
+
+/// All smoothies, as wide as they are on some receivers.
+struct Layer {
+    texture: Texture,
+    edge: RenderPipeline,
 }
 
 impl Smoothie {
@@ -65,23 +78,11 @@ impl Smoothie {
         let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
         let map = DepthMap::new(&scene, &surface, map_size, SLOPE_BIAS_TEXELS)?;
         let cast: rustc_hash::FxHashSet<[u32; 3]> = scene.casters.faces.iter().copied().collect();
-        let receivers = Triangles::uploaded(&gpu, &scene.receivers, |face| !cast.contains(face))?;
-        let receivers = (!receivers.is_empty()).then(|| (receivers, depth(&gpu, "smoothie.receivers", map_size)));
-        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
-        let smoothies = gpu.texture("smoothie.smoothies", map.size(), SMOOTHIES, usage);
+        let triangles = Triangles::uploaded(&gpu, &scene.receivers, |face| !cast.contains(face))?;
 
         let float = TextureSampleType::Float { filterable: false };
         let depths_layout = compared_layout(&gpu, &[TextureSampleType::Depth]);
-        let compared_layout = compared_layout(&gpu, &[TextureSampleType::Depth, float]);
-        let casters_view = whole(&map.depth);
-        let receivers_view =
-            receivers.as_ref().map_or(&map.depth, |(_, depth)| depth).create_view(&TextureViewDescriptor::default());
-        let smoothies_view = whole(&smoothies);
-        let resources = [(0, &casters_view), (1, &receivers_view), (2, &smoothies_view)];
-        let resources = resources.map(|(binding, view)| (binding, BindingResource::TextureView(view)));
-        let depths = gpu.bind("smoothie.depths", &depths_layout, &resources[..2]);
-        let compared = gpu.bind("smoothie.compared", &compared_layout, &resources);
-
+        let compared_layout = compared_layout(&gpu, &[TextureSampleType::Depth, float, float]);
         let module = gpu.shader("smoothie", shaders::SMOOTHIE);
         let ends = VertexBufferLayout {
             array_stride: size_of::<[Vec3; 2]>() as u64,
@@ -105,8 +106,29 @@ impl Smoothie {
         let blend = Some(BlendState { color: least, alpha: least });
         let layout = surface.seeing_layout(&[&map.layout, &depths_layout]);
         let ends = [Some(ends)];
-        let stages_of_edges = stages("smoothie", "alpha", &ends, SMOOTHIES, &layout);
-        let edge = gpu.blending_pipeline("smoothie.edge", stages_of_edges, None, blend);
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        let layer = |alpha| Layer {
+            texture: gpu.texture("smoothie.smoothies", map.size(), SMOOTHIES, usage),
+            edge: gpu.blending_pipeline(
+                "smoothie.edge",
+                stages("smoothie", alpha, &ends, SMOOTHIES, &layout),
+                None,
+                blend,
+            ),
+        };
+        let smoothies = layer("alpha");
+        let receivers = (!triangles.is_empty()).then(|| Receivers {
+            triangles,
+            depth: depth(&gpu, "smoothie.receivers", map_size),
+            beyond: layer("alpha_beyond"),
+        });
+        // without such receivers nothing lies behind them
+        let (receivers_depth, beyond) =
+            receivers.as_ref().map_or((&map.depth, &smoothies), |receivers| (&receivers.depth, &receivers.beyond));
+        let views = [&map.depth, receivers_depth, &smoothies.texture, &beyond.texture].map(whole);
+        let resources = [0, 1, 2, 3].map(|binding| (binding as u32, BindingResource::TextureView(&views[binding])));
+        let depths = gpu.bind("smoothie.depths", &depths_layout, &resources[..2]);
+        let compared = gpu.bind("smoothie.compared", &compared_layout, &resources);
         let layout = surface.seeing_layout(&[&map.layout, &compared_layout]);
         let softened =
             gpu.pipeline("smoothie.softened", stages("whole_picture", "softened", &[], SHARE, &layout), None);
@@ -125,7 +147,6 @@ impl Smoothie {
             upload: Vec::new(),
             depths,
             compared,
-            edge,
             softened,
             mask,
         })
@@ -169,18 +190,35 @@ impl Smoothie {
 
     fn draw_light(&mut self, local_light: DVec4, asked: Smoothies) -> Result<DrawnMask<'_>, ShadowError> {
         let count = self.find(local_light)?;
-        let Smoothie { surface, map, .. } = self;
+        let Smoothie { surface, map, .. } = &*self;
         surface.set_light(local_light);
         map.aim(local_light, asked);
         let mut encoder = surface.encoder();
         map.draw(surface, &mut encoder);
-        if let Some((triangles, depth)) = &self.receivers {
+        if let Some(Receivers { triangles, depth, .. }) = &self.receivers {
             map.draw_triangles(surface, &mut encoder, depth, triangles);
         }
+        let layers = [Some(&self.smoothies), self.receivers.as_ref().map(|receivers| &receivers.beyond)];
+        for layer in layers.into_iter().flatten() {
+            self.draw_layer(layer, count, &mut encoder);
+        }
+        surface.draw_mask(&mut encoder, "smoothie", &self.mask, |pass| {
+            pass.set_bind_group(2, &map.bound, &[]);
+            pass.set_bind_group(3, &self.compared, &[]);
+            pass.set_pipeline(&self.softened);
+            pass.draw(0..3, 0..1);
+        });
+        surface.gpu.queue.submit([encoder.finish()]);
+        Ok(DrawnMask::Texture(&self.surface.gpu, &self.mask))
+    }
+
+    /// Draws all smoothies into one of the layers.
+    fn draw_layer(&self, layer: &Layer, count: u32, encoder: &mut CommandEncoder) {
+        let Smoothie { surface, map, .. } = self;
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("smoothie.edges"),
             color_attachments: &[Some(RenderPassColorAttachment {
-                view: &whole(&self.smoothies),
+                view: &whole(&layer.texture),
                 depth_slice: None,
                 resolve_target: None,
                 ops: Operations { load: LoadOp::Clear(NOTHING), store: StoreOp::Store },
@@ -190,18 +228,9 @@ impl Smoothie {
         });
         map.bind(surface, &mut pass);
         pass.set_bind_group(3, &self.depths, &[]);
-        pass.set_pipeline(&self.edge);
+        pass.set_pipeline(&layer.edge);
         pass.set_vertex_buffer(0, self.edges.slice(..));
         pass.draw(0..6, 0..count);
-        drop(pass);
-        surface.draw_mask(&mut encoder, "smoothie", &self.mask, |pass| {
-            pass.set_bind_group(2, &map.bound, &[]);
-            pass.set_bind_group(3, &self.compared, &[]);
-            pass.set_pipeline(&self.softened);
-            pass.draw(0..3, 0..1);
-        });
-        surface.gpu.queue.submit([encoder.finish()]);
-        Ok(DrawnMask::Texture(&self.surface.gpu, &self.mask))
     }
 }
 

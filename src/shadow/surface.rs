@@ -392,7 +392,7 @@ fn seen_edge_on(mesh: &Mesh, face: usize, view: &View) -> bool {
     let [a, b, c] = mesh.corners(face).map(|corner| corner.as_dvec3().truncate());
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
     let twice_area = (b - a).perp_dot(c - a).abs();
-    mesh.planes[face].z.abs() < 0.01 && twice_area < longest * grid.cell / 256.0
+    mesh.planes()[face].z.abs() < 0.01 && twice_area < longest * grid.cell / 256.0
 }
 
 /// Metres around the scene's origin → clip space, depth 1 near and 0 far.
@@ -453,15 +453,15 @@ fn uniform(scene: &Scene, view: &View) -> layout::View {
 
 /// The planes of faces as a texture, which no adapter limits to the size of a binding.
 pub(super) fn planes(gpu: &Gpu, mesh: &Mesh) -> Result<Texture, GpuError> {
-    let rows = mesh.planes.len().div_ceil(PLANES_WIDTH).max(1);
+    let rows = mesh.planes().len().div_ceil(PLANES_WIDTH).max(1);
     let most = gpu.limits.max_texture_dimension_2d as usize;
     if rows > most {
-        let (faces, most) = (mesh.planes.len(), most * PLANES_WIDTH);
+        let (faces, most) = (mesh.planes().len(), most * PLANES_WIDTH);
         return Err(gpu.failed(format!("{faces} triangles are more than the {most} that its largest texture holds")));
     }
     let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
     let texture = gpu.texture("surface.planes", (PLANES_WIDTH as u32, rows as u32), TextureFormat::Rgba32Float, usage);
-    let mut texels: Vec<[f32; 4]> = mesh.planes.iter().map(|plane| plane.as_vec4().to_array()).collect();
+    let mut texels: Vec<[f32; 4]> = mesh.planes().iter().map(|plane| plane.as_vec4().to_array()).collect();
     texels.resize(rows * PLANES_WIDTH, [0.0; 4]);
     gpu.queue.write_texture(
         texture.as_image_copy(),

@@ -61,7 +61,7 @@ impl Hextree {
         let mut duals = Vec::new();
         for edge in 0..mesh.edges.len() as u32 {
             if let [one, other] = *mesh.faces_at(edge as usize) {
-                let dual = |incidence: crate::mesh::Incidence| frame.dual(mesh.planes[incidence.face() as usize]);
+                let dual = |incidence: crate::mesh::Incidence| frame.dual(mesh.planes()[incidence.face() as usize]);
                 let ends = [dual(one) * f64::from(one.direction()), dual(other) * -f64::from(other.direction())];
                 duals.push(DualEdge { ends, edge });
             } else {
@@ -129,7 +129,8 @@ impl SilhouetteFinder for Hextree {
         let mut test = |edges: &[u32]| {
             looked.at += edges.len();
             for &edge in edges {
-                let facing = |face: crate::mesh::Incidence| plane_faces(mesh.planes[face.face() as usize], local_light);
+                let facing =
+                    |face: crate::mesh::Incidence| plane_faces(mesh.planes()[face.face() as usize], local_light);
                 let multiplicity = multiplicity(mesh.faces_at(edge as usize), facing);
                 looked.found += usize::from(multiplicity != 0);
                 append(silhouette, mesh.edges[edge as usize], multiplicity);

@@ -380,6 +380,6 @@ fn distinct_planes(mesh: &Mesh, of_suns: bool) -> (Vec<DVec4>, Vec<u32>) {
             planes.len() as u32 - 1
         })
     };
-    let plane_of = mesh.planes.iter().map(&mut number).collect();
+    let plane_of = mesh.planes().iter().map(&mut number).collect();
     (planes, plane_of)
 }

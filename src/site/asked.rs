@@ -16,7 +16,7 @@ pub struct Overrides {
     pub to: Option<String>,
     /// `--step 30min`
     pub step: Option<String>,
-    /// `--from-date 2026-02-19`, the first of several days of a probe.
+    /// `--from-date 2026-02-19`, the first of several days.
     pub from_date: Option<String>,
     /// `--to-date 2026-10-21`, the last of them.
     pub to_date: Option<String>,
@@ -32,8 +32,10 @@ pub struct Overrides {
     pub cell: Option<f64>,
     /// `--size PIXELS`: cells along the longer side.
     pub size: Option<u32>,
-    /// `--receivers top|ground`
+    /// `--receivers top|ground|surfaces`
     pub receivers: Option<Receivers>,
+    /// `--patch-cell M`, metres, with `--receivers surfaces`.
+    pub patch_cell: Option<f64>,
     /// `--technique auto|…`
     pub technique: Option<Method>,
     /// `--silhouette auto|…`

@@ -79,9 +79,10 @@ words!(
         "shadow-map" => Method::ShadowMap,
         "hybrid" => Method::Hybrid,
         "smoothie" => Method::Smoothie,
+        "soft-texture" => Method::SoftTexture,
         "ray-cast" => Method::RayCast
     ],
-    later ["soft-texture"]
+    later []
 );
 words!(
     Pcf,
@@ -104,4 +105,12 @@ words!(
     later []
 );
 words!(Engine, ["auto" => Engine::Auto, "gpu" => Engine::Gpu, "cpu" => Engine::Cpu], later []);
-words!(Receivers, ["top" => Receivers::Top, "ground" => Receivers::Ground], later ["surfaces"]);
+words!(
+    Receivers,
+    [
+        "top" => Receivers::Top,
+        "ground" => Receivers::Ground,
+        "surfaces" => Receivers::Surfaces
+    ],
+    later []
+);

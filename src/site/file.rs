@@ -77,6 +77,8 @@ pub struct GroundTable {
 pub struct StudyTable {
     /// Year-month-day.
     pub date: Option<Text>,
+    /// The first and the last of several days.
+    pub dates: Option<[Text; 2]>,
     /// First instant.
     pub from: Option<Text>,
     /// Last instant.

@@ -18,6 +18,7 @@ const KEYS: &[(&str, &str, &str)] = &[
     ("model", "receives", "receives = true"),
     ("ground", "level", "level = 0.0"),
     ("study", "date", "date = 2026-09-18"),
+    ("study", "dates", "dates = [\"2026-01-01\", \"2026-12-31\"]"),
     ("study", "from", "from = \"10:00\""),
     ("study", "to", "to = \"14:00\""),
     ("study", "step", "step = \"30min\""),

@@ -6,7 +6,8 @@ use super::extent::{Bounds, with_shadows};
 use super::file::Names;
 use super::model::{self, ModelError, Placement};
 use super::written::Written;
-use super::{Finder, Method, Site, camera, keys, plan, study};
+use super::{Finder, Method, Receivers, Site, camera, keys, plan, study};
+use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::mesh::{Mesh, Part};
 use crate::sun::{Place, SunTrack};
 use glam::DVec3;
@@ -103,6 +104,8 @@ impl Site {
             let what = format!("{width} is no width; write metres above 0, for example --smoothie-width 0.5");
             return Err(refuse(At::Option("--smoothie-width"), what));
         }
+        let receivers = asked.receivers.unwrap_or_default();
+        let patch_cell = patch_cell(receivers, asked)?;
         let level = written.site.ground.level;
         if let Some(level) = level.filter(|level| !level.is_finite()) {
             return Err(refuse(
@@ -124,7 +127,8 @@ impl Site {
             track,
             grid,
             camera,
-            receivers: asked.receivers.unwrap_or_default(),
+            receivers,
+            patch_cell,
             method,
             finder: asked.silhouette.unwrap_or_default(),
             hextree_depth: asked.hextree_depth,
@@ -178,6 +182,21 @@ fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {
             .parse()
             .map_err(|error: super::ChoiceError| refuse(written.key("study", "technique"), error.to_string())),
         (None, None) => Ok(Method::default()),
+    }
+}
+
+/// Metres of a texel on surfaces.
+fn patch_cell(receivers: Receivers, asked: &Overrides) -> Result<f64, SiteError> {
+    let at = At::Option("--patch-cell");
+    match asked.patch_cell {
+        None => Ok(DEFAULT_CELL_M),
+        Some(_) if receivers != Receivers::Surfaces => {
+            Err(refuse(at, "is the cell on surfaces; say --receivers surfaces with it, or leave it out"))
+        }
+        Some(cell) if cell.is_finite() && cell > 0.0 => Ok(cell),
+        Some(cell) => {
+            Err(refuse(at, format!("{cell} is no cell; write metres above 0, for example --patch-cell 0.25")))
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 mod asked;
 mod camera;
 mod choice;
+mod dates;
 mod error;
 mod extent;
 pub mod file;
@@ -35,6 +36,8 @@ pub enum Receivers {
     Top,
     /// The ground plane, as if the buildings only cast.
     Ground,
+    /// All receiving surfaces of the models, walls and undersides too, on their outer side.
+    Surfaces,
 }
 
 /// How shadows are found, as the user asked.
@@ -53,6 +56,8 @@ pub enum Method {
     Hybrid,
     /// A depth map with soft edges.
     Smoothie,
+    /// Registered hard shadows on flat patches, added up.
+    SoftTexture,
     /// Ray casting.
     RayCast,
 }
@@ -130,6 +135,8 @@ pub struct Site {
     pub camera: Camera,
     /// Which surfaces are judged.
     pub receivers: Receivers,
+    /// Side of a texel of [`Receivers::Surfaces`], metres.
+    pub patch_cell: f64,
     /// How.
     pub method: Method,
     /// With which finder.

@@ -1,13 +1,14 @@
 //! What is asked of probes: which points, on which days.
 
 use super::asked::{Overrides, numbers, refuse};
+use super::dates::{of_each_day, own_date, several};
 use super::error::{At, SiteError};
 use super::load::Models;
 use super::model;
 use super::study::{date_of, no_study};
 use super::written::Written;
 use crate::mesh::Mesh;
-use crate::sun::{DayWindow, MOST_DAYS, Place, Reading, SunError, parse_duration_secs};
+use crate::sun::{DayWindow, Place, SunError, parse_duration_secs};
 use crate::view::Probe;
 use chrono::NaiveDate;
 use glam::DVec3;
@@ -110,13 +111,7 @@ fn unit(normal: [f64; 3], at: impl Fn() -> At) -> Result<DVec3, SiteError> {
 /// The days asked, each with the part of it that is.
 fn days(place: &Place, written: &Written, asked: &Overrides) -> Result<Vec<DayWindow>, SiteError> {
     let reading = |option: &'static str, text: &Option<String>| {
-        let Some(text) = text else { return Ok(None) };
-        let reading: Reading = text.parse().map_err(|error| SiteError::sun(At::Option(option), error))?;
-        if reading.date.is_some() {
-            let what = format!("{text} has a date, but is meant for each day; leave it out, and name days with --date");
-            return Err(refuse(At::Option(option), what));
-        }
-        Ok(Some(reading))
+        text.as_ref().map(|text| of_each_day(text, At::Option(option))).transpose()
     };
     let (from, to) = (reading("--from", &asked.from)?, reading("--to", &asked.to)?);
     dates(written, asked)?
@@ -137,33 +132,15 @@ fn days(place: &Place, written: &Written, asked: &Overrides) -> Result<Vec<DayWi
 
 /// One date, of the command line or of the study, or a range of them.
 fn dates(written: &Written, asked: &Overrides) -> Result<Vec<NaiveDate>, SiteError> {
+    if let Some(dates) = several(written, asked)? {
+        return Ok(dates);
+    }
     let study = &written.site.study;
-    let option = |name: &'static str, text: &Option<String>| date_of(text.clone().map(|text| (text, At::Option(name))));
-    let (first, last) = match (option("--from-date", &asked.from_date)?, option("--to-date", &asked.to_date)?) {
-        (Some(first), Some(last)) => (first, last),
-        (Some(_), None) => return Err(refuse(At::Option("--from-date"), "needs --to-date, the last of the days")),
-        (None, Some(_)) => return Err(refuse(At::Option("--to-date"), "needs --from-date, the first of the days")),
-        (None, None) => {
-            let written_date = study.date.as_ref().map(|text| (text.0.clone(), written.key("study", "date")));
-            // A study without a date has one in its beginning.
-            let in_from = || study.from.as_ref()?.0.parse::<Reading>().ok()?.date;
-            let date = match option("--date", &asked.date)? {
-                Some(date) => Some(date),
-                None => date_of(written_date)?.or_else(in_from),
-            };
-            return Ok(vec![date.ok_or_else(|| no_study(written, [false, true, true, true]))?]);
-        }
+    let date = match date_of(asked.date.clone().map(|text| (text, At::Option("--date"))))? {
+        Some(date) => Some(date),
+        // A study without a date has one in its beginning.
+        None => date_of(study.date.as_ref().map(|text| (text.0.clone(), written.key("study", "date"))))?
+            .or_else(|| own_date(&study.from.as_ref()?.0)),
     };
-    if asked.date.is_some() {
-        return Err(refuse(At::Option("--date"), "says nothing beside --from-date and --to-date; leave one out"));
-    }
-    let days = (last - first).num_days() + 1;
-    if days < 1 {
-        let what = format!("{last} is before --from-date {first}; exchange them");
-        return Err(refuse(At::Option("--to-date"), what));
-    }
-    if days > MOST_DAYS {
-        return Err(SiteError::sun(At::Option("--to-date"), SunError::WindowTooLong { days, most: MOST_DAYS }));
-    }
-    Ok(first.iter_days().take_while(|date| *date <= last).collect())
+    Ok(vec![date.ok_or_else(|| no_study(written, [false, true, true, true]))?])
 }

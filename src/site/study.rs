@@ -1,9 +1,10 @@
 //! The study as asked → its instants.
 
 use super::asked::{Overrides, refuse};
+use super::dates::{of_each_day, own_date, several};
 use super::error::{At, SiteError};
 use super::written::Written;
-use crate::sun::{Place, Reading, SunError, SunTrack, Window, parse_date, parse_duration_secs};
+use crate::sun::{EachDay, Place, Reading, SunError, SunTrack, Window, parse_date, parse_duration_secs};
 use chrono::NaiveDate;
 
 /// A text and where it was written.
@@ -32,7 +33,14 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
     let date_written = file("date", study.date.as_ref().map(|date| date.0.as_str()));
 
     if let Some(text) = &asked.at {
-        for (name, given) in [("--from", &asked.from), ("--to", &asked.to), ("--step", &asked.step)] {
+        let given = [
+            ("--from", &asked.from),
+            ("--to", &asked.to),
+            ("--step", &asked.step),
+            ("--from-date", &asked.from_date),
+            ("--to-date", &asked.to_date),
+        ];
+        for (name, given) in given {
             if given.is_some() {
                 return Err(refuse(At::Option(name), "says nothing beside --at; leave one of the two out"));
             }
@@ -47,7 +55,10 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
     let from = option("--from", &asked.from).or(file("from", study.from.as_ref().map(|text| text.0.as_str())));
     let to = option("--to", &asked.to).or(file("to", study.to.as_ref().map(|text| text.0.as_str())));
     let step = option("--step", &asked.step).or(file("step", study.step.as_deref()));
-    let own_date = from.as_ref().and_then(|(text, _)| text.parse::<Reading>().ok()?.date);
+    if let Some(dates) = several(written, asked)? {
+        return each_day(place, written, &dates, [from, to, step], refraction);
+    }
+    let own_date = from.as_ref().and_then(|(text, _)| own_date(text));
     let dated = own_date.is_some() || date_asked.is_some() || date_written.is_some();
     let (Some(from), Some(to), Some(step), true) = (&from, &to, &step, dated) else {
         return Err(no_study(written, [dated, from.is_some(), to.is_some(), step.is_some()]));
@@ -69,6 +80,32 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
         SunError::EmptyWindow { .. } | SunError::Backwards { .. } | SunError::WindowTooLong { .. } => to.fault(error),
         _ if starts(&window, place) => to.fault(error),
         _ => from.fault(error),
+    })
+}
+
+/// A window on each of several days; without `from` and `to` the whole of them.
+fn each_day(
+    place: &Place,
+    written: &Written,
+    dates: &[NaiveDate],
+    [from, to, step]: [Option<(String, At)>; 3],
+    refraction: bool,
+) -> Result<SunTrack, SiteError> {
+    let Some((step, step_at)) = step else {
+        return Err(no_study(written, [true, true, true, false]));
+    };
+    let step_secs = parse_duration_secs(&step).map_err(|error| SiteError::sun(step_at.clone(), error))?;
+    let reading =
+        |said: &Option<(String, At)>| said.as_ref().map(|(text, at)| of_each_day(text, at.clone())).transpose();
+    let each = EachDay { from: reading(&from)?, to: reading(&to)? };
+    let days_at = || At::Option("--from-date");
+    SunTrack::days(place, dates, each, step_secs, refraction).map_err(|error| match (&error, &from, &to) {
+        (SunError::ZeroStep | SunError::TooManyInstants { .. }, ..) => SiteError::sun(step_at, error),
+        (SunError::NoEvent { reading, .. }, Some((text, at)), _) if reading.trim() == text.trim() => {
+            SiteError::sun(at.clone(), error)
+        }
+        (_, _, Some((_, at))) | (_, Some((_, at)), None) => SiteError::sun(at.clone(), error),
+        (_, None, None) => SiteError::sun(days_at(), error),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Event, OnEvent, StudyError, tell};
 use crate::gpu::{Gpu, GpuError};
-use crate::profile::Drawn;
+use crate::profile::{Drawn, DrawnSettings};
 use crate::shadow::hybrid::Hybrid;
 use crate::shadow::map;
 use crate::shadow::projected::Projected;
@@ -53,7 +53,7 @@ impl Drawing {
             },
             Method::Hybrid => Drawing::Hybrid { silhouettes: silhouettes(site, gpu), map_size },
             Method::Smoothie => Drawing::Smoothie { finder: kind(site), map_size, width_m: settings.smoothie_width_m },
-            Method::Stencil | Method::Auto | Method::RayCast | Method::Projected => {
+            Method::Stencil | Method::Auto | Method::RayCast | Method::Projected | Method::SoftTexture => {
                 Drawing::Stencil(silhouettes(site, gpu))
             }
         }
@@ -89,17 +89,31 @@ impl Machine {
             Machine::OnGpu(_, Drawing::Hybrid { silhouettes, .. }) => (Method::Hybrid, Some(found(silhouettes))),
             Machine::OnGpu(_, Drawing::Smoothie { finder, .. }) => (Method::Smoothie, Some(found(&(*finder).into()))),
         };
+        let mut settings = DrawnSettings::default();
+        match *self {
+            Machine::RayCast { sun_samples } => settings.sun_samples = sun_samples,
+            Machine::Projected(_) | Machine::OnGpu(_, Drawing::Stencil(_)) => {}
+            Machine::OnGpu(_, Drawing::ShadowMap { size, filter }) => {
+                settings.map_size = Some(size);
+                settings.pcf = Some(pcf(filter).word());
+            }
+            Machine::OnGpu(_, Drawing::Hybrid { map_size, .. }) => settings.map_size = Some(map_size),
+            Machine::OnGpu(_, Drawing::Smoothie { map_size, width_m, .. }) => {
+                settings.map_size = Some(map_size);
+                settings.smoothie_width = width_m;
+            }
+        }
         let (engine, adapter) = match self {
             Machine::RayCast { .. } | Machine::Projected(_) => (Engine::Cpu, None),
             Machine::OnGpu(gpu, _) => (Engine::Gpu, Some(gpu.name().to_owned())),
         };
-        Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter }
+        Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter, settings }
     }
 
     pub(super) fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
         let (gpu, drawing) = match self {
             Machine::RayCast { sun_samples } => return Ok(Box::new(RayCast::new(scene, view, *sun_samples))),
-            Machine::Projected(grid) => return Ok(Box::new(Projected::new(scene, *grid))),
+            Machine::Projected(grid) => return Ok(Box::new(Projected::new(&scene, *grid))),
             Machine::OnGpu(gpu, drawing) => (Arc::clone(gpu), *drawing),
         };
         Ok(match drawing {
@@ -112,6 +126,16 @@ impl Machine {
                 Box::new(Smoothie::new(gpu, scene, view, finder, map_size, width_m)?)
             }
         })
+    }
+}
+
+/// The word of a filter.
+fn pcf(filter: Filter) -> Pcf {
+    match filter {
+        Filter::None => Pcf::None,
+        Filter::TwoByTwo => Pcf::TwoByTwo,
+        Filter::FastTwoByTwo => Pcf::FastTwoByTwo,
+        Filter::FastFourByFour => Pcf::FastFourByFour,
     }
 }
 
@@ -226,6 +250,10 @@ pub(super) fn choose_on(
             };
             Machine::Projected(grid)
         }
+        (Method::SoftTexture, _) => {
+            let what = "soft-texture is for flat patches; add --receivers surfaces, or take another technique";
+            return Err(StudyError::Conflict { option: "--technique", what });
+        }
         (Method::RayCast, Engine::Gpu) => {
             return conflict("the technique ray-cast works on the cpu; take --technique stencil with gpu");
         }
@@ -292,6 +320,15 @@ pub(super) fn stencil_alone(site: &Site) -> Result<Machine, StudyError> {
     let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(why_none(error)))?;
     let drawing = Drawing::of(Method::Stencil, site, &gpu);
     Ok(Machine::OnGpu(Arc::new(gpu), drawing))
+}
+
+/// Masks are of a plan or of a camera's picture.
+pub(super) fn not_surfaces(site: &Site) -> Result<(), StudyError> {
+    if site.receivers == Receivers::Surfaces {
+        let what = "surfaces are judged by gnomon profile alone; take top or ground, or leave it out";
+        return Err(StudyError::Conflict { option: "--receivers", what });
+    }
+    Ok(())
 }
 
 /// Why no graphics adapter draws.

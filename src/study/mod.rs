@@ -1,16 +1,18 @@
 //! The flow: a checked request in, its shadow profile out.
 //!
 //! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
-//! [`verify`] holds every technique against ray casting; [`probe`] finds when single points lie in the sun; [`live`] draws
-//! one picture after another for whoever looks.
+//! [`surfaces()`] is the study on facades and roofs; [`verify`] holds every technique against ray casting; [`probe`] finds
+//! when single points lie in the sun; [`live`] draws one picture after another for whoever looks.
 
 pub mod live;
 mod machine;
 pub mod probe;
 mod stopwatch;
+mod surfaces;
 pub mod verify;
 
 pub use stopwatch::Stopwatch;
+pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
@@ -18,14 +20,14 @@ use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Statistics, Timings};
 use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
-use crate::shadow::{GpuSurface, Scene, ShadowError, Technique};
+use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
 use crate::sun::{SunError, SunTrack};
 use crate::view::{Camera, Counted, Mask, Overlay, Surface, View};
 use chrono::DateTime;
 use chrono_tz::Tz;
 use glam::DVec3;
-use machine::{Machine, choose, counting, stencil_alone};
+use machine::{Machine, choose, counting, not_surfaces, stencil_alone};
 use std::ops::ControlFlow;
 
 /// What is made beside the profile.
@@ -48,8 +50,8 @@ pub struct InstantWants {
     pub volumes: bool,
     /// The silhouette's lines over a camera's picture.
     pub silhouette: bool,
-    /// What counting took, cell by cell.
-    pub counted: bool,
+    /// What counting took, cell by cell: the option that asks for it.
+    pub counted: Option<&'static str>,
 }
 
 /// What happens on the way.
@@ -129,12 +131,17 @@ pub enum StudyError {
     #[error(
         "the study has {} hours of daylight, and a profile sums at most {}; ask for a shorter window with --from and --to",
         day_secs / 3600,
-        MOST_DAY_SECS / 3600
+        most_secs / 3600
     )]
     TooLong {
         /// Seconds of the window with the sun above the horizon.
         day_secs: u64,
+        /// How many can be summed.
+        most_secs: u32,
     },
+    /// Nothing that receives has an area.
+    #[error("no component that receives has a surface; see `receives` in the site file")]
+    NoSurface,
     /// The track has no instant.
     #[error("there is no instant to draw")]
     NoInstant,
@@ -177,15 +184,16 @@ impl StudyError {
 }
 
 /// The longest daylight that a sum in 1/255 s holds, seconds.
-const MOST_DAY_SECS: u64 = (u32::MAX / 255) as u64;
+const MOST_DAY_SECS: u32 = u32::MAX / 255;
 
 /// The study: every instant's shadows, summed to the time in shadow.
 ///
 /// # Errors
 /// [`StudyError`]; choices that exclude each other and windows that are too long before anything is drawn.
 pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
+    not_surfaces(site)?;
     let mut watch = Stopwatch::start();
-    let (day_secs, night_secs) = day_and_night(&site.track)?;
+    let (day_secs, night_secs) = day_and_night(&site.track, MOST_DAY_SECS)?;
     note_distance(&site.mesh, on_event)?;
     let view = View::Plan(site.grid);
     let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, &view, on_event)? };
@@ -244,14 +252,15 @@ pub fn instant(
     wants: &InstantWants,
     on_event: &mut OnEvent<'_>,
 ) -> Result<InstantOutcome, StudyError> {
+    not_surfaces(site)?;
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
     note_distance(&site.mesh, on_event)?;
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(site)?,
-        (false, true) => counting(site, "--stats, --show mask and --show overdraw")?,
-        (false, false) => choose(site, &view, on_event)?,
+        (false, Some(option)) => counting(site, option)?,
+        (false, None) => choose(site, &view, on_event)?,
     };
     let receivers = judged(site, &view);
     let look = Look { site, machine: &machine, view, receivers };
@@ -267,7 +276,7 @@ pub fn instant(
         if shows_volumes {
             tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned()))?;
         }
-        if wants.counted {
+        if wants.counted.is_some() {
             tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
         }
         night(&view)
@@ -277,7 +286,7 @@ pub fn instant(
             let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
             tell(on_event, Event::Note(note.to_owned()))?;
         }
-        if wants.counted {
+        if wants.counted.is_some() {
             counted = technique.counted(instant.to_sun)?;
         }
         technique.draw(instant.to_sun)?.read()?
@@ -328,8 +337,8 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
     }
 }
 
-/// The seconds of the window with the sun above the horizon, and without.
-fn day_and_night(track: &SunTrack) -> Result<(u32, u32), StudyError> {
+/// The seconds of the window with the sun above the horizon, and without; an error where the former are too many.
+fn day_and_night(track: &SunTrack, most_secs: u32) -> Result<(u32, u32), StudyError> {
     let weights = |night: bool| {
         track
             .instants
@@ -338,8 +347,8 @@ fn day_and_night(track: &SunTrack) -> Result<(u32, u32), StudyError> {
             .map(|instant| u64::from(instant.weight_secs))
     };
     let day_secs: u64 = weights(false).sum();
-    if day_secs > MOST_DAY_SECS {
-        return Err(StudyError::TooLong { day_secs });
+    if day_secs > most_secs.into() {
+        return Err(StudyError::TooLong { day_secs, most_secs });
     }
     // Both fit: a window is at most ten years, 3.2e8 s.
     Ok((day_secs as u32, weights(true).sum::<u64>() as u32))
@@ -361,7 +370,7 @@ impl Look<'_> {
     fn scene(&self) -> Scene {
         let mesh = &self.site.mesh;
         let receivers = match self.receivers {
-            Receivers::Top => mesh.of_components(&self.site.receives),
+            Receivers::Top | Receivers::Surfaces => mesh.of_components(&self.site.receives),
             Receivers::Ground => mesh.of_components(&[]),
         };
         let casters = mesh.of_components(&self.site.casts);
@@ -389,20 +398,26 @@ impl Look<'_> {
     /// What the drawing shows: the receivers, or over a ground that is judged alone all models.
     fn surface_mesh(&self) -> Mesh {
         match self.receivers {
-            Receivers::Top => self.site.mesh.of_components(&self.site.receives),
+            Receivers::Top | Receivers::Surfaces => self.site.mesh.of_components(&self.site.receives),
             Receivers::Ground => self.site.mesh.clone(),
         }
     }
 
     fn surface(&self, technique: &dyn Technique) -> Result<Surface, ShadowError> {
-        if self.receivers == Receivers::Top {
+        if self.receivers != Receivers::Ground {
             return technique.surface();
         }
-        let casters = self.site.mesh.of_components(&[]);
-        let scene = Scene { casters, receivers: self.surface_mesh(), ground: self.site.ground };
-        match self.machine.gpu() {
-            Some(gpu) => GpuSurface::draw(gpu, &scene, self.view)?.read(),
-            None => RayCast::new(scene, self.view, None).surface(),
+        let receivers = self.surface_mesh();
+        match (self.machine.gpu(), self.view) {
+            (None, View::Plan(grid)) => Ok(plan_surface(&receivers, self.site.ground, &grid)),
+            (gpu, view) => {
+                let casters = self.site.mesh.of_components(&[]);
+                let scene = Scene { casters, receivers, ground: self.site.ground };
+                match gpu {
+                    Some(gpu) => GpuSurface::draw(gpu, &scene, view)?.read(),
+                    None => RayCast::new(scene, view, None).surface(),
+                }
+            }
         }
     }
 }

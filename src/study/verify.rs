@@ -3,7 +3,7 @@
 //! [`verify`] makes the techniques, [`hold`] holds them against the truth, instant by instant. Ray casting is held against
 //! itself without its trees, at some cells.
 
-use super::machine::{Drawing, Machine, why_none};
+use super::machine::{Drawing, Machine, not_surfaces, why_none};
 use super::{Event, Look, OnEvent, StudyError, day_and_night, note_distance, tell};
 use crate::gpu::Gpu;
 use crate::mesh::report;
@@ -57,6 +57,7 @@ pub struct Trial {
 /// # Errors
 /// [`StudyError`]; a study all at night, and a machine without a graphics adapter, before anything is drawn.
 pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
+    not_surfaces(site)?;
     by_day(site)?;
     note_distance(&site.mesh, on_event)?;
     let gpu = Arc::new(Gpu::open().map_err(|error| StudyError::NoVerification(why_none(error)))?);
@@ -84,7 +85,7 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
 /// As [`verify`].
 pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
     let instants = by_day(site)?;
-    let (day_secs, _) = day_and_night(&site.track)?;
+    let (day_secs, _) = day_and_night(&site.track, super::MOST_DAY_SECS)?;
     let sun_samples = site.settings.sun_samples.unwrap_or(SUN_SAMPLES);
     let mut centre = Cast::new(site, None);
     let mut disc = Cast::new(site, Some(sun_samples));

@@ -88,6 +88,20 @@ pub enum SunError {
         /// How many are taken.
         most: i64,
     },
+    /// A day's window begins before that of the day before ends.
+    #[error("the window of {date} begins before that of the day before ends; give an earlier `to`")]
+    Overlap {
+        /// The later date.
+        date: NaiveDate,
+    },
+    /// On none of several days there is anything between `from` and `to`.
+    #[error("from {first} to {last} no day has a time between `from` and `to`; give an earlier `from` or a later `to`")]
+    NoWindow {
+        /// The first date.
+        first: NaiveDate,
+        /// The last date.
+        last: NaiveDate,
+    },
     /// `from` and `to` are the same.
     #[error(
         "the window from {from} to {to} is empty; give a later `to`, \

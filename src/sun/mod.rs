@@ -3,6 +3,7 @@
 mod clock;
 mod day;
 mod day_window;
+mod days;
 mod disc;
 mod error;
 mod place;
@@ -11,6 +12,7 @@ mod window;
 
 pub use clock::{Reading, TimeOfDay, parse_date, parse_duration_secs};
 pub use day_window::DayWindow;
+pub use days::EachDay;
 pub use disc::{SUN_DISC_RAD, disc};
 pub use error::SunError;
 pub use place::{zone_at, zone_named};
@@ -75,6 +77,8 @@ pub struct SunTrack {
     pub instants: Vec<Instant>,
     /// The days the window touches.
     pub days: Vec<Day>,
+    /// Where a window was asked on each of several days: which.
+    pub each_day: Option<EachDay>,
     /// The step between instants in seconds; 0 for a single instant.
     pub step_secs: u32,
     /// Whether directions include atmospheric refraction.

@@ -8,7 +8,7 @@ use chrono_tz::Tz;
 use rayon::prelude::*;
 
 /// Beyond this a step is a slip of the pen.
-const MOST_INSTANTS: i64 = 1_000_000;
+pub(super) const MOST_INSTANTS: i64 = 1_000_000;
 /// Ten years: weights and their sums stay far inside their integers.
 pub const MOST_DAYS: i64 = 3660;
 
@@ -91,8 +91,7 @@ impl SunTrack {
             return Err(SunError::WindowTooLong { days: seconds / 86_400, most: MOST_DAYS });
         }
         let step = i64::from(window.step_secs);
-        let whole_steps = seconds / step;
-        let instants = whole_steps + 1 + i64::from(seconds % step != 0);
+        let instants = seconds / step + 1 + i64::from(seconds % step != 0);
         if instants > MOST_INSTANTS {
             return Err(SunError::TooManyInstants {
                 step_secs: window.step_secs,
@@ -102,10 +101,7 @@ impl SunTrack {
                 least_secs: (seconds + MOST_INSTANTS - 2) / (MOST_INSTANTS - 1),
             });
         }
-        let mut elapsed: Vec<i64> = (0..=whole_steps).map(|index| index * step).collect();
-        if seconds % step != 0 {
-            elapsed.push(seconds);
-        }
+        let elapsed = elapsed_secs(seconds, window.step_secs);
         let times: Vec<_> = elapsed.iter().map(|elapsed| from + TimeDelta::seconds(*elapsed)).collect();
         let weights = weights_secs(&elapsed);
         track(place, &times, &weights, window.step_secs, refraction)
@@ -126,9 +122,19 @@ impl SunTrack {
     }
 }
 
+/// 0, step, …, and the window's end.
+pub(super) fn elapsed_secs(window_secs: i64, step_secs: u32) -> Vec<i64> {
+    let step = i64::from(step_secs);
+    let mut elapsed: Vec<i64> = (0..=window_secs / step).map(|index| index * step).collect();
+    if window_secs % step != 0 {
+        elapsed.push(window_secs);
+    }
+    elapsed
+}
+
 /// The trapezoid rule in whole seconds: each gap between instants is shared by its two ends,
 /// and a half second goes to the later one. `elapsed_secs` increases.
-fn weights_secs(elapsed_secs: &[i64]) -> Vec<u32> {
+pub(super) fn weights_secs(elapsed_secs: &[i64]) -> Vec<u32> {
     let mut weights = vec![0_u32; elapsed_secs.len()];
     for (index, pair) in elapsed_secs.windows(2).enumerate() {
         // A window is at most ten years, 3.2e8 s.
@@ -139,7 +145,7 @@ fn weights_secs(elapsed_secs: &[i64]) -> Vec<u32> {
     weights
 }
 
-fn track(
+pub(super) fn track(
     place: &Place,
     times: &[DateTime<Tz>],
     weights: &[u32],
@@ -165,5 +171,5 @@ fn track(
         .into_par_iter()
         .map(|date| Day::of(place, date))
         .collect::<Result<_, _>>()?;
-    Ok(SunTrack { instants, days, step_secs, refraction, delta_t_secs })
+    Ok(SunTrack { instants, days, each_day: None, step_secs, refraction, delta_t_secs })
 }

@@ -70,7 +70,7 @@ pub fn layers_bound(mesh: &Mesh, to_sun: DVec3) -> u32 {
     let scale = (BOUND_CELLS as f64 - 1e-3) / (high - low).max(DVec2::splat(1e-9));
     let side = BOUND_CELLS + 1;
     let mut counts = vec![0i32; side * side];
-    for face in &mesh.faces {
+    for face in mesh.faces.iter() {
         let (face_low, face_high) = box_of(face);
         // rounding must not take a face out of a cell it touches
         let from = ((face_low - low) * scale - 1e-6).max(DVec2::ZERO).as_uvec2();

@@ -79,7 +79,7 @@ pub fn solids(mesh: &Mesh, casts: &[bool], to_sun: DVec3, ground: f64) -> Result
         let mut cut = Cut::new(mesh, ground);
         for face in caster.faces.clone() {
             let towards = facing[face as usize];
-            let edge_on = mesh.planes[face as usize].dot(light).abs() <= EDGE_ON;
+            let edge_on = mesh.planes()[face as usize].dot(light).abs() <= EDGE_ON;
             if !edge_on && half.is_none_or(|half| half == towards) {
                 let [a, b, c] = mesh.faces[face as usize];
                 cut.add(if towards { [a, b, c] } else { [a, c, b] });

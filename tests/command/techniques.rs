@@ -21,6 +21,10 @@ fn every_technique_draws_a_profile_and_is_named() {
         let report = json(&done(folder.path(), &format!("profile . --size 64 --technique {technique} --json")));
         assert_eq!((&report["technique"], &report["engine"]), (&technique.into(), &engine.into()));
         assert_eq!(report["silhouette"].as_str().unwrap_or_default(), silhouette, "{technique}");
+        let map_size = report["map_size"].as_u64();
+        assert_eq!(map_size, (!matches!(technique, "stencil" | "ray-cast")).then_some(2048), "{technique}");
+        assert_eq!(report["pcf"].as_str(), (technique == "shadow-map").then_some("fast-2x2"), "{technique}");
+        assert!(report["sun_samples"].is_null() && report["smoothie_width"].is_null());
         assert!(report["statistics"].is_null(), "statistics are not asked");
         hours.push(std::fs::read(folder.path().join("out/shadow-hours.tif")).unwrap());
     }

@@ -63,7 +63,7 @@ fn pyramid(depth: f64) -> Part {
 }
 
 /// Named scenes of several components.
-fn dirty() -> Vec<(&'static str, Vec<Part>)> {
+pub(crate) fn dirty() -> Vec<(&'static str, Vec<Part>)> {
     let mut open = house(0.0, 9.3);
     open.triangles.drain(2..4); // the lid
     let mut sideless = house(0.0, 9.3);

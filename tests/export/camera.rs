@@ -28,7 +28,7 @@ pub(super) fn photograph(mesh: &Mesh, camera: &Camera, to_sun: DVec3) -> (Surfac
             let away = match face {
                 Surface::SKY => return (face, f32::NAN, 0),
                 Surface::GROUND => false,
-                face => mesh.planes[face as usize].truncate().dot(to_sun) <= 0.0,
+                face => mesh.planes()[face as usize].truncate().dot(to_sun) <= 0.0,
             };
             let lit = !away && hit(mesh, point + to_sun * 0.01, to_sun).is_none();
             (face, point.z as f32, if lit { 255 } else { 0 })

@@ -41,7 +41,16 @@ fn profile_json_is_the_contract() {
         "days",
         "timings_secs",
     ];
-    let ours = ["refraction_celsius", "refraction_millibar", "algorithm", "delta_t_source"];
+    let ours = [
+        "map_size",
+        "pcf",
+        "smoothie_width",
+        "sun_samples",
+        "refraction_celsius",
+        "refraction_millibar",
+        "algorithm",
+        "delta_t_source",
+    ];
     let mut found = keys(&text, 2);
     found.retain(|key| !ours.contains(key));
     assert_eq!(found, contract);

@@ -5,7 +5,7 @@ use chrono_tz::Tz;
 use glam::DVec3;
 use gnomon::export::figure::Scene;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::profile::{Drawn, Profile};
+use gnomon::profile::{Drawn, DrawnSettings, Profile};
 use gnomon::site::Receivers;
 use gnomon::sun::{Day, Instant, Place, SunTrack};
 use gnomon::view::{Grid, Mask, Surface};
@@ -36,6 +36,7 @@ impl Town {
                 silhouette: Some("brute"),
                 engine: "gpu",
                 adapter: Some("llvmpipe (LLVM 19.1.7, 256 bits)".to_owned()),
+                settings: DrawnSettings::default(),
             },
         }
     }
@@ -78,6 +79,7 @@ pub(super) fn track(from: u32, to: u32, step: u32) -> SunTrack {
     SunTrack {
         instants: instants.collect(),
         days: vec![Day { date, sunrise: Some(time(24_000)), noon: Some(time(46_080)), sunset: Some(time(68_400)) }],
+        each_day: None,
         step_secs: step,
         refraction: true,
         delta_t_secs: 69.2,
@@ -145,7 +147,7 @@ pub(super) fn plan(mesh: &Mesh, grid: &Grid) -> Surface {
         height_m: vec![0.0; grid.cells()],
     };
     for face in 0..mesh.faces.len() {
-        let plane = mesh.planes[face];
+        let plane = mesh.planes()[face];
         let normal = plane.truncate();
         if normal.z < 1e-6 {
             continue;
@@ -201,7 +203,7 @@ pub(super) fn mask(surface: &Surface, grid: &Grid, sun: &Instant, receivers: Rec
             }
             shade[cell] = height;
             let own = match receivers {
-                Receivers::Top => f64::from(surface.height_m[cell]),
+                Receivers::Top | Receivers::Surfaces => f64::from(surface.height_m[cell]),
                 Receivers::Ground => 0.0,
             };
             let under = receivers == Receivers::Ground && surface.height_m[cell] > 0.01;

@@ -63,16 +63,16 @@ fn a_wall_of_many_panes_has_one_plane() {
 
 fn walls_have_one_plane(side: u32) {
     let mesh = Mesh::build(vec![panes(side)]).unwrap();
-    assert_eq!(distinct(mesh.planes.iter().copied()), 6, "{side} panes");
+    assert_eq!(distinct(mesh.planes().iter().copied()), 6, "{side} panes");
     for edge in 0..mesh.edges.len() {
         let &[one, other] = mesh.faces_at(edge) else { panic!("the box is closed") };
-        let [one, other] = [one, other].map(|at| mesh.planes[at.face() as usize]);
+        let [one, other] = [one, other].map(|at| mesh.planes()[at.face() as usize]);
         let apart = one.truncate().angle_between(other.truncate());
         assert_eq!(bits(one) == bits(other), apart < 0.1);
     }
     // each for itself they differ, though by a hair
     assert!(distinct(own(&mesh)) > 6);
-    for (own, given) in own(&mesh).zip(&mesh.planes) {
+    for (own, given) in own(&mesh).zip(mesh.planes()) {
         assert!((own - given).abs().max_element() < 1e-4, "{own} became {given}");
     }
 }
@@ -80,7 +80,7 @@ fn walls_have_one_plane(side: u32) {
 #[test]
 fn a_wall_faces_the_sun_as_one() {
     let mesh = Mesh::build(vec![panes(20)]).unwrap();
-    for wall in mesh.planes.iter().map(|plane| plane.truncate()).take(800 * 3).step_by(800) {
+    for wall in mesh.planes().iter().map(|plane| plane.truncate()).take(800 * 3).step_by(800) {
         // edge-on, as near as numbers go
         let sun = wall.any_orthonormal_vector().extend(0.0);
         let facing = mesh.facing(sun);
@@ -91,7 +91,7 @@ fn a_wall_faces_the_sun_as_one() {
         for run in facing.chunks(800) {
             assert!(run.iter().all(|facing| *facing == run[0]));
         }
-        if wall == mesh.planes[0].truncate() {
+        if wall == mesh.planes()[0].truncate() {
             assert!(mixed(own(&mesh).collect()), "the panes' own planes would not");
         }
     }
@@ -110,8 +110,8 @@ fn a_finely_faceted_cylinder_stays_round() {
             [[a, b, b + 1], [a, b + 1, a + 1]]
         };
         let mesh = Mesh::build(vec![part(positions, (0..facets).flat_map(wall).collect())]).unwrap();
-        assert_eq!(distinct(mesh.planes.iter().copied()), facets as usize);
-        for pair in mesh.planes.chunks(2) {
+        assert_eq!(distinct(mesh.planes().iter().copied()), facets as usize);
+        for pair in mesh.planes().chunks(2) {
             assert_eq!(bits(pair[0]), bits(pair[1]), "the halves of a facet");
         }
     }

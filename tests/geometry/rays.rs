@@ -166,3 +166,27 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn what_stands_a_hundredth_of_a_millimetre_away_is_hit() {
+    // a wall at whole metres, far from everything else; a tree's ray has its own least distance
+    let wall = Part {
+        name: "wall".into(),
+        positions: vec![dvec3(-5.0, 0.0, 1.0), dvec3(-5.0, 5.0, 1.0), dvec3(-5.0, 5.0, 4.0), dvec3(-5.0, 0.0, 4.0)],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Part::default()
+    };
+    let mesh = Mesh::build(vec![wall]).unwrap();
+    for reach in [0.1, 10.0, 1000.0] {
+        let caster = RayCaster::new(&mesh, reach);
+        for (off, length) in [(1e-5, 1.0), (2.5e-5, 1.0), (9e-5, 40.0), (1e-3, 40.0)] {
+            let from = dvec3(-5.0 + off, 4.6, 1.001) - mesh.origin;
+            let direction = dvec3(-0.8, -0.45, 0.39).normalize() * length;
+            let hit = caster.first_hit(from, direction);
+            let expected = off / -direction.x;
+            assert!(hit.is_some_and(|(_, distance)| (distance - expected).abs() < 1e-9), "{hit:?} of {expected}");
+            assert!(caster.blocked(from, &Shear::along(direction)));
+            assert!(!caster.blocked(from, &Shear::along(-direction)));
+        }
+    }
+}

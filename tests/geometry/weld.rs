@@ -85,7 +85,7 @@ fn far_from_the_origin_the_file_s_precision_is_kept() {
     assert!(far.positions.iter().any(|position| position.as_vec3().as_dvec3() != *position));
     let near = Mesh::build(vec![cuboid("near", low - mesh.origin, high - mesh.origin)]).unwrap();
     assert_eq!(near.vertices[..], mesh.vertices[..]);
-    assert_eq!(near.planes, mesh.planes);
+    assert_eq!(near.planes(), mesh.planes());
 }
 
 #[test]

@@ -96,7 +96,8 @@ fn on_the_sites_it_differs_only_where_the_map_missed_something_thin() {
             let cells = suns.len() * grid.cells();
             println!("{name} at {size}: {missed} of {cells} cells missed by the map, {far} far from an edge");
             // (on a thin beam below others, behind fins and lattices that a coarse map looks through, all may be dark)
-            assert!(far <= 1 || size == 512, "{name} at {size}: {far} of {missed}");
+            let most_far = if size == 512 { 10 } else { 1 };
+            assert!(far <= most_far, "{name} at {size}: {far} of {missed}");
             let most = if size == 512 { cells / 300 } else { cells / 5000 };
             assert!(missed <= most, "{name} at {size}: {missed} of {cells}");
         }
@@ -194,5 +195,77 @@ fn what_is_counted_lies_behind_the_mask_and_adds_up() {
         let light = |it: Decided| matches!(it, Decided::MapLight | Decided::VolumeLight);
         let same = decided.iter().zip(&pair.hybrid.share).all(|(it, share)| light(*it) == (*share == 255));
         assert!(same, "what is said to be lit is");
+    }
+}
+
+/// Bars and slits that are narrower and wider than a texel, seen from the sun. The four texels around a cell reach a texel
+/// across it in any direction, so that what is wider is met by one of them at least, but at its ends.
+#[test]
+fn the_map_misses_nothing_wider_than_its_texel() {
+    let sun = to_sun(203.0, 52.0);
+    let axis = dvec3(0.839, 0.544, 0.0).normalize();
+    let across = dvec3(-axis.y, axis.x, 0.0);
+    let view = plan(12.0, 700);
+    let View::Plan(grid) = view else { panic!("a plan") };
+    let (widths, spacing, half) = ([0.3, 0.6, 1.05, 1.4], 2.0, 7.0);
+    // bars where the number is even, slits between plates where it is odd
+    let middle = |number: usize| across * (spacing * (number as f64 - 3.5));
+    let scene = |texel_m: f64| {
+        let wide = |number: usize| widths[number / 2] * texel_m;
+        let strip = |from: f64, to: f64| {
+            let corner = |end: f64, side: f64| axis * (end * half) + across * side + DVec3::Z * 4.0;
+            sheet([corner(-1.0, from), corner(1.0, from), corner(1.0, to), corner(-1.0, to)])
+        };
+        let mut parts = Vec::new();
+        for number in 0..8 {
+            let (at, reach) = (middle(number).dot(across), wide(number) / 2.0);
+            match number % 2 {
+                0 => parts.push(strip(at - reach, at + reach)),
+                _ => parts.extend([strip(at - 0.7, at - reach), strip(at + reach, at + 0.7)]),
+            }
+        }
+        scene_of(&Mesh::build(parts).unwrap(), Receivers::Ground, 0.0)
+    };
+    // a texel on a horizontal strip, across its axis
+    let texel_of = |scene: &Scene| {
+        let map = ShadowMap::new(gpu(), scene, view, 256, Filter::None).unwrap();
+        let across_rays = f64::from(map.texel_m(sun).into_iter().fold(0.0, f32::max));
+        across_rays * (1.0 - axis.dot(sun).powi(2)).sqrt() / sun.z
+    };
+    let texel = texel_of(&scene(0.1));
+    let scene = scene(texel);
+    assert!((texel_of(&scene) / texel - 1.0).abs() < 0.02, "the bars' width changed the map");
+    let pair = pairs(&scene, view, &[sun], 256, Kind::Hierarchy.into()).remove(0);
+    let [by_volumes, by_map] = pair.differing();
+    assert!(by_volumes.is_empty());
+    let mut missed = [0; 8];
+    for at in by_map {
+        let centre = grid.centre(at as u32 % grid.width, at as u32 / grid.width);
+        let cast_from = centre.extend(0.0) + sun * (4.0 / sun.z);
+        let is_end = cast_from.dot(axis).abs() > half - 3.0 * texel;
+        let nearest = (0..8).min_by_key(|&it| ((cast_from - middle(it)).dot(across).abs() * 1e6) as u64).unwrap();
+        missed[nearest] += usize::from(!is_end);
+    }
+    println!("texel {texel:.3} m; missed of bars and slits of {widths:?} texels: {missed:?}");
+    // narrower ones are missed in part: this test can see it
+    assert!(missed[..4].iter().all(|&cells| cells > 20), "{missed:?}");
+    assert_eq!(missed[4..], [0; 4]);
+}
+
+#[test]
+fn by_the_sites_cameras_it_differs_only_where_the_map_missed_something() {
+    for name in ["tower", "industry", "headquarters"] {
+        let (scene, _, suns) = site(name, 64);
+        let site = gnomon::site::Site::load(std::path::Path::new(&format!("sites/{name}")), &Default::default());
+        let view = View::Camera(Camera { width: 480, height: 300, ..site.unwrap().camera });
+        let suns: Vec<DVec3> = suns.iter().step_by(5).copied().collect();
+        let (mut missed, cells) = (0, suns.len() * 480 * 300);
+        for pair in pairs(&scene, view, &suns, 2048, Kind::Hierarchy.into()) {
+            let [by_volumes, by_map] = pair.differing();
+            assert!(by_volumes.len() <= 2, "{name}: {}", by_volumes.len());
+            missed += by_map.len();
+        }
+        println!("{name}: {missed} of {cells} cells missed by the map");
+        assert!(missed <= cells / 2000, "{name}: {missed} of {cells}");
     }
 }

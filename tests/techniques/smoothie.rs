@@ -67,6 +67,13 @@ fn the_penumbra_of_a_walls_top_is_as_wide_as_the_disc_demands() {
         let found = soft_length(&mask, view, edge - reach, edge + reach);
         println!("{height} m at {altitude}°: {found:.3} m instead of {expected:.3}");
         assert!((found / expected - 1.0).abs() < 0.1, "{height} m at {altitude}°: {found} instead of {expected}");
+        // a disc's falloff past a straight edge: by the closed form less than a fifth at a quarter of the way
+        for part in [0.25, 0.5, 0.75] {
+            let x: f64 = 2.0 * part - 1.0;
+            let seen = 0.5 + (x * (1.0 - x * x).sqrt() + x.asin()) / std::f64::consts::PI;
+            let drawn = f64::from(at(&mask, view, edge + dvec2(0.0, part * expected))) / 255.0;
+            assert!((drawn - seen).abs() < 0.025, "{height} m at {altitude}°, at {part}: {drawn} instead of {seen}");
+        }
         // all of it lies outside of the hard shadow
         assert_eq!(at(&mask, view, edge - dvec2(0.0, 0.05 * expected)), 0);
         assert!(at(&mask, view, edge + dvec2(0.0, 0.9 * expected)) > 200);
@@ -269,4 +276,74 @@ fn a_lamps_penumbra_follows_the_papers_remap() {
         let dark = (0..400).filter(|&step| share(step) < 128).count();
         assert!(dark.abs_diff(expected) <= 6, "{dark} of 400 instead of {expected}");
     }
+}
+
+/// A plate throws its penumbra onto a table, and under the table lies a slab whose own smoothies run, seen from the sun,
+/// through the plate's. They lie behind a blocker, and must not darken the table.
+#[test]
+fn smoothies_behind_a_blocker_are_discarded() {
+    let sun = to_sun(180.0, 50.0);
+    // where a point casts its shadow at another height
+    let thrown = |y: f64, from: f64, to: f64| y - sun.y / sun.z * (from - to);
+    let plate = |z: f64, north: f64, east: f64| {
+        let corner = |x: f64, y: f64| dvec3(x, y, z);
+        sheet([corner(-8.0, north - 6.0), corner(east, north - 6.0), corner(east, north), corner(-8.0, north)])
+    };
+    let above = plate(25.0, 0.0, 8.0);
+    let edge = thrown(0.0, 25.0, 5.0);
+    // beyond the table's eastern end the ground is seen: the slab is high enough above it to have smoothies
+    let table = cuboid("table", dvec3(-9.0, edge - 8.0, 4.9), dvec3(0.6, edge + 4.0, 5.0));
+    let under = plate(3.0, thrown(edge + 0.05, 5.0, 3.0), 0.5);
+    let view = around(dvec2(0.3, edge), 1.4);
+    let of = |parts: Vec<gnomon::mesh::Part>| {
+        let scene = scene_of(&Mesh::build(parts).unwrap(), Receivers::Top, 0.0);
+        draw(&mut smoothie(&scene, view, None), sun)
+    };
+    let alone = of(vec![above.clone(), table.clone()]);
+    let soft = soft_length(&alone, view, dvec2(0.2, edge - 0.3), dvec2(0.2, edge + 0.6));
+    assert!(soft > 0.15, "{soft} m of penumbra on the table");
+    let with_slab = of(vec![above, table, under]);
+    // (the map's depth reaches further down with the slab, and rounds otherwise)
+    let differ = alone.share.iter().zip(&with_slab.share).filter(|(one, other)| one.abs_diff(**other) > 3).count();
+    assert_eq!(differ, 0, "cells of the table and the ground behind it");
+}
+
+/// A roof casts, and glass under it only receives: neither the glass nor the ground seen beyond it takes the other's width.
+#[test]
+fn behind_what_only_receives_the_penumbra_is_as_wide_as_there() {
+    let roof = cuboid("roof", dvec3(-20.0, -20.0, 20.0), dvec3(20.0, 0.0, 20.3));
+    let glass = cuboid("glass", dvec3(-20.0, -20.0, 17.0), dvec3(20.0, 40.0, 17.1));
+    let mesh = Mesh::build(vec![roof, glass]).unwrap();
+    let (altitude, casts) = (f64::to_radians(50.0), [true, false]);
+    let casters = mesh.of_components(&casts);
+    let onto = |z: f64| dvec2(1.3, (20.3 - z) / altitude.tan());
+    // the plan looks through what does not receive: the ground alone, and the glass from above
+    for (z, receivers) in [(0.0, casters.clone()), (17.1, mesh.clone())] {
+        let (drawn_width, truth) = {
+            let (edge, fall) = (onto(z), 20.3 - z);
+            let expected = width(fall / altitude.sin()) / altitude.sin();
+            let view = around(edge, 4.0 * expected);
+            let scene = Scene { casters: casters.clone(), receivers, ground: 0.0 };
+            let mask = draw(&mut smoothie(&scene, view, None), to_sun(180.0, 50.0));
+            let reach = dvec2(0.0, 1.9 * expected);
+            (soft_length(&mask, view, edge - reach, edge + reach), expected)
+        };
+        assert!((drawn_width / truth - 1.0).abs() < 0.1, "at {z} m: {drawn_width} instead of {truth}");
+    }
+    // from below the glass a camera sees the ground behind it, as seen from the sun: as wide as by rays to the disc
+    let camera = gnomon::view::Camera {
+        eye: dvec3(0.0, onto(0.0).y + 4.0, 3.0),
+        target: onto(0.0).extend(0.0),
+        up: DVec3::Z,
+        fov_rad: 0.2,
+        width: 60,
+        height: 400,
+    };
+    let view = View::Camera(camera);
+    let scene = Scene { casters, receivers: mesh, ground: 0.0 };
+    let soft = |mask: Mask| mask.share.iter().filter(|share| !matches!(**share, 0 | 255)).count() as f64;
+    let drawn = soft(draw(&mut smoothie(&scene, view, None), to_sun(180.0, 50.0)));
+    let truth = soft(draw(&mut RayCast::new(scene, view, Some(256)), to_sun(180.0, 50.0)));
+    println!("{drawn} soft cells instead of {truth}");
+    assert!(truth > 2000.0 && (drawn / truth - 1.0).abs() < 0.1, "{drawn} soft cells instead of {truth}");
 }

@@ -12,6 +12,7 @@ mod picture;
 mod plan;
 pub mod scale;
 mod strips;
+mod surfaces;
 mod svg;
 mod text;
 mod words;
@@ -21,6 +22,7 @@ pub use counted::{Colours, Diagram};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 pub use strips::strips;
+pub use surfaces::surfaces;
 pub(super) use words::duration;
 
 use super::{ExportError, check_size};
@@ -210,7 +212,11 @@ fn panel(scene: &Scene, kicker: &str) -> Panel {
         let (step, count) = (words::duration(track.step_secs), track.instants.len());
         facts.push(("Step", format!("{step}, {count} instants")));
     }
-    if let Some(day) = track.days.first() {
+    if track.each_day.is_some() {
+        let day = track.instants.iter().filter(|instant| !instant.night);
+        let secs = day.map(|instant| instant.weight_secs).sum();
+        facts.push(("Daylight", format!("{} on {} days", words::duration(secs), track.days.len())));
+    } else if let Some(day) = track.days.first() {
         facts.push(("Daylight", words::day(day, track)));
     }
     facts.push((JUDGED, words::receivers(scene.receivers).to_owned()));
@@ -218,7 +224,7 @@ fn panel(scene: &Scene, kicker: &str) -> Panel {
     facts.push(("Refraction", words::refraction(track.refraction, place)));
     let mut lead = Vec::new();
     if let (Some(first), Some(last)) = (track.instants.first(), track.instants.last()) {
-        lead.push(words::dates(first, last));
+        lead.push(words::dates(track, first, last));
         lead.push(words::window(track, place));
     }
     Panel {
@@ -249,12 +255,38 @@ fn sun_rows(place: &Place, track: &SunTrack) -> Vec<[String; 4]> {
         [first, .., last] => (first, last),
     };
     let air = track.refraction.then(|| Air::standard(place.elevation_m));
+    if track.each_day.is_some() {
+        return highest_rows(track, row);
+    }
     let noons = track.days.iter().filter_map(|day| day.noon).filter(|noon| first.time < *noon && *noon < last.time);
     let noon = noons.take(1).filter_map(|noon| {
         let sun = position(place, noon.to_utc(), track.delta_t_secs, air).ok()?;
         Some(row("noon", words::almanac(&noon), sun.azimuth_deg.to_radians(), sun.altitude_deg.to_radians()))
     });
     std::iter::once(at("start", first)).chain(noon).chain([at("end", last)]).collect()
+}
+
+/// Of several days, the highest that the sun stands on any at the instants: on the day where that is most, and where it
+/// is least.
+fn highest_rows(track: &SunTrack, row: impl Fn(&str, String, f64, f64) -> [String; 4]) -> Vec<[String; 4]> {
+    let mut highest: Vec<&Instant> = Vec::new();
+    for instant in &track.instants {
+        match highest.last_mut() {
+            Some(last) if last.time.date_naive() == instant.time.date_naive() => {
+                if instant.altitude_rad > last.altitude_rad {
+                    *last = instant;
+                }
+            }
+            _ => highest.push(instant),
+        }
+    }
+    // a window's last instant may be the next day's midnight
+    highest.retain(|instant| track.days.iter().any(|day| day.date == instant.time.date_naive()));
+    let low_to_high = |a: &&&Instant, b: &&&Instant| a.altitude_rad.total_cmp(&b.altitude_rad);
+    let told = [("highest", highest.iter().max_by(low_to_high)), ("lowest day", highest.iter().min_by(low_to_high))];
+    let day = |instant: &Instant| instant.time.format("%-d %b %H:%M").to_string();
+    let rows = told.into_iter().filter_map(|(what, instant)| Some((what, instant?)));
+    rows.map(|(what, instant)| row(what, day(instant), instant.azimuth_rad, instant.altitude_rad)).collect()
 }
 
 fn legend(bands: &Bands) -> Vec<(scale::Rgb, String)> {

@@ -72,7 +72,7 @@ pub(super) fn chart(
 fn sheet(layout: &Layout, picture: &Picture) -> Result<Vec<u8>, ExportError> {
     let pixels = render(layout, picture)?;
     let dots = (1.0 / PAPER_METRES_A_PIXEL).round() as u32;
-    crate::export::raster::png_bytes(WIDTH, HEIGHT, png::ColorType::Rgb, Some(dots), &pixels)
+    crate::export::raster::png_bytes((WIDTH, HEIGHT), (png::ColorType::Rgb, png::BitDepth::Eight), Some(dots), &pixels)
         .map_err(|error| ExportError::encode("drawing", error))
 }
 

@@ -42,6 +42,10 @@ pub(super) fn instant(
     Painted { components, of_cells }: Painted<'_>,
     fit: Fit,
 ) -> Picture {
+    if let Some(of_cells) = of_cells {
+        // lines would be taken for cells
+        return painted(scene, camera, of_cells, false, fit);
+    }
     let lens = Lens::new(camera);
     let light = Light::new(to_sun);
     let ground_only = scene.receivers == Receivers::Ground;
@@ -49,9 +53,6 @@ pub(super) fn instant(
     let colours: Vec<Rgb> = (0..scene.surface.face.len())
         .into_par_iter()
         .map(|pixel| {
-            if let Some(of_cells) = of_cells.filter(|_| scene.surface.face[pixel] != Surface::SKY) {
-                return of_cells[pixel];
-            }
             let ray = lens.ray(pixel % width, pixel / width);
             let share = f64::from(mask.share[pixel]) / 255.0;
             let colour = match scene.surface.face[pixel] {
@@ -78,6 +79,18 @@ pub(super) fn instant(
     compose(fit, Between::Smooth, &colours, |a, b| pen(scene, camera, &lens, a, b).map(quieter))
 }
 
+/// Cells in the colours given, with or without lines, under the sky of a day; that of the sky's cells is not asked.
+pub(super) fn painted(scene: &Scene, camera: &Camera, of_cells: &[Rgb], with_lines: bool, fit: Fit) -> Picture {
+    let lens = Lens::new(camera);
+    let width = camera.width as usize;
+    let colour = |(pixel, &colour): (usize, &Rgb)| match scene.surface.face[pixel] {
+        Surface::SKY => display(sky(lens.ray(pixel % width, pixel / width))),
+        _ => colour,
+    };
+    let colours: Vec<Rgb> = of_cells.par_iter().enumerate().map(colour).collect();
+    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, camera, &lens, a, b).filter(|_| with_lines))
+}
+
 /// The colours of level ground in the sun and in the shade, for the legend.
 pub(super) fn ground_tones(to_sun: DVec3) -> [Rgb; 2] {
     let light = Light::new(to_sun);
@@ -90,7 +103,7 @@ fn at_night(to_sun: DVec3, colour: DVec3) -> DVec3 {
 }
 
 /// The camera's axes, scaled so that a pixel's ray is a sum of them.
-struct Lens {
+pub(super) struct Lens {
     forward: DVec3,
     right: DVec3,
     up: DVec3,
@@ -100,7 +113,7 @@ struct Lens {
 }
 
 impl Lens {
-    fn new(camera: &Camera) -> Lens {
+    pub(super) fn new(camera: &Camera) -> Lens {
         let sight = camera.target - camera.eye;
         let forward = sight.try_normalize().unwrap_or(DVec3::NEG_Z);
         // A camera that looks along its own up still needs a right.
@@ -118,7 +131,7 @@ impl Lens {
     }
 
     /// From the eye through a pixel's centre; one metre along it is one metre of depth.
-    fn ray(&self, column: usize, row: usize) -> DVec3 {
+    pub(super) fn ray(&self, column: usize, row: usize) -> DVec3 {
         let x = 2.0 * (column as f64 + 0.5) / self.size[0] - 1.0;
         let y = 1.0 - 2.0 * (row as f64 + 0.5) / self.size[1];
         self.forward + self.right * x + self.up * y
@@ -137,8 +150,8 @@ impl Lens {
 }
 
 /// A face's plane (n, d) with n·p + d > 0 at the eye, in the world frame.
-fn facing(scene: &Scene, face: u32, eye: DVec3) -> DVec4 {
-    let Some(plane) = scene.mesh.planes.get(face as usize) else {
+pub(super) fn facing(scene: &Scene, face: u32, eye: DVec3) -> DVec4 {
+    let Some(plane) = scene.mesh.planes().get(face as usize) else {
         return DVec3::Z.extend(0.0);
     };
     let offset = plane.w - plane.xyz().dot(scene.mesh.origin);

@@ -149,6 +149,11 @@ fn average(fit: Fit, colours: &[Rgb], columns: &Span, rows: &Span) -> Rgb {
     if columns.cells.len() == 1 && rows.cells.len() == 1 {
         return first;
     }
+    // most of a picture is of one colour
+    let mut rows_of_cells = rows.cells.clone().map(|row| &colours[row * width..][columns.cells.clone()]);
+    if rows_of_cells.all(|cells| cells.iter().all(|colour| *colour == first)) {
+        return first;
+    }
     let mut sum = [0.0_f32; 3];
     let mut total = 0.0;
     for row in rows.cells.clone() {
@@ -161,14 +166,14 @@ fn average(fit: Fit, colours: &[Rgb], columns: &Span, rows: &Span) -> Rgb {
             total += weight;
         }
     }
-    sum.map(|sum| (sum / total).round() as u8)
+    sum.map(|sum| (sum / total + 0.5) as u8)
 }
 
 fn blend(paper: Rgb, ink: f32) -> Rgb {
     if ink <= 0.0 {
         return paper;
     }
-    std::array::from_fn(|i| (f32::from(paper[i]) + (f32::from(LINE[i]) - f32::from(paper[i])) * ink).round() as u8)
+    std::array::from_fn(|i| (f32::from(paper[i]) + (f32::from(LINE[i]) - f32::from(paper[i])) * ink + 0.5) as u8)
 }
 
 /// The strength of the lines in pixel rows `top..top + rows`.
@@ -218,7 +223,7 @@ impl Ink {
             let dy = outside(y as f32 + 0.5 + self.top, from[1], to[1]);
             for x in low(from[0])..high(to[0], self.width) {
                 let dx = outside(x as f32 + 0.5, from[0], to[0]);
-                let cover = (reach - dx.hypot(dy)).clamp(0.0, 1.0) * pen.strength;
+                let cover = (reach - (dx * dx + dy * dy).sqrt()).clamp(0.0, 1.0) * pen.strength;
                 let ink = &mut self.strength[y * self.width + x];
                 *ink = ink.max(cover);
             }

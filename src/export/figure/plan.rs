@@ -40,8 +40,8 @@ pub(super) fn profile(scene: &Scene, profile: &Profile, bands: &Bands, fit: Fit)
 /// Sun and shadow at one instant; or colours of the cells instead.
 pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, of_cells: Option<&[Rgb]>, fit: Fit) -> Picture {
     if let Some(of_cells) = of_cells {
-        // what is no roof's colour has no relief
-        return draw(scene, cell_m, fit, 0.0, |cell, _| of_cells[cell]);
+        // neither relief nor lines, which would be taken for cells
+        return compose(fit, Between::Sharp, of_cells, |_, _| None);
     }
     let ground_only = scene.receivers == Receivers::Ground;
     draw(scene, cell_m, fit, RELIEF, |cell, face| {
@@ -71,7 +71,9 @@ fn draw(
             None => flat(cell, None),
         })
         .collect();
-    compose(fit, Between::Sharp, &colours, |a, b| pen(scene, cell_m, a, b))
+    let seen = &surface.face[..];
+    // nearly all neighbours are one face
+    compose(fit, Between::Sharp, &colours, |a, b| if seen[a] == seen[b] { None } else { pen(scene, cell_m, a, b) })
 }
 
 fn face(surface: &Surface, cell: usize) -> Option<usize> {
@@ -81,7 +83,7 @@ fn face(surface: &Surface, cell: usize) -> Option<usize> {
 
 /// The normal of the side that the plan sees; straight up where the face has no area.
 fn upward(mesh: &Mesh, face: usize) -> DVec3 {
-    let normal = mesh.planes.get(face).map_or(DVec3::Z, |plane| plane.truncate());
+    let normal = mesh.planes().get(face).map_or(DVec3::Z, |plane| plane.truncate());
     if normal.z < 0.0 {
         -normal
     } else if normal == DVec3::ZERO {
@@ -111,14 +113,16 @@ fn relief(normal: DVec3, light: DVec3, strength: f64) -> f64 {
 }
 
 fn shade(colour: Rgb, factor: f64) -> Rgb {
+    // level ground and roofs are most of a plan
+    if factor == 1.0 {
+        return colour;
+    }
     colour.map(|part| (f64::from(part) * factor).round().min(255.0) as u8)
 }
 
+/// The line between two neighbours that see different things.
 fn pen(scene: &Scene, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
     let (surface, mesh) = (scene.surface, scene.mesh);
-    if surface.face[a] == surface.face[b] {
-        return None;
-    }
     let east = b == a + 1;
     let half = if east { DVec3::X } else { DVec3::NEG_Y } * (0.5 * cell_m);
     let (from, to) = (face(surface, a), face(surface, b));

@@ -28,6 +28,9 @@ const DARKEST: f64 = 0.88;
 /// No shadow at all: the paper's own tone, so that sunny ground stays quiet.
 pub const NO_SHADOW: Rgb = [254, 253, 249];
 
+/// No sun at all: off the scale, so that it is not taken for a little of it.
+pub const NO_SUN: Rgb = [70, 66, 74];
+
 /// More bands than this are hard to tell apart.
 pub const MOST_BANDS: u32 = 16;
 
@@ -69,10 +72,27 @@ impl Bands {
             return NO_SHADOW;
         }
         // A shadow of exactly one band belongs to that band, not to the next.
-        let band = (u64::from(shaded) - 1) / (255 * u64::from(self.band_secs));
+        let band_units = u64::from(self.band_secs) * 255;
+        let band = match u32::try_from(band_units) {
+            // the shorter division takes half the time
+            Ok(units) => u64::from((shaded - 1) / units),
+            Err(_) => u64::from(shaded - 1) / band_units,
+        };
         let last = self.colours.len().saturating_sub(1);
         let band = usize::try_from(band).unwrap_or(last).min(last);
         self.colours.get(band).copied().unwrap_or(NO_SHADOW)
+    }
+
+    /// The same colours for time in the sun, the lightest for the most: of seconds, each counted for every one of `samples`
+    /// that is seen. None at all has a colour of its own; a band holds its lower bound, the last one all of the daylight.
+    pub fn of_sun(&self, lit: u32, samples: u32) -> Rgb {
+        if lit == 0 {
+            return NO_SUN;
+        }
+        let band = u64::from(lit) / (u64::from(samples.max(1)) * u64::from(self.band_secs));
+        let last = self.colours.len().saturating_sub(1);
+        let band = usize::try_from(band).unwrap_or(last).min(last);
+        self.colours.get(last - band).copied().unwrap_or(NO_SUN)
     }
 
     /// From and to, seconds; the last band ends with the daylight.

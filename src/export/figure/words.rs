@@ -1,8 +1,8 @@
 //! How a drawing says things: places, times, durations, techniques.
 
-use crate::profile::Drawn;
+use crate::profile::{Drawn, DrawnSettings};
 use crate::site::Receivers;
-use crate::sun::{Air, Day, Instant, Place, SunTrack};
+use crate::sun::{Air, Day, EachDay, Instant, Place, SunTrack};
 use chrono::{DateTime, NaiveDate, Offset, Timelike};
 use chrono_tz::Tz;
 
@@ -26,8 +26,12 @@ pub(super) fn metres(value: f64) -> String {
 }
 
 /// `18 September 2026`, or the first and the last day.
-pub(super) fn dates(first: &Instant, last: &Instant) -> String {
-    let (first, last) = (first.time.date_naive(), last.time.date_naive());
+pub(super) fn dates(track: &SunTrack, first: &Instant, last: &Instant) -> String {
+    let (mut first, mut last) = (first.time.date_naive(), last.time.date_naive());
+    // the last window may end on the next day
+    if let (Some(_), Some(from), Some(to)) = (&track.each_day, track.days.first(), track.days.last()) {
+        (first, last) = (from.date, to.date);
+    }
     if first == last { date(first) } else { format!("{} – {}", date(first), date(last)) }
 }
 
@@ -51,6 +55,9 @@ pub(super) fn window(track: &SunTrack, place: &Place) -> String {
     let (Some(first), Some(last)) = (track.instants.first(), track.instants.last()) else {
         return place.time_zone.name().to_owned();
     };
+    if let Some(each) = &track.each_day {
+        return format!("{}, {}", each_day(each), place.time_zone.name());
+    }
     let (first, last) = (&first.time, &last.time);
     let clocks = if track.instants.len() == 1 {
         format!("{} {}", clock(first), zone(first))
@@ -60,6 +67,16 @@ pub(super) fn window(track: &SunTrack, place: &Place) -> String {
         format!("{} {} – {} {}", clock(first), zone(first), clock(last), zone(last))
     };
     format!("{clocks}, {}", place.time_zone.name())
+}
+
+/// `each day 09:00–17:00`, `each day from sunrise+1h`, `whole days`.
+fn each_day(each: &EachDay) -> String {
+    match (&each.from, &each.to) {
+        (None, None) => "whole days".to_owned(),
+        (Some(from), Some(to)) => format!("each day {from} – {to}"),
+        (Some(from), None) => format!("each day from {from}"),
+        (None, Some(to)) => format!("each day until {to}"),
+    }
 }
 
 /// `CEST (UTC+2)`, or `UTC+3` where people have no letters for it.
@@ -114,7 +131,7 @@ pub(super) fn technique(drawn: &Drawn) -> String {
         "projected" => "projected shadows",
         "shadow-map" => "shadow map",
         "hybrid" => "shadow map and volumes",
-        "smoothie" => "smoothies (soft edges)",
+        "smoothie" => "smoothies (soft edges, outside of the hard ones)",
         "soft-texture" => "soft shadow textures",
         "ray-cast" => "ray casting",
         other => other,
@@ -129,7 +146,15 @@ pub(super) fn technique(drawn: &Drawn) -> String {
         ("gpu", Some(adapter)) => format!("GPU: {adapter}"),
         (engine, _) => engine.to_uppercase(),
     };
-    format!("{technique}{}, {machine}", silhouettes.unwrap_or_default())
+    let DrawnSettings { map_size, pcf, smoothie_width, sun_samples } = drawn.settings;
+    let settings = [
+        map_size.map(|size| format!(", map of {size}²")),
+        pcf.map(|pcf| format!(", filtered {pcf}")),
+        smoothie_width.map(|width| format!(", at most {width} m wide")),
+        sun_samples.map(|samples| format!(" to {samples} points of the sun’s disc")),
+    ];
+    let settings: String = settings.into_iter().flatten().collect();
+    format!("{technique}{settings}{}, {machine}", silhouettes.unwrap_or_default())
 }
 
 /// What is judged, in words.
@@ -137,6 +162,7 @@ pub(super) fn receivers(receivers: Receivers) -> &'static str {
     match receivers {
         Receivers::Top => "highest surface",
         Receivers::Ground => "ground only",
+        Receivers::Surfaces => "walls and roofs, on their outer side",
     }
 }
 

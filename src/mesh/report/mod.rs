@@ -73,7 +73,7 @@ fn report(mesh: &Mesh, component: &Component, spacing: f64) -> ComponentReport {
         if !seen.insert(corners) {
             duplicate.push(face);
         }
-        if mesh.planes[face as usize] == DVec4::ZERO {
+        if mesh.planes()[face as usize] == DVec4::ZERO {
             degenerate.push(face);
         }
     }

@@ -142,7 +142,7 @@ fn ring(mesh: &Mesh, group: &Group, middle: DVec3, length_m: f64) -> OpenKind {
         let face = mesh.faces_at(at as usize)[0];
         let [from, to] = mesh.edges[at as usize].map(|vertex| world(mesh, vertex) - middle);
         area += from.cross(to) * (0.5 * f64::from(face.direction()));
-        front += mesh.planes[face.face() as usize].truncate() * from.distance(to);
+        front += mesh.planes()[face.face() as usize].truncate() * from.distance(to);
         weight += from.distance(to);
     }
     if group.has_junction && area.length() <= NO_AREA * length_m * length_m {

@@ -1,0 +1,70 @@
+//! `gnomon profile --receivers surfaces`: hours of sun on the model itself.
+
+use super::arguments::{ProfileArgs, Written};
+use super::commands::drawn_by;
+use super::progress::Progress;
+use super::{WrongUse, interrupt, say};
+use crate::export::report::{self, Told};
+use crate::export::surfaces::{self, Surfaces};
+use crate::export::{figure, file};
+use crate::site::{Receivers, Site};
+use crate::study::{self, Stopwatch};
+use std::fmt::Write;
+
+pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) -> anyhow::Result<()> {
+    let of_plan = asked.plan.given().into_iter().filter(|option| *option != "--receivers");
+    let of_masks = [("--masks", asked.masks.is_some()), ("--stats", asked.stats)];
+    let of_masks = of_masks.into_iter().filter(|(_, given)| *given).map(|(option, _)| option);
+    if let Some(option) = of_plan.chain(of_masks).next() {
+        let what = format!("{option} is for the plan, and --receivers surfaces has none; leave one of the two out");
+        return Err(WrongUse(what).into());
+    }
+    let kinds = asked.wanted(&[Written::Png, Written::Glb, Written::Csv, Written::Json])?;
+    file::check_folder(&asked.out)?;
+    watch.lap("load");
+
+    let mut progress = Progress::new(asked.common.quiet);
+    let outcome = study::surfaces(site, site.patch_cell, &mut |event| {
+        progress.hear(&event);
+        interrupt::flow()
+    })?;
+    watch.laps(outcome.timings);
+
+    let Site { place, track, mesh, receives, .. } = site;
+    let drawn = &outcome.drawn;
+    let answer = Surfaces { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours };
+    let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
+    if kinds.contains(&Written::Png) {
+        let (mesh, surface) = &study::seen_receivers(site)?;
+        let scene = figure::Scene { place, track, mesh, surface, receivers: Receivers::Surfaces, drawn };
+        files.push(("surfaces.png", figure::surfaces(&scene, &site.camera, &answer)?));
+        watch.lap("picture");
+        interrupt::check()?;
+    }
+    if kinds.contains(&Written::Glb) {
+        files.push(("surfaces.glb", surfaces::glb(&answer)?));
+        watch.lap("model");
+        interrupt::check()?;
+    }
+    if kinds.contains(&Written::Csv) {
+        files.push(("surfaces.csv", surfaces::csv(&answer).into_bytes()));
+    }
+    let told = Told { receivers: Receivers::Surfaces, drawn, timings: &watch.timings(), statistics: None };
+    let json = report::surfaces_json(&answer, &told)?;
+    if kinds.contains(&Written::Json) {
+        files.push(("profile.json", json.clone().into_bytes()));
+    }
+    let mut text = String::new();
+    for (name, bytes) in files {
+        let path = asked.out.join(name);
+        file::write(&path, &bytes)?;
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{}", path.display());
+    }
+    if asked.common.json {
+        return say(&json);
+    }
+    let _ = writeln!(text, "{}", drawn_by(drawn));
+    text.push_str(&surfaces::summary(&answer));
+    say(&text)
+}

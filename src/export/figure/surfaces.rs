@@ -1,0 +1,88 @@
+//! The model coloured by hours of sun, as the camera sees it.
+
+use super::panel::Panel;
+use super::perspective::{Lens, facing};
+use super::scale::{NO_SUN, Rgb};
+use super::{Scene, check_surface, page, panel, perspective, plan, words};
+use crate::export::ExportError;
+use crate::export::surfaces::{Surfaces, pages};
+use crate::mesh::patches::Patch;
+use crate::view::{Camera, Surface};
+use glam::Vec4Swizzles as _;
+use rayon::prelude::*;
+
+/// The colour of what is not judged: the ground, and sides that look into the model.
+const UNJUDGED: Rgb = plan::ROOF_UNJUDGED;
+
+/// `surfaces.png`: the hours of sun on the surfaces that `camera` sees. `scene`'s mesh is that of what
+/// receives alone.
+///
+/// # Errors
+/// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder.
+pub fn surfaces(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Result<Vec<u8>, ExportError> {
+    let size = (camera.width, camera.height);
+    check_surface(scene.surface, size)?;
+    let panel = labelled(scene, surfaces);
+    let of_cells = painted(scene, camera, surfaces);
+    page::page(&panel, size, None, |fit| perspective::painted(scene, camera, &of_cells, true, fit))
+}
+
+fn labelled(scene: &Scene, surfaces: &Surfaces) -> Panel {
+    let (hours, patches) = (surfaces.hours, surfaces.patches);
+    let mut panel = panel(scene, "Sun on surfaces");
+    panel.facts.push(("Texels", format!("{} of {}", patches.texels.len(), words::metres(patches.cell))));
+    if hours.night_secs > 0 {
+        let night = words::duration(hours.night_secs);
+        panel.facts.push(("Night", format!("{night} of the window, not counted")));
+    }
+    let bands = surfaces.bands();
+    panel.legend_head = match hours.day_secs {
+        0 => "No sun in this window".to_owned(),
+        day => format!("Hours of sun out of {}", words::duration(day)),
+    };
+    let with_secs = !bands.band_secs.is_multiple_of(60);
+    for band in (0..bands.colours.len()).rev() {
+        let (from, to) = bands.bounds(band);
+        let [from, to] = [from, to].map(|secs| words::hours(secs, with_secs));
+        panel.legend.push((bands.colours[bands.colours.len() - 1 - band], format!("{from} – {to}")));
+    }
+    panel.legend.push((NO_SUN, "none".to_owned()));
+    panel.legend.push((UNJUDGED, super::UNJUDGED.to_owned()));
+    panel
+}
+
+/// Per pixel its colour; the sky's is not looked at.
+fn painted(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Vec<Rgb> {
+    let (patches, bands, samples) = (surfaces.patches, surfaces.bands(), surfaces.hours.samples);
+    let pages = pages::pages(patches, surfaces.hours);
+    let mut patch_of = vec![None; surfaces.mesh.faces.len()];
+    for patch in &patches.list {
+        for &face in &patches.faces[patch.faces.start as usize..patch.faces.end as usize] {
+            patch_of[face as usize] = Some(patch);
+        }
+    }
+    // the scene's faces are those of the components that receive
+    let received = surfaces.mesh.components.iter().zip(surfaces.receives).filter(|(_, receives)| **receives);
+    let patch_of: Vec<Option<&Patch>> =
+        received.flat_map(|(component, _)| component.faces.clone()).map(|face| patch_of[face as usize]).collect();
+    let lens = Lens::new(camera);
+    let width = camera.width as usize;
+    let colour = |pixel: usize| {
+        let face = scene.surface.face[pixel];
+        if face >= Surface::GROUND {
+            return UNJUDGED;
+        }
+        let plane = facing(scene, face, camera.eye);
+        let seen_side = |patch: &&Patch| patch.two_sided || patch.normal().dot(plane.xyz()) > 0.0;
+        let Some(patch) = patch_of.get(face as usize).copied().flatten().filter(seen_side) else { return UNJUDGED };
+        let ray = lens.ray(pixel % width, pixel / width);
+        let depth = -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray);
+        let place = patches.in_page(patch, camera.eye + ray * depth - patches.origin);
+        // a pixel's centre may lie a hair beside the face that it sees
+        let [low, high] = [[patch.x, patch.y], [patch.x + patch.width - 1, patch.y + patch.height - 1]];
+        let within = |axis: usize| (place[axis] as u32).clamp(low[axis], high[axis]) as usize;
+        let lit = pages[patch.page as usize][within(1) * patches.page_size as usize + within(0)];
+        bands.of_sun(lit, samples)
+    };
+    (0..scene.surface.face.len()).into_par_iter().map(colour).collect()
+}

@@ -1,0 +1,237 @@
+//! `surfaces.glb`: the model with its hours of sun as textures, a binary glTF 2.0 file that any viewer of models opens.
+//!
+//! A node a component, a primitive a page of the atlas. The colours are the drawing's, without light and shade of the
+//! viewer's own (KHR_materials_unlit). Beside each page's colours lies a texture of the numbers: 16-bit gray, `extras` of
+//! the scene say how many seconds a unit is.
+
+use super::{Surfaces, pages};
+use crate::export::ExportError;
+use crate::export::raster::png_bytes;
+use crate::export::report::{place_report, stamp};
+use crate::export::volumes::in_gltf;
+use crate::mesh::patches::Patch;
+use glam::Vec3;
+use gltf::binary::{Glb, Header};
+use rustc_hash::FxHashMap;
+use serde_json::{Value, json};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// Numbers of the format (glTF 2.0, section 5).
+const FLOAT: u32 = 5126;
+const UNSIGNED_INT: u32 = 5125;
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+const NEAREST: u32 = 9728;
+const LINEAR: u32 = 9729;
+const CLAMP_TO_EDGE: u32 = 33071;
+
+/// In a texture of numbers, what belongs to no patch.
+const NO_NUMBER: u16 = u16::MAX;
+
+/// The file.
+///
+/// # Errors
+/// [`ExportError::Encode`] where nothing receives, or where the file would be 4 GiB or larger.
+pub fn glb(surfaces: &Surfaces) -> Result<Vec<u8>, ExportError> {
+    if surfaces.patches.list.is_empty() {
+        return Err(refused("no surface receives; check `receives`"));
+    }
+    let mut file = File::default();
+    let seconds = seconds_a_unit(surfaces);
+    let pages = pages::pages(surfaces.patches, surfaces.hours);
+    let images: Vec<[usize; 2]> =
+        pages.iter().map(|page| file.images(surfaces, page, seconds)).collect::<Result<_, _>>()?;
+    let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
+    let mut first = 0;
+    for (name, patches, exposure) in surfaces.components() {
+        let primitives = file.primitives(surfaces, patches);
+        nodes.push(json!({
+            "name": name,
+            "mesh": meshes.len(),
+            "translation": in_gltf(surfaces.patches.origin.as_vec3()),
+            "extras": {"area_m2": exposure.area_m2, "hours_mean": exposure.hours_mean,
+                       "hours_min": exposure.hours_min, "hours_max": exposure.hours_max},
+        }));
+        meshes.push(json!({"name": name, "primitives": primitives}));
+        first += patches.len();
+    }
+    debug_assert_eq!(first, surfaces.patches.list.len());
+    let materials: Vec<Value> = (0..pages.len()).map(material).collect();
+    let mut document = json!({
+        "asset": {"version": "2.0", "generator": concat!("gnomon ", env!("CARGO_PKG_VERSION"))},
+        "extensionsUsed": ["KHR_materials_unlit"],
+        "scene": 0,
+        "scenes": [{"name": "hours of sun", "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras(surfaces, seconds)}],
+        "nodes": nodes,
+        "meshes": meshes,
+        "materials": materials,
+        "samplers": [{"magFilter": NEAREST, "minFilter": LINEAR, "wrapS": CLAMP_TO_EDGE, "wrapT": CLAMP_TO_EDGE}],
+    });
+    document["textures"] =
+        images.iter().flatten().map(|image| json!({"sampler": 0, "source": image})).collect::<Vec<_>>().into();
+    file.finish(document)
+}
+
+fn refused(why: impl ToString) -> ExportError {
+    ExportError::encode("surfaces", why)
+}
+
+/// So many seconds a unit of the textures of numbers, that the window's daylight fits.
+fn seconds_a_unit(surfaces: &Surfaces) -> u32 {
+    surfaces.hours.day_secs.div_ceil(u32::from(NO_NUMBER) - 1).max(1)
+}
+
+fn extras(surfaces: &Surfaces, seconds: u32) -> Value {
+    let instants = &surfaces.track.instants;
+    json!({
+        "place": place_report(surfaces.place),
+        "from": instants.first().map(|instant| stamp(&instant.time)),
+        "to": instants.last().map(|instant| stamp(&instant.time)),
+        "daylight_secs": surfaces.hours.day_secs,
+        "texel_m": surfaces.patches.cell,
+        "numbers": {"seconds_a_unit": seconds, "of_no_surface": NO_NUMBER},
+    })
+}
+
+/// The material of a page: its first texture is colours, its second numbers.
+fn material(page: usize) -> Value {
+    json!({
+        "name": format!("hours of sun, page {page}"),
+        "pbrMetallicRoughness": {
+            "baseColorTexture": {"index": 2 * page}, "metallicFactor": 0.0, "roughnessFactor": 1.0,
+        },
+        "extensions": {"KHR_materials_unlit": {}},
+        "doubleSided": true,
+        "extras": {"numbers_texture": 2 * page + 1},
+    })
+}
+
+/// The lists of the format, and the data they point into.
+#[derive(Default)]
+struct File {
+    data: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    images: Vec<Value>,
+}
+
+impl File {
+    fn view(&mut self, bytes: impl IntoIterator<Item = u8>, target: Option<u32>) -> usize {
+        let offset = self.data.len();
+        self.data.extend(bytes);
+        let mut view = json!({"buffer": 0, "byteOffset": offset, "byteLength": self.data.len() - offset});
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
+        // what follows may be read as words of four bytes
+        self.data.resize(self.data.len().next_multiple_of(4), 0);
+        self.views.push(view);
+        self.views.len() - 1
+    }
+
+    fn accessor(&mut self, mut accessor: Value, bytes: impl IntoIterator<Item = u8>, target: u32) -> usize {
+        accessor["bufferView"] = self.view(bytes, Some(target)).into();
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    /// A page's colours and numbers.
+    fn images(&mut self, surfaces: &Surfaces, page: &[u32], seconds: u32) -> Result<[usize; 2], ExportError> {
+        let (bands, samples, side) = (surfaces.bands(), surfaces.hours.samples, surfaces.patches.page_size);
+        let is_empty = |lit: u32| lit == pages::EMPTY;
+        let colour = |&lit: &u32| if is_empty(lit) { [255; 3] } else { bands.of_sun(lit, samples) };
+        let number = |&lit: &u32| match is_empty(lit) {
+            true => NO_NUMBER,
+            false => (f64::from(lit) / (f64::from(samples) * f64::from(seconds))).round() as u16,
+        };
+        let colours: Vec<u8> = page.iter().flat_map(colour).collect();
+        let numbers: Vec<u8> = page.iter().map(number).flat_map(u16::to_be_bytes).collect();
+        let mut image = |name: &str, kind, pixels: &[u8]| {
+            let bytes = png_bytes((side, side), kind, None, pixels).map_err(refused)?;
+            let view = self.view(bytes, None);
+            self.images.push(json!({"name": name, "mimeType": "image/png", "bufferView": view}));
+            Ok::<_, ExportError>(self.images.len() - 1)
+        };
+        Ok([
+            image("colours", (png::ColorType::Rgb, png::BitDepth::Eight), &colours)?,
+            image("numbers", (png::ColorType::Grayscale, png::BitDepth::Sixteen), &numbers)?,
+        ])
+    }
+
+    /// A component's patches, a primitive a page. Patches share no vertex, as each has its own place in its page.
+    fn primitives(&mut self, surfaces: &Surfaces, patches: &[Patch]) -> Vec<Value> {
+        let mut of_pages: BTreeMap<u32, Vec<&Patch>> = BTreeMap::new();
+        patches.iter().for_each(|patch| of_pages.entry(patch.page).or_default().push(patch));
+        let primitive = |(page, patches): (u32, Vec<&Patch>)| {
+            let (mut positions, mut places, mut corners) = (Vec::new(), Vec::new(), Vec::new());
+            for patch in patches {
+                append(surfaces, patch, &mut positions, &mut places, &mut corners);
+            }
+            let low = positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+            let high = positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+            let position = self.accessor(
+                json!({"componentType": FLOAT, "type": "VEC3", "count": positions.len(),
+                       "min": low.to_array(), "max": high.to_array()}),
+                positions.iter().flat_map(Vec3::to_array).flat_map(f32::to_le_bytes),
+                ARRAY_BUFFER,
+            );
+            let place = self.accessor(
+                json!({"componentType": FLOAT, "type": "VEC2", "count": places.len()}),
+                places.iter().flatten().copied().flat_map(f32::to_le_bytes),
+                ARRAY_BUFFER,
+            );
+            let indices = self.accessor(
+                json!({"componentType": UNSIGNED_INT, "type": "SCALAR", "count": corners.len()}),
+                corners.iter().copied().flat_map(u32::to_le_bytes),
+                ELEMENT_ARRAY_BUFFER,
+            );
+            json!({"attributes": {"POSITION": position, "TEXCOORD_0": place}, "indices": indices, "material": page})
+        };
+        of_pages.into_iter().map(primitive).collect()
+    }
+
+    fn finish(self, mut document: Value) -> Result<Vec<u8>, ExportError> {
+        document["images"] = self.images.into();
+        document["accessors"] = self.accessors.into();
+        document["bufferViews"] = self.views.into();
+        document["buffers"] = json!([{"byteLength": self.data.len()}]);
+        let document = serde_json::to_vec(&document).map_err(refused)?;
+        let total = 12 + 8 + document.len().next_multiple_of(4) as u64 + 8 + self.data.len() as u64;
+        let Ok(length) = u32::try_from(total) else {
+            let gib = total as f64 / f64::from(1 << 30);
+            return Err(refused(format!(
+                "the file would be {gib:.1} GiB, and GLB ends at 4; take a larger --patch-cell"
+            )));
+        };
+        let header = Header { magic: *b"glTF", version: 2, length };
+        Glb { header, json: Cow::Owned(document), bin: Some(Cow::Owned(self.data)) }.to_vec().map_err(refused)
+    }
+}
+
+/// A patch's faces, wound so that they look to the side that is judged.
+fn append(
+    surfaces: &Surfaces,
+    patch: &Patch,
+    positions: &mut Vec<Vec3>,
+    places: &mut Vec<[f32; 2]>,
+    corners: &mut Vec<u32>,
+) {
+    let (mesh, patches) = (surfaces.mesh, surfaces.patches);
+    let side = f64::from(patches.page_size);
+    let mut known: FxHashMap<u32, u32> = FxHashMap::default();
+    for &face in &patches.faces[patch.faces.start as usize..patch.faces.end as usize] {
+        let mut face_corners = mesh.faces[face as usize].map(|vertex| {
+            *known.entry(vertex).or_insert_with(|| {
+                let local = mesh.vertices[vertex as usize];
+                positions.push(Vec3::from(in_gltf(local)));
+                places.push(patches.in_page(patch, local.as_dvec3()).map(|texels| (texels / side) as f32));
+                positions.len() as u32 - 1
+            })
+        });
+        if mesh.planes()[face as usize].truncate().dot(patch.normal()) < 0.0 {
+            face_corners.swap(1, 2);
+        }
+        corners.extend(face_corners);
+    }
+}

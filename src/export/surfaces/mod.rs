@@ -1,0 +1,110 @@
+//! Hours of sun on the model's surfaces as files: `surfaces.csv` for numbers, `surfaces.glb` for the eye. The drawing is
+//! [`figure::surfaces`](super::figure::surfaces).
+
+mod glb;
+pub(super) mod pages;
+
+pub use glb::glb;
+
+use super::figure::duration;
+use super::figure::scale::Bands;
+use super::probe::{field, plain};
+use crate::mesh::Mesh;
+use crate::mesh::patches::{Patch, Patches};
+use crate::profile::surfaces::{Exposure, SurfaceHours};
+use crate::sun::{Place, SunTrack};
+use std::fmt::Write;
+
+/// The answer on surfaces, and what it is about.
+#[derive(Clone, Copy, Debug)]
+pub struct Surfaces<'a> {
+    /// Where on earth.
+    pub place: &'a Place,
+    /// The instants studied.
+    pub track: &'a SunTrack,
+    /// Whose faces the patches hold.
+    pub mesh: &'a Mesh,
+    /// Per component of it whether it receives.
+    pub receives: &'a [bool],
+    /// The flat parts of what receives.
+    pub patches: &'a Patches,
+    /// Their time in the sun.
+    pub hours: &'a SurfaceHours,
+}
+
+impl Surfaces<'_> {
+    /// The drawing's colours.
+    pub(super) fn bands(&self) -> Bands {
+        Bands::new(self.track.step_secs, self.hours.day_secs)
+    }
+
+    /// Components with patches, in the mesh's order.
+    pub(super) fn components(&self) -> impl Iterator<Item = (&str, &[Patch], Exposure)> {
+        self.mesh.components.iter().enumerate().filter_map(|(index, component)| {
+            let exposure = self.hours.of_component(self.patches, index as u32)?;
+            let patches = &self.patches.list[self.patches.of_component(index as u32)];
+            Some((component.name.as_str(), patches, exposure))
+        })
+    }
+}
+
+/// `surfaces.csv`: for each component a line, whose patch is `all`, and after it a line for each of its patches, numbered
+/// from 1, the largest first. Lines end in CR LF (RFC 4180).
+///
+/// Areas are square metres, hours those of sun; azimuths clockwise from true north, absent where a patch is level or
+/// where there are many; tilts 0 for what looks up, 90 for walls, 180 for what looks down; shares, 0 to 1, are the part
+/// of the area with at least so many hours.
+pub fn csv(surfaces: &Surfaces) -> String {
+    let mut text = "component,patch,area_m2,azimuth_deg,tilt_deg,hours_mean,hours_min,hours_max,\
+                    share_1h,share_2h,share_3h,share_4h\r\n"
+        .to_owned();
+    let mut line = |name: &str, patch: &str, azimuth: &str, tilt: &str, exposure: &Exposure| {
+        let Exposure { area_m2, hours_mean, hours_min, hours_max, shares: [one, two, three, four] } = exposure;
+        // Writing to a String cannot fail.
+        let _ = write!(
+            text,
+            "{name},{patch},{area_m2:.4},{azimuth},{tilt},{hours_mean:.4},{hours_min:.4},{hours_max:.4},\
+             {one:.4},{two:.4},{three:.4},{four:.4}\r\n"
+        );
+    };
+    for (name, patches, exposure) in surfaces.components() {
+        let name = field(name);
+        line(&name, "all", "", "", &exposure);
+        for (index, patch) in patches.iter().enumerate() {
+            let azimuth = patch.azimuth_deg().map(|azimuth| format!("{azimuth:.2}")).unwrap_or_default();
+            let tilt = format!("{:.2}", patch.tilt_deg());
+            line(&name, &(index + 1).to_string(), &azimuth, &tilt, &surfaces.hours.of_patch(patch));
+        }
+    }
+    text
+}
+
+/// What it comes to, a line a component, the largest areas first; ends with a line break.
+pub fn summary(surfaces: &Surfaces) -> String {
+    let patches = surfaces.patches;
+    let mut text = format!(
+        "{} patches, {} texels of {:.3} m; {} of daylight\n",
+        patches.list.len(),
+        patches.texels.len(),
+        patches.cell,
+        duration(surfaces.hours.day_secs)
+    );
+    let mut components: Vec<_> = surfaces.components().collect();
+    components.sort_by(|(_, _, one), (_, _, other)| other.area_m2.total_cmp(&one.area_m2));
+    for (name, _, exposure) in components.iter().take(MOST_LINES) {
+        let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "{}: {area_m2:.0} m², {hours_mean:.2} h of sun ({hours_min:.2} to {hours_max:.2})",
+            plain(name)
+        );
+    }
+    if let Some(more) = components.len().checked_sub(MOST_LINES).filter(|more| *more > 0) {
+        let _ = writeln!(text, "and {more} smaller components");
+    }
+    text
+}
+
+/// Components that are told on the terminal.
+const MOST_LINES: usize = 12;

@@ -1,0 +1,102 @@
+//! The frame of a patch: which way its rows run.
+//!
+//! Rows of a patch that is not level are level, so that a wall stands upright in its texture; seen from its judged side,
+//! what is right is right. Level patches, and those that take less than half of the texels so (a strut that leans), have
+//! their rows along their longest border, turned to where level rows or the east would be.
+
+use super::gather::Flat;
+use super::{LEVEL, Mesh};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+/// A patch's directions, and the rectangle along them that holds it.
+pub(super) struct Frame {
+    pub(super) right: DVec3,
+    pub(super) down: DVec3,
+    /// A point in the patch's plane, around the mesh's origin.
+    anchor: DVec3,
+    /// Metres right and down of the anchor.
+    low: DVec2,
+    high: DVec2,
+}
+
+/// More texels than this along a side say that the cell is too small.
+const MOST_COUNTED: f64 = 1e9;
+
+impl Frame {
+    fn along(mesh: &Mesh, flat: &Flat, right: DVec3) -> Frame {
+        let down = right.cross(flat.plane.truncate());
+        let anchor = flat.plane.truncate() * -flat.plane.w;
+        let places = || {
+            let corners = flat.faces.iter().flat_map(|&face| mesh.corners(face as usize));
+            corners.map(|corner| corner.as_dvec3() - anchor).map(|from| DVec2::new(from.dot(right), from.dot(down)))
+        };
+        let low = places().fold(DVec2::INFINITY, DVec2::min);
+        let high = places().fold(DVec2::NEG_INFINITY, DVec2::max);
+        Frame { right, down, anchor, low, high }
+    }
+
+    /// Columns and rows of so many metres.
+    pub(super) fn texels(&self, cell: f64) -> [u32; 2] {
+        // a wall of whole cells takes no more for its rounding
+        let count = |length: f64| (length / cell - 1e-4).ceil().clamp(1.0, MOST_COUNTED) as u32;
+        [count(self.high.x - self.low.x), count(self.high.y - self.low.y)]
+    }
+
+    /// The corner where the first texel begins. What whole texels are longer than the patch stands over on both sides alike.
+    pub(super) fn corner(&self, cell: f64) -> DVec3 {
+        let [width, height] = self.texels(cell).map(|count| f64::from(count) * cell);
+        let corner = (self.low + self.high - DVec2::new(width, height)) / 2.0;
+        self.anchor + self.right * corner.x + self.down * corner.y
+    }
+
+    fn cost(&self, cell: f64) -> f64 {
+        let [width, height] = self.texels(cell);
+        f64::from(width) * f64::from(height)
+    }
+}
+
+/// The frames of all patches, for texels of about so many metres.
+pub(super) fn of_all(mesh: &Mesh, flats: &[Flat], cell: f64) -> Vec<Frame> {
+    flats.par_iter().map(|flat| of(mesh, flat, cell)).collect()
+}
+
+fn of(mesh: &Mesh, flat: &Flat, cell: f64) -> Frame {
+    let normal = flat.plane.truncate();
+    let level = DVec3::Z.cross(normal);
+    let is_level = level.length() < LEVEL;
+    let meant = if is_level { DVec3::X } else { level.normalize() };
+    let frame = (!is_level).then(|| Frame::along(mesh, flat, meant));
+    let along = longest_border(mesh, flat);
+    let along = (along - normal * along.dot(normal)).try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+    let aside = normal.cross(along);
+    let [mut right, mut best] = [along; 2];
+    for way in [along, -along, aside, -aside] {
+        if way.dot(meant) > best.dot(meant) {
+            [right, best] = [way; 2];
+        }
+    }
+    let turned = Frame::along(mesh, flat, right);
+    match frame {
+        Some(frame) if frame.cost(cell) <= 2.0 * turned.cost(cell) => frame,
+        _ => turned,
+    }
+}
+
+/// The longest edge that the patch's faces do not share.
+fn longest_border(mesh: &Mesh, flat: &Flat) -> DVec3 {
+    let mut count: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+    for &face in &flat.faces {
+        let [a, b, c] = mesh.faces[face as usize];
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            *count.entry([from.min(to), from.max(to)]).or_default() += 1;
+        }
+    }
+    let borders = count.into_iter().filter(|(_, faces)| *faces == 1);
+    let long = |[from, to]: [u32; 2]| (mesh.vertices[to as usize] - mesh.vertices[from as usize]).as_dvec3();
+    let longest = borders
+        .map(|(edge, _)| (long(edge).length(), edge))
+        .max_by(|one, other| one.0.total_cmp(&other.0).then(other.1.cmp(&one.1)));
+    longest.map_or(DVec3::ZERO, |(_, edge)| long(edge))
+}

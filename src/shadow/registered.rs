@@ -1,0 +1,155 @@
+//! Herf's registered projection: from what stands between a light and a flat receiver to the receiver's own cells.
+//!
+//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138, section 3.2: the pyramid from a light's sample to
+//! a parallelogram maps to a box, the same cells for every sample, so that hard shadows of many samples line up and can
+//! simply be added. Our deviations: one formula for a lamp and for the sun, whose pyramid is an oblique prism, with the
+//! homogeneous light; in place of the paper's third row a height above the receiver, which is what is cut at; and cells in
+//! place of the unit square, such that centres are whole numbers.
+//!
+//! A point v at the height h above the plane, seen from the light (l, w_l) whose own distance to the plane is f, falls onto
+//! p with p·w = v − (h/f)·l and w = 1 − w_l·h/f, all of which is linear in v.
+
+use super::ray_cast::TIE;
+use crate::mesh::scan::Bits;
+use glam::{DVec2, DVec3, DVec4};
+
+/// A flat receiver's raster, around any origin.
+#[derive(Clone, Copy, Debug)]
+pub struct Raster {
+    /// Where its first cell begins; its height above the plane does not matter.
+    pub corner: DVec3,
+    /// A unit vector along rows.
+    pub right: DVec3,
+    /// A unit vector down columns.
+    pub down: DVec3,
+    /// A cell's side, metres.
+    pub cell: f64,
+    /// The plane that is judged: its unit normal to the judged side, and minus its height along that.
+    pub plane: DVec4,
+}
+
+/// The projection onto a raster, for one light.
+#[derive(Clone, Copy, Debug)]
+pub struct Registered {
+    /// Homogeneous column of a vertex (v, 1), such that centres are whole numbers.
+    pub column: DVec4,
+    /// Homogeneous row.
+    pub row: DVec4,
+    /// By which both are divided: 1 for the sun; for a lamp 1 in the plane, and 0 at the lamp's height.
+    pub w: DVec4,
+    /// Metres above the plane.
+    pub height: DVec4,
+}
+
+/// A vertex seen from the light.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Homogeneous column and row, and what divides them.
+    pub at: DVec3,
+    /// How high above the judged plane it stands, metres.
+    pub height: f64,
+}
+
+/// A lamp's own height is cut off where w comes so near to 0: what lies there falls nowhere that can be told.
+pub const LEAST_W: f64 = 1e-6;
+
+impl Registered {
+    /// For the homogeneous light (sun: w = 0, lamp: w = 1) around the raster's origin; none where it is not in front of the
+    /// plane.
+    pub fn new(raster: &Raster, light: DVec4) -> Option<Registered> {
+        let front = raster.plane.dot(light);
+        if front.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
+            return None;
+        }
+        let height = raster.plane;
+        let w = DVec4::W - height * (light.w / front);
+        // as for rays, what lies right of an edge through a centre counts, then what lies below
+        let along = |axis: DVec3, tie: f64| {
+            let fallen = axis.extend(0.0) - height * (axis.dot(light.truncate()) / front);
+            (fallen - w * axis.dot(raster.corner)) / raster.cell - w * (0.5 + tie)
+        };
+        Some(Registered { column: along(raster.right, TIE.x), row: along(raster.down, -TIE.y), w, height })
+    }
+
+    /// Where a vertex is.
+    pub fn place(&self, vertex: DVec3) -> Place {
+        let vertex = vertex.extend(1.0);
+        Place {
+            at: DVec3::new(self.column.dot(vertex), self.row.dot(vertex), self.w.dot(vertex)),
+            height: self.height.dot(vertex),
+        }
+    }
+}
+
+/// What of a face lies between the plane and the light: a convex polygon in cells.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Part {
+    points: [DVec2; 5],
+    count: usize,
+}
+
+impl Part {
+    /// Its corners, in the face's order.
+    pub fn points(&self) -> &[DVec2] {
+        &self.points[..self.count]
+    }
+
+    /// Covers the cells whose centres lie in it or on its edge.
+    pub fn cover(&self, bits: &mut Bits) {
+        for pair in self.points().windows(2).skip(1) {
+            bits.cover([self.points[0], pair[0], pair[1]]);
+        }
+    }
+}
+
+/// Whether a face's place needs no cutting.
+pub fn is_whole(face: &[Place; 3]) -> bool {
+    face.iter().all(|place| place.height > 0.0 && place.at.z > LEAST_W)
+}
+
+/// Cuts a face at the judged plane, and below a lamp. Two faces that share an edge are cut at the same point of it.
+pub fn part(face: [Place; 3]) -> Part {
+    let mut part = Part::default();
+    if is_whole(&face) {
+        part.points[..3].copy_from_slice(&face.map(flat));
+        part.count = 3;
+        return part;
+    }
+    let (mut above, mut count) = ([face[0]; 4], 0);
+    for at in 0..3 {
+        let (from, to) = (face[at], face[(at + 1) % 3]);
+        if from.height > 0.0 {
+            above[count] = from;
+            count += 1;
+        }
+        if (from.height > 0.0) != (to.height > 0.0) {
+            above[count] = cut(from, to, |place| place.height);
+            count += 1;
+        }
+    }
+    let before_lamp = |place: &Place| place.at.z - LEAST_W;
+    for at in 0..count {
+        let (from, to) = (above[at], above[(at + 1) % count]);
+        if before_lamp(&from) > 0.0 {
+            part.points[part.count] = flat(from);
+            part.count += 1;
+        }
+        if (before_lamp(&from) > 0.0) != (before_lamp(&to) > 0.0) {
+            part.points[part.count] = flat(cut(from, to, |place| before_lamp(&place)));
+            part.count += 1;
+        }
+    }
+    part
+}
+
+fn flat(place: Place) -> DVec2 {
+    place.at.truncate() / place.at.z
+}
+
+/// Where the line between two places comes to 0. The same whichever is named first.
+fn cut(one: Place, other: Place, height: impl Fn(Place) -> f64) -> Place {
+    let (low, high) = if height(one) < height(other) { (one, other) } else { (other, one) };
+    // homogeneous places are linear, below the plane as well
+    let along = -height(low) / (height(high) - height(low));
+    Place { at: low.at + (high.at - low.at) * along, height: low.height + (high.height - low.height) * along }
+}

@@ -1,0 +1,183 @@
+//! Hard shadows of one sample on one patch, on the processor, in double precision.
+//!
+//! - [`Fill::Faces`]: every face is filled, a bit a cell: the plain twin.
+//! - [`Fill::Silhouettes`]: the paper's edge-flag fill (section 4.3.1, after Ackland and Weste, 1981) of silhouettes
+//!   (4.3.3). Each edge marks in every row the cell from which on its faces' layers begin or end; a running sum over the row
+//!   is then the number of layers before each cell. An edge counts as often as the directions of its faces do not cancel:
+//!   ±2 between two faces of one side, ±1 at a border, 0 inside. The paper lists events by light in each cell; we add a
+//!   sample's at once, so that an event is a number and there is nothing to allocate.
+//!
+//! Both cut at the judged plane alike. A face that is cut marks its own border, the section included; where it meets a face
+//! that is not, their marks fall into the same cells and cancel in the sum.
+
+use super::Fill;
+use super::occluders::Occluders;
+use crate::mesh::Mesh;
+use crate::mesh::scan::{Bits, Side};
+use crate::shadow::registered::{self, Part, Place, Registered};
+use glam::DVec2;
+
+/// The sides of each face: twice the edge, and 1 where the face runs against it.
+pub(super) fn face_sides(mesh: &Mesh) -> Vec<[u32; 3]> {
+    let mut sides = vec![[u32::MAX; 3]; mesh.faces.len()];
+    for edge in 0..mesh.edges.len() {
+        for incidence in mesh.faces_at(edge) {
+            let side = (edge as u32) << 1 | u32::from(incidence.direction() < 0);
+            if let Some(slot) = sides[incidence.face() as usize].iter_mut().find(|slot| **slot == u32::MAX) {
+                *slot = side;
+            }
+        }
+    }
+    sides
+}
+
+/// What filling needs and nobody keeps.
+#[derive(Default)]
+pub(super) struct Scratch {
+    pub(super) waiting: Vec<u32>,
+    /// The last sample's occluders.
+    pub(super) found: Vec<u32>,
+    /// Per edge of the mesh the sum of its faces' directions; all zero between patches.
+    multiplicity: Vec<i32>,
+    /// Edges whose sum was touched.
+    touched: Vec<u32>,
+    /// Events, row by row, one cell more than the patch is wide.
+    events: Vec<i32>,
+}
+
+impl Scratch {
+    pub(super) fn new(mesh: &Mesh, fill: Fill) -> Scratch {
+        let edges = if fill == Fill::Silhouettes { mesh.edges.len() } else { 0 };
+        Scratch { multiplicity: vec![0; edges], ..Scratch::default() }
+    }
+}
+
+/// Which cells something lies before.
+pub(super) enum Covered<'a> {
+    Bits(Bits),
+    /// Layers, row by row of one cell more than the patch is wide.
+    Layers(&'a [i32], usize),
+}
+
+impl Covered<'_> {
+    pub(super) fn at(&self, column: u32, row: u32) -> bool {
+        match self {
+            Covered::Bits(bits) => bits.get(column, row),
+            Covered::Layers(layers, in_row) => layers[row as usize * in_row + column as usize] != 0,
+        }
+    }
+}
+
+/// What casts, as filling needs it.
+pub(super) struct Casting<'a> {
+    pub(super) mesh: &'a Mesh,
+    pub(super) sides: &'a [[u32; 3]],
+    pub(super) occluders: &'a Occluders,
+}
+
+impl Casting<'_> {
+    /// The shadow of the faces found onto a raster of so many columns and rows.
+    pub(super) fn covered<'a>(
+        &self,
+        fill: Fill,
+        onto: &Registered,
+        (width, height): (u32, u32),
+        scratch: &'a mut Scratch,
+    ) -> Covered<'a> {
+        match fill {
+            Fill::Faces => {
+                let mut bits = Bits::empty(width, height);
+                for &at in &scratch.found {
+                    registered::part(self.places(onto, at)).cover(&mut bits);
+                }
+                Covered::Bits(bits)
+            }
+            Fill::Silhouettes => self.layers(onto, (width, height), scratch),
+        }
+    }
+
+    fn places(&self, onto: &Registered, at: u32) -> [Place; 3] {
+        self.occluders.corners[at as usize].map(|corner| onto.place(corner.as_dvec3()))
+    }
+
+    fn layers<'a>(&self, onto: &Registered, (width, height): (u32, u32), scratch: &'a mut Scratch) -> Covered<'a> {
+        let in_row = width as usize + 1;
+        let Scratch { found, multiplicity, touched, events, .. } = scratch;
+        events.clear();
+        events.resize(in_row * height as usize, 0);
+        let mut raster = Events { events, in_row, width: width.into(), height: height.into() };
+        for &at in found.iter() {
+            let places = self.places(onto, at);
+            if places.iter().all(|place| place.height <= 0.0) {
+                continue;
+            }
+            let [a, b, c] = places.map(|place| place.at);
+            // towards the light or away from it: the sign of the area that is seen of it
+            let facing = if a.dot(b.cross(c)) < 0.0 { -1 } else { 1 };
+            if registered::is_whole(&places) {
+                for side in self.sides[self.occluders.faces[at as usize] as usize] {
+                    let edge = side >> 1;
+                    let sum = &mut multiplicity[edge as usize];
+                    *sum += if side & 1 == 0 { facing } else { -facing };
+                    touched.push(edge);
+                }
+            } else {
+                raster.mark_part(&registered::part(places), facing);
+            }
+        }
+        for edge in touched.drain(..) {
+            // an edge is touched by each of its faces
+            let sum = std::mem::take(&mut multiplicity[edge as usize]);
+            if sum != 0 {
+                let [from, to] = self.mesh.edges[edge as usize].map(|vertex| {
+                    let place = onto.place(self.mesh.vertices[vertex as usize].as_dvec3());
+                    place.at.truncate() / place.at.z
+                });
+                raster.mark(from, to, sum);
+            }
+        }
+        for row in raster.events.chunks_exact_mut(in_row) {
+            let mut layers = 0;
+            for cell in row {
+                layers += *cell;
+                *cell = layers;
+            }
+        }
+        Covered::Layers(events, in_row)
+    }
+}
+
+/// Where layers begin and end.
+struct Events<'a> {
+    events: &'a mut [i32],
+    in_row: usize,
+    width: i64,
+    height: i64,
+}
+
+impl Events<'_> {
+    fn mark_part(&mut self, part: &Part, facing: i32) {
+        let points = part.points();
+        for (at, from) in points.iter().enumerate() {
+            self.mark(*from, points[(at + 1) % points.len()], facing);
+        }
+    }
+
+    /// Marks the rows that an edge crosses, whose faces run along it so often, with their insides at its left hand as rows
+    /// go down. What lies left of the raster is marked at its left border (section 4.3.1, clipping).
+    fn mark(&mut self, from: DVec2, to: DVec2, times: i32) {
+        let (top, bottom, times) = if from.y < to.y { (from, to, -times) } else { (to, from, times) };
+        // a row belongs to the edge whose upper end it meets
+        let first = top.y.ceil().max(0.0);
+        let last = (bottom.y.ceil() - 1.0).min((self.height - 1) as f64);
+        let is_crossed = first <= last && top.x.min(bottom.x) <= self.width as f64;
+        if !is_crossed {
+            return;
+        }
+        let side = Side::between(top, bottom);
+        for row in first as i64..=last as i64 {
+            let column = side.x_at(row as f64).ceil().clamp(0.0, self.width as f64);
+            self.events[row as usize * self.in_row + column as usize] += times;
+        }
+    }
+}

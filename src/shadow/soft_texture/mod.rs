@@ -1,0 +1,341 @@
+//! Registered soft shadow textures: which part of a light's samples every texel of a flat patch sees.
+//!
+//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138. For each patch and each sample the faces between
+//! them are projected onto the patch's own texels ([`crate::shadow::registered`]) and filled; as all samples' hard shadows
+//! register, they are simply added. Samples are points of the sun's disc, a soft shadow at an instant; or the instants of
+//! a study, hours of sun on a facade; or points of a lamp. It is the same code.
+//!
+//! What we changed: sums are integers with a weight for each sample; faces are culled for each patch by a tree of boxes; a
+//! patch is judged a millimetre above itself, so that it never shades itself and takes no light through a wall that stands
+//! on it; the paper's factor of an unoccluded light ([`unoccluded`]) is apart from all that, and hours do without it.
+//!
+//! Where it fails: a texel's value is that of its centre; and where patches are many and tiny, rays cost less
+//! ([`Choice::Auto`]).
+
+mod factor;
+mod fill;
+mod occluders;
+mod on_gpu;
+
+pub use factor::unoccluded;
+
+use super::ray_cast::{RayCaster, Shear, TIE};
+use super::registered::{Raster, Registered};
+use super::{JUDGED_ABOVE_M, ShadowError};
+use crate::gpu::Gpu;
+use crate::mesh::Mesh;
+use crate::mesh::patches::{Patch, Patches, Texel};
+use fill::{Casting, Scratch};
+use glam::{DVec3, DVec4};
+use occluders::Occluders;
+use on_gpu::Drawer;
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// One point of a light, or one instant of the sun.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Homogeneous, in the world frame: a unit vector to the sun (w = 0), or a lamp's point (w = 1).
+    pub light: DVec4,
+    /// What a texel that sees it gets.
+    pub weight: u32,
+}
+
+/// How the processor fills hard shadows; both find the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// Every face.
+    Faces,
+    /// Silhouettes by edge flags.
+    Silhouettes,
+}
+
+/// What fills hard shadows.
+#[derive(Clone)]
+pub enum Painter {
+    /// The processor.
+    OnProcessor(Fill),
+    /// The graphics adapter, which fills every face.
+    OnGpu(Arc<Gpu>),
+}
+
+/// How a patch is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// By its texture; a patch without a centre by a ray all the same.
+    Texture,
+    /// By one ray a texel and sample.
+    Rays,
+    /// By what costs less.
+    Auto,
+}
+
+/// How patches were judged, over all samples that stand in front of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Judged {
+    /// Textures filled: patches times samples.
+    pub textures: u64,
+    /// Texels in them.
+    pub texture_texels: u64,
+    /// Faces between patches and samples that culling left.
+    pub faces: u64,
+    /// Rays cast.
+    pub rays: u64,
+}
+
+/// With [`Choice::Auto`] a texture is filled where no more faces a texel than these lie between patch and sample; else rays
+/// cost less. Measured in `docs/benchmarks/receivers.md`.
+pub const MOST_FACES_A_TEXEL: usize = 2;
+
+/// With [`Choice::Auto`] patches of fewer texels are not worth a draw call of the adapter.
+pub const FEWEST_DRAWN: usize = 256;
+
+/// The technique, made for the casters of one scene and its patches.
+pub struct SoftTexture {
+    casters: Mesh,
+    patches: Arc<Patches>,
+    sides: Vec<[u32; 3]>,
+    occluders: Occluders,
+    rays: RayCaster,
+    choice: Choice,
+    fill: Fill,
+    /// Without it every face is filled for every patch, as in the paper.
+    culling: bool,
+    /// Per texel the weights of the samples it sees: those that the processor added.
+    sums: Vec<u32>,
+    drawer: Option<Drawer>,
+    counts: [AtomicU64; 4],
+}
+
+impl SoftTexture {
+    /// For the faces that cast; they share their origin with the patches.
+    ///
+    /// # Errors
+    /// [`ShadowError::Gpu`]
+    pub fn new(
+        casters: Mesh,
+        patches: Arc<Patches>,
+        painter: Painter,
+        choice: Choice,
+    ) -> Result<SoftTexture, ShadowError> {
+        let farthest = |patch: &Patch| {
+            let far = patches.cell * f64::from(patch.width.max(patch.height));
+            patch.corner.abs().max_element() + 2.0 * far
+        };
+        let reach = patches.list.iter().map(farthest).fold(0.0, f64::max);
+        let (fill, gpu) = match painter {
+            Painter::OnProcessor(fill) => (fill, None),
+            Painter::OnGpu(gpu) => (Fill::Faces, Some(gpu)),
+        };
+        Ok(SoftTexture {
+            sides: fill::face_sides(&casters),
+            occluders: Occluders::new(&casters),
+            rays: RayCaster::new(&casters, reach),
+            drawer: gpu.map(|gpu| Drawer::new(gpu, &casters, &patches, choice)).transpose()?,
+            casters,
+            sums: vec![0; patches.texels.len()],
+            patches,
+            choice,
+            fill,
+            culling: true,
+            counts: Default::default(),
+        })
+    }
+
+    /// Fills every face for every patch, as the paper does: for measurements.
+    pub fn without_culling(mut self) -> SoftTexture {
+        self.culling = false;
+        self
+    }
+
+    /// Adds samples' weights to the texels that see them.
+    ///
+    /// # Errors
+    /// [`ShadowError::Gpu`]
+    pub fn add(&mut self, samples: &[Sample]) -> Result<(), ShadowError> {
+        let origin = DVec4::from((self.patches.origin, 0.0));
+        let samples: Vec<Sample> =
+            samples.iter().map(|sample| Sample { light: sample.light - origin * sample.light.w, ..*sample }).collect();
+        let SoftTexture { casters, patches, sides, occluders, rays, choice, fill, culling, sums, drawer, counts } =
+            self;
+        let sought = Sought { patches, occluders, culling: *culling, choice: *choice };
+        let casting = Casting { mesh: casters, sides, occluders };
+        let judge = Judge { sought, rays, casting, fill: *fill, counts };
+        // those that the adapter leaves to rays
+        let mut left = vec![Vec::new(); if drawer.is_some() { samples.len() } else { 0 }];
+        if let Some(drawer) = drawer {
+            for (sample, left) in samples.iter().zip(&mut left) {
+                let (judged, rest) = drawer.add(&judge.sought, casters, sample)?;
+                count(counts, judged);
+                *left = rest;
+            }
+        }
+        let mut rest = sums.as_mut_slice();
+        let mut work = Vec::with_capacity(patches.list.len());
+        for (at, patch) in (0..).zip(&patches.list) {
+            let (sums, after) = rest.split_at_mut(patch.texels.len());
+            rest = after;
+            work.push((at, patch, sums));
+        }
+        work.into_par_iter().for_each_init(
+            || Scratch::new(judge.casting.mesh, judge.fill),
+            |scratch, (at, patch, sums)| {
+                let on_adapter = drawer.is_some() && is_drawn(patch, judge.sought.choice);
+                for (number, sample) in samples.iter().enumerate() {
+                    if !on_adapter {
+                        judge.add(patch, sample, sums, scratch);
+                    } else if left[number].binary_search(&at).is_ok() {
+                        judge.cast(patch, sample, sums);
+                    }
+                }
+            },
+        );
+        Ok(())
+    }
+
+    /// How patches were judged so far.
+    pub fn judged(&self) -> Judged {
+        let [textures, texture_texels, faces, rays] = [0, 1, 2, 3].map(|at| self.counts[at].load(Ordering::Relaxed));
+        Judged { textures, texture_texels, faces, rays }
+    }
+
+    /// Bytes of the graphics adapter's memory that are taken; 0 without one.
+    pub fn gpu_bytes(&self) -> u64 {
+        self.drawer.as_ref().map_or(0, Drawer::bytes)
+    }
+
+    /// Per texel of [`Patches::texels`] the weights of the samples that it sees.
+    ///
+    /// # Errors
+    /// [`ShadowError::Gpu`]
+    pub fn finish(self) -> Result<Vec<u32>, ShadowError> {
+        let SoftTexture { mut sums, drawer, .. } = self;
+        if let Some(drawer) = drawer {
+            for (sum, drawn) in sums.iter_mut().zip(drawer.sums()?) {
+                *sum += drawn;
+            }
+        }
+        Ok(sums)
+    }
+}
+
+fn count(counts: &[AtomicU64; 4], judged: Judged) {
+    let Judged { textures, texture_texels, faces, rays } = judged;
+    for (count, more) in counts.iter().zip([textures, texture_texels, faces, rays]) {
+        count.fetch_add(more, Ordering::Relaxed);
+    }
+}
+
+/// Whether the adapter draws a patch, unless too much stands before it.
+fn is_drawn(patch: &Patch, choice: Choice) -> bool {
+    let worth_it = match choice {
+        Choice::Texture => true,
+        Choice::Rays => false,
+        Choice::Auto => patch.texels.len() >= FEWEST_DRAWN,
+    };
+    worth_it && patch.alone.is_none()
+}
+
+/// What is asked of occluders.
+struct Sought<'a> {
+    patches: &'a Patches,
+    occluders: &'a Occluders,
+    culling: bool,
+    choice: Choice,
+}
+
+impl Sought<'_> {
+    /// Finds what stands between a patch and a light; false where rays are to be cast instead.
+    fn find(&self, patch: &Patch, onto: &Registered, waiting: &mut Vec<u32>, found: &mut Vec<u32>) -> bool {
+        let most = match self.choice {
+            _ if patch.alone.is_some() => return false,
+            Choice::Rays => return false,
+            Choice::Texture => usize::MAX,
+            Choice::Auto => patch.texels.len() * MOST_FACES_A_TEXEL,
+        };
+        self.occluders.before(onto, (patch.width, patch.height), self.culling, most, waiting, found)
+    }
+}
+
+/// The raster of a patch, a millimetre above the side that faces the light; none where that is edge-on or behind.
+fn raster(patch: &Patch, cell: f64, light: DVec4) -> Option<Raster> {
+    let mut plane = patch.plane;
+    if patch.two_sided && plane.dot(light) < 0.0 {
+        plane = -plane;
+    }
+    plane.w -= JUDGED_ABOVE_M;
+    (plane.dot(light) > 0.0).then_some(Raster {
+        corner: patch.corner,
+        right: patch.right,
+        down: patch.down,
+        cell,
+        plane,
+    })
+}
+
+/// What judges patches on the processor.
+struct Judge<'a> {
+    sought: Sought<'a>,
+    rays: &'a RayCaster,
+    casting: Casting<'a>,
+    fill: Fill,
+    counts: &'a [AtomicU64; 4],
+}
+
+impl Judge<'_> {
+    /// Adds a sample's weight to the texels of a patch that see it.
+    fn add(&self, patch: &Patch, sample: &Sample, sums: &mut [u32], scratch: &mut Scratch) {
+        let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
+        let Some(onto) = Registered::new(&raster, sample.light) else { return };
+        if !self.sought.find(patch, &onto, &mut scratch.waiting, &mut scratch.found) {
+            self.cast(patch, sample, sums);
+            return;
+        }
+        let judged = Judged {
+            textures: 1,
+            texture_texels: sums.len() as u64,
+            faces: scratch.found.len() as u64,
+            ..Judged::default()
+        };
+        count(self.counts, judged);
+        if scratch.found.is_empty() {
+            sums.iter_mut().for_each(|sum| *sum += sample.weight);
+            return;
+        }
+        let covered = self.casting.covered(self.fill, &onto, (patch.width, patch.height), scratch);
+        for (sum, texel) in sums.iter_mut().zip(self.texels(patch)) {
+            if !covered.at(texel.column.into(), texel.row.into()) {
+                *sum += sample.weight;
+            }
+        }
+    }
+
+    fn texels(&self, patch: &Patch) -> &[Texel] {
+        &self.sought.patches.texels[patch.texels.start as usize..patch.texels.end as usize]
+    }
+
+    /// The same by rays.
+    fn cast(&self, patch: &Patch, sample: &Sample, sums: &mut [u32]) {
+        let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
+        count(self.counts, Judged { rays: sums.len() as u64, ..Judged::default() });
+        // as where textures are filled; a point that stands alone is judged where it is
+        let tie = (raster.right * TIE.x - raster.down * TIE.y) * raster.cell;
+        let tie = if patch.alone.is_some() { DVec3::ZERO } else { tie };
+        let lift = raster.plane.truncate() * JUDGED_ABOVE_M;
+        let sun = (sample.light.w == 0.0).then(|| Shear::along(sample.light.truncate()));
+        for (sum, texel) in sums.iter_mut().zip(self.texels(patch)) {
+            let judged = self.sought.patches.point(patch, *texel) + tie + lift;
+            let blocked = match &sun {
+                Some(shear) => self.rays.blocked(judged, shear),
+                None => {
+                    let to_lamp = sample.light.truncate() - judged;
+                    self.rays.first_hit(judged, to_lamp).is_some_and(|(_, distance)| distance < 1.0)
+                }
+            };
+            if !blocked {
+                *sum += sample.weight;
+            }
+        }
+    }
+}

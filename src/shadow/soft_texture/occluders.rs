@@ -1,0 +1,102 @@
+//! What stands between a patch and a light: the faces that a tree of boxes does not rule out.
+//!
+//! The paper (sections 4.4.1 and 5.5) names this culling as what it lacks. A box is ruled out where it lies wholly beyond
+//! one side of the pyramid, or of the sun's prism, between the patch's outermost centres and the light; in registered
+//! coordinates each side is one linear form.
+
+use crate::mesh::Mesh;
+use crate::shadow::registered::Registered;
+use glam::{DVec3, DVec4, Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use rayon::prelude::*;
+use std::time::Duration;
+
+/// The faces of a mesh under a tree of boxes, in the tree's order, in which they lie beside each other.
+pub(super) struct Occluders {
+    tree: Option<Bvh2>,
+    /// Which face of the mesh each is.
+    pub(super) faces: Vec<u32>,
+    pub(super) corners: Vec<[Vec3; 3]>,
+}
+
+/// Linear forms that are above 0 in what matters: the sides of the pyramid.
+struct Sides([DVec4; 6]);
+
+impl Sides {
+    fn of(onto: &Registered, width: u32, height: u32) -> Sides {
+        let last = |count: u32| f64::from(count - 1);
+        Sides([
+            onto.height,
+            onto.column,
+            onto.w * last(width) - onto.column,
+            onto.row,
+            onto.w * last(height) - onto.row,
+            onto.w,
+        ])
+    }
+
+    fn rule_out(&self, bounds: &Aabb) -> bool {
+        let middle = (bounds.min + bounds.max).as_dvec3() / 2.0;
+        let reach: DVec3 = (bounds.max - bounds.min).as_dvec3() / 2.0;
+        // f32 rounds the middle and the reach
+        let slack = 1e-6 * (middle.abs().max_element() + reach.max_element());
+        self.0.iter().any(|form| {
+            let normal = form.truncate();
+            form.dot(middle.extend(1.0)) + normal.abs().dot(reach + slack) < 0.0
+        })
+    }
+}
+
+impl Occluders {
+    pub(super) fn new(mesh: &Mesh) -> Occluders {
+        let box_of = |face: usize| {
+            let [a, b, c] = mesh.corners(face).map(Vec3A::from);
+            Aabb::new(a.min(b).min(c), a.max(b).max(c))
+        };
+        let boxes: Vec<Aabb> = (0..mesh.faces.len()).into_par_iter().map(box_of).collect();
+        let tree =
+            (!boxes.is_empty()).then(|| build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut Duration::default()));
+        let faces = tree.as_ref().map_or(Vec::new(), |tree| tree.primitive_indices.clone());
+        Occluders { tree, corners: faces.iter().map(|&face| mesh.corners(face as usize)).collect(), faces }
+    }
+
+    /// Finds the places in the tree's order of every face that may lie between the light and the patch (without culling,
+    /// of all there are); false as soon as they are more than `most`.
+    pub(super) fn before(
+        &self,
+        onto: &Registered,
+        (width, height): (u32, u32),
+        culling: bool,
+        most: usize,
+        waiting: &mut Vec<u32>,
+        found: &mut Vec<u32>,
+    ) -> bool {
+        found.clear();
+        let Some(tree) = &self.tree else { return true };
+        if !culling {
+            found.extend(0..self.faces.len() as u32);
+            return found.len() <= most;
+        }
+        let sides = Sides::of(onto, width, height);
+        waiting.clear();
+        waiting.push(0);
+        while let Some(at) = waiting.pop() {
+            let node = &tree.nodes[at as usize];
+            if sides.rule_out(node.aabb()) {
+                continue;
+            }
+            if !node.is_leaf() {
+                waiting.extend([node.first_index, node.first_index + 1]);
+                continue;
+            }
+            found.extend(node.first_index..node.first_index + node.prim_count);
+            if found.len() > most {
+                return false;
+            }
+        }
+        true
+    }
+}

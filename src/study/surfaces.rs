@@ -1,0 +1,190 @@
+//! The study on surfaces: hours of sun on every flat patch of what receives.
+
+use super::machine::why_none;
+use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_distance, tell};
+use crate::gpu::Gpu;
+use crate::mesh::Mesh;
+use crate::mesh::patches::{MOST_TEXELS, Patches};
+use crate::profile::surfaces::SurfaceHours;
+use crate::profile::{Drawn, DrawnSettings, Timings};
+use crate::shadow::ray_cast::RayCast;
+use crate::shadow::soft_texture::{Choice, Fill, Judged, Painter, Sample, SoftTexture};
+use crate::shadow::{JUDGED_ABOVE_M, Scene, Technique};
+use crate::site::{Engine, Finder, Method, Site};
+use crate::sun::{Instant, disc};
+use crate::view::{Surface, View};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// The answer to a study on surfaces.
+#[derive(Clone, Debug)]
+pub struct SurfaceOutcome {
+    /// The patches of the components that receive, of [`Site::mesh`].
+    pub patches: Arc<Patches>,
+    /// Their time in the sun.
+    pub hours: SurfaceHours,
+    /// How they were judged.
+    pub judged: Judged,
+    /// What drew it.
+    pub drawn: Drawn,
+    /// Bytes of the graphics adapter's memory that were taken; 0 where it was not used.
+    pub gpu_bytes: u64,
+    /// `prepare` and `shadows`.
+    pub timings: Timings,
+}
+
+/// Hours of sun on surfaces, with texels of `cell` metres; larger ones where there would be too many, which a note says.
+///
+/// Each instant is a sample of the sun's centre, or with [`crate::site::Settings::sun_samples`] as many of its disc, for
+/// its weight. What lies below the ground plane sees no sun.
+///
+/// # Errors
+/// [`StudyError`]; choices that do not fit and windows that are too long before anything is drawn.
+pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<SurfaceOutcome, StudyError> {
+    let mut watch = Stopwatch::start();
+    let samples = site.settings.sun_samples.unwrap_or(1);
+    let (day_secs, night_secs) = day_and_night(&site.track, u32::MAX / samples)?;
+    note_distance(&site.mesh, on_event)?;
+    let choice = choice(site)?;
+    let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
+    note_patches(&patches, on_event)?;
+    let painter = painter(site, choice, on_event)?;
+    let drawn = Drawn {
+        technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture }.word(),
+        silhouette: None,
+        engine: if matches!(painter, Painter::OnGpu(_)) { Engine::Gpu } else { Engine::Cpu }.word(),
+        adapter: match &painter {
+            Painter::OnGpu(gpu) => Some(gpu.name().to_owned()),
+            Painter::OnProcessor(_) => None,
+        },
+        settings: DrawnSettings { sun_samples: site.settings.sun_samples, ..DrawnSettings::default() },
+    };
+    let casters = site.mesh.of_components(&site.casts);
+    let mut texture = SoftTexture::new(casters, Arc::clone(&patches), painter, choice)?;
+    watch.lap("prepare");
+
+    let count = site.track.instants.len();
+    tell(on_event, Event::Started { instants: count })?;
+    for (index, instant) in site.track.instants.iter().enumerate() {
+        if !instant.night {
+            texture.add(&samples_of(instant, site.settings.sun_samples))?;
+        }
+        tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None })?;
+    }
+    let (judged, gpu_bytes) = (texture.judged(), texture.gpu_bytes());
+    let mut lit = texture.finish()?;
+    darken_underground(&patches, site.ground, &mut lit);
+    watch.lap("shadows");
+
+    let hours = SurfaceHours { lit, samples, day_secs, night_secs };
+    Ok(SurfaceOutcome { patches, hours, judged, drawn, gpu_bytes, timings: watch.stages })
+}
+
+/// What the site's camera sees of what receives, for a drawing of the surfaces, and the mesh whose faces it counts.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError> {
+    let receivers = site.mesh.of_components(&site.receives);
+    let scene = Scene { casters: site.mesh.of_components(&[]), receivers: receivers.clone(), ground: site.ground };
+    let surface = RayCast::new(scene, View::Camera(site.camera), None).surface()?;
+    Ok((receivers, surface))
+}
+
+/// An instant's samples: the sun's centre, or points of its disc.
+fn samples_of(instant: &Instant, sun_samples: Option<u32>) -> Vec<Sample> {
+    let sample = |to_sun: DVec3| Sample { light: to_sun.extend(0.0), weight: instant.weight_secs };
+    match sun_samples {
+        None => vec![sample(instant.to_sun)],
+        Some(samples) => disc(instant.to_sun, samples).map(sample).collect(),
+    }
+}
+
+/// How patches are judged, as asked.
+fn choice(site: &Site) -> Result<Choice, StudyError> {
+    let conflict = |option, what| Err(StudyError::Conflict { option, what });
+    let settings = &site.settings;
+    if site.finder != Finder::Auto {
+        return conflict("--silhouette", "on surfaces nothing asks a finder; leave the option out");
+    }
+    let of_others = [
+        (settings.map_size.is_some(), "--map-size"),
+        (settings.pcf.is_some(), "--pcf"),
+        (settings.smoothie_width_m.is_some(), "--smoothie-width"),
+    ];
+    if let Some((_, option)) = of_others.into_iter().find(|(given, _)| *given) {
+        return conflict(option, "surfaces are judged without a map and without smoothies; leave the option out");
+    }
+    match site.method {
+        Method::Auto => Ok(Choice::Auto),
+        Method::SoftTexture => Ok(Choice::Texture),
+        Method::RayCast if site.engine == Engine::Gpu => {
+            conflict("--engine", "the technique ray-cast works on the cpu; take --technique soft-texture with gpu")
+        }
+        Method::RayCast => Ok(Choice::Rays),
+        _ => conflict(
+            "--technique",
+            "surfaces are judged by soft-texture or ray-cast, or by auto, which takes for each what costs less",
+        ),
+    }
+}
+
+/// Who fills textures, as asked; else a real graphics adapter, and the processor where the adapter is a program on it.
+///
+/// Measured (docs/benchmarks/receivers.md).
+fn painter(site: &Site, choice: Choice, on_event: &mut OnEvent<'_>) -> Result<Painter, StudyError> {
+    let on_processor = Painter::OnProcessor(Fill::Faces);
+    match site.engine {
+        _ if choice == Choice::Rays => Ok(on_processor),
+        Engine::Cpu => Ok(on_processor),
+        Engine::Gpu => Ok(Painter::OnGpu(Arc::new(Gpu::open()?))),
+        Engine::Auto => match Gpu::open() {
+            Ok(gpu) if gpu.software() => Ok(on_processor),
+            Ok(gpu) => Ok(Painter::OnGpu(Arc::new(gpu))),
+            Err(error) => {
+                tell(on_event, Event::Note(format!("{}: drawing on the processor", why_none(error))))?;
+                Ok(on_processor)
+            }
+        },
+    }
+}
+
+/// Says what of the patches is not as one would think.
+fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    if patches.list.is_empty() {
+        return Err(StudyError::NoSurface);
+    }
+    if patches.cell > patches.asked_cell {
+        let note = format!(
+            "surfaces have texels of {:.3} m in place of {} m, of which there would be too many; leave components out \
+             with `receives` to have finer ones",
+            patches.cell, patches.asked_cell
+        );
+        tell(on_event, Event::Note(note))?;
+    }
+    let two_sided = || patches.list.iter().filter(|patch| patch.two_sided);
+    if two_sided().next().is_some() {
+        let note = format!(
+            "{} of {} patches ({:.0} m²) are sheets of which nothing tells the outer side; they are judged on the side \
+             that faces the sun",
+            two_sided().count(),
+            patches.list.len(),
+            two_sided().map(|patch| patch.area_m2).sum::<f64>()
+        );
+        tell(on_event, Event::Note(note))?;
+    }
+    Ok(())
+}
+
+/// Takes the sun from texels below the ground plane.
+fn darken_underground(patches: &Patches, ground: f64, lit: &mut [u32]) {
+    for patch in &patches.list {
+        let texels = patch.texels.start as usize..patch.texels.end as usize;
+        for (lit, texel) in lit[texels.clone()].iter_mut().zip(&patches.texels[texels]) {
+            let judged_z = patches.point(patch, *texel).z + patch.normal().z * JUDGED_ABOVE_M;
+            if judged_z + patches.origin.z < ground {
+                *lit = 0;
+            }
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! The sample sites: every way against rays, cell by cell, at three instants.
+
+use super::Scene;
+use gnomon::mesh::patches::{MOST_TEXELS, Patches};
+use gnomon::shadow::soft_texture::{Choice, Sample};
+use gnomon::site::{Overrides, Site};
+use std::path::Path;
+use std::sync::Arc;
+
+/// A site's scene at so many metres, and three of its instants.
+fn site(name: &str, cell: f64) -> (Scene, Vec<Sample>) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
+    let site = Site::load(&folder, &Overrides::default()).expect("a sample site");
+    let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
+    let casters = site.mesh.of_components(&site.casts);
+    let instants: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
+    let chosen = [0, instants.len() / 2, instants.len() - 1].map(|at| instants[at].to_sun.extend(0.0));
+    (Scene { casters, patches }, super::weighed(chosen))
+}
+
+/// The patches of at least so many texels alone.
+fn large(scene: &Scene, texels: usize) -> Scene {
+    let mut patches = (*scene.patches).clone();
+    patches.list.retain(|patch| patch.texels.len() >= texels);
+    let mut kept = Vec::new();
+    for patch in &mut patches.list {
+        let first = kept.len() as u32;
+        kept.extend(&scene.patches.texels[patch.texels.start as usize..patch.texels.end as usize]);
+        patch.texels = first..kept.len() as u32;
+    }
+    patches.texels = kept;
+    Scene { casters: scene.casters.clone(), patches: Arc::new(patches) }
+}
+
+#[test]
+fn the_tower_agrees_with_rays() {
+    let (scene, samples) = site("tower", 1.0);
+    scene.check(&samples, &[Choice::Texture, Choice::Auto]);
+    println!("tower: {} texels differ on the adapter", scene.check_adapter(&samples, Choice::Texture));
+}
+
+#[test]
+fn the_works_agree_with_rays() {
+    let (scene, samples) = site("industry", 1.0);
+    scene.check(&samples, &[Choice::Texture, Choice::Auto]);
+    println!("industry: {} texels differ on the adapter", scene.check_adapter(&samples, Choice::Texture));
+}
+
+#[test]
+fn the_headquarters_agree_with_rays() {
+    let (scene, samples) = site("headquarters", 2.0);
+    scene.check(&samples, &[Choice::Auto]);
+    // every patch of 73,000 filled takes a minute; those that are worth it
+    let large = large(&scene, 40);
+    assert!(large.patches.texels.len() > 90_000);
+    large.check(&samples, &[Choice::Texture]);
+    println!("headquarters: {} texels differ on the adapter", large.check_adapter(&samples, Choice::Texture));
+}
