@@ -1,11 +1,12 @@
 //! The window's frame: keys, menus, messages, and what is shown before anything is open.
 
 use super::app::App;
+use super::clock::Play;
 use super::eye::Stand;
 use super::files::{self, Purpose};
 use super::loading::{Wanted, name_of};
 use super::look;
-use super::time::{Play, steps};
+use super::time::steps;
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers, ThemePreference, Ui};
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);

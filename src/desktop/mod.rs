@@ -3,8 +3,10 @@
 //! One thread draws the window and never waits. A second one ([`stage`]) draws the picture and takes the newest wish; others
 //! load sites and add up hours.
 
+mod acts;
 mod app;
 mod cards;
+mod clock;
 mod components;
 mod eye;
 mod files;
@@ -13,6 +15,7 @@ mod hours;
 mod loading;
 mod look;
 mod panel;
+mod pick;
 mod settings;
 mod sky;
 mod stage;

@@ -65,12 +65,11 @@ fn then(ui: &mut Ui, name: &str) -> egui::Id {
 fn place(app: &mut App, ui: &mut Ui) {
     let Some(table) = &mut app.settings.site.place else { return };
     let mut name = table.name.clone().unwrap_or_default();
-    row(ui, "Name", |ui, label| {
-        let edit = egui::TextEdit::singleline(&mut name).desired_width(f32::INFINITY);
-        if ui.add(edit).labelled_by(label).changed() {
-            table.name = Some(name.clone()).filter(|name| !name.trim().is_empty());
-        }
-    });
+    row(ui, "Name", |ui, label| field(ui, &mut app.typed, ("Name", Some(label)), &mut name, f32::INFINITY));
+    // only what was said is written: an empty name is none
+    if name != table.name.as_deref().unwrap_or_default() {
+        table.name = Some(name).filter(|name| !name.trim().is_empty());
+    }
     let coordinates = [("Latitude", &mut table.latitude, 90.0), ("Longitude", &mut table.longitude, 180.0)];
     for (name, slot, most) in coordinates {
         let mut value = slot.unwrap_or_default();

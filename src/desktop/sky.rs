@@ -1,8 +1,8 @@
 //! What lies over the picture: the sun's path, the north arrow, the scale bar. Lines and letters by egui, where the picture's
 //! own view puts them.
 
+use super::clock::Clock;
 use super::look::{self, SUN};
-use super::time::Clock;
 use crate::sun::Instant;
 use crate::view::{Camera, View};
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, Vec2, pos2, vec2};
