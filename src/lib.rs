@@ -29,3 +29,6 @@ pub mod study;
 pub mod export;
 
 pub mod cli;
+
+#[cfg(feature = "desktop")]
+pub mod desktop;

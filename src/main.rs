@@ -1,7 +1,19 @@
-//! The program: a subcommand goes to the command's face.
+//! The program: a subcommand goes to the command's face, none to the window.
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    gnomon::cli::main()
+    gnomon::cli::main(WINDOW)
 }
+
+/// What opens the window, where there is one.
+const WINDOW: Option<gnomon::cli::Window> = {
+    #[cfg(feature = "desktop")]
+    {
+        Some(gnomon::desktop::open)
+    }
+    #[cfg(not(feature = "desktop"))]
+    {
+        None
+    }
+};

@@ -262,13 +262,29 @@ fn failures_leave_no_file() {
     assert_eq!(names(folder.path().to_owned()), ["open.glb", "out", "site.toml", "tower.glb"]);
 }
 
+/// Without a subcommand the window opens; where there is no display, that is told. A program without a window prints its help.
 #[test]
-fn no_subcommand_prints_help() {
+#[cfg(target_os = "linux")]
+fn no_subcommand_is_the_window() {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_gnomon"));
+    for display in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+        program.env_remove(display);
+    }
+    let output = program.output().unwrap();
+    if cfg!(feature = "desktop") {
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains("without a display use the commands"), "{}", stderr(&output));
+    } else {
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("Usage: gnomon"), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn help_and_version_are_printed() {
     let folder = site();
-    let output = gnomon(folder.path(), "");
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("Usage: gnomon"), "{}", stderr(&output));
     assert!(done(folder.path(), "--version").starts_with("gnomon "));
+    assert!(done(folder.path(), "--help").contains("Usage: gnomon"));
     assert!(done(folder.path(), "profile --help").contains("--masks"));
 }
 

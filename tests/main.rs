@@ -3,12 +3,15 @@
 mod architecture;
 mod command;
 mod dense;
+#[cfg(feature = "desktop")]
+mod desktop;
 mod dome;
 mod exact;
 mod export;
 mod far_wrong;
 mod geometry;
 mod gpu_silhouettes;
+mod live;
 mod mistakes;
 mod model;
 mod overdraw;

@@ -21,17 +21,20 @@ lavapipe() {
     done
 }
 
-install_lavapipe() {
+# Installs Debian packages; the first word says what is missing.
+install() {
+    local missing=$1
+    shift
     command -v apt-get >/dev/null ||
-        fail "no software Vulkan driver: install Mesa's lavapipe (Fedora: mesa-vulkan-drivers, Arch: vulkan-swrast), or set VK_DRIVER_FILES"
+        fail "no $missing: install it (Debian's packages: $*)"
     local as_root=()
     if [ "$(id -u)" -ne 0 ]; then
-        command -v sudo >/dev/null || fail "no software Vulkan driver: as root, apt-get install mesa-vulkan-drivers"
+        command -v sudo >/dev/null || fail "no $missing: as root, apt-get install $*"
         as_root=(sudo)
     fi
-    say "installing mesa-vulkan-drivers"
+    say "installing $*"
     "${as_root[@]}" apt-get update
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends mesa-vulkan-drivers
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@"
 }
 
 CARGO=${CARGO:-cargo}
@@ -44,19 +47,29 @@ fi
 # Elsewhere the system's own adapter draws.
 if [ "$(uname -s)" = Linux ]; then
     if [ -z "${VK_DRIVER_FILES:-}" ]; then
-        [ -n "$(lavapipe)" ] || install_lavapipe
+        [ -n "$(lavapipe)" ] || install "software Vulkan driver (Fedora: mesa-vulkan-drivers, Arch: vulkan-swrast)" mesa-vulkan-drivers
         VK_DRIVER_FILES=$(lavapipe)
         [ -n "$VK_DRIVER_FILES" ] || fail "mesa-vulkan-drivers is installed but holds no lavapipe; set VK_DRIVER_FILES"
     fi
     export VK_DRIVER_FILES
     export VK_ICD_FILENAMES=$VK_DRIVER_FILES # the same for Vulkan loaders before 1.3.207
     say "Vulkan driver: $VK_DRIVER_FILES"
+
+    # The window is driven before an X server without a screen, by its pointer and keys.
+    for program in Xvfb xdotool xwd; do
+        command -v "$program" >/dev/null || {
+            install "$program" xvfb xdotool x11-apps libxkbcommon-x11-0 libxcursor1 libxi6 libxrandr2 libx11-xcb1
+            break
+        }
+    done
 fi
 
 say "format"
 "$CARGO" fmt --check
 say "lints"
 "$CARGO" clippy --all-targets -- -D warnings
+say "the command without its window"
+"$CARGO" check --no-default-features
 say "tests"
 "$CARGO" test
 say "documentation"

@@ -10,14 +10,16 @@ use std::path::PathBuf;
 
 /// Where, when and for how long a building takes the sun away: exact shadows and shadow profiles.
 #[derive(Debug, Parser)]
-#[command(name = "gnomon", version, arg_required_else_help = true, subcommand_required = true)]
+#[command(name = "gnomon", version, after_help = "Without a command the window opens.")]
 pub(super) struct Arguments {
     #[command(subcommand)]
-    pub(super) command: Command,
+    pub(super) command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
+    /// The window, with a site or a model in it
+    Open(OpenArgs),
     /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped goes
     /// on where it was when it is asked again
     Profile(ProfileArgs),
@@ -37,8 +39,10 @@ pub(super) enum Command {
 }
 
 impl Command {
-    pub(super) fn common(&self) -> &Common {
-        match self {
+    /// What every command takes; the window takes nothing.
+    pub(super) fn common(&self) -> Option<&Common> {
+        Some(match self {
+            Command::Open(_) => return None,
             Command::Profile(asked) => &asked.common,
             Command::Shadow(asked) => &asked.common,
             Command::Sun(asked) => &asked.common,
@@ -46,8 +50,15 @@ impl Command {
             Command::Volumes(asked) => &asked.common,
             Command::Verify(asked) => &asked.common,
             Command::Probe(asked) => &asked.common,
-        }
+        })
     }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct OpenArgs {
+    /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf), which is asked for its place
+    #[arg(value_name = "SITE|MODEL")]
+    pub(super) path: PathBuf,
 }
 
 /// What every subcommand takes.

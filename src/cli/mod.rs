@@ -15,18 +15,36 @@ mod volumes;
 use crate::site::SiteError;
 use crate::study::StudyError;
 use arguments::{Arguments, Command};
-use clap::Parser;
 use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
-/// Reads the command line and does what it asks.
-pub fn main() -> ExitCode {
+/// What opens the window, with a site or a model in it where one is named.
+pub type Window = fn(Option<&Path>) -> anyhow::Result<()>;
+
+/// Reads the command line and does what it asks; without a subcommand it opens the window, where there is one.
+pub fn main(window: Option<Window>) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return refuse(&error),
     };
-    match run(&arguments.command) {
+    let done = match (&arguments.command, window) {
+        (None, Some(window)) => window(None),
+        (Some(Command::Open(asked)), Some(window)) => window(Some(&asked.path)),
+        (Some(Command::Open(_)), None) => {
+            let what = "open: this gnomon was built without its window; build it with the feature desktop";
+            Err(WrongUse(what.to_owned()).into())
+        }
+        (Some(command), _) => run(command),
+        (None, None) => {
+            // Nobody is left to tell that stderr is closed.
+            let _ = write!(io::stderr(), "{}", Arguments::command().render_help());
+            return ExitCode::from(2);
+        }
+    };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             complain(&one_line(&error));
@@ -36,7 +54,7 @@ pub fn main() -> ExitCode {
 }
 
 fn run(command: &Command) -> anyhow::Result<()> {
-    if let Some(threads) = command.common().threads {
+    if let Some(threads) = command.common().and_then(|common| common.threads) {
         rayon::ThreadPoolBuilder::new()
             .num_threads(usize::from(threads))
             .build_global()
@@ -51,6 +69,8 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Volumes(asked) => volumes::volumes(asked),
         Command::Verify(asked) => verify::verify(asked),
         Command::Probe(asked) => probe::probe(asked),
+        // main's own
+        Command::Open(_) => Ok(()),
     }
 }
 
@@ -72,7 +92,7 @@ fn status(error: &anyhow::Error) -> u8 {
 }
 
 /// The error and its causes in one line; causes that the message already tells are not told again.
-fn one_line(error: &anyhow::Error) -> String {
+pub(crate) fn one_line(error: &anyhow::Error) -> String {
     let mut line = String::new();
     for cause in error.chain().map(|cause| words(&cause.to_string())) {
         if line.is_empty() {

@@ -3,7 +3,7 @@
 use super::timers::Timers;
 use std::sync::{Arc, Mutex, OnceLock};
 use wgpu::{
-    Backends, DeviceDescriptor, Features, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions,
+    Adapter, Backends, DeviceDescriptor, Features, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions,
 };
 
 /// An open graphics adapter.
@@ -53,40 +53,54 @@ const NEEDED: Features = Features::DEPTH32FLOAT_STENCIL8;
 const WANTED: Features = Features::FLOAT32_BLENDABLE.union(Features::TIMESTAMP_QUERY);
 
 impl Gpu {
+    /// What may drive an adapter: OpenGL lacks too much of what is needed.
+    pub const BACKENDS: Backends = Backends::PRIMARY;
+
     /// Opens the fastest adapter of the system. The usual environment variables of wgpu choose another one.
     pub fn open() -> Result<Gpu, GpuError> {
         pollster::block_on(async {
             let mut wanted = InstanceDescriptor::new_without_display_handle_from_env();
-            wanted.backends &= Backends::all();
+            wanted.backends &= Self::BACKENDS;
             let options = RequestAdapterOptions {
                 power_preference: PowerPreference::HighPerformance,
                 ..RequestAdapterOptions::default()
             };
             let adapter = Instance::new(wanted).request_adapter(&options).await.map_err(|_| GpuError::NoAdapter)?;
-            let info = adapter.get_info();
-            let (name, software) = (info.name, info.device_type == wgpu::DeviceType::Cpu);
-            let unusable = |reason: String| GpuError::Unusable { adapter: name.clone(), reason };
-            if !adapter.features().contains(NEEDED) {
-                return Err(unusable("it has no 32-bit depth with stencil".into()));
-            }
-            let limits = adapter.limits();
-            let description = DeviceDescriptor {
-                label: Some("gnomon"),
-                required_features: NEEDED | (adapter.features() & WANTED),
-                required_limits: limits.clone(),
-                ..DeviceDescriptor::default()
-            };
-            let (device, queue) =
-                adapter.request_device(&description).await.map_err(|error| unusable(error.to_string()))?;
-            let fault = Arc::new(Mutex::new(None));
-            let heard = Arc::clone(&fault);
-            device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-                if let Ok(mut fault) = heard.lock() {
-                    fault.get_or_insert_with(|| error.to_string());
-                }
-            }));
-            Ok(Gpu { device, queue, limits, name, software, fault, timers: OnceLock::new() })
+            check(&adapter)?;
+            let (device, queue) = adapter
+                .request_device(&Self::description(&adapter))
+                .await
+                .map_err(|error| unusable(&adapter, error.to_string()))?;
+            Self::opened(&adapter, device, queue)
         })
+    }
+
+    /// How a device is to be asked of an adapter, so that all techniques draw on it: for whoever opens it elsewhere.
+    pub fn description(adapter: &Adapter) -> DeviceDescriptor<'static> {
+        DeviceDescriptor {
+            label: Some("gnomon"),
+            required_features: adapter.features() & (NEEDED | WANTED),
+            required_limits: adapter.limits(),
+            ..DeviceDescriptor::default()
+        }
+    }
+
+    /// A device that is open already, by [`Gpu::description`].
+    ///
+    /// # Errors
+    /// [`GpuError::Unusable`] where the adapter lacks what is needed.
+    pub fn opened(adapter: &Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Result<Gpu, GpuError> {
+        check(adapter)?;
+        let fault = Arc::new(Mutex::new(None));
+        let heard = Arc::clone(&fault);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            if let Ok(mut fault) = heard.lock() {
+                fault.get_or_insert_with(|| error.to_string());
+            }
+        }));
+        let info = adapter.get_info();
+        let (name, software) = (info.name, info.device_type == wgpu::DeviceType::Cpu);
+        Ok(Gpu { device, queue, limits: adapter.limits(), name, software, fault, timers: OnceLock::new() })
     }
 
     /// The adapter's name, as its driver says it.
@@ -124,4 +138,16 @@ impl Gpu {
     pub fn failed(&self, reason: impl ToString) -> GpuError {
         GpuError::Failed { adapter: self.name.clone(), reason: reason.to_string() }
     }
+}
+
+/// Whether an adapter has what is needed.
+fn check(adapter: &Adapter) -> Result<(), GpuError> {
+    match adapter.features().contains(NEEDED) {
+        true => Ok(()),
+        false => Err(unusable(adapter, "it has no 32-bit depth with stencil".into())),
+    }
+}
+
+fn unusable(adapter: &Adapter, reason: String) -> GpuError {
+    GpuError::Unusable { adapter: adapter.get_info().name, reason }
 }

@@ -76,6 +76,34 @@ pub struct Map {
     pub unused: f32,
 }
 
+/// `Shown` of `shaders/picture.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Shown {
+    /// Where the hours' raster begins (west, north), metres around the scene's origin.
+    pub hours_corner: [f32; 2],
+    /// Its cell, metres.
+    pub hours_cell: f32,
+    /// 1 where hours are shown instead of sun and shadow.
+    pub hours: f32,
+    /// From the eye to what it looks at, metres.
+    pub focus: f32,
+    /// 1 where the sun is below the horizon.
+    pub night: f32,
+    /// How strong the lines are, 0 to 1.
+    pub lines: f32,
+    /// 1 where lines are drawn on both sides of a border.
+    pub both_sides: f32,
+    /// 1 where components have their own colours.
+    pub tinted: f32,
+    /// 1 where volumes and silhouette lie over the picture.
+    pub overlay: f32,
+    /// 1 where cells have colours of their own.
+    pub painted: f32,
+    /// 1 where the ground alone is judged.
+    pub ground_only: f32,
+}
+
 /// `Weight` of `shaders/accumulate.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -194,6 +222,7 @@ pub const ALL: &[Layout] = &[
     layout!(Edge: first, second, a, b, along),
     layout!(Arguments: index_count, instance_count, first_index, base_vertex, first_instance),
     layout!(Quadrilateral: first, a, second, b),
+    layout!(Shown: hours_corner, hours_cell, hours, focus, night, lines, both_sides, tinted, overlay, painted, ground_only),
     layout!(Weight: secs),
     layout!(Run: first, count),
 ];

@@ -32,6 +32,8 @@ pub const EXTRACTION: &str = joined!("common/search", "common/edge", "extraction
 /// Shadow volumes whose silhouettes the vertex shader decides.
 pub const QUADRILATERALS: &str =
     joined!("common/view", "common/seen", "common/search", "common/edge", "stencil", "quadrilaterals");
+/// Sun and shadow for the eye.
+pub const PICTURE: &str = joined!("common/view", "common/seen", "picture");
 /// Masks times weights.
 pub const ACCUMULATE: &str = joined!("accumulate");
 
@@ -51,6 +53,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("faces", FACES),
     ("extraction", EXTRACTION),
     ("quadrilaterals", QUADRILATERALS),
+    ("picture", PICTURE),
     ("accumulate", ACCUMULATE),
     ("soft_texture", SOFT_TEXTURE),
 ];

@@ -11,6 +11,7 @@ mod light_view;
 pub mod map;
 pub mod near_clip;
 pub mod overlay;
+pub mod picture;
 mod plan_surface;
 pub mod projected;
 mod raised;

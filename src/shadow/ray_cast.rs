@@ -160,6 +160,16 @@ impl RayCast {
         cast
     }
 
+    /// The face that each cell sees, as in [`Surface::face`].
+    pub fn faces(&self) -> Vec<u32> {
+        self.seen.par_iter().map(|seen| seen.face).collect()
+    }
+
+    /// What is looked at.
+    pub fn view(&self) -> View {
+        self.rays.view
+    }
+
     /// Turns to another view, whose rays begin no farther away than those of the first.
     pub fn look_at(&mut self, view: View) {
         self.rays = Rays::new(&self.scene, view);

@@ -23,13 +23,17 @@ const TILES: u32 = 24;
 /// Depth and face of what each cell sees, and the uniforms of the view.
 pub struct GpuSurface {
     pub(super) gpu: Arc<Gpu>,
-    view: View,
+    pub(super) view: View,
     origin: DVec3,
     pub(super) clip_from_local: DMat4,
     /// The lowest point that is judged, metres above the origin.
     pub(super) lowest_z: f64,
     depth: Texture,
     faces: Texture,
+    planes: Texture,
+    /// What draws the ground, and receivers.
+    pipelines: [RenderPipeline; 2],
+    view_buffer: Buffer,
     light: Buffer,
     /// View and light.
     pub(super) frame: BindGroup,
@@ -47,10 +51,7 @@ impl GpuSurface {
         if width.max(height) > largest {
             return Err(ShadowError::TooLarge { width, height, largest, adapter: gpu.name().to_owned() });
         }
-        let drawn_and_read =
-            TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-        let depth = gpu.texture("surface.depth", view.size(), DEPTH, drawn_and_read);
-        let faces = gpu.texture("surface.faces", view.size(), NUMBER, drawn_and_read);
+        let [depth, faces] = targets(&gpu, &view);
         let planes = planes(&gpu, &scene.receivers)?;
 
         let uniform = uniform(scene, &view);
@@ -69,26 +70,20 @@ impl GpuSurface {
         );
         let frame =
             gpu.bind("frame", &frame_layout, &[(0, view_buffer.as_entire_binding()), (1, light.as_entire_binding())]);
-        let [faces_view, planes_view, depth_view] = [&faces, &planes, &depth].map(whole);
-        let seen = gpu.bind(
-            "seen",
-            &seen_layout,
-            &[
-                (0, BindingResource::TextureView(&faces_view)),
-                (1, BindingResource::TextureView(&planes_view)),
-                (2, BindingResource::TextureView(&depth_view)),
-            ],
-        );
+        let seen = bind_seen(&gpu, &seen_layout, [&faces, &planes, &depth]);
         let clip_from_local = clip_from_local(scene, &view);
         let origin = scene.receivers.origin;
         let surface = GpuSurface {
-            gpu,
             view,
             origin,
             clip_from_local,
             lowest_z: f64::from(uniform.lowest_z),
             depth,
             faces,
+            planes,
+            pipelines: pipelines(&gpu, &frame_layout),
+            gpu,
+            view_buffer,
             light,
             frame,
             seen,
@@ -99,34 +94,43 @@ impl GpuSurface {
         Ok(surface)
     }
 
+    /// Turns to another view of the same scene.
+    pub(super) fn look_at(&mut self, scene: &Scene, view: View) -> Result<(), ShadowError> {
+        self.turn(scene, view)?;
+        self.draw_receivers(&scene.receivers)
+    }
+
+    /// Turns to another view whose faces are known, one a cell. Depths are not.
+    pub(super) fn see(&mut self, scene: &Scene, view: View, faces: &[u32]) -> Result<(), ShadowError> {
+        self.turn(scene, view)?;
+        let bytes_per_row = Some(view.size().0 * size_of::<u32>() as u32);
+        let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
+        let (to, size) = (self.faces.as_image_copy(), self.faces.size());
+        self.gpu.queue.write_texture(to, bytemuck::cast_slice(faces), layout, size);
+        Ok(())
+    }
+
+    fn turn(&mut self, scene: &Scene, view: View) -> Result<(), ShadowError> {
+        let (width, height) = view.size();
+        let largest = self.gpu.limits.max_texture_dimension_2d;
+        if width.max(height) > largest {
+            return Err(ShadowError::TooLarge { width, height, largest, adapter: self.gpu.name().to_owned() });
+        }
+        if view.size() != self.view.size() {
+            [self.depth, self.faces] = targets(&self.gpu, &view);
+            self.seen = bind_seen(&self.gpu, &self.seen_layout, [&self.faces, &self.planes, &self.depth]);
+        }
+        let uniform = uniform(scene, &view);
+        self.gpu.queue.write_buffer(&self.view_buffer, 0, bytemuck::bytes_of(&uniform));
+        self.view = view;
+        self.clip_from_local = clip_from_local(scene, &view);
+        self.lowest_z = f64::from(uniform.lowest_z);
+        Ok(())
+    }
+
     fn draw_receivers(&self, receivers: &Mesh) -> Result<(), ShadowError> {
         let gpu = &self.gpu;
-        let module = gpu.shader("surface", shaders::SURFACE);
-        let layout = self.pipeline_layout(&[&self.frame_layout]);
-        let corner = VertexBufferLayout {
-            array_stride: size_of::<Corner>() as u64,
-            step_mode: VertexStepMode::Vertex,
-            attributes: &vertex_attr_array![0 => Float32x3, 1 => Uint32],
-        };
-        let stages = |vertex, fragment, buffers| Stages {
-            module: &module,
-            vertex,
-            fragment,
-            buffers,
-            target: Some((NUMBER, ColorWrites::ALL)),
-            layout: Some(&layout),
-        };
-        let nearest = DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(CompareFunction::Greater),
-            stencil: StencilState::default(),
-            bias: DepthBiasState::default(),
-        };
-        let buffers = [Some(corner)];
-        let ground = gpu.pipeline("surface.ground", stages("whole_picture", "ground", &[]), Some(nearest.clone()));
-        let receiver = gpu.pipeline("surface.receiver", stages("receiver", "receiver_face", &buffers), Some(nearest));
-
+        let [ground, receiver] = &self.pipelines;
         let at_once = receivers.faces.len().clamp(1, FACES_AT_ONCE);
         let vertices = gpu.buffer(
             "surface.receivers",
@@ -167,11 +171,11 @@ impl GpuSurface {
                     .flat_map_iter(|face| receivers.corners(face).map(|corner| Corner(corner.to_array(), face as u32)))
                     .collect();
                 gpu.queue.write_buffer(&vertices, 0, bytemuck::cast_slice(&corners));
-                pass.set_pipeline(&receiver);
+                pass.set_pipeline(receiver);
                 pass.set_vertex_buffer(0, vertices.slice(..));
                 pass.draw(0..corners.len() as u32, 0..1);
             } else {
-                pass.set_pipeline(&ground);
+                pass.set_pipeline(ground);
                 pass.draw(0..3, 0..1);
             }
             drop(pass);
@@ -250,16 +254,7 @@ impl GpuSurface {
     pub(super) fn seeing_layout(&self, further: &[&BindGroupLayout]) -> PipelineLayout {
         let groups: Vec<_> =
             [&self.frame_layout, &self.seen_layout].into_iter().chain(further.iter().copied()).collect();
-        self.pipeline_layout(&groups)
-    }
-
-    fn pipeline_layout(&self, groups: &[&BindGroupLayout]) -> PipelineLayout {
-        let groups: Vec<_> = groups.iter().map(|group| Some(*group)).collect();
-        self.gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
-            label: Some("shadow"),
-            bind_group_layouts: &groups,
-            immediate_size: 0,
-        })
+        pipeline_layout(&self.gpu, &groups)
     }
 
     /// The depth at which each cell is judged, in a texture with a stencil.
@@ -329,6 +324,60 @@ impl GpuSurface {
         let height_m = face.par_iter().zip(&depth).enumerate().map(height_of).collect();
         Ok(Surface { width, height, face, height_m })
     }
+}
+
+/// Where the depth and the faces of what is seen are drawn.
+fn targets(gpu: &Gpu, view: &View) -> [Texture; 2] {
+    let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+    let faces = usage | TextureUsages::COPY_DST;
+    [("surface.depth", DEPTH, usage), ("surface.faces", NUMBER, faces)]
+        .map(|(label, format, usage)| gpu.texture(label, view.size(), format, usage))
+}
+
+fn bind_seen(gpu: &Gpu, layout: &BindGroupLayout, textures: [&Texture; 3]) -> BindGroup {
+    let views = textures.map(whole);
+    let entry = |at: usize| (at as u32, BindingResource::TextureView(&views[at]));
+    gpu.bind("seen", layout, &[entry(0), entry(1), entry(2)])
+}
+
+fn pipeline_layout(gpu: &Gpu, groups: &[&BindGroupLayout]) -> PipelineLayout {
+    let groups: Vec<_> = groups.iter().map(|group| Some(*group)).collect();
+    gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
+        label: Some("shadow"),
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    })
+}
+
+/// What draws the ground, and receivers.
+fn pipelines(gpu: &Gpu, frame_layout: &BindGroupLayout) -> [RenderPipeline; 2] {
+    let module = gpu.shader("surface", shaders::SURFACE);
+    let layout = pipeline_layout(gpu, &[frame_layout]);
+    let corner = VertexBufferLayout {
+        array_stride: size_of::<Corner>() as u64,
+        step_mode: VertexStepMode::Vertex,
+        attributes: &vertex_attr_array![0 => Float32x3, 1 => Uint32],
+    };
+    let stages = |vertex, fragment, buffers| Stages {
+        module: &module,
+        vertex,
+        fragment,
+        buffers,
+        target: Some((NUMBER, ColorWrites::ALL)),
+        layout: Some(&layout),
+    };
+    let nearest = DepthStencilState {
+        format: DEPTH,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(CompareFunction::Greater),
+        stencil: StencilState::default(),
+        bias: DepthBiasState::default(),
+    };
+    let buffers = [Some(corner)];
+    [
+        gpu.pipeline("surface.ground", stages("whole_picture", "ground", &[]), Some(nearest.clone())),
+        gpu.pipeline("surface.receiver", stages("receiver", "receiver_face", &buffers), Some(nearest)),
+    ]
 }
 
 /// A receiver's corner, as `receiver` of `shaders/surface.wgsl` takes it: position and face.

@@ -68,6 +68,12 @@ pub enum SiteError {
         /// What the parser says.
         what: String,
     },
+    /// Nothing that TOML can hold.
+    #[error("the site cannot be written: {what}")]
+    Unwritable {
+        /// What the writer says.
+        what: String,
+    },
     /// A table or key that does not exist.
     #[error("{at} is not known; the nearest is {nearest}")]
     Unknown {

@@ -3,30 +3,36 @@
 use super::error::{At, SiteError};
 use super::keys;
 use serde::de::{DeserializeOwned, Error as _};
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use toml::{Table, Value};
 
 /// A site file as written: nothing checked but keys and types.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SiteFile {
     /// `[place]`
     pub place: Option<PlaceTable>,
     /// `[[model]]`, in their order.
+    #[serde(skip_serializing_if = "is_default")]
     pub model: Vec<ModelTable>,
     /// `[ground]`
+    #[serde(skip_serializing_if = "is_default")]
     pub ground: GroundTable,
     /// `[study]`
+    #[serde(skip_serializing_if = "is_default")]
     pub study: StudyTable,
     /// `[plan]`
+    #[serde(skip_serializing_if = "is_default")]
     pub plan: PlanTable,
     /// `[camera]`
+    #[serde(skip_serializing_if = "is_default")]
     pub camera: CameraTable,
     /// `[[probe]]`, in their order.
+    #[serde(skip_serializing_if = "is_default")]
     pub probe: Vec<ProbeTable>,
 }
 
 /// `[place]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct PlaceTable {
     /// What people call it.
     pub name: Option<String>,
@@ -41,7 +47,7 @@ pub struct PlaceTable {
 }
 
 /// `[[model]]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct ModelTable {
     /// Relative to the site file, or absolute.
     pub path: Option<String>,
@@ -52,22 +58,22 @@ pub struct ModelTable {
     /// Metres per model unit.
     pub scale: Option<f64>,
     /// What casts.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub casts: Names,
     /// What receives.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub receives: Names,
 }
 
 /// `[ground]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct GroundTable {
     /// Metres.
     pub level: Option<f64>,
 }
 
 /// `[study]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct StudyTable {
     /// Year-month-day.
     pub date: Option<Text>,
@@ -84,7 +90,7 @@ pub struct StudyTable {
 }
 
 /// `[plan]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct PlanTable {
     /// West, south, east, north, metres.
     pub region: Option<[f64; 4]>,
@@ -93,7 +99,7 @@ pub struct PlanTable {
 }
 
 /// `[camera]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct CameraTable {
     /// Metres.
     pub eye: Option<[f64; 3]>,
@@ -106,7 +112,7 @@ pub struct CameraTable {
 }
 
 /// `[[probe]]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct ProbeTable {
     /// What people call it.
     pub name: Option<String>,
@@ -117,7 +123,8 @@ pub struct ProbeTable {
 }
 
 /// Which components of a model: all, none, or those of some names.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Names {
     /// `true` or `false`.
     All(bool),
@@ -153,6 +160,12 @@ impl<'de> Deserialize<'de> for Names {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Text(pub String);
 
+impl Serialize for Text {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(&self.0)
+    }
+}
+
 impl<'de> Deserialize<'de> for Text {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         match Value::deserialize(from)? {
@@ -164,6 +177,14 @@ impl<'de> Deserialize<'de> for Text {
 }
 
 impl SiteFile {
+    /// The text of a site file that reads as this one. Comments are no part of it.
+    ///
+    /// # Errors
+    /// What TOML cannot hold.
+    pub fn to_toml(&self) -> Result<String, SiteError> {
+        toml::to_string(self).map_err(|error| SiteError::Unwritable { what: error.to_string() })
+    }
+
     /// Reads a site file's text; `file` names it in errors.
     ///
     /// # Errors
@@ -193,6 +214,11 @@ impl SiteFile {
             probe: list(file, &root, "probe")?,
         })
     }
+}
+
+/// What is not said is not written.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 fn list<T: DeserializeOwned>(file: &str, root: &Table, name: &str) -> Result<Vec<T>, SiteError> {

@@ -79,11 +79,22 @@ impl Site {
         asked: &Overrides,
         read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
     ) -> Result<Site, SiteError> {
-        let written = Written::read(path, asked)?;
+        Self::of(&Written::read(path, asked)?, asked, read_model)
+    }
+
+    /// As [`Site::load_with`], of a request that is in memory.
+    ///
+    /// # Errors
+    /// As [`Site::load`].
+    pub fn of(
+        written: &Written,
+        asked: &Overrides,
+        read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
+    ) -> Result<Site, SiteError> {
         let place = written.place(asked)?;
         // Cheap and quick to fail; models come last.
-        let track = study::track(&place, &written, asked)?;
-        let method = method(&written, asked)?;
+        let track = study::track(&place, written, asked)?;
+        let method = method(written, asked)?;
         if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
             let what = "is the depth of the paper's hextree; say --silhouette hextree with it, or leave it out";
             return Err(refuse(At::Option("--hextree-depth"), what));
@@ -102,11 +113,11 @@ impl Site {
                 format!("{level} is no height; write metres, for example 0.0"),
             ));
         }
-        let Models { mesh, casts, receives, bounds } = Models::read(&written, read_model)?;
+        let Models { mesh, casts, receives, bounds } = Models::read(written, read_model)?;
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
-        let grid = plan::grid(&written, asked, shadows(SHADOW_CUT))?;
-        let camera = camera::camera(&written, bounds, shadows(VIEW_CUT), ground, &track)?;
+        let grid = plan::grid(written, asked, shadows(SHADOW_CUT))?;
+        let camera = camera::camera(written, bounds, shadows(VIEW_CUT), ground, &track)?;
         Ok(Site {
             place,
             mesh,

@@ -22,6 +22,7 @@ pub use choice::ChoiceError;
 pub use error::{At, SiteError};
 pub use load::{Frame, load_mesh, load_sun};
 pub use probe::{Probing, load_probes};
+pub use written::Written;
 
 use crate::mesh::Mesh;
 use crate::sun::{Place, SunTrack};

@@ -8,19 +8,22 @@ use crate::sun::Place;
 use std::path::{Path, PathBuf};
 
 /// A request as written, and where it was written.
-#[derive(Debug)]
-pub(super) struct Written {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
     /// The file, as the user named it.
-    pub(super) file: String,
+    pub file: String,
     /// What relative paths are relative to.
-    pub(super) folder: PathBuf,
+    pub folder: PathBuf,
     /// What it says.
-    pub(super) site: SiteFile,
+    pub site: SiteFile,
 }
 
 impl Written {
     /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model together with `--place`.
-    pub(super) fn read(path: &Path, asked: &Overrides) -> Result<Written, SiteError> {
+    ///
+    /// # Errors
+    /// What cannot be read, and what is wrong with a site file's form.
+    pub fn read(path: &Path, asked: &Overrides) -> Result<Written, SiteError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let mut written = match extension.as_str() {
             _ if path.is_dir() => Self::read_file(&path.join("site.toml"))?,

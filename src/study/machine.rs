@@ -64,10 +64,11 @@ impl Drawing {
 }
 
 impl Machine {
-    fn open(site: &Site) -> Result<Machine, GpuError> {
-        let gpu = Gpu::open()?;
+    /// On the adapter that is open already, else on one that is opened.
+    fn open(site: &Site, gpu: Option<&Arc<Gpu>>) -> Result<Machine, GpuError> {
+        let gpu = gpu.map_or_else(|| Gpu::open().map(Arc::new), |gpu| Ok(Arc::clone(gpu)))?;
         let drawing = Drawing::of(site.method, site, &gpu);
-        Ok(Machine::OnGpu(Arc::new(gpu), drawing))
+        Ok(Machine::OnGpu(gpu, drawing))
     }
 
     pub(super) fn gpu(&self) -> Option<Arc<Gpu>> {
@@ -225,6 +226,16 @@ fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
 /// A projected instant on the ground takes less time than opening an adapter does, so none is opened for it
 /// (docs/benchmarks/peers.md).
 pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
+    choose_on(None, site, view, on_event)
+}
+
+/// The same on an adapter that is open already, where there is one.
+pub(super) fn choose_on(
+    gpu: Option<&Arc<Gpu>>,
+    site: &Site,
+    view: &View,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Machine, StudyError> {
     let conflict = |what| Err(StudyError::Conflict { option: "--engine", what });
     let cast = Machine::RayCast { sun_samples: site.settings.sun_samples };
     let plan = match view {
@@ -275,17 +286,17 @@ pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Re
         }
         (Method::Auto, Engine::Gpu) => {
             unused(site, Method::Stencil)?;
-            Machine::open(site)?
+            Machine::open(site, gpu)?
         }
         // silhouettes are asked, and only the stencil has them
         (Method::Auto, Engine::Auto) if site.finder != Finder::Auto => {
             unused(site, Method::Stencil)?;
-            Machine::open(site)?
+            Machine::open(site, gpu)?
         }
         (Method::Auto, Engine::Auto) => {
             // what it will be does not depend on the machine's adapter alone: a setting of one technique names it
             unused(site, Method::Auto)?;
-            match Machine::open(site) {
+            match Machine::open(site, gpu) {
                 // measured (docs/benchmarks): a stencil drawn in software is slower than either
                 Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => on_processor,
                 Ok(machine) => machine,
@@ -300,7 +311,7 @@ pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Re
         }
         (method, _) => {
             unused(site, method)?;
-            Machine::open(site)?
+            Machine::open(site, gpu)?
         }
     };
     Ok(machine)
@@ -318,7 +329,7 @@ pub(super) fn counting(site: &Site, option: &'static str) -> Result<Machine, Stu
         return Err(StudyError::Conflict { option, what });
     }
     unused(site, method)?;
-    Ok(Machine::open(site)?)
+    Ok(Machine::open(site, None)?)
 }
 
 /// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.

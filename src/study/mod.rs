@@ -2,9 +2,10 @@
 //!
 //! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
 //! [`surfaces()`] is the study on facades and roofs; [`verify`] holds every technique against ray casting; [`probe`] finds
-//! when single points lie in the sun.
+//! when single points lie in the sun; [`live`] draws one picture after another for whoever looks.
 
 mod fingerprint;
+pub mod live;
 mod machine;
 pub mod probe;
 mod stopwatch;

@@ -50,9 +50,7 @@ impl Components {
         let mut legend = Vec::new();
         for (rank, &(component, _)) in by_size.iter().enumerate() {
             let casts = casts.get(component).is_none_or(|casts| *casts);
-            let own = NAMED.get(rank).map(|named| mix(*named, WHITE, SOFTER));
-            let own = own.unwrap_or_else(|| further(rank - NAMED.len()));
-            let colour = if casts { own } else { mix(own, WHITE, CASTS_NOTHING) };
+            let colour = colour(rank, casts);
             colours[component].1 = colour;
             if rank < NAMED.len() {
                 let name = &mesh.components[component].name;
@@ -70,6 +68,24 @@ impl Components {
         let at = self.colours.partition_point(|(end, _)| *end <= face);
         self.colours.get(at).map_or(WHITE, |(_, colour)| *colour)
     }
+}
+
+/// The colour of each component, by area among all of them; `casts` says which cast.
+pub fn of_all(mesh: &Mesh, casts: &[bool]) -> Vec<Rgb> {
+    let mut by_size: Vec<(usize, f64)> = (0..mesh.components.len()).map(|at| (at, area(mesh, at))).collect();
+    by_size.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut colours = vec![WHITE; mesh.components.len()];
+    for (rank, &(component, _)) in by_size.iter().enumerate() {
+        colours[component] = colour(rank, casts.get(component).is_none_or(|casts| *casts));
+    }
+    colours
+}
+
+/// The colour of the component that is the `rank`th in size.
+fn colour(rank: usize, casts: bool) -> Rgb {
+    let own = NAMED.get(rank).map(|named| mix(*named, WHITE, SOFTER));
+    let own = own.unwrap_or_else(|| further(rank - NAMED.len()));
+    if casts { own } else { mix(own, WHITE, CASTS_NOTHING) }
 }
 
 /// The area of a component's faces, square metres.

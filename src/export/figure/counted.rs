@@ -23,10 +23,14 @@ const NO_FRAGMENT: Rgb = [18, 18, 22];
 const MOST_FRAGMENTS: Rgb = [255, 255, 255];
 
 /// Colours of cells, and what they mean.
-pub(super) struct Colours {
-    pub(super) of_cells: Vec<Rgb>,
-    pub(super) legend_head: String,
-    pub(super) legend: Vec<(Rgb, String)>,
+#[derive(Clone, Debug)]
+pub struct Colours {
+    /// Row 0 first.
+    pub of_cells: Vec<Rgb>,
+    /// What they measure.
+    pub legend_head: String,
+    /// What each means.
+    pub legend: Vec<(Rgb, String)>,
 }
 
 impl Diagram {
@@ -41,7 +45,7 @@ impl Diagram {
 
 impl Colours {
     /// None where a mask is to be shown and there was none.
-    pub(super) fn of(counted: &Counted, diagram: Diagram) -> Option<Colours> {
+    pub fn of(counted: &Counted, diagram: Diagram) -> Option<Colours> {
         match diagram {
             Diagram::Mask => Some(of_mask(counted.decided.as_ref()?)),
             Diagram::Overdraw => Some(of_overdraw(counted)),

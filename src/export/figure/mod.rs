@@ -17,7 +17,8 @@ mod svg;
 mod text;
 mod words;
 
-pub use counted::Diagram;
+pub use components::of_all as component_colours;
+pub use counted::{Colours, Diagram};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 pub use strips::strips;
@@ -31,7 +32,6 @@ use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{Counted, Mask, Overlay, Surface, View};
 use components::Components;
-use counted::Colours;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
 
@@ -162,6 +162,11 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result
             })
         }
     }
+}
+
+/// The colours of level ground in the sun and in the shade, before a camera.
+pub fn ground_tones(to_sun: glam::DVec3) -> [scale::Rgb; 2] {
+    perspective::ground_tones(to_sun)
 }
 
 /// The legend of what a picture shows besides sun and shadow.

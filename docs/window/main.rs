@@ -1,0 +1,111 @@
+//! Draws the pictures of `docs/desktop.md`: `cargo run --example draw-window`. The real window, driven by the names of its
+//! parts, without a screen.
+
+use anyhow::{Result, anyhow, bail};
+use eframe::egui::{Event, Key, Modifiers, Role, Theme};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use gnomon::desktop::{self, App};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+fn main() -> Result<()> {
+    let mut window = open("headquarters", Theme::Light)?;
+    write(&mut window, "Clock", "15:30")?;
+    keep(&mut window, "headquarters")?;
+
+    click(&mut window, "Find the hours")?;
+    keep(&mut window, "hours")?;
+
+    window.key_press(Key::Num2);
+    window.step();
+    window.key_press(Key::F);
+    keep(&mut window, "plan")?;
+
+    let mut window = open("tower", Theme::Light)?;
+    choose(&mut window, "Technique", "stencil")?;
+    click(&mut window, "Volumes")?;
+    click(&mut window, "Silhouette")?;
+    keep(&mut window, "volumes")?;
+
+    let mut window = open("industry", Theme::Dark)?;
+    write(&mut window, "Clock", "17:30")?;
+    let model = window.get_by_label("Model").rect();
+    let point = model.center() + eframe::egui::vec2(-190.0, 190.0);
+    window.hover_at(point);
+    window.step();
+    window.drag_at(point);
+    window.step();
+    window.drop_at(point);
+    keep(&mut window, "dark")
+}
+
+fn open(name: &str, theme: Theme) -> Result<Harness<'static, App>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
+    let mut fault = None;
+    let mut window = Harness::<App>::builder()
+        .with_size([1280.0, 720.0])
+        .with_theme(theme)
+        .wgpu_setup(desktop::setup())
+        .build_eframe(|cc| {
+            App::new(cc, Some(&path)).map_err(|error| fault = Some(error.to_string())).expect("an adapter")
+        });
+    if let Some(fault) = fault {
+        bail!(fault);
+    }
+    settle(&mut window)?;
+    Ok(window)
+}
+
+fn settle(window: &mut Harness<'_, App>) -> Result<()> {
+    let begun = Instant::now();
+    let mut calm = 0;
+    while calm < 3 {
+        window.step();
+        calm = if window.state().is_settled() { calm + 1 } else { 0 };
+        if begun.elapsed() > Duration::from_secs(300) {
+            bail!("the window does not come to rest");
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    Ok(())
+}
+
+fn click(window: &mut Harness<'_, App>, label: &str) -> Result<()> {
+    window.query_by_label(label).ok_or_else(|| anyhow!("there is no {label}"))?.click();
+    window.step();
+    window.step();
+    settle(window)
+}
+
+fn choose(window: &mut Harness<'_, App>, list: &str, entry: &str) -> Result<()> {
+    window.get_by_role_and_label(Role::ComboBox, list).click();
+    window.step();
+    window.step();
+    click(window, entry)
+}
+
+fn write(window: &mut Harness<'_, App>, label: &str, text: &str) -> Result<()> {
+    window.get_by_role_and_label(Role::TextInput, label).focus();
+    window.step();
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.step();
+    window.event(Event::Text(text.to_owned()));
+    window.step();
+    window.key_press(Key::Enter);
+    window.step();
+    settle(window)
+}
+
+/// Renders the window into a picture of the documentation.
+fn keep(window: &mut Harness<'_, App>, name: &str) -> Result<()> {
+    settle(window)?;
+    window.remove_cursor();
+    window.step();
+    settle(window)?;
+    let picture = window.render().map_err(|error| anyhow!(error))?;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("docs/pictures/window-{name}.png"));
+    image::DynamicImage::ImageRgba8(picture).into_rgb8().save(&path)?;
+    println!("{}", path.display());
+    Ok(())
+}

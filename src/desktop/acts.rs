@@ -1,0 +1,84 @@
+//! What a person asks of the window: to open, to write, to copy, to see all.
+
+use super::app::App;
+use super::eye::Stand;
+use super::files::{self, Asking, Purpose};
+use super::loading::Wanted;
+use crate::export::file;
+use eframe::egui;
+use glam::DVec3;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+impl App {
+    pub(super) fn ask(&mut self, purpose: Purpose, context: &egui::Context) {
+        if self.asking.is_none() {
+            self.asking = Some(Asking::start(purpose, Some(self.folder()), context.clone()));
+        }
+    }
+
+    pub(super) fn folder(&self) -> PathBuf {
+        let of_site = self.open.as_ref().map(|open| open.project.written.folder.clone());
+        let of_recent = || self.kept.recent.first().and_then(|path| path.parent()).map(Path::to_owned);
+        let folder = of_site.or_else(of_recent).filter(|folder| folder.is_dir());
+        folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default()
+    }
+
+    pub(super) fn answer(&mut self, purpose: Purpose, path: PathBuf, context: &egui::Context) {
+        self.notice = None;
+        if purpose == Purpose::Open {
+            return self.load(Wanted::File(path), context);
+        }
+        let Some(open) = &mut self.open else { return };
+        match purpose {
+            Purpose::Open => {}
+            Purpose::SaveSite => {
+                let written = files::written(&open.project, &self.settings, &open.viewer.eye, &path);
+                let text = written.site.to_toml().map_err(anyhow::Error::from);
+                match text.and_then(|text| Ok(file::write(&path, text.as_bytes())?)) {
+                    Ok(()) => {
+                        self.notice = Some(format!("Written: {}", path.display()));
+                        open.project.path = Some(path);
+                        self.settings.site = written.site.clone();
+                        open.project.written = written;
+                        self.history.note(&self.settings);
+                    }
+                    Err(error) => self.fault = Some(error.to_string()),
+                }
+            }
+            Purpose::Drawing => {
+                let (eye, time) = (open.viewer.eye, open.clock.now.time);
+                self.writing = Some(files::drawing(&open.project, &self.settings, eye, time, path, context.clone()));
+            }
+            Purpose::Hours => {
+                if let Some(laid) = &open.laid {
+                    self.writing = Some(files::hours(Arc::clone(laid), path, context.clone()));
+                }
+            }
+        }
+    }
+
+    pub(super) fn copy(&mut self, context: &egui::Context) {
+        match self.picture() {
+            Ok((width, height, pixels)) => {
+                let size = [width as usize, height as usize];
+                let image = egui::ColorImage::from_rgba_unmultiplied(size, bytemuck::cast_slice(&pixels));
+                context.copy_image(image);
+                self.notice = Some("The picture is on the clipboard".to_owned());
+            }
+            Err(error) => self.fault = Some(error.to_string()),
+        }
+    }
+
+    pub(super) fn fit(&mut self, width_by_height: f64) {
+        let Some(open) = &mut self.open else { return };
+        let site = &open.project.site;
+        // the plan holds the shadows, too
+        let [west, south, east, north] = site.grid.region();
+        let region = (DVec3::new(west, south, site.ground), DVec3::new(east, north, site.ground));
+        let is_plan = open.viewer.eye.stand == Stand::Plan;
+        if let Some(bounds) = if is_plan { Some(region) } else { site.mesh.bounds() } {
+            open.viewer.eye.fit(bounds, width_by_height);
+        }
+    }
+}

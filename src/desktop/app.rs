@@ -1,0 +1,383 @@
+//! The window's state, and its frame: menus above, panel beside, time below, the picture in the middle.
+
+use super::clock::Clock;
+use super::eye::Stand;
+use super::files::{self, Answer, Asking};
+use super::hours::{self, Laid, Work};
+use super::loading::{Bare, Fault, Loading, Project, Wanted};
+use super::settings::{History, Settings};
+use super::stage::Stage;
+use super::view::{Asked, Viewer};
+use super::{cards, look, panel};
+use crate::export::figure::Colours;
+use crate::gpu::{Gpu, readback};
+use crate::profile::Drawn;
+use crate::profile::probe::Sunlight;
+use crate::site::file::SiteFile;
+use crate::view::{Probe, View};
+use eframe::egui::{self, Ui};
+use eframe::egui_wgpu::RenderState;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What is kept from one start to the next.
+#[derive(Default, Serialize, Deserialize)]
+pub(super) struct Kept {
+    pub(super) recent: Vec<PathBuf>,
+    pub(super) feet: bool,
+    pub(super) no_sun_path: bool,
+}
+
+/// An open site, and what is found of it.
+pub(super) struct Open {
+    /// The site.
+    pub(super) project: Project,
+    number: u64,
+    /// The instant that is shown.
+    pub(super) clock: Clock,
+    pub(super) viewer: Viewer,
+    /// How many times hours were asked for.
+    pub(super) answers: u64,
+    /// The hours that are being added up.
+    pub(super) adding: Option<Work<Laid>>,
+    /// The hours that were found.
+    pub(super) laid: Option<Arc<Laid>>,
+    /// The point that is being searched.
+    pub(super) probing: Option<Work<Sunlight>>,
+    /// When a point lies in the sun.
+    pub(super) sunlight: Option<Sunlight>,
+}
+
+/// The window.
+pub struct App {
+    gpu: Arc<Gpu>,
+    render: RenderState,
+    stage: Stage,
+    pub(super) kept: Kept,
+    /// The open site.
+    pub(super) open: Option<Open>,
+    /// What a person sets.
+    pub(super) settings: Settings,
+    pub(super) history: History,
+    pub(super) loading: Option<Loading>,
+    loaded: u64,
+    /// The site is being read again, as its settings have changed.
+    pub(super) is_reading: bool,
+    /// Settings of which it is known that no site comes of them.
+    refused: Option<Settings>,
+    pub(super) bare: Option<Bare>,
+    pub(super) asking: Option<Asking>,
+    pub(super) writing: Option<Work<PathBuf>>,
+    /// A field that is typed into, and what is typed.
+    pub(super) typed: Option<(String, String)>,
+    /// What went wrong, as the command would say it.
+    pub(super) fault: Option<String>,
+    /// What was done.
+    pub(super) notice: Option<String>,
+}
+
+impl App {
+    /// A window on eframe's device, with a site or a model in it where one is named.
+    ///
+    /// # Errors
+    /// An adapter that lacks what the techniques need.
+    pub fn new(
+        cc: &eframe::CreationContext<'_>,
+        path: Option<&Path>,
+    ) -> Result<App, Box<dyn std::error::Error + Send + Sync>> {
+        look::set(&cc.egui_ctx);
+        let render = cc.wgpu_render_state.clone().ok_or(crate::gpu::GpuError::NoAdapter)?;
+        let gpu = Arc::new(Gpu::opened(&render.adapter, render.device.clone(), render.queue.clone())?);
+        let stage = Stage::new(Arc::clone(&gpu), cc.egui_ctx.clone());
+        let kept = cc.storage.and_then(|storage| eframe::get_value(storage, eframe::APP_KEY)).unwrap_or_default();
+        let mut app = App {
+            gpu,
+            render,
+            stage,
+            kept,
+            open: None,
+            settings: Settings::default(),
+            history: History::default(),
+            loading: None,
+            loaded: 0,
+            is_reading: false,
+            refused: None,
+            bare: None,
+            asking: None,
+            writing: None,
+            typed: None,
+            fault: None,
+            notice: None,
+        };
+        if let Some(path) = path {
+            app.load(Wanted::File(path.to_owned()), &cc.egui_ctx);
+        }
+        Ok(app)
+    }
+
+    /// Whether the adapter is a program on the processor.
+    pub(super) fn is_software(&self) -> bool {
+        self.gpu.software()
+    }
+
+    /// Whether the plan is shown.
+    pub(super) fn is_plan(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| open.viewer.eye.stand == Stand::Plan)
+    }
+
+    /// What the colours of the shown diagram mean.
+    pub(super) fn legend(&self) -> Option<&Colours> {
+        self.open.as_ref()?.viewer.shown()?.legend.as_ref()
+    }
+
+    /// Whether nothing is on its way: no site, no picture, no hours.
+    pub fn is_settled(&self) -> bool {
+        let open = self.open.as_ref();
+        self.loading.is_none()
+            && self.writing.is_none()
+            && !self.stage.is_busy()
+            && open.is_none_or(|open| open.adding.is_none() && open.probing.is_none() && open.viewer.is_settled())
+    }
+
+    /// What the picture shows: the view, and the unit vector to the sun.
+    pub fn shown(&self) -> Option<(View, DVec3)> {
+        let wish = &self.open.as_ref()?.viewer.shown()?.wish;
+        Some((wish.view, wish.to_sun))
+    }
+
+    /// What drew the picture.
+    pub fn drawn(&self) -> Option<&Drawn> {
+        Some(&self.open.as_ref()?.viewer.shown()?.drawn)
+    }
+
+    /// The site as it is set, as a site file would say it.
+    pub fn site_file(&self) -> &SiteFile {
+        &self.settings.site
+    }
+
+    /// The picture that is shown, read back: columns, rows and pixels.
+    ///
+    /// # Errors
+    /// Where there is none, or the adapter fails.
+    pub fn picture(&self) -> anyhow::Result<(u32, u32, Vec<[u8; 4]>)> {
+        let shown = self.open.as_ref().and_then(|open| open.viewer.shown());
+        let Some(shown) = shown else { anyhow::bail!("there is no picture yet") };
+        let pixels = readback::texels(&self.gpu, &shown.texture, wgpu::TextureAspect::All)?;
+        Ok((shown.texture.width(), shown.texture.height(), pixels))
+    }
+
+    pub(super) fn load(&mut self, wanted: Wanted, context: &egui::Context) {
+        if let Some(loading) = self.loading.take() {
+            loading.cancel();
+        }
+        (self.fault, self.notice, self.bare) = (None, None, None);
+        self.loading = Some(Loading::start(wanted, context.clone()));
+    }
+
+    pub(super) fn open_sample(&mut self, name: &str, context: &egui::Context) {
+        match files::sample(name) {
+            Ok(path) => self.load(Wanted::File(path), context),
+            Err(error) => self.fault = Some(error.to_string()),
+        }
+    }
+
+    /// Takes what the work beside the window has come to.
+    fn receive(&mut self) {
+        if let Some(result) = self.loading.as_ref().and_then(Loading::done) {
+            let opens = self.loading.take().is_none_or(|loading| loading.opens);
+            self.is_reading = false;
+            match result {
+                Ok(project) => self.take(project, opens),
+                Err(Fault::Bare(path)) => {
+                    self.bare = Some(Bare { path, place: String::new(), north: "0".to_owned() });
+                }
+                Err(Fault::Told(fault)) => {
+                    self.fault = Some(fault);
+                    if !opens {
+                        self.refused = Some(self.settings.clone());
+                    }
+                }
+            }
+        }
+        if let Some(result) = self.writing.as_ref().and_then(Work::done) {
+            self.writing = None;
+            match result {
+                Ok(path) => self.notice = Some(format!("Written: {}", path.display())),
+                Err(fault) => self.fault = Some(fault),
+            }
+        }
+        let Some(open) = &mut self.open else { return };
+        open.viewer.receive(&self.stage, &self.render);
+        if let Some(result) = open.adding.as_ref().and_then(Work::done) {
+            open.adding = None;
+            match result {
+                Ok(laid) => {
+                    open.laid = Some(Arc::new(laid));
+                    self.settings.shown.hours = true;
+                }
+                Err(fault) => self.fault = Some(fault),
+            }
+        }
+        if let Some(result) = open.probing.as_ref().and_then(Work::done) {
+            open.probing = None;
+            match result {
+                Ok(sunlight) => open.sunlight = Some(sunlight),
+                Err(fault) => self.fault = Some(fault),
+            }
+        }
+    }
+
+    /// Shows a site that was loaded: another one, or the open one as it is written now.
+    fn take(&mut self, project: Project, opens: bool) {
+        self.loaded += 1;
+        self.refused = None;
+        let track = &project.site.track;
+        let Some(middle) = track.instants.get(track.instants.len() / 2) else { return };
+        match &mut self.open {
+            Some(open) if !opens => {
+                self.fault = None;
+                if !open.clock.is_at(&project.site.place, track.refraction) {
+                    let mut clock = Clock::new(&project.site.place, track.refraction, middle);
+                    let local = open.clock.now.time.naive_local();
+                    clock.set_date(local.date());
+                    clock.set_secs(f64::from(chrono::Timelike::num_seconds_from_midnight(&local)));
+                    open.clock = clock;
+                }
+                let length = |project: &Project| {
+                    project.site.mesh.bounds().map_or(1.0, |(low, high)| (high - low).length().max(1e-6))
+                };
+                let grown = length(&project) / length(&open.project);
+                (open.project, open.number) = (project, self.loaded);
+                // another scale would leave the eye inside the model, or out of sight of it
+                if !(0.5..=2.0).contains(&grown) {
+                    self.fit(1.6);
+                }
+            }
+            _ => {
+                if let Some(path) = &project.path {
+                    self.kept.recent.retain(|recent| recent != path);
+                    self.kept.recent.insert(0, path.clone());
+                    self.kept.recent.truncate(8);
+                }
+                self.settings = project.settings(&self.settings);
+                self.history.restart(&self.settings);
+                let clock = Clock::new(&project.site.place, track.refraction, middle);
+                self.open = Some(Open {
+                    clock,
+                    viewer: Viewer::new(&project),
+                    number: self.loaded,
+                    answers: 0,
+                    adding: None,
+                    laid: None,
+                    probing: None,
+                    sunlight: None,
+                    project,
+                });
+            }
+        }
+    }
+
+    /// Reads the site again where its settings have changed, once the hand rests.
+    fn follow_settings(&mut self, context: &egui::Context) {
+        let rests = !context.input(|input| input.pointer.any_down());
+        if rests {
+            self.history.note(&self.settings);
+        }
+        let Some(open) = &self.open else { return };
+        let changed = open.project.written.site != self.settings.site;
+        let is_refused = self.refused.as_ref().is_some_and(|refused| refused.site == self.settings.site);
+        if changed && rests && !is_refused && self.loading.is_none() {
+            let mut written = open.project.written.clone();
+            written.site = self.settings.site.clone();
+            let path = open.project.path.clone();
+            self.loading = Some(Loading::start(Wanted::Again(path, Box::new(written)), context.clone()));
+            self.is_reading = true;
+        }
+    }
+
+    pub(super) fn set(&mut self, settings: Option<Settings>) {
+        if let Some(settings) = settings {
+            self.settings = settings;
+            (self.refused, self.fault) = (None, None);
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let context = ui.ctx().clone();
+        self.receive();
+        self.shortcuts(&context);
+        let dropped = context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
+        if let Some(path) = dropped {
+            self.load(Wanted::File(path), &context);
+        }
+        egui::Panel::top("menus").show(ui, |ui| self.menus(ui));
+        if self.has_message() {
+            egui::Panel::top("messages").show(ui, |ui| {
+                ui.add_space(2.0);
+                self.messages(ui);
+                ui.add_space(2.0);
+            });
+        }
+        if self.open.is_none() {
+            egui::CentralPanel::default().show(ui, |ui| self.welcome(ui));
+        } else {
+            egui::Panel::bottom("time").resizable(false).show(ui, |ui| {
+                ui.add_space(4.0);
+                if let Some(open) = &mut self.open {
+                    open.clock.bar(ui);
+                }
+            });
+            egui::Panel::left("panel").default_size(300.0).size_range(288.0..=460.0).resizable(true).show(ui, |ui| {
+                panel::show(self, ui);
+            });
+            egui::CentralPanel::no_frame().show(ui, |ui| self.view(ui));
+        }
+        self.ask_place(&context);
+        if let Some(mut asking) = self.asking.take() {
+            match asking.show(&context, &self.folder()) {
+                Answer::None => self.asking = Some(asking),
+                Answer::Nothing => {}
+                Answer::Path(purpose, path) => self.answer(purpose, path, &context),
+            }
+        }
+        self.follow_settings(&context);
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, eframe::APP_KEY, &self.kept);
+    }
+}
+
+impl App {
+    fn view(&mut self, ui: &mut Ui) {
+        let software = self.is_software();
+        let context = ui.ctx().clone();
+        let Some(open) = &mut self.open else { return };
+        open.clock.tick(&context);
+        let Open { project, number, clock, viewer, laid, .. } = open;
+        let asked = Asked {
+            project,
+            number: *number,
+            choice: self.settings.shown,
+            laid: laid.as_ref(),
+            sun_path: !self.kept.no_sun_path,
+            feet: self.kept.feet,
+        };
+        let rect = ui.available_rect_before_wrap();
+        let clicked = viewer.show(ui, &self.stage, software, &asked, clock);
+        if let Some(view) = viewer.shown().map(|shown| shown.wish.view) {
+            cards::mark(ui, open, &view, rect);
+        }
+        cards::show(ui, open, &mut self.settings.site, rect, self.settings.shown.hours);
+        if let Some(under) = clicked {
+            let name = if under.name.is_empty() { "the point".to_owned() } else { under.name };
+            let normal = under.normal.try_normalize();
+            let probe = Probe { name, point: under.point, normal };
+            open.probing = Some(hours::probe(&open.project, probe, open.clock.date(), context));
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Cards over the picture: what the colours of the hours mean, and when a point lies in the sun.
+
+use super::app::Open;
+use super::hours::Laid;
+use super::look;
+use super::sky;
+use crate::profile::probe::{Blocked, Sunlight, secs};
+use crate::site::file::{ProbeTable, SiteFile};
+use crate::view::View;
+use eframe::egui::{self, Align2, Color32, Id, Rect, Sense, Ui, Vec2, vec2};
+
+/// Shows the cards over a picture.
+pub(super) fn show(ui: &Ui, open: &mut Open, site: &mut SiteFile, rect: Rect, hours: bool) {
+    if let Some(laid) = open.laid.as_ref().filter(|_| hours) {
+        card(ui, "hours", rect, Align2::LEFT_TOP, vec2(14.0, 14.0), |ui| legend(ui, laid));
+    }
+    if open.probing.is_none() && open.sunlight.is_none() {
+        return;
+    }
+    card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-14.0, 88.0), |ui| probe(open, site, ui));
+}
+
+fn card(ui: &Ui, name: &str, rect: Rect, corner: Align2, offset: Vec2, content: impl FnOnce(&mut Ui)) {
+    let area = egui::Area::new(Id::unique(name)).order(egui::Order::Middle).pivot(corner).constrain_to(rect);
+    area.fixed_pos(corner.pos_in_rect(&rect) + offset).show(ui.ctx(), |ui| {
+        let frame = egui::Frame::popup(ui.style()).inner_margin(10.0);
+        frame.show(ui, |ui| {
+            ui.set_max_width(290.0);
+            content(ui);
+        });
+    });
+}
+
+/// Marks the point that is searched or was found.
+pub(super) fn mark(ui: &Ui, open: &Open, view: &View, rect: Rect) {
+    let found = open.sunlight.as_ref().and_then(|sunlight| sunlight.probes.first());
+    let Some(probed) = found else { return };
+    if let Some(at) = sky::on_picture(view, rect, probed.probe.point) {
+        let painter = ui.painter_at(rect);
+        painter.circle(at, 5.0, Color32::WHITE, egui::Stroke::new(2.5, look::ACCENT));
+    }
+}
+
+/// A colour and what it means.
+pub(super) fn swatch(ui: &mut Ui, [r, g, b]: [u8; 3], what: &str) {
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(vec2(30.0, 15.0), Sense::hover());
+        ui.painter().rect_filled(rect, 2.0, Color32::from_rgb(r, g, b));
+        ui.label(what);
+    });
+}
+
+/// What the colours of the hours mean.
+fn legend(ui: &mut Ui, laid: &Laid) {
+    let bands = &laid.bands;
+    let hours = |secs: u32| {
+        if bands.band_secs.is_multiple_of(60) {
+            format!("{}:{:02}", secs / 3600, secs / 60 % 60)
+        } else {
+            format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60)
+        }
+    };
+    ui.label(format!("Hours of shadow out of {}", hours(bands.day_secs)));
+    let entry = |band: usize| {
+        let (from, to) = bands.bounds(band);
+        (bands.colours[band], format!("{} – {}", hours(from), hours(to)))
+    };
+    let none = (crate::export::figure::scale::NO_SHADOW, "none".to_owned());
+    let entries: Vec<_> = std::iter::once(none).chain((0..bands.colours.len()).map(entry)).collect();
+    // a row is no taller than its letters
+    (ui.spacing_mut().item_spacing.y, ui.spacing_mut().interact_size.y) = (1.0, 16.0);
+    entries.iter().for_each(|(colour, what)| swatch(ui, *colour, what));
+}
+
+fn probe(open: &mut Open, site: &mut SiteFile, ui: &mut Ui) {
+    if open.probing.is_some() {
+        ui.horizontal(|ui| {
+            ui.add(egui::Spinner::new().size(16.0));
+            ui.label("Searching the day of the point");
+        });
+        return;
+    }
+    let Some(sunlight) = &open.sunlight else { return };
+    let (Some(probed), Some(day)) = (sunlight.probes.first(), sunlight.days.first()) else { return };
+    let Some(intervals) = probed.days.first() else { return };
+    ui.label(egui::RichText::new(format!("Sun at {}", probed.probe.name)).font(look::bold(13.5)));
+    let point = probed.probe.point;
+    ui.weak(format!("{:.2} m east, {:.2} m north, {:.2} m up", point.x, point.y, point.z).replace('-', "−"));
+    let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);
+    ui.label(format!("{}: {} of sun", day.window.day.date, clock(secs(intervals))));
+    egui::ScrollArea::vertical().max_height(190.0).show(ui, |ui| {
+        for interval in intervals {
+            let (start, end) = (interval.start.format("%H:%M:%S"), interval.end.format("%H:%M:%S"));
+            ui.label(format!("{start} – {end}"));
+            let (before, after) = (named(sunlight, interval.before), named(sunlight, interval.after));
+            ui.weak(format!("before: {before}, after: {after}"));
+        }
+    });
+    let mut closes = false;
+    ui.horizontal(|ui| {
+        let millimetres = |value: f64| (value * 1000.0).round() / 1000.0 + 0.0;
+        let table = ProbeTable {
+            name: None,
+            point: Some(point.to_array().map(millimetres)),
+            normal: probed.probe.normal.map(|normal| normal.to_array().map(|part| (part * 1e6).round() / 1e6 + 0.0)),
+        };
+        let is_kept = site.probe.iter().any(|probe| probe.point == table.point);
+        let keep = egui::Button::new(if is_kept { "In the site file" } else { "Keep in the site file" });
+        if ui.add_enabled(!is_kept, keep).clicked() {
+            site.probe.push(table);
+        }
+        closes = ui.button("Forget the point").clicked();
+    });
+    if closes {
+        open.sunlight = None;
+    }
+}
+
+fn named(sunlight: &Sunlight, blocked: Blocked) -> String {
+    match sunlight.name(blocked).as_str() {
+        "horizon" => "the horizon".to_owned(),
+        "behind" => "the sun is behind it".to_owned(),
+        "window" => "midnight".to_owned(),
+        name => name.to_owned(),
+    }
+}

@@ -1,0 +1,172 @@
+//! The instant that is shown, and what the sun does around it.
+
+use crate::sun::{Air, Day, DayWindow, Instant, Place, delta_t_secs};
+use chrono::{DateTime, Datelike, Days, NaiveDate, NaiveTime, TimeDelta, TimeZone, Timelike};
+use chrono_tz::Tz;
+use eframe::egui;
+
+/// What plays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Play {
+    /// The hours of the day.
+    Day,
+    /// The days of the year, at one hour.
+    Year,
+}
+
+/// The instant that is shown, and what the sun does around it.
+#[derive(Clone)]
+pub(super) struct Clock {
+    pub(super) place: Place,
+    refraction: bool,
+    /// The instant.
+    pub(super) now: Instant,
+    /// The first instant of its date.
+    pub(super) midnight: DateTime<Tz>,
+    /// How long that date is, seconds: not always 24 h.
+    pub(super) length_secs: f64,
+    /// Sunrise, noon, sunset.
+    pub(super) events: Day,
+    /// The date's instants, five minutes apart.
+    pub(super) day: Vec<Instant>,
+    /// Its full hours.
+    pub(super) hours: Vec<(u32, Instant)>,
+    /// The same for the solstices of the year.
+    pub(super) solstices: [Vec<Instant>; 2],
+    year: Option<i32>,
+    /// What is typed into the fields while it is.
+    pub(super) typed: [Option<String>; 2],
+    /// Why what was typed is no time.
+    pub(super) fault: Option<String>,
+    /// What plays.
+    pub(super) play: Option<Play>,
+}
+
+impl Clock {
+    /// A clock at a place, that shows an instant.
+    pub(super) fn new(place: &Place, refraction: bool, at: &Instant) -> Clock {
+        let mut clock = Clock {
+            place: place.clone(),
+            refraction,
+            now: at.clone(),
+            midnight: at.time,
+            length_secs: 86_400.0,
+            events: Day { date: at.time.date_naive(), sunrise: None, noon: None, sunset: None },
+            day: Vec::new(),
+            hours: Vec::new(),
+            solstices: [Vec::new(), Vec::new()],
+            year: None,
+            typed: [None, None],
+            fault: None,
+            play: None,
+        };
+        clock.turn_day();
+        clock
+    }
+
+    /// The date that is shown.
+    pub(super) fn date(&self) -> NaiveDate {
+        self.now.time.date_naive()
+    }
+
+    /// Whether it already stands at this place.
+    pub(super) fn is_at(&self, place: &Place, refraction: bool) -> bool {
+        self.place == *place && self.refraction == refraction
+    }
+
+    fn instant(&self, time: DateTime<Tz>) -> Option<Instant> {
+        let air = self.refraction.then(|| Air::standard(self.place.elevation_m));
+        Instant::at(&self.place, time, 0, delta_t_secs(time.to_utc()).ok()?, air).ok()
+    }
+
+    /// Shows another instant; one for which the sun is not known (before 1600, after 2999) is not taken.
+    pub(super) fn set(&mut self, time: DateTime<Tz>) {
+        if let Some(instant) = self.instant(time) {
+            let turns = instant.time.date_naive() != self.date();
+            self.now = instant;
+            if turns {
+                self.turn_day();
+            }
+        }
+    }
+
+    /// Shows so many seconds of the date.
+    pub(super) fn set_secs(&mut self, secs: f64) {
+        let secs = secs.clamp(0.0, self.length_secs - 1.0).round() as i64;
+        self.set(self.midnight + TimeDelta::seconds(secs));
+    }
+
+    /// Shows the same clock time on another date; an hour that clocks skip there becomes the next one.
+    pub(super) fn set_date(&mut self, date: NaiveDate) {
+        let clock = self.now.time.time();
+        let at = |clock: NaiveTime| self.place.time_zone.from_local_datetime(&date.and_time(clock)).earliest();
+        let next = clock.overflowing_add_signed(TimeDelta::hours(1)).0;
+        if let Some(time) = at(clock).or_else(|| at(next)) {
+            self.set(time);
+        }
+    }
+
+    /// Moves by so many seconds.
+    pub(super) fn step_secs(&mut self, secs: i64) {
+        self.set(self.now.time + TimeDelta::seconds(secs));
+    }
+
+    /// Moves by so many days, at the same clock time.
+    pub(super) fn step_days(&mut self, days: i64) {
+        let days_on = Days::new(days.unsigned_abs());
+        let date = if days < 0 { self.date().checked_sub_days(days_on) } else { self.date().checked_add_days(days_on) };
+        if let Some(date) = date {
+            self.set_date(date);
+        }
+    }
+
+    /// How many seconds of its date have passed.
+    pub(super) fn secs(&self) -> f64 {
+        (self.now.time - self.midnight).num_seconds() as f64
+    }
+
+    fn turn_day(&mut self) {
+        let date = self.date();
+        let Ok(window) = DayWindow::on(&self.place, date, None, None) else { return };
+        self.midnight = window.from;
+        self.length_secs = (window.to - window.from).num_seconds() as f64;
+        self.events = window.day;
+        self.day = self.instants(window.from, self.length_secs);
+        let hours = (0..self.length_secs as i64).step_by(3600).map(|secs| window.from + TimeDelta::seconds(secs));
+        self.hours = hours.filter_map(|time| Some((time.hour(), self.instant(time)?))).collect();
+        if self.year != Some(date.year()) {
+            self.year = Some(date.year());
+            self.solstices = [6, 12].map(|month| {
+                let date = NaiveDate::from_ymd_opt(date.year(), month, 21);
+                let window = date.and_then(|date| DayWindow::on(&self.place, date, None, None).ok());
+                window.map_or(Vec::new(), |window| self.instants(window.from, 86_400.0))
+            });
+        }
+    }
+
+    fn instants(&self, from: DateTime<Tz>, length_secs: f64) -> Vec<Instant> {
+        (0..=length_secs as i64).step_by(300).filter_map(|secs| self.instant(from + TimeDelta::seconds(secs))).collect()
+    }
+
+    /// Moves on what plays.
+    pub(super) fn tick(&mut self, context: &egui::Context) {
+        let Some(play) = self.play else { return };
+        let passed = f64::from(context.input(|input| input.stable_dt)).min(0.5);
+        match play {
+            Play::Day => {
+                let next = self.secs() + passed * 5400.0;
+                self.set_secs(if next >= self.length_secs - 1.0 { 0.0 } else { next });
+            }
+            Play::Year => {
+                let from = f64::from(self.date().ordinal0());
+                let days = (passed * 20.0).max(1.0).round();
+                let year = self.date().year();
+                let ordinal = ((from + days) as u32) % if self.date().leap_year() { 366 } else { 365 };
+                if let Some(date) = NaiveDate::from_yo_opt(year, ordinal + 1) {
+                    self.set_date(date);
+                }
+            }
+        }
+        context.request_repaint();
+    }
+}

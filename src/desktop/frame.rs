@@ -1,0 +1,289 @@
+//! The window's frame: keys, menus, messages, and what is shown before anything is open.
+
+use super::app::App;
+use super::clock::Play;
+use super::eye::Stand;
+use super::files::{self, Purpose};
+use super::loading::{Wanted, name_of};
+use super::look;
+use super::time::steps;
+use eframe::egui::{self, Key, KeyboardShortcut, Modifiers, ThemePreference, Ui};
+
+const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
+const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
+const EXPORT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::E);
+const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
+const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+
+impl App {
+    pub(super) fn shortcuts(&mut self, context: &egui::Context) {
+        let pressed = |shortcut| context.input_mut(|input| input.consume_shortcut(&shortcut));
+        let redo = pressed(REDO);
+        let (undo, opens, saves, exports) = (pressed(UNDO), pressed(OPEN), pressed(SAVE), pressed(EXPORT));
+        if redo {
+            let settings = self.history.redo();
+            self.set(settings);
+        }
+        if undo {
+            let settings = self.history.undo();
+            self.set(settings);
+        }
+        if opens {
+            self.ask(Purpose::Open, context);
+        }
+        if saves && self.open.is_some() {
+            self.ask(Purpose::SaveSite, context);
+        }
+        if exports && self.open.is_some() {
+            self.ask(Purpose::Drawing, context);
+        }
+        let free = context.memory(|memory| memory.focused().is_none());
+        let Some(open) = self.open.as_mut().filter(|_| free) else { return };
+        let minutes = steps(context, Key::ArrowLeft, Key::ArrowRight, 12) * 5;
+        if minutes != 0 {
+            open.clock.step_secs(minutes * 60);
+        }
+        let days = steps(context, Key::ArrowDown, Key::ArrowUp, 30);
+        if days != 0 {
+            open.clock.step_days(days);
+        }
+        if context.input(|input| input.key_pressed(Key::Space)) {
+            open.clock.play = if open.clock.play.is_some() { None } else { Some(Play::Day) };
+        }
+        let stands = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6];
+        for (key, (stand, _)) in stands.into_iter().zip(Stand::ALL) {
+            if context.input(|input| input.key_pressed(key)) {
+                open.viewer.eye.stand = stand;
+            }
+        }
+        if context.input(|input| input.key_pressed(Key::F)) {
+            self.fit(1.6);
+        }
+    }
+
+    pub(super) fn menus(&mut self, ui: &mut Ui) {
+        let context = ui.ctx().clone();
+        let is_open = self.open.is_some();
+        egui::MenuBar::new().ui(ui, |ui| {
+            ui.menu_button("File", |ui| {
+                let button = |text: &str, shortcut: &KeyboardShortcut| {
+                    egui::Button::new(text.to_owned()).shortcut_text(context.format_shortcut(shortcut))
+                };
+                if ui.add(button("Open…", &OPEN)).clicked() {
+                    self.ask(Purpose::Open, &context);
+                }
+                if !self.kept.recent.is_empty() {
+                    ui.menu_button("Open again", |ui| {
+                        for path in self.kept.recent.clone() {
+                            let name = name_of(&path);
+                            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                                self.load(Wanted::File(path), &context);
+                            }
+                        }
+                    });
+                }
+                ui.menu_button("Samples", |ui| {
+                    for name in files::SAMPLES {
+                        if ui.button(name).clicked() {
+                            self.open_sample(name, &context);
+                        }
+                    }
+                });
+                ui.separator();
+                if ui.add_enabled(is_open, button("Save the site file…", &SAVE)).clicked() {
+                    self.ask(Purpose::SaveSite, &context);
+                }
+                if ui.add_enabled(is_open, button("Export the drawing…", &EXPORT)).clicked() {
+                    self.ask(Purpose::Drawing, &context);
+                }
+                let has_hours = self.open.as_ref().is_some_and(|open| open.laid.is_some());
+                if ui.add_enabled(has_hours, egui::Button::new("Export the hours…")).clicked() {
+                    self.ask(Purpose::Hours, &context);
+                }
+                if ui.add_enabled(is_open, egui::Button::new("Copy the picture")).clicked() {
+                    self.copy(&context);
+                }
+            });
+            ui.menu_button("Edit", |ui| {
+                let [undo, redo] = self.history.has();
+                let undo_text = egui::Button::new("Undo").shortcut_text(context.format_shortcut(&UNDO));
+                if ui.add_enabled(undo, undo_text).clicked() {
+                    let settings = self.history.undo();
+                    self.set(settings);
+                }
+                let redo_text = egui::Button::new("Redo").shortcut_text(context.format_shortcut(&REDO));
+                if ui.add_enabled(redo, redo_text).clicked() {
+                    let settings = self.history.redo();
+                    self.set(settings);
+                }
+            });
+            ui.menu_button("View", |ui| {
+                if let Some(open) = &mut self.open {
+                    for (number, (stand, name)) in Stand::ALL.into_iter().enumerate() {
+                        let is_it = open.viewer.eye.stand == stand;
+                        let button = egui::Button::selectable(is_it, name).shortcut_text((number + 1).to_string());
+                        if ui.add(button).clicked() {
+                            open.viewer.eye.stand = stand;
+                        }
+                    }
+                    if ui.add(egui::Button::new("Fit").shortcut_text("F")).clicked() {
+                        self.fit(1.6);
+                    }
+                    ui.separator();
+                }
+                let mut path = !self.kept.no_sun_path;
+                ui.checkbox(&mut path, "The sun's path");
+                self.kept.no_sun_path = !path;
+                ui.checkbox(&mut self.kept.feet, "Lengths in feet");
+                ui.separator();
+                let mut theme = context.options(|options| options.theme_preference);
+                for (name, choice) in [
+                    ("As the system", ThemePreference::System),
+                    ("Light", ThemePreference::Light),
+                    ("Dark", ThemePreference::Dark),
+                ] {
+                    if ui.radio_value(&mut theme, choice, name).clicked() {
+                        context.set_theme(theme);
+                    }
+                }
+                ui.separator();
+                egui::gui_zoom::zoom_menu_buttons(ui);
+            });
+            if let Some(open) = &self.open {
+                ui.separator();
+                ui.label(egui::RichText::new(open.project.name()).font(look::bold(13.5)));
+            }
+            if let Some(open) = &self.open {
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    if let Some(under) = &open.viewer.under {
+                        let point = under.point;
+                        let hours = open.laid.as_ref().filter(|_| self.settings.shown.hours);
+                        let hours = hours.and_then(|laid| laid.at(point));
+                        let hours = hours.map_or(String::new(), |hours| format!("{hours:.2} h of shadow    "));
+                        let (unit, name) = if self.kept.feet { (0.3048, "ft") } else { (1.0, "m") };
+                        let at = point / unit;
+                        let at = format!("{:.1} E  {:.1} N  {:.1} up, {name}", at.x, at.y, at.z).replace('-', "−");
+                        ui.weak(format!("{hours}{}    {at}", under.name));
+                    }
+                });
+            }
+        });
+    }
+
+    /// What goes on, and what went wrong.
+    pub(super) fn messages(&mut self, ui: &mut Ui) {
+        if let Some(loading) = &self.loading
+            && loading.opens
+        {
+            let (share, what) = loading.stage();
+            let mut cancels = false;
+            ui.horizontal(|ui| {
+                ui.label(format!("Loading {}", loading.name));
+                ui.add(egui::ProgressBar::new(share).desired_width(220.0).text(what));
+                cancels = ui.button("Cancel").clicked();
+            });
+            if cancels {
+                loading.cancel();
+                self.loading = None;
+            }
+        }
+        if self.writing.is_some() {
+            ui.horizontal(|ui| {
+                ui.add(egui::Spinner::new().size(16.0));
+                ui.label("Drawing the file");
+            });
+        }
+        let of_view = self.open.as_ref().and_then(|open| open.viewer.fault.clone());
+        let (fault, notice) = (self.fault.clone().or(of_view), self.notice.clone());
+        if let Some(text) = fault.as_ref().or(notice.as_ref()) {
+            ui.horizontal(|ui| {
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    if ui.button("Close").clicked() {
+                        (self.fault, self.notice) = (None, None);
+                        if let Some(open) = &mut self.open {
+                            open.viewer.fault = None;
+                        }
+                    }
+                    ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                        let colour =
+                            if fault.is_some() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+                        ui.add(egui::Label::new(egui::RichText::new(text).color(colour)).wrap());
+                    });
+                });
+            });
+        }
+    }
+
+    pub(super) fn has_message(&self) -> bool {
+        self.fault.is_some()
+            || self.notice.is_some()
+            || self.writing.is_some()
+            || self.loading.as_ref().is_some_and(|loading| loading.opens)
+            || self.open.as_ref().is_some_and(|open| open.viewer.fault.is_some())
+    }
+
+    /// Nothing is open yet.
+    pub(super) fn welcome(&mut self, ui: &mut Ui) {
+        let context = ui.ctx().clone();
+        ui.vertical_centered(|ui| {
+            ui.add_space((ui.available_height() * 0.30).max(20.0));
+            ui.label(egui::RichText::new("Gnomon").font(look::bold(34.0)).color(look::accent(ui.visuals())));
+            ui.label("Where, when and for how long does this building take the sun away?");
+            ui.add_space(16.0);
+            if ui.button("Open a site or a model…").clicked() {
+                self.ask(Purpose::Open, &context);
+            }
+            ui.weak("or drop a .toml, .glb or .gltf on this window");
+            ui.add_space(16.0);
+            ui.weak("Samples");
+            for name in files::SAMPLES {
+                if ui.link(name).clicked() {
+                    self.open_sample(name, &context);
+                }
+            }
+        });
+    }
+
+    /// A bare model is asked for its place.
+    pub(super) fn ask_place(&mut self, context: &egui::Context) {
+        let Some(bare) = &mut self.bare else { return };
+        let mut goes = false;
+        let mut closes = false;
+        let modal = look::modal(context, "place").show(context, |ui| {
+            ui.set_width(420.0);
+            ui.heading("Where does it stand?");
+            ui.label(format!("{} is a model, and says not where.", name_of(&bare.path)));
+            ui.add_space(6.0);
+            egui::Grid::new("bare").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
+                let label = ui.label("Latitude, longitude");
+                let field =
+                    egui::TextEdit::singleline(&mut bare.place).hint_text("48.2082, 16.3738").desired_width(220.0);
+                let response = ui.add(field).labelled_by(label.id);
+                // the first thing that is to be said, and the only one that must be
+                if ui.memory(|memory| memory.focused().is_none()) && bare.place.is_empty() {
+                    response.request_focus();
+                }
+                goes |= response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+                ui.end_row();
+                let label = ui.label("Model north");
+                let field = egui::TextEdit::singleline(&mut bare.north).desired_width(220.0);
+                let response = ui.add(field).labelled_by(label.id);
+                response.on_hover_text("Degrees clockwise from the model's north (−Z) to true north");
+                ui.end_row();
+            });
+            ui.weak("Degrees, north and east positive.");
+            ui.add_space(8.0);
+            ui.horizontal(|ui| {
+                let is_said = !bare.place.trim().is_empty();
+                goes |= ui.add_enabled(is_said, egui::Button::new("Open it there")).clicked();
+                closes = ui.button("Cancel").clicked();
+            });
+        });
+        if closes || modal.should_close() {
+            self.bare = None;
+        } else if goes && !bare.place.trim().is_empty() {
+            let bare = bare.clone();
+            self.load(Wanted::Placed(bare), context);
+        }
+    }
+}

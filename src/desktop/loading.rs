@@ -1,0 +1,231 @@
+//! A site is loaded beside the window, which shows how far it is and can give it up.
+
+use super::settings::Settings;
+use crate::cli::one_line;
+use crate::export::figure::component_colours;
+use crate::mesh::Mesh;
+use crate::shadow::ray_cast::RayCaster;
+use crate::site::file::{PlaceTable, SiteFile, Text};
+use crate::site::{Overrides, Site, SiteError, Written, model};
+use eframe::egui;
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, mpsc};
+
+/// An open site.
+pub(super) struct Project {
+    /// Where its site file lies; none yet for a bare model.
+    pub(super) path: Option<PathBuf>,
+    /// As it is written.
+    pub(super) written: Written,
+    /// As it is meant.
+    pub(super) site: Arc<Site>,
+    /// How many components each of its models has.
+    pub(super) parts: Vec<usize>,
+    /// The colour of each component.
+    pub(super) colours: Vec<[u8; 3]>,
+    /// What is seen, to be asked what lies under the pointer; and whose faces those are.
+    pub(super) seen: Arc<(Mesh, RayCaster)>,
+}
+
+/// A model that says not where it stands.
+#[derive(Clone, Debug)]
+pub(super) struct Bare {
+    /// The model's file.
+    pub(super) path: PathBuf,
+    /// What was answered so far, as typed.
+    pub(super) place: String,
+    /// Degrees clockwise from the model's north to true north, as typed.
+    pub(super) north: String,
+}
+
+/// Why there is no project.
+pub(super) enum Fault {
+    /// It is a bare model.
+    Bare(PathBuf),
+    /// What the command would say.
+    Told(String),
+}
+
+/// What is to be loaded.
+pub(super) enum Wanted {
+    /// What somebody opens.
+    File(PathBuf),
+    /// A bare model, where it stands.
+    Placed(Bare),
+    /// The open site, as it is written now.
+    Again(Option<PathBuf>, Box<Written>),
+}
+
+/// Work that goes on beside the window.
+pub(super) struct Loading {
+    /// What is loaded, in a word.
+    pub(super) name: String,
+    /// Whether the site is opened, and not the open one read again.
+    pub(super) opens: bool,
+    stage: Arc<Mutex<(f32, String)>>,
+    cancelled: Arc<AtomicBool>,
+    result: mpsc::Receiver<Result<Project, Fault>>,
+}
+
+impl Loading {
+    /// Begins.
+    pub(super) fn start(wanted: Wanted, context: egui::Context) -> Loading {
+        let path = match &wanted {
+            Wanted::File(path) => path.clone(),
+            Wanted::Placed(bare) => bare.path.clone(),
+            Wanted::Again(_, written) => PathBuf::from(&written.file),
+        };
+        let (tell, result) = mpsc::channel();
+        let stage = Arc::new(Mutex::new((0.0, "Reading".to_owned())));
+        let cancelled = Arc::new(AtomicBool::new(false));
+        let opens = !matches!(wanted, Wanted::Again(..));
+        let progress = Progress { stage: Arc::clone(&stage), cancelled: Arc::clone(&cancelled), context };
+        std::thread::spawn(move || {
+            let project = project(wanted, &progress);
+            // who gave the loading up listens no more
+            let _ = tell.send(project);
+            progress.context.request_repaint();
+        });
+        Loading { name: name_of(&path), opens, stage, cancelled, result }
+    }
+
+    /// How far it is, 0 to 1, and what is being done.
+    pub(super) fn stage(&self) -> (f32, String) {
+        self.stage.lock().map(|stage| stage.clone()).unwrap_or_default()
+    }
+
+    /// What came of it, once it is done.
+    pub(super) fn done(&self) -> Option<Result<Project, Fault>> {
+        match self.result.try_recv() {
+            Ok(result) => Some(result),
+            Err(mpsc::TryRecvError::Empty) => None,
+            Err(mpsc::TryRecvError::Disconnected) => {
+                Some(Err(Fault::Told(format!("{} could not be loaded: the work ended early", self.name))))
+            }
+        }
+    }
+
+    /// Gives it up.
+    pub(super) fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+    }
+}
+
+struct Progress {
+    stage: Arc<Mutex<(f32, String)>>,
+    cancelled: Arc<AtomicBool>,
+    context: egui::Context,
+}
+
+impl Progress {
+    fn tell(&self, share: f32, what: impl Into<String>) {
+        if let Ok(mut stage) = self.stage.lock() {
+            *stage = (share, what.into());
+        }
+        self.context.request_repaint();
+    }
+}
+
+/// What people call a file.
+pub(super) fn name_of(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let folder = path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+    match folder {
+        Some(folder) if name == "site.toml" => folder,
+        _ => name,
+    }
+}
+
+fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
+    let (path, written) = match wanted {
+        Wanted::File(path) => match Written::read(&path, &Overrides::default()) {
+            Err(SiteError::NoPlaceForModel { .. }) => {
+                // a model that cannot be read is told before its place is asked
+                crate::site::load_mesh(&path).map_err(told)?;
+                return Err(Fault::Bare(path));
+            }
+            Ok(written) => {
+                let path = if path.is_dir() { path.join("site.toml") } else { path };
+                (Some(path), written)
+            }
+            Err(error) => return Err(told(error)),
+        },
+        Wanted::Placed(bare) => {
+            let asked = Overrides { place: Some(bare.place.clone()), ..Overrides::default() };
+            let mut written = Written::read(&bare.path, &asked).map_err(told)?;
+            if let Some(table) = written.site.model.first_mut() {
+                table.north = match bare.north.trim() {
+                    "" | "0" => None,
+                    text => Some(text.parse().map_err(|_| {
+                        Fault::Told(format!("north: \"{text}\" is no angle; write degrees, for example 0.0"))
+                    })?),
+                };
+            }
+            (None, written)
+        }
+        Wanted::Again(path, written) => (path, *written),
+    };
+    let mut written = written;
+    complete(&mut written.site);
+    progress.tell(0.15, "Reading the models");
+    let parts = RefCell::new(Vec::new());
+    let count = written.site.model.len().max(1) as f32;
+    let site = Site::of(&written, &Overrides::default(), |path, placement| {
+        let read = model::load(path, placement)?;
+        parts.borrow_mut().push(read.len());
+        let share = parts.borrow().len() as f32 / count;
+        progress.tell(0.15 + 0.35 * share, if share < 1.0 { "Reading the models" } else { "Joining triangles" });
+        Ok(read)
+    })
+    .map_err(told)?;
+    if progress.cancelled.load(Ordering::Relaxed) {
+        return Err(Fault::Told("given up".to_owned()));
+    }
+    progress.tell(0.85, "Sorting what is seen");
+    let seen = site.mesh.of_components(&site.receives);
+    let reach = seen.bounds().map_or(1.0, |(low, high)| (high - low).length()) * crate::study::live::FARTHEST;
+    let rays = RayCaster::new(&seen, reach);
+    progress.tell(1.0, "Drawing");
+    Ok(Project {
+        path,
+        written,
+        parts: parts.into_inner(),
+        colours: component_colours(&site.mesh, &site.casts),
+        seen: Arc::new((seen, rays)),
+        site: Arc::new(site),
+    })
+}
+
+/// What a study must say and somebody left out: the March day of most rules, nine to five.
+fn complete(site: &mut SiteFile) {
+    let study = &mut site.study;
+    let from = study.from.get_or_insert_with(|| Text("9:00".to_owned()));
+    let dated = from.0.contains('T') || from.0.matches('-').count() >= 2;
+    if !dated && study.dates.is_none() {
+        study.date.get_or_insert_with(|| Text("2026-03-21".to_owned()));
+    }
+    study.to.get_or_insert_with(|| Text("17:00".to_owned()));
+    study.step.get_or_insert_with(|| "30min".to_owned());
+}
+
+fn told(error: impl Into<anyhow::Error>) -> Fault {
+    Fault::Told(one_line(&error.into()))
+}
+
+impl Project {
+    /// The settings that it comes with.
+    pub(super) fn settings(&self, before: &Settings) -> Settings {
+        let mut shown = before.shown;
+        shown.method = self.site.method;
+        shown.hours = false;
+        Settings { site: self.written.site.clone(), shown }
+    }
+
+    /// What the site is called: its place, else its file.
+    pub(super) fn name(&self) -> String {
+        let named = self.written.site.place.as_ref().and_then(|place: &PlaceTable| place.name.clone());
+        named.filter(|name| !name.trim().is_empty()).unwrap_or_else(|| name_of(Path::new(&self.written.file)))
+    }
+}

@@ -1,0 +1,259 @@
+//! The panel beside the picture: place, shadows, components, hours.
+
+use super::app::App;
+use super::{cards, components, hours, look, view};
+use crate::export::figure::Diagram;
+use crate::site::Method;
+use crate::site::file::Text;
+use eframe::egui::{self, Ui, vec2};
+use std::sync::Arc;
+
+/// What each technique is good for, in a line.
+fn good_for(method: Method) -> &'static str {
+    match method {
+        Method::Auto => "The fastest exact one for this machine.",
+        Method::Stencil => "Exact, on the graphics adapter: shadow volumes are counted.",
+        Method::Projected => "Exact on the plan's ground alone, by far the fastest there.",
+        Method::ShadowMap => "A quick look: edges as coarse as a texel of its map.",
+        Method::Hybrid => "Exact but for parts thinner than a texel; quick where many thin parts cast.",
+        Method::Smoothie => "The soft edge of a real sun; shadows are a little too large.",
+        Method::SoftTexture => "Hours on façades and roofs, for gnomon profile --receivers surfaces.",
+        Method::RayCast => "Exact, on the processor; also with the sun as a disc.",
+    }
+}
+
+/// The whole panel.
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        section(ui, "Place", true, |ui| place(app, ui));
+        section(ui, "Shadows", true, |ui| shadows(app, ui));
+        section(ui, "Hours of shadow", true, |ui| study(app, ui));
+        section(ui, "Components", false, |ui| {
+            if let Some(open) = &app.open {
+                ui.checkbox(&mut app.settings.shown.tinted, "In their own colours");
+                components::list(ui, &open.project, &mut app.settings);
+            }
+        });
+    });
+}
+
+fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {
+    let title = egui::RichText::new(name).font(look::bold(13.5)).color(look::accent(ui.visuals()));
+    egui::CollapsingHeader::new(title).id_salt(name).default_open(open).show_unindented(ui, |ui| {
+        content(ui);
+        ui.add_space(8.0);
+    });
+}
+
+/// A label and fields beside it, aligned with all others.
+fn row(ui: &mut Ui, name: &str, field: impl FnOnce(&mut Ui, egui::Id)) {
+    ui.horizontal(|ui| {
+        let size = vec2(78.0, ui.spacing().interact_size.y);
+        let label = ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+            ui.set_min_size(size);
+            ui.weak(name).id
+        });
+        field(ui, label.inner);
+    });
+}
+
+/// The word before a second field in a row.
+fn then(ui: &mut Ui, name: &str) -> egui::Id {
+    ui.weak(name).id
+}
+
+fn place(app: &mut App, ui: &mut Ui) {
+    let Some(table) = &mut app.settings.site.place else { return };
+    let mut name = table.name.clone().unwrap_or_default();
+    row(ui, "Name", |ui, label| field(ui, &mut app.typed, ("Name", Some(label)), &mut name, f32::INFINITY));
+    // only what was said is written: an empty name is none
+    if name != table.name.as_deref().unwrap_or_default() {
+        table.name = Some(name).filter(|name| !name.trim().is_empty());
+    }
+    let coordinates = [("Latitude", &mut table.latitude, 90.0), ("Longitude", &mut table.longitude, 180.0)];
+    for (name, slot, most) in coordinates {
+        let mut value = slot.unwrap_or_default();
+        row(ui, name, |ui, label| {
+            let drag = egui::DragValue::new(&mut value).speed(0.01).range(-most..=most);
+            let drag = drag.suffix("°").min_decimals(4).max_decimals(6);
+            if ui.add(drag).labelled_by(label).changed() {
+                *slot = Some(value);
+            }
+        });
+    }
+    row(ui, "Elevation", |ui, label| {
+        let mut value = table.elevation.unwrap_or_default();
+        let drag = egui::DragValue::new(&mut value).speed(1.0).range(-500.0..=9000.0).suffix(" m").max_decimals(2);
+        if ui.add(drag).labelled_by(label).changed() {
+            table.elevation = Some(value);
+        }
+    });
+    if let [model] = app.settings.site.model.as_mut_slice() {
+        row(ui, "Model north", |ui, label| {
+            let mut north = model.north.unwrap_or_default();
+            let drag = egui::DragValue::new(&mut north).speed(0.5).range(-360.0..=360.0).suffix("°").max_decimals(3);
+            let response = ui.add(drag).labelled_by(label);
+            let response = response.on_hover_text("Degrees clockwise from the model's north to true north");
+            if response.changed() {
+                model.north = Some(north).filter(|north| *north != 0.0);
+            }
+            let label = then(ui, "scale");
+            let mut scale = model.scale.unwrap_or(1.0);
+            let drag = egui::DragValue::new(&mut scale).speed(0.01).range(1e-6..=1e6).max_decimals(6);
+            let response = ui.add(drag).labelled_by(label).on_hover_text("Metres a unit of the model");
+            if response.changed() {
+                model.scale = Some(scale).filter(|scale| *scale != 1.0);
+            }
+        });
+    }
+}
+
+fn shadows(app: &mut App, ui: &mut Ui) {
+    let software = app.is_software();
+    let is_plan = app.is_plan();
+    let shown = &mut app.settings.shown;
+    row(ui, "Technique", |ui, label| {
+        let list = egui::ComboBox::from_id_salt("technique").selected_text(shown.method.word());
+        let response = list.width(ui.available_width()).show_ui(ui, |ui| {
+            let choices = Method::WORDS.iter().filter(|(_, method)| *method != Method::SoftTexture);
+            for (word, method) in choices {
+                let entry = ui.selectable_value(&mut shown.method, *method, *word);
+                entry.on_hover_text(good_for(*method));
+            }
+        });
+        response.response.labelled_by(label);
+    });
+    ui.weak(good_for(shown.method));
+    if !view::draws(shown.method, is_plan) {
+        ui.weak("Not this view's: auto draws it.");
+    }
+    if view::casts_rays(shown.method, software) {
+        ui.checkbox(&mut shown.disc, "The sun as a disc: soft edges");
+    }
+    if view::counts(shown.method) {
+        let name = |diagram: Option<Diagram>| match diagram {
+            None => "sun and shadow",
+            Some(Diagram::Mask) => "who decides a cell",
+            Some(Diagram::Overdraw) => "volumes counted",
+        };
+        row(ui, "Picture of", |ui, label| {
+            let list = egui::ComboBox::from_id_salt("diagram").selected_text(name(shown.diagram));
+            let response = list.width(ui.available_width()).show_ui(ui, |ui| {
+                let mut choices = vec![None, Some(Diagram::Overdraw)];
+                if shown.method == Method::Hybrid {
+                    choices.push(Some(Diagram::Mask));
+                }
+                for choice in choices {
+                    ui.selectable_value(&mut shown.diagram, choice, name(choice));
+                }
+            });
+            response.response.labelled_by(label);
+        });
+    }
+    if !is_plan {
+        ui.horizontal(|ui| {
+            ui.checkbox(&mut shown.volumes, "Volumes");
+            ui.checkbox(&mut shown.silhouette, "Silhouette");
+        });
+    }
+    if let Some(colours) = app.legend() {
+        ui.add_space(2.0);
+        ui.label(&colours.legend_head);
+        for (colour, what) in &colours.legend {
+            cards::swatch(ui, *colour, what);
+        }
+    }
+}
+
+fn study(app: &mut App, ui: &mut Ui) {
+    let shown_date = app.open.as_ref().map(|open| open.clock.date());
+    let study = &mut app.settings.site.study;
+    // the loader has said what was left out; a date may stand in `from` instead
+    let text = |slot: &Option<Text>| slot.as_ref().map_or(String::new(), |text| text.0.clone());
+    let [mut date, mut from, mut to] = [&study.date, &study.from, &study.to].map(text);
+    let mut step = study.step.clone().unwrap_or_default();
+    let typed = &mut app.typed;
+    row(ui, "Window", |ui, label| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        field(ui, typed, ("From", Some(label)), &mut from, 70.0);
+        let label = then(ui, "to");
+        field(ui, typed, ("To", Some(label)), &mut to, 70.0);
+    });
+    if let Some([Text(first), Text(last)]) = &mut study.dates {
+        row(ui, "Study days", |ui, label| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            field(ui, typed, ("First day", Some(label)), first, 82.0);
+            let label = then(ui, "to");
+            field(ui, typed, ("Last day", Some(label)), last, 82.0);
+        });
+        row(ui, "Step", |ui, label| field(ui, typed, ("Step", Some(label)), &mut step, 58.0));
+    } else {
+        row(ui, "Study date", |ui, label| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            field(ui, typed, ("Study date", Some(label)), &mut date, 94.0);
+            let label = then(ui, "step");
+            field(ui, typed, ("Step", Some(label)), &mut step, 58.0);
+        });
+    }
+    (study.from, study.to, study.step) = (Some(Text(from)), Some(Text(to)), Some(step));
+    if study.date.is_some() || !date.is_empty() {
+        study.date = Some(Text(date));
+    }
+    if let (Some(date), Some(Text(text))) = (shown_date, &mut study.date)
+        && date.to_string() != *text
+        && ui.button(format!("Take {date} from the clock")).clicked()
+    {
+        *text = date.to_string();
+    }
+    let context = ui.ctx().clone();
+    let Some(open) = &mut app.open else { return };
+    if let Some(adding) = &open.adding {
+        let (done, count) = adding.progress();
+        let share = done as f32 / count.max(1) as f32;
+        ui.add(egui::ProgressBar::new(share).text(if count == 0 {
+            "Preparing".to_owned()
+        } else {
+            format!("{done} of {count} instants")
+        }));
+        if ui.button("Cancel the hours").clicked() {
+            open.adding = None;
+        }
+    } else if ui.add_enabled(!app.is_reading, egui::Button::new("Find the hours")).clicked() {
+        open.answers += 1;
+        open.adding = Some(hours::add_up(Arc::clone(&open.project.site), open.answers, context));
+    }
+    if let Some(laid) = &open.laid {
+        if !Arc::ptr_eq(&laid.site, &open.project.site) {
+            ui.weak("The site has changed since: find them anew.");
+        }
+        ui.checkbox(&mut app.settings.shown.hours, "Show the hours");
+    }
+    if open.sunlight.is_none() && open.probing.is_none() {
+        ui.weak("Click a point of the model: when does the sun reach it?");
+    }
+}
+
+/// A text that is read when it is finished.
+fn field(
+    ui: &mut Ui,
+    typed: &mut Option<(String, String)>,
+    (name, label): (&str, Option<egui::Id>),
+    text: &mut String,
+    width: f32,
+) {
+    let mut now = match typed {
+        Some((field, typed)) if field == name => typed.clone(),
+        _ => text.clone(),
+    };
+    let response = ui.add(egui::TextEdit::singleline(&mut now).desired_width(width));
+    let response = label.map_or(response.clone(), |label| response.labelled_by(label));
+    if response.changed() {
+        *typed = Some((name.to_owned(), now));
+    }
+    if response.lost_focus()
+        && typed.as_ref().is_some_and(|(field, _)| field == name)
+        && let Some((_, now)) = typed.take()
+    {
+        *text = now;
+    }
+}

@@ -1,0 +1,60 @@
+//! What lies under a place of the picture, and how far the models reach.
+
+use super::loading::Project;
+use super::sky::Dome;
+use crate::view::View;
+use eframe::egui::{self, Rect};
+use glam::DVec3;
+
+/// What lies under the pointer.
+#[derive(Clone, Debug)]
+pub(super) struct Under {
+    /// Metres in the world frame.
+    pub(super) point: DVec3,
+    /// The unit normal of its surface, on the seen side.
+    pub(super) normal: DVec3,
+    /// The component's name, or the ground.
+    pub(super) name: String,
+}
+
+/// The dome around the models.
+pub(super) fn dome(project: &Project) -> Dome {
+    let (low, high) = project.site.mesh.bounds().unwrap_or((DVec3::ZERO, DVec3::ONE));
+    let centre = (low + high) / 2.0;
+    let radius = (high - low).truncate().length() / 2.0;
+    Dome { centre: centre.truncate().extend(project.site.ground), radius: (radius * 0.9).max(high.z - low.z).max(1.0) }
+}
+
+/// What lies under a place of the picture.
+pub(super) fn under(project: &Project, view: &View, rect: Rect, pointer: egui::Pos2) -> Option<Under> {
+    let (mesh, rays) = &*project.seen;
+    let at = (pointer - rect.min) / rect.size();
+    let (x, y) = (f64::from(at.x), f64::from(at.y));
+    let top = mesh.top().max(project.site.ground) + 1.0;
+    let (from, along) = match view {
+        View::Plan(grid) => {
+            let east = grid.west + x * (grid.east() - grid.west);
+            let north = grid.north - y * (grid.north - grid.south());
+            (DVec3::new(east, north, top), DVec3::NEG_Z)
+        }
+        View::Camera(camera) => {
+            let [right, up, forward] = camera.axes();
+            let half = camera.half_size();
+            let along = forward + right * (half.x * (x * 2.0 - 1.0)) + up * (half.y * (1.0 - y * 2.0));
+            (camera.eye, along.normalize())
+        }
+    };
+    let hit = rays.first_hit(from - mesh.origin, along);
+    let ground = (project.site.ground - from.z) / along.z;
+    let ground = Some(ground).filter(|distance| *distance > 0.0 && distance.is_finite());
+    match hit {
+        Some((face, distance)) if ground.is_none_or(|ground| distance <= ground) => {
+            let plane = mesh.planes()[face as usize].truncate();
+            let normal = if plane.dot(along) > 0.0 { -plane } else { plane };
+            let component = mesh.components.partition_point(|component| component.faces.end <= face);
+            let name = mesh.components.get(component)?.name.clone();
+            Some(Under { point: from + along * distance, normal, name })
+        }
+        _ => Some(Under { point: from + along * ground?, normal: DVec3::Z, name: "ground".to_owned() }),
+    }
+}

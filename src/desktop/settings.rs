@@ -1,0 +1,81 @@
+//! What a person sets, as one small value; and its history.
+
+use crate::export::figure::Diagram;
+use crate::site::Method;
+use crate::site::file::SiteFile;
+
+/// Everything that undo brings back: the site as it is written, and how its shadows are shown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Settings {
+    /// What the site file says.
+    pub(super) site: SiteFile,
+    /// How its shadows are shown.
+    pub(super) shown: Shown,
+}
+
+/// How shadows are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Shown {
+    /// By which technique they are found.
+    pub(super) method: Method,
+    /// Rays go to the whole disc of the sun, where rays are cast.
+    pub(super) disc: bool,
+    /// The shadow volumes over the picture.
+    pub(super) volumes: bool,
+    /// The silhouette over the picture.
+    pub(super) silhouette: bool,
+    /// What counting took, instead of sun and shadow.
+    pub(super) diagram: Option<Diagram>,
+    /// Components in their own colours.
+    pub(super) tinted: bool,
+    /// The hours of shadow instead of one instant.
+    pub(super) hours: bool,
+}
+
+/// The settings that were, and those that were undone.
+#[derive(Default)]
+pub(super) struct History {
+    past: Vec<Settings>,
+    future: Vec<Settings>,
+    last: Settings,
+}
+
+impl History {
+    /// How many are kept.
+    const MOST: usize = 200;
+
+    /// Begins anew with another site.
+    pub(super) fn restart(&mut self, now: &Settings) {
+        *self = History { last: now.clone(), ..History::default() };
+    }
+
+    /// Takes note of settings that a person has come to.
+    pub(super) fn note(&mut self, now: &Settings) {
+        if *now != self.last {
+            self.past.push(std::mem::replace(&mut self.last, now.clone()));
+            self.future.clear();
+            if self.past.len() > Self::MOST {
+                self.past.remove(0);
+            }
+        }
+    }
+
+    /// The settings before.
+    pub(super) fn undo(&mut self) -> Option<Settings> {
+        let before = self.past.pop()?;
+        self.future.push(std::mem::replace(&mut self.last, before.clone()));
+        Some(before)
+    }
+
+    /// The settings that were undone last.
+    pub(super) fn redo(&mut self) -> Option<Settings> {
+        let after = self.future.pop()?;
+        self.past.push(std::mem::replace(&mut self.last, after.clone()));
+        Some(after)
+    }
+
+    /// Whether there is something to undo, and to redo.
+    pub(super) fn has(&self) -> [bool; 2] {
+        [!self.past.is_empty(), !self.future.is_empty()]
+    }
+}

@@ -1,0 +1,300 @@
+//! The picture, and the hand on it.
+
+use super::clock::Clock;
+use super::eye::{Eye, Stand};
+use super::hours::Laid;
+use super::loading::Project;
+use super::pick::{Under, dome, under};
+use super::settings::Shown as Choice;
+use super::sky;
+use super::stage::{Shown, Stage, Wish};
+use crate::shadow::picture::Style;
+use crate::site::{Method, Receivers, Settings};
+use crate::study::live::{FARTHEST, Way};
+use eframe::egui::{self, Align2, PointerButton, Rect, Sense, TextureId, Ui, pos2};
+use eframe::egui_wgpu::RenderState;
+use glam::DVec2;
+use std::sync::Arc;
+
+/// How long nothing must move before a better picture is drawn, seconds.
+const STILL_SECS: f64 = 0.22;
+/// How long a quick look may take, seconds: its size follows.
+const QUICK_SECS: f64 = 0.06;
+/// Points of the sun's disc to which rays go.
+pub(super) const DISC_SAMPLES: u32 = 32;
+
+/// The picture that is shown, and the one that is wished for.
+pub(super) struct Viewer {
+    /// From where.
+    pub(super) eye: Eye,
+    shown: Option<Shown>,
+    texture: Option<TextureId>,
+    wished: Option<Wish>,
+    /// The best picture of what is asked, as asked at the last frame; and when that changed last.
+    best: Option<Wish>,
+    moved_at: f64,
+    /// Of the full size, for a quick look.
+    scale: f64,
+    /// Why there is no picture.
+    pub(super) fault: Option<String>,
+    /// What lies under the pointer.
+    pub(super) under: Option<Under>,
+}
+
+/// What the view is asked to show.
+pub(super) struct Asked<'a> {
+    /// The site.
+    pub(super) project: &'a Project,
+    /// Which one of those that were loaded.
+    pub(super) number: u64,
+    /// How its shadows are shown.
+    pub(super) choice: Choice,
+    /// The hours found.
+    pub(super) laid: Option<&'a Arc<Laid>>,
+    /// Whether the sun's path lies over it.
+    pub(super) sun_path: bool,
+    /// Lengths in feet.
+    pub(super) feet: bool,
+}
+
+impl Viewer {
+    /// Looks at a site from where its camera is.
+    pub(super) fn new(project: &Project) -> Viewer {
+        Viewer {
+            eye: Eye::of(&project.site.camera),
+            shown: None,
+            texture: None,
+            wished: None,
+            best: None,
+            moved_at: 0.0,
+            scale: 0.5,
+            fault: None,
+            under: None,
+        }
+    }
+
+    /// The newest picture.
+    pub(super) fn shown(&self) -> Option<&Shown> {
+        self.shown.as_ref()
+    }
+
+    /// Whether what is shown is the best picture of what is asked.
+    pub(super) fn is_settled(&self) -> bool {
+        let both = self.shown.as_ref().zip(self.best.as_ref());
+        both.is_some_and(|(shown, best)| shown.wish.is_same(best))
+    }
+
+    /// Takes what the stage has drawn.
+    pub(super) fn receive(&mut self, stage: &Stage, render: &RenderState) {
+        match stage.done() {
+            None => {}
+            Some(Err(fault)) => self.fault = Some(fault),
+            Some(Ok(shown)) => {
+                self.fault = None;
+                if shown.wish.quick {
+                    self.adapt(shown.secs);
+                }
+                let is_new = self.shown.as_ref().is_none_or(|before| before.texture != shown.texture);
+                if is_new {
+                    let view = shown.texture.create_view(&wgpu::TextureViewDescriptor::default());
+                    let mut renderer = render.renderer.write();
+                    let filter = wgpu::FilterMode::Linear;
+                    match self.texture {
+                        Some(id) => renderer.update_egui_texture_from_wgpu_texture(&render.device, &view, filter, id),
+                        None => self.texture = Some(renderer.register_native_texture(&render.device, &view, filter)),
+                    }
+                }
+                self.shown = Some(shown);
+            }
+        }
+    }
+
+    /// Chooses the size of the next quick look by how long the last one took. Sizes lie apart, as another one is looked at
+    /// anew.
+    fn adapt(&mut self, secs: f64) {
+        const SIZES: [f64; 6] = [0.18, 0.25, 0.35, 0.5, 0.7, 1.0];
+        let at = SIZES.iter().position(|size| *size >= self.scale).unwrap_or(SIZES.len() - 1);
+        if secs > 1.7 * QUICK_SECS {
+            self.scale = SIZES[at.saturating_sub(1)];
+        } else if secs < 0.4 * QUICK_SECS {
+            self.scale = SIZES[(at + 1).min(SIZES.len() - 1)];
+        }
+    }
+
+    /// Shows the picture, moves the eye, asks for what is seen next; a click on the model comes back.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        stage: &Stage,
+        software: bool,
+        asked: &Asked<'_>,
+        clock: &mut Clock,
+    ) -> Option<Under> {
+        let rect = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Model"));
+        self.wish(ui, rect, stage, software, asked, clock);
+        ui.painter().rect_filled(rect, 0.0, egui::Color32::from_rgb(236, 235, 230));
+        let (Some(shown), Some(texture)) = (&self.shown, self.texture) else {
+            self.move_eye(ui, rect, &response, asked.project);
+            return None;
+        };
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter().image(texture, rect, whole, egui::Color32::WHITE);
+        let view = shown.wish.view;
+        let dome = dome(asked.project);
+        if asked.sun_path
+            && let Some(secs) = sky::path(ui, &view, rect, &dome, clock)
+        {
+            clock.set_secs(secs);
+        }
+        sky::north(ui, &view, rect);
+        let metres_a_point = self.eye.metres_a_pixel(1) / f64::from(rect.height());
+        sky::scale_bar(ui, rect, metres_a_point, asked.feet);
+        self.status(ui, rect, software, asked);
+
+        let pointer = response.hover_pos().filter(|_| !response.dragged());
+        self.under = pointer.and_then(|pointer| under(asked.project, &view, rect, pointer));
+        let clicked = response.clicked().then(|| self.under.clone()).flatten();
+        self.move_eye(ui, rect, &response, asked.project);
+        clicked
+    }
+
+    /// Asks for the picture of this moment: a quick one while something moves, the best when all is still.
+    fn wish(&mut self, ui: &Ui, rect: Rect, stage: &Stage, software: bool, asked: &Asked<'_>, clock: &Clock) {
+        let now = ui.input(|input| input.time);
+        let pixels = f64::from(ui.pixels_per_point());
+        let sized = |scale: f64| {
+            let side = |points: f32| (f64::from(points) * pixels * scale).round().clamp(16.0, 8192.0) as u32;
+            (side(rect.width()), side(rect.height()))
+        };
+        let choice = asked.choice;
+        let stand = self.eye.stand;
+        let is_plan = stand == Stand::Plan;
+        let on_ground = is_plan && choice.method == Method::Projected;
+        let method = if draws(choice.method, is_plan) { choice.method } else { Method::Auto };
+        let disc = choice.disc && casts_rays(method, software);
+        let way = Way {
+            method: if disc { Method::RayCast } else { method },
+            settings: Settings { sun_samples: disc.then_some(DISC_SAMPLES), ..Settings::default() },
+            receivers: if on_ground { Receivers::Ground } else { Receivers::Top },
+        };
+        // an adapter draws twice as fine, which the screen then smooths
+        let fine = if software { 1.0 } else { 2.0 };
+        let style = Style {
+            focus_m: self.eye.camera((1, 1)).target.distance(self.eye.camera((1, 1)).eye),
+            // one pixel wide they are heavier than on paper
+            lines: if software { 0.62 } else { 1.0 },
+            wide_lines: !software,
+            tinted: choice.tinted,
+            hours: choice.hours && asked.laid.is_some(),
+            ground_only: false,
+        };
+        let best = Wish {
+            site: Arc::clone(&asked.project.site),
+            number: asked.number,
+            view: self.eye.view(sized(fine)),
+            way,
+            to_sun: clock.now.to_sun,
+            style,
+            hours: asked.laid.filter(|_| choice.hours).cloned(),
+            overlay: [choice.volumes && !is_plan, choice.silhouette && !is_plan],
+            diagram: choice.diagram.filter(|_| counts(method)),
+            quick: false,
+        };
+        if self.best.as_ref().is_none_or(|before| !before.is_same(&best)) {
+            // the first picture is the best one at once
+            self.moved_at = if self.best.is_some() { now } else { f64::NEG_INFINITY };
+            self.best = Some(best.clone());
+        }
+        let moving = now - self.moved_at < STILL_SECS;
+        let wish = if moving {
+            ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(STILL_SECS));
+            let quickest = Way { method: Method::RayCast, settings: Settings::default(), receivers: Receivers::Top };
+            Wish {
+                view: self.eye.view(sized(if software { self.scale } else { 1.0 })),
+                way: if software && !on_ground { quickest } else { best.way },
+                style: Style { wide_lines: false, lines: if software { 0.45 } else { 0.62 }, ..best.style },
+                overlay: [false; 2],
+                diagram: None,
+                quick: true,
+                ..best
+            }
+        } else {
+            best
+        };
+        if self.wished.as_ref().is_none_or(|before| !before.is_same(&wish)) {
+            stage.wish(wish.clone());
+            self.wished = Some(wish);
+        }
+    }
+
+    fn move_eye(&mut self, ui: &Ui, rect: Rect, response: &egui::Response, project: &Project) {
+        let height = (rect.height() * ui.pixels_per_point()).round().max(1.0) as u32;
+        let pixels = f64::from(ui.pixels_per_point());
+        let delta = response.drag_delta();
+        let delta = DVec2::new(f64::from(delta.x), f64::from(delta.y)) * pixels;
+        let shift = ui.input(|input| input.modifiers.shift);
+        let pans = shift || response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle);
+        if response.dragged() && delta != DVec2::ZERO {
+            if self.eye.stand == Stand::Perspective && !pans {
+                self.eye.orbit(delta, f64::from(height));
+            } else {
+                self.eye.pan(delta, height);
+            }
+        }
+        if let Some(pointer) = response.hover_pos() {
+            let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+            let factor = f64::from(scroll * 0.0025).exp() * f64::from(pinch);
+            if factor != 1.0 {
+                let from = (pointer - rect.center()) * ui.pixels_per_point();
+                let size = dome(project).radius;
+                let limits = [size * 0.02, size * FARTHEST / 12.0];
+                self.eye.zoom(factor, DVec2::new(f64::from(from.x), f64::from(from.y)), height, limits);
+            }
+        }
+    }
+
+    /// What drew, at the picture's corner.
+    fn status(&self, ui: &Ui, rect: Rect, software: bool, asked: &Asked<'_>) {
+        let Some(shown) = &self.shown else { return };
+        let drawn = &shown.drawn;
+        let mut text = if shown.wish.style.hours {
+            "hours of shadow".to_owned()
+        } else if shown.wish.to_sun.z <= 0.0 {
+            "night: nothing sees the sun".to_owned()
+        } else {
+            format!("{} on the {}", drawn.technique, drawn.engine)
+        };
+        if let Some(samples) = shown.wish.way.settings.sun_samples {
+            text += &format!(", {samples} points of the sun");
+        }
+        if shown.wish.quick && software {
+            let chosen = if asked.choice.method == Method::Auto { "" } else { asked.choice.method.word() };
+            let then = if chosen.is_empty() { String::new() } else { format!(", then {chosen}") };
+            text = format!("moving: {text} at {:.0}%{then}", self.scale * 100.0);
+        }
+        let painter = ui.painter_at(rect);
+        sky::label(&painter, rect.left_bottom() + egui::vec2(14.0, -12.0), Align2::LEFT_BOTTOM, &text);
+    }
+}
+
+/// Whether a technique draws such a view.
+pub(super) fn draws(method: Method, is_plan: bool) -> bool {
+    match method {
+        Method::Projected => is_plan,
+        // it is for façades and roofs, patch by patch
+        Method::SoftTexture => false,
+        _ => true,
+    }
+}
+
+/// Whether rays are cast, so that the sun's disc can be asked for.
+pub(super) fn casts_rays(method: Method, software: bool) -> bool {
+    method == Method::RayCast || (method == Method::Auto && software)
+}
+
+/// Whether a technique counts volumes.
+pub(super) fn counts(method: Method) -> bool {
+    matches!(method, Method::Stencil | Method::Hybrid)
+}

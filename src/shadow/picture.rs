@@ -1,0 +1,244 @@
+//! What a view shows, for the eye: sun and shadow in the colours of drawings, on the GPU and into a texture. Nothing is
+//! read back, so that a window can show it at every frame.
+//!
+//! [`crate::export`] draws sheets on the processor, cell by cell; a test holds the two against each other.
+
+use super::surface::{UNIFORM, bind_group_layout, texture_binding};
+use super::{DrawnMask, GpuSurface, Scene, ShadowError};
+use crate::gpu::layout::Shown;
+use crate::gpu::targets::{SHARE, Stages, whole};
+use crate::gpu::{Gpu, shaders};
+use crate::view::{Mask, View};
+use glam::DVec3;
+use std::sync::Arc;
+use wgpu::*;
+
+/// The picture's colours: display values.
+pub const COLOURS: TextureFormat = TextureFormat::Rgba8Unorm;
+/// Faces' colours lie in rows of this many texels, as their planes do.
+const TINTS_WIDTH: usize = 4096;
+
+/// The hours of shadow of a profile, to be laid over what is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Hours<'a> {
+    /// West and north edge, metres of the world frame.
+    pub corner: [f64; 2],
+    /// Side of a cell, metres.
+    pub cell: f64,
+    /// Columns and rows.
+    pub size: (u32, u32),
+    /// A cell's colour, row 0 north.
+    pub colours: &'a [[u8; 3]],
+    /// How high the surface lies that it was counted on, metres of the world frame.
+    pub height_m: &'a [f32],
+}
+
+/// How a picture is drawn, beside what it shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// From the eye to what it looks at, metres; what lies far behind that is hazy.
+    pub focus_m: f64,
+    /// How strong lines are, 0 to 1.
+    pub lines: f32,
+    /// Lines twice as wide, where the picture is shown at half its size.
+    pub wide_lines: bool,
+    /// Components in their own colours, as [`Picture::tint`] says.
+    pub tinted: bool,
+    /// Hours instead of sun and shadow, as [`Picture::lay_hours`] says.
+    pub hours: bool,
+    /// The plan's ground alone is judged: what stands on it is shown as not judged.
+    pub ground_only: bool,
+}
+
+/// The picture of one scene in one view.
+pub struct Picture {
+    surface: GpuSurface,
+    pipeline: RenderPipeline,
+    group: BindGroupLayout,
+    uniform: Buffer,
+    origin: DVec3,
+    uploaded: Option<Texture>,
+    hours: Option<([f32; 3], [Texture; 2])>,
+    tints: Option<Texture>,
+    overlay: [Option<Texture>; 2],
+    cells: Option<Texture>,
+    /// Bound where there is nothing.
+    nothing: Texture,
+}
+
+impl Picture {
+    /// Draws what is seen, builds the pipeline.
+    ///
+    /// # Errors
+    /// [`ShadowError`], where the view does not fit the adapter.
+    pub fn new(gpu: Arc<Gpu>, scene: &Scene, view: View) -> Result<Picture, ShadowError> {
+        let surface = GpuSurface::draw(Arc::clone(&gpu), scene, view)?;
+        let plain = texture_binding(TextureSampleType::Float { filterable: false });
+        let group = bind_group_layout(&gpu, "picture", &[UNIFORM, plain, plain, plain, plain, plain, plain, plain]);
+        let stages = Stages {
+            module: &gpu.shader("picture", shaders::PICTURE),
+            vertex: "whole_picture",
+            fragment: "picture",
+            buffers: &[],
+            target: Some((COLOURS, ColorWrites::ALL)),
+            layout: Some(&surface.seeing_layout(&[&group])),
+        };
+        let pipeline = gpu.pipeline("picture", stages, None);
+        let nothing = gpu.texture("picture.nothing", (1, 1), COLOURS, TextureUsages::TEXTURE_BINDING);
+        gpu.check()?;
+        Ok(Picture {
+            surface,
+            pipeline,
+            group,
+            uniform: gpu.uniform::<Shown>("picture.shown"),
+            origin: scene.receivers.origin,
+            uploaded: None,
+            hours: None,
+            tints: None,
+            overlay: [None, None],
+            cells: None,
+            nothing,
+        })
+    }
+
+    /// Turns to another view of the same scene; where the face that each cell sees is known, nothing is drawn for it.
+    ///
+    /// # Errors
+    /// As [`Picture::new`].
+    pub fn look_at(&mut self, scene: &Scene, view: View, faces: Option<&[u32]>) -> Result<(), ShadowError> {
+        match faces {
+            Some(faces) => self.surface.see(scene, view, faces),
+            None => self.surface.look_at(scene, view),
+        }
+    }
+
+    /// A texture as large as a view, for [`Picture::draw`].
+    pub fn target(gpu: &Gpu, view: &View) -> Texture {
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+        gpu.texture("picture", view.size(), COLOURS, usage)
+    }
+
+    /// Gives each face of the receivers its colour.
+    pub fn tint(&mut self, colours: impl Iterator<Item = [u8; 3]>) {
+        let mut texels: Vec<[u8; 4]> = colours.map(|[red, green, blue]| [red, green, blue, 255]).collect();
+        let rows = texels.len().div_ceil(TINTS_WIDTH).max(1);
+        texels.resize(rows * TINTS_WIDTH, [255; 4]);
+        let size = (TINTS_WIDTH as u32, rows as u32);
+        self.tints = Some(self.upload("picture.tints", size, COLOURS, bytemuck::cast_slice(&texels)));
+    }
+
+    /// Lays hours over the scene, or takes them away.
+    pub fn lay_hours(&mut self, hours: Option<Hours<'_>>) {
+        self.hours = hours.map(|hours| {
+            let texels: Vec<[u8; 4]> = hours.colours.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
+            let heights: Vec<f32> =
+                hours.height_m.iter().map(|height| (f64::from(*height) - self.origin.z) as f32).collect();
+            let [west, north] = hours.corner;
+            let corner = [(west - self.origin.x) as f32, (north - self.origin.y) as f32, hours.cell as f32];
+            let colours = self.upload("picture.hours", hours.size, COLOURS, bytemuck::cast_slice(&texels));
+            let format = TextureFormat::R32Float;
+            (corner, [colours, self.upload("picture.heights", hours.size, format, bytemuck::cast_slice(&heights))])
+        });
+    }
+
+    /// Lays shadow volumes (layers) and silhouette (ink) over the view, rasters as fine or a whole number of times finer.
+    pub fn lay_overlay(&mut self, size: (u32, u32), layers: Option<&[u8]>, ink: Option<&[u8]>) {
+        self.overlay = [("picture.volumes", layers), ("picture.silhouette", ink)]
+            .map(|(label, values)| values.map(|values| self.upload(label, size, SHARE, values)));
+    }
+
+    /// Paints the view's cells in colours of their own.
+    pub fn paint(&mut self, size: (u32, u32), colours: &[[u8; 3]]) {
+        let texels: Vec<[u8; 4]> = colours.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
+        self.cells = Some(self.upload("picture.cells", size, COLOURS, bytemuck::cast_slice(&texels)));
+    }
+
+    /// Takes away what was laid over one view alone.
+    pub fn clear(&mut self) {
+        (self.overlay, self.cells) = ([None, None], None);
+    }
+
+    /// Draws what is seen into the target. A sun that is not above the horizon makes it night, whatever the mask.
+    ///
+    /// # Errors
+    /// Where the adapter fails.
+    pub fn draw(
+        &mut self,
+        mask: &DrawnMask<'_>,
+        to_sun: DVec3,
+        style: &Style,
+        target: &Texture,
+    ) -> Result<(), ShadowError> {
+        match mask {
+            DrawnMask::Memory(mask) => self.upload_mask(mask),
+            DrawnMask::Bits(bits) => self.upload_mask(&bits.mask()),
+            DrawnMask::Texture(..) => {}
+        }
+        let share = match mask {
+            DrawnMask::Memory(_) | DrawnMask::Bits(_) => self.uploaded.as_ref().unwrap_or(&self.nothing),
+            DrawnMask::Texture(_, texture) => *texture,
+        };
+        let gpu = &self.surface.gpu;
+        let is = |there: bool| f32::from(u8::from(there));
+        let [west, north, cell] = self.hours.as_ref().map_or([0.0, 0.0, 1.0], |(corner, _)| *corner);
+        let shown = Shown {
+            hours_corner: [west, north],
+            hours_cell: cell,
+            hours: is(style.hours && self.hours.is_some()),
+            focus: style.focus_m.max(1e-3) as f32,
+            night: is(to_sun.z <= 0.0),
+            // lines would be taken for cells
+            lines: if self.cells.is_some() { 0.0 } else { style.lines },
+            both_sides: is(style.wide_lines),
+            tinted: is(style.tinted && self.tints.is_some()),
+            overlay: is(self.overlay.iter().any(Option::is_some)),
+            painted: is(self.cells.is_some()),
+            ground_only: is(style.ground_only),
+        };
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&shown));
+        self.surface.set_sun(to_sun);
+        let hours = |at: usize| self.hours.as_ref().map(|(_, textures)| &textures[at]);
+        let [volumes, silhouette] = &self.overlay;
+        let further =
+            [hours(0), hours(1), self.tints.as_ref(), volumes.as_ref(), silhouette.as_ref(), self.cells.as_ref()];
+        let views: Vec<TextureView> = std::iter::once(Some(share))
+            .chain(further)
+            .map(|texture| whole(texture.unwrap_or(&self.nothing)))
+            .collect();
+        let textures = views.iter().enumerate().map(|(at, view)| (at as u32 + 1, BindingResource::TextureView(view)));
+        let entries: Vec<_> = std::iter::once((0, self.uniform.as_entire_binding())).chain(textures).collect();
+        let bound = gpu.bind("picture", &self.group, &entries);
+
+        let mut encoder = self.surface.encoder();
+        self.surface.draw_mask(&mut encoder, "picture", target, |pass| {
+            pass.set_bind_group(2, &bound, &[]);
+            pass.set_pipeline(&self.pipeline);
+            pass.draw(0..3, 0..1);
+        });
+        gpu.queue.submit([encoder.finish()]);
+        Ok(gpu.check()?)
+    }
+
+    fn upload_mask(&mut self, mask: &Mask) {
+        let size = (mask.width, mask.height);
+        let fits = |texture: &Texture| (texture.width(), texture.height()) == size;
+        match self.uploaded.as_ref().filter(|texture| fits(texture)) {
+            Some(texture) => write(&self.surface.gpu, texture, &mask.share),
+            None => self.uploaded = Some(self.upload("picture.mask", size, SHARE, &mask.share)),
+        }
+    }
+
+    fn upload(&self, label: &str, size: (u32, u32), format: TextureFormat, bytes: &[u8]) -> Texture {
+        let gpu = &self.surface.gpu;
+        let texture = gpu.texture(label, size, format, TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST);
+        write(gpu, &texture, bytes);
+        texture
+    }
+}
+
+/// Fills a texture with its texels, row 0 first.
+fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
+    let bytes_per_row = Some((bytes.len() / texture.height() as usize) as u32);
+    let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
+    gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
+}

@@ -1,0 +1,207 @@
+//! A site that is looked at: one view after another, one sun after another, on an adapter that is open already.
+//!
+//! The same techniques draw as in [`super::instant`]; what is kept between two pictures is the only difference.
+
+use super::machine::{Machine, choose_on};
+use super::{StudyError, judged, night};
+use crate::gpu::Gpu;
+use crate::mesh::Mesh;
+use crate::profile::Drawn;
+use crate::shadow::overlay::VolumePicture;
+use crate::shadow::picture::{Picture, Style};
+use crate::shadow::ray_cast::RayCast;
+use crate::shadow::{DrawnMask, Scene, Technique};
+use crate::site::{Method, Receivers, Settings, Site};
+use crate::view::{Camera, Counted, Mask, View};
+use glam::DVec3;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+/// How far away an eye may be, in lengths of the models: for rays that begin there rounding is allowed for.
+pub const FARTHEST: f64 = 40.0;
+
+/// How shadows are found in a view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Way {
+    /// By which technique.
+    pub method: Method,
+    /// What is asked of it.
+    pub settings: Settings,
+    /// What the plan judges; a camera judges what it sees.
+    pub receivers: Receivers,
+}
+
+/// A site, a view of it, and what draws both.
+pub struct Live {
+    gpu: Arc<Gpu>,
+    /// What is asked, without the models.
+    site: Site,
+    view: View,
+    scene: Scene,
+    /// No receiver but the ground.
+    ground_alone: Mesh,
+    picture: Picture,
+    /// What the picture looks at now, and whether rays told it.
+    looks_at: (View, bool),
+    /// The technique, and the view and way that it was made for.
+    made: Option<(View, Way, Box<dyn Technique>)>,
+    /// Rays turn to another view at once; they go to so many points of the sun.
+    rays: Option<(RayCast, Option<u32>)>,
+    night: Mask,
+}
+
+impl Live {
+    /// Uploads the site, draws what is seen.
+    ///
+    /// # Errors
+    /// [`StudyError::Shadow`] where the adapter cannot hold it.
+    pub fn new(site: &Site, gpu: Arc<Gpu>, view: View) -> Result<Live, StudyError> {
+        let casters = site.mesh.of_components(&site.casts);
+        let receivers = site.mesh.of_components(&site.receives);
+        let ground_alone = site.mesh.of_components(&[]);
+        let scene = Scene { casters, receivers, ground: site.ground };
+        let picture = Picture::new(Arc::clone(&gpu), &scene, view)?;
+        let site = Site { mesh: ground_alone.clone(), ..site.clone() };
+        Ok(Live {
+            gpu,
+            site,
+            view,
+            scene,
+            ground_alone,
+            picture,
+            looks_at: (view, false),
+            made: None,
+            rays: None,
+            night: night(&view),
+        })
+    }
+
+    /// The picture, to be given what lies over it.
+    pub fn picture(&mut self) -> &mut Picture {
+        &mut self.picture
+    }
+
+    /// Turns to another view. What was laid over the old one alone is gone.
+    pub fn look_at(&mut self, view: View) {
+        if view != self.view {
+            (self.view, self.night) = (view, night(&view));
+        }
+        self.picture.clear();
+    }
+
+    /// Draws the view under a sun into the target (of [`Picture::target`]), and says what drew. Below the horizon it is
+    /// night.
+    ///
+    /// # Errors
+    /// [`StudyError::Conflict`] where the way does not go with the view; else what drawing says.
+    pub fn draw(
+        &mut self,
+        way: &Way,
+        to_sun: DVec3,
+        style: &Style,
+        target: &wgpu::Texture,
+    ) -> Result<Drawn, StudyError> {
+        let machine = self.machine(way)?;
+        let drawn = machine.drawn();
+        let ground_only = self.is_ground_alone(way);
+        let style = Style { ground_only, ..*style };
+        let is_night = to_sun.z <= 0.0;
+        if let (Machine::RayCast { sun_samples }, false) = (&machine, ground_only) {
+            let rays = self.rays.take().filter(|(_, samples)| samples == sun_samples);
+            let new = || (RayCast::new(self.scene.clone(), far_view(&self.scene), *sun_samples), *sun_samples);
+            let (rays, _) = self.rays.insert(rays.unwrap_or_else(new));
+            if rays.view() != self.view {
+                rays.look_at(self.view);
+            }
+            if self.looks_at != (self.view, true) {
+                self.picture.look_at(&self.scene, self.view, Some(&rays.faces()))?;
+                self.looks_at = (self.view, true);
+            }
+            let mask = if is_night { DrawnMask::Memory(&self.night) } else { rays.draw(to_sun)? };
+            self.picture.draw(&mask, to_sun, &style, target)?;
+            return Ok(drawn);
+        }
+        if self.looks_at != (self.view, false) {
+            self.picture.look_at(&self.scene, self.view, None)?;
+            self.looks_at = (self.view, false);
+        }
+        if is_night {
+            self.picture.draw(&DrawnMask::Memory(&self.night), to_sun, &style, target)?;
+            return Ok(drawn);
+        }
+        let technique = made(&mut self.made, machine, (self.view, *way), || match ground_only {
+            true => Scene { receivers: self.ground_alone.clone(), ..self.scene.clone() },
+            false => self.scene.clone(),
+        })?;
+        self.picture.draw(&technique.draw(to_sun)?, to_sun, &style, target)?;
+        Ok(drawn)
+    }
+
+    /// What counting takes for that sun in this view, where the way is one that counts.
+    ///
+    /// # Errors
+    /// As [`Live::draw`].
+    pub fn counted(&mut self, way: &Way, to_sun: DVec3) -> Result<Option<Counted>, StudyError> {
+        let machine = self.machine(way)?;
+        if to_sun.z <= 0.0 || !matches!(machine, Machine::OnGpu(..)) || self.is_ground_alone(way) {
+            return Ok(None);
+        }
+        let technique = made(&mut self.made, machine, (self.view, *way), || self.scene.clone())?;
+        Ok(technique.counted(to_sun)?)
+    }
+
+    /// Lays shadow volumes and silhouette over a camera's view.
+    ///
+    /// # Errors
+    /// What drawing says.
+    pub fn lay_overlay(&mut self, to_sun: DVec3, volumes: bool, silhouette: bool) -> Result<(), StudyError> {
+        let View::Camera(camera) = self.view else { return Ok(()) };
+        if to_sun.z <= 0.0 || !(volumes || silhouette) {
+            return Ok(());
+        }
+        // twice as fine, so that lines are as thin as in a drawing
+        let most = self.gpu.limits.max_texture_dimension_2d;
+        let times = if camera.width.max(camera.height) * 2 <= most { 2 } else { 1 };
+        let fine = Camera { width: camera.width * times, height: camera.height * times, ..camera };
+        let seen = VolumePicture::new(Arc::clone(&self.gpu), &self.scene, fine, to_sun)?;
+        let layers = volumes.then(|| seen.layers()).transpose()?;
+        let ink = silhouette.then(|| seen.silhouette()).transpose()?;
+        self.picture.lay_overlay((fine.width, fine.height), layers.as_deref(), ink.as_deref());
+        Ok(())
+    }
+
+    /// Who draws, as the command chooses.
+    fn machine(&mut self, way: &Way) -> Result<Machine, StudyError> {
+        let Way { method, settings, receivers } = *way;
+        (self.site.method, self.site.settings, self.site.receivers) = (method, settings, receivers);
+        choose_on(Some(&self.gpu), &self.site, &self.view, &mut |_| ControlFlow::Continue(()))
+    }
+
+    fn is_ground_alone(&self, way: &Way) -> bool {
+        way.receivers == Receivers::Ground && judged(&self.site, &self.view) == Receivers::Ground
+    }
+}
+
+/// The technique at hand, or a new one where that was made for another view or way.
+fn made(
+    at_hand: &mut Option<(View, Way, Box<dyn Technique>)>,
+    machine: Machine,
+    (view, way): (View, Way),
+    scene: impl FnOnce() -> Scene,
+) -> Result<&mut Box<dyn Technique>, StudyError> {
+    let kept = at_hand.take().filter(|(of_view, of_way, _)| (*of_view, *of_way) == (view, way));
+    let made = match kept {
+        Some(kept) => kept,
+        None => (view, way, machine.technique(scene(), view)?),
+    };
+    Ok(&mut at_hand.insert(made).2)
+}
+
+/// A view of one cell from as far away as any.
+fn far_view(scene: &Scene) -> View {
+    let (low, high) = scene.receivers.bounds().or(scene.casters.bounds()).unwrap_or_default();
+    let length = (high - low).length().max(1.0) * FARTHEST;
+    let target = (low + high) / 2.0;
+    let eye = target + DVec3::new(length, -length, length);
+    View::Camera(Camera { eye, target, up: DVec3::Z, fov_rad: 0.01, width: 1, height: 1 })
+}

@@ -1,0 +1,117 @@
+//! The window, driven by the names that it gives its parts, as a person and as assistive technology would.
+
+mod handing_in;
+mod opening;
+mod showing;
+mod soak;
+mod xvfb;
+
+use eframe::egui::{self, Event, Key, Pos2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use gnomon::desktop::{self, App};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// The window, with a site in it where one is named, once all is drawn.
+pub(crate) fn window(path: Option<&Path>) -> Harness<'static, App> {
+    sized(path, [1280.0, 720.0], egui::Theme::Light)
+}
+
+/// The same, of another size and theme.
+pub(crate) fn sized(path: Option<&Path>, size: [f32; 2], theme: egui::Theme) -> Harness<'static, App> {
+    let path = path.map(Path::to_owned);
+    let mut harness = Harness::<App>::builder()
+        .with_size(size)
+        .with_theme(theme)
+        .wgpu_setup(desktop::setup())
+        .build_eframe(move |cc| App::new(cc, path.as_deref()).expect("an adapter: run tests/run.sh"));
+    settle(&mut harness);
+    harness
+}
+
+/// Goes on until nothing is on its way.
+pub(crate) fn settle(harness: &mut Harness<'_, App>) {
+    let begun = Instant::now();
+    let mut calm = 0;
+    while calm < 3 {
+        harness.step();
+        calm = if harness.state().is_settled() { calm + 1 } else { 0 };
+        assert!(begun.elapsed() < Duration::from_secs(200), "the window does not come to rest");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// A folder with a small site: the works, in Vienna, in cells of two metres.
+pub(crate) fn small_site() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::copy(sample("industry/industry.glb"), folder.path().join("works.glb")).expect("a model");
+    let site = folder.path().join("site.toml");
+    let text = "[place]\nname = \"Works\"\nlatitude = 48.2\nlongitude = 16.37\n[[model]]\npath = \"works.glb\"\n\
+                [study]\ndate = 2026-03-21\nfrom = \"9:00\"\nto = \"17:00\"\nstep = \"2h\"\n[plan]\ncell = 2.0\n";
+    std::fs::write(&site, text).expect("a site file");
+    (folder, site)
+}
+
+pub(crate) fn sample(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(path)
+}
+
+/// Clicks what is named so, as assistive technology does: wherever its panel is scrolled to.
+pub(crate) fn click(harness: &mut Harness<'_, App>, label: &str) {
+    harness.get_by_label(label).click_accesskit();
+    harness.step();
+    harness.step();
+}
+
+/// Types into a field instead of what it says, and finishes it.
+pub(crate) fn write(harness: &mut Harness<'_, App>, label: &str, text: &str) {
+    harness.get_by_role_and_label(egui::Role::TextInput, label).focus();
+    harness.step();
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+    harness.step();
+    harness.event(Event::Text(text.to_owned()));
+    harness.step();
+    harness.key_press(Key::Enter);
+    harness.step();
+    harness.step();
+}
+
+/// What a part that is named so says beyond its name.
+pub(crate) fn value(harness: &Harness<'_, App>, label: &str) -> String {
+    harness.get_by_role_and_label(egui::Role::TextInput, label).value().unwrap_or_default()
+}
+
+/// A dropped file, as a system hands it over.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+pub(crate) fn drop_file(harness: &mut Harness<'_, App>, path: &Path) {
+    harness.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path.to_owned())));
+    harness.step();
+    settle(harness);
+}
+
+/// A pointer that presses, moves and releases.
+pub(crate) fn drag(harness: &mut Harness<'_, App>, from: Pos2, to: Pos2) {
+    harness.hover_at(from);
+    harness.step();
+    harness.drag_at(from);
+    harness.step();
+    for part in 1..=4 {
+        harness.hover_at(from.lerp(to, part as f32 / 4.0));
+        harness.step();
+    }
+    harness.drop_at(to);
+    harness.step();
+}

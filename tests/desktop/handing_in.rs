@@ -1,0 +1,118 @@
+//! The hours, and what is handed in: the same as by the command.
+
+use super::*;
+use std::process::Command;
+
+fn command(arguments: &[&std::ffi::OsStr]) {
+    let output = Command::new(env!("CARGO_BIN_EXE_gnomon")).args(arguments).output().expect("the command");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// Where the system answers no dialog, the window has its own.
+fn answer(harness: &mut Harness<'_, App>, path: &Path, go: &str) {
+    let begun = Instant::now();
+    while harness.query_by_role_and_label(egui::Role::TextInput, "Path").is_none() {
+        harness.step();
+        std::thread::sleep(Duration::from_millis(5));
+        assert!(begun.elapsed() < Duration::from_secs(20), "no dialog came");
+    }
+    write(harness, "Path", &path.display().to_string());
+    if harness.query_by_label(go).is_some() {
+        click(harness, go);
+    }
+    settle(harness);
+}
+
+fn menu(harness: &mut Harness<'_, App>, entry: &str) {
+    click(harness, "File");
+    // its keys are part of its name
+    harness.get_by_label_contains(entry).click();
+    harness.step();
+    harness.step();
+}
+
+#[test]
+fn hours_are_those_of_the_command() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    harness.get_by_label_contains("Hours of shadow out of 8:00");
+    let shown = harness.state().picture().unwrap();
+    click(&mut harness, "Show the hours");
+    settle(&mut harness);
+    assert!(shown.2 != harness.state().picture().unwrap().2, "the hours are shown");
+    menu(&mut harness, "Export the hours…");
+    let out = folder.path().join("window");
+    answer(&mut harness, &out, "Write");
+    let by_command = folder.path().join("command");
+    command(&["profile".as_ref(), site.as_ref(), "--out".as_ref(), by_command.as_ref(), "--quiet".as_ref()]);
+    for name in ["shadow-hours.tif", "profile.png"] {
+        let [ours, theirs] = [&out, &by_command].map(|folder| std::fs::read(folder.join(name)).unwrap());
+        assert!(ours == theirs, "{name} is another one");
+    }
+}
+
+#[test]
+fn click_on_the_model_finds_when_the_sun_reaches_it() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let rect = harness.get_by_label("Model").rect();
+    let at = rect.left_bottom() + egui::vec2(200.0, -40.0);
+    harness.hover_at(at);
+    harness.step();
+    harness.step();
+    harness.get_by_label_contains("ground    ");
+    harness.drag_at(at);
+    harness.step();
+    harness.drop_at(at);
+    harness.step();
+    settle(&mut harness);
+    harness.get_by_label("Sun at ground");
+    assert!(harness.query_all_by_label_contains("of sun").count() > 0);
+    click(&mut harness, "Keep in the site file");
+    settle(&mut harness);
+    assert_eq!(harness.state().site_file().probe.len(), 1);
+    click(&mut harness, "Forget the point");
+    assert!(harness.query_by_label("Sun at ground").is_none());
+}
+
+/// A saved site reopens to the same view, and the command reads it.
+#[test]
+fn saved_site_reopens_to_the_same_view() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let rect = harness.get_by_label("Model").rect();
+    drag(&mut harness, rect.left_bottom() + egui::vec2(80.0, -60.0), rect.left_bottom() + egui::vec2(180.0, -90.0));
+    write(&mut harness, "step", "4h");
+    settle(&mut harness);
+    menu(&mut harness, "Save the site file…");
+    let saved = folder.path().join("elsewhere/site.toml");
+    answer(&mut harness, &saved, "Write");
+    let before = harness.state().shown().unwrap();
+    let again = window(Some(&saved));
+    let after = again.state().shown().unwrap();
+    let (gnomon::view::View::Camera(before), gnomon::view::View::Camera(after)) = (before.0, after.0) else {
+        panic!("two cameras")
+    };
+    assert!(before.eye.distance(after.eye) < 0.005, "{before:?}, {after:?}");
+    assert_eq!(again.state().site_file().study.step.as_deref(), Some("4h"));
+    command(&["sun".as_ref(), saved.as_ref()]);
+}
+
+#[test]
+fn drawing_is_that_of_the_command() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    harness.key_press(Key::Num2);
+    harness.step();
+    settle(&mut harness);
+    menu(&mut harness, "Export the drawing…");
+    let ours = folder.path().join("window.png");
+    answer(&mut harness, &ours, "Write");
+    let theirs = folder.path().join("command.png");
+    let at = "2026-03-21T13:00";
+    command(&["shadow".as_ref(), site.as_ref(), "--at".as_ref(), at.as_ref(), "--out".as_ref(), theirs.as_ref()]);
+    let [ours, theirs] = [ours, theirs].map(|path| std::fs::read(path).unwrap());
+    assert!(ours == theirs, "the drawing is another one");
+}

@@ -1,0 +1,86 @@
+//! Opening: what can be opened, what is asked, what is told.
+
+use super::*;
+use gnomon::site::{Overrides, Site};
+
+#[test]
+fn sample_opens_from_the_first_page() {
+    let mut harness = window(None);
+    assert!(harness.query_by_label("Time of day: 12:00").is_none(), "nothing is open");
+    click(&mut harness, "tower");
+    settle(&mut harness);
+    harness.get_by_label("Champ de Mars, Paris");
+    harness.get_by_label("Time of day: 12:00");
+    assert_eq!(value(&harness, "Date"), "2026-09-18");
+}
+
+#[test]
+fn bare_model_asks_for_its_place() {
+    let mut harness = window(None);
+    drop_file(&mut harness, &sample("industry/industry.glb"));
+    harness.get_by_label("Where does it stand?");
+    write(&mut harness, "Latitude, longitude", "98, 16.37");
+    settle(&mut harness);
+    let told = "--place: latitude 98 is not between -90 and 90 degrees";
+    assert!(harness.query_by_label_contains("latitude").is_some(), "{told}");
+    drop_file(&mut harness, &sample("industry/industry.glb"));
+    write(&mut harness, "Latitude, longitude", "48.2, 16.37");
+    settle(&mut harness);
+    let place = harness.state().site_file().place.clone().expect("a place");
+    assert_eq!((place.latitude, place.longitude), (Some(48.2), Some(16.37)));
+    harness.get_by_label_contains("Europe/Vienna");
+    assert!(harness.state().picture().is_ok());
+}
+
+/// The open site stays, and what is told is what the command tells.
+#[test]
+fn bad_model_is_told_as_by_the_command() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let before = harness.state().site_file().clone();
+    let bad = folder.path().join("bad.glb");
+    std::fs::write(&bad, b"glTF no more").unwrap();
+    let [place, at] = ["48.2,16.37", "2026-03-21T12:00"].map(|text| Some(text.to_owned()));
+    let asked = Overrides { place, at, ..Overrides::default() };
+    let error = Site::load(&bad, &asked).expect_err("a bad model").to_string();
+    drop_file(&mut harness, &bad);
+    harness.get_by_label(&error);
+    assert_eq!(*harness.state().site_file(), before);
+    harness.get_by_label("Works");
+    click(&mut harness, "Close");
+    assert!(harness.query_by_label(&error).is_none());
+}
+
+#[test]
+fn loading_can_be_cancelled() {
+    let mut harness = window(None);
+    let path = sample("headquarters/site.toml");
+    harness.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path)));
+    harness.step();
+    harness.step();
+    harness.get_by_label("Loading headquarters");
+    click(&mut harness, "Cancel");
+    settle(&mut harness);
+    harness.get_by_label("or drop a .toml, .glb or .gltf on this window");
+}
+
+#[test]
+fn place_changes_and_comes_back() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let latitude = |harness: &Harness<'_, App>| harness.state().site_file().place.clone().unwrap().latitude;
+    harness.get_by_label("Latitude").set_value_accesskit(-33.9);
+    harness.step();
+    settle(&mut harness);
+    assert_eq!(latitude(&harness), Some(-33.9));
+    harness.get_by_label_contains("Etc/GMT-1");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+    harness.step();
+    settle(&mut harness);
+    assert_eq!(latitude(&harness), Some(48.2));
+    harness.get_by_label_contains("Europe/Vienna");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, Key::Z);
+    harness.step();
+    settle(&mut harness);
+    assert_eq!(latitude(&harness), Some(-33.9));
+}

@@ -1,0 +1,54 @@
+//! The view that is drawn again and again is drawn as the single instant is.
+
+use crate::exact::gpu;
+use gnomon::gpu::readback;
+use gnomon::shadow::picture::{Picture, Style};
+use gnomon::site::{Method, Overrides, Receivers, Settings, Site};
+use gnomon::study::live::{Live, Way};
+use gnomon::view::{Camera, Grid, View};
+use std::path::Path;
+use wgpu::TextureAspect;
+
+const STYLE: Style =
+    Style { focus_m: 300.0, lines: 1.0, wide_lines: false, tinted: false, hours: false, ground_only: false };
+
+fn way(method: Method) -> Way {
+    Way { method, settings: Settings::default(), receivers: Receivers::Top }
+}
+
+/// Whatever was looked at before, a view's picture is the one that a new start draws; and every exact technique's is the same
+/// but for cells at an edge.
+#[test]
+fn turning_leaves_no_trace() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites/industry");
+    let site = Site::load(&path, &Overrides::default()).unwrap();
+    let gpu = gpu();
+    let camera = Camera { width: 320, height: 200, ..site.camera };
+    let other = Camera { eye: camera.eye + camera.up * 30.0, width: 200, height: 160, ..camera };
+    let [sun, early] = [3, 0].map(|at| site.track.instants[at].to_sun);
+    let drawn = |live: &mut Live, method| {
+        let target = Picture::target(&gpu, &View::Camera(camera));
+        live.draw(&way(method), sun, &STYLE, &target).unwrap();
+        readback::texels::<[u8; 4]>(&gpu, &target, TextureAspect::All).unwrap()
+    };
+    let mut rays = None;
+    for method in [Method::RayCast, Method::Stencil, Method::Hybrid] {
+        let mut fresh = Live::new(&site, gpu.clone(), View::Camera(camera)).unwrap();
+        let wanted = drawn(&mut fresh, method);
+        let mut turned = Live::new(&site, gpu.clone(), View::Camera(other)).unwrap();
+        let target = Picture::target(&gpu, &View::Camera(other));
+        turned.draw(&way(method), early, &STYLE, &target).unwrap();
+        let plan = View::Plan(Grid { width: 300, height: 200, ..site.grid });
+        turned.look_at(plan);
+        turned.draw(&way(method), early, &STYLE, &Picture::target(&gpu, &plan)).unwrap();
+        turned.look_at(View::Camera(camera));
+        assert!(drawn(&mut turned, method) == wanted, "{method}: another picture after turning");
+        let rays = rays.get_or_insert_with(|| wanted.clone());
+        let differ = rays.iter().zip(&wanted).filter(|(a, b)| a != b).count();
+        assert!(differ * 200 < wanted.len(), "{method}: {differ} pixels differ from ray casting");
+        let night = Picture::target(&gpu, &View::Camera(camera));
+        turned.draw(&way(method), -sun, &STYLE, &night).unwrap();
+        let night: Vec<[u8; 4]> = readback::texels(&gpu, &night, TextureAspect::All).unwrap();
+        assert!(night != wanted, "{method}: night is dark");
+    }
+}
