@@ -66,21 +66,25 @@ fn sites(gpu: &Arc<Gpu>) {
         let casters = site.mesh.of_components(&site.casts);
         let suns: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).map(|it| it.to_sun).collect();
         let suns: Vec<_> = suns.iter().copied().step_by(suns.len().div_ceil(SUNS)).collect();
-        let (mut names, mut sums) = (Vec::new(), Vec::new());
-        for (way, painter, choice) in ways(gpu) {
-            // all textures of 73,000 patches at the finest cell take minutes
-            if name == "headquarters" && cell < 1.0 && choice == Choice::Texture {
-                continue;
-            }
-            let mut texture =
-                SoftTexture::new(casters.clone(), Arc::clone(&patches), painter, choice).expect("textures");
-            let mut times = Vec::new();
-            for (at, sun) in (0..).zip(&suns) {
-                timed(&mut times, || {
+        let mut ways = ways(gpu);
+        // all textures of 73,000 patches at the finest cell take minutes
+        ways.retain(|(_, _, choice)| name != "headquarters" || cell > 1.0 || *choice != Choice::Texture);
+        let mut textures = Vec::new();
+        for (_, painter, choice) in &ways {
+            let texture = SoftTexture::new(casters.clone(), Arc::clone(&patches), painter.clone(), *choice);
+            textures.push((texture.expect("textures"), Vec::new()));
+        }
+        // ways take turns, so that ratios hold whatever else the machine does
+        for (at, sun) in (0..).zip(&suns) {
+            for (texture, times) in &mut textures {
+                timed(times, || {
                     texture.add(&[Sample { light: sun.extend(0.0), weight: 1 << at }]).expect("a sample");
                     gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter answers");
                 });
             }
+        }
+        let (mut names, mut sums) = (Vec::new(), Vec::new());
+        for ((way, ..), (texture, times)) in ways.into_iter().zip(textures) {
             let millis = median(times);
             let Judged { textures, faces, rays, texture_texels } = texture.judged();
             let (bytes, count) = (texture.gpu_bytes(), suns.len() as u64);

@@ -198,6 +198,20 @@ impl Bits {
         Bits { width, height, words }
     }
 
+    /// Of a mask: in shadow is where at most half of the sun is seen.
+    pub fn of(mask: &Mask) -> Bits {
+        let mut bits = Bits::new(mask.width, mask.height);
+        let in_row = bits.in_row();
+        let rows = bits.words.par_chunks_mut(in_row).zip(mask.share.par_chunks(mask.width as usize));
+        rows.for_each(|(words, shares)| {
+            for (word, shares) in words.iter_mut().zip(shares.chunks(64)) {
+                let set = |word: u64, (at, share): (usize, &u8)| word | u64::from(*share <= 127) << at;
+                *word = shares.iter().enumerate().fold(0, set);
+            }
+        });
+        bits
+    }
+
     /// Words of a row.
     pub fn in_row(&self) -> usize {
         self.width.div_ceil(64) as usize

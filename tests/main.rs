@@ -29,3 +29,4 @@ mod timers;
 mod try_models;
 mod verify;
 mod volumes;
+mod year;

@@ -3,6 +3,7 @@
 
 mod closed_forms;
 mod hours;
+mod picture;
 mod scenes;
 mod sites;
 

@@ -8,7 +8,7 @@ use gnomon::profile::accumulate::Sum;
 use gnomon::shadow::DrawnMask;
 use gnomon::site::{Engine, Overrides, Receivers, Site};
 use gnomon::study::{self, Event, Wants};
-use gnomon::view::{Grid, Mask};
+use gnomon::view::{Bits, Grid, Mask};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 use wgpu::{Texture, TextureFormat, TextureUsages};
@@ -35,7 +35,7 @@ fn texture(gpu: &Gpu, mask: &Mask) -> Texture {
 }
 
 /// The sum on the GPU or in memory, of masks on the GPU or in memory.
-fn sum(on_gpu: bool, masks_on_gpu: bool, masks: &Weighted) -> Vec<u32> {
+fn sum(on_gpu: bool, masks_on_gpu: bool, masks: &Weighted) -> Vec<u64> {
     let (width, height) = (masks[0].0.width, masks[0].0.height);
     let mut sum = Sum::new(on_gpu.then(gpu), width, height);
     for (mask, secs) in masks {
@@ -45,12 +45,12 @@ fn sum(on_gpu: bool, masks_on_gpu: bool, masks: &Weighted) -> Vec<u32> {
             sum.add(&DrawnMask::Memory(mask), *secs).unwrap();
         }
     }
-    sum.finish().unwrap()
+    sum.finish().unwrap().iter().collect()
 }
 
 /// Cell by cell.
-fn plain(masks: &Weighted) -> Vec<u32> {
-    let of = |cell: usize| masks.iter().map(|(mask, secs)| (255 - u32::from(mask.share[cell])) * secs).sum();
+fn plain(masks: &Weighted) -> Vec<u64> {
+    let of = |cell: usize| masks.iter().map(|(mask, secs)| u64::from(255 - mask.share[cell]) * u64::from(*secs)).sum();
     (0..masks[0].0.share.len()).map(of).collect()
 }
 
@@ -77,10 +77,64 @@ fn the_longest_sum_does_not_overflow() {
     let dark = Mask { width: 3, height: 2, share: vec![0, 1, 254, 255, 128, 0] };
     let most = u32::MAX / 255;
     let masks = vec![(dark.clone(), most - 3600), (dark, 3600)];
-    assert_eq!(plain(&masks)[0], u32::MAX);
+    assert_eq!(plain(&masks)[0], u64::from(u32::MAX));
     for on_gpu in [false, true] {
         assert_eq!(sum(on_gpu, on_gpu, &masks), plain(&masks));
     }
+}
+
+#[test]
+fn longer_sums_take_two_words() {
+    let masks = |secs: &[u32]| -> Weighted {
+        let share = |at: usize| vec![0, 1, 254, 255, 128, at as u8];
+        secs.iter().enumerate().map(|(at, &secs)| (Mask { width: 3, height: 2, share: share(at) }, secs)).collect()
+    };
+    let most = u32::MAX / 255;
+    // over by a second; ten years in one instant; many that fit no multiple
+    for secs in [vec![most, 1], vec![316_224_000], vec![1, 7_654_321, 0, 16_000_000, 12_345_678, 3 * most + 2, 5]] {
+        let masks = masks(&secs);
+        let expected = plain(&masks);
+        assert!(expected[0] > u64::from(u32::MAX));
+        for (on_gpu, masks_on_gpu) in [(false, false), (true, true), (true, false)] {
+            assert_eq!(sum(on_gpu, masks_on_gpu, &masks), expected, "{secs:?}");
+        }
+    }
+}
+
+#[test]
+fn a_sum_goes_on_from_another() {
+    let half = |share: u8| Mask { width: 70, height: 2, share: vec![share; 140] };
+    for on_gpu in [false, true] {
+        let new = || Sum::new(on_gpu.then(gpu), 70, 2);
+        let mut whole = new();
+        let mut first = new();
+        for sum in [&mut whole, &mut first] {
+            sum.add(&DrawnMask::Memory(&half(100)), 16_000_000).unwrap();
+        }
+        let mut second = new();
+        second.begin_with(&first.so_far().unwrap());
+        for sum in [&mut whole, &mut second] {
+            sum.add(&DrawnMask::Memory(&half(7)), 15_000_000).unwrap();
+        }
+        let sums = [whole.finish().unwrap(), second.finish().unwrap()];
+        assert_eq!(sums[0], sums[1]);
+        assert_ne!(sums[0], first.finish().unwrap());
+    }
+}
+
+#[test]
+fn bits_sum_as_their_masks_do() {
+    let mask = Mask { width: 131, height: 3, share: (0..393).map(|at: usize| 255 * u8::from(at % 7 < 3)).collect() };
+    let bits = Bits::of(&mask);
+    assert_eq!(bits.mask(), mask);
+    let sums = [DrawnMask::Memory(&mask), DrawnMask::Bits(&bits)].map(|drawn| {
+        let mut sum = Sum::new(None, 131, 3);
+        sum.add(&drawn, 1234).unwrap();
+        sum.add(&drawn, 77).unwrap();
+        sum.finish().unwrap()
+    });
+    assert_eq!(sums[0], sums[1]);
+    assert_eq!(sums[1].iter().collect::<Vec<_>>(), plain(&vec![(mask, 1311)]));
 }
 
 /// Paris in September, from the afternoon into the night, as the tower's site asks.
@@ -124,7 +178,7 @@ fn fills(site: &Site, sun: &[u64], profile: &Profile) -> bool {
     let window = site.track.window_secs() * 255;
     let night = u64::from(profile.night_secs) * 255;
     sun.len() == profile.shaded.len()
-        && sun.iter().zip(&profile.shaded).all(|(sun, &shaded)| sun + u64::from(shaded) + night == window)
+        && sun.iter().zip(profile.shaded.iter()).all(|(sun, shaded)| sun + shaded + night == window)
 }
 
 #[test]
@@ -137,7 +191,7 @@ fn shadow_sun_and_night_fill_the_window() {
             let (mut sun, mut profile) = sunlit(&site);
             assert!(profile.night_secs > 3600 && profile.day_secs > 3600, "the window holds night and day");
             assert_eq!(u64::from(profile.day_secs) + u64::from(profile.night_secs), site.track.window_secs());
-            assert!(profile.shaded.iter().any(|&shaded| shaded > 0), "{engine} {receivers}: no shadow");
+            assert!(profile.shaded.iter().any(|shaded| shaded > 0), "{engine} {receivers}: no shadow");
             assert!(sun.iter().any(|&sun| sun == u64::from(profile.day_secs) * 255), "{engine} {receivers}: no sun");
             assert!(fills(&site, &sun, &profile), "{engine} {receivers}");
             profiles.push(profile.clone());
@@ -152,7 +206,7 @@ fn shadow_sun_and_night_fill_the_window() {
     // the two machines differ at shadows' edges alone
     for (cpu, gpu) in profiles[..2].iter().zip(&profiles[2..]) {
         assert_eq!((cpu.grid, cpu.day_secs, cpu.night_secs), (gpu.grid, gpu.day_secs, gpu.night_secs));
-        let differ = cpu.shaded.iter().zip(&gpu.shaded).filter(|(cpu, gpu)| cpu != gpu).count();
+        let differ = cpu.shaded.iter().zip(gpu.shaded.iter()).filter(|(cpu, gpu)| cpu != gpu).count();
         assert!(differ * 50 < cpu.shaded.len(), "{differ} of {} cells", cpu.shaded.len());
     }
     assert_ne!(profiles[0].shaded, profiles[1].shaded, "the ground alone is another profile");
@@ -166,7 +220,7 @@ fn a_profile_of_one_instant_is_empty() {
             let site = load(SITE, &asked).unwrap();
             let (sun, profile) = sunlit(&site);
             assert_eq!((profile.day_secs, profile.night_secs), (0, 0));
-            assert!(profile.shaded.iter().all(|&shaded| shaded == 0), "one instant lasts no time");
+            assert!(profile.shaded.iter().all(|shaded| shaded == 0), "one instant lasts no time");
             assert!(fills(&site, &sun, &profile));
         }
     }
@@ -174,9 +228,9 @@ fn a_profile_of_one_instant_is_empty() {
 
 #[test]
 fn hours_are_told_in_single_precision() {
-    let shaded = vec![0, 255 * 3600, 255 * 5400, 255, 1, u32::MAX];
+    let shaded = vec![0_u32, 255 * 3600, 255 * 5400, 255, 1, u32::MAX];
     let grid = Grid { west: 0.0, north: 0.0, cell: 1.0, width: 3, height: 2 };
-    let profile = Profile { grid, shaded, day_secs: u32::MAX / 255, night_secs: 0 };
+    let profile = Profile { grid, shaded: shaded.into(), day_secs: u32::MAX / 255, night_secs: 0 };
     let hours: Vec<f32> = (0..6).map(|cell| profile.hours(cell)).collect();
     let expected = [0.0, 1.0, 1.5, 1.0 / 3600.0, (1.0 / (255.0 * 3600.0)) as f32, (16_843_009.0 / 3600.0) as f32];
     assert_eq!(hours, expected);

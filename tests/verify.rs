@@ -64,7 +64,8 @@ fn a_cell_differs_where_more_than_half_the_sun_does() {
 
 #[test]
 fn hours_are_off_in_the_worst_cell_and_in_the_mean() {
-    let off = HoursOff::between(&[0, 255 * 3600, 255 * 7200], &[0, 255 * 7200, 255 * 1800]);
+    let off =
+        HoursOff::between(&vec![0_u32, 255 * 3600, 255 * 7200].into(), &vec![0_u32, 255 * 7200, 255 * 1800].into());
     assert_eq!((off.largest, off.mean), (1.5, 2.5 / 3.0));
 }
 

@@ -20,7 +20,8 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// The window, with a site or a model in it
     Open(OpenArgs),
-    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json
+    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped goes
+    /// on where it was when it is asked again
     Profile(ProfileArgs),
     /// The shadows at one instant, as a drawing or as a bare mask
     Shadow(ShadowArgs),
@@ -116,7 +117,7 @@ pub(super) struct WindowArgs {
 pub(super) struct DrawArgs {
     /// auto, stencil or ray-cast (exact), projected (exact, for --receivers ground), hybrid (exact but for casters thinner than a map's texel), shadow-map (quick),
     /// smoothie (the soft edge of a real sun, drawn outside of the hard edge alone: shadows come out too large by half of
-    /// the width of their edge)
+    /// the width of their edge), soft-texture (with --view camera: the sun's disc on what is flat)
     #[arg(long, value_name = "NAME")]
     technique: Option<Method>,
     #[command(flatten)]
@@ -126,7 +127,7 @@ pub(super) struct DrawArgs {
     engine: Option<Engine>,
     #[command(flatten)]
     maps: MapArgs,
-    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024
+    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024; with soft-texture [default: 64]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
     sun_samples: Option<u32>,
 }
@@ -208,6 +209,9 @@ pub(super) struct ProfileArgs {
     /// Also every instant's bare mask, as mask-0000.png … in this folder
     #[arg(long, value_name = "DIR")]
     pub(super) masks: Option<PathBuf>,
+    /// Also shadow.bits: one bit a cell for every instant with a sun, for questions that come later
+    #[arg(long)]
+    pub(super) bits: bool,
     /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
     /// cells, those of the sky too)
     #[arg(long)]

@@ -1,100 +1,18 @@
 //! The subcommands: load, work, write, say.
 
-use super::arguments::{CheckArgs, Eye, ProfileArgs, ShadowArgs, Show, SunArgs, Written};
+use super::arguments::{CheckArgs, Eye, ShadowArgs, Show, SunArgs};
 use super::progress::Progress;
-use super::{WrongUse, interrupt, say, surfaces};
+use super::{WrongUse, interrupt, say};
 use crate::export::figure::Diagram;
 use crate::export::report::Told;
 use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
-use crate::profile::{Drawn, Profile, Statistics};
-use crate::site::{Method, Receivers, Site, load_mesh, load_sun};
-use crate::study::{self, Event, InstantWants, Stopwatch, Wants};
-use crate::sun::SunTrack;
+use crate::profile::{Drawn, Statistics};
+use crate::site::{Method, Site, load_mesh, load_sun};
+use crate::study::{self, InstantWants, Stopwatch};
 use crate::view::View;
 use std::fmt::Write;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-
-/// `gnomon profile`
-pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
-    let mut watch = Stopwatch::start();
-    let site = Site::load(&asked.site.path, &asked.overrides())?;
-    if site.receivers == Receivers::Surfaces {
-        return surfaces::profile(asked, &site, watch);
-    }
-    let kinds = asked.wanted(&[Written::Png, Written::Tif, Written::Json])?;
-    // A folder that cannot be written to is told before the work, not after it.
-    for folder in [Some(&asked.out), asked.masks.as_ref()].into_iter().flatten() {
-        file::check_folder(folder)?;
-    }
-    watch.lap("load");
-
-    let wanted = |kind| kinds.contains(&kind);
-    let wants = Wants { masks: asked.masks.is_some(), surface: wanted(Written::Png), statistics: asked.stats };
-    let outcome = draw_masks(&site, &wants, asked)?;
-    watch.laps(outcome.timings);
-
-    let (profile, drawn) = (&outcome.profile, &outcome.drawn);
-    let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
-    if let Some(surface) = &outcome.surface {
-        let mesh = &outcome.surface_mesh;
-        let (place, track, receivers) = (&site.place, &site.track, site.receivers);
-        let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
-        files.push(("profile.png", figure::profile(&scene, profile)?));
-        watch.lap("picture");
-        interrupt::check()?;
-    }
-    if wanted(Written::Tif) {
-        files.push(("shadow-hours.tif", raster::geotiff(profile, &site.place)?));
-        watch.lap("raster");
-        interrupt::check()?;
-    }
-    let (statistics, timings) = (outcome.statistics.as_ref(), &watch.timings());
-    let told = Told { receivers: site.receivers, drawn, timings, statistics };
-    let json = report::profile_json(profile, &site.place, &site.track, &told)?;
-    if wanted(Written::Json) {
-        files.push(("profile.json", json.clone().into_bytes()));
-    }
-    let mut text = String::new();
-    for (name, bytes) in files {
-        let path = asked.out.join(name);
-        file::write(&path, &bytes)?;
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{}", path.display());
-    }
-    if let Some(folder) = &asked.masks {
-        let _ = writeln!(text, "{} ({} masks)", folder.display(), site.track.instants.len());
-    }
-    if asked.common.json {
-        return say(&json);
-    }
-    let _ = writeln!(text, "{}", drawn_by(drawn));
-    text.push_str(&statistics.map(took).unwrap_or_default());
-    text.push_str(&hours(profile, &site.track));
-    say(&text)
-}
-
-/// Runs the study, and writes every mask as it comes.
-fn draw_masks(site: &Site, wants: &Wants, asked: &ProfileArgs) -> anyhow::Result<study::Outcome> {
-    let mut progress = Progress::new(asked.common.quiet);
-    let mut fault: Option<anyhow::Error> = None;
-    let outcome = study::run(site, wants, &mut |event| {
-        progress.hear(&event);
-        if let (Event::Drawn { index, mask: Some(mask), .. }, Some(folder)) = (&event, &asked.masks) {
-            let path = folder.join(format!("mask-{index:04}.png"));
-            if let Err(error) = raster::mask_png(mask).and_then(|bytes| file::write(&path, &bytes)) {
-                fault = Some(error.into());
-                return ControlFlow::Break(());
-            }
-        }
-        interrupt::flow()
-    });
-    match fault {
-        Some(fault) => Err(fault),
-        None => Ok(outcome?),
-    }
-}
 
 /// `gnomon shadow`
 pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
@@ -206,7 +124,7 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
 }
 
 /// What counting took, in a line; cells are all of the picture's, those of the sky too.
-fn took(statistics: &Statistics) -> String {
+pub(super) fn took(statistics: &Statistics) -> String {
     let [with, without] = statistics.overdraw();
     let cells = statistics.cells.max(1) as f64;
     match statistics.silhouette_cells {
@@ -249,23 +167,4 @@ pub(super) fn drawn_by(drawn: &Drawn) -> String {
         let _ = write!(line, ", silhouettes {silhouette}");
     }
     line
-}
-
-/// The range of the answer, in two lines.
-fn hours(profile: &Profile, track: &SunTrack) -> String {
-    let (least, most) =
-        profile.shaded.iter().fold((u32::MAX, 0), |(least, most), &shaded| (least.min(shaded), most.max(shaded)));
-    let hours = |secs: f64| secs / 3600.0;
-    let night = track.instants.iter().filter(|instant| instant.night).count();
-    format!(
-        "{:.2} to {:.2} h of shadow out of {:.2} h with the sun above the horizon\n{} × {} cells of {} m, {} instants{}\n",
-        hours(f64::from(least) / 255.0),
-        hours(f64::from(most) / 255.0),
-        hours(f64::from(profile.day_secs)),
-        profile.grid.width,
-        profile.grid.height,
-        (profile.grid.cell * 1e6).round() / 1e6,
-        track.instants.len(),
-        if night > 0 { format!(", {night} of them at night") } else { String::new() },
-    )
 }

@@ -6,6 +6,7 @@ mod arguments;
 mod commands;
 mod interrupt;
 mod probe;
+mod profile;
 mod progress;
 mod surfaces;
 mod verify;
@@ -61,7 +62,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
     }
     interrupt::listen();
     match command {
-        Command::Profile(asked) => commands::profile(asked),
+        Command::Profile(asked) => profile::profile(asked),
         Command::Shadow(asked) => commands::shadow(asked),
         Command::Sun(asked) => commands::sun(asked),
         Command::Check(asked) => commands::check(asked),

@@ -2,8 +2,9 @@
 
 use super::words;
 use crate::study::Event;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
+use std::time::{Duration, Instant};
 
 /// What is shown while work goes on.
 pub(super) struct Progress {
@@ -13,6 +14,8 @@ pub(super) struct Progress {
     bar: Option<ProgressBar>,
     /// The tenth of the work that was told last.
     told: usize,
+    /// What was done before, and since when it goes on.
+    begun: (usize, Instant),
 }
 
 impl Progress {
@@ -22,7 +25,7 @@ impl Progress {
 
     /// Where what is drawn is counted in something else.
     pub(super) fn of(what: &'static str, quiet: bool) -> Progress {
-        Progress { quiet, what, bar: None, told: 0 }
+        Progress { quiet, what, bar: None, told: 0, begun: (0, Instant::now()) }
     }
 
     /// Shows an event.
@@ -32,11 +35,22 @@ impl Progress {
         }
         match event {
             Event::Note(note) => self.line(&format!("note: {}", words(note))),
-            // One instant is done before a bar is seen.
-            Event::Started { instants } if *instants > 1 && io::stderr().is_terminal() => {
-                self.bar = Some(bar(*instants, self.what));
+            Event::Started { instants } => {
+                self.begun = (0, Instant::now());
+                // One instant is done before a bar is seen.
+                if *instants > 1 && io::stderr().is_terminal() {
+                    self.bar = Some(bar(*instants, self.what));
+                }
             }
-            Event::Started { .. } => {}
+            Event::GoesOn { done } => {
+                self.begun.0 = *done;
+                self.line(&format!("note: goes on where it was stopped, after {done} {}", self.what));
+                if let Some(bar) = &self.bar {
+                    bar.set_position(*done as u64);
+                    bar.reset_eta();
+                }
+            }
+            Event::Kept(_) => {}
             Event::Drawn { index, count, time, .. } => {
                 let done = index + 1;
                 let time = time.format("%Y-%m-%d %H:%M");
@@ -48,10 +62,19 @@ impl Progress {
                     }
                 } else if *count > 1 && done * 10 / count > self.told {
                     self.told = done * 10 / count;
-                    self.line(&format!("{:>3}%  {done} of {count} {}, {time}", done * 100 / count, self.what));
+                    let left = self.left(done, *count);
+                    self.line(&format!("{:>3}%  {done} of {count} {}, {time}{left}", done * 100 / count, self.what));
                 }
             }
         }
+    }
+
+    /// How long the rest takes, where that is seconds at least.
+    fn left(&self, done: usize, count: usize) -> String {
+        let (before, since) = self.begun;
+        let each = since.elapsed().as_secs_f64() / (done.saturating_sub(before)).max(1) as f64;
+        let secs = (each * (count - done) as f64).round();
+        if secs < 2.0 { String::new() } else { format!(", {} left", HumanDuration(Duration::from_secs_f64(secs))) }
     }
 
     fn line(&self, line: &str) {

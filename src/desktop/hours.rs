@@ -33,7 +33,7 @@ pub(super) struct Laid {
 impl Laid {
     fn new(number: u64, site: Arc<Site>, outcome: Outcome) -> Laid {
         let bands = Bands::new(site.track.step_secs, outcome.profile.day_secs);
-        let colours = outcome.profile.shaded.iter().map(|&shaded| bands.colour(shaded)).collect();
+        let colours = outcome.profile.shaded.iter().map(|shaded| bands.colour(shaded)).collect();
         Laid { number, site, outcome, bands, colours }
     }
 
@@ -58,7 +58,7 @@ impl Laid {
         let cell = inside.then(|| row as usize * grid.width as usize + column as usize)?;
         let height = f64::from(*self.outcome.surface.as_ref()?.height_m.get(cell)?);
         let near = (height - point.z).abs() < grid.cell.max(0.05);
-        near.then(|| f64::from(self.outcome.profile.shaded[cell]) / 255.0 / 3600.0)
+        near.then(|| f64::from(self.outcome.profile.hours(cell)))
     }
 
     /// The drawing, the raster and the report, as the command makes them.

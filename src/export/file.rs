@@ -13,12 +13,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// [`ExportError::NoFileName`] where the path ends in no name; [`ExportError::Write`] where the file system refuses.
 /// On an error the old file, if any, is untouched and nothing is left beside it.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    let failed = |doing, source: io::Error| ExportError::Write {
-        path: path.to_owned(),
-        doing,
-        way_out: way_out(source.kind()),
-        source,
-    };
+    let asked = path;
+    let failed = |doing, source| failed(asked, doing, source);
     // through a link to what it leads to; a device, a pipe or a folder is nothing to be replaced by a drawing
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let path = target.as_path();
@@ -53,12 +49,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
 /// # Errors
 /// [`ExportError::Write`] where the file system refuses.
 pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
-    let failed = |doing, source: io::Error| ExportError::Write {
-        path: folder.to_owned(),
-        doing,
-        way_out: way_out(source.kind()),
-        source,
-    };
+    let failed = |doing, source| failed(folder, doing, source);
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     fs::create_dir_all(here).map_err(|error| failed("creating the folder", error))?;
     let beside = here.join(temporary_name("gnomon".as_ref()));
@@ -66,6 +57,19 @@ pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
     drop(file.map_err(|error| failed("opening a temporary file in it", error))?);
     drop(Cleanup(&beside));
     Ok(())
+}
+
+/// Removes a file; that there is none is no error.
+pub(super) fn remove(path: &Path) -> Result<(), ExportError> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(failed(path, "removing it", error)),
+        _ => Ok(()),
+    }
+}
+
+/// What the file system refused, with the way out.
+pub(super) fn failed(path: &Path, doing: &'static str, source: io::Error) -> ExportError {
+    ExportError::Write { path: path.to_owned(), doing, way_out: way_out(source.kind()), source }
 }
 
 /// Removes the temporary file unless it has been renamed away.

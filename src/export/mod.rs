@@ -2,6 +2,7 @@
 //!
 //! Every encoder returns bytes and touches no disk; [`file::write`] puts them there, whole or not at all.
 
+pub mod bits;
 pub mod check;
 pub mod figure;
 pub mod file;
@@ -10,6 +11,7 @@ pub mod probe;
 pub mod raster;
 pub mod report;
 pub mod surfaces;
+pub mod unfinished;
 pub mod verify;
 pub mod volumes;
 
@@ -29,6 +31,28 @@ pub enum ExportError {
         source: std::io::Error,
         /// What the user can do.
         way_out: &'static str,
+    },
+    /// What a stopped study left cannot be read.
+    #[error("cannot read {}, which a stopped study left: {source}; remove it, and the study begins anew", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The disk is too full.
+    #[error(
+        "{} takes {}, and its disk has room for {}; take larger cells (--cell), fewer (--size), a longer --step, or \
+         another disk with --out",
+        path.display(), bytes(*size), bytes(*room)
+    )]
+    NoRoom {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// What it takes, bytes.
+        size: u64,
+        /// What there is, bytes.
+        room: u64,
     },
     /// The path names no file: it ends in none, or a folder or a device stands there.
     #[error("cannot write {}: that is no file; give the name of a file with --out", path.display())]
@@ -63,6 +87,21 @@ impl ExportError {
     fn encode(what: &'static str, why: impl ToString) -> Self {
         ExportError::Encode { what, why: why.to_string() }
     }
+}
+
+/// `577 MB`: bytes for people.
+pub fn bytes(count: u64) -> String {
+    let mut size = count as f64;
+    let mut unit = "bytes";
+    for larger in ["kB", "MB", "GB", "TB"] {
+        if size < 999.5 {
+            break;
+        }
+        size /= 1000.0;
+        unit = larger;
+    }
+    let decimals = if unit == "bytes" || size >= 99.5 { 0 } else { 1 };
+    format!("{size:.decimals$} {unit}")
 }
 
 /// Errs unless `have` cells fill `width` × `height`.

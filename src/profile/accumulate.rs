@@ -1,24 +1,38 @@
 //! Masks times weights, added up where the masks are, in integers.
 
+use super::Shaded;
 use crate::gpu::layout::Weight;
 use crate::gpu::targets::{NUMBER, whole};
 use crate::gpu::{Gpu, readback, shaders};
 use crate::shadow::{DrawnMask, ShadowError};
-use crate::view::Bits;
+use crate::view::{Bits, Mask};
 use rayon::prelude::*;
 use std::sync::Arc;
 use wgpu::*;
 
 /// The running sum of shaded time, in 1/255 s.
-pub enum Sum {
+///
+/// It runs in words of 32 bits, and is poured over into 64 before one of them could overflow.
+pub struct Sum {
+    running: Running,
+    /// How many seconds may be in the running words.
+    secs: u32,
+    /// What was poured over.
+    poured: Option<Vec<u64>>,
+}
+
+enum Running {
     /// For masks in the processor's memory.
     Memory(Vec<u32>),
     /// For masks on the GPU.
     Texture(Box<GpuSum>),
 }
 
+/// The longest time that 32 bits hold in 1/255 s, seconds: 194 days.
+const MOST_SECS: u32 = u32::MAX / 255;
+
 /// A sum in a texture, and the pipeline that adds to it.
-pub struct GpuSum {
+struct GpuSum {
     gpu: Arc<Gpu>,
     sum: Texture,
     weight: Buffer,
@@ -28,52 +42,84 @@ pub struct GpuSum {
 impl Sum {
     /// All zero; on the GPU where masks are drawn there.
     pub fn new(gpu: Option<Arc<Gpu>>, width: u32, height: u32) -> Sum {
-        let Some(gpu) = gpu else { return Sum::Memory(vec![0; width as usize * height as usize]) };
-        // new textures are zero
-        let usage = TextureUsages::STORAGE_BINDING | TextureUsages::COPY_SRC;
-        let sum = gpu.texture("accumulate.sum", (width, height), NUMBER, usage);
-        let module = gpu.shader("accumulate", shaders::ACCUMULATE);
-        let pipeline = gpu.device.create_compute_pipeline(&ComputePipelineDescriptor {
-            label: Some("accumulate"),
-            layout: None,
-            module: &module,
-            entry_point: Some("accumulate"),
-            compilation_options: PipelineCompilationOptions::default(),
-            cache: None,
-        });
-        let weight = gpu.uniform::<Weight>("accumulate.weight");
-        Sum::Texture(Box::new(GpuSum { gpu, sum, weight, pipeline }))
+        let running = match gpu {
+            None => Running::Memory(vec![0; width as usize * height as usize]),
+            Some(gpu) => Running::Texture(Box::new(GpuSum::new(gpu, width, height))),
+        };
+        Sum { running, secs: 0, poured: None }
+    }
+
+    /// Goes on from a sum.
+    pub fn begin_with(&mut self, shaded: &Shaded) {
+        self.poured = Some(shaded.iter().collect());
     }
 
     /// Adds one mask for so many seconds. A mask that lies elsewhere than the sum is fetched or brought there.
     pub fn add(&mut self, mask: &DrawnMask<'_>, weight_secs: u32) -> Result<(), ShadowError> {
-        match (self, mask) {
-            (Sum::Texture(sum), DrawnMask::Texture(_, texture)) => sum.add(texture, weight_secs),
-            (Sum::Memory(sum), DrawnMask::Memory(mask)) => add(sum, &mask.share, weight_secs),
-            (Sum::Memory(sum), DrawnMask::Bits(bits)) => add_bits(sum, bits, weight_secs),
-            (Sum::Memory(sum), mask) => add(sum, &mask.read()?.share, weight_secs),
-            (Sum::Texture(sum), mask) => {
-                let mask = mask.read()?;
-                let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-                let texture =
-                    sum.gpu.texture("accumulate.mask", (mask.width, mask.height), TextureFormat::R8Unorm, usage);
-                sum.gpu.queue.write_texture(
-                    texture.as_image_copy(),
-                    &mask.share,
-                    TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(mask.width), rows_per_image: None },
-                    texture.size(),
-                );
-                sum.add(&texture, weight_secs);
+        let mut left = weight_secs;
+        loop {
+            let now = left.min(MOST_SECS - self.secs);
+            if now > 0 || left == 0 {
+                self.add_to_running(mask, now)?;
+                self.secs += now;
+                left -= now;
             }
+            if left == 0 {
+                return Ok(());
+            }
+            self.pour()?;
+        }
+    }
+
+    fn add_to_running(&mut self, mask: &DrawnMask<'_>, secs: u32) -> Result<(), ShadowError> {
+        match (&mut self.running, mask) {
+            (Running::Texture(sum), DrawnMask::Texture(_, texture)) => sum.add(texture, secs),
+            (Running::Memory(sum), DrawnMask::Memory(mask)) => add(sum, &mask.share, secs),
+            (Running::Memory(sum), DrawnMask::Bits(bits)) => add_bits(sum, bits, secs),
+            (Running::Memory(sum), mask) => add(sum, &mask.read()?.share, secs),
+            (Running::Texture(sum), mask) => sum.add(&sum.bring(&mask.read()?), secs),
         }
         Ok(())
     }
 
-    /// Per cell the shaded time in 1/255 s.
-    pub fn finish(self) -> Result<Vec<u32>, ShadowError> {
+    /// Pours the running words over into the larger ones.
+    fn pour(&mut self) -> Result<(), ShadowError> {
+        self.poured = Some(self.larger()?);
+        self.secs = 0;
+        match &mut self.running {
+            Running::Memory(sum) => sum.fill(0),
+            Running::Texture(sum) => sum.clear(),
+        }
+        Ok(())
+    }
+
+    /// All of it in larger words.
+    fn larger(&self) -> Result<Vec<u64>, ShadowError> {
+        let read;
+        let running = match &self.running {
+            Running::Memory(sum) => sum,
+            Running::Texture(sum) => {
+                read = sum.read()?;
+                &read
+            }
+        };
+        Ok(match &self.poured {
+            None => running.iter().map(|&running| running.into()).collect(),
+            Some(poured) => running.iter().zip(poured).map(|(&running, poured)| u64::from(running) + poured).collect(),
+        })
+    }
+
+    /// The sum so far. Slow where it is on the GPU: it is read back.
+    pub fn so_far(&self) -> Result<Shaded, ShadowError> {
+        Ok(self.larger()?.into())
+    }
+
+    /// The sum.
+    pub fn finish(self) -> Result<Shaded, ShadowError> {
         match self {
-            Sum::Memory(sum) => Ok(sum),
-            Sum::Texture(sum) => Ok(readback::texels(&sum.gpu, &sum.sum, TextureAspect::All)?),
+            Sum { running: Running::Memory(sum), poured: None, .. } => Ok(sum.into()),
+            Sum { running: Running::Texture(sum), poured: None, .. } => Ok(sum.read()?.into()),
+            sum => sum.so_far(),
         }
     }
 }
@@ -112,6 +158,48 @@ static EACH: [[u32; 8]; 256] = {
 };
 
 impl GpuSum {
+    fn new(gpu: Arc<Gpu>, width: u32, height: u32) -> GpuSum {
+        let sum = Self::zero(&gpu, width, height);
+        let module = gpu.shader("accumulate", shaders::ACCUMULATE);
+        let pipeline = gpu.device.create_compute_pipeline(&ComputePipelineDescriptor {
+            label: Some("accumulate"),
+            layout: None,
+            module: &module,
+            entry_point: Some("accumulate"),
+            compilation_options: PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        let weight = gpu.uniform::<Weight>("accumulate.weight");
+        GpuSum { gpu, sum, weight, pipeline }
+    }
+
+    /// New textures are zero.
+    fn zero(gpu: &Gpu, width: u32, height: u32) -> Texture {
+        let usage = TextureUsages::STORAGE_BINDING | TextureUsages::COPY_SRC;
+        gpu.texture("accumulate.sum", (width, height), NUMBER, usage)
+    }
+
+    fn clear(&mut self) {
+        self.sum = Self::zero(&self.gpu, self.sum.width(), self.sum.height());
+    }
+
+    fn read(&self) -> Result<Vec<u32>, ShadowError> {
+        Ok(readback::texels(&self.gpu, &self.sum, TextureAspect::All)?)
+    }
+
+    /// A mask in a texture.
+    fn bring(&self, mask: &Mask) -> Texture {
+        let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+        let texture = self.gpu.texture("accumulate.mask", (mask.width, mask.height), TextureFormat::R8Unorm, usage);
+        self.gpu.queue.write_texture(
+            texture.as_image_copy(),
+            &mask.share,
+            TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(mask.width), rows_per_image: None },
+            texture.size(),
+        );
+        texture
+    }
+
     fn add(&self, mask: &Texture, secs: u32) {
         let GpuSum { gpu, sum, weight, pipeline } = self;
         gpu.queue.write_buffer(weight, 0, bytemuck::bytes_of(&Weight { secs }));

@@ -3,8 +3,11 @@
 pub mod accumulate;
 pub mod compare;
 pub mod probe;
+mod shaded;
 pub mod surfaces;
 pub mod verify;
+
+pub use shaded::Shaded;
 
 use crate::view::{Counted, Decided, Grid};
 use serde::Serialize;
@@ -16,8 +19,8 @@ use serde::Serialize;
 pub struct Profile {
     /// Where the raster lies.
     pub grid: Grid,
-    /// Per cell the shaded time in 1/255 s, row 0 (north) first; night is not in it.
-    pub shaded: Vec<u32>,
+    /// Per cell the shaded time; night is not in it.
+    pub shaded: Shaded,
     /// Seconds of the window with the sun above the horizon.
     pub day_secs: u32,
     /// Seconds of the window without.
@@ -27,8 +30,21 @@ pub struct Profile {
 impl Profile {
     /// Hours of shadow in a cell, 0 to `day_secs / 3600`.
     pub fn hours(&self, cell: usize) -> f32 {
-        (f64::from(self.shaded[cell]) / (255.0 * 3600.0)) as f32
+        (self.shaded.of(cell) as f64 / (255.0 * 3600.0)) as f32
     }
+}
+
+/// A study that was stopped, as far as it came.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unfinished {
+    /// Which study: a number of all that its result depends on.
+    pub study: u64,
+    /// How many of its instants are done.
+    pub done: usize,
+    /// Their sum.
+    pub shaded: Shaded,
+    /// What counting them took, where that was asked.
+    pub statistics: Option<Statistics>,
 }
 
 /// What drew an answer: never `auto`, always the choice that was made.

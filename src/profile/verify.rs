@@ -1,8 +1,8 @@
 //! What came of holding every technique against ray casting, over the instants of a study.
 
-use super::Drawn;
 use super::accumulate::Sum;
 use super::compare::{Difference, Edges};
+use super::{Drawn, Shaded};
 use crate::shadow::{DrawnMask, ShadowError};
 use crate::view::{Grid, Mask};
 
@@ -102,8 +102,8 @@ pub struct HoursOff {
 
 impl HoursOff {
     /// Between sums of shaded time in 1/255 s.
-    pub fn between(drawn: &[u32], truth: &[u32]) -> HoursOff {
-        let off = || drawn.iter().zip(truth).map(|(drawn, truth)| u64::from(drawn.abs_diff(*truth)));
+    pub fn between(drawn: &Shaded, truth: &Shaded) -> HoursOff {
+        let off = || drawn.iter().zip(truth.iter()).map(|(drawn, truth)| drawn.abs_diff(truth));
         let hours = |sum: u64| sum as f64 / (255.0 * 3600.0);
         HoursOff { largest: hours(off().max().unwrap_or(0)), mean: hours(off().sum()) / drawn.len().max(1) as f64 }
     }
@@ -179,7 +179,7 @@ impl Tally {
     ///
     /// # Errors
     /// None for masks in memory.
-    pub fn sum(self) -> Result<Vec<u32>, ShadowError> {
+    pub fn sum(self) -> Result<Shaded, ShadowError> {
         self.sum.finish()
     }
 
@@ -192,7 +192,7 @@ impl Tally {
         drawn: Drawn,
         against: Truth,
         promise: Promise,
-        truth: Option<&[u32]>,
+        truth: Option<&Shaded>,
     ) -> Result<Row, ShadowError> {
         Ok(Row {
             drawn,

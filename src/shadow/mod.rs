@@ -14,10 +14,12 @@ pub mod overlay;
 pub mod picture;
 mod plan_surface;
 pub mod projected;
+mod raised;
 pub mod ray_cast;
 pub mod registered;
 pub mod shadow_map;
 pub mod smoothie;
+pub mod soft_picture;
 pub mod soft_texture;
 pub mod stencil;
 mod surface;
@@ -70,6 +72,15 @@ impl DrawnMask<'_> {
             }),
         }
     }
+
+    /// Which cells are in shadow: where at most half of the sun is seen.
+    pub fn bits(&self) -> Result<Bits, ShadowError> {
+        match self {
+            DrawnMask::Bits(bits) => Ok((*bits).clone()),
+            DrawnMask::Memory(mask) => Ok(Bits::of(mask)),
+            texture => Ok(Bits::of(&texture.read()?)),
+        }
+    }
 }
 
 /// A way to find shadows, made for one scene and one view.
@@ -79,6 +90,11 @@ pub trait Technique {
 
     /// What the cells see of the receivers.
     fn surface(&self) -> Result<Surface, ShadowError>;
+
+    /// Where the technique did not apply to the last mask, and what was done there; none where it did everywhere.
+    fn note(&self) -> Option<String> {
+        None
+    }
 
     /// What counting takes for that sun; none where nothing is counted. Slow: it is read back.
     fn counted(&mut self, _to_sun: DVec3) -> Result<Option<Counted>, ShadowError> {

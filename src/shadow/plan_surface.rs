@@ -15,15 +15,21 @@ const BAND: usize = 32;
 
 /// The highest face of some receivers below each cell's centre, or the ground, if that is higher.
 pub fn plan_surface(receivers: &Mesh, ground: f64, grid: &Grid) -> Surface {
+    let (face, height) = highest(receivers, ground, grid);
+    let height_m = height.into_par_iter().map(|height| height as f32).collect();
+    Surface { width: grid.width, height: grid.height, face, height_m }
+}
+
+/// Per cell the face and its height in the world, metres.
+pub(super) fn highest(receivers: &Mesh, ground: f64, grid: &Grid) -> (Vec<u32>, Vec<f64>) {
     let (width, height) = (grid.width as usize, grid.height as usize);
     let corners = Corners::new(receivers, grid);
     let bands = corners.by_band(receivers, height);
     let mut face = vec![Surface::GROUND; width * height];
-    let mut height_m = vec![ground as f32; width * height];
-    let rows = face.par_chunks_mut(BAND * width).zip(height_m.par_chunks_mut(BAND * width));
-    rows.enumerate().for_each(|(band, (face, height_m))| {
+    let mut highest = vec![ground; width * height];
+    let rows = face.par_chunks_mut(BAND * width).zip(highest.par_chunks_mut(BAND * width));
+    rows.enumerate().for_each(|(band, (face, highest))| {
         let first = band * BAND;
-        let mut highest = vec![ground; face.len()];
         for &at in bands.iter().flat_map(|bands| &bands[band]) {
             let rows = first..first + face.len() / width;
             corners.of(receivers.faces[at as usize]).scan(width, rows, |row, column, z| {
@@ -35,9 +41,8 @@ pub fn plan_surface(receivers: &Mesh, ground: f64, grid: &Grid) -> Surface {
                 }
             });
         }
-        height_m.iter_mut().zip(highest).for_each(|(height_m, z)| *height_m = z as f32);
     });
-    Surface { width: grid.width, height: grid.height, face, height_m }
+    (face, highest)
 }
 
 /// Where vertices stand on a plan: column, row, height in the world. Centres of cells are whole numbers.

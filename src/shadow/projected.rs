@@ -1,26 +1,32 @@
-//! Projected shadows: exact hard shadows on the ground, on the processor, and the fastest of all.
+//! Projected shadows: exact hard shadows on a plan, on the processor, and the fastest of all.
 //!
 //! J. Blinn, *Me and My (Fake) Shadow*, 1988; seed 002 calls the same a hard shadow. The shadow on a flat receiver is the
 //! union of the casters' faces, cut at the height that is judged and projected along the sun. [`flat`](super::flat) finds
-//! it from the silhouette alone: no rays, no volumes, no tree, and nothing that a raster rounds.
+//! it on the ground from the silhouette alone: no rays, no volumes, no tree, and nothing that a raster rounds. What stands
+//! above the ground is no flat receiver; its cells are judged one by one on the same raster, by [`raised`](super::raised).
 
 use super::flat::FlatShadow;
+use super::plan_surface::plan_surface;
+use super::raised::Raised;
 use super::ray_cast::TIE;
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique};
+use crate::mesh::Mesh;
 use crate::view::{Grid, Surface};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-/// The technique, made for the casters of one scene and the ground under one plan. What else receives is not judged.
+/// The technique, made for one scene and one plan.
 pub struct Projected {
     shadow: FlatShadow,
+    raised: Raised,
+    receivers: Mesh,
     ground: f64,
     grid: Grid,
 }
 
 impl Projected {
-    /// Cuts the casters at the height that is judged.
+    /// Cuts the casters at the height at which the ground is judged, and looks down on the receivers.
     pub fn new(scene: &Scene, grid: Grid) -> Projected {
-        let Scene { casters, ground, .. } = scene;
+        let Scene { casters, receivers, ground } = scene;
         // cells a metre, east and south
         let scale = DVec2::new(1.0, -1.0) / grid.cell;
         let corner = DVec2::new(grid.west, grid.north);
@@ -31,22 +37,21 @@ impl Projected {
         let raster_from_local =
             DAffine3 { matrix3: DMat3::from_diagonal(scale.extend(1.0)), translation: origin.extend(height) };
         let shadow = FlatShadow::new(casters, raster_from_local, grid.width, grid.height);
-        Projected { shadow, ground: *ground, grid }
+        let raised = Raised::new(scene, &grid, &raster_from_local);
+        Projected { shadow, raised, receivers: receivers.clone(), ground: *ground, grid }
     }
 }
 
 impl Technique for Projected {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
-        Ok(DrawnMask::Bits(self.shadow.draw(to_sun)))
+        self.shadow.draw(to_sun);
+        let throw = self.shadow.throw(to_sun);
+        let (bits, places, points) = self.shadow.drawn();
+        self.raised.draw(to_sun, throw, places, points, bits);
+        Ok(DrawnMask::Bits(bits))
     }
 
     fn surface(&self) -> Result<Surface, ShadowError> {
-        let cells = self.grid.cells();
-        Ok(Surface {
-            width: self.grid.width,
-            height: self.grid.height,
-            face: vec![Surface::GROUND; cells],
-            height_m: vec![self.ground as f32; cells],
-        })
+        Ok(plan_surface(&self.receivers, self.ground, &self.grid))
     }
 }

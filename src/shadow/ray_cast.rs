@@ -129,11 +129,11 @@ impl Shear {
 
 /// Where a cell's ray from the viewer ends.
 #[derive(Clone, Copy)]
-struct Seen {
+pub(super) struct Seen {
     /// A face of the receivers, or [`Surface::GROUND`], or [`Surface::SKY`].
-    face: u32,
+    pub(super) face: u32,
     /// Along the cell's ray, metres.
-    distance: f64,
+    pub(super) distance: f64,
 }
 
 /// The technique: one ray a cell to what is seen, once, and one ray a cell towards the sun at every instant.
@@ -182,6 +182,42 @@ impl RayCast {
             }
         });
         *mask = Mask { width, height, share: vec![255; seen.len()] };
+    }
+
+    /// What the cells see, row 0 first.
+    pub(super) fn seen(&self) -> &[Seen] {
+        &self.seen
+    }
+
+    /// A cell's ray: from where (around the scene's origin), and the unit direction.
+    pub(super) fn ray(&self, column: u32, row: u32) -> (DVec3, DVec3) {
+        self.rays.of(column, row)
+    }
+
+    /// The directions in which rays are cast: to the sun's centre, or to points of its disc.
+    pub(super) fn suns(&self, to_sun: DVec3) -> Vec<(DVec3, Shear)> {
+        let points = self.sun_samples.map_or(vec![to_sun], |samples| disc(to_sun, samples).collect());
+        points.into_iter().map(|to_point| (to_point, Shear::along(to_point))).collect()
+    }
+
+    /// Which share of those a cell sees.
+    pub(super) fn share(&self, at: usize, suns: &[(DVec3, Shear)]) -> u8 {
+        let RayCast { scene, rays, casters, seen, mask, .. } = self;
+        let Seen { face, distance } = seen[at];
+        if face == Surface::SKY {
+            return 255;
+        }
+        let origin = scene.casters.origin;
+        let world_viewer = rays.view.viewer();
+        let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
+        let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
+        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
+        let normal = seen_normal(plane, viewer);
+        let (from, along) = rays.of(at as u32 % mask.width, at as u32 / mask.width);
+        let judged = from + along * distance + normal * JUDGED_ABOVE_M;
+        let lit = |(to_point, shear): &&(DVec3, Shear)| normal.dot(*to_point) > 0.0 && !casters.blocked(judged, shear);
+        let seen = suns.iter().filter(lit).count();
+        (255.0 * seen as f64 / suns.len() as f64).round() as u8
     }
 
     /// Which share of the sun's centre a cell sees, found without the trees: every face is asked. Slow; by this the trees
@@ -284,38 +320,16 @@ fn reach(scene: &Scene, view: &View) -> f64 {
 
 impl Technique for RayCast {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
-        let RayCast { scene, rays, casters, seen, mask, sun_samples, .. } = self;
-        let origin = scene.casters.origin;
-        let world_viewer = rays.view.viewer();
-        let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
-        let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
-        let suns: Vec<(DVec3, Shear)> = match *sun_samples {
-            None => vec![to_sun],
-            Some(samples) => disc(to_sun, samples).collect(),
-        }
-        .into_iter()
-        .map(|to_point| (to_point, Shear::along(to_point)))
-        .collect();
-        let width = mask.width as usize;
-        mask.share.par_chunks_mut(width).enumerate().for_each(|(row, shares)| {
+        let suns = self.suns(to_sun);
+        let mut share = std::mem::take(&mut self.mask.share);
+        let width = self.mask.width as usize;
+        share.par_chunks_mut(width).enumerate().for_each(|(row, shares)| {
             for (column, share) in shares.iter_mut().enumerate() {
-                let Seen { face, distance } = seen[row * width + column];
-                if face == Surface::SKY {
-                    *share = 255;
-                    continue;
-                }
-                let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
-                let normal = seen_normal(plane, viewer);
-                let (from, along) = rays.of(column as u32, row as u32);
-                let judged = from + along * distance + normal * JUDGED_ABOVE_M;
-                let lit = |(to_point, shear): &&(DVec3, Shear)| {
-                    normal.dot(*to_point) > 0.0 && !casters.blocked(judged, shear)
-                };
-                let seen = suns.iter().filter(lit).count();
-                *share = (255.0 * seen as f64 / suns.len() as f64).round() as u8;
+                *share = self.share(row * width + column, &suns);
             }
         });
-        Ok(DrawnMask::Memory(mask))
+        self.mask.share = share;
+        Ok(DrawnMask::Memory(&self.mask))
     }
 
     fn surface(&self) -> Result<Surface, ShadowError> {

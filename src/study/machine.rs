@@ -9,11 +9,12 @@ use crate::shadow::projected::Projected;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::shadow_map::{Filter, ShadowMap};
 use crate::shadow::smoothie::Smoothie;
+use crate::shadow::soft_picture::{self, SoftPicture};
 use crate::shadow::stencil::Stencil;
 use crate::shadow::{Scene, ShadowError, Silhouettes, Technique};
 use crate::silhouette::Kind;
 use crate::site::{Engine, Finder, Method, Pcf, Receivers, Settings, Site};
-use crate::view::{Grid, View};
+use crate::view::{Camera, Grid, View};
 use std::sync::Arc;
 
 /// A technique with all that it needs to be made for a view.
@@ -21,8 +22,10 @@ use std::sync::Arc;
 pub(super) enum Machine {
     /// Rays on the processor, to so many points of the sun's disc, or its centre.
     RayCast { sun_samples: Option<u32> },
-    /// Faces projected onto the ground below a plan, on the processor.
+    /// Faces projected onto what a plan sees, on the processor.
     Projected(Grid),
+    /// Textures of what a camera sees, with so many points of the sun's disc, on the processor.
+    SoftPicture { camera: Camera, sun_samples: u32 },
     /// Anything else.
     OnGpu(Arc<Gpu>, Drawing),
 }
@@ -70,7 +73,7 @@ impl Machine {
 
     pub(super) fn gpu(&self) -> Option<Arc<Gpu>> {
         match self {
-            Machine::RayCast { .. } | Machine::Projected(_) => None,
+            Machine::RayCast { .. } | Machine::Projected(_) | Machine::SoftPicture { .. } => None,
             Machine::OnGpu(gpu, _) => Some(Arc::clone(gpu)),
         }
     }
@@ -84,6 +87,7 @@ impl Machine {
         let (method, silhouette) = match self {
             Machine::RayCast { .. } => (Method::RayCast, None),
             Machine::Projected(_) => (Method::Projected, None),
+            Machine::SoftPicture { .. } => (Method::SoftTexture, None),
             Machine::OnGpu(_, Drawing::Stencil(silhouettes)) => (Method::Stencil, Some(found(silhouettes))),
             Machine::OnGpu(_, Drawing::ShadowMap { .. }) => (Method::ShadowMap, None),
             Machine::OnGpu(_, Drawing::Hybrid { silhouettes, .. }) => (Method::Hybrid, Some(found(silhouettes))),
@@ -92,6 +96,7 @@ impl Machine {
         let mut settings = DrawnSettings::default();
         match *self {
             Machine::RayCast { sun_samples } => settings.sun_samples = sun_samples,
+            Machine::SoftPicture { sun_samples, .. } => settings.sun_samples = Some(sun_samples),
             Machine::Projected(_) | Machine::OnGpu(_, Drawing::Stencil(_)) => {}
             Machine::OnGpu(_, Drawing::ShadowMap { size, filter }) => {
                 settings.map_size = Some(size);
@@ -104,7 +109,7 @@ impl Machine {
             }
         }
         let (engine, adapter) = match self {
-            Machine::RayCast { .. } | Machine::Projected(_) => (Engine::Cpu, None),
+            Machine::RayCast { .. } | Machine::Projected(_) | Machine::SoftPicture { .. } => (Engine::Cpu, None),
             Machine::OnGpu(gpu, _) => (Engine::Gpu, Some(gpu.name().to_owned())),
         };
         Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter, settings }
@@ -114,6 +119,9 @@ impl Machine {
         let (gpu, drawing) = match self {
             Machine::RayCast { sun_samples } => return Ok(Box::new(RayCast::new(scene, view, *sun_samples))),
             Machine::Projected(grid) => return Ok(Box::new(Projected::new(&scene, *grid))),
+            Machine::SoftPicture { camera, sun_samples } => {
+                return Ok(Box::new(SoftPicture::new(scene, *camera, *sun_samples)));
+            }
             Machine::OnGpu(gpu, drawing) => (Arc::clone(gpu), *drawing),
         };
         Ok(match drawing {
@@ -163,7 +171,7 @@ fn kind(site: &Site) -> Kind {
 
 /// Options that what was asked to draw does not use.
 fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
-    use Method::{Hybrid, RayCast, ShadowMap, Smoothie, Stencil};
+    use Method::{Hybrid, RayCast, ShadowMap, Smoothie, SoftTexture, Stencil};
     let Settings { map_size, pcf, smoothie_width_m, sun_samples } = site.settings;
     let finder = site.finder;
     let rules: [(bool, &[Method], &str, &str); 6] = [
@@ -187,9 +195,9 @@ fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
         ),
         (
             sun_samples.is_some(),
-            &[RayCast],
+            &[RayCast, SoftTexture],
             "--sun-samples",
-            "only ray casting takes points of the sun's disc; say --technique ray-cast, or leave it out",
+            "only ray casting and soft-texture take points of the sun's disc; say --technique ray-cast, or leave it out",
         ),
         (
             finder != Finder::Auto,
@@ -212,10 +220,11 @@ fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Technique and engine as asked; else, for the ground alone, projection; else the stencil on a real graphics adapter, and
-/// ray casting on the processor.
+/// Technique and engine as asked; else projection on the plan, and ray casting for a camera, but on a real graphics adapter
+/// the stencil, unless it is the ground alone that is judged.
 ///
-/// A projected instant takes less time than opening an adapter does, so none is opened for it.
+/// A projected instant on the ground takes less time than opening an adapter does, so none is opened for it
+/// (docs/benchmarks/peers.md).
 pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
     choose_on(None, site, view, on_event)
 }
@@ -229,13 +238,20 @@ pub(super) fn choose_on(
 ) -> Result<Machine, StudyError> {
     let conflict = |what| Err(StudyError::Conflict { option: "--engine", what });
     let cast = Machine::RayCast { sun_samples: site.settings.sun_samples };
-    let ground = match view {
-        View::Plan(grid) if site.receivers == Receivers::Ground => Some(*grid),
-        _ => None,
+    let plan = match view {
+        View::Plan(grid) => Some(*grid),
+        View::Camera(_) => None,
     };
     let is_plain = site.settings == Settings::default() && site.finder == Finder::Auto;
-    if let (Some(grid), Method::Auto, Engine::Auto | Engine::Cpu, true) = (ground, site.method, site.engine, is_plain) {
-        return Ok(Machine::Projected(grid));
+    let on_processor = match plan {
+        Some(grid) if is_plain => Machine::Projected(grid),
+        _ => cast.clone(),
+    };
+    let ground_alone = plan.is_some() && site.receivers == Receivers::Ground;
+    if let (Method::Auto, true) = (site.method, is_plain)
+        && (site.engine == Engine::Cpu || (site.engine == Engine::Auto && ground_alone))
+    {
+        return Ok(on_processor);
     }
     let machine = match (site.method, site.engine) {
         (Method::Projected, Engine::Gpu) => {
@@ -243,16 +259,23 @@ pub(super) fn choose_on(
         }
         (Method::Projected, _) => {
             unused(site, Method::Projected)?;
-            let Some(grid) = ground else {
-                let what = "projected is for the ground alone, which is flat; add --receivers ground on the plan, \
-                            or take another technique";
+            let Some(grid) = plan else {
+                let what = "projected draws the plan alone; leave --view camera out, or take another technique";
                 return Err(StudyError::Conflict { option: "--technique", what });
             };
             Machine::Projected(grid)
         }
-        (Method::SoftTexture, _) => {
-            let what = "soft-texture is for flat patches; add --receivers surfaces, or take another technique";
-            return Err(StudyError::Conflict { option: "--technique", what });
+        (Method::SoftTexture, engine) => {
+            let View::Camera(camera) = view else {
+                let what = "soft-texture is for flat patches; add --receivers surfaces, or take another technique";
+                return Err(StudyError::Conflict { option: "--technique", what });
+            };
+            if engine == Engine::Gpu {
+                return conflict("a camera's picture by soft-texture is drawn on the cpu; leave the option out");
+            }
+            unused(site, Method::SoftTexture)?;
+            let sun_samples = site.settings.sun_samples.unwrap_or(soft_picture::DEFAULT_SUN_SAMPLES);
+            Machine::SoftPicture { camera: *camera, sun_samples }
         }
         (Method::RayCast, Engine::Gpu) => {
             return conflict("the technique ray-cast works on the cpu; take --technique stencil with gpu");
@@ -274,12 +297,12 @@ pub(super) fn choose_on(
             // what it will be does not depend on the machine's adapter alone: a setting of one technique names it
             unused(site, Method::Auto)?;
             match Machine::open(site, gpu) {
-                // measured (docs/benchmarks): a stencil drawn in software is slower than casting the rays outright
-                Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => cast,
+                // measured (docs/benchmarks): a stencil drawn in software is slower than either
+                Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => on_processor,
                 Ok(machine) => machine,
                 Err(error) => {
                     tell(on_event, Event::Note(format!("{}: drawing on the processor", why_none(error))))?;
-                    cast
+                    on_processor
                 }
             }
         }

@@ -4,6 +4,7 @@
 //! [`surfaces()`] is the study on facades and roofs; [`verify`] holds every technique against ray casting; [`probe`] finds
 //! when single points lie in the sun; [`live`] draws one picture after another for whoever looks.
 
+mod fingerprint;
 pub mod live;
 mod machine;
 pub mod probe;
@@ -17,28 +18,34 @@ pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::profile::accumulate::Sum;
-use crate::profile::{Drawn, Profile, Statistics, Timings};
+use crate::profile::{Drawn, Profile, Statistics, Timings, Unfinished};
 use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
 use crate::sun::{SunError, SunTrack};
-use crate::view::{Camera, Counted, Mask, Overlay, Surface, View};
+use crate::view::{Bits, Camera, Counted, Mask, Overlay, Surface, View};
 use chrono::DateTime;
 use chrono_tz::Tz;
 use glam::DVec3;
 use machine::{Machine, choose, counting, not_surfaces, stencil_alone};
+use std::cell::LazyCell;
 use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
 
 /// What is made beside the profile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wants {
     /// Every instant's mask, in [`Event::Drawn`].
     pub masks: bool,
+    /// Of every instant with a sun which cells are in shadow, in [`Event::Drawn`].
+    pub bits: bool,
     /// What the cells see, for a drawing.
     pub surface: bool,
     /// What counting took.
     pub statistics: bool,
+    /// What is done so far, in [`Event::Kept`]: each time that so long has passed, and when the work is ended.
+    pub keep_every: Option<Duration>,
 }
 
 /// What is made beside the mask of one instant.
@@ -64,6 +71,11 @@ pub enum Event<'a> {
         /// How many instants there are.
         instants: usize,
     },
+    /// So many of them were done before, and are not drawn again.
+    GoesOn {
+        /// How many.
+        done: usize,
+    },
     /// One instant is done, in time's order.
     Drawn {
         /// From 0.
@@ -74,7 +86,11 @@ pub enum Event<'a> {
         time: DateTime<Tz>,
         /// Its mask, where masks are wanted.
         mask: Option<&'a Mask>,
+        /// Which cells are in shadow, where that is wanted and there is a sun.
+        bits: Option<&'a Bits>,
     },
+    /// What is done so far, to be kept: with it the study can go on another time.
+    Kept(&'a Unfinished),
 }
 
 /// Hears what happens; [`ControlFlow::Break`] ends the work with [`StudyError::Interrupted`].
@@ -127,15 +143,15 @@ pub enum StudyError {
         /// Why, and the way out.
         what: &'static str,
     },
-    /// Sums are counted in 1/255 s in 32 bits.
+    /// Time on surfaces is summed in 32 bits.
     #[error(
-        "the study has {} hours of daylight, and a profile sums at most {}; ask for a shorter window with --from and --to",
+        "the study has {} hours of daylight, and surfaces sum at most {}; ask for fewer days or a shorter window",
         day_secs / 3600,
         most_secs / 3600
     )]
     TooLong {
         /// Seconds of the window with the sun above the horizon.
-        day_secs: u64,
+        day_secs: u32,
         /// How many can be summed.
         most_secs: u32,
     },
@@ -183,17 +199,28 @@ impl StudyError {
     }
 }
 
-/// The longest daylight that a sum in 1/255 s holds, seconds.
-const MOST_DAY_SECS: u32 = u32::MAX / 255;
-
 /// The study: every instant's shadows, summed to the time in shadow.
 ///
 /// # Errors
-/// [`StudyError`]; choices that exclude each other and windows that are too long before anything is drawn.
+/// [`StudyError`]; choices that exclude each other before anything is drawn.
 pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
+    go_on(site, wants, None, on_event)
+}
+
+/// As [`run`], from where the same study was stopped; the result is the same to the bit. What another study left is told
+/// of, and not used.
+///
+/// # Errors
+/// As [`run`].
+pub fn go_on(
+    site: &Site,
+    wants: &Wants,
+    begun: Option<Unfinished>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Outcome, StudyError> {
     not_surfaces(site)?;
     let mut watch = Stopwatch::start();
-    let (day_secs, night_secs) = day_and_night(&site.track, MOST_DAY_SECS)?;
+    let (day_secs, night_secs) = day_and_night(&site.track);
     note_distance(&site.mesh, on_event)?;
     let view = View::Plan(site.grid);
     let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, &view, on_event)? };
@@ -201,17 +228,32 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     let mut technique = look.technique()?;
     let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
     let mut sum = Sum::new(machine.gpu(), site.grid.width, site.grid.height);
+    let mut statistics = wants.statistics.then(Statistics::default);
+    let mut done = 0;
+    let study = LazyCell::new(|| fingerprint::of(site, &machine.drawn()));
+    if let Some(begun) = begun {
+        if is_of(&begun, *study, site, wants) {
+            sum.begin_with(&begun.shaded);
+            (done, statistics) = (begun.done, begun.statistics);
+        } else {
+            tell(on_event, Event::Note(ANOTHER_STUDY.to_owned()))?;
+        }
+    }
     watch.lap("prepare");
 
     let count = site.track.instants.len();
-    let mut statistics = wants.statistics.then(Statistics::default);
     tell(on_event, Event::Started { instants: count })?;
-    for (index, instant) in site.track.instants.iter().enumerate() {
-        let mut mask = None;
+    if done > 0 {
+        tell(on_event, Event::GoesOn { done })?;
+    }
+    let mut kept = Instant::now();
+    for (index, instant) in site.track.instants.iter().enumerate().skip(done) {
+        let (mut mask, mut bits) = (None, None);
         if !instant.night {
             let drawn = technique.draw(instant.to_sun)?;
             sum.add(&drawn, instant.weight_secs)?;
             mask = wants.masks.then(|| drawn.read()).transpose()?;
+            bits = wants.bits.then(|| drawn.bits()).transpose()?;
             if let Some(statistics) = &mut statistics
                 && let Some(counted) = technique.counted(instant.to_sun)?
             {
@@ -220,7 +262,14 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
         } else if wants.masks {
             mask = Some(night(&look.view));
         }
-        tell(on_event, Event::Drawn { index, count, time: instant.time, mask: mask.as_ref() })?;
+        let (mask, bits) = (mask.as_ref(), bits.as_ref());
+        let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });
+        if wants.keep_every.is_some_and(|every| told.is_err() || kept.elapsed() >= every) {
+            let unfinished = Unfinished { study: *study, done: index + 1, shaded: sum.so_far()?, statistics };
+            tell(on_event, Event::Kept(&unfinished))?;
+            kept = Instant::now();
+        }
+        told?;
     }
     if statistics.is_some_and(|statistics| statistics.cells == 0) {
         tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
@@ -239,6 +288,17 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
         drawn: machine.drawn(),
     })
 }
+
+/// Whether what was left is of this study, and whole.
+fn is_of(begun: &Unfinished, study: u64, site: &Site, wants: &Wants) -> bool {
+    let same_wants = begun.statistics.is_some() == wants.statistics;
+    let fits = begun.shaded.len() == site.grid.cells() && begun.done <= site.track.instants.len();
+    begun.study == study && same_wants && fits
+}
+
+/// What a study that finds another one's sum says.
+const ANOTHER_STUDY: &str =
+    "what was left unfinished there is another study, or was asked otherwise: this one begins anew";
 
 /// The first instant alone; at night nothing sees the sun, and a note says so.
 ///
@@ -291,7 +351,10 @@ pub fn instant(
         }
         technique.draw(instant.to_sun)?.read()?
     };
-    tell(on_event, Event::Drawn { index: 0, count: 1, time: instant.time, mask: Some(&mask) })?;
+    if let Some(note) = technique.note() {
+        tell(on_event, Event::Note(note))?;
+    }
+    tell(on_event, Event::Drawn { index: 0, count: 1, time: instant.time, mask: Some(&mask), bits: None })?;
     watch.lap("shadows");
     Ok(InstantOutcome {
         mask,
@@ -337,21 +400,14 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
     }
 }
 
-/// The seconds of the window with the sun above the horizon, and without; an error where the former are too many.
-fn day_and_night(track: &SunTrack, most_secs: u32) -> Result<(u32, u32), StudyError> {
-    let weights = |night: bool| {
-        track
-            .instants
-            .iter()
-            .filter(move |instant| instant.night == night)
-            .map(|instant| u64::from(instant.weight_secs))
+/// The seconds of the window with the sun above the horizon, and without.
+fn day_and_night(track: &SunTrack) -> (u32, u32) {
+    // both fit: a window is at most ten years, 3.2e8 s
+    let secs = |night: bool| {
+        let instants = track.instants.iter().filter(|instant| instant.night == night);
+        instants.map(|instant| instant.weight_secs).sum()
     };
-    let day_secs: u64 = weights(false).sum();
-    if day_secs > most_secs.into() {
-        return Err(StudyError::TooLong { day_secs, most_secs });
-    }
-    // Both fit: a window is at most ten years, 3.2e8 s.
-    Ok((day_secs as u32, weights(true).sum::<u64>() as u32))
+    (secs(false), secs(true))
 }
 
 /// One view of a site, by one machine.

@@ -42,7 +42,7 @@ pub fn probe(asked: &Probing, on_event: &mut OnEvent<'_>) -> Result<Sunlight, St
             let index = sunlight.days.len();
             sunlight.days.push(SunDay { window: window.clone(), up });
             sunlight.probes.iter_mut().zip(found).for_each(|(probed, intervals)| probed.days.push(intervals));
-            tell(on_event, Event::Drawn { index, count, time: window.from, mask: None })?;
+            tell(on_event, Event::Drawn { index, count, time: window.from, mask: None, bits: None })?;
         }
     }
     Ok(sunlight)

@@ -43,7 +43,11 @@ pub struct SurfaceOutcome {
 pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<SurfaceOutcome, StudyError> {
     let mut watch = Stopwatch::start();
     let samples = site.settings.sun_samples.unwrap_or(1);
-    let (day_secs, night_secs) = day_and_night(&site.track, u32::MAX / samples)?;
+    let (day_secs, night_secs) = day_and_night(&site.track);
+    let most_secs = u32::MAX / samples;
+    if day_secs > most_secs {
+        return Err(StudyError::TooLong { day_secs, most_secs });
+    }
     note_distance(&site.mesh, on_event)?;
     let choice = choice(site)?;
     let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
@@ -69,7 +73,7 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
         if !instant.night {
             texture.add(&samples_of(instant, site.settings.sun_samples))?;
         }
-        tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None })?;
+        tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None, bits: None })?;
     }
     let (judged, gpu_bytes) = (texture.judged(), texture.gpu_bytes());
     let mut lit = texture.finish()?;

@@ -85,7 +85,7 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
 /// As [`verify`].
 pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
     let instants = by_day(site)?;
-    let (day_secs, _) = day_and_night(&site.track, super::MOST_DAY_SECS)?;
+    let (day_secs, _) = day_and_night(&site.track);
     let sun_samples = site.settings.sun_samples.unwrap_or(SUN_SAMPLES);
     let mut centre = Cast::new(site, None);
     let mut disc = Cast::new(site, Some(sun_samples));
@@ -107,7 +107,7 @@ pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Resu
         }
         let sampled = MOST_SAMPLED * index / count..MOST_SAMPLED * (index + 1) / count;
         without_trees(&centre, instant, &spread(&centre.mask, sampled), &mut trees);
-        tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None })?;
+        tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None, bits: None })?;
     }
 
     let (cast, disc_secs) = (centre.machine.drawn(), disc.tally.secs());

@@ -192,6 +192,7 @@ fn what_surfaces_cannot_have_is_told() {
         ("profile . --receivers surfaces --region 0,0,1,1", &["--region"]),
         ("profile . --receivers surfaces --masks m", &["--masks"]),
         ("profile . --receivers surfaces --stats", &["--stats"]),
+        ("profile . --receivers surfaces --bits", &["--bits"]),
         ("profile . --receivers surfaces --write tif", &["tif", "png, glb, csv, json"]),
         ("profile . --write glb", &["glb", "png, tif, json"]),
         ("profile . --patch-cell 1", &["--patch-cell", "--receivers surfaces"]),

@@ -182,7 +182,7 @@ fn bands_are_steps_or_round() {
     let bands = Bands::new(1800, 8 * H - 900);
     assert_eq!(bands.colours.len(), 16);
     assert_eq!(bands.bounds(15), (7 * H + 1800, 8 * H - 900), "the last band ends with the daylight");
-    let at = |secs: u32| bands.colour(255 * secs);
+    let at = |secs: u32| bands.colour(255 * u64::from(secs));
     assert_eq!(at(0), scale::NO_SHADOW);
     assert_eq!((at(1), at(1800), at(1801)), (bands.colours[0], bands.colours[0], bands.colours[1]));
     assert_eq!(at(8 * H - 900), bands.colours[15]);
@@ -211,8 +211,8 @@ fn the_legend_is_the_plan() {
     let grid = synthetic::grid(6, 6, 1.0);
     let surface = Surface { width: 6, height: 6, face: vec![Surface::GROUND; 36], height_m: vec![0.0; 36] };
     // Row by row: none, then more and more shadow.
-    let shaded = (0..36).map(|cell| cell / 6 * 255 * 5400).collect();
-    let profile = Profile { grid, shaded, day_secs: 8 * H, night_secs: 0 };
+    let shaded: Vec<u32> = (0..36).map(|cell| cell / 6 * 255 * 5400).collect();
+    let profile = Profile { grid, shaded: shaded.into(), day_secs: 8 * H, night_secs: 0 };
     let png = figure::profile(&town.scene(&surface, Receivers::Top), &profile).unwrap();
     let page = image::load_from_memory(&png).unwrap().to_rgb8();
     assert_eq!(page.dimensions(), (figure::WIDTH, figure::HEIGHT));
@@ -221,7 +221,7 @@ fn the_legend_is_the_plan() {
         // The square plan is the sheet's left part, a little inside of its frame.
         let y = figure::HEIGHT / 2 - 1100 + row * 2200 / 6 + 180;
         let plan = page.get_pixel(1300, y).0;
-        assert_eq!(plan, bands.colour(row * 255 * 5400), "row {row}");
+        assert_eq!(plan, bands.colour(u64::from(row) * 255 * 5400), "row {row}");
         let in_panel = |x: u32| (0..figure::HEIGHT).filter(|y| page.get_pixel(x, *y).0 == plan).count();
         let swatch = (2600..figure::WIDTH).map(in_panel).max().unwrap();
         assert!(swatch >= 30, "row {row}: the legend shows {plan:?} over {swatch} pixels");
@@ -233,7 +233,7 @@ fn a_surface_of_another_size_is_an_error() {
     let town = Town::new(1.0, 9 * H, 17 * H, 1800);
     let grid = synthetic::grid(4, 3, 1.0);
     let surface = synthetic::plan(&town.mesh, &synthetic::grid(3, 3, 1.0));
-    let profile = Profile { grid, shaded: vec![0; 12], day_secs: 8 * H, night_secs: 0 };
+    let profile = Profile { grid, shaded: vec![0_u32; 12].into(), day_secs: 8 * H, night_secs: 0 };
     assert!(figure::profile(&town.scene(&surface, Receivers::Top), &profile).is_err());
     let mask = Mask { width: 4, height: 3, share: vec![0; 12] };
     assert!(

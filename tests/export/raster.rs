@@ -13,8 +13,8 @@ fn sample() -> (Town, Profile) {
     let town = Town::new(1.0, 32_400, 61_200, 1800);
     let grid = synthetic::grid(70, 50, 0.25);
     // Hours that count up from the north-west corner, so that a turned raster shows.
-    let shaded = (0..grid.cells() as u32).map(|cell| cell * 2_000).collect();
-    let profile = Profile { grid, shaded, day_secs: 28_800, night_secs: 0 };
+    let shaded: Vec<u32> = (0..grid.cells() as u32).map(|cell| cell * 2_000).collect();
+    let profile = Profile { grid, shaded: shaded.into(), day_secs: 28_800, night_secs: 0 };
     (town, profile)
 }
 
@@ -58,7 +58,7 @@ fn mask_is_the_bare_shares() {
 #[test]
 fn a_raster_that_does_not_fill_its_grid_is_an_error() {
     let (town, mut profile) = sample();
-    profile.shaded.pop();
+    profile.shaded = vec![0_u32; 3499].into();
     let error = raster::geotiff(&profile, &town.place).unwrap_err();
     assert!(matches!(error, ExportError::Size { have: 3499, .. }), "{error}");
     let mask = Mask { width: 2, height: 2, share: vec![0; 3] };

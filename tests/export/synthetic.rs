@@ -214,7 +214,7 @@ pub(super) fn mask(surface: &Surface, grid: &Grid, sun: &Instant, receivers: Rec
 }
 
 pub(super) fn profile(town: &Town, surface: &Surface, grid: Grid, receivers: Receivers) -> Profile {
-    let zero = Profile { grid, shaded: vec![0; grid.cells()], day_secs: 0, night_secs: 0 };
+    let zero = Profile { grid, shaded: vec![0_u32; grid.cells()].into(), day_secs: 0, night_secs: 0 };
     let one = |sun: &Instant| {
         let mut profile = zero.clone();
         if sun.night {
@@ -222,16 +222,15 @@ pub(super) fn profile(town: &Town, surface: &Surface, grid: Grid, receivers: Rec
         } else {
             profile.day_secs = sun.weight_secs;
             let mask = mask(surface, &grid, sun, receivers);
-            for (sum, share) in profile.shaded.iter_mut().zip(mask.share) {
-                *sum = u32::from(255 - share) * sun.weight_secs;
-            }
+            let sums = mask.share.iter().map(|share| u32::from(255 - share) * sun.weight_secs);
+            profile.shaded = sums.collect::<Vec<u32>>().into();
         }
         profile
     };
     let add = |mut a: Profile, b: Profile| {
         a.day_secs += b.day_secs;
         a.night_secs += b.night_secs;
-        a.shaded.iter_mut().zip(b.shaded).for_each(|(a, b)| *a += b);
+        a.shaded = a.shaded.iter().zip(b.shaded.iter()).map(|(a, b)| a + b).collect::<Vec<u64>>().into();
         a
     };
     town.track.instants.par_iter().map(one).reduce(|| zero.clone(), add)

@@ -18,7 +18,7 @@ fn site(parts: Vec<gnomon::mesh::Part>) -> Site {
     site
 }
 
-fn house() -> Site {
+pub(super) fn house() -> Site {
     site(vec![
         slab("house", dvec3(-5.0, -4.0, -2.0), dvec3(5.0, 4.0, 6.0)),
         slab("tree", dvec3(2.0, -9.0, 0.0), dvec3(3.0, -8.0, 7.0)),

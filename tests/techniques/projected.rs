@@ -39,9 +39,13 @@ fn differing(scene: &Scene, view: View, sun: DVec3, drawn: &Mask, twin: bool) ->
 }
 
 fn agree(what: &str, scene: &Scene, view: View, suns: &[DVec3]) {
+    let with_receivers = !scene.receivers.faces.is_empty();
     for &sun in suns {
         let drawn = projected(scene, view, sun);
-        for (name, twin) in [("ray casting", false), ("its twin", true)] {
+        // the twin draws the ground alone
+        for (name, twin) in
+            [("ray casting", false), ("its twin", true)].into_iter().take(2 - usize::from(with_receivers))
+        {
             let (all, wrong) = differing(scene, view, sun, &drawn, twin);
             assert!(wrong.is_empty(), "{what}, sun {sun}: of {all} unlike {name} {} lie at no edge", wrong.len());
             assert!(all * 2000 <= drawn.share.len(), "{what}, sun {sun}: {all} unlike {name}");
@@ -186,4 +190,34 @@ fn one_face_too_low_is_seen() {
     let at = surface.face.iter().position(|face| *face != Surface::GROUND).unwrap();
     surface.height_m[at] -= 0.5;
     assert_eq!(seen_otherwise(&scene, view, &surface).len(), before + 1);
+}
+
+#[test]
+fn what_stands_there_agrees_cell_for_cell() {
+    let suns = [to_sun(95.3, 4.1), to_sun(171.2, 51.9), to_sun(271.6, 21.8), to_sun(20.0, 0.7), to_sun(180.0, 89.9)];
+    for (name, parts) in small().into_iter().chain(dirty()) {
+        let scene = scene_of(&Mesh::build(parts).unwrap(), Receivers::Top, 0.0);
+        agree(name, &scene, plan(30.371_93, 300), &suns);
+    }
+    let many = dense::tree().parts;
+    agree("a tree", &scene_of(&Mesh::build(many).unwrap(), Receivers::Top, 0.0), plan(17.371_93, 400), &suns);
+}
+
+#[test]
+fn sites_agree_on_what_stands_there() {
+    for name in ["tower", "industry", "headquarters"] {
+        let (scene, view, suns) = site(name, 500);
+        let suns: Vec<DVec3> = suns.iter().step_by(5).copied().chain([to_sun(250.0, 4.0)]).collect();
+        agree(name, &scene, view, &suns);
+    }
+}
+
+#[test]
+fn what_does_not_receive_is_looked_through() {
+    let (scene, view, suns) = site("headquarters", 300);
+    let keep: Vec<bool> = (0..scene.receivers.components.len()).map(|at| at % 2 == 0).collect();
+    let half = scene.receivers.of_components(&keep);
+    agree("half receives", &Scene { receivers: half.clone(), ..scene.clone() }, view, &suns[..2]);
+    let casters = scene.casters.of_components(&keep);
+    agree("half casts", &Scene { casters, ..scene }, view, &suns[..2]);
 }

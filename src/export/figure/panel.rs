@@ -153,7 +153,7 @@ fn paper_scale(metres_a_pixel: f64) -> String {
 }
 
 /// Whole numbers in groups of three.
-fn thousands(value: f64) -> String {
+pub(super) fn thousands(value: f64) -> String {
     let digits = format!("{value:.0}");
     let mut said = String::new();
     for (index, digit) in digits.chars().enumerate() {

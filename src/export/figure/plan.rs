@@ -33,7 +33,7 @@ pub(super) fn profile(scene: &Scene, profile: &Profile, bands: &Bands, fit: Fit)
     let strength = if ground_only { RELIEF } else { RELIEF_OF_HOURS };
     draw(scene, profile.grid.cell, fit, strength, |cell, face| match face {
         Some(_) if ground_only => ROOF_UNJUDGED,
-        _ => bands.colour(profile.shaded[cell]),
+        _ => bands.colour(profile.shaded.of(cell)),
     })
 }
 

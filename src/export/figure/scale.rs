@@ -67,16 +67,16 @@ impl Bands {
     }
 
     /// The colour of a shaded time in 1/255 s.
-    pub fn colour(&self, shaded: u32) -> Rgb {
+    pub fn colour(&self, shaded: u64) -> Rgb {
         if shaded == 0 {
             return NO_SHADOW;
         }
         // A shadow of exactly one band belongs to that band, not to the next.
-        let band_units = u64::from(self.band_secs) * 255;
-        let band = match u32::try_from(band_units) {
-            // the shorter division takes half the time
-            Ok(units) => u64::from((shaded - 1) / units),
-            Err(_) => u64::from(shaded - 1) / band_units,
+        let (most, width) = (shaded - 1, 255 * u64::from(self.band_secs));
+        let band = match (u32::try_from(most), u32::try_from(width)) {
+            // in half the time
+            (Ok(most), Ok(width)) => u64::from(most / width),
+            _ => most / width,
         };
         let last = self.colours.len().saturating_sub(1);
         let band = usize::try_from(band).unwrap_or(last).min(last);

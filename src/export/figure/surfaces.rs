@@ -1,6 +1,6 @@
 //! The model coloured by hours of sun, as the camera sees it.
 
-use super::panel::Panel;
+use super::panel::{Panel, thousands};
 use super::perspective::{Lens, facing};
 use super::scale::{NO_SUN, Rgb};
 use super::{Scene, check_surface, page, panel, perspective, plan, words};
@@ -30,7 +30,9 @@ pub fn surfaces(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Result<V
 fn labelled(scene: &Scene, surfaces: &Surfaces) -> Panel {
     let (hours, patches) = (surfaces.hours, surfaces.patches);
     let mut panel = panel(scene, "Sun on surfaces");
-    panel.facts.push(("Texels", format!("{} of {}", patches.texels.len(), words::metres(patches.cell))));
+    panel
+        .facts
+        .push(("Texels", format!("{} of {}", thousands(patches.texels.len() as f64), words::metres(patches.cell))));
     if hours.night_secs > 0 {
         let night = words::duration(hours.night_secs);
         panel.facts.push(("Night", format!("{night} of the window, not counted")));

@@ -110,6 +110,11 @@ impl Casters {
         );
     }
 
+    /// Where the points fell, and the points, the mesh's vertices first.
+    pub(super) fn fallen(&self) -> (&[DVec2], &[DVec3]) {
+        (&self.places, &self.points)
+    }
+
     /// How many edges there are, silhouette or not.
     pub(super) fn edges(&self) -> usize {
         self.edges.len()

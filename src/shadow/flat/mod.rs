@@ -14,7 +14,7 @@ mod scan;
 use crate::mesh::Mesh;
 use crate::view::Bits;
 use casters::Casters;
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use scan::Scan;
 
 /// The shadow of one mesh on one plane.
@@ -36,11 +36,21 @@ impl FlatShadow {
     ///
     /// A cell whose centre an edge meets takes what lies beyond the edge, in the direction of growing columns, then of
     /// growing rows.
-    pub(super) fn draw(&mut self, to_sun: DVec3) -> &Bits {
+    pub(super) fn draw(&mut self, to_sun: DVec3) -> &mut Bits {
+        self.casters.project(to_sun, self.throw(to_sun));
+        self.scan.draw(&self.casters)
+    }
+
+    /// As it was drawn last, and where the mesh's vertices fell: column and row, from where: column, row and height.
+    pub(super) fn drawn(&mut self) -> (&mut Bits, &[DVec2], &[DVec3]) {
+        let (places, points) = self.casters.fallen();
+        (self.scan.bits(), places, points)
+    }
+
+    /// How many columns and rows away from the sun a shadow falls, a metre of height.
+    pub(super) fn throw(&self, to_sun: DVec3) -> DVec2 {
         // the sun may be in the plane but for rounding
         let along = self.raster_from_local.transform_vector3(to_sun);
-        let throw = along.truncate() / along.z.max(1e-9 * along.length());
-        self.casters.project(to_sun, throw);
-        self.scan.draw(&self.casters)
+        along.truncate() / along.z.max(1e-9 * along.length())
     }
 }

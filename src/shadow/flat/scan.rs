@@ -40,7 +40,7 @@ impl Scan {
     }
 
     /// Which cells the silhouette's faces cover.
-    pub(super) fn draw(&mut self, casters: &Casters) -> &Bits {
+    pub(super) fn draw(&mut self, casters: &Casters) -> &mut Bits {
         self.cross(casters);
         let Scan { bits, rows, crossings } = self;
         let in_row = bits.in_row();
@@ -55,6 +55,11 @@ impl Scan {
             });
         });
         bits
+    }
+
+    /// As they were drawn last.
+    pub(super) fn bits(&mut self) -> &mut Bits {
+        &mut self.bits
     }
 
     /// Sorts the silhouette by bands.

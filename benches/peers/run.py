@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""Gnomon beside what one could take instead, as whole processes, in one run: prints tables in Markdown.
+
+    python benches/peers/gen_workload.py DIR                          the city of 182,000 triangles
+    python benches/peers/run.py DIR [--runs 7] [--tests T1,T2,T3,T4] [--peer 'NAME=COMMAND']...
+
+Programs of others are for the reader to install. Two are built here by g++: `exact.cpp`, the plainest raster of projected
+triangles in double precision, and `embree.cpp`, ray casting by Embree 3 in packets of 16 (Debian: libembree-dev); what
+cannot be built is left out, and said. Any other program joins with --peer, where COMMAND may use {glb}, {suns} (a line
+for each instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side), {threads} and {out}.
+
+Programs take turns, so that ratios hold whatever else the machine does: each is the median of its turns' own ratios.
+Seconds are medians; CPU is user and system time together; the peak is the largest resident size.
+"""
+import argparse, json, math, os, shutil, statistics, subprocess, sys, tempfile, time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+REGION = (-400, -400, 800)  # west, south, side, metres: the cells that every program judges
+SITE = """[place]
+latitude = 48.2
+longitude = 16.37
+time_zone = "UTC"
+[[model]]
+path = "{glb}"
+[ground]
+level = 0.0
+[plan]
+region = [-400, -400, 400, 400]
+"""
+T2 = "--date 2026-09-18 --from 07:00 --to 15:00 --step 1h"
+YEAR = "--from-date 2026-01-01 --to-date 2026-12-31 --step 1h"
+# test: cells a side, the study, what Gnomon is asked, the raster's program and Embree's
+TESTS = {
+    "T1": (2048, "--at 2026-09-18T13:00", "shadow {site} {study} --size 2048 --receivers ground --mask {out}.png", "mask"),
+    "T2": (2048, T2, "profile {site} {study} --size 2048 --receivers ground --out {out}", "mask"),
+    "T2 tif,json": (2048, T2, "profile {site} {study} --size 2048 --receivers ground --write tif,json --out {out}", "mask"),
+    "T3": (1024, YEAR, "profile {site} {study} --size 1024 --receivers ground --write tif,json --out {out}", "hours"),
+    "T4": (2048, T2, "profile {site} {study} --size 2048 --receivers top --write tif,json --out {out}", "top"),
+}
+
+
+def main():
+    ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    ask.add_argument("workload", type=Path, help="the folder with city180k.glb")
+    ask.add_argument("--gnomon", type=Path, default=HERE.parents[1] / "target/release/gnomon")
+    ask.add_argument("--engine", default="cpu", help="Gnomon's (default: cpu)")
+    ask.add_argument("--runs", type=int, default=7)
+    ask.add_argument("--tests", default=",".join(test for test in TESTS if "," not in test))
+    ask.add_argument("--threads", type=int, default=os.cpu_count())
+    ask.add_argument("--peer", action="append", default=[], metavar="NAME=COMMAND")
+    asked = ask.parse_args()
+    glb = (asked.workload / "city180k.glb").resolve()
+    if not glb.is_file():
+        sys.exit(f"{glb} is not there; make it with {HERE / 'gen_workload.py'} {asked.workload}")
+    if not asked.gnomon.is_file():
+        sys.exit(f"{asked.gnomon} is not there; build it with cargo build --release")
+    with tempfile.TemporaryDirectory() as folder:
+        compare(asked, glb, Path(folder))
+
+
+def compare(asked, glb, folder):
+    site = folder / "site.toml"
+    site.write_text(SITE.format(glb=glb))
+    programs = build(folder)
+    gnomon = f"{asked.gnomon} {{command}} --engine {asked.engine} --threads {asked.threads} --no-refraction --quiet"
+    wanted = [test for test in TESTS if test.split()[0] in asked.tests.split(",")]
+    for test in wanted:
+        cells, study, command, mode = TESTS[test]
+        suns = write_suns(asked.gnomon, site, study, folder / "suns.txt")
+        fill = dict(glb=glb, suns=suns, n=cells, threads=asked.threads, site=site, study=study)
+        ours = gnomon.format(command=command.format(out=folder / "gnomon", **fill))
+        commands = {"Gnomon": ours}
+        raster = f"{fill['glb']} {suns} {cells} {REGION[0]} {REGION[1]} {REGION[2]} {asked.threads}"
+        if "exact" in programs and mode != "top":
+            commands["plain raster, exact.cpp"] = f"{programs['exact']} {raster} {mode} {folder / 'exact.bin'}"
+        if "embree" in programs:
+            commands["Embree, packets of 16"] = f"{programs['embree']} {raster} 16 {mode} {folder / 'embree.bin'} robust"
+        for peer in asked.peer:
+            name, _, peer_command = peer.partition("=")
+            commands[name] = peer_command.format(out=folder / "peer", **fill)
+        table(test, cells, len(suns.read_text().splitlines()), commands, asked.runs if test != "T3" else min(asked.runs, 2))
+
+
+def build(folder):
+    """The programs that g++ can build here."""
+    programs = {}
+    for name, libraries in [("exact", []), ("embree", ["-lembree3"])]:
+        program = folder / name
+        flags = ["-O3", "-march=native", "-std=c++17", "-pthread", f"-I{HERE}"]
+        try:
+            subprocess.run(["g++", *flags, HERE / f"{name}.cpp", "-o", program, *libraries], check=True, capture_output=True)
+            programs[name] = program
+        except (OSError, subprocess.CalledProcessError) as error:
+            print(f"{name} is left out: {getattr(error, 'stderr', b'') or error}", file=sys.stderr)
+    return programs
+
+
+def write_suns(gnomon, site, study, path):
+    """The instants with a sun, as Gnomon has them without refraction."""
+    command = [gnomon, "sun", site, *study.split(), "--no-refraction", "--json"]
+    told = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    lines = []
+    for instant in told["instants"]:
+        if not instant["night"]:
+            azimuth, altitude = (math.radians(instant[key]) for key in ("azimuth_deg", "altitude_deg"))
+            east, north = math.sin(azimuth) * math.cos(altitude), math.cos(azimuth) * math.cos(altitude)
+            lines.append(f"{east:.17g} {north:.17g} {math.sin(altitude):.17g}\n")
+    path.write_text("".join(lines))
+    return path
+
+
+def table(test, cells, instants, commands, runs):
+    turns = {name: [] for name in commands}
+    for _ in range(runs):
+        for name, command in commands.items():
+            turns[name].append(run(name, command))
+    print(f"\n## {test}: {instants} instants, {cells} × {cells} cells, {runs} runs\n")
+    print("| program | wall, s | CPU, s | peak, MiB | wall, times Gnomon's | CPU, times Gnomon's |\n|---|---|---|---|---|---|")
+    ours = turns["Gnomon"]
+    for name, taken in turns.items():
+        wall, cpu, peak = (statistics.median(column) for column in zip(*taken))
+        ratio = [statistics.median(its[at] / own[at] for its, own in zip(taken, ours)) for at in (0, 1)]
+        print(f"| {name} | {wall:.3f} | {cpu:.3f} | {peak:.0f} | {ratio[0]:.2f} | {ratio[1]:.2f} |", flush=True)
+
+
+def run(name, command):
+    """Wall and CPU seconds and MiB of a whole process."""
+    shutil.rmtree(command.split()[-1], ignore_errors=True)
+    started = time.perf_counter()
+    process = subprocess.Popen(command.split(), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    told = process.stderr.read()
+    _, status, used = os.wait4(process.pid, 0)
+    wall = time.perf_counter() - started
+    if status != 0:
+        sys.exit(f"{name} failed: {command}\n{told.decode(errors='replace')}")
+    return wall, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
+
+
+main()

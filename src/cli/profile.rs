@@ -1,0 +1,197 @@
+//! `gnomon profile`: the study, its files, and what it leaves where it is stopped.
+
+use super::arguments::{ProfileArgs, Written};
+use super::commands::{drawn_by, took};
+use super::progress::Progress;
+use super::{interrupt, say, surfaces};
+use crate::export::bits::BitsFile;
+use crate::export::report::Told;
+use crate::export::{ExportError, bytes, figure, file, raster, report, unfinished};
+use crate::profile::{Profile, Unfinished};
+use crate::site::{Receivers, Site};
+use crate::study::{self, Event, Stopwatch, Wants};
+use crate::sun::SunTrack;
+use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How long work may be lost where a machine fails.
+const KEEP_EVERY: Duration = Duration::from_secs(60);
+
+/// `gnomon profile`
+pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
+    let mut watch = Stopwatch::start();
+    let site = Site::load(&asked.site.path, &asked.overrides())?;
+    if site.receivers == Receivers::Surfaces {
+        return surfaces::profile(asked, &site, watch);
+    }
+    let kinds = asked.wanted(&[Written::Png, Written::Tif, Written::Json])?;
+    // A folder that cannot be written to is told before the work, not after it.
+    for folder in [Some(&asked.out), asked.masks.as_ref()].into_iter().flatten() {
+        file::check_folder(folder)?;
+    }
+    let mut progress = Progress::new(asked.common.quiet);
+    let mut kept = Files::new(&site, asked)?;
+    if let Some(bits) = &kept.bits {
+        bits.check_room()?;
+        progress.hear(&Event::Note(format!("{} will take {}", bits.path().display(), bytes(bits.size()))));
+    }
+    let begun = kept.begun(&site)?;
+    watch.lap("load");
+
+    let wanted = |kind| kinds.contains(&kind);
+    let wants = Wants {
+        masks: asked.masks.is_some(),
+        bits: asked.bits,
+        surface: wanted(Written::Png),
+        statistics: asked.stats,
+        keep_every: Some(KEEP_EVERY),
+    };
+    let outcome = study::go_on(&site, &wants, begun, &mut |event| {
+        progress.hear(&event);
+        match kept.hear(&event, &site) {
+            ControlFlow::Continue(()) => interrupt::flow(),
+            stop => stop,
+        }
+    });
+    let outcome = match kept.fault.take() {
+        Some(fault) => return Err(fault.into()),
+        None => outcome?,
+    };
+    watch.laps(outcome.timings);
+
+    let (profile, drawn) = (&outcome.profile, &outcome.drawn);
+    let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
+    if let Some(surface) = &outcome.surface {
+        let mesh = &outcome.surface_mesh;
+        let (place, track, receivers) = (&site.place, &site.track, site.receivers);
+        let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
+        files.push(("profile.png", figure::profile(&scene, profile)?));
+        watch.lap("picture");
+        interrupt::check()?;
+    }
+    if wanted(Written::Tif) {
+        files.push(("shadow-hours.tif", raster::geotiff(profile, &site.place)?));
+        watch.lap("raster");
+        interrupt::check()?;
+    }
+    let (statistics, timings) = (outcome.statistics.as_ref(), &watch.timings());
+    let told = Told { receivers: site.receivers, drawn, timings, statistics };
+    let json = report::profile_json(profile, &site.place, &site.track, &told)?;
+    if wanted(Written::Json) {
+        files.push(("profile.json", json.clone().into_bytes()));
+    }
+    let mut text = String::new();
+    for (name, bytes) in files {
+        let path = asked.out.join(name);
+        file::write(&path, &bytes)?;
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{}", path.display());
+    }
+    if let Some(bits) = kept.bits.take() {
+        let _ = writeln!(text, "{}", bits.path().display());
+        bits.finish()?;
+    }
+    unfinished::remove(&asked.out)?;
+    if let Some(folder) = &asked.masks {
+        let _ = writeln!(text, "{} ({} masks)", folder.display(), site.track.instants.len());
+    }
+    if asked.common.json {
+        return say(&json);
+    }
+    let _ = writeln!(text, "{}", drawn_by(drawn));
+    text.push_str(&statistics.map(took).unwrap_or_default());
+    text.push_str(&hours(profile, &site.track));
+    say(&text)
+}
+
+/// What is written while the study goes on.
+struct Files<'a> {
+    out: &'a Path,
+    masks: Option<&'a Path>,
+    bits: Option<BitsFile>,
+    /// What could not be written.
+    fault: Option<ExportError>,
+}
+
+impl Files<'_> {
+    fn new<'a>(site: &Site, asked: &'a ProfileArgs) -> Result<Files<'a>, ExportError> {
+        let bits = asked.bits.then(|| BitsFile::new(&asked.out, site.grid, site.receivers, &site.track)).transpose()?;
+        Ok(Files { out: &asked.out, masks: asked.masks.as_deref(), bits, fault: None })
+    }
+
+    /// What a stopped study left, where all that it wrote is still there.
+    fn begun(&mut self, site: &Site) -> Result<Option<Unfinished>, ExportError> {
+        let Some(begun) = unfinished::kept(self.out)? else { return Ok(None) };
+        let masks = |folder: &Path| (0..begun.done).all(|index| mask_path(folder, index).is_file());
+        let has_masks = self.masks.is_none_or(masks);
+        let has_bits = self.bits.as_ref().is_none_or(|bits| bits.has(with_sun(site, begun.done)));
+        Ok((has_masks && has_bits).then_some(begun))
+    }
+
+    fn hear(&mut self, event: &Event<'_>, site: &Site) -> ControlFlow<()> {
+        match self.write(event, site) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(fault) => {
+                self.fault = Some(fault);
+                ControlFlow::Break(())
+            }
+        }
+    }
+
+    fn write(&mut self, event: &Event<'_>, site: &Site) -> Result<(), ExportError> {
+        match event {
+            Event::GoesOn { done } => {
+                if let Some(file) = &mut self.bits {
+                    file.begin(with_sun(site, *done))?;
+                }
+            }
+            Event::Drawn { index, mask, bits, .. } => {
+                if let (Some(mask), Some(folder)) = (mask, self.masks) {
+                    file::write(&mask_path(folder, *index), &raster::mask_png(mask)?)?;
+                }
+                if let (Some(bits), Some(file)) = (bits, &mut self.bits) {
+                    file.add(bits)?;
+                }
+            }
+            // after a fault there is nothing to go on from
+            Event::Kept(done) if self.fault.is_none() => {
+                if let Some(file) = &mut self.bits {
+                    file.flush()?;
+                }
+                unfinished::keep(self.out, done)?;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// How many of the first instants have a sun.
+fn with_sun(site: &Site, first: usize) -> usize {
+    site.track.instants.iter().take(first).filter(|instant| !instant.night).count()
+}
+
+fn mask_path(folder: &Path, index: usize) -> PathBuf {
+    folder.join(format!("mask-{index:04}.png"))
+}
+
+/// The range of the answer, in two lines.
+fn hours(profile: &Profile, track: &SunTrack) -> String {
+    let (least, most) =
+        profile.shaded.iter().fold((u64::MAX, 0), |(least, most), shaded| (least.min(shaded), most.max(shaded)));
+    let hours = |secs: f64| secs / 3600.0;
+    let night = track.instants.iter().filter(|instant| instant.night).count();
+    format!(
+        "{:.2} to {:.2} h of shadow out of {:.2} h with the sun above the horizon\n{} × {} cells of {} m, {} instants{}\n",
+        hours(least as f64 / 255.0),
+        hours(most as f64 / 255.0),
+        hours(f64::from(profile.day_secs)),
+        profile.grid.width,
+        profile.grid.height,
+        (profile.grid.cell * 1e6).round() / 1e6,
+        track.instants.len(),
+        if night > 0 { format!(", {night} of them at night") } else { String::new() },
+    )
+}

@@ -1,0 +1,27 @@
+//! Which study it is: a number of all that its result depends on, so that another one does not go on from its sum.
+
+use crate::profile::Drawn;
+use crate::site::Site;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// Of a study that a machine draws. The same for the same request, and for another one another.
+pub(super) fn of(site: &Site, drawn: &Drawn) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let Site { mesh, casts, receives, ground, track, grid, receivers, settings, hextree_depth, .. } = site;
+    env!("CARGO_PKG_VERSION").hash(&mut hasher);
+    let numbers = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<u64>>();
+    numbers(&mesh.origin.to_array()).hash(&mut hasher);
+    bytemuck::cast_slice::<_, u8>(&mesh.vertices).hash(&mut hasher);
+    bytemuck::cast_slice::<_, u8>(&mesh.faces).hash(&mut hasher);
+    mesh.components.iter().for_each(|component| component.faces.hash(&mut hasher));
+    (casts, receives, receivers.word(), hextree_depth).hash(&mut hasher);
+    numbers(&[*ground, grid.west, grid.north, grid.cell]).hash(&mut hasher);
+    (grid.width, grid.height).hash(&mut hasher);
+    for instant in &track.instants {
+        (instant.time.timestamp(), instant.weight_secs, instant.night).hash(&mut hasher);
+        numbers(&instant.to_sun.to_array()).hash(&mut hasher);
+    }
+    // what is asked of techniques, whatever that is
+    format!("{settings:?} {drawn:?}").hash(&mut hasher);
+    hasher.finish()
+}
