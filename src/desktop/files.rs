@@ -5,6 +5,7 @@ use super::hours::{Laid, Work};
 use super::loading::Project;
 use super::look;
 use super::settings::Settings;
+use super::view;
 use crate::export::figure::Diagram;
 use crate::export::{figure, file};
 use crate::site::file::CameraTable;
@@ -210,8 +211,6 @@ pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &
     }
     site.study.technique = match settings.shown.method {
         Method::Auto => None,
-        // it is for the ground alone, which a site file does not ask
-        Method::Projected => None,
         method => Some(method.word().to_owned()),
     };
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
@@ -241,10 +240,10 @@ pub(super) fn drawing(
     Work::start(context, move |on_event| {
         let is_plan = eye.stand == Stand::Plan;
         let method = match shown.method {
-            Method::Projected | Method::SoftTexture => Method::Auto,
             // volumes and silhouette are the stencil's
             _ if (shown.volumes || shown.silhouette) && !is_plan => Method::Stencil,
-            method => method,
+            method if view::draws(method, is_plan) => method,
+            _ => Method::Auto,
         };
         // as the command reads it, for the region of this instant's shadows
         let at = Some(time.format("%Y-%m-%dT%H:%M:%S%:z").to_string());
@@ -255,7 +254,7 @@ pub(super) fn drawing(
             surface: true,
             volumes: shown.volumes && !is_plan,
             silhouette: shown.silhouette && !is_plan,
-            counted: shown.diagram.filter(|_| super::view::counts(method)).map(|diagram| match diagram {
+            counted: shown.diagram.filter(|_| view::counts(method)).map(|diagram| match diagram {
                 Diagram::Mask => "--show mask",
                 Diagram::Overdraw => "--show overdraw",
             }),

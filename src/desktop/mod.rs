@@ -1,6 +1,6 @@
 //! The window: a site, its sun and its shadows at the speed of the hand. Everything that it finds, the library finds.
 //!
-//! One thread draws the window and never waits. A second one ([`stage`]) draws the picture and takes the newest wish; others
+//! One thread draws the window and never waits. A second one (`stage`) draws the picture and takes the newest wish; others
 //! load sites and add up hours.
 
 mod acts;

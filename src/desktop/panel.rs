@@ -13,11 +13,11 @@ fn good_for(method: Method) -> &'static str {
     match method {
         Method::Auto => "The fastest exact one for this machine.",
         Method::Stencil => "Exact, on the graphics adapter: shadow volumes are counted.",
-        Method::Projected => "Exact on the plan's ground alone, by far the fastest there.",
+        Method::Projected => "Exact, for the plan, on the processor: faces are projected along the sun.",
         Method::ShadowMap => "A quick look: edges as coarse as a texel of its map.",
         Method::Hybrid => "Exact but for parts thinner than a texel; quick where many thin parts cast.",
         Method::Smoothie => "The soft edge of a real sun; shadows are a little too large.",
-        Method::SoftTexture => "Hours on façades and roofs, for gnomon profile --receivers surfaces.",
+        Method::SoftTexture => "The sun as a disc on what is flat, before a camera.",
         Method::RayCast => "Exact, on the processor; also with the sun as a disc.",
     }
 }
@@ -115,8 +115,7 @@ fn shadows(app: &mut App, ui: &mut Ui) {
     row(ui, "Technique", |ui, label| {
         let list = egui::ComboBox::from_id_salt("technique").selected_text(shown.method.word());
         let response = list.width(ui.available_width()).show_ui(ui, |ui| {
-            let choices = Method::WORDS.iter().filter(|(_, method)| *method != Method::SoftTexture);
-            for (word, method) in choices {
+            for (word, method) in Method::WORDS {
                 let entry = ui.selectable_value(&mut shown.method, *method, *word);
                 entry.on_hover_text(good_for(*method));
             }

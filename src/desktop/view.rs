@@ -171,13 +171,12 @@ impl Viewer {
         let choice = asked.choice;
         let stand = self.eye.stand;
         let is_plan = stand == Stand::Plan;
-        let on_ground = is_plan && choice.method == Method::Projected;
         let method = if draws(choice.method, is_plan) { choice.method } else { Method::Auto };
         let disc = choice.disc && casts_rays(method, software);
         let way = Way {
             method: if disc { Method::RayCast } else { method },
             settings: Settings { sun_samples: disc.then_some(DISC_SAMPLES), ..Settings::default() },
-            receivers: if on_ground { Receivers::Ground } else { Receivers::Top },
+            receivers: Receivers::Top,
         };
         // an adapter draws twice as fine, which the screen then smooths
         let fine = if software { 1.0 } else { 2.0 };
@@ -213,7 +212,7 @@ impl Viewer {
             let quickest = Way { method: Method::RayCast, settings: Settings::default(), receivers: Receivers::Top };
             Wish {
                 view: self.eye.view(sized(if software { self.scale } else { 1.0 })),
-                way: if software && !on_ground { quickest } else { best.way },
+                way: if software { quickest } else { best.way },
                 style: Style { wide_lines: false, lines: if software { 0.45 } else { 0.62 }, ..best.style },
                 overlay: [false; 2],
                 diagram: None,
@@ -283,8 +282,7 @@ impl Viewer {
 pub(super) fn draws(method: Method, is_plan: bool) -> bool {
     match method {
         Method::Projected => is_plan,
-        // it is for façades and roofs, patch by patch
-        Method::SoftTexture => false,
+        Method::SoftTexture => !is_plan,
         _ => true,
     }
 }
