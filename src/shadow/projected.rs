@@ -1,9 +1,9 @@
 //! Projected shadows: exact hard shadows on a plan, on the processor, and the fastest of all.
 //!
 //! J. Blinn, *Me and My (Fake) Shadow*, 1988; seed 002 calls the same a hard shadow. The shadow on a flat receiver is the
-//! union of the casters' faces, cut at the height that is judged and projected along the sun. [`flat`](super::flat) finds
+//! union of the casters' faces, cut at the height that is judged and projected along the sun. `flat` finds
 //! it on the ground from the silhouette alone: no rays, no volumes, no tree, and nothing that a raster rounds. What stands
-//! above the ground is no flat receiver; its cells are judged one by one on the same raster, by [`raised`](super::raised).
+//! above the ground is no flat receiver; its cells are judged one by one on the same raster, by `raised`.
 
 use super::flat::FlatShadow;
 use super::plan_surface::plan_surface;

@@ -283,8 +283,7 @@ fn highest_rows(track: &SunTrack, row: impl Fn(&str, String, f64, f64) -> [Strin
     // a window's last instant may be the next day's midnight
     highest.retain(|instant| track.days.iter().any(|day| day.date == instant.time.date_naive()));
     let low_to_high = |a: &&&Instant, b: &&&Instant| a.altitude_rad.total_cmp(&b.altitude_rad);
-    let told =
-        [("highest day", highest.iter().max_by(low_to_high)), ("lowest day", highest.iter().min_by(low_to_high))];
+    let told = [("highest", highest.iter().max_by(low_to_high)), ("lowest", highest.iter().min_by(low_to_high))];
     let day = |instant: &Instant| instant.time.format("%-d %b %H:%M").to_string();
     let rows = told.into_iter().filter_map(|(what, instant)| Some((what, instant?)));
     rows.map(|(what, instant)| row(what, day(instant), instant.azimuth_rad, instant.altitude_rad)).collect()
