@@ -115,7 +115,7 @@ pub(super) struct WindowArgs {
 /// How shadows are found.
 #[derive(Debug, Args)]
 pub(super) struct DrawArgs {
-    /// auto, stencil or ray-cast (exact), projected (exact, for --receivers ground), hybrid (exact but for casters thinner than a map's texel), shadow-map (quick),
+    /// auto, stencil or ray-cast (exact), projected (exact, for the plan), hybrid (exact but for casters thinner than a map's texel), shadow-map (quick),
     /// smoothie (the soft edge of a real sun, drawn outside of the hard edge alone: shadows come out too large by half of
     /// the width of their edge), soft-texture (with --view camera: the sun's disc on what is flat)
     #[arg(long, value_name = "NAME")]

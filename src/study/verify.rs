@@ -68,9 +68,8 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
             tell(on_event, Event::Note(note))?;
             continue;
         }
-        let machine = match (method, site.receivers) {
-            (Method::Projected, Receivers::Top) => continue, // for the ground alone
-            (Method::Projected, Receivers::Ground) => Machine::Projected(site.grid),
+        let machine = match method {
+            Method::Projected => Machine::Projected(site.grid),
             _ => Machine::OnGpu(Arc::clone(&gpu), Drawing::of(method, site, &gpu)),
         };
         let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
