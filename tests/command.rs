@@ -87,7 +87,7 @@ fn profile_writes_three_files() {
     let folder = site();
     let said = done(folder.path(), "profile . --engine cpu --size 64");
     assert_eq!(names(folder.path().join("out")), ["profile.json", "profile.png", "shadow-hours.tif"]);
-    for word in ["profile.png", "shadow-hours.tif", "profile.json", "ray-cast on the cpu", "h of shadow"] {
+    for word in ["profile.png", "shadow-hours.tif", "profile.json", "projected on the cpu", "h of shadow"] {
         assert!(said.contains(word), "{said}");
     }
     let json = std::fs::read_to_string(folder.path().join("out/profile.json")).unwrap();
@@ -241,10 +241,16 @@ fn without_an_adapter_the_processor_draws_and_says_so() {
 }
 
 #[test]
-fn a_study_too_long_to_sum_is_told() {
+fn years_are_summed() {
     let folder = site();
-    let years = "--engine cpu --size 8 --from 2026-01-01T00:00 --to 2028-01-01T00:00 --step 6h";
-    fails(folder.path(), &format!("profile . {years}"), 1, &["hours of daylight", "--from"]);
+    let years = "--engine cpu --size 8 --from 2026-01-01T00:00 --to 2029-01-01T00:00 --step 6h";
+    // under the box the sun never shines
+    let said = done(folder.path(), &format!("profile . --receivers ground --region -4,-4,4,4 {years}"));
+    let hours = |before: &str| -> f64 {
+        said.split(before).next().unwrap().split_whitespace().last().unwrap().parse().unwrap()
+    };
+    assert_eq!(hours(" h of shadow out of"), hours(" h with the sun"));
+    assert!(hours(" h with the sun") > 12_000.0, "{said}");
 }
 
 #[test]
@@ -418,7 +424,7 @@ fn check_says_what_is_wrong() {
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_ends_the_work_without_a_file() {
+fn ctrl_c_ends_the_work_without_an_answer() {
     use std::io::{BufRead, BufReader};
     use std::process::Stdio;
     let folder = site();
@@ -432,9 +438,11 @@ fn ctrl_c_ends_the_work_without_a_file() {
     let mut told = BufReader::new(child.stderr.take().unwrap()).lines();
     assert!(told.next().unwrap().unwrap().contains("10%"));
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    let last = told.map(Result::unwrap).last().unwrap();
-    assert_eq!((child.wait().unwrap().code(), last.as_str()), (Some(130), "error: interrupted"));
-    assert!(names(folder.path().join("out")).is_empty());
+    let told: Vec<String> = told.map(Result::unwrap).collect();
+    assert_eq!((child.wait().unwrap().code(), told.last().unwrap().as_str()), (Some(130), "error: interrupted"));
+    assert!(told.iter().any(|line| line.contains("the same command goes on from there")), "{told:?}");
+    // no file of the answer, and what it goes on from
+    assert_eq!(names(folder.path().join("out")), ["profile.unfinished"]);
 }
 
 #[test]

@@ -7,14 +7,14 @@ use super::{interrupt, say, surfaces};
 use crate::export::bits::BitsFile;
 use crate::export::report::Told;
 use crate::export::{ExportError, bytes, figure, file, raster, report, unfinished};
-use crate::profile::{Profile, Unfinished};
+use crate::profile::{Profile, Timings, Unfinished};
 use crate::site::{Receivers, Site};
 use crate::study::{self, Event, Stopwatch, Wants};
 use crate::sun::SunTrack;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How long work may be lost where a machine fails.
 const KEEP_EVERY: Duration = Duration::from_secs(60);
@@ -57,25 +57,36 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     });
     let outcome = match kept.fault.take() {
         Some(fault) => return Err(fault.into()),
-        None => outcome?,
+        None => outcome.inspect_err(|_| {
+            if kept.is_kept {
+                let path = unfinished::path(&asked.out);
+                let note = format!("{} keeps what is done; the same command goes on from there", path.display());
+                progress.hear(&Event::Note(note));
+            }
+        })?,
     };
     watch.laps(outcome.timings);
 
     let (profile, drawn) = (&outcome.profile, &outcome.drawn);
     let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
-    if let Some(surface) = &outcome.surface {
+    let picture = || {
+        let surface = outcome.surface.as_ref()?;
         let mesh = &outcome.surface_mesh;
         let (place, track, receivers) = (&site.place, &site.track, site.receivers);
         let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
-        files.push(("profile.png", figure::profile(&scene, profile)?));
-        watch.lap("picture");
-        interrupt::check()?;
+        Some(("profile.png", timed("picture", || figure::profile(&scene, profile))))
+    };
+    let raster = || {
+        let raster = || timed("raster", || raster::geotiff(profile, &site.place));
+        wanted(Written::Tif).then(|| ("shadow-hours.tif", raster()))
+    };
+    // much of either is for one processor alone
+    let (picture, raster) = rayon::join(picture, raster);
+    for (name, (bytes, timing)) in [picture, raster].into_iter().flatten() {
+        files.push((name, bytes?));
+        watch.laps(timing);
     }
-    if wanted(Written::Tif) {
-        files.push(("shadow-hours.tif", raster::geotiff(profile, &site.place)?));
-        watch.lap("raster");
-        interrupt::check()?;
-    }
+    interrupt::check()?;
     let (statistics, timings) = (outcome.statistics.as_ref(), &watch.timings());
     let told = Told { receivers: site.receivers, drawn, timings, statistics };
     let json = report::profile_json(profile, &site.place, &site.track, &told)?;
@@ -106,11 +117,20 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     say(&text)
 }
 
+/// Work as a stage of its own, that is done beside others.
+fn timed<T>(stage: &'static str, work: impl FnOnce() -> T) -> (T, Timings) {
+    let started = Instant::now();
+    let result = work();
+    (result, Timings(vec![(stage, started.elapsed().as_secs_f64())]))
+}
+
 /// What is written while the study goes on.
 struct Files<'a> {
     out: &'a Path,
     masks: Option<&'a Path>,
     bits: Option<BitsFile>,
+    /// Whether there is something to go on from.
+    is_kept: bool,
     /// What could not be written.
     fault: Option<ExportError>,
 }
@@ -118,7 +138,7 @@ struct Files<'a> {
 impl Files<'_> {
     fn new<'a>(site: &Site, asked: &'a ProfileArgs) -> Result<Files<'a>, ExportError> {
         let bits = asked.bits.then(|| BitsFile::new(&asked.out, site.grid, site.receivers, &site.track)).transpose()?;
-        Ok(Files { out: &asked.out, masks: asked.masks.as_deref(), bits, fault: None })
+        Ok(Files { out: &asked.out, masks: asked.masks.as_deref(), bits, is_kept: false, fault: None })
     }
 
     /// What a stopped study left, where all that it wrote is still there.
@@ -161,6 +181,7 @@ impl Files<'_> {
                     file.flush()?;
                 }
                 unfinished::keep(self.out, done)?;
+                self.is_kept = true;
             }
             _ => {}
         }

@@ -15,21 +15,27 @@ const BAND: usize = 32;
 
 /// The highest face of some receivers below each cell's centre, or the ground, if that is higher.
 pub fn plan_surface(receivers: &Mesh, ground: f64, grid: &Grid) -> Surface {
-    let (face, height) = highest(receivers, ground, grid);
-    let height_m = height.into_par_iter().map(|height| height as f32).collect();
+    let (face, height_m) = highest(receivers, ground, grid, |height| height as f32);
     Surface { width: grid.width, height: grid.height, face, height_m }
 }
 
-/// Per cell the face and its height in the world, metres.
-pub(super) fn highest(receivers: &Mesh, ground: f64, grid: &Grid) -> (Vec<u32>, Vec<f64>) {
+/// Per cell the face and its height in the world, metres, as it is to be kept.
+pub(super) fn highest<T: Copy + Default + Send>(
+    receivers: &Mesh,
+    ground: f64,
+    grid: &Grid,
+    keep: impl Fn(f64) -> T + Sync,
+) -> (Vec<u32>, Vec<T>) {
     let (width, height) = (grid.width as usize, grid.height as usize);
     let corners = Corners::new(receivers, grid);
     let bands = corners.by_band(receivers, height);
     let mut face = vec![Surface::GROUND; width * height];
-    let mut highest = vec![ground; width * height];
-    let rows = face.par_chunks_mut(BAND * width).zip(highest.par_chunks_mut(BAND * width));
-    rows.enumerate().for_each(|(band, (face, highest))| {
+    let mut kept = vec![T::default(); width * height];
+    let rows = face.par_chunks_mut(BAND * width).zip(kept.par_chunks_mut(BAND * width));
+    rows.enumerate().for_each_init(Vec::new, |highest, (band, (face, kept))| {
         let first = band * BAND;
+        highest.clear();
+        highest.resize(face.len(), ground);
         for &at in bands.iter().flat_map(|bands| &bands[band]) {
             let rows = first..first + face.len() / width;
             corners.of(receivers.faces[at as usize]).scan(width, rows, |row, column, z| {
@@ -41,8 +47,9 @@ pub(super) fn highest(receivers: &Mesh, ground: f64, grid: &Grid) -> (Vec<u32>, 
                 }
             });
         }
+        kept.iter_mut().zip(highest).for_each(|(kept, height)| *kept = keep(*height));
     });
-    (face, highest)
+    (face, kept)
 }
 
 /// Where vertices stand on a plan: column, row, height in the world. Centres of cells are whole numbers.

@@ -52,7 +52,7 @@ impl Raised {
         if receivers.faces.is_empty() {
             return raised;
         }
-        let (face, height) = highest(receivers, *ground, grid);
+        let (face, height) = highest(receivers, *ground, grid, |height| height);
         let width = grid.width as usize;
         for row in 0..grid.height {
             for column in 0..grid.width {

@@ -2,7 +2,6 @@
 
 use super::{Scene, differing, weighed};
 use crate::dense::{prism, slab, to_sun};
-use crate::dome::dome;
 use glam::{DVec3, DVec4, dvec3};
 use gnomon::mesh::Part;
 use gnomon::shadow::JUDGED_ABOVE_M;
@@ -86,7 +85,10 @@ fn what_is_wrong_far_from_an_edge_is_seen_on_the_adapter() {
 
 #[test]
 fn convex_bodies_never_shade_themselves() {
-    let scene = Scene::of(vec![dome()], 0.11);
+    let mut body = Part { name: "body".into(), ..Part::default() };
+    prism(&mut body, [dvec3(0.0, 0.0, 0.0), dvec3(0.7, -0.4, 5.0)], 96, [2.0, 1.1]);
+    let scene = Scene::of(vec![body], 0.11);
+    assert!(scene.patches.list.len() >= 98);
     for sample in samples().into_iter().filter(|sample| sample.light.w == 0.0) {
         for painter in
             [Painter::OnProcessor(Fill::Faces), Painter::OnProcessor(Fill::Silhouettes), Painter::OnGpu(super::gpu())]

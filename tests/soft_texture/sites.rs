@@ -18,20 +18,6 @@ fn site(name: &str, cell: f64) -> (Scene, Vec<Sample>) {
     (Scene { casters, patches }, super::weighed(chosen))
 }
 
-/// The patches of at least so many texels alone.
-fn large(scene: &Scene, texels: usize) -> Scene {
-    let mut patches = (*scene.patches).clone();
-    patches.list.retain(|patch| patch.texels.len() >= texels);
-    let mut kept = Vec::new();
-    for patch in &mut patches.list {
-        let first = kept.len() as u32;
-        kept.extend(&scene.patches.texels[patch.texels.start as usize..patch.texels.end as usize]);
-        patch.texels = first..kept.len() as u32;
-    }
-    patches.texels = kept;
-    Scene { casters: scene.casters.clone(), patches: Arc::new(patches) }
-}
-
 #[test]
 fn the_tower_agrees_with_rays() {
     let (scene, samples) = site("tower", 1.0);
@@ -51,7 +37,7 @@ fn the_headquarters_agree_with_rays() {
     let (scene, samples) = site("headquarters", 2.0);
     scene.check(&samples, &[Choice::Auto]);
     // every patch of 73,000 filled takes a minute; those that are worth it
-    let large = large(&scene, 40);
+    let (large, _) = scene.of_patches(|patch| patch.texels.len() >= 40);
     assert!(large.patches.texels.len() > 90_000);
     large.check(&samples, &[Choice::Texture]);
     println!("headquarters: {} texels differ on the adapter", large.check_adapter(&samples, Choice::Texture));

@@ -74,10 +74,10 @@ pub fn profile(scene: &Scene, profile: &Profile) -> Result<Vec<u8>, ExportError>
     let bands = Bands::new(scene.track.step_secs, profile.day_secs);
 
     let mut panel = panel(scene, "Shadow profile");
-    let all = words::duration(profile.day_secs);
+    let all = words::long_duration(profile.day_secs);
     panel.facts.push(("Cells", cells(grid.width, grid.height, grid.cell)));
     if profile.night_secs > 0 {
-        let night = words::duration(profile.night_secs);
+        let night = words::long_duration(profile.night_secs);
         panel.facts.push(("Night", format!("{night} of the window, not counted")));
     }
     panel.legend_head =
@@ -215,7 +215,7 @@ fn panel(scene: &Scene, kicker: &str) -> Panel {
     if track.each_day.is_some() {
         let day = track.instants.iter().filter(|instant| !instant.night);
         let secs = day.map(|instant| instant.weight_secs).sum();
-        facts.push(("Daylight", format!("{} on {} days", words::duration(secs), track.days.len())));
+        facts.push(("Daylight", format!("{} on {} days", words::long_duration(secs), track.days.len())));
     } else if let Some(day) = track.days.first() {
         facts.push(("Daylight", words::day(day, track)));
     }
@@ -283,7 +283,8 @@ fn highest_rows(track: &SunTrack, row: impl Fn(&str, String, f64, f64) -> [Strin
     // a window's last instant may be the next day's midnight
     highest.retain(|instant| track.days.iter().any(|day| day.date == instant.time.date_naive()));
     let low_to_high = |a: &&&Instant, b: &&&Instant| a.altitude_rad.total_cmp(&b.altitude_rad);
-    let told = [("highest", highest.iter().max_by(low_to_high)), ("lowest day", highest.iter().min_by(low_to_high))];
+    let told =
+        [("highest day", highest.iter().max_by(low_to_high)), ("lowest day", highest.iter().min_by(low_to_high))];
     let day = |instant: &Instant| instant.time.format("%-d %b %H:%M").to_string();
     let rows = told.into_iter().filter_map(|(what, instant)| Some((what, instant?)));
     rows.map(|(what, instant)| row(what, day(instant), instant.azimuth_rad, instant.altitude_rad)).collect()
@@ -294,8 +295,14 @@ fn legend(bands: &Bands) -> Vec<(scale::Rgb, String)> {
     let mut legend = vec![(NO_SHADOW, "none".to_owned())];
     for (band, colour) in bands.colours.iter().enumerate() {
         let (from, to) = bands.bounds(band);
-        let [from, to] = [from, to].map(|secs| words::hours(secs, with_secs));
-        legend.push((*colour, format!("{from} – {to}")));
+        let label = if bands.band_secs >= words::MANY_HOURS_SECS {
+            let [from, to] = [from, to].map(|secs| (f64::from(secs) / 3600.0).round());
+            format!("{from} – {to} h")
+        } else {
+            let [from, to] = [from, to].map(|secs| words::hours(secs, with_secs));
+            format!("{from} – {to}")
+        };
+        legend.push((*colour, label));
     }
     legend
 }

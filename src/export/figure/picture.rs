@@ -82,9 +82,9 @@ pub(super) fn compose(
     let columns = spans(fit.cells.0 as usize, width, between);
     let rows = spans(fit.cells.1 as usize, height, between);
     let mut pixels = vec![LINE; width * height];
-    pixels.par_chunks_mut(BAND * width).enumerate().for_each(|(band, chunk)| {
+    pixels.par_chunks_mut(BAND * width).enumerate().for_each_init(Vec::new, |ink, (band, chunk)| {
         let top = band * BAND;
-        let ink = draw_lines(fit, top, chunk.len() / width, &pen);
+        draw_lines(fit, top, chunk.len() / width, ink, &pen);
         for (row, line) in chunk.chunks_exact_mut(width).enumerate() {
             for (column, pixel) in line.iter_mut().enumerate() {
                 let paper = average(fit, colours, &columns[column], &rows[top + row]);
@@ -150,8 +150,15 @@ fn average(fit: Fit, colours: &[Rgb], columns: &Span, rows: &Span) -> Rgb {
         return first;
     }
     // most of a picture is of one colour
-    let mut rows_of_cells = rows.cells.clone().map(|row| &colours[row * width..][columns.cells.clone()]);
-    if rows_of_cells.all(|cells| cells.iter().all(|colour| *colour == first)) {
+    let at = |row: usize, column: usize| colours[row * width + column];
+    let is_one = match (rows.cells.len(), columns.cells.len()) {
+        (1 | 2, 1 | 2) => {
+            let (south, east) = (rows.cells.end - 1, columns.cells.end - 1);
+            at(rows.cells.start, east) == first && at(south, columns.cells.start) == first && at(south, east) == first
+        }
+        _ => rows.cells.clone().all(|row| columns.cells.clone().all(|column| at(row, column) == first)),
+    };
+    if is_one {
         return first;
     }
     let mut sum = [0.0_f32; 3];
@@ -177,11 +184,12 @@ fn blend(paper: Rgb, ink: f32) -> Rgb {
 }
 
 /// The strength of the lines in pixel rows `top..top + rows`.
-fn draw_lines(fit: Fit, top: usize, rows: usize, pen: &impl Fn(usize, usize) -> Option<Pen>) -> Vec<f32> {
+fn draw_lines(fit: Fit, top: usize, rows: usize, strength: &mut Vec<f32>, pen: &impl Fn(usize, usize) -> Option<Pen>) {
     let (cells_x, cells_y) = (fit.cells.0 as usize, fit.cells.1 as usize);
     let scale = [fit.pixels.0 as f32 / cells_x as f32, fit.pixels.1 as f32 / cells_y as f32];
-    let mut ink =
-        Ink { width: fit.pixels.0 as usize, top: top as f32, rows, strength: vec![0.0; fit.pixels.0 as usize * rows] };
+    strength.clear();
+    strength.resize(fit.pixels.0 as usize * rows, 0.0);
+    let mut ink = Ink { width: fit.pixels.0 as usize, top: top as f32, rows, strength };
     // Lines reach over the band's edge by their radius.
     let reach = Pen::OUTLINE.radius + 1.0;
     let first = ((top as f32 - reach) / scale[1]).floor().max(1.0) as usize - 1;
@@ -203,17 +211,16 @@ fn draw_lines(fit: Fit, top: usize, rows: usize, pen: &impl Fn(usize, usize) -> 
             }
         }
     }
-    ink.strength
 }
 
-struct Ink {
+struct Ink<'a> {
     width: usize,
     top: f32,
     rows: usize,
-    strength: Vec<f32>,
+    strength: &'a mut [f32],
 }
 
-impl Ink {
+impl Ink<'_> {
     /// A stroke with round ends, along one axis; where strokes overlap the stronger one counts.
     fn stroke(&mut self, from: [f32; 2], to: [f32; 2], pen: Pen) {
         let reach = pen.radius + 0.5;

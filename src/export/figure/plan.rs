@@ -64,13 +64,25 @@ fn draw(
 ) -> Picture {
     let (surface, mesh) = (scene.surface, scene.mesh);
     let light = relief_light(scene);
-    let colours: Vec<Rgb> = (0..surface.face.len())
-        .into_par_iter()
-        .map(|cell| match face(surface, cell) {
-            Some(face) => shade(flat(cell, Some(face)), relief(upward(mesh, face), light, strength)),
-            None => flat(cell, None),
-        })
-        .collect();
+    let width = (surface.width as usize).max(1);
+    let mut colours: Vec<Rgb> = vec![[0; 3]; surface.face.len()];
+    colours.par_chunks_mut(width).enumerate().for_each(|(row, colours)| {
+        // along a row a face is seen again and again
+        let mut last = None;
+        for (column, colour) in colours.iter_mut().enumerate() {
+            let cell = row * width + column;
+            let Some(face) = face(surface, cell) else {
+                *colour = flat(cell, None);
+                continue;
+            };
+            let factor = match last {
+                Some((known, factor)) if known == face => factor,
+                _ => relief(upward(mesh, face), light, strength),
+            };
+            last = Some((face, factor));
+            *colour = shade(flat(cell, Some(face)), factor);
+        }
+    });
     let seen = &surface.face[..];
     // nearly all neighbours are one face
     compose(fit, Between::Sharp, &colours, |a, b| if seen[a] == seen[b] { None } else { pen(scene, cell_m, a, b) })

@@ -103,6 +103,14 @@ pub(in crate::export) fn duration(secs: u32) -> String {
     if said.is_empty() { "0 s".to_owned() } else { said.join(" ") }
 }
 
+/// From here on minutes say nothing, seconds.
+pub(super) const MANY_HOURS_SECS: u32 = 100 * 3600;
+
+/// As [`duration`], many hours without minutes.
+pub(super) fn long_duration(secs: u32) -> String {
+    if secs < MANY_HOURS_SECS { duration(secs) } else { format!("{} h", (f64::from(secs) / 3600.0).round()) }
+}
+
 /// `1:30`, with seconds only where `with_secs`.
 pub(super) fn hours(secs: u32, with_secs: bool) -> String {
     let (h, m, s) = (secs / 3600, secs / 60 % 60, secs % 60);
