@@ -93,13 +93,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     if wanted(Written::Json) {
         files.push(("profile.json", json.clone().into_bytes()));
     }
-    let mut text = String::new();
-    for (name, bytes) in files {
-        let path = asked.out.join(name);
-        file::write(&path, &bytes)?;
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{}", path.display());
-    }
+    let mut text = written(&asked.out, &files)?;
     if let Some(bits) = kept.bits.take() {
         let _ = writeln!(text, "{}", bits.path().display());
         bits.finish()?;
@@ -115,6 +109,18 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     text.push_str(&statistics.map(took).unwrap_or_default());
     text.push_str(&hours(profile, &site.track));
     say(&text)
+}
+
+/// Writes files into a folder, and names each in a line.
+pub(super) fn written(folder: &Path, files: &[(&str, Vec<u8>)]) -> Result<String, ExportError> {
+    let mut text = String::new();
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        file::write(&path, bytes)?;
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{}", path.display());
+    }
+    Ok(text)
 }
 
 /// Work as a stage of its own, that is done beside others.

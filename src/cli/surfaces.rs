@@ -2,6 +2,7 @@
 
 use super::arguments::{ProfileArgs, Written};
 use super::commands::drawn_by;
+use super::profile::written;
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::report::{self, Told};
@@ -54,13 +55,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
     if kinds.contains(&Written::Json) {
         files.push(("profile.json", json.clone().into_bytes()));
     }
-    let mut text = String::new();
-    for (name, bytes) in files {
-        let path = asked.out.join(name);
-        file::write(&path, &bytes)?;
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{}", path.display());
-    }
+    let mut text = written(&asked.out, &files)?;
     if asked.common.json {
         return say(&json);
     }

@@ -165,10 +165,16 @@ fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
             }
             (None, written)
         }
-        Wanted::Again(path, written) => (path, *written),
+        // what is left out of the open site by hand is told, and not filled in
+        Wanted::Again(path, written) => return read(path, *written, progress),
     };
     let mut written = written;
     complete(&mut written.site);
+    read(path, written, progress)
+}
+
+/// The site as it is written, with what the window needs of it.
+fn read(path: Option<PathBuf>, written: Written, progress: &Progress) -> Result<Project, Fault> {
     progress.tell(0.15, "Reading the models");
     let parts = RefCell::new(Vec::new());
     let count = written.site.model.len().max(1) as f32;
@@ -198,16 +204,20 @@ fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
     })
 }
 
-/// What a study must say and somebody left out: the March day of most rules, nine to five.
+/// What a study must say and somebody left out: the March day of most rules, nine to five. A study of several days may
+/// leave its hours out.
 fn complete(site: &mut SiteFile) {
     let study = &mut site.study;
+    study.step.get_or_insert_with(|| "30min".to_owned());
+    if study.dates.is_some() {
+        return;
+    }
     let from = study.from.get_or_insert_with(|| Text("9:00".to_owned()));
     let dated = from.0.contains('T') || from.0.matches('-').count() >= 2;
-    if !dated && study.dates.is_none() {
+    if !dated {
         study.date.get_or_insert_with(|| Text("2026-03-21".to_owned()));
     }
     study.to.get_or_insert_with(|| Text("17:00".to_owned()));
-    study.step.get_or_insert_with(|| "30min".to_owned());
 }
 
 fn told(error: impl Into<anyhow::Error>) -> Fault {

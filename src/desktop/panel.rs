@@ -194,10 +194,10 @@ fn study(app: &mut App, ui: &mut Ui) {
             field(ui, typed, ("Step", Some(label)), &mut step, 58.0);
         });
     }
-    (study.from, study.to, study.step) = (Some(Text(from)), Some(Text(to)), Some(step));
-    if study.date.is_some() || !date.is_empty() {
-        study.date = Some(Text(date));
-    }
+    // what is empty is not said
+    let said = |text: String| Some(text).filter(|text| !text.trim().is_empty());
+    (study.from, study.to, study.date) = (said(from).map(Text), said(to).map(Text), said(date).map(Text));
+    study.step = said(step);
     if let (Some(date), Some(Text(text))) = (shown_date, &mut study.date)
         && date.to_string() != *text
         && ui.button(format!("Take {date} from the clock")).clicked()

@@ -84,3 +84,17 @@ fn place_changes_and_comes_back() {
     settle(&mut harness);
     assert_eq!(latitude(&harness), Some(-33.9));
 }
+
+/// A study of several whole days keeps what it says, and what it leaves out.
+#[test]
+fn study_of_several_days_stays_as_it_is() {
+    let (_folder, site) = small_site();
+    let text = std::fs::read_to_string(&site).unwrap();
+    let one_day = "date = 2026-03-21\nfrom = \"9:00\"\nto = \"17:00\"\n";
+    assert!(text.contains(one_day));
+    std::fs::write(&site, text.replace(one_day, "dates = [2026-03-20, 2026-03-22]\n")).unwrap();
+    let harness = window(Some(&site));
+    assert_eq!(value(&harness, "Study days"), "2026-03-20");
+    let study = harness.state().site_file().study.clone();
+    assert!(study.from.is_none() && study.to.is_none() && study.date.is_none(), "{study:?}");
+}
