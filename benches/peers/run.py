@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """Gnomon beside what one could take instead, as whole processes, in one run: prints tables in Markdown.
 
-    python benches/peers/gen_workload.py DIR                          the city of 182,000 triangles
-    python benches/peers/run.py DIR [--runs 7] [--tests T1,T2,T3,T4] [--peer 'NAME=COMMAND']...
+    python benches/peers/run.py CITY.glb [--runs 7] [--tests T1,T2,T3,T4] [--raster PROGRAM] [--embree PROGRAM]
+                                         [--peer 'NAME=COMMAND']...
 
-Programs of others are for the reader to install. Two are built here by g++: `exact.cpp`, the plainest raster of projected
-triangles in double precision, and `embree.cpp`, ray casting by Embree 3 in packets of 16 (Debian: libembree-dev); what
-cannot be built is left out, and said. Any other program joins with --peer, where COMMAND may use {glb}, {suns} (a line
-for each instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side), {threads} and {out}.
+The programs of others are for the reader to install. Two kinds have options of their own, as they take part in all tests:
+--raster, a plain raster of projected triangles, and --embree, ray casting by Embree in packets; both are called as
+
+    PROGRAM GLB SUNS N WEST SOUTH SIDE THREADS [PACKET] MODE OUT [robust]
+
+with MODE mask, hours or top. Any other program joins with --peer, where COMMAND may use {glb}, {suns} (a line for each
+instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side), {threads} and {out}.
 
 Programs take turns, so that ratios hold whatever else the machine does: each is the median of its turns' own ratios.
 Seconds are medians; CPU is user and system time together; the peak is the largest resident size.
@@ -42,17 +45,19 @@ TESTS = {
 
 def main():
     ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    ask.add_argument("workload", type=Path, help="the folder with city180k.glb")
+    ask.add_argument("model", type=Path, help="a city, z up as glTF has it, around the place")
     ask.add_argument("--gnomon", type=Path, default=HERE.parents[1] / "target/release/gnomon")
     ask.add_argument("--engine", default="cpu", help="Gnomon's (default: cpu)")
     ask.add_argument("--runs", type=int, default=7)
     ask.add_argument("--tests", default=",".join(test for test in TESTS if "," not in test))
     ask.add_argument("--threads", type=int, default=os.cpu_count())
+    ask.add_argument("--raster", type=Path)
+    ask.add_argument("--embree", type=Path)
     ask.add_argument("--peer", action="append", default=[], metavar="NAME=COMMAND")
     asked = ask.parse_args()
-    glb = (asked.workload / "city180k.glb").resolve()
+    glb = asked.model.resolve()
     if not glb.is_file():
-        sys.exit(f"{glb} is not there; make it with {HERE / 'gen_workload.py'} {asked.workload}")
+        sys.exit(f"{glb} is not there; name a model")
     if not asked.gnomon.is_file():
         sys.exit(f"{asked.gnomon} is not there; build it with cargo build --release")
     with tempfile.TemporaryDirectory() as folder:
@@ -62,7 +67,6 @@ def main():
 def compare(asked, glb, folder):
     site = folder / "site.toml"
     site.write_text(SITE.format(glb=glb))
-    programs = build(folder)
     gnomon = f"{asked.gnomon} {{command}} --engine {asked.engine} --threads {asked.threads} --no-refraction --quiet"
     wanted = [test for test in TESTS if test.split()[0] in asked.tests.split(",")]
     for test in wanted:
@@ -72,28 +76,14 @@ def compare(asked, glb, folder):
         ours = gnomon.format(command=command.format(out=folder / "gnomon", **fill))
         commands = {"Gnomon": ours}
         raster = f"{fill['glb']} {suns} {cells} {REGION[0]} {REGION[1]} {REGION[2]} {asked.threads}"
-        if "exact" in programs and mode != "top":
-            commands["plain raster, exact.cpp"] = f"{programs['exact']} {raster} {mode} {folder / 'exact.bin'}"
-        if "embree" in programs:
-            commands["Embree, packets of 16"] = f"{programs['embree']} {raster} 16 {mode} {folder / 'embree.bin'} robust"
+        if asked.raster and mode != "top":
+            commands["plain raster"] = f"{asked.raster} {raster} {mode} {folder / 'raster.bin'}"
+        if asked.embree:
+            commands["Embree, packets of 16"] = f"{asked.embree} {raster} 16 {mode} {folder / 'embree.bin'} robust"
         for peer in asked.peer:
             name, _, peer_command = peer.partition("=")
             commands[name] = peer_command.format(out=folder / "peer", **fill)
         table(test, cells, len(suns.read_text().splitlines()), commands, asked.runs if test != "T3" else min(asked.runs, 2))
-
-
-def build(folder):
-    """The programs that g++ can build here."""
-    programs = {}
-    for name, libraries in [("exact", []), ("embree", ["-lembree3"])]:
-        program = folder / name
-        flags = ["-O3", "-march=native", "-std=c++17", "-pthread", f"-I{HERE}"]
-        try:
-            subprocess.run(["g++", *flags, HERE / f"{name}.cpp", "-o", program, *libraries], check=True, capture_output=True)
-            programs[name] = program
-        except (OSError, subprocess.CalledProcessError) as error:
-            print(f"{name} is left out: {getattr(error, 'stderr', b'') or error}", file=sys.stderr)
-    return programs
 
 
 def write_suns(gnomon, site, study, path):

@@ -152,6 +152,23 @@ fn the_model_holds_the_hours_as_colours_and_as_numbers() {
 }
 
 #[test]
+fn what_does_not_receive_stands_in_the_model_without_hours() {
+    let folder = site();
+    let path = folder.path().join("site.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let other = "[[model]]\npath = \"open.glb\"\nposition = [40, 0, 0]\nreceives = false\n[study]";
+    std::fs::write(&path, text.replace("[study]", other)).unwrap();
+    profile(folder.path(), "--patch-cell 2 --write glb,csv --step 2h");
+    let bytes = std::fs::read(folder.path().join("out/surfaces.glb")).unwrap();
+    let document = gltf::Gltf::from_slice(&bytes).unwrap().document;
+    assert_eq!(document.nodes().count(), 2);
+    let plain = document.nodes().nth(1).unwrap().mesh().unwrap().primitives().next().unwrap();
+    assert!(plain.get(&gltf::Semantic::TexCoords(0)).is_none());
+    assert_eq!((plain.indices().unwrap().count(), plain.material().name()), (30, Some("not judged")));
+    assert_eq!(lines(folder.path()).len(), 7);
+}
+
+#[test]
 fn files_are_those_that_are_asked() {
     let folder = site();
     let report = json(&profile(folder.path(), "--patch-cell 1 --json"));

@@ -22,6 +22,7 @@ pub use counted::{Colours, Diagram};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 pub use strips::strips;
+pub(super) use surfaces::NOT_JUDGED;
 pub use surfaces::surfaces;
 pub(super) use words::duration;
 

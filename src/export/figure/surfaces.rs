@@ -12,7 +12,7 @@ use glam::Vec4Swizzles as _;
 use rayon::prelude::*;
 
 /// The colour of what is not judged: the ground, and sides that look into the model.
-const UNJUDGED: Rgb = plan::ROOF_UNJUDGED;
+pub(in crate::export) const NOT_JUDGED: Rgb = plan::ROOF_UNJUDGED;
 
 /// `surfaces.png`: the hours of sun on the surfaces that `camera` sees. `scene`'s mesh is that of what
 /// receives alone.
@@ -49,7 +49,7 @@ fn labelled(scene: &Scene, surfaces: &Surfaces) -> Panel {
         panel.legend.push((bands.colours[bands.colours.len() - 1 - band], format!("{from} – {to}")));
     }
     panel.legend.push((NO_SUN, "none".to_owned()));
-    panel.legend.push((UNJUDGED, super::UNJUDGED.to_owned()));
+    panel.legend.push((NOT_JUDGED, super::UNJUDGED.to_owned()));
     panel
 }
 
@@ -72,11 +72,11 @@ fn painted(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Vec<Rgb> {
     let colour = |pixel: usize| {
         let face = scene.surface.face[pixel];
         if face >= Surface::GROUND {
-            return UNJUDGED;
+            return NOT_JUDGED;
         }
         let plane = facing(scene, face, camera.eye);
         let seen_side = |patch: &&Patch| patch.two_sided || patch.normal().dot(plane.xyz()) > 0.0;
-        let Some(patch) = patch_of.get(face as usize).copied().flatten().filter(seen_side) else { return UNJUDGED };
+        let Some(patch) = patch_of.get(face as usize).copied().flatten().filter(seen_side) else { return NOT_JUDGED };
         let ray = lens.ray(pixel % width, pixel / width);
         let depth = -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray);
         let place = patches.in_page(patch, camera.eye + ray * depth - patches.origin);

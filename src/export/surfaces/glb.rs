@@ -1,14 +1,16 @@
 //! `surfaces.glb`: the model with its hours of sun as textures, a binary glTF 2.0 file that any viewer of models opens.
 //!
-//! A node a component, a primitive a page of the atlas. The colours are the drawing's, without light and shade of the
+//! A node a component, a primitive a page of the atlas; what does not receive is plain. The colours are the drawing's, without light and shade of the
 //! viewer's own (KHR_materials_unlit). Beside each page's colours lies a texture of the numbers: 16-bit gray, `extras` of
 //! the scene say how many seconds a unit is.
 
-use super::{Surfaces, pages};
+use super::{Exposure, Surfaces, pages};
 use crate::export::ExportError;
+use crate::export::figure::NOT_JUDGED;
 use crate::export::raster::png_bytes;
 use crate::export::report::{place_report, stamp};
 use crate::export::volumes::in_gltf;
+use crate::mesh::Component;
 use crate::mesh::patches::Patch;
 use glam::Vec3;
 use gltf::binary::{Glb, Header};
@@ -43,21 +45,22 @@ pub fn glb(surfaces: &Surfaces) -> Result<Vec<u8>, ExportError> {
     let images: Vec<[usize; 2]> =
         pages.iter().map(|page| file.images(surfaces, page, seconds)).collect::<Result<_, _>>()?;
     let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
-    let mut first = 0;
-    for (name, patches, exposure) in surfaces.components() {
-        let primitives = file.primitives(surfaces, patches);
-        nodes.push(json!({
-            "name": name,
-            "mesh": meshes.len(),
-            "translation": in_gltf(surfaces.patches.origin.as_vec3()),
-            "extras": {"area_m2": exposure.area_m2, "hours_mean": exposure.hours_mean,
-                       "hours_min": exposure.hours_min, "hours_max": exposure.hours_max},
-        }));
+    let mut node = |name: &str, primitives: Vec<Value>, extras: Value| {
+        let translation = in_gltf(surfaces.patches.origin.as_vec3());
+        nodes.push(json!({"name": name, "mesh": meshes.len(), "translation": translation, "extras": extras}));
         meshes.push(json!({"name": name, "primitives": primitives}));
-        first += patches.len();
+    };
+    for (name, patches, exposure) in surfaces.components() {
+        let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;
+        let extras =
+            json!({"area_m2": area_m2, "hours_mean": hours_mean, "hours_min": hours_min, "hours_max": hours_max});
+        node(name, file.primitives(surfaces, patches), extras);
     }
-    debug_assert_eq!(first, surfaces.patches.list.len());
-    let materials: Vec<Value> = (0..pages.len()).map(material).collect();
+    let components = surfaces.mesh.components.iter().zip(surfaces.receives);
+    for (component, _) in components.filter(|(component, receives)| !**receives && !component.faces.is_empty()) {
+        node(&component.name, vec![file.plain(surfaces, component, pages.len())], json!({"judged": false}));
+    }
+    let materials: Vec<Value> = (0..pages.len()).map(material).chain([not_judged()]).collect();
     let mut document = json!({
         "asset": {"version": "2.0", "generator": concat!("gnomon ", env!("CARGO_PKG_VERSION"))},
         "extensionsUsed": ["KHR_materials_unlit"],
@@ -104,6 +107,20 @@ fn material(page: usize) -> Value {
         "extensions": {"KHR_materials_unlit": {}},
         "doubleSided": true,
         "extras": {"numbers_texture": 2 * page + 1},
+    })
+}
+
+/// The material of what does not receive: the drawing's colour of what is not judged.
+fn not_judged() -> Value {
+    // to linear light, as the format asks for
+    let [red, green, blue] = NOT_JUDGED.map(|value| (f64::from(value) / 255.0).powf(2.2));
+    json!({
+        "name": "not judged",
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [red, green, blue, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0,
+        },
+        "extensions": {"KHR_materials_unlit": {}},
+        "doubleSided": true,
     })
 }
 
@@ -168,27 +185,50 @@ impl File {
             for patch in patches {
                 append(surfaces, patch, &mut positions, &mut places, &mut corners);
             }
-            let low = positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
-            let high = positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
-            let position = self.accessor(
-                json!({"componentType": FLOAT, "type": "VEC3", "count": positions.len(),
-                       "min": low.to_array(), "max": high.to_array()}),
-                positions.iter().flat_map(Vec3::to_array).flat_map(f32::to_le_bytes),
-                ARRAY_BUFFER,
-            );
             let place = self.accessor(
                 json!({"componentType": FLOAT, "type": "VEC2", "count": places.len()}),
                 places.iter().flatten().copied().flat_map(f32::to_le_bytes),
                 ARRAY_BUFFER,
             );
-            let indices = self.accessor(
-                json!({"componentType": UNSIGNED_INT, "type": "SCALAR", "count": corners.len()}),
-                corners.iter().copied().flat_map(u32::to_le_bytes),
-                ELEMENT_ARRAY_BUFFER,
-            );
+            let [position, indices] = self.triangles(&positions, &corners);
             json!({"attributes": {"POSITION": position, "TEXCOORD_0": place}, "indices": indices, "material": page})
         };
         of_pages.into_iter().map(primitive).collect()
+    }
+
+    /// A component that does not receive, as it is.
+    fn plain(&mut self, surfaces: &Surfaces, component: &Component, material: usize) -> Value {
+        let mesh = surfaces.mesh;
+        let mut positions = Vec::new();
+        let mut known: FxHashMap<u32, u32> = FxHashMap::default();
+        let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
+        let mut corner = |&vertex: &u32| {
+            *known.entry(vertex).or_insert_with(|| {
+                positions.push(Vec3::from(in_gltf(mesh.vertices[vertex as usize])));
+                positions.len() as u32 - 1
+            })
+        };
+        let corners: Vec<u32> = faces.iter().flatten().map(&mut corner).collect();
+        let [position, indices] = self.triangles(&positions, &corners);
+        json!({"attributes": {"POSITION": position}, "indices": indices, "material": material})
+    }
+
+    /// The accessors of positions and indices.
+    fn triangles(&mut self, positions: &[Vec3], corners: &[u32]) -> [usize; 2] {
+        let low = positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+        let position = self.accessor(
+            json!({"componentType": FLOAT, "type": "VEC3", "count": positions.len(),
+                   "min": low.to_array(), "max": high.to_array()}),
+            positions.iter().flat_map(Vec3::to_array).flat_map(f32::to_le_bytes),
+            ARRAY_BUFFER,
+        );
+        let indices = self.accessor(
+            json!({"componentType": UNSIGNED_INT, "type": "SCALAR", "count": corners.len()}),
+            corners.iter().copied().flat_map(u32::to_le_bytes),
+            ELEMENT_ARRAY_BUFFER,
+        );
+        [position, indices]
     }
 
     fn finish(self, mut document: Value) -> Result<Vec<u8>, ExportError> {
