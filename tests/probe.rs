@@ -45,7 +45,7 @@ fn at(point: DVec3, normal: Option<DVec3>) -> Probe {
 fn probing(place: &Place, parts: Vec<Part>, probes: Vec<Probe>, days: Vec<DayWindow>) -> Probing {
     let mesh = Mesh::build(parts).unwrap();
     let casts = vec![true; mesh.components.len()];
-    Probing { place: place.clone(), mesh, casts, probes, days, step_secs: 60, refraction: true }
+    Probing { place: place.clone(), mesh, casts, ground: 0.0, probes, days, step_secs: 60, refraction: true }
 }
 
 fn found(asked: &Probing) -> Sunlight {
@@ -338,4 +338,20 @@ fn interruption_is_heard_between_days() {
         if heard == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     assert!(matches!(stopped, Err(StudyError::Interrupted)) && heard == 3);
+}
+
+/// As on surfaces: what lies below the ground sees no sun, the wall above it does.
+#[test]
+fn below_the_ground_there_is_no_sun() {
+    let place = paris();
+    let day = day(&place, "2026-06-21", None);
+    let house = cuboid("house", dvec3(-5.0, 0.0, -3.0), dvec3(5.0, 9.0, 9.0));
+    let wall = |z: f64| at(dvec3(0.0, 0.0, z), Some(DVec3::NEG_Y));
+    let mut asked = probing(&place, vec![house], vec![wall(-1.0), wall(0.0), wall(1.0)], vec![day]);
+    let secs =
+        |asked: &Probing| found(asked).probes.iter().map(gnomon::profile::probe::Probed::secs).collect::<Vec<_>>();
+    let above = secs(&asked);
+    assert!(above[0] == 0 && above[1] > 20_000 && above[1] == above[2], "{above:?}");
+    asked.ground = -3.0;
+    assert_eq!(secs(&asked)[0], above[1]);
 }

@@ -117,7 +117,7 @@ pub(super) struct WindowArgs {
 pub(super) struct DrawArgs {
     /// auto, stencil or ray-cast (exact), projected (exact, for the plan), hybrid (exact but for casters thinner than a map's texel), shadow-map (quick),
     /// smoothie (the soft edge of a real sun, drawn outside of the hard edge alone: shadows come out too large by half of
-    /// the width of their edge), soft-texture (with --view camera: the sun's disc on what is flat)
+    /// the width of their edge), soft-texture (for profile --receivers surfaces, and with --view camera: the sun's disc on what is flat)
     #[arg(long, value_name = "NAME")]
     technique: Option<Method>,
     #[command(flatten)]
@@ -127,7 +127,8 @@ pub(super) struct DrawArgs {
     engine: Option<Engine>,
     #[command(flatten)]
     maps: MapArgs,
-    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024; with soft-texture [default: 64]
+    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024; with soft-texture in a camera's picture
+    /// [default: 64]; on surfaces with either [default: its centre]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
     sun_samples: Option<u32>,
 }
@@ -217,7 +218,7 @@ pub(super) struct ProfileArgs {
     #[arg(long)]
     pub(super) stats: bool,
     /// Which files [default: png,tif,json; with --receivers surfaces png,glb,csv,json]
-    #[arg(long, value_name = "png,tif,json", value_delimiter = ',')]
+    #[arg(long, value_name = "png,tif,glb,csv,json", value_delimiter = ',')]
     write: Vec<Written>,
     #[command(flatten)]
     pub(super) common: Common,

@@ -120,6 +120,7 @@ fn named(sunlight: &Sunlight, blocked: Blocked) -> String {
     match sunlight.name(blocked).as_str() {
         "horizon" => "the horizon".to_owned(),
         "behind" => "the sun is behind it".to_owned(),
+        "ground" => "the ground above it".to_owned(),
         "window" => "midnight".to_owned(),
         name => name.to_owned(),
     }

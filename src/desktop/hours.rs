@@ -151,6 +151,7 @@ pub(super) fn probe(project: &Project, probe: Probe, date: NaiveDate, context: e
     Work::start(context, move |on_event| {
         let day = DayWindow::on(&site.place, date, None, None).map_err(StudyError::from)?;
         let probing = Probing {
+            ground: site.ground,
             place: site.place.clone(),
             mesh: site.mesh.clone(),
             casts: site.casts.clone(),

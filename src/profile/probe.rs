@@ -14,6 +14,8 @@ pub enum Blocked {
     Horizon,
     /// The sun is behind the probe's own plane, or in it.
     Behind,
+    /// The ground: the probe lies below it.
+    Ground,
     /// A component that casts, the nearest to the probe on the way to the sun: by its number in [`Sunlight::components`].
     Component(usize),
 }
@@ -79,8 +81,9 @@ impl Sunlight {
             Blocked::Window => "window".to_owned(),
             Blocked::Horizon => "horizon".to_owned(),
             Blocked::Behind => "behind".to_owned(),
+            Blocked::Ground => "ground".to_owned(),
             Blocked::Component(component) => match self.components.get(component).map_or("", String::as_str) {
-                word @ ("window" | "horizon" | "behind") => format!("{word} (component)"),
+                word @ ("window" | "horizon" | "behind" | "ground") => format!("{word} (component)"),
                 name => name.to_owned(),
             },
         }

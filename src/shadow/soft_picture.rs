@@ -150,7 +150,7 @@ impl SoftPicture {
             seen.texels.extend(of_patch.iter().map(|&(_, row, column)| Texel { column, row }));
             seen.list.push(Patch { texels: first..seen.texels.len() as u32, ..patch.clone() });
         }
-        let painter = Painter::OnProcessor(Fill::Faces);
+        let painter = Painter::OnProcessor(Fill::Silhouettes);
         let mut texture = SoftTexture::new(self.scene.casters.clone(), Arc::new(seen), painter, Choice::Auto)?;
         let samples: Vec<_> =
             disc(to_sun, self.samples).map(|point| Sample { light: point.extend(0.0), weight: 1 }).collect();

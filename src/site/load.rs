@@ -106,13 +106,7 @@ impl Site {
         }
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
-        let level = written.site.ground.level;
-        if let Some(level) = level.filter(|level| !level.is_finite()) {
-            return Err(refuse(
-                written.key("ground", "level"),
-                format!("{level} is no height; write metres, for example 0.0"),
-            ));
-        }
+        let level = ground_level(written)?;
         let Models { mesh, casts, receives, bounds } = Models::read(written, read_model)?;
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
@@ -182,6 +176,17 @@ fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {
             .parse()
             .map_err(|error: super::ChoiceError| refuse(written.key("study", "technique"), error.to_string())),
         (None, None) => Ok(Method::default()),
+    }
+}
+
+/// The ground's height, where it is written.
+pub(super) fn ground_level(written: &Written) -> Result<Option<f64>, SiteError> {
+    match written.site.ground.level {
+        Some(level) if !level.is_finite() => {
+            let what = format!("{level} is no height; write metres, for example 0.0");
+            Err(refuse(written.key("ground", "level"), what))
+        }
+        level => Ok(level),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::asked::{Overrides, numbers, refuse};
 use super::dates::{of_each_day, own_date, several};
 use super::error::{At, SiteError};
-use super::load::Models;
+use super::load::{Models, ground_level};
 use super::model;
 use super::study::{date_of, no_study};
 use super::written::Written;
@@ -27,6 +27,8 @@ pub struct Probing {
     pub mesh: Mesh,
     /// Per component: whether it casts.
     pub casts: Vec<bool>,
+    /// Height of the ground plane, metres.
+    pub ground: f64,
     /// The points, at least one, each with its own name.
     pub probes: Vec<Probe>,
     /// The days in their order, at least one, and what is asked of each.
@@ -52,8 +54,18 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
         step => step,
     }
     .map_err(|error| SiteError::sun(At::Option("--step"), error))?;
-    let Models { mesh, casts, .. } = Models::read(&written, model::load)?;
-    Ok(Probing { place, mesh, casts, probes, days, step_secs, refraction: !asked.no_refraction })
+    let level = ground_level(&written)?;
+    let Models { mesh, casts, bounds, .. } = Models::read(&written, model::load)?;
+    Ok(Probing {
+        place,
+        mesh,
+        casts,
+        ground: level.unwrap_or(bounds.low.z),
+        probes,
+        days,
+        step_secs,
+        refraction: !asked.no_refraction,
+    })
 }
 
 /// The point of the command line, or else those of the file.

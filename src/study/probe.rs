@@ -1,7 +1,7 @@
 //! When points lie in the sun: rays at the instants of a grid, and halving between two of them that differ.
 //!
 //! A probe lies in sunlight where the sun is above the horizon, in front of the probe's plane if it has one, and a ray
-//! to the sun's centre meets no caster. An interval of sun or of shade that is at least one step long holds an instant
+//! to the sun's centre meets no caster; not below the ground. An interval of sun or of shade that is at least one step long holds an instant
 //! of the grid, and so cannot be missed; a shorter one may be. Each change that is found is exact to the second.
 
 use super::{Event, OnEvent, StudyError, note_distance, tell};
@@ -54,6 +54,8 @@ struct Search<'a> {
     probes: &'a [Probe],
     step: TimeDelta,
     air: Option<Air>,
+    /// Height of the ground, below which there is no sun.
+    ground: f64,
     casters: Mesh,
     rays: RayCaster,
 }
@@ -68,6 +70,7 @@ impl Search<'_> {
             probes: &asked.probes,
             step: TimeDelta::seconds(asked.step_secs.into()),
             air: asked.refraction.then(|| Air::standard(asked.place.elevation_m)),
+            ground: asked.ground,
             casters,
             rays,
         }
@@ -115,6 +118,9 @@ impl Search<'_> {
             return Some(Blocked::Behind);
         }
         let judged = probe.point + probe.normal.unwrap_or(DVec3::ZERO) * JUDGED_ABOVE_M;
+        if judged.z < self.ground {
+            return Some(Blocked::Ground);
+        }
         let (face, _) = self.rays.first_hit(judged - self.casters.origin, instant.to_sun)?;
         Some(Blocked::Component(self.casters.components.partition_point(|component| component.faces.end <= face)))
     }

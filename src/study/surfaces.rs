@@ -137,7 +137,7 @@ fn choice(site: &Site) -> Result<Choice, StudyError> {
 ///
 /// Measured (docs/benchmarks/receivers.md).
 fn painter(site: &Site, choice: Choice, on_event: &mut OnEvent<'_>) -> Result<Painter, StudyError> {
-    let on_processor = Painter::OnProcessor(Fill::Faces);
+    let on_processor = Painter::OnProcessor(Fill::Silhouettes);
     match site.engine {
         _ if choice == Choice::Rays => Ok(on_processor),
         Engine::Cpu => Ok(on_processor),
@@ -160,7 +160,7 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
     }
     if patches.cell > patches.asked_cell {
         let note = format!(
-            "surfaces have texels of {:.3} m in place of {} m, of which there would be too many; leave components out \
+            "surfaces have texels of {:.3} m in place of {:?} m, of which there would be too many; leave components out \
              with `receives` to have finer ones",
             patches.cell, patches.asked_cell
         );
@@ -169,8 +169,7 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
     let two_sided = || patches.list.iter().filter(|patch| patch.two_sided);
     if two_sided().next().is_some() {
         let note = format!(
-            "{} of {} patches ({:.0} m²) are sheets of which nothing tells the outer side; they are judged on the side \
-             that faces the sun",
+            "of {} of {} patches ({:.0} m²) nothing tells the outer side; they are judged on the side that faces the sun",
             two_sided().count(),
             patches.list.len(),
             two_sided().map(|patch| patch.area_m2).sum::<f64>()

@@ -1,9 +1,11 @@
 //! The sample sites: every way against rays, cell by cell, at three instants.
 
 use super::Scene;
-use gnomon::mesh::patches::{MOST_TEXELS, Patches};
+use gnomon::mesh::patches::{DEFAULT_CELL_M, MOST_TEXELS, Patches};
 use gnomon::shadow::soft_texture::{Choice, Sample};
-use gnomon::site::{Overrides, Site};
+use gnomon::site::{Engine, Method, Overrides, Site};
+use gnomon::study::{SurfaceOutcome, surfaces};
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -41,4 +43,32 @@ fn the_headquarters_agree_with_rays() {
     assert!(large.patches.texels.len() > 90_000);
     large.check(&samples, &[Choice::Texture]);
     println!("headquarters: {} texels differ on the adapter", large.check_adapter(&samples, Choice::Texture));
+}
+
+fn hours(name: &str, asked: &Overrides) -> SurfaceOutcome {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
+    let site = Site::load(&folder, asked).expect("a sample site");
+    surfaces(&site, DEFAULT_CELL_M, &mut |_| ControlFlow::Continue(())).expect("hours")
+}
+
+#[test]
+fn hours_at_the_default_cell_are_those_of_rays() {
+    for name in ["tower", "industry"] {
+        let [textures, rays] = [Method::Auto, Method::RayCast].map(|method| {
+            hours(name, &Overrides { technique: Some(method), engine: Some(Engine::Cpu), ..Overrides::default() })
+        });
+        assert!(textures.judged.textures > 10_000, "{name}: {:?}", textures.judged);
+        assert_eq!(textures.hours.lit.len(), rays.hours.lit.len());
+        let differ = textures.hours.lit.iter().zip(&rays.hours.lit).filter(|(one, other)| one != other).count();
+        assert_eq!(differ, 0, "{name}: of {} texels", rays.hours.lit.len());
+    }
+}
+
+#[test]
+fn the_headquarters_fit_the_adapter_at_the_default_cell() {
+    let at = Some("2026-09-18T12:00".to_owned());
+    let outcome = hours("headquarters", &Overrides { at, engine: Some(Engine::Gpu), ..Overrides::default() });
+    assert_eq!(outcome.patches.cell, DEFAULT_CELL_M);
+    println!("{} MiB on the adapter", outcome.gpu_bytes >> 20);
+    assert!((1 << 24..1 << 30).contains(&outcome.gpu_bytes), "{} bytes", outcome.gpu_bytes);
 }

@@ -3,7 +3,7 @@
 use super::panel::{Panel, thousands};
 use super::perspective::{Lens, facing};
 use super::scale::{NO_SUN, Rgb};
-use super::{Scene, check_surface, page, panel, perspective, plan, words};
+use super::{Scene, check_surface, page, panel, perspective, words};
 use crate::export::ExportError;
 use crate::export::surfaces::{Surfaces, pages};
 use crate::mesh::patches::Patch;
@@ -11,8 +11,10 @@ use crate::view::{Camera, Surface};
 use glam::Vec4Swizzles as _;
 use rayon::prelude::*;
 
-/// The colour of what is not judged: the ground, and sides that look into the model.
-pub(in crate::export) const NOT_JUDGED: Rgb = plan::ROOF_UNJUDGED;
+/// The colour of what is not judged: sides that look into the model.
+pub(in crate::export) const NOT_JUDGED: Rgb = [200, 191, 182];
+/// The ground, which is not judged either; it needs no word in the legend.
+const GROUND: Rgb = [236, 234, 229];
 
 /// `surfaces.png`: the hours of sun on the surfaces that `camera` sees. `scene`'s mesh is that of what
 /// receives alone.
@@ -72,7 +74,7 @@ fn painted(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Vec<Rgb> {
     let colour = |pixel: usize| {
         let face = scene.surface.face[pixel];
         if face >= Surface::GROUND {
-            return NOT_JUDGED;
+            return GROUND;
         }
         let plane = facing(scene, face, camera.eye);
         let seen_side = |patch: &&Patch| patch.two_sided || patch.normal().dot(plane.xyz()) > 0.0;

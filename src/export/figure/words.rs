@@ -170,7 +170,7 @@ pub(super) fn receivers(receivers: Receivers) -> &'static str {
     match receivers {
         Receivers::Top => "highest surface",
         Receivers::Ground => "ground only",
-        Receivers::Surfaces => "walls and roofs, on their outer side",
+        Receivers::Surfaces => "walls, roofs and undersides",
     }
 }
 

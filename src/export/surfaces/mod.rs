@@ -63,7 +63,7 @@ pub fn csv(surfaces: &Surfaces) -> String {
         // Writing to a String cannot fail.
         let _ = write!(
             text,
-            "{name},{patch},{area_m2:.4},{azimuth},{tilt},{hours_mean:.4},{hours_min:.4},{hours_max:.4},\
+            "{name},{patch},{area_m2:.6},{azimuth},{tilt},{hours_mean:.4},{hours_min:.4},{hours_max:.4},\
              {one:.4},{two:.4},{three:.4},{four:.4}\r\n"
         );
     };
@@ -71,12 +71,19 @@ pub fn csv(surfaces: &Surfaces) -> String {
         let name = field(name);
         line(&name, "all", "", "", &exposure);
         for (index, patch) in patches.iter().enumerate() {
-            let azimuth = patch.azimuth_deg().map(|azimuth| format!("{azimuth:.2}")).unwrap_or_default();
+            let azimuth = patch.azimuth_deg().map(azimuth_text).unwrap_or_default();
             let tilt = format!("{:.2}", patch.tilt_deg());
             line(&name, &(index + 1).to_string(), &azimuth, &tilt, &surfaces.hours.of_patch(patch));
         }
     }
     text
+}
+
+/// Degrees from 0 to below 360, so that north is written in one way.
+fn azimuth_text(azimuth_deg: f64) -> String {
+    let hundredths = (azimuth_deg * 100.0).round().rem_euclid(36_000.0);
+    // + 0 makes −0 and 0 one
+    format!("{:.2}", hundredths / 100.0 + 0.0)
 }
 
 /// What it comes to, a line a component, the largest areas first; ends with a line break.

@@ -4,12 +4,13 @@
 //! whatever their winding; then the piece as a whole is turned:
 //!
 //! - A closed piece is judged on its outside, as its signed volume tells: a box turned inside out is a box. The largest
-//!   piece of a component sets the component's hand; one of the other hand within the box of a larger one is its cavity,
-//!   a room, and is judged from within; elsewhere it is an outside turned over.
+//!   piece of a component sets the component's hand; one of the other hand is an outside turned over. But within the box of
+//!   a larger one it may be that one's cavity, or stand in its court: nothing tells which.
 //! - An open piece that looks upwards for the most part (roofs against soffits, of faces less steep than 60°) is judged on
-//!   the side that does: terrain, a sheet of roof with its walls, a basin.
-//! - Of any other open piece (a fence, walls without a roof, a twisted band) nothing tells an outer side. It is judged on
-//!   the side that faces the sun. Where walls of a single sheet enclose a room, the inner side is as dark as the room; what
+//!   the side that does: terrain, a sheet of roof with its walls. But where what looks up lies lower than the walls it may
+//!   be a basin, or a house whose roof is another component: nothing tells which.
+//! - Of those, and of any other open piece (a fence, walls without a roof, a twisted band), no outer side is known. They
+//!   are judged on the side that faces the sun. Where walls of a single sheet enclose a room, the inner side is as dark as the room; what
 //!   sun falls through windows onto it is counted too.
 
 use super::gather::area_vector;
@@ -27,6 +28,8 @@ pub(super) struct Seen {
 
 /// Cosine of the tilt above which a face tells what is up: 60°.
 const ROOF: f64 = 0.5;
+/// Part of a piece's area that must be steep for it to have walls.
+const WALLED: f64 = 0.1;
 /// Part of a piece's area that must look up or down for that to tell its side.
 const ROOFED: f64 = 0.02;
 /// By which part of that area more must look one way than the other.
@@ -71,8 +74,8 @@ pub(super) fn of_faces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]]) -
                 Some(up) => (!up, false),
                 None => (false, true),
             }
-        } else if piece.volume * hand < 0.0 && !closed().any(|outer| holds(outer, piece)) {
-            (hand > 0.0, false)
+        } else if piece.volume * hand < 0.0 {
+            (hand > 0.0, closed().any(|outer| holds(outer, piece)))
         } else {
             (hand < 0.0, false)
         };
@@ -160,16 +163,25 @@ fn measure(mesh: &Mesh, piece: &mut Piece, first: u32, seen: &mut [Seen]) {
     piece.volume = piece.faces.iter().map(volume).sum();
 }
 
-/// Whether an open piece looks up as it is turned, or down; nothing where that is not clear.
+/// Whether an open piece looks up as it is turned, or down; nothing where that is not clear, or where walls stand higher than
+/// what looks up.
 fn upwards(mesh: &Mesh, piece: &Piece, first: u32, seen: &[Seen]) -> Option<bool> {
-    let (mut area, mut roofs, mut up) = (0.0, 0.0, 0.0);
+    let (mut roofs, mut up) = (0.0, 0.0);
+    // area, and area times height, of what is level and of what is steep
+    let (mut level, mut steep) = ([0.0; 2], [0.0; 2]);
     for &face in &piece.faces {
         let vector: DVec3 = area_vector(mesh, face);
-        area += vector.length();
-        if vector.z.abs() > ROOF * vector.length() {
+        let (area, height) = (vector.length(), mesh.corners(face as usize).map(|corner| f64::from(corner.z)));
+        let is_level = vector.z.abs() > ROOF * area;
+        if is_level {
             roofs += vector.z.abs();
             up += if seen[(face - first) as usize].turned { -vector.z } else { vector.z };
         }
+        let sums = if is_level { &mut level } else { &mut steep };
+        sums[0] += area;
+        sums[1] += area * height.iter().sum::<f64>() / 3.0;
     }
-    (roofs > ROOFED * area && up.abs() > CLEARLY * roofs).then_some(up > 0.0)
+    let area = level[0] + steep[0];
+    let is_walled = steep[0] > WALLED * area && steep[1] * level[0] > level[1] * steep[0];
+    (roofs > ROOFED * area && up.abs() > CLEARLY * roofs && !is_walled).then_some(up > 0.0)
 }
