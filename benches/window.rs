@@ -3,15 +3,14 @@
 
 use gnomon::gpu::Gpu;
 use gnomon::shadow::picture::{Picture, Style};
-use gnomon::site::{Method, Overrides, Receivers, Settings, Site};
+use gnomon::site::{Method, Overrides, Settings, Site};
 use gnomon::study::live::{Live, Way};
 use gnomon::view::{Camera, View};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-const STYLE: Style =
-    Style { focus_m: 300.0, lines: 1.0, wide_lines: false, tinted: false, hours: false, ground_only: false };
+const STYLE: Style = Style { focus_m: 300.0, lines: 1.0, wide_lines: false, tinted: false, hours: false };
 /// Pictures of each kind; the median counts.
 const PICTURES: usize = 15;
 
@@ -34,7 +33,7 @@ fn main() {
 
 /// Median milliseconds of a picture for another sun, and for another eye.
 fn measure(site: &Site, gpu: &Arc<Gpu>, (width, height): (u32, u32), method: Method) -> [f64; 2] {
-    let way = Way { method, settings: Settings::default(), receivers: Receivers::Top };
+    let way = Way { method, settings: Settings::default() };
     let camera = Camera { width, height, ..site.camera };
     let view = |step: usize| {
         let eye = camera.eye + camera.up * step as f64 * 0.7;

@@ -21,8 +21,7 @@ struct Shown {
     overlay: f32,
     // Cells in colours of their own instead of sun and shadow: 1.
     painted: f32,
-    // The plan's ground alone is judged: 1.
-    ground_only: f32,
+    unused: f32,
 }
 
 @group(2) @binding(0) var<uniform> shown: Shown;
@@ -68,7 +67,6 @@ const SILHOUETTE = vec3f(10.0, 10.0, 12.0) / 255.0;
 const PLAN_GROUND_SUN = vec3f(246.0, 240.0, 226.0) / 255.0;
 const PLAN_GROUND_SHADE = vec3f(140.0, 152.0, 173.0) / 255.0;
 const PLAN_ROOF_SUN = vec3f(255.0, 255.0, 253.0) / 255.0;
-const PLAN_ROOF_UNJUDGED = vec3f(224.0, 222.0, 216.0) / 255.0;
 const PLAN_ROOF_SHADE = vec3f(174.0, 183.0, 198.0) / 255.0;
 
 // What falls on a surface: sky from above, the sun where it is seen.
@@ -160,9 +158,6 @@ fn from_above(pixel: vec2f, face: u32) -> vec3f {
     var roof = mix(PLAN_ROOF_SHADE, PLAN_ROOF_SUN, share);
     if shown.tinted == 1.0 {
         roof = tint_of(face) * mix(0.78, 1.0, share);
-    }
-    if shown.ground_only == 1.0 {
-        roof = PLAN_ROOF_UNJUDGED;
     }
     return roof * relief(normal, 0.26);
 }

@@ -9,7 +9,7 @@ use super::settings::Shown as Choice;
 use super::sky;
 use super::stage::{Shown, Stage, Wish};
 use crate::shadow::picture::Style;
-use crate::site::{Method, Receivers, Settings};
+use crate::site::{Method, Settings};
 use crate::study::live::{FARTHEST, Way};
 use eframe::egui::{self, Align2, PointerButton, Rect, Sense, TextureId, Ui, pos2};
 use eframe::egui_wgpu::RenderState;
@@ -176,7 +176,6 @@ impl Viewer {
         let way = Way {
             method: if disc { Method::RayCast } else { method },
             settings: Settings { sun_samples: disc.then_some(DISC_SAMPLES), ..Settings::default() },
-            receivers: Receivers::Top,
         };
         // an adapter draws twice as fine, which the screen then smooths
         let fine = if software { 1.0 } else { 2.0 };
@@ -187,7 +186,6 @@ impl Viewer {
             wide_lines: !software,
             tinted: choice.tinted,
             hours: choice.hours && asked.laid.is_some(),
-            ground_only: false,
         };
         let best = Wish {
             site: Arc::clone(&asked.project.site),
@@ -209,7 +207,7 @@ impl Viewer {
         let moving = now - self.moved_at < STILL_SECS;
         let wish = if moving {
             ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(STILL_SECS));
-            let quickest = Way { method: Method::RayCast, settings: Settings::default(), receivers: Receivers::Top };
+            let quickest = Way { method: Method::RayCast, settings: Settings::default() };
             Wish {
                 view: self.eye.view(sized(if software { self.scale } else { 1.0 })),
                 way: if software { quickest } else { best.way },

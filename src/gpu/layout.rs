@@ -100,8 +100,8 @@ pub struct Shown {
     pub overlay: f32,
     /// 1 where cells have colours of their own.
     pub painted: f32,
-    /// 1 where the ground alone is judged.
-    pub ground_only: f32,
+    /// WGSL rounds a struct up to its alignment.
+    pub unused: f32,
 }
 
 /// `Weight` of `shaders/accumulate.wgsl`.
@@ -222,7 +222,7 @@ pub const ALL: &[Layout] = &[
     layout!(Edge: first, second, a, b, along),
     layout!(Arguments: index_count, instance_count, first_index, base_vertex, first_instance),
     layout!(Quadrilateral: first, a, second, b),
-    layout!(Shown: hours_corner, hours_cell, hours, focus, night, lines, both_sides, tinted, overlay, painted, ground_only),
+    layout!(Shown: hours_corner, hours_cell, hours, focus, night, lines, both_sides, tinted, overlay, painted, unused),
     layout!(Weight: secs),
     layout!(Run: first, count),
 ];

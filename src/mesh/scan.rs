@@ -5,28 +5,54 @@
 //! its lower end whichever way it is run.
 
 use glam::DVec2;
+use std::cmp::Ordering;
+use std::ops::Range;
 
-/// One bit a cell, 64 a word.
-pub struct Bits {
-    /// Row after row, each of whole words.
-    pub words: Vec<u64>,
-    /// Words in a row.
-    pub in_row: usize,
-    width: i64,
-    height: i64,
+/// Tells for each row of some that a triangle reaches from which column to which it does. Its corners are in the order of
+/// rows, then columns ([`by_rows`]).
+pub fn spans([top, middle, bottom]: [DVec2; 3], of: Range<usize>, mut tell: impl FnMut(usize, f64, f64)) {
+    let [long, upper, lower] = [Side::between(top, bottom), Side::between(top, middle), Side::between(middle, bottom)];
+    for row in wholes([top.y, bottom.y], of) {
+        let y = row as f64;
+        // at the middle's height both short sides end
+        let [one, other] = match (y <= middle.y, y >= middle.y) {
+            (true, true) => [upper.x_at(y), lower.x_at(y)],
+            (true, false) => [upper.x_at(y); 2],
+            _ => [lower.x_at(y); 2],
+        };
+        let along = long.x_at(y);
+        tell(row, along.min(one).min(other), along.max(one).max(other));
+    }
 }
 
-impl Bits {
-    /// Nothing is covered.
-    pub fn empty(width: u32, height: u32) -> Bits {
-        let in_row = width.div_ceil(64) as usize;
-        Bits { words: vec![0; in_row * height as usize], in_row, width: width.into(), height: height.into() }
-    }
+/// The order of corners by rows, then columns.
+pub fn by_rows(one: DVec2, other: DVec2) -> Ordering {
+    one.y.total_cmp(&other.y).then(one.x.total_cmp(&other.x))
+}
 
-    /// Covered by either.
-    pub fn or(mut self, other: Bits) -> Bits {
-        self.words.iter_mut().zip(other.words).for_each(|(word, other)| *word |= other);
-        self
+/// The whole numbers of a range from one place to another, both included; none where a place is no number.
+pub fn wholes([from, to]: [f64; 2], of: Range<usize>) -> Range<usize> {
+    // a negative number, and what is none, become 0
+    let whole = |number: f64| (number as usize).clamp(of.start, of.end);
+    whole(from.ceil())..whole(to.floor() + 1.0)
+}
+
+/// Which cells are covered: one bit a cell, 64 a word.
+pub struct Coverage {
+    /// Row after row, each of whole words.
+    words: Vec<u64>,
+    /// Words in a row.
+    in_row: usize,
+    width: usize,
+    height: usize,
+}
+
+impl Coverage {
+    /// Nothing is covered.
+    pub fn empty(width: u32, height: u32) -> Coverage {
+        let in_row = width.div_ceil(64) as usize;
+        let words = vec![0; in_row * height as usize];
+        Coverage { words, in_row, width: width as usize, height: height as usize }
     }
 
     /// Whether a cell is covered.
@@ -36,39 +62,19 @@ impl Bits {
 
     /// Covers all cells whose centres lie in a triangle or on its edge.
     pub fn cover(&mut self, mut corners: [DVec2; 3]) {
-        corners.sort_unstable_by(|a, b| a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x)));
-        let [top, middle, bottom] = corners;
-        // beyond the raster, or where it is no number
-        let first = top.y.ceil().max(0.0);
-        let last = bottom.y.floor().min((self.height - 1) as f64);
-        let (west, east) = (top.x.min(middle.x).min(bottom.x), top.x.max(middle.x).max(bottom.x));
-        if !(first <= last && west.ceil().max(0.0) <= east.floor().min((self.width - 1) as f64)) {
-            return;
-        }
-        let [long, upper, lower] =
-            [Side::between(top, bottom), Side::between(top, middle), Side::between(middle, bottom)];
-        for row in first as i64..=last as i64 {
-            let y = row as f64;
-            // at the middle's height both short sides end
-            let [one, other] = match (y <= middle.y, y >= middle.y) {
-                (true, true) => [upper.x_at(y), lower.x_at(y)],
-                (true, false) => [upper.x_at(y); 2],
-                _ => [lower.x_at(y); 2],
-            };
-            let along = long.x_at(y);
-            self.cover_row(row, along.min(one).min(other), along.max(one).max(other));
-        }
+        corners.sort_unstable_by(|one, other| by_rows(*one, *other));
+        let height = self.height;
+        spans(corners, 0..height, |row, from, to| self.cover_row(row, from, to));
     }
 
     /// Covers the cells of a row whose centres lie from one place to another.
-    fn cover_row(&mut self, row: i64, from: f64, to: f64) {
-        let first = from.ceil().max(0.0) as i64;
-        let last = to.floor().min((self.width - 1) as f64) as i64;
-        if first > last {
+    fn cover_row(&mut self, row: usize, from: f64, to: f64) {
+        let columns = wholes([from, to], 0..self.width);
+        if columns.is_empty() {
             return;
         }
-        let words = &mut self.words[row as usize * self.in_row..][..self.in_row];
-        let (first, last) = (first as usize, last as usize);
+        let words = &mut self.words[row * self.in_row..][..self.in_row];
+        let (first, last) = (columns.start, columns.end - 1);
         let (from_bit, to_bit) = (u64::MAX << (first % 64), u64::MAX >> (63 - last % 64));
         match (first / 64, last / 64) {
             (one, other) if one == other => words[one] |= from_bit & to_bit,

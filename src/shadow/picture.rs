@@ -46,8 +46,6 @@ pub struct Style {
     pub tinted: bool,
     /// Hours instead of sun and shadow, as [`Picture::lay_hours`] says.
     pub hours: bool,
-    /// The plan's ground alone is judged: what stands on it is shown as not judged.
-    pub ground_only: bool,
 }
 
 /// The picture of one scene in one view.
@@ -193,7 +191,7 @@ impl Picture {
             tinted: is(style.tinted && self.tints.is_some()),
             overlay: is(self.overlay.iter().any(Option::is_some)),
             painted: is(self.cells.is_some()),
-            ground_only: is(style.ground_only),
+            unused: 0.0,
         };
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&shown));
         self.surface.set_sun(to_sun);

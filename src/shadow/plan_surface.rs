@@ -4,7 +4,7 @@
 //! once and not a cell. `RayCast::surface` is its slow plain twin.
 
 use super::ray_cast::TIE;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, scan};
 use crate::view::{Grid, Surface};
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
@@ -97,14 +97,14 @@ struct Triangle {
 
 impl Triangle {
     fn new(mut corners: [DVec3; 3]) -> Triangle {
-        corners.sort_unstable_by(|a, b| a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x)));
+        corners.sort_unstable_by(|one, other| scan::by_rows(one.xy(), other.xy()));
         Triangle { corners }
     }
 
     /// The rows whose centres it reaches, of some.
     fn rows(&self, of: Range<usize>) -> Range<usize> {
         let [top, _, bottom] = self.corners;
-        whole(top.y.ceil(), &of)..whole(bottom.y.floor() + 1.0, &of)
+        scan::wholes([top.y, bottom.y], of)
     }
 
     /// Tells row, column and height of each centre within it or on its edge.
@@ -117,39 +117,11 @@ impl Triangle {
         }
         let slope = -normal.xy() / normal.z;
         let (low, high) = (top.z.min(middle.z).min(bottom.z), top.z.max(middle.z).max(bottom.z));
-        let [long, upper, lower] = [[top, bottom], [top, middle], [middle, bottom]].map(Side);
-        for row in self.rows(rows) {
-            let y = row as f64;
-            // at the middle's height both short sides end
-            let [one, other] = match (y <= middle.y, y >= middle.y) {
-                (true, true) => [upper.x_at(y), lower.x_at(y)],
-                (true, false) => [upper.x_at(y); 2],
-                _ => [lower.x_at(y); 2],
-            };
-            let along = long.x_at(y);
-            let columns = 0..width;
-            let first = whole(along.min(one).min(other).ceil(), &columns);
-            let end = whole(along.max(one).max(other).floor() + 1.0, &columns);
-            let z = top.z + (y - top.y) * slope.y - top.x * slope.x;
-            for column in first..end {
+        scan::spans(self.corners.map(|corner| corner.xy()), rows, |row, from, to| {
+            let z = top.z + (row as f64 - top.y) * slope.y - top.x * slope.x;
+            for column in scan::wholes([from, to], 0..width) {
                 tell(row, column, (z + column as f64 * slope.x).clamp(low, high));
             }
-        }
-    }
-}
-
-/// A whole number within a range, its end included; its start for what is no number.
-fn whole(number: f64, of: &Range<usize>) -> usize {
-    (number as usize).clamp(of.start, of.end)
-}
-
-/// A triangle's side, from its upper to its lower end.
-struct Side([DVec3; 2]);
-
-impl Side {
-    /// Its column at a row between its ends.
-    fn x_at(&self, y: f64) -> f64 {
-        let [start, end] = self.0;
-        if y >= end.y { end.x } else { start.x + (y - start.y) * ((end.x - start.x) / (end.y - start.y)) }
+        });
     }
 }

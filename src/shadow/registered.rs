@@ -10,7 +10,7 @@
 //! p with p·w = v − (h/f)·l and w = 1 − w_l·h/f, all of which is linear in v.
 
 use super::ray_cast::TIE;
-use crate::mesh::scan::Bits;
+use crate::mesh::scan::Coverage;
 use glam::{DVec2, DVec3, DVec4};
 
 /// A flat receiver's raster, around any origin.
@@ -95,7 +95,7 @@ impl Part {
     }
 
     /// Covers the cells whose centres lie in it or on its edge.
-    pub fn cover(&self, bits: &mut Bits) {
+    pub fn cover(&self, bits: &mut Coverage) {
         for pair in self.points().windows(2).skip(1) {
             bits.cover([self.points[0], pair[0], pair[1]]);
         }

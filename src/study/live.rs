@@ -3,9 +3,8 @@
 //! The same techniques draw as in [`super::instant`]; what is kept between two pictures is the only difference.
 
 use super::machine::{Machine, choose_on};
-use super::{StudyError, judged, night};
+use super::{StudyError, night};
 use crate::gpu::Gpu;
-use crate::mesh::Mesh;
 use crate::profile::Drawn;
 use crate::shadow::overlay::VolumePicture;
 use crate::shadow::picture::{Picture, Style};
@@ -27,8 +26,6 @@ pub struct Way {
     pub method: Method,
     /// What is asked of it.
     pub settings: Settings,
-    /// What the plan judges; a camera judges what it sees.
-    pub receivers: Receivers,
 }
 
 /// A site, a view of it, and what draws both.
@@ -38,8 +35,6 @@ pub struct Live {
     site: Site,
     view: View,
     scene: Scene,
-    /// No receiver but the ground.
-    ground_alone: Mesh,
     picture: Picture,
     /// What the picture looks at now, and whether rays told it.
     looks_at: (View, bool),
@@ -58,16 +53,15 @@ impl Live {
     pub fn new(site: &Site, gpu: Arc<Gpu>, view: View) -> Result<Live, StudyError> {
         let casters = site.mesh.of_components(&site.casts);
         let receivers = site.mesh.of_components(&site.receives);
-        let ground_alone = site.mesh.of_components(&[]);
         let scene = Scene { casters, receivers, ground: site.ground };
         let picture = Picture::new(Arc::clone(&gpu), &scene, view)?;
-        let site = Site { mesh: ground_alone.clone(), ..site.clone() };
+        let (mesh, receivers) = (site.mesh.of_components(&[]), Receivers::Top);
+        let site = Site { mesh, receivers, ..site.clone() };
         Ok(Live {
             gpu,
             site,
             view,
             scene,
-            ground_alone,
             picture,
             looks_at: (view, false),
             made: None,
@@ -103,10 +97,8 @@ impl Live {
     ) -> Result<Drawn, StudyError> {
         let machine = self.machine(way)?;
         let drawn = machine.drawn();
-        let ground_only = self.is_ground_alone(way);
-        let style = Style { ground_only, ..*style };
         let is_night = to_sun.z <= 0.0;
-        if let (Machine::RayCast { sun_samples }, false) = (&machine, ground_only) {
+        if let Machine::RayCast { sun_samples } = &machine {
             let rays = self.rays.take().filter(|(_, samples)| samples == sun_samples);
             let new = || (RayCast::new(self.scene.clone(), far_view(&self.scene), *sun_samples), *sun_samples);
             let (rays, _) = self.rays.insert(rays.unwrap_or_else(new));
@@ -118,7 +110,7 @@ impl Live {
                 self.looks_at = (self.view, true);
             }
             let mask = if is_night { DrawnMask::Memory(&self.night) } else { rays.draw(to_sun)? };
-            self.picture.draw(&mask, to_sun, &style, target)?;
+            self.picture.draw(&mask, to_sun, style, target)?;
             return Ok(drawn);
         }
         if self.looks_at != (self.view, false) {
@@ -126,14 +118,11 @@ impl Live {
             self.looks_at = (self.view, false);
         }
         if is_night {
-            self.picture.draw(&DrawnMask::Memory(&self.night), to_sun, &style, target)?;
+            self.picture.draw(&DrawnMask::Memory(&self.night), to_sun, style, target)?;
             return Ok(drawn);
         }
-        let technique = made(&mut self.made, machine, (self.view, *way), || match ground_only {
-            true => Scene { receivers: self.ground_alone.clone(), ..self.scene.clone() },
-            false => self.scene.clone(),
-        })?;
-        self.picture.draw(&technique.draw(to_sun)?, to_sun, &style, target)?;
+        let technique = made(&mut self.made, machine, (self.view, *way), &self.scene)?;
+        self.picture.draw(&technique.draw(to_sun)?, to_sun, style, target)?;
         Ok(drawn)
     }
 
@@ -143,10 +132,10 @@ impl Live {
     /// As [`Live::draw`].
     pub fn counted(&mut self, way: &Way, to_sun: DVec3) -> Result<Option<Counted>, StudyError> {
         let machine = self.machine(way)?;
-        if to_sun.z <= 0.0 || !matches!(machine, Machine::OnGpu(..)) || self.is_ground_alone(way) {
+        if to_sun.z <= 0.0 || !matches!(machine, Machine::OnGpu(..)) {
             return Ok(None);
         }
-        let technique = made(&mut self.made, machine, (self.view, *way), || self.scene.clone())?;
+        let technique = made(&mut self.made, machine, (self.view, *way), &self.scene)?;
         Ok(technique.counted(to_sun)?)
     }
 
@@ -172,27 +161,22 @@ impl Live {
 
     /// Who draws, as the command chooses.
     fn machine(&mut self, way: &Way) -> Result<Machine, StudyError> {
-        let Way { method, settings, receivers } = *way;
-        (self.site.method, self.site.settings, self.site.receivers) = (method, settings, receivers);
+        (self.site.method, self.site.settings) = (way.method, way.settings);
         choose_on(Some(&self.gpu), &self.site, &self.view, &mut |_| ControlFlow::Continue(()))
-    }
-
-    fn is_ground_alone(&self, way: &Way) -> bool {
-        way.receivers == Receivers::Ground && judged(&self.site, &self.view) == Receivers::Ground
     }
 }
 
 /// The technique at hand, or a new one where that was made for another view or way.
-fn made(
-    at_hand: &mut Option<(View, Way, Box<dyn Technique>)>,
+fn made<'a>(
+    at_hand: &'a mut Option<(View, Way, Box<dyn Technique>)>,
     machine: Machine,
     (view, way): (View, Way),
-    scene: impl FnOnce() -> Scene,
-) -> Result<&mut Box<dyn Technique>, StudyError> {
+    scene: &Scene,
+) -> Result<&'a mut Box<dyn Technique>, StudyError> {
     let kept = at_hand.take().filter(|(of_view, of_way, _)| (*of_view, *of_way) == (view, way));
     let made = match kept {
         Some(kept) => kept,
-        None => (view, way, machine.technique(scene(), view)?),
+        None => (view, way, machine.technique(scene.clone(), view)?),
     };
     Ok(&mut at_hand.insert(made).2)
 }

@@ -2,7 +2,7 @@
 
 use super::gather::area_vector;
 use super::{Mesh, Patch, Patches, Texel};
-use crate::mesh::scan::Bits;
+use crate::mesh::scan::Coverage;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -34,7 +34,7 @@ fn place(patch: &Patch, point: DVec3, cell: f64) -> DVec2 {
 }
 
 fn covered(mesh: &Mesh, patch: &Patch, faces: &[u32], cell: f64) -> Vec<Texel> {
-    let mut bits = Bits::empty(patch.width, patch.height);
+    let mut bits = Coverage::empty(patch.width, patch.height);
     for &face in faces {
         bits.cover(mesh.corners(face as usize).map(|corner| place(patch, corner.as_dvec3(), cell)));
     }

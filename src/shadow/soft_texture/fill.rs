@@ -13,7 +13,7 @@
 use super::Fill;
 use super::occluders::Occluders;
 use crate::mesh::Mesh;
-use crate::mesh::scan::{Bits, Side};
+use crate::mesh::scan::{Coverage, Side};
 use crate::shadow::registered::{self, Part, Place, Registered};
 use glam::DVec2;
 
@@ -54,7 +54,7 @@ impl Scratch {
 
 /// Which cells something lies before.
 pub(super) enum Covered<'a> {
-    Bits(Bits),
+    Bits(Coverage),
     /// Layers, row by row of one cell more than the patch is wide.
     Layers(&'a [i32], usize),
 }
@@ -86,7 +86,7 @@ impl Casting<'_> {
     ) -> Covered<'a> {
         match fill {
             Fill::Faces => {
-                let mut bits = Bits::empty(width, height);
+                let mut bits = Coverage::empty(width, height);
                 for &at in &scratch.found {
                     registered::part(self.places(onto, at)).cover(&mut bits);
                 }
