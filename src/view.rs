@@ -4,6 +4,7 @@
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// The plan's raster: square cells from the north-west corner, in metres of the world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,6 +160,32 @@ pub struct Surface {
     pub face: Vec<u32>,
     /// Per cell the world height of the seen point, metres (NaN for the sky).
     pub height_m: Vec<f32>,
+}
+
+/// What the cells of a plan see, some rows at a time: a drawing of many cells does not hold them all.
+pub trait SurfaceRows: Sync {
+    /// How many cells there are.
+    fn cells(&self) -> usize;
+
+    /// What some rows see.
+    fn rows(&self, rows: Range<usize>) -> Surface;
+}
+
+impl SurfaceRows for Surface {
+    fn cells(&self) -> usize {
+        self.face.len().min(self.height_m.len())
+    }
+
+    fn rows(&self, rows: Range<usize>) -> Surface {
+        let width = self.width as usize;
+        let cells = rows.start * width..rows.end * width;
+        Surface {
+            width: self.width,
+            height: rows.len() as u32,
+            face: self.face[cells.clone()].to_vec(),
+            height_m: self.height_m[cells].to_vec(),
+        }
+    }
 }
 
 impl Surface {

@@ -8,6 +8,7 @@ use crate::export::bits::BitsFile;
 use crate::export::report::Told;
 use crate::export::{ExportError, bytes, figure, file, raster, report, unfinished};
 use crate::profile::{Profile, Timings, Unfinished};
+use crate::shadow::PlanSurface;
 use crate::site::{Receivers, Site};
 use crate::study::{self, Event, Stopwatch, Wants};
 use crate::sun::SunTrack;
@@ -44,7 +45,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let wants = Wants {
         masks: asked.masks.is_some(),
         bits: asked.bits,
-        surface: wanted(Written::Png),
+        surface: false,
         statistics: asked.stats,
         keep_every: Some(KEEP_EVERY),
     };
@@ -70,11 +71,13 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let (profile, drawn) = (&outcome.profile, &outcome.drawn);
     let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
     let picture = || {
-        let surface = outcome.surface.as_ref()?;
-        let mesh = &outcome.surface_mesh;
-        let (place, track, receivers) = (&site.place, &site.track, site.receivers);
-        let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
-        Some(("profile.png", timed("picture", || figure::profile(&scene, profile))))
+        let draw = || {
+            let (place, track, receivers) = (&site.place, &site.track, site.receivers);
+            let mesh = &outcome.surface_mesh;
+            let surface = &PlanSurface::new(mesh, site.ground, &site.grid);
+            figure::profile(&figure::Scene { place, track, mesh, surface, receivers, drawn }, profile)
+        };
+        wanted(Written::Png).then(|| ("profile.png", timed("picture", draw)))
     };
     let raster = || {
         let raster = || timed("raster", || raster::geotiff(profile, &site.place));

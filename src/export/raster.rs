@@ -5,7 +5,7 @@ use crate::profile::Profile;
 use crate::sun::Place;
 use crate::view::Mask;
 use rayon::prelude::*;
-use std::io::Cursor;
+use std::io::{self, Cursor, Write};
 use tiff::TiffError;
 use tiff::encoder::compression::DeflateLevel;
 use tiff::encoder::{Compression, TiffEncoder, colortype::Gray32Float};
@@ -107,11 +107,23 @@ pub fn mask_png(mask: &Mask) -> Result<Vec<u8>, ExportError> {
 
 /// A PNG, compressed fast; `dots_per_metre` is its size on paper.
 pub(super) fn png_bytes(
-    (width, height): (u32, u32),
-    (color, depth): (png::ColorType, png::BitDepth),
+    size: (u32, u32),
+    kind: (png::ColorType, png::BitDepth),
     dots_per_metre: Option<u32>,
     pixels: &[u8],
 ) -> Result<Vec<u8>, png::EncodingError> {
+    png_rows(size, kind, dots_per_metre, |write| write(pixels).map_err(Into::into))
+}
+
+/// The same, written piece by piece.
+pub(super) fn png_rows(
+    (width, height): (u32, u32),
+    (color, depth): (png::ColorType, png::BitDepth),
+    dots_per_metre: Option<u32>,
+    pieces: impl FnOnce(&mut (dyn FnMut(&[u8]) -> io::Result<()> + Send)) -> Result<(), png::EncodingError>,
+) -> Result<Vec<u8>, png::EncodingError> {
+    /// Bytes that are compressed before they go out.
+    const AT_ONCE: usize = 1 << 16;
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(color);
@@ -123,7 +135,9 @@ pub(super) fn png_bytes(
         unit: png::Unit::Meter,
     }));
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels)?;
+    let mut rows = writer.stream_writer_with_size(AT_ONCE)?;
+    pieces(&mut |piece| rows.write_all(piece))?;
+    rows.finish()?;
     writer.finish()?;
     Ok(bytes)
 }

@@ -30,7 +30,7 @@ use crate::mesh::Mesh;
 use crate::view::{Bits, Counted, Mask, Surface};
 use glam::{DVec3, DVec4};
 
-pub use plan_surface::plan_surface;
+pub use plan_surface::{PlanSurface, plan_surface};
 pub use surface::GpuSurface;
 pub use walls::Silhouettes;
 

@@ -5,7 +5,7 @@
 
 use super::ray_cast::TIE;
 use crate::mesh::{Mesh, scan};
-use crate::view::{Grid, Surface};
+use crate::view::{Grid, Surface, SurfaceRows};
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -27,29 +27,71 @@ pub(super) fn highest<T: Copy + Default + Send>(
     keep: impl Fn(f64) -> T + Sync,
 ) -> (Vec<u32>, Vec<T>) {
     let (width, height) = (grid.width as usize, grid.height as usize);
-    let corners = Corners::new(receivers, grid);
-    let bands = corners.by_band(receivers, height);
+    let plan = PlanSurface::new(receivers, ground, grid);
     let mut face = vec![Surface::GROUND; width * height];
     let mut kept = vec![T::default(); width * height];
     let rows = face.par_chunks_mut(BAND * width).zip(kept.par_chunks_mut(BAND * width));
-    rows.enumerate().for_each_init(Vec::new, |highest, (band, (face, kept))| {
+    rows.enumerate().for_each_init(Vec::new, |heights, (band, (face, kept))| {
         let first = band * BAND;
-        highest.clear();
-        highest.resize(face.len(), ground);
-        for &at in bands.iter().flat_map(|bands| &bands[band]) {
-            let rows = first..first + face.len() / width;
-            corners.of(receivers.faces[at as usize]).scan(width, rows, |row, column, z| {
-                let cell = (row - first) * width + column;
-                // a receiver in the ground hides it; of two at one height the first is seen
-                if z > highest[cell] || (z == highest[cell] && face[cell] == Surface::GROUND) {
-                    highest[cell] = z;
-                    face[cell] = at;
-                }
-            });
-        }
-        kept.iter_mut().zip(highest).for_each(|(kept, height)| *kept = keep(*height));
+        plan.highest(first..first + face.len() / width, face, heights);
+        kept.iter_mut().zip(heights).for_each(|(kept, height)| *kept = keep(*height));
     });
     (face, kept)
+}
+
+/// The same, some rows at a time.
+pub struct PlanSurface<'a> {
+    receivers: &'a Mesh,
+    ground: f64,
+    width: u32,
+    height: u32,
+    corners: Corners,
+    /// Which faces reach into which band; a list for each run of faces, so that their order stays.
+    bands: Vec<Vec<Vec<u32>>>,
+}
+
+impl<'a> PlanSurface<'a> {
+    /// Sorts the receivers' faces by the rows that they reach.
+    pub fn new(receivers: &'a Mesh, ground: f64, grid: &Grid) -> PlanSurface<'a> {
+        let corners = Corners::new(receivers, grid);
+        let bands = corners.by_band(receivers, grid.height as usize);
+        PlanSurface { receivers, ground, width: grid.width, height: grid.height, corners, bands }
+    }
+
+    /// Per cell of some rows the face that it sees, where `face` is the ground's so far, and how high that is.
+    fn highest(&self, rows: Range<usize>, face: &mut [u32], heights: &mut Vec<f64>) {
+        let width = self.width as usize;
+        heights.clear();
+        heights.resize(face.len(), self.ground);
+        for band in rows.start / BAND..rows.end.div_ceil(BAND) {
+            let of_band = rows.start.max(band * BAND)..rows.end.min((band + 1) * BAND);
+            for &at in self.bands.iter().flat_map(|bands| &bands[band]) {
+                let triangle = self.corners.of(self.receivers.faces[at as usize]);
+                triangle.scan(width, of_band.clone(), |row, column, z| {
+                    let cell = (row - rows.start) * width + column;
+                    // a receiver in the ground hides it; of two at one height the first is seen
+                    if z > heights[cell] || (z == heights[cell] && face[cell] == Surface::GROUND) {
+                        heights[cell] = z;
+                        face[cell] = at;
+                    }
+                });
+            }
+        }
+    }
+}
+
+impl SurfaceRows for PlanSurface<'_> {
+    fn cells(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    fn rows(&self, rows: Range<usize>) -> Surface {
+        let mut face = vec![Surface::GROUND; self.width as usize * rows.len()];
+        let mut heights = Vec::new();
+        let height = rows.len() as u32;
+        self.highest(rows, &mut face, &mut heights);
+        Surface { width: self.width, height, face, height_m: heights.iter().map(|height| *height as f32).collect() }
+    }
 }
 
 /// Where vertices stand on a plan: column, row, height in the world. Centres of cells are whole numbers.

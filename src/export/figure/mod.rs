@@ -31,22 +31,22 @@ use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile};
 use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
-use crate::view::{Counted, Mask, Overlay, Surface, View};
+use crate::view::{Counted, Mask, Overlay, Surface, SurfaceRows, View};
 use components::Components;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
 
 /// What every drawing needs besides the answer itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a> {
+pub struct Scene<'a, S = Surface> {
     /// Where on earth.
     pub place: &'a Place,
     /// The instants studied; the first one is drawn where there is one.
     pub track: &'a SunTrack,
     /// What stands there.
     pub mesh: &'a Mesh,
-    /// What each cell of the view sees.
-    pub surface: &'a Surface,
+    /// What each cell of the view sees; of a plan's also some rows at a time.
+    pub surface: &'a S,
     /// Which surfaces were judged.
     pub receivers: Receivers,
     /// What drew.
@@ -68,10 +68,10 @@ pub struct Shown<'a> {
 ///
 /// # Errors
 /// [`ExportError::Size`] where surface and profile do not fill the grid; [`ExportError::Encode`] from the encoder.
-pub fn profile(scene: &Scene, profile: &Profile) -> Result<Vec<u8>, ExportError> {
+pub fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<Vec<u8>, ExportError> {
     let grid = &profile.grid;
     check_size("profile", profile.shaded.len(), grid.width, grid.height)?;
-    check_surface(scene.surface, (grid.width, grid.height))?;
+    check_size("surface", scene.surface.cells(), grid.width, grid.height)?;
     let bands = Bands::new(scene.track.step_secs, profile.day_secs);
 
     let mut panel = panel(scene, "Shadow profile");
@@ -147,7 +147,10 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result
     match view {
         View::Plan(grid) => {
             panel.facts.push(("Cells", cells(grid.width, grid.height, grid.cell)));
-            page::page(&panel, size, Some(grid.cell), |fit| plan::instant(scene, grid.cell, mask, of_cells, fit))
+            match of_cells {
+                Some(of_cells) => page::page(&panel, size, Some(grid.cell), |fit| plan::painted(of_cells, fit)),
+                None => page::page(&panel, size, Some(grid.cell), |fit| plan::instant(scene, grid.cell, mask, fit)),
+            }
         }
         View::Camera(camera) => {
             panel.facts.push(("Picture", format!("{} × {}", size.0, size.1)));
@@ -198,7 +201,7 @@ fn check_surface(surface: &Surface, (width, height): (u32, u32)) -> Result<(), E
 }
 
 /// What all drawings say; the legend is still empty.
-fn panel(scene: &Scene, kicker: &str) -> Panel {
+fn panel<S>(scene: &Scene<S>, kicker: &str) -> Panel {
     let (place, track) = (scene.place, scene.track);
     let name = text::clean(&place.name);
     let nameless = name.is_empty();

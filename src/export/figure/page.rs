@@ -1,12 +1,12 @@
 //! The sheet: A3 landscape, the picture as large as it can be, the panel beside or below it.
 
 use super::panel::{self, COLUMN, Panel};
-use super::picture::{Fit, Picture};
+use super::picture::{Fit, Picture, Pixels};
 use super::svg::{Block, GRAY, HAIR};
 use super::{scale::Rgb, text};
-use crate::export::ExportError;
+use crate::export::{ExportError, raster};
 use rayon::prelude::*;
-use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
 /// Page size, pixels: A3 landscape at 212 dots an inch.
@@ -38,16 +38,24 @@ struct Layout {
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the page cannot be drawn or encoded.
-pub(super) fn page(
+pub(super) fn page<P: Pixels>(
     panel: &Panel,
     cells: (u32, u32),
     cell_m: Option<f64>,
-    draw: impl FnOnce(Fit) -> Picture,
+    draw: impl FnOnce(Fit) -> P,
 ) -> Result<Vec<u8>, ExportError> {
     let mut layout = beside_or_below(panel, cells, cell_m);
     frame(&mut layout);
     let picture = draw(layout.fit);
-    sheet(&layout, &picture)
+    let (width, height) = picture.size();
+    let (left, top) = layout.corner;
+    let (right, bottom) = (left + width, top + height);
+    // the frame and all that is said lie around the picture
+    let around = [[0, 0, WIDTH, top], [0, top, left, bottom], [right, top, WIDTH, bottom], [0, bottom, WIDTH, HEIGHT]];
+    let around = around.into_iter().filter(|[west, north, east, south]| west < east && north < south);
+    let mut pieces = around.map(Piece::blank).collect::<Result<Vec<_>, _>>()?;
+    letter(&layout.overlay, &mut pieces)?;
+    encode(&pieces, Some(((left, top), &picture)))
 }
 
 /// As [`page`] with the panel beside it, for what fills all of its field but the margins (left, top, right, bottom).
@@ -66,14 +74,11 @@ pub(super) fn chart(
     stand_beside(panel, None, &mut layout.overlay);
     let (picture, over) = draw(layout.fit.pixels);
     layout.overlay.place(layout.corner.0.into(), layout.corner.1.into(), &over);
-    sheet(&layout, &picture)
-}
-
-fn sheet(layout: &Layout, picture: &Picture) -> Result<Vec<u8>, ExportError> {
-    let pixels = render(layout, picture)?;
-    let dots = (1.0 / PAPER_METRES_A_PIXEL).round() as u32;
-    crate::export::raster::png_bytes((WIDTH, HEIGHT), (png::ColorType::Rgb, png::BitDepth::Eight), Some(dots), &pixels)
-        .map_err(|error| ExportError::encode("drawing", error))
+    let mut sheet = Piece::blank([0, 0, WIDTH, HEIGHT])?;
+    sheet.lay(layout.corner, &picture);
+    let sheet = &mut [sheet];
+    letter(&layout.overlay, sheet)?;
+    encode(sheet, None::<((u32, u32), &Picture)>)
 }
 
 /// A panel below the picture is less at hand; the picture must grow by this much for it.
@@ -185,43 +190,113 @@ fn frame(layout: &mut Layout) {
     overlay.frame([corner.0, corner.1, fit.pixels.0, fit.pixels.1].map(f64::from), 3.0, GRAY);
 }
 
-/// Paper, picture, then everything that is lines and letters: RGB, row 0 first.
-fn render(layout: &Layout, picture: &Picture) -> Result<Vec<u8>, ExportError> {
-    let failed = |why: &str| ExportError::encode("drawing", why);
-    let mut page = Pixmap::new(WIDTH, HEIGHT).ok_or_else(|| failed("the page is too large"))?;
-    let row_bytes = WIDTH as usize * 4;
-    let (left, top) = (layout.corner.0 as usize, layout.corner.1 as usize);
-    let width = picture.width as usize;
-    page.data_mut().par_chunks_exact_mut(row_bytes).enumerate().for_each(|(y, line)| {
-        let line = line.as_chunks_mut::<4>().0;
-        line.fill(opaque(PAPER));
-        let Some(row) = y.checked_sub(top).filter(|row| *row < picture.height as usize) else {
-            return;
-        };
-        let pixels = &picture.pixels[row * width..(row + 1) * width];
-        for (to, from) in line.iter_mut().skip(left).zip(pixels) {
-            *to = opaque(*from);
-        }
-    });
+/// A part of the sheet that has lines and letters.
+struct Piece {
+    /// West, north, east and south on the page.
+    place: [u32; 4],
+    pixels: Pixmap,
+}
 
+impl Piece {
+    /// Paper.
+    fn blank(place: [u32; 4]) -> Result<Piece, ExportError> {
+        let [west, north, east, south] = place;
+        let mut pixels = Pixmap::new(east - west, south - north).ok_or_else(|| failed("the page is too large"))?;
+        let [r, g, b] = PAPER;
+        pixels.fill(Color::from_rgba8(r, g, b, 255));
+        Ok(Piece { place, pixels })
+    }
+
+    /// A picture upon it; the piece is the page.
+    fn lay(&mut self, (left, top): (u32, u32), picture: &Picture) {
+        let lines = self.pixels.data_mut().chunks_exact_mut(WIDTH as usize * 4).skip(top as usize);
+        for (line, row) in lines.zip(picture.pixels.chunks_exact(picture.width as usize)) {
+            for (to, [r, g, b]) in line.as_chunks_mut::<4>().0.iter_mut().skip(left as usize).zip(row) {
+                *to = [*r, *g, *b, 255];
+            }
+        }
+    }
+
+    /// Its part of a row of the page.
+    fn put(&self, row: u32, line: &mut [Rgb]) {
+        let [west, north, east, south] = self.place;
+        if (north..south).contains(&row) {
+            let width = (east - west) as usize;
+            let pixels = &self.pixels.data().as_chunks::<4>().0[(row - north) as usize * width..][..width];
+            for (to, [r, g, b, _]) in line[west as usize..east as usize].iter_mut().zip(pixels) {
+                *to = [*r, *g, *b];
+            }
+        }
+    }
+}
+
+/// Everything that is lines and letters, over what is there.
+fn letter(overlay: &Block, pieces: &mut [Piece]) -> Result<(), ExportError> {
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"{}\">{}</svg>",
         text::FAMILY,
-        layout.overlay.svg
+        overlay.svg
     );
     let options = Options { fontdb: text::fonts(), font_family: text::FAMILY.to_owned(), ..Options::default() };
     let tree = Tree::from_str(&svg, &options).map_err(|error| failed(&error.to_string()))?;
-    resvg::render(&tree, Transform::identity(), &mut page.as_mut());
-
-    let mut rgb = vec![0; WIDTH as usize * HEIGHT as usize * 3];
-    rgb.par_chunks_exact_mut(WIDTH as usize * 3).zip(page.data().par_chunks_exact(row_bytes)).for_each(|(to, from)| {
-        for (to, from) in to.chunks_exact_mut(3).zip(from.chunks_exact(4)) {
-            to.copy_from_slice(&from[..3]);
-        }
+    pieces.par_iter_mut().for_each(|piece| {
+        let [west, north, ..] = piece.place;
+        let moved = Transform::from_translate(-(west as f32), -(north as f32));
+        resvg::render(&tree, moved, &mut piece.pixels.as_mut());
     });
-    Ok(rgb)
+    Ok(())
 }
 
-fn opaque([r, g, b]: Rgb) -> [u8; 4] {
-    [r, g, b, 255]
+/// Rows of a sheet that one task puts together.
+const BAND: usize = 64;
+
+/// The sheet as a PNG. It is put together band by band, while those before are compressed: the whole is never held.
+fn encode<P: Pixels>(pieces: &[Piece], picture: Option<((u32, u32), &P)>) -> Result<Vec<u8>, ExportError> {
+    let width = WIDTH as usize;
+    let put_together = |(band, rows): (usize, &mut [Rgb])| {
+        let first = (band * BAND) as u32;
+        for (row, line) in (first..).zip(rows.chunks_exact_mut(width)) {
+            pieces.iter().for_each(|piece| piece.put(row, line));
+        }
+        let Some(((left, top), picture)) = picture else { return };
+        let (columns, height) = picture.size();
+        let shown = first.max(top)..(first + (rows.len() / width) as u32).min(top + height);
+        if shown.is_empty() {
+            return;
+        }
+        let mut pixels = vec![PAPER; shown.len() * columns as usize];
+        picture.draw((shown.start - top) as usize, &mut pixels);
+        for (row, pixels) in shown.zip(pixels.chunks_exact(columns as usize)) {
+            let at = (row - first) as usize * width + left as usize;
+            rows[at..at + pixels.len()].copy_from_slice(pixels);
+        }
+    };
+    // some at once, for as many processors
+    let at_once = rayon::current_num_threads().min(8);
+    let bands: Vec<usize> = (0..(HEIGHT as usize).div_ceil(BAND)).collect();
+    let make = |bands: &[usize], rows: &mut Vec<Rgb>| {
+        let first = bands.first().map_or(0, |band| band * BAND);
+        let count = (bands.len() * BAND).min(HEIGHT as usize - first);
+        rows.resize(count * width, PAPER);
+        let chunks = rows.par_chunks_mut(BAND * width).zip(bands);
+        chunks.for_each(|(rows, band)| put_together((*band, rows)));
+    };
+    let dots = (1.0 / PAPER_METRES_A_PIXEL).round() as u32;
+    let (mut ready, mut next) = (Vec::new(), Vec::new());
+    raster::png_rows((WIDTH, HEIGHT), (png::ColorType::Rgb, png::BitDepth::Eight), Some(dots), |write| {
+        for bands in bands.chunks(at_once).map(Some).chain([None]) {
+            let (written, ()) = rayon::join(
+                || write(bytemuck::cast_slice(&ready)),
+                || bands.map_or((), |bands| make(bands, &mut next)),
+            );
+            written?;
+            std::mem::swap(&mut ready, &mut next);
+        }
+        Ok(())
+    })
+    .map_err(|error| ExportError::encode("drawing", error))
+}
+
+fn failed(why: &str) -> ExportError {
+    ExportError::encode("drawing", why)
 }

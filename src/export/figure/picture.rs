@@ -25,7 +25,16 @@ impl Pen {
     pub(super) const CREASE: Pen = Pen { radius: 0.9, strength: 0.45 };
 }
 
-/// A picture in the page's pixels.
+/// A picture in the page's pixels, some rows at a time: the whole of a sheet is never held.
+pub(super) trait Pixels: Sync {
+    /// Columns and rows.
+    fn size(&self) -> (u32, u32);
+
+    /// The rows from `top` on, as many as `into` holds.
+    fn draw(&self, top: usize, into: &mut [Rgb]);
+}
+
+/// A picture that is held.
 pub(super) struct Picture {
     /// Columns.
     pub width: u32,
@@ -33,6 +42,17 @@ pub(super) struct Picture {
     pub height: u32,
     /// Row 0 first.
     pub pixels: Vec<Rgb>,
+}
+
+impl Pixels for Picture {
+    fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    fn draw(&self, top: usize, into: &mut [Rgb]) {
+        let first = top * self.width as usize;
+        into.copy_from_slice(&self.pixels[first..first + into.len()]);
+    }
 }
 
 /// A raster of cells and the page pixels it is to fill.
@@ -69,7 +89,123 @@ pub(super) enum Between {
 }
 
 /// Pixel rows that one task draws.
-const BAND: usize = 32;
+const BAND: usize = 64;
+
+/// Some rows of cells as they are to be drawn.
+#[derive(Default)]
+pub(super) struct Cells {
+    /// Columns.
+    width: usize,
+    /// A colour a cell, packed, so that equal ones are found at once.
+    colours: Vec<u32>,
+    /// Borders on a cell's east side: row, column.
+    east: Vec<(u32, u32, Pen)>,
+    /// Borders on the south side of neighbours in a row: row, first column, the column beyond the last.
+    south: Vec<(u32, u32, u32, Pen)>,
+}
+
+impl Cells {
+    /// The next cell's colour, along the rows.
+    pub(super) fn push(&mut self, [r, g, b]: Rgb) {
+        self.colours.push(u32::from_le_bytes([r, g, b, 0]));
+    }
+
+    /// Asks for the line between each two neighbours of `rows` rows: west, east or north, south.
+    pub(super) fn border(&mut self, rows: usize, pen: impl Fn(usize, usize) -> Option<Pen>) {
+        let width = self.width;
+        for row in 0..rows {
+            for column in 0..width {
+                let cell = row * width + column;
+                let (at, from) = (row as u32, column as u32);
+                if column + 1 < width
+                    && let Some(pen) = pen(cell, cell + 1)
+                {
+                    self.east.push((at, from, pen));
+                }
+                if row + 1 < rows
+                    && let Some(pen) = pen(cell, cell + width)
+                {
+                    match self.south.last_mut() {
+                        // one stroke for as many as are alike
+                        Some((last, _, to, its)) if (*last, *to, *its) == (at, from, pen) => *to += 1,
+                        _ => self.south.push((at, from, from + 1, pen)),
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A raster of cells that is drawn when it is asked for: `tell` tells of some rows of cells.
+pub(super) struct Composed<F> {
+    fit: Fit,
+    columns: Vec<Span>,
+    rows: Vec<Span>,
+    tell: F,
+}
+
+impl<F: Fn(Range<usize>, &mut Cells) + Sync> Composed<F> {
+    pub(super) fn new(fit: Fit, between: Between, tell: F) -> Composed<F> {
+        let columns = spans(fit.cells.0 as usize, fit.pixels.0 as usize, between);
+        let rows = spans(fit.cells.1 as usize, fit.pixels.1 as usize, between);
+        Composed { fit, columns, rows, tell }
+    }
+
+    /// All of it.
+    fn picture(&self) -> Picture {
+        let (width, height) = self.fit.pixels;
+        let mut pixels = vec![LINE; width as usize * height as usize];
+        pixels.par_chunks_mut(BAND * width as usize).enumerate().for_each(|(band, rows)| self.draw(band * BAND, rows));
+        Picture { width, height, pixels }
+    }
+
+    /// The rows of cells that some rows of pixels show, and whose borders reach into them.
+    fn reach(&self, top: usize, rows: usize) -> Range<usize> {
+        let scale = self.fit.pixels.1 as f32 / self.fit.cells.1 as f32;
+        let reach = Pen::OUTLINE.radius + 1.0;
+        let first = ((top as f32 - reach) / scale).floor().max(1.0) as usize - 1;
+        let last = (((top + rows) as f32 + reach) / scale).ceil() as usize + 2;
+        first.min(self.rows[top].cells.start)
+            ..last.max(self.rows[top + rows - 1].cells.end).min(self.fit.cells.1 as usize)
+    }
+}
+
+impl<F: Fn(Range<usize>, &mut Cells) + Sync> Pixels for Composed<F> {
+    fn size(&self) -> (u32, u32) {
+        self.fit.pixels
+    }
+
+    fn draw(&self, top: usize, into: &mut [Rgb]) {
+        let width = self.fit.pixels.0 as usize;
+        let reach = self.reach(top, into.len() / width);
+        let mut cells = Cells { width: self.fit.cells.0 as usize, ..Cells::default() };
+        (self.tell)(reach.clone(), &mut cells);
+        let ink = draw_lines(self.fit, top, into.len() / width, reach.start, &cells);
+        for (row, line) in into.chunks_exact_mut(width).enumerate() {
+            let span = &self.rows[top + row];
+            let of_row = |row: usize| &cells.colours[(row - reach.start) * cells.width..][..cells.width];
+            if span.cells.len() <= 2 {
+                let (north, south) = (of_row(span.cells.start), of_row(span.cells.end - 1));
+                for (columns, pixel) in self.columns.iter().zip(&mut *line) {
+                    let (west, east) = (columns.cells.start, columns.cells.end - 1);
+                    let first = north[west];
+                    // most of a picture is of one colour
+                    let is_one =
+                        east - west < 2 && first == north[east] && first == south[west] && first == south[east];
+                    *pixel = if is_one { rgb(first) } else { average(of_row, columns, span) };
+                }
+            } else {
+                for (columns, pixel) in self.columns.iter().zip(&mut *line) {
+                    *pixel = average(of_row, columns, span);
+                }
+            }
+            let ink = &ink[row * width..(row + 1) * width];
+            for (pixel, &ink) in line.iter_mut().zip(ink).filter(|(_, ink)| **ink > 0.0) {
+                *pixel = blend(*pixel, ink);
+            }
+        }
+    }
+}
 
 /// Draws `colours`, one a cell, with the line that `pen` gives for each pair of neighbours (west, east or north, south).
 pub(super) fn compose(
@@ -78,21 +214,18 @@ pub(super) fn compose(
     colours: &[Rgb],
     pen: impl Fn(usize, usize) -> Option<Pen> + Sync,
 ) -> Picture {
-    let (width, height) = (fit.pixels.0 as usize, fit.pixels.1 as usize);
-    let columns = spans(fit.cells.0 as usize, width, between);
-    let rows = spans(fit.cells.1 as usize, height, between);
-    let mut pixels = vec![LINE; width * height];
-    pixels.par_chunks_mut(BAND * width).enumerate().for_each_init(Vec::new, |ink, (band, chunk)| {
-        let top = band * BAND;
-        draw_lines(fit, top, chunk.len() / width, ink, &pen);
-        for (row, line) in chunk.chunks_exact_mut(width).enumerate() {
-            for (column, pixel) in line.iter_mut().enumerate() {
-                let paper = average(fit, colours, &columns[column], &rows[top + row]);
-                *pixel = blend(paper, ink[row * width + column]);
-            }
-        }
-    });
-    Picture { width: fit.pixels.0, height: fit.pixels.1, pixels }
+    let width = fit.cells.0 as usize;
+    let tell = |rows: Range<usize>, cells: &mut Cells| {
+        let first = rows.start * width;
+        colours[first..rows.end * width].iter().for_each(|colour| cells.push(*colour));
+        cells.border(rows.len(), |a, b| pen(first + a, first + b));
+    };
+    Composed::new(fit, between, tell).picture()
+}
+
+fn rgb(packed: u32) -> Rgb {
+    let [r, g, b, _] = packed.to_le_bytes();
+    [r, g, b]
 }
 
 /// The cells that a pixel covers along one axis: from, to (exclusive), and the shares of the first and the last.
@@ -143,31 +276,18 @@ impl Span {
     }
 }
 
-fn average(fit: Fit, colours: &[Rgb], columns: &Span, rows: &Span) -> Rgb {
-    let width = fit.cells.0 as usize;
-    let first = colours[rows.cells.start * width + columns.cells.start];
-    if columns.cells.len() == 1 && rows.cells.len() == 1 {
-        return first;
-    }
-    // most of a picture is of one colour
-    let at = |row: usize, column: usize| colours[row * width + column];
-    let is_one = match (rows.cells.len(), columns.cells.len()) {
-        (1 | 2, 1 | 2) => {
-            let (south, east) = (rows.cells.end - 1, columns.cells.end - 1);
-            at(rows.cells.start, east) == first && at(south, columns.cells.start) == first && at(south, east) == first
-        }
-        _ => rows.cells.clone().all(|row| columns.cells.clone().all(|column| at(row, column) == first)),
-    };
-    if is_one {
-        return first;
+fn average<'a>(of_row: impl Fn(usize) -> &'a [u32], columns: &Span, rows: &Span) -> Rgb {
+    let first = of_row(rows.cells.start)[columns.cells.start];
+    if rows.cells.clone().all(|row| of_row(row)[columns.cells.clone()].iter().all(|colour| *colour == first)) {
+        return rgb(first);
     }
     let mut sum = [0.0_f32; 3];
     let mut total = 0.0;
     for row in rows.cells.clone() {
+        let colours = of_row(row);
         for column in columns.cells.clone() {
             let weight = rows.weight(row) * columns.weight(column);
-            let colour = colours[row * width + column];
-            for (sum, part) in sum.iter_mut().zip(colour) {
+            for (sum, part) in sum.iter_mut().zip(rgb(colours[column])) {
                 *sum += weight * f32::from(part);
             }
             total += weight;
@@ -177,61 +297,52 @@ fn average(fit: Fit, colours: &[Rgb], columns: &Span, rows: &Span) -> Rgb {
 }
 
 fn blend(paper: Rgb, ink: f32) -> Rgb {
-    if ink <= 0.0 {
-        return paper;
-    }
     std::array::from_fn(|i| (f32::from(paper[i]) + (f32::from(LINE[i]) - f32::from(paper[i])) * ink + 0.5) as u8)
 }
 
-/// The strength of the lines in pixel rows `top..top + rows`.
-fn draw_lines(fit: Fit, top: usize, rows: usize, strength: &mut Vec<f32>, pen: &impl Fn(usize, usize) -> Option<Pen>) {
-    let (cells_x, cells_y) = (fit.cells.0 as usize, fit.cells.1 as usize);
-    let scale = [fit.pixels.0 as f32 / cells_x as f32, fit.pixels.1 as f32 / cells_y as f32];
-    strength.clear();
-    strength.resize(fit.pixels.0 as usize * rows, 0.0);
-    let mut ink = Ink { width: fit.pixels.0 as usize, top: top as f32, rows, strength };
-    // Lines reach over the band's edge by their radius.
-    let reach = Pen::OUTLINE.radius + 1.0;
-    let first = ((top as f32 - reach) / scale[1]).floor().max(1.0) as usize - 1;
-    let last = (((top + rows) as f32 + reach) / scale[1]).ceil() as usize + 1;
-    for row in first..last.min(cells_y) {
-        let (north, south) = (row as f32 * scale[1], (row + 1) as f32 * scale[1]);
-        for column in 0..cells_x {
-            let cell = row * cells_x + column;
-            let (west, east) = (column as f32 * scale[0], (column + 1) as f32 * scale[0]);
-            if column + 1 < cells_x
-                && let Some(pen) = pen(cell, cell + 1)
-            {
-                ink.stroke([east, north], [east, south], pen);
-            }
-            if row + 1 < cells_y
-                && let Some(pen) = pen(cell, cell + cells_x)
-            {
-                ink.stroke([west, south], [east, south], pen);
-            }
-        }
+/// The strength of the lines in pixel rows `top..top + rows`; the cells' rows begin with `first`.
+fn draw_lines(fit: Fit, top: usize, rows: usize, first: usize, cells: &Cells) -> Vec<f32> {
+    let scale = [fit.pixels.0 as f32 / fit.cells.0 as f32, fit.pixels.1 as f32 / fit.cells.1 as f32];
+    let width = fit.pixels.0 as usize;
+    let mut ink = Ink { width, top: top as f32, rows, strength: vec![0.0; width * rows] };
+    let x = |column: u32| column as f32 * scale[0];
+    let y = |row: u32| (first as u32 + row) as f32 * scale[1];
+    for &(row, column, pen) in &cells.east {
+        ink.stroke([x(column + 1), y(row)], [x(column + 1), y(row + 1)], pen);
     }
+    for &(row, from, to, pen) in &cells.south {
+        ink.stroke([x(from), y(row + 1)], [x(to), y(row + 1)], pen);
+    }
+    ink.strength
 }
 
-struct Ink<'a> {
+struct Ink {
     width: usize,
     top: f32,
     rows: usize,
-    strength: &'a mut [f32],
+    strength: Vec<f32>,
 }
 
-impl Ink<'_> {
+impl Ink {
     /// A stroke with round ends, along one axis; where strokes overlap the stronger one counts.
     fn stroke(&mut self, from: [f32; 2], to: [f32; 2], pen: Pen) {
         let reach = pen.radius + 0.5;
-        let low = |at: f32| (at - reach).floor().max(0.0) as usize;
-        let high = |at: f32, most: usize| ((at + reach).ceil().max(0.0) as usize).min(most);
+        // rounding down and up are library calls on processors without an instruction for them
+        let low = |at: f32| (at - reach).max(0.0) as usize;
+        let high = |at: f32, most: usize| {
+            let at = (at + reach).max(0.0);
+            (at as usize + usize::from(at as usize as f32 != at)).min(most)
+        };
+        let columns = low(from[0])..high(to[0], self.width);
         for y in low(from[1] - self.top)..high(to[1] - self.top, self.rows) {
             let dy = outside(y as f32 + 0.5 + self.top, from[1], to[1]);
-            for x in low(from[0])..high(to[0], self.width) {
+            if columns.is_empty() || dy >= reach {
+                continue;
+            }
+            let inks = &mut self.strength[y * self.width..][columns.clone()];
+            for (x, ink) in columns.clone().zip(inks) {
                 let dx = outside(x as f32 + 0.5, from[0], to[0]);
                 let cover = (reach - (dx * dx + dy * dy).sqrt()).clamp(0.0, 1.0) * pen.strength;
-                let ink = &mut self.strength[y * self.width + x];
                 *ink = ink.max(cover);
             }
         }

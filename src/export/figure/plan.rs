@@ -1,14 +1,14 @@
 //! The plan's colours and lines: ground and roofs seen from above.
 
 use super::Scene;
-use super::picture::{Between, Fit, Pen, Picture, compose};
+use super::picture::{Between, Cells, Composed, Fit, Pen, Picture, Pixels, compose};
 use super::scale::{Bands, Rgb, mix};
 use crate::mesh::Mesh;
 use crate::profile::Profile;
 use crate::site::Receivers;
-use crate::view::{Mask, Surface};
+use crate::view::{Mask, Surface, SurfaceRows};
 use glam::DVec3;
-use rayon::prelude::*;
+use std::ops::Range;
 
 /// Ground in the sun and in the shade.
 pub(super) const GROUND_SUN: Rgb = [246, 240, 226];
@@ -28,23 +28,19 @@ const RELIEF_OF_HOURS: f64 = 0.10;
 const CREASE_COS: f64 = 0.990;
 
 /// Hours of shadow.
-pub(super) fn profile(scene: &Scene, profile: &Profile, bands: &Bands, fit: Fit) -> Picture {
+pub(super) fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile, bands: &Bands, fit: Fit) -> impl Pixels {
     let ground_only = scene.receivers == Receivers::Ground;
     let strength = if ground_only { RELIEF } else { RELIEF_OF_HOURS };
-    draw(scene, profile.grid.cell, fit, strength, |cell, face| match face {
+    draw(scene, profile.grid.cell, fit, strength, move |cell, face| match face {
         Some(_) if ground_only => ROOF_UNJUDGED,
         _ => bands.colour(profile.shaded.of(cell)),
     })
 }
 
-/// Sun and shadow at one instant; or colours of the cells instead.
-pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, of_cells: Option<&[Rgb]>, fit: Fit) -> Picture {
-    if let Some(of_cells) = of_cells {
-        // neither relief nor lines, which would be taken for cells
-        return compose(fit, Between::Sharp, of_cells, |_, _| None);
-    }
+/// Sun and shadow at one instant.
+pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, fit: Fit) -> impl Pixels {
     let ground_only = scene.receivers == Receivers::Ground;
-    draw(scene, cell_m, fit, RELIEF, |cell, face| {
+    draw(scene, cell_m, fit, RELIEF, move |cell, face| {
         let share = f64::from(mask.share[cell]) / 255.0;
         match face {
             Some(_) if ground_only => ROOF_UNJUDGED,
@@ -54,38 +50,45 @@ pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, of_cells: Option<
     })
 }
 
+/// Colours of the cells, with neither relief nor lines, which would be taken for cells.
+pub(super) fn painted(of_cells: &[Rgb], fit: Fit) -> Picture {
+    compose(fit, Between::Sharp, of_cells, |_, _| None)
+}
+
 /// Colours by `flat`, as if all were level; slopes get their relief, borders their lines.
-fn draw(
-    scene: &Scene,
+fn draw<S: SurfaceRows>(
+    scene: &Scene<S>,
     cell_m: f64,
     fit: Fit,
     strength: f64,
     flat: impl Fn(usize, Option<usize>) -> Rgb + Sync,
-) -> Picture {
-    let (surface, mesh) = (scene.surface, scene.mesh);
+) -> impl Pixels {
     let light = relief_light(scene);
-    let width = (surface.width as usize).max(1);
-    let mut colours: Vec<Rgb> = vec![[0; 3]; surface.face.len()];
-    colours.par_chunks_mut(width).enumerate().for_each(|(row, colours)| {
+    let width = fit.cells.0 as usize;
+    Composed::new(fit, Between::Sharp, move |rows: Range<usize>, cells: &mut Cells| {
+        let surface = &scene.surface.rows(rows.clone());
+        let mesh = scene.mesh;
         // along a row a face is seen again and again
         let mut last = None;
-        for (column, colour) in colours.iter_mut().enumerate() {
-            let cell = row * width + column;
-            let Some(face) = face(surface, cell) else {
-                *colour = flat(cell, None);
+        for (at, &seen) in surface.face.iter().enumerate() {
+            let cell = rows.start * width + at;
+            if seen == Surface::GROUND {
+                cells.push(flat(cell, None));
                 continue;
-            };
+            }
+            let face = seen as usize;
             let factor = match last {
                 Some((known, factor)) if known == face => factor,
                 _ => relief(upward(mesh, face), light, strength),
             };
             last = Some((face, factor));
-            *colour = shade(flat(cell, Some(face)), factor);
+            cells.push(shade(flat(cell, Some(face)), factor));
         }
-    });
-    let seen = &surface.face[..];
-    // nearly all neighbours are one face
-    compose(fit, Between::Sharp, &colours, |a, b| if seen[a] == seen[b] { None } else { pen(scene, cell_m, a, b) })
+        let seen = &surface.face[..];
+        // nearly all neighbours are one face
+        let pen = |a, b| if seen[a] == seen[b] { None } else { pen(mesh, surface, cell_m, a, b) };
+        cells.border(rows.len(), pen);
+    })
 }
 
 fn face(surface: &Surface, cell: usize) -> Option<usize> {
@@ -95,7 +98,9 @@ fn face(surface: &Surface, cell: usize) -> Option<usize> {
 
 /// The normal of the side that the plan sees; straight up where the face has no area.
 fn upward(mesh: &Mesh, face: usize) -> DVec3 {
-    let normal = mesh.planes().get(face).map_or(DVec3::Z, |plane| plane.truncate());
+    // a plan crosses each face's border a few times: to find the planes of all faces would take longer
+    let [a, b, c] = mesh.faces[face].map(|vertex| mesh.vertices[vertex as usize].as_dvec3());
+    let normal = (b - a).cross(c - a).normalize_or_zero();
     if normal.z < 0.0 {
         -normal
     } else if normal == DVec3::ZERO {
@@ -108,7 +113,7 @@ fn upward(mesh: &Mesh, face: usize) -> DVec3 {
 /// Half-way up in the direction of the highest sun of the study, so that relief and shadows tell the same story.
 ///
 /// Maps light relief from the north-west, but here that would darken the very roofs that have most sun.
-fn relief_light(scene: &Scene) -> DVec3 {
+fn relief_light<S>(scene: &Scene<S>) -> DVec3 {
     let instants = scene.track.instants.iter();
     let highest = instants.max_by(|a, b| a.altitude_rad.total_cmp(&b.altitude_rad));
     let (sin, cos) = highest.map_or(0.0, |instant| instant.azimuth_rad).sin_cos();
@@ -133,44 +138,35 @@ fn shade(colour: Rgb, factor: f64) -> Rgb {
 }
 
 /// The line between two neighbours that see different things.
-fn pen(scene: &Scene, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
-    let (surface, mesh) = (scene.surface, scene.mesh);
+fn pen(mesh: &Mesh, surface: &Surface, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
     let east = b == a + 1;
     let half = if east { DVec3::X } else { DVec3::NEG_Y } * (0.5 * cell_m);
-    let (from, to) = (face(surface, a), face(surface, b));
+    let [from, to] = [a, b].map(|cell| face(surface, cell).map(|face| upward(mesh, face)));
+    // how much the faces rise over half a cell
+    let [rise_from, rise_to] = [from, to].map(|normal| rise(normal, half));
     // Below this a step is rounding, a kerb or a joint; and a ridge between two centres is off by half a cell of slope.
-    let slopes = slope(scene, from, half) + slope(scene, to, half);
-    let step_m = (0.5 * cell_m).clamp(0.02, 0.5) + slopes;
-    let jump = (edge_height(scene, a, from, half) - edge_height(scene, b, to, -half)).abs();
+    let step_m = (0.5 * cell_m).clamp(0.02, 0.5) + rise_from.abs() + rise_to.abs();
+    // where they meet
+    let [height_from, height_to] = [a, b].map(|cell| f64::from(surface.height_m[cell]));
+    let jump = (height_from + rise_from - (height_to - rise_to)).abs();
     match (from, to) {
         (Some(from), Some(to)) => {
-            let crease = || upward(mesh, from).dot(upward(mesh, to)) < CREASE_COS;
-            if jump > step_m { Some(Pen::STEP) } else { crease().then_some(Pen::CREASE) }
+            if jump > step_m {
+                Some(Pen::STEP)
+            } else {
+                (from.dot(to) < CREASE_COS).then_some(Pen::CREASE)
+            }
         }
         (None, None) => None,
         _ => Some(if jump > step_m { Pen::OUTLINE } else { Pen::CREASE }),
     }
 }
 
-/// The height of a cell's face where it meets its neighbour, `half` a cell away from its centre.
-fn edge_height(scene: &Scene, cell: usize, face: Option<usize>, half: DVec3) -> f64 {
-    f64::from(scene.surface.height_m[cell]) + rise(scene, face, half)
-}
-
-/// How much a face's height may change within `half` a cell either way.
-fn slope(scene: &Scene, face: Option<usize>, half: DVec3) -> f64 {
-    rise(scene, face, half).abs()
-}
-
 /// How much a face rises over `half` a cell; nothing for the ground.
-fn rise(scene: &Scene, face: Option<usize>, half: DVec3) -> f64 {
-    let Some(face) = face else {
+fn rise(normal: Option<DVec3>, half: DVec3) -> f64 {
+    // A wall seen from above has no height to carry on with.
+    let Some(normal) = normal.filter(|normal| normal.z >= 0.1) else {
         return 0.0;
     };
-    let normal = upward(scene.mesh, face);
-    // A wall seen from above has no height to carry on with.
-    if normal.z < 0.1 {
-        return 0.0;
-    }
     -(normal.x * half.x + normal.y * half.y) / normal.z
 }
