@@ -32,9 +32,11 @@ pub fn by_rows(one: DVec2, other: DVec2) -> Ordering {
 
 /// The whole numbers of a range from one place to another, both included; none where a place is no number.
 pub fn wholes([from, to]: [f64; 2], of: Range<usize>) -> Range<usize> {
-    // a negative number, and what is none, become 0
-    let whole = |number: f64| (number as usize).clamp(of.start, of.end);
-    whole(from.ceil())..whole(to.floor() + 1.0)
+    // a negative number, and what is none, become 0; rounding is a library call on processors without an instruction for it
+    let first = from as usize;
+    let first = first.saturating_add(usize::from((first as f64) < from));
+    let end = if to >= 0.0 { (to as usize).saturating_add(1) } else { 0 };
+    first.clamp(of.start, of.end)..end.clamp(of.start, of.end)
 }
 
 /// Which cells are covered: one bit a cell, 64 a word.

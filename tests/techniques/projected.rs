@@ -10,9 +10,9 @@ use glam::{DVec3, dvec2, dvec3};
 use gnomon::mesh::{Mesh, Part};
 use gnomon::shadow::projected::Projected;
 use gnomon::shadow::ray_cast::RayCast;
-use gnomon::shadow::{Scene, Technique, plan_surface};
+use gnomon::shadow::{PlanSurface, Scene, Technique, plan_surface};
 use gnomon::site::Receivers;
-use gnomon::view::{Grid, Mask, Surface, View};
+use gnomon::view::{Grid, Mask, Surface, SurfaceRows, View};
 
 fn projected(scene: &Scene, view: View, sun: DVec3) -> Mask {
     let View::Plan(grid) = view else { panic!("a plan") };
@@ -178,6 +178,22 @@ fn plans_see_what_rays_see() {
         let surface = plan_surface(&scene.receivers, scene.ground, &grid);
         let otherwise = seen_otherwise(&scene, view, &surface);
         assert!(otherwise.len() * 20_000 <= surface.face.len(), "{name}: {} cells", otherwise.len());
+    }
+}
+
+#[test]
+fn some_rows_of_a_plan_are_those_of_the_whole() {
+    let (scene, View::Plan(grid), _) = site("industry", 333) else { panic!("a plan") };
+    let whole = plan_surface(&scene.receivers, scene.ground, &grid);
+    let rows = PlanSurface::new(&scene.receivers, scene.ground, &grid);
+    assert_eq!(rows.cells(), whole.cells());
+    let height = grid.height as usize;
+    for (from, to) in [(0, height), (0, 1), (31, 33), (7, 150), (height - 40, height), (height - 1, height)] {
+        let [part, right] = [rows.rows(from..to), whole.rows(from..to)];
+        assert_eq!((part.width, part.height), (right.width, right.height));
+        assert_eq!(part.face, right.face, "rows {from} to {to}");
+        assert_eq!(part.height_m, right.height_m, "rows {from} to {to}");
+        assert!(part.face.iter().any(|face| *face != Surface::GROUND) || to - from < 40);
     }
 }
 

@@ -105,32 +105,61 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// The next cell's colour, along the rows.
-    pub(super) fn push(&mut self, [r, g, b]: Rgb) {
-        self.colours.push(u32::from_le_bytes([r, g, b, 0]));
+    /// The cells' colours, along the rows.
+    pub(super) fn paint(&mut self, colours: impl Iterator<Item = Rgb>) {
+        self.colours.extend(colours.map(|[r, g, b]| u32::from_le_bytes([r, g, b, 0])));
+    }
+
+    /// As [`Cells::border`], where there is no line between cells of one key.
+    pub(super) fn border_of(&mut self, keys: &[u32], pen: impl Fn(usize, usize) -> Option<Pen>) {
+        /// Columns that are looked at in one go.
+        const AT_ONCE: usize = 32;
+        let width = self.width;
+        let rows = keys.len() / width.max(1);
+        for row in 0..rows {
+            let of_row = &keys[row * width..(row + 1) * width];
+            // below the last row there is nothing to part from
+            let below = if row + 1 < rows { &keys[(row + 1) * width..(row + 2) * width] } else { of_row };
+            for from in (0..width).step_by(AT_ONCE) {
+                let to = (from + AT_ONCE).min(width);
+                let run = &of_row[from..to];
+                let parts = |sum: u32, (one, other): (&u32, &u32)| sum | (one ^ other);
+                let apart = run.iter().zip(&of_row[from + 1..]).fold(0, parts);
+                if run.iter().zip(&below[from..to]).fold(apart, parts) == 0 {
+                    continue;
+                }
+                for column in from..to {
+                    self.ask(row, column, rows, |a, b| if keys[a] == keys[b] { None } else { pen(a, b) });
+                }
+            }
+        }
     }
 
     /// Asks for the line between each two neighbours of `rows` rows: west, east or north, south.
     pub(super) fn border(&mut self, rows: usize, pen: impl Fn(usize, usize) -> Option<Pen>) {
-        let width = self.width;
         for row in 0..rows {
-            for column in 0..width {
-                let cell = row * width + column;
-                let (at, from) = (row as u32, column as u32);
-                if column + 1 < width
-                    && let Some(pen) = pen(cell, cell + 1)
-                {
-                    self.east.push((at, from, pen));
-                }
-                if row + 1 < rows
-                    && let Some(pen) = pen(cell, cell + width)
-                {
-                    match self.south.last_mut() {
-                        // one stroke for as many as are alike
-                        Some((last, _, to, its)) if (*last, *to, *its) == (at, from, pen) => *to += 1,
-                        _ => self.south.push((at, from, from + 1, pen)),
-                    }
-                }
+            for column in 0..self.width {
+                self.ask(row, column, rows, &pen);
+            }
+        }
+    }
+
+    /// Asks for the lines on a cell's east and south side.
+    fn ask(&mut self, row: usize, column: usize, rows: usize, pen: impl Fn(usize, usize) -> Option<Pen>) {
+        let cell = row * self.width + column;
+        let (at, from) = (row as u32, column as u32);
+        if column + 1 < self.width
+            && let Some(pen) = pen(cell, cell + 1)
+        {
+            self.east.push((at, from, pen));
+        }
+        if row + 1 < rows
+            && let Some(pen) = pen(cell, cell + self.width)
+        {
+            match self.south.last_mut() {
+                // one stroke for as many as are alike
+                Some((last, _, to, its)) if (*last, *to, *its) == (at, from, pen) => *to += 1,
+                _ => self.south.push((at, from, from + 1, pen)),
             }
         }
     }
@@ -217,7 +246,7 @@ pub(super) fn compose(
     let width = fit.cells.0 as usize;
     let tell = |rows: Range<usize>, cells: &mut Cells| {
         let first = rows.start * width;
-        colours[first..rows.end * width].iter().for_each(|colour| cells.push(*colour));
+        cells.paint(colours[first..rows.end * width].iter().copied());
         cells.border(rows.len(), |a, b| pen(first + a, first + b));
     };
     Composed::new(fit, between, tell).picture()

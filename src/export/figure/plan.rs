@@ -31,23 +31,30 @@ const CREASE_COS: f64 = 0.990;
 pub(super) fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile, bands: &Bands, fit: Fit) -> impl Pixels {
     let ground_only = scene.receivers == Receivers::Ground;
     let strength = if ground_only { RELIEF } else { RELIEF_OF_HOURS };
-    draw(scene, profile.grid.cell, fit, strength, move |cell, face| match face {
-        Some(_) if ground_only => ROOF_UNJUDGED,
-        _ => bands.colour(profile.shaded.of(cell)),
+    let value = |cell| profile.shaded.of(cell);
+    draw(scene, profile.grid.cell, fit, strength, value, move |shaded, is_ground| {
+        if ground_only && !is_ground { ROOF_UNJUDGED } else { bands.colour(shaded) }
     })
 }
 
 /// Sun and shadow at one instant.
 pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, fit: Fit) -> impl Pixels {
     let ground_only = scene.receivers == Receivers::Ground;
-    draw(scene, cell_m, fit, RELIEF, move |cell, face| {
-        let share = f64::from(mask.share[cell]) / 255.0;
-        match face {
-            Some(_) if ground_only => ROOF_UNJUDGED,
-            Some(_) => mix(ROOF_SHADE, ROOF_SUN, share),
-            None => mix(GROUND_SHADE, GROUND_SUN, share),
-        }
-    })
+    draw(
+        scene,
+        cell_m,
+        fit,
+        RELIEF,
+        |cell| mask.share[cell],
+        move |share, is_ground| {
+            let share = f64::from(share) / 255.0;
+            match is_ground {
+                true => mix(GROUND_SHADE, GROUND_SUN, share),
+                false if ground_only => ROOF_UNJUDGED,
+                false => mix(ROOF_SHADE, ROOF_SUN, share),
+            }
+        },
+    )
 }
 
 /// Colours of the cells, with neither relief nor lines, which would be taken for cells.
@@ -55,39 +62,39 @@ pub(super) fn painted(of_cells: &[Rgb], fit: Fit) -> Picture {
     compose(fit, Between::Sharp, of_cells, |_, _| None)
 }
 
-/// Colours by `flat`, as if all were level; slopes get their relief, borders their lines.
-fn draw<S: SurfaceRows>(
+/// Colours by `flat`, of a cell's value and whether it is ground, as if all were level; slopes get their relief, borders
+/// their lines.
+fn draw<S: SurfaceRows, V: Copy + PartialEq>(
     scene: &Scene<S>,
     cell_m: f64,
     fit: Fit,
     strength: f64,
-    flat: impl Fn(usize, Option<usize>) -> Rgb + Sync,
+    value: impl Fn(usize) -> V + Sync,
+    flat: impl Fn(V, bool) -> Rgb + Sync,
 ) -> impl Pixels {
     let light = relief_light(scene);
     let width = fit.cells.0 as usize;
     Composed::new(fit, Between::Sharp, move |rows: Range<usize>, cells: &mut Cells| {
         let surface = &scene.surface.rows(rows.clone());
         let mesh = scene.mesh;
-        // along a row a face is seen again and again
+        // along a row the same is seen again and again
         let mut last = None;
-        for (at, &seen) in surface.face.iter().enumerate() {
-            let cell = rows.start * width + at;
-            if seen == Surface::GROUND {
-                cells.push(flat(cell, None));
-                continue;
+        let colour = |(at, &seen): (usize, &u32)| {
+            let value = value(rows.start * width + at);
+            if let Some((its, face, colour)) = last
+                && (its, face) == (value, seen)
+            {
+                return colour;
             }
-            let face = seen as usize;
-            let factor = match last {
-                Some((known, factor)) if known == face => factor,
-                _ => relief(upward(mesh, face), light, strength),
-            };
-            last = Some((face, factor));
-            cells.push(shade(flat(cell, Some(face)), factor));
-        }
-        let seen = &surface.face[..];
+            let is_ground = seen == Surface::GROUND;
+            let factor = if is_ground { 1.0 } else { relief(upward(mesh, seen as usize), light, strength) };
+            let colour = shade(flat(value, is_ground), factor);
+            last = Some((value, seen, colour));
+            colour
+        };
+        cells.paint(surface.face.iter().enumerate().map(colour));
         // nearly all neighbours are one face
-        let pen = |a, b| if seen[a] == seen[b] { None } else { pen(mesh, surface, cell_m, a, b) };
-        cells.border(rows.len(), pen);
+        cells.border_of(&surface.face, |a, b| pen(mesh, surface, cell_m, a, b));
     })
 }
 
