@@ -23,6 +23,9 @@ pub(super) enum Command {
     /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped goes
     /// on where it was when it is asked again
     Profile(ProfileArgs),
+    /// Two states of a site, existing and proposed: hours of sun lost and gained, with the areas, as compare.png,
+    /// shadow-hours-difference.tif and compare.json. Study, plan and ground of the first are taken for both
+    Compare(CompareArgs),
     /// The shadows at one instant, as a drawing or as a bare mask
     Shadow(ShadowArgs),
     /// The sun at the study's instants: time, azimuth, altitude, weight; sunrise, noon, sunset
@@ -44,6 +47,7 @@ impl Command {
         Some(match self {
             Command::Open(_) => return None,
             Command::Profile(asked) => &asked.common,
+            Command::Compare(asked) => &asked.common,
             Command::Shadow(asked) => &asked.common,
             Command::Sun(asked) => &asked.common,
             Command::Check(asked) => &asked.common,
@@ -81,6 +85,13 @@ pub(super) struct SiteArgs {
     /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
     #[arg(value_name = "SITE")]
     pub(super) path: PathBuf,
+    #[command(flatten)]
+    place: PlaceArgs,
+}
+
+/// Where a model stands, and in which air.
+#[derive(Debug, Args)]
+pub(super) struct PlaceArgs {
     /// Where a model stands, degrees north and east: 48.8583,2.2945
     #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true)]
     place: Option<String>,
@@ -224,6 +235,29 @@ pub(super) struct ProfileArgs {
     pub(super) common: Common,
 }
 
+#[derive(Debug, Args)]
+pub(super) struct CompareArgs {
+    /// The site as it is: a site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
+    #[arg(value_name = "BEFORE")]
+    pub(super) before: PathBuf,
+    /// The site as it is to be; what says no place stands where the first does
+    #[arg(value_name = "AFTER")]
+    pub(super) after: PathBuf,
+    #[command(flatten)]
+    place: PlaceArgs,
+    #[command(flatten)]
+    window: WindowArgs,
+    #[command(flatten)]
+    draw: DrawArgs,
+    #[command(flatten)]
+    plan: PlanArgs,
+    /// The folder for the files
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub(super) out: PathBuf,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
 /// A file of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Written {
@@ -350,6 +384,12 @@ pub(super) struct VerifyArgs {
 
 impl SiteArgs {
     pub(super) fn overrides(&self) -> Overrides {
+        self.place.overrides()
+    }
+}
+
+impl PlaceArgs {
+    fn overrides(&self) -> Overrides {
         Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..Overrides::default() }
     }
 }
@@ -405,6 +445,12 @@ impl ProfileArgs {
             return Err(WrongUse(what));
         }
         Ok(if self.write.is_empty() { possible.to_vec() } else { self.write.clone() })
+    }
+}
+
+impl CompareArgs {
+    pub(super) fn overrides(&self) -> Overrides {
+        self.plan.onto(self.draw.onto(self.window.onto(self.place.overrides())))
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod arguments;
 mod commands;
+mod compare;
 mod interrupt;
 mod probe;
 mod profile;
@@ -63,6 +64,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
     interrupt::listen();
     match command {
         Command::Profile(asked) => profile::profile(asked),
+        Command::Compare(asked) => compare::compare(asked),
         Command::Shadow(asked) => commands::shadow(asked),
         Command::Sun(asked) => commands::sun(asked),
         Command::Check(asked) => commands::check(asked),

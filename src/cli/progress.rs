@@ -36,7 +36,7 @@ impl Progress {
         match event {
             Event::Note(note) => self.line(&format!("note: {}", words(note))),
             Event::Started { instants } => {
-                self.begun = (0, Instant::now());
+                (self.begun, self.told) = ((0, Instant::now()), 0);
                 // One instant is done before a bar is seen.
                 if *instants > 1 && io::stderr().is_terminal() {
                     self.bar = Some(bar(*instants, self.what));

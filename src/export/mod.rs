@@ -4,6 +4,7 @@
 
 pub mod bits;
 pub mod check;
+pub mod comparison;
 pub mod figure;
 pub mod file;
 mod places;

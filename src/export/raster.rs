@@ -2,8 +2,9 @@
 
 use super::{ExportError, check_size};
 use crate::profile::Profile;
+use crate::profile::comparison::Comparison;
 use crate::sun::Place;
-use crate::view::Mask;
+use crate::view::{Grid, Mask};
 use rayon::prelude::*;
 use std::io::{self, Cursor, Write};
 use tiff::TiffError;
@@ -23,14 +24,26 @@ pub fn geotiff(profile: &Profile, place: &Place) -> Result<Vec<u8>, ExportError>
     let grid = &profile.grid;
     check_size("profile", profile.shaded.len(), grid.width, grid.height)?;
     let hours: Vec<f32> = (0..profile.shaded.len()).into_par_iter().map(|cell| profile.hours(cell)).collect();
-    encode(profile, place, &hours).map_err(|error| ExportError::encode("GeoTIFF", error))
+    encode(grid, place, "hours of shadow", &hours).map_err(|error| ExportError::encode("GeoTIFF", error))
+}
+
+/// `shadow-hours-difference.tif`: as [`geotiff`], the hours of shadow after minus those before; NaN where they are not
+/// compared.
+///
+/// # Errors
+/// As [`geotiff`].
+pub fn difference_geotiff(comparison: &Comparison, place: &Place) -> Result<Vec<u8>, ExportError> {
+    let grid = comparison.grid();
+    check_size("comparison", comparison.cells(), grid.width, grid.height)?;
+    let hours: Vec<f32> = (0..comparison.cells()).into_par_iter().map(|cell| comparison.hours(cell)).collect();
+    let what = "hours of shadow, after minus before";
+    encode(grid, place, what, &hours).map_err(|error| ExportError::encode("GeoTIFF", error))
 }
 
 /// GDAL's own tag for what a band means.
 const GDAL_METADATA: u16 = 42112;
 
-fn encode(profile: &Profile, place: &Place, hours: &[f32]) -> Result<Vec<u8>, TiffError> {
-    let grid = &profile.grid;
+fn encode(grid: &Grid, place: &Place, what: &str, hours: &[f32]) -> Result<Vec<u8>, TiffError> {
     let mut bytes = Cursor::new(Vec::new());
     let mut tiff = TiffEncoder::new(&mut bytes)?.with_compression(Compression::Deflate(DeflateLevel::Fast));
     let mut image = tiff.new_image::<Gray32Float>(grid.width, grid.height)?;
@@ -46,10 +59,13 @@ fn encode(profile: &Profile, place: &Place, hours: &[f32]) -> Result<Vec<u8>, Ti
     tags.write_tag(Tag::GdalNodata, "nan")?;
     tags.write_tag(
         Tag::Unknown(GDAL_METADATA),
-        "<GDALMetadata>\
-         <Item name=\"DESCRIPTION\" sample=\"0\" role=\"description\">hours of shadow</Item>\
-         <Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">h</Item>\
-         </GDALMetadata>",
+        format!(
+            "<GDALMetadata>\
+             <Item name=\"DESCRIPTION\" sample=\"0\" role=\"description\">{what}</Item>\
+             <Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">h</Item>\
+             </GDALMetadata>"
+        )
+        .as_str(),
     )?;
     image.write_data(hours)?;
     Ok(bytes.into_inner())

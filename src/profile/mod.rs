@@ -2,6 +2,7 @@
 
 pub mod accumulate;
 pub mod compare;
+pub mod comparison;
 pub mod probe;
 mod shaded;
 pub mod surfaces;

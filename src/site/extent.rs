@@ -5,7 +5,7 @@ use crate::sun::SunTrack;
 use glam::{DVec2, DVec3};
 
 /// An upright box, metres in the world frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Bounds {
     pub(super) low: DVec3,
     pub(super) high: DVec3,

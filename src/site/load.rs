@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// A shadow that is longer than this, in heights, does not make the default region larger:
 /// 4.3 is the length at an altitude of 13°.
-const SHADOW_CUT: f64 = 4.3;
+pub(super) const SHADOW_CUT: f64 = 4.3;
 /// As [`SHADOW_CUT`], for what the default camera must see.
 const VIEW_CUT: f64 = 1.5;
 

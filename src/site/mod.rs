@@ -12,6 +12,7 @@ pub mod file;
 mod keys;
 mod load;
 pub mod model;
+mod pair;
 mod plan;
 mod probe;
 mod study;
@@ -21,6 +22,7 @@ pub use asked::Overrides;
 pub use choice::ChoiceError;
 pub use error::{At, SiteError};
 pub use load::{Frame, load_mesh, load_sun};
+pub use pair::Pair;
 pub use probe::{Probing, load_probes};
 pub use written::Written;
 

@@ -24,16 +24,7 @@ impl Written {
     /// # Errors
     /// What cannot be read, and what is wrong with a site file's form.
     pub fn read(path: &Path, asked: &Overrides) -> Result<Written, SiteError> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let mut written = match extension.as_str() {
-            _ if path.is_dir() => Self::read_file(&path.join("site.toml"))?,
-            "glb" | "gltf" => Self::of_model(path, asked)?,
-            "obj" | "stl" | "ply" | "ifc" | "fbx" | "dae" | "3ds" | "3dm" | "skp" | "dwg" | "dxf" | "blend" | "usd"
-            | "usdz" | "rvt" => {
-                return Err(SiteError::UnknownFormat { path: path.display().to_string() });
-            }
-            _ => Self::read_file(path)?,
-        };
+        let mut written = Self::read_as_it_is(path, asked.place.is_some())?;
         if let Some(place) = &asked.place {
             if written.site.place.is_some() {
                 return Err(refuse(
@@ -48,6 +39,30 @@ impl Written {
         Ok(written)
     }
 
+    /// As [`Written::read`], of the other state of a site: what names no place stands in that of `first`.
+    ///
+    /// # Errors
+    /// As [`Written::read`].
+    pub fn read_beside(path: &Path, first: &Written) -> Result<Written, SiteError> {
+        let mut written = Self::read_as_it_is(path, true)?;
+        if written.site.place.is_none() {
+            written.site.place.clone_from(&first.site.place);
+        }
+        Ok(written)
+    }
+
+    /// A model is `placed` where somebody says its place.
+    fn read_as_it_is(path: &Path, placed: bool) -> Result<Written, SiteError> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        match extension.as_str() {
+            _ if path.is_dir() => Self::read_file(&path.join("site.toml")),
+            "glb" | "gltf" => Self::of_model(path, placed),
+            "obj" | "stl" | "ply" | "ifc" | "fbx" | "dae" | "3ds" | "3dm" | "skp" | "dwg" | "dxf" | "blend" | "usd"
+            | "usdz" | "rvt" => Err(SiteError::UnknownFormat { path: path.display().to_string() }),
+            _ => Self::read_file(path),
+        }
+    }
+
     fn read_file(path: &Path) -> Result<Written, SiteError> {
         let file = path.display().to_string();
         let text = std::fs::read_to_string(path)
@@ -59,13 +74,13 @@ impl Written {
         })
     }
 
-    fn of_model(path: &Path, asked: &Overrides) -> Result<Written, SiteError> {
+    fn of_model(path: &Path, placed: bool) -> Result<Written, SiteError> {
         let file = path.display().to_string();
         // A mistyped name is a better complaint than a missing place.
         if let Err(error) = std::fs::metadata(path) {
             return Err(SiteError::Unreadable { path: file, why: error.to_string() });
         }
-        if asked.place.is_none() {
+        if !placed {
             return Err(SiteError::NoPlaceForModel { path: file });
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

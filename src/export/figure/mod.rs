@@ -4,6 +4,7 @@
 
 mod components;
 mod counted;
+mod difference;
 mod overlay;
 mod page;
 mod panel;
@@ -19,6 +20,7 @@ mod words;
 
 pub use components::of_all as component_colours;
 pub use counted::{Colours, Diagram};
+pub use difference::{ChangeBands, difference};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 pub use strips::strips;

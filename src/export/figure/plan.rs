@@ -5,6 +5,7 @@ use super::picture::{Between, Cells, Composed, Fit, Pen, Picture, Pixels, compos
 use super::scale::{Bands, Rgb, mix};
 use crate::mesh::Mesh;
 use crate::profile::Profile;
+use crate::profile::comparison::Altered;
 use crate::site::Receivers;
 use crate::view::{Mask, Surface, SurfaceRows};
 use glam::DVec3;
@@ -32,9 +33,11 @@ pub(super) fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile, bands
     let ground_only = scene.receivers == Receivers::Ground;
     let strength = if ground_only { RELIEF } else { RELIEF_OF_HOURS };
     let value = |cell| profile.shaded.of(cell);
-    draw(scene, profile.grid.cell, fit, strength, value, move |shaded, is_ground| {
-        if ground_only && !is_ground { ROOF_UNJUDGED } else { bands.colour(shaded) }
-    })
+    let flat = move |shaded, is_ground: bool| match ground_only && !is_ground {
+        true => ROOF_UNJUDGED,
+        false => bands.colour(shaded),
+    };
+    draw(scene, profile.grid.cell, fit, strength, value, flat, |_, _| ())
 }
 
 /// Sun and shadow at one instant.
@@ -54,6 +57,7 @@ pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, fit: Fit) -> impl
                 false => mix(ROOF_SHADE, ROOF_SUN, share),
             }
         },
+        |_, _| (),
     )
 }
 
@@ -62,8 +66,30 @@ pub(super) fn painted(of_cells: &[Rgb], fit: Fit) -> Picture {
     compose(fit, Between::Sharp, of_cells, |_, _| None)
 }
 
+/// Hours of shadow after minus those before; what is gone keeps its lines.
+pub(super) fn difference<'a>(
+    scenes: &'a [Scene; 2],
+    of_cells: &'a [Rgb],
+    altered: &'a [Altered],
+    cell_m: f64,
+    fit: Fit,
+) -> impl Pixels + 'a {
+    let [before, after] = scenes;
+    let width = fit.cells.0 as usize;
+    let lines_of_gone = move |rows: Range<usize>, cells: &mut Cells| {
+        let gone = &altered[rows.start * width..rows.end * width];
+        let surface = &before.surface.rows(rows.clone());
+        cells.border(rows.len(), |a, b| {
+            let is_gone = [a, b].map(|cell| gone[cell] == Altered::Cleared) != [false; 2];
+            let parts = is_gone && surface.face[a] != surface.face[b];
+            if parts { pen(before.mesh, surface, cell_m, a, b) } else { None }
+        });
+    };
+    draw(after, cell_m, fit, RELIEF_OF_HOURS, |cell| of_cells[cell], |colour, _| colour, lines_of_gone)
+}
+
 /// Colours by `flat`, of a cell's value and whether it is ground, as if all were level; slopes get their relief, borders
-/// their lines.
+/// their lines, and `more` lines of some rows lie beside those.
 fn draw<S: SurfaceRows, V: Copy + PartialEq>(
     scene: &Scene<S>,
     cell_m: f64,
@@ -71,6 +97,7 @@ fn draw<S: SurfaceRows, V: Copy + PartialEq>(
     strength: f64,
     value: impl Fn(usize) -> V + Sync,
     flat: impl Fn(V, bool) -> Rgb + Sync,
+    more: impl Fn(Range<usize>, &mut Cells) + Sync,
 ) -> impl Pixels {
     let light = relief_light(scene);
     let width = fit.cells.0 as usize;
@@ -95,6 +122,7 @@ fn draw<S: SurfaceRows, V: Copy + PartialEq>(
         cells.paint(surface.face.iter().enumerate().map(colour));
         // nearly all neighbours are one face
         cells.border_of(&surface.face, |a, b| pen(mesh, surface, cell_m, a, b));
+        more(rows, cells);
     })
 }
 

@@ -54,14 +54,7 @@ pub struct Bands {
 impl Bands {
     /// Bands of one `step_secs` where those are few enough, else of a round duration, a multiple of the step if there is one.
     pub fn new(step_secs: u32, day_secs: u32) -> Bands {
-        let step = step_secs.max(1);
-        let few = |secs: &u32| day_secs.div_ceil(*secs) <= MOST_BANDS;
-        let round = || ROUND_SECS.iter().copied().filter(|secs| *secs >= step);
-        let band_secs = Some(step)
-            .filter(few)
-            .or_else(|| round().filter(few).find(|secs| secs % step == 0))
-            .or_else(|| round().find(few))
-            .unwrap_or_else(|| day_secs.div_ceil(MOST_BANDS));
+        let band_secs = band_secs(step_secs, day_secs, MOST_BANDS);
         let count = day_secs.div_ceil(band_secs);
         Bands { band_secs, day_secs, colours: (0..count).map(|band| colour(band, count)).collect() }
     }
@@ -100,6 +93,18 @@ impl Bands {
         let from = (band as u32).saturating_mul(self.band_secs);
         (from, from.saturating_add(self.band_secs).min(self.day_secs))
     }
+}
+
+/// The width of bands that are at most so many, seconds.
+pub(super) fn band_secs(step_secs: u32, all_secs: u32, most_bands: u32) -> u32 {
+    let step = step_secs.max(1);
+    let few = |secs: &u32| all_secs.div_ceil(*secs) <= most_bands;
+    let round = || ROUND_SECS.iter().copied().filter(|secs| *secs >= step);
+    Some(step)
+        .filter(few)
+        .or_else(|| round().filter(few).find(|secs| secs % step == 0))
+        .or_else(|| round().find(few))
+        .unwrap_or_else(|| all_secs.div_ceil(most_bands))
 }
 
 fn colour(band: u32, count: u32) -> Rgb {

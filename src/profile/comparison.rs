@@ -1,0 +1,166 @@
+//! What a change of the site does to its shadow: two profiles of one study, cell by cell.
+//!
+//! *Sun lost* is shadow that there is after and was not before; *sun gained* is the opposite. A cell that sees another
+//! surface after than before (a roof where there was ground) is *altered*: there is nothing to compare, and it is in no
+//! area.
+
+use super::Profile;
+use crate::view::{Grid, Surface};
+
+/// Surfaces nearer to each other than this are one, metres: below it lies what rounding makes of a slope's height.
+const ONE_SURFACE_M: f32 = 0.05;
+
+/// How what a cell sees has altered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Altered {
+    /// It has not.
+    No,
+    /// It sees something new above what was there.
+    Built,
+    /// What it saw is gone.
+    Cleared,
+}
+
+impl Altered {
+    /// Per cell, of two surfaces on one grid.
+    pub fn between(before: &Surface, after: &Surface) -> Vec<Altered> {
+        let heights = before.height_m.iter().zip(&after.height_m);
+        let altered = |(before, after): (&f32, &f32)| match after - before {
+            higher if higher > ONE_SURFACE_M => Altered::Built,
+            higher if higher < -ONE_SURFACE_M => Altered::Cleared,
+            _ => Altered::No,
+        };
+        heights.map(altered).collect()
+    }
+}
+
+/// Two profiles of one study on one grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    before: Profile,
+    after: Profile,
+    altered: Vec<Altered>,
+}
+
+/// A direction of change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// More shadow after than before.
+    SunLost,
+    /// Less.
+    SunGained,
+}
+
+/// The cell that changes most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Most {
+    /// The first such cell, row by row from the north-west.
+    pub cell: usize,
+    /// Hours by which it changes, above 0.
+    pub hours: f64,
+    /// Its centre, metres east and north.
+    pub at: [f64; 2],
+}
+
+impl Comparison {
+    /// Of two profiles of one study.
+    ///
+    /// # Panics
+    /// Where they do not lie on one grid with one daylight, or a raster has other cells.
+    pub fn new(before: Profile, after: Profile, altered: Vec<Altered>) -> Comparison {
+        assert_eq!((before.grid, before.day_secs), (after.grid, after.day_secs));
+        assert_eq!([before.shaded.len(), after.shaded.len(), altered.len()], [before.grid.cells(); 3]);
+        Comparison { before, after, altered }
+    }
+
+    /// Where the rasters lie.
+    pub fn grid(&self) -> &Grid {
+        &self.before.grid
+    }
+
+    /// How many cells there are.
+    pub fn cells(&self) -> usize {
+        self.altered.len()
+    }
+
+    /// The profile before.
+    pub fn before(&self) -> &Profile {
+        &self.before
+    }
+
+    /// The profile after.
+    pub fn after(&self) -> &Profile {
+        &self.after
+    }
+
+    /// How what a cell sees has altered.
+    pub fn altered(&self, cell: usize) -> Altered {
+        self.altered[cell]
+    }
+
+    /// The shaded time after minus that before, in 1/255 s; none where the cell is altered.
+    pub fn change(&self, cell: usize) -> Option<i64> {
+        // sums of ten years are below 2^37
+        let change = || self.after.shaded.of(cell) as i64 - self.before.shaded.of(cell) as i64;
+        (self.altered[cell] == Altered::No).then(change)
+    }
+
+    /// The same in hours; NaN where the cell is altered.
+    pub fn hours(&self, cell: usize) -> f32 {
+        self.change(cell).map_or(f32::NAN, |change| hours(change) as f32)
+    }
+
+    /// Square metres that are so.
+    pub fn altered_m2(&self, altered: Altered) -> f64 {
+        self.area(self.altered.iter().filter(|it| **it == altered).count())
+    }
+
+    /// Square metres that change by more than some seconds.
+    pub fn more_than_m2(&self, change: Change, secs: u32) -> f64 {
+        let least = i64::from(secs) * 255;
+        self.area(self.changes(change).filter(|(_, change)| *change > least).count())
+    }
+
+    /// Square metres that have at least some seconds of sun, before and after.
+    pub fn sun_at_least_m2(&self, secs: u32) -> [f64; 2] {
+        [&self.before, &self.after].map(|profile| {
+            let most = u64::from(profile.day_secs.saturating_sub(secs)) * 255;
+            let has = |cell: &usize| self.altered[*cell] == Altered::No && profile.shaded.of(*cell) <= most;
+            let enough = secs <= profile.day_secs;
+            self.area((0..self.cells()).filter(|cell| enough && has(cell)).count())
+        })
+    }
+
+    /// The sum over the area, square metres times hours.
+    pub fn total_m2_hours(&self, change: Change) -> f64 {
+        let sum: i128 = self.changes(change).map(|(_, change)| i128::from(change.max(0))).sum();
+        sum as f64 / (255.0 * 3600.0) * self.area(1)
+    }
+
+    /// Where it changes most; none where it nowhere does.
+    pub fn most(&self, change: Change) -> Option<Most> {
+        let first = self.changes(change).fold(None, |most: Option<(usize, i64)>, (cell, change)| match most {
+            Some((_, largest)) if largest >= change => most,
+            _ => Some((cell, change)),
+        });
+        first.filter(|(_, change)| *change > 0).map(|(cell, change)| {
+            let width = self.grid().width as usize;
+            let at = self.grid().centre((cell % width) as u32, (cell / width) as u32);
+            Most { cell, hours: hours(change), at: at.to_array() }
+        })
+    }
+
+    /// By how much the cells that are compared change that way, in 1/255 s.
+    fn changes(&self, which: Change) -> impl Iterator<Item = (usize, i64)> {
+        let sign = if which == Change::SunLost { 1 } else { -1 };
+        (0..self.cells()).filter_map(move |cell| Some((cell, sign * self.change(cell)?)))
+    }
+
+    fn area(&self, cells: usize) -> f64 {
+        cells as f64 * self.grid().cell.powi(2)
+    }
+}
+
+fn hours(change: i64) -> f64 {
+    change as f64 / (255.0 * 3600.0)
+}

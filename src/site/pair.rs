@@ -1,0 +1,112 @@
+//! Two states of one site, to be compared: the same place, study, plan and ground, and other models.
+
+use super::asked::{Overrides, refuse};
+use super::error::SiteError;
+use super::extent::{Bounds, with_shadows};
+use super::load::SHADOW_CUT;
+use super::model::{self, ModelError, Placement};
+use super::written::Written;
+use super::{Site, plan};
+use crate::mesh::Part;
+use std::path::Path;
+
+/// Places nearer to each other than this are one, metres along the ground and in height.
+const ONE_PLACE_M: f64 = 1.0;
+/// Grounds nearer to each other than this are one, metres: a receiver is judged so far above itself.
+const ONE_GROUND_M: f64 = 0.001;
+/// Metres of a degree of latitude.
+const DEGREE_M: f64 = 111_195.0;
+
+/// The existing and the proposed site. Place, instants, grid and ground are equal to the bit.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// What stands there before.
+    pub before: Site,
+    /// What stands there after.
+    pub after: Site,
+    /// What people call them: their places' names where those differ, else their files.
+    pub names: [String; 2],
+}
+
+impl Pair {
+    /// Reads and checks both. Study, plan, camera and, where `after` says none, place and ground are those of `before`; a
+    /// region that nobody names holds the models and shadows of both.
+    ///
+    /// # Errors
+    /// As [`Site::load`]; and where `after` says another place, time zone or ground.
+    pub fn load(before: &Path, after: &Path, asked: &Overrides) -> Result<Pair, SiteError> {
+        let before = Written::read(before, asked)?;
+        let after = Written::read_beside(after, &before)?;
+        Self::of(&before, &after, asked, model::load)
+    }
+
+    /// As [`Pair::load`], of two requests that are in memory, with another reader of model files.
+    ///
+    /// # Errors
+    /// As [`Pair::load`].
+    pub fn of(
+        before: &Written,
+        after: &Written,
+        asked: &Overrides,
+        read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
+    ) -> Result<Pair, SiteError> {
+        let after_name = same_place(before, after, asked)?;
+        let mut second = after.clone();
+        let table = &mut second.site;
+        table.place.clone_from(&before.site.place);
+        table.study = before.site.study.clone();
+        table.plan = before.site.plan.clone();
+        table.camera = before.site.camera.clone();
+
+        let mut first = Site::of(before, asked, &read_model)?;
+        match table.ground.level {
+            Some(level) if (level - first.ground).abs() > ONE_GROUND_M => {
+                let what = format!(
+                    "{level} m is another ground than that of {}, {} m; write the same level in both",
+                    before.file, first.ground
+                );
+                return Err(refuse(after.key("ground", "level"), what));
+            }
+            _ => table.ground.level = Some(first.ground),
+        }
+        let mut second = Site::of(&second, asked, &read_model)?;
+        let [(low, high), (other_low, other_high)] = [&first, &second].map(|site| {
+            // a site has a triangle
+            let bounds = Bounds::of(&site.mesh).unwrap_or_default();
+            let [low, high] = with_shadows(&site.mesh, bounds, &site.casts, site.ground, &site.track, SHADOW_CUT);
+            (low, high)
+        });
+        first.grid = plan::grid(before, asked, [low.min(other_low), high.max(other_high)])?;
+        second.grid = first.grid;
+
+        let names = [first.place.name.trim(), after_name.trim()];
+        let told_apart = names[0] != names[1] && names.iter().all(|name| !name.is_empty());
+        let names = if told_apart { names.map(str::to_owned) } else { [before.file.clone(), after.file.clone()] };
+        second.place.name = after_name;
+        Ok(Pair { before: first, after: second, names })
+    }
+}
+
+/// The name of the place of `after`; or why it is another place than that of `before`.
+fn same_place(before: &Written, after: &Written, asked: &Overrides) -> Result<String, SiteError> {
+    let (here, there) = (before.place(asked)?, after.place(asked)?);
+    let north = (there.latitude_deg - here.latitude_deg) * DEGREE_M;
+    let turned = (there.longitude_deg - here.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;
+    let east = turned * DEGREE_M * here.latitude_deg.to_radians().cos();
+    let fault = |key: &str, what: String| {
+        let what = format!("{what} {}; both must have one place, since the sun is one", before.file);
+        Err(refuse(after.key("place", key), what))
+    };
+    let apart = north.hypot(east);
+    if apart > ONE_PLACE_M {
+        return fault("latitude", format!("it lies {apart:.0} m from the place of"));
+    }
+    let higher = there.elevation_m - here.elevation_m;
+    if higher.abs() > ONE_PLACE_M {
+        return fault("elevation", format!("{} m is {higher:+.0} m from that of", there.elevation_m));
+    }
+    if there.time_zone != here.time_zone {
+        return fault("time_zone", format!("{} is not {}, as of", there.time_zone, here.time_zone));
+    }
+    Ok(there.name)
+}

@@ -1,0 +1,53 @@
+//! The study of two states of a site: what a change does to the shadow.
+
+use super::{Event, OnEvent, Outcome, StudyError, Wants, go_on, not_surfaces, tell};
+use crate::mesh::Mesh;
+use crate::profile::Drawn;
+use crate::profile::comparison::{Altered, Comparison};
+use crate::site::{Pair, Receivers, Site};
+use crate::view::Surface;
+
+/// The answer to a study of two states.
+#[derive(Clone, Debug)]
+pub struct CompareOutcome {
+    /// Both profiles, cell by cell.
+    pub comparison: Comparison,
+    /// What drew them, before and after.
+    pub drawn: [Drawn; 2],
+    /// What the cells see before and after: under [`Receivers::Ground`] with the models.
+    pub surfaces: [Surface; 2],
+    /// Whose faces those count.
+    pub meshes: [Mesh; 2],
+}
+
+/// Both profiles as [`super::run`] finds them, before first.
+///
+/// Under [`Receivers::Top`] a cell that sees another surface after than before is altered. Under [`Receivers::Ground`]
+/// none is: the ground is judged everywhere, under buildings too.
+///
+/// # Errors
+/// As [`super::run`].
+pub fn compare(pair: &Pair, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome, StudyError> {
+    not_surfaces(&pair.before)?;
+    let mut study = |when: &str, site: &Site, name: &str| {
+        tell(on_event, Event::Note(format!("{when}: {name}")))?;
+        let wants = Wants { surface: true, ..Wants::default() };
+        let mut outcome = go_on(site, &wants, None, on_event)?;
+        let surface = outcome.surface.take().expect("a surface that is wanted is there");
+        Ok::<_, StudyError>((outcome, surface))
+    };
+    let (before, seen_before) = study("before", &pair.before, &pair.names[0])?;
+    let (after, seen_after) = study("after", &pair.after, &pair.names[1])?;
+    let altered = match pair.before.receivers {
+        Receivers::Ground => vec![Altered::No; pair.before.grid.cells()],
+        _ => Altered::between(&seen_before, &seen_after),
+    };
+    let Outcome { profile: of_before, drawn: drawn_before, surface_mesh: mesh_before, .. } = before;
+    let Outcome { profile: of_after, drawn: drawn_after, surface_mesh: mesh_after, .. } = after;
+    Ok(CompareOutcome {
+        comparison: Comparison::new(of_before, of_after, altered),
+        drawn: [drawn_before, drawn_after],
+        surfaces: [seen_before, seen_after],
+        meshes: [mesh_before, mesh_after],
+    })
+}
