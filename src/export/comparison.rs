@@ -2,7 +2,7 @@
 
 use super::ExportError;
 use super::figure::{ChangeBands, duration};
-use super::report::{self, Told};
+use super::report::{self, DrawnReport, Told};
 use crate::profile::comparison::{Altered, Change, Comparison};
 use crate::sun::{Place, SunTrack};
 use serde::Serialize;
@@ -22,7 +22,7 @@ struct CompareReport<'a> {
     sun_gained: ChangeReport,
     sun_at_least: Vec<SunReport>,
     #[serde(flatten)]
-    head: serde_json::Value,
+    head: DrawnReport<'a>,
 }
 
 #[derive(Serialize)]
@@ -85,8 +85,6 @@ pub fn json(
     track: &SunTrack,
     told: &Told<'_>,
 ) -> Result<String, ExportError> {
-    let head = report::profile_json(comparison.after(), place, track, told)?;
-    let head = serde_json::from_str(&head).map_err(|error| ExportError::encode("JSON report", error))?;
     let thresholds = thresholds(comparison, track);
     let sun = |secs| {
         let [before_m2, after_m2] = comparison.sun_at_least_m2(secs);
@@ -101,7 +99,7 @@ pub fn json(
         sun_lost: change(comparison, Change::SunLost, &thresholds),
         sun_gained: change(comparison, Change::SunGained, &thresholds),
         sun_at_least: sun_rows(comparison).into_iter().map(sun).collect(),
-        head,
+        head: report::plan_report(comparison.grid(), place, track, told),
     })
 }
 

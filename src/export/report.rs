@@ -8,7 +8,7 @@ use crate::profile::surfaces::Exposure;
 use crate::profile::{Drawn, DrawnSettings, Profile, Statistics, Timings};
 use crate::site::Receivers;
 use crate::sun::{Air, Day, Instant, Place, SunTrack};
-use crate::view::View;
+use crate::view::{Grid, View};
 use chrono::{DateTime, SecondsFormat};
 use chrono_tz::Tz;
 use serde::Serialize;
@@ -16,7 +16,7 @@ use serde::ser::{SerializeMap, Serializer};
 use std::fmt::Write;
 
 #[derive(Serialize)]
-struct DrawnReport<'a> {
+pub(super) struct DrawnReport<'a> {
     gnomon: &'static str,
     place: PlaceReport<'a>,
     #[serde(flatten)]
@@ -179,10 +179,19 @@ pub fn surfaces_json(surfaces: &Surfaces<'_>, told: &Told<'_>) -> Result<String,
 }
 
 fn drawn_json(view: ViewReport<'_>, place: &Place, track: &SunTrack, told: &Told<'_>) -> Result<String, ExportError> {
+    json(&drawn_report(view, place, track, told))
+}
+
+/// What `profile.json` says, to stand in another report.
+pub(super) fn plan_report<'a>(grid: &Grid, place: &'a Place, track: &SunTrack, told: &Told<'a>) -> DrawnReport<'a> {
+    drawn_report(view_report(&View::Plan(*grid)), place, track, told)
+}
+
+fn drawn_report<'a>(view: ViewReport<'a>, place: &'a Place, track: &SunTrack, told: &Told<'a>) -> DrawnReport<'a> {
     let Told { receivers, drawn, timings, statistics } = *told;
     let air = Air::standard(place.elevation_m);
     let refracted = |value| track.refraction.then_some(value);
-    json(&DrawnReport {
+    DrawnReport {
         gnomon: env!("CARGO_PKG_VERSION"),
         place: place_report(place),
         view,
@@ -207,7 +216,7 @@ fn drawn_json(view: ViewReport<'_>, place: &Place, track: &SunTrack, told: &Told
             fragments: it.fragments,
             fragments_without_mask: it.fragments_without_mask,
         }),
-    })
+    }
 }
 
 fn view_report(view: &View) -> ViewReport<'static> {
