@@ -35,7 +35,7 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
     ("clap::", &["cli"], "only faces read the command line"),
     ("toml::", &["site"], "only site reads what the user wrote"),
     ("gltf::", &["site", "export"], "only site reads what the user wrote, and only export writes"),
-    ("fs::read", &["site", "export"], "only site reads what the user wrote, and export what a stopped study left"),
+    ("fs::read", &["site", "export"], "only site reads what the user wrote, and export what it wrote itself"),
     ("File::open", &["site"], "only site reads what the user wrote"),
     ("SystemTime::now", &[], "nothing reads the clock"),
     ("Utc::now", &[], "nothing reads the clock"),

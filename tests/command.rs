@@ -1,5 +1,6 @@
 //! The command, driven as its users drive it: files, streams and exit statuses.
 
+mod animate;
 mod compare;
 mod surfaces;
 mod techniques;

@@ -1,10 +1,12 @@
 //! The options, as the user writes them. Each stands with the subcommands that use it, and nowhere else.
 
 use super::WrongUse;
+use super::animate::AnimateArgs;
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
-use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
+use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings, Site};
 use crate::study::verify::SIZE;
+use crate::view::View;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use std::path::PathBuf;
 
@@ -28,6 +30,8 @@ pub(super) enum Command {
     Compare(CompareArgs),
     /// The shadows at one instant, as a drawing or as a bare mask
     Shadow(ShadowArgs),
+    /// The study's instants as pictures, frame-0000.png …, and as a GIF that moves, day.gif: what shadow draws, night too
+    Animate(AnimateArgs),
     /// The sun at the study's instants: time, azimuth, altitude, weight; sunrise, noon, sunset
     Sun(SunArgs),
     /// What a model's mesh is: components, triangles, open, crowded, flipped and degenerate parts
@@ -49,6 +53,7 @@ impl Command {
             Command::Profile(asked) => &asked.common,
             Command::Compare(asked) => &asked.common,
             Command::Shadow(asked) => &asked.common,
+            Command::Animate(asked) => &asked.common,
             Command::Sun(asked) => &asked.common,
             Command::Check(asked) => &asked.common,
             Command::Volumes(asked) => &asked.common,
@@ -200,6 +205,14 @@ impl PlanArgs {
         ];
         given.into_iter().filter(|(_, given)| *given).map(|(name, _)| name).collect()
     }
+
+    /// A camera's picture has nothing of them.
+    pub(super) fn check_eye(&self, eye: Eye) -> Result<(), WrongUse> {
+        if let (Eye::Camera, [option, ..]) = (eye, self.given().as_slice()) {
+            return Err(WrongUse(format!("{option} is for the plan, and --view camera has none; leave one out")));
+        }
+        Ok(())
+    }
 }
 
 #[derive(Debug, Args)]
@@ -311,6 +324,15 @@ pub(super) enum Eye {
     Camera,
 }
 
+impl Eye {
+    pub(super) fn of(self, site: &Site) -> View {
+        match self {
+            Eye::Plan => View::Plan(site.grid),
+            Eye::Camera => View::Camera(site.camera),
+        }
+    }
+}
+
 /// What a camera's drawing shows besides sun and shadow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Show {
@@ -395,7 +417,7 @@ impl PlaceArgs {
 }
 
 impl WindowArgs {
-    fn onto(&self, asked: Overrides) -> Overrides {
+    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
         let [date, from_date, to_date, from, to, step] =
             [&self.date, &self.from_date, &self.to_date, &self.from, &self.to, &self.step].map(Clone::clone);
         Overrides { date, from_date, to_date, from, to, step, ..asked }
@@ -403,7 +425,7 @@ impl WindowArgs {
 }
 
 impl DrawArgs {
-    fn onto(&self, asked: Overrides) -> Overrides {
+    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
         let DrawArgs { technique, ref finder, engine, ref maps, sun_samples } = *self;
         let settings = maps.settings(sun_samples);
         finder.onto(Overrides { technique, engine, settings, ..asked })
@@ -411,7 +433,7 @@ impl DrawArgs {
 }
 
 impl FinderArgs {
-    fn onto(&self, asked: Overrides) -> Overrides {
+    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
         Overrides { silhouette: self.silhouette, hextree_depth: self.hextree_depth, ..asked }
     }
 }
@@ -424,7 +446,7 @@ impl MapArgs {
 }
 
 impl PlanArgs {
-    fn onto(&self, asked: Overrides) -> Overrides {
+    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
         let PlanArgs { region, cell, size, receivers } = self;
         Overrides { region: region.clone(), cell: *cell, size: *size, receivers: *receivers, ..asked }
     }

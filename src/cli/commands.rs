@@ -10,16 +10,13 @@ use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Statistics};
 use crate::site::{Method, Site, load_mesh, load_sun};
 use crate::study::{self, InstantWants, Stopwatch};
-use crate::view::View;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// `gnomon shadow`
 pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     let mut watch = Stopwatch::start();
-    if let (Eye::Camera, [option, ..]) = (asked.view, asked.plan.given().as_slice()) {
-        return Err(WrongUse(format!("{option} is for the plan, and --view camera has none; leave one out")).into());
-    }
+    asked.plan.check_eye(asked.view)?;
     let out = match (&asked.out, &asked.mask) {
         (Some(out), _) => Some(out.clone()),
         (None, Some(_)) => None,
@@ -52,10 +49,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         file::check_folder(path.parent().unwrap_or(Path::new("")))?;
     }
     watch.lap("load");
-    let view = match asked.view {
-        Eye::Plan => View::Plan(site.grid),
-        Eye::Camera => View::Camera(site.camera),
-    };
+    let view = asked.view.of(&site);
     let shows = |what| asked.show.contains(&what);
     let wants = InstantWants {
         surface: out.is_some(),

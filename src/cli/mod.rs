@@ -2,6 +2,7 @@
 //!
 //! Results go to stdout, progress and notes to stderr. Exit status: 0 done, 1 failed, 2 wrong use, 130 interrupted.
 
+mod animate;
 mod arguments;
 mod commands;
 mod compare;
@@ -66,6 +67,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Profile(asked) => profile::profile(asked),
         Command::Compare(asked) => compare::compare(asked),
         Command::Shadow(asked) => commands::shadow(asked),
+        Command::Animate(asked) => animate::animate(asked),
         Command::Sun(asked) => commands::sun(asked),
         Command::Check(asked) => commands::check(asked),
         Command::Volumes(asked) => volumes::volumes(asked),

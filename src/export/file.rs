@@ -2,9 +2,9 @@
 
 use super::ExportError;
 use std::ffi::OsString;
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Writes `bytes` to `path`, replacing what was there; missing parent folders are created.
@@ -13,35 +13,54 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// [`ExportError::NoFileName`] where the path ends in no name; [`ExportError::Write`] where the file system refuses.
 /// On an error the old file, if any, is untouched and nothing is left beside it.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    let asked = path;
-    let failed = |doing, source| failed(asked, doing, source);
-    // through a link to what it leads to; a device, a pipe or a folder is nothing to be replaced by a drawing
-    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let path = target.as_path();
-    if path.metadata().is_ok_and(|found| !found.is_file()) {
-        return Err(ExportError::NoFileName { path: path.to_owned() });
-    }
-    let name = path.file_name().ok_or_else(|| ExportError::NoFileName { path: path.to_owned() })?;
-    // Without a folder in the path the parent is "", which means here.
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    fs::create_dir_all(folder).map_err(|error| failed("creating its folder", error))?;
+    let mut beside = Beside::open(path)?;
+    let written = beside.file.write_all(bytes);
+    written.map_err(|error| failed(path, WRITING, error))?;
+    beside.put_in_place()
+}
 
-    let beside = folder.join(temporary_name(name));
-    let mut file = OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(&beside)
-        .map_err(|error| failed("opening a temporary file in its folder", error))?;
-    let cleanup = Cleanup(&beside);
-    file.write_all(bytes).map_err(|error| failed("writing a temporary file in its folder", error))?;
-    // Windows renames no open file.
-    drop(file);
-    fs::rename(&beside, path).map_err(|error| failed("putting it in place", error))?;
-    cleanup.keep();
-    Ok(())
+/// What is done while bytes go out.
+pub(super) const WRITING: &str = "writing a temporary file in its folder";
+
+/// A file that is written beside its place. It is gone again unless it is put there.
+pub(super) struct Beside {
+    pub(super) file: File,
+    beside: Cleanup,
+    target: PathBuf,
+    asked: PathBuf,
+}
+
+impl Beside {
+    /// Missing parent folders are created.
+    pub(super) fn open(asked: &Path) -> Result<Beside, ExportError> {
+        let failed = |doing, source| failed(asked, doing, source);
+        // through a link to what it leads to; a device, a pipe or a folder is nothing to be replaced by a drawing
+        let target = asked.canonicalize().unwrap_or_else(|_| asked.to_owned());
+        if target.metadata().is_ok_and(|found| !found.is_file()) {
+            return Err(ExportError::NoFileName { path: target });
+        }
+        let name = target.file_name().ok_or_else(|| ExportError::NoFileName { path: target.clone() })?;
+        // Without a folder in the path the parent is "", which means here.
+        let folder = match target.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        fs::create_dir_all(folder).map_err(|error| failed("creating its folder", error))?;
+
+        let beside = folder.join(temporary_name(name));
+        let opened = OpenOptions::new().write(true).create_new(true).open(&beside);
+        let file = opened.map_err(|error| failed("opening a temporary file in its folder", error))?;
+        Ok(Beside { file, beside: Cleanup(beside), target, asked: asked.to_owned() })
+    }
+
+    /// It is whole: it replaces what was there.
+    pub(super) fn put_in_place(self) -> Result<(), ExportError> {
+        // Windows renames no open file.
+        drop(self.file);
+        fs::rename(&self.beside.0, &self.target).map_err(|error| failed(&self.asked, "putting it in place", error))?;
+        self.beside.keep();
+        Ok(())
+    }
 }
 
 /// Makes a folder, and sees that files can be written to it: before long work, not after it.
@@ -55,7 +74,7 @@ pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
     let beside = here.join(temporary_name("gnomon".as_ref()));
     let file = OpenOptions::new().write(true).create_new(true).open(&beside);
     drop(file.map_err(|error| failed("opening a temporary file in it", error))?);
-    drop(Cleanup(&beside));
+    drop(Cleanup(beside));
     Ok(())
 }
 
@@ -73,18 +92,20 @@ pub(super) fn failed(path: &Path, doing: &'static str, source: io::Error) -> Exp
 }
 
 /// Removes the temporary file unless it has been renamed away.
-struct Cleanup<'a>(&'a Path);
+struct Cleanup(PathBuf);
 
-impl Cleanup<'_> {
-    fn keep(self) {
-        std::mem::forget(self);
+impl Cleanup {
+    fn keep(mut self) {
+        self.0 = PathBuf::new();
     }
 }
 
-impl Drop for Cleanup<'_> {
+impl Drop for Cleanup {
     fn drop(&mut self) {
-        // The first error is the one to tell.
-        let _ = fs::remove_file(self.0);
+        if self.0 != Path::new("") {
+            // The first error is the one to tell.
+            let _ = fs::remove_file(&self.0);
+        }
     }
 }
 

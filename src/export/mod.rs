@@ -2,6 +2,7 @@
 //!
 //! Every encoder returns bytes and touches no disk; [`file::write`] puts them there, whole or not at all.
 
+pub mod animation;
 pub mod bits;
 pub mod check;
 pub mod comparison;

@@ -1,11 +1,13 @@
 //! The flow: a checked request in, its shadow profile out.
 //!
 //! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
-//! [`surfaces()`] is the study on facades and roofs; [`compare()`] is the study of two states of a site; [`verify`] holds every technique against ray casting; [`probe`] finds
-//! when single points lie in the sun; [`live`] draws one picture after another for whoever looks.
+//! [`surfaces()`] is the study on facades and roofs; [`compare()`] is the study of two states of a site; [`verify`] holds
+//! every technique against ray casting; [`probe`] finds when single points lie in the sun; [`frames()`] is every instant
+//! as a picture; [`live`] draws one picture after another for whoever looks.
 
 mod compare;
 mod fingerprint;
+mod frames;
 pub mod live;
 mod machine;
 pub mod probe;
@@ -14,6 +16,7 @@ mod surfaces;
 pub mod verify;
 
 pub use compare::{CompareOutcome, compare};
+pub use frames::{Frame, frames};
 pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 

@@ -124,6 +124,21 @@ impl Instant {
 }
 
 impl SunTrack {
+    /// Each of the instants by itself, on its own day, as [`SunTrack::at`] tells of one: of weight and step 0.
+    pub fn each(&self) -> impl Iterator<Item = SunTrack> {
+        self.instants.iter().map(|instant| {
+            let date = instant.time.date_naive();
+            SunTrack {
+                instants: vec![Instant { weight_secs: 0, ..instant.clone() }],
+                days: self.days.iter().filter(|day| day.date == date).cloned().collect(),
+                each_day: None,
+                step_secs: 0,
+                refraction: self.refraction,
+                delta_t_secs: self.delta_t_secs,
+            }
+        })
+    }
+
     /// How long the window is, seconds: the sum of the weights.
     pub fn window_secs(&self) -> u64 {
         self.instants.iter().map(|instant| u64::from(instant.weight_secs)).sum()

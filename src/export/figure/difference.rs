@@ -127,7 +127,6 @@ pub fn difference(scenes: &[Scene; 2], names: &[String; 2], comparison: &Compari
     if ground_only {
         panel.legend.push((plan::ROOF_UNJUDGED, super::UNJUDGED.to_owned()));
     }
-    page::page(&panel, (grid.width, grid.height), Some(grid.cell), |fit| {
-        plan::difference(scenes, &of_cells, &altered, grid.cell, fit)
-    })
+    let draw = |fit| plan::difference(scenes, &of_cells, &altered, grid.cell, fit);
+    page::page(&panel, (grid.width, grid.height), Some(grid.cell), draw, page::png)
 }

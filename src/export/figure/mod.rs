@@ -12,6 +12,7 @@ mod perspective;
 mod picture;
 mod plan;
 pub mod scale;
+mod screen;
 mod strips;
 mod surfaces;
 mod svg;
@@ -23,6 +24,7 @@ pub use counted::{Colours, Diagram};
 pub use difference::{ChangeBands, difference};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
+pub use screen::{Screen, instant_on_screen};
 pub use strips::strips;
 pub(super) use surfaces::NOT_JUDGED;
 pub use surfaces::surfaces;
@@ -35,6 +37,7 @@ use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{Counted, Mask, Overlay, Surface, SurfaceRows, View};
 use components::Components;
+use page::Sheet;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
 
@@ -89,7 +92,8 @@ pub fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<Ve
     if scene.receivers == Receivers::Ground {
         panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
     }
-    page::page(&panel, (grid.width, grid.height), Some(grid.cell), |fit| plan::profile(scene, profile, &bands, fit))
+    let size = (grid.width, grid.height);
+    page::page(&panel, size, Some(grid.cell), |fit| plan::profile(scene, profile, &bands, fit), page::png)
 }
 
 /// One instant, the first of the track, on the plan or in the camera's picture; what is `shown` over it is for the latter.
@@ -98,6 +102,17 @@ pub fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<Ve
 /// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay; [`ExportError::Encode`] from the encoder, or
 /// where the track has no instant.
 pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result<Vec<u8>, ExportError> {
+    instant_as(scene, view, mask, shown, page::png)
+}
+
+/// The sheet of [`instant`], which becomes what `finish` makes of it.
+fn instant_as<T>(
+    scene: &Scene,
+    view: &View,
+    mask: &Mask,
+    shown: &Shown,
+    finish: impl FnOnce(&Sheet) -> Result<T, ExportError>,
+) -> Result<T, ExportError> {
     let size = view.size();
     check_size("mask", mask.share.len(), size.0, size.1)?;
     check_surface(scene.surface, size)?;
@@ -150,8 +165,10 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result
         View::Plan(grid) => {
             panel.facts.push(("Cells", cells(grid.width, grid.height, grid.cell)));
             match of_cells {
-                Some(of_cells) => page::page(&panel, size, Some(grid.cell), |fit| plan::painted(of_cells, fit)),
-                None => page::page(&panel, size, Some(grid.cell), |fit| plan::instant(scene, grid.cell, mask, fit)),
+                Some(of_cells) => page::page(&panel, size, Some(grid.cell), |fit| plan::painted(of_cells, fit), finish),
+                None => {
+                    page::page(&panel, size, Some(grid.cell), |fit| plan::instant(scene, grid.cell, mask, fit), finish)
+                }
             }
         }
         View::Camera(camera) => {
@@ -159,13 +176,14 @@ pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result
             let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
             show(&mut panel, shown, tones[0], components.as_ref());
             let painted = perspective::Painted { components: components.as_ref(), of_cells };
-            page::page(&panel, size, None, |fit| {
+            let draw = |fit| {
                 let mut picture = perspective::instant(scene, camera, mask, now.to_sun, painted, fit);
                 if let Some(overlay) = shown.overlay {
                     overlay::lay(&mut picture, overlay);
                 }
                 picture
-            })
+            };
+            page::page(&panel, size, None, draw, finish)
         }
     }
 }

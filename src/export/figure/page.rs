@@ -34,16 +34,18 @@ struct Layout {
     overlay: Block,
 }
 
-/// Lays out and draws the page; `draw` makes the picture once its size is known. `cell_m` is absent in perspective.
+/// Lays out and draws the page; `draw` makes the picture once its size is known. `cell_m` is absent in perspective. What
+/// the sheet becomes is `finish`'s to say: [`png`], as a rule.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the page cannot be drawn or encoded.
-pub(super) fn page<P: Pixels>(
+/// [`ExportError::Encode`] where the page cannot be drawn, and what `finish` says.
+pub(super) fn page<P: Pixels, T>(
     panel: &Panel,
     cells: (u32, u32),
     cell_m: Option<f64>,
     draw: impl FnOnce(Fit) -> P,
-) -> Result<Vec<u8>, ExportError> {
+    finish: impl FnOnce(&Sheet) -> Result<T, ExportError>,
+) -> Result<T, ExportError> {
     let mut layout = beside_or_below(panel, cells, cell_m);
     frame(&mut layout);
     let picture = draw(layout.fit);
@@ -55,7 +57,7 @@ pub(super) fn page<P: Pixels>(
     let around = around.into_iter().filter(|[west, north, east, south]| west < east && north < south);
     let mut pieces = around.map(Piece::blank).collect::<Result<Vec<_>, _>>()?;
     letter(&layout.overlay, &mut pieces)?;
-    encode(&pieces, Some(((left, top), &picture)))
+    finish(&Sheet { pieces, picture: Some(((left, top), &picture)) })
 }
 
 /// As [`page`] with the panel beside it, for what fills all of its field but the margins (left, top, right, bottom).
@@ -76,9 +78,9 @@ pub(super) fn chart(
     layout.overlay.place(layout.corner.0.into(), layout.corner.1.into(), &over);
     let mut sheet = Piece::blank([0, 0, WIDTH, HEIGHT])?;
     sheet.lay(layout.corner, &picture);
-    let sheet = &mut [sheet];
-    letter(&layout.overlay, sheet)?;
-    encode(sheet, None::<((u32, u32), &Picture)>)
+    let mut pieces = vec![sheet];
+    letter(&layout.overlay, &mut pieces)?;
+    png(&Sheet { pieces, picture: None })
 }
 
 /// A panel below the picture is less at hand; the picture must grow by this much for it.
@@ -250,15 +252,22 @@ fn letter(overlay: &Block, pieces: &mut [Piece]) -> Result<(), ExportError> {
 /// Rows of a sheet that one task puts together.
 const BAND: usize = 64;
 
-/// The sheet as a PNG. It is put together band by band, while those before are compressed: the whole is never held.
-fn encode<P: Pixels>(pieces: &[Piece], picture: Option<((u32, u32), &P)>) -> Result<Vec<u8>, ExportError> {
-    let width = WIDTH as usize;
-    let put_together = |(band, rows): (usize, &mut [Rgb])| {
+/// All that is on a page, before it becomes a file. Its picture is drawn band by band.
+pub(super) struct Sheet<'a> {
+    pieces: Vec<Piece>,
+    /// With its north-west corner.
+    picture: Option<((u32, u32), &'a dyn Pixels)>,
+}
+
+impl Sheet<'_> {
+    /// A band's rows, put together.
+    fn draw(&self, band: usize, rows: &mut [Rgb]) {
+        let width = WIDTH as usize;
         let first = (band * BAND) as u32;
         for (row, line) in (first..).zip(rows.chunks_exact_mut(width)) {
-            pieces.iter().for_each(|piece| piece.put(row, line));
+            self.pieces.iter().for_each(|piece| piece.put(row, line));
         }
-        let Some(((left, top), picture)) = picture else { return };
+        let Some(((left, top), picture)) = self.picture else { return };
         let (columns, height) = picture.size();
         let shown = first.max(top)..(first + (rows.len() / width) as u32).min(top + height);
         if shown.is_empty() {
@@ -270,7 +279,20 @@ fn encode<P: Pixels>(pieces: &[Piece], picture: Option<((u32, u32), &P)>) -> Res
             let at = (row - first) as usize * width + left as usize;
             rows[at..at + pixels.len()].copy_from_slice(pixels);
         }
-    };
+    }
+
+    /// All of its pixels, for a screen.
+    pub(super) fn pixels(&self) -> Vec<Rgb> {
+        let mut pixels = vec![PAPER; WIDTH as usize * HEIGHT as usize];
+        let bands = pixels.par_chunks_mut(BAND * WIDTH as usize).enumerate();
+        bands.for_each(|(band, rows)| self.draw(band, rows));
+        pixels
+    }
+}
+
+/// As a PNG of its size on paper. It is put together band by band, while those before are compressed.
+pub(super) fn png(sheet: &Sheet) -> Result<Vec<u8>, ExportError> {
+    let width = WIDTH as usize;
     // some at once, for as many processors
     let at_once = rayon::current_num_threads().min(8);
     let bands: Vec<usize> = (0..(HEIGHT as usize).div_ceil(BAND)).collect();
@@ -279,7 +301,7 @@ fn encode<P: Pixels>(pieces: &[Piece], picture: Option<((u32, u32), &P)>) -> Res
         let count = (bands.len() * BAND).min(HEIGHT as usize - first);
         rows.resize(count * width, PAPER);
         let chunks = rows.par_chunks_mut(BAND * width).zip(bands);
-        chunks.for_each(|(rows, band)| put_together((*band, rows)));
+        chunks.for_each(|(rows, band)| sheet.draw(*band, rows));
     };
     let dots = (1.0 / PAPER_METRES_A_PIXEL).round() as u32;
     let (mut ready, mut next) = (Vec::new(), Vec::new());

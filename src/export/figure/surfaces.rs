@@ -26,7 +26,8 @@ pub fn surfaces(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Result<V
     check_surface(scene.surface, size)?;
     let panel = labelled(scene, surfaces);
     let of_cells = painted(scene, camera, surfaces);
-    page::page(&panel, size, None, |fit| perspective::painted(scene, camera, &of_cells, true, fit))
+    let draw = |fit| perspective::painted(scene, camera, &of_cells, true, fit);
+    page::page(&panel, size, None, draw, page::png)
 }
 
 fn labelled(scene: &Scene, surfaces: &Surfaces) -> Panel {

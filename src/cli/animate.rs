@@ -1,0 +1,110 @@
+//! `gnomon animate`: the study's instants as pictures, and as a GIF.
+
+use super::arguments::{Common, DrawArgs, Eye, PlanArgs, SiteArgs, WindowArgs};
+use super::commands::drawn_by;
+use super::progress::Progress;
+use super::{WrongUse, interrupt, say};
+use crate::export::animation::{Frames, MOST_FRAMES};
+use crate::export::report::{self, Told};
+use crate::export::{figure, file};
+use crate::site::{Overrides, Site};
+use crate::study::{self, Event, Stopwatch};
+use clap::{Args, value_parser};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(super) struct AnimateArgs {
+    #[command(flatten)]
+    site: SiteArgs,
+    #[command(flatten)]
+    window: WindowArgs,
+    #[command(flatten)]
+    draw: DrawArgs,
+    #[command(flatten)]
+    plan: PlanArgs,
+    /// From above, or in perspective
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
+    view: Eye,
+    /// How wide a picture is, 320 to 3508: the sheet that shadow draws, in fewer pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 1280, allow_negative_numbers = true,
+          value_parser = value_parser!(u32).range(320..=i64::from(figure::WIDTH)))]
+    width: u32,
+    /// Pictures a second in the GIF, 1 to 50; each is shown for whole hundredths of a second, the nearest
+    #[arg(long, value_name = "N", default_value_t = 4, allow_negative_numbers = true,
+          value_parser = value_parser!(u16).range(1..=50))]
+    fps: u16,
+    /// The folder for the files
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+impl AnimateArgs {
+    fn overrides(&self) -> Overrides {
+        self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())))
+    }
+}
+
+pub(super) fn animate(asked: &AnimateArgs) -> anyhow::Result<()> {
+    let mut watch = Stopwatch::start();
+    asked.plan.check_eye(asked.view)?;
+    let site = Site::load(&asked.site.path, &asked.overrides())?;
+    let (place, track, out) = (&site.place, &site.track, &asked.out);
+    let count = track.instants.len();
+    if count > MOST_FRAMES {
+        let what = format!(
+            "the study has {count} instants, and an animation at most {MOST_FRAMES} frames; take a longer --step, or \
+             fewer hours with --from and --to"
+        );
+        return Err(WrongUse(what).into());
+    }
+    file::check_folder(out)?;
+    watch.lap("load");
+
+    let view = asked.view.of(&site);
+    let mut progress = Progress::new(asked.common.quiet);
+    let mut frames = Frames::new(out, count);
+    let drawn = study::frames(
+        &site,
+        view,
+        &mut |event| {
+            progress.hear(&event);
+            interrupt::flow()
+        },
+        &mut |frame| -> anyhow::Result<()> {
+            let study::Frame { track, mask, surface, surface_mesh: mesh, receivers, drawn } = *frame;
+            let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
+            let picture = figure::instant_on_screen(&scene, &view, mask, &figure::Shown::default(), asked.width)?;
+            Ok(frames.add(&picture)?)
+        },
+    )?;
+    watch.lap("frames");
+    let mut gif = frames.gif(hundredths(asked.fps))?;
+    for index in 0..count {
+        interrupt::check()?;
+        gif.add(index)?;
+    }
+    let path = gif.finish()?;
+    watch.lap("gif");
+
+    let beyond = Frames::path(out, count);
+    if beyond.exists() {
+        let note = format!("{} and what follows it is of another animation; remove it", beyond.display());
+        progress.hear(&Event::Note(note));
+    }
+    if asked.common.json {
+        let (receivers, timings) = (study::judged(&site, &view), &watch.timings());
+        let told = Told { receivers, drawn: &drawn, timings, statistics: None };
+        return say(&report::shadow_json(&view, place, track, &told)?);
+    }
+    let [first, last] = [0, count - 1].map(|index| Frames::path(out, index).display().to_string());
+    let night = track.instants.iter().filter(|instant| instant.night).count();
+    let of_them = if night > 0 { format!(", {night} of them at night") } else { String::new() };
+    say(&format!("{}\n{first} to {last}\n{count} frames{of_them}\n{}\n", path.display(), drawn_by(&drawn)))
+}
+
+/// For how long a frame is shown.
+fn hundredths(fps: u16) -> u16 {
+    (100.0 / f64::from(fps)).round() as u16
+}

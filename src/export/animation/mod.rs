@@ -1,0 +1,141 @@
+//! A study as pictures that follow each other: `frame-0000.png` …, and `day.gif` of the same.
+//!
+//! Frames are written as they come. The GIF is made of them when all are there, as its colours are: one frame is held at
+//! a time. It is written beside its place, and renamed when it is whole.
+
+mod palette;
+
+use super::figure::Screen;
+use super::{ExportError, file};
+use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
+use image::ImageFormat;
+use palette::{Counts, Palette};
+use std::borrow::Cow;
+use std::fs;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// How many frames there can be.
+pub const MOST_FRAMES: usize = 2000;
+
+/// The GIF's colours are taken from about so many of the frames, evenly spread.
+const SAMPLED: usize = 64;
+
+/// The pictures in a folder, and the colours seen so far.
+pub struct Frames {
+    folder: PathBuf,
+    count: usize,
+    done: usize,
+    counts: Counts,
+}
+
+impl Frames {
+    /// `count` of them, none there yet.
+    pub fn new(folder: &Path, count: usize) -> Frames {
+        Frames { folder: folder.to_owned(), count, done: 0, counts: Counts::default() }
+    }
+
+    /// Where a frame is.
+    pub fn path(folder: &Path, index: usize) -> PathBuf {
+        folder.join(format!("frame-{index:04}.png"))
+    }
+
+    /// Writes the next one.
+    ///
+    /// # Errors
+    /// [`ExportError::Encode`] from the encoder; as [`file::write`].
+    pub fn add(&mut self, frame: &Screen) -> Result<(), ExportError> {
+        file::write(&Frames::path(&self.folder, self.done), &frame.png()?)?;
+        if self.done.is_multiple_of(self.count.div_ceil(SAMPLED).max(1)) {
+            self.counts.add(frame);
+        }
+        self.done += 1;
+        Ok(())
+    }
+
+    /// All are there: the GIF of them begins. Each is shown for so many hundredths of a second.
+    ///
+    /// # Errors
+    /// [`ExportError::Read`] and [`ExportError::Encode`] where the first frame is not what was written; as [`file::write`].
+    pub fn gif(self, delay: u16) -> Result<Gif, ExportError> {
+        let path = self.folder.join("day.gif");
+        let palette = self.counts.palette();
+        let beside = file::Beside::open(&path)?;
+        let file = beside.file.try_clone().map_err(|error| file::failed(&path, file::WRITING, error))?;
+        let first = read(&self.folder, 0)?;
+        let size = (side(first.width)?, side(first.height)?);
+        let start = || -> Result<_, EncodingError> {
+            let mut encoder = Encoder::new(BufWriter::new(file), size.0, size.1, &palette.bytes())?;
+            encoder.set_repeat(Repeat::Infinite)?;
+            Ok(encoder)
+        };
+        let encoder = start().map_err(|error| failed(&path, error))?;
+        Ok(Gif { folder: self.folder, path, delay, size, palette, encoder, beside })
+    }
+}
+
+/// A GIF that is being made of frames that are there. Where it is not finished, there is none.
+pub struct Gif {
+    folder: PathBuf,
+    path: PathBuf,
+    delay: u16,
+    size: (u16, u16),
+    palette: Palette,
+    // closed before the file is removed
+    encoder: Encoder<BufWriter<fs::File>>,
+    beside: file::Beside,
+}
+
+impl Gif {
+    /// Adds one of the frames.
+    ///
+    /// # Errors
+    /// [`ExportError::Read`] and [`ExportError::Encode`] where it is not what was written; [`ExportError::Write`] where
+    /// the file system refuses.
+    pub fn add(&mut self, index: usize) -> Result<(), ExportError> {
+        let frame = read(&self.folder, index)?;
+        let (width, height) = self.size;
+        if (frame.width, frame.height) != (width.into(), height.into()) {
+            return Err(ExportError::encode("animation", "its frames differ in size"));
+        }
+        let buffer = Cow::Owned(self.palette.of(&frame));
+        let dispose = DisposalMethod::Keep;
+        let frame = Frame { width, height, delay: self.delay, dispose, buffer, ..Frame::default() };
+        self.encoder.write_frame(&frame).map_err(|error| failed(&self.path, error))
+    }
+
+    /// All frames are in it: it replaces what was there. Returns its path.
+    ///
+    /// # Errors
+    /// [`ExportError::Write`] where the file system refuses.
+    pub fn finish(self) -> Result<PathBuf, ExportError> {
+        let Gif { path, encoder, beside, .. } = self;
+        let mut file = encoder.into_inner().map_err(|error| failed(&path, error))?;
+        file.flush().map_err(|error| file::failed(&path, file::WRITING, error))?;
+        drop(file);
+        beside.put_in_place()?;
+        Ok(path)
+    }
+}
+
+/// A frame as it was written.
+fn read(folder: &Path, index: usize) -> Result<Screen, ExportError> {
+    let path = Frames::path(folder, index);
+    let again = |why: String| ExportError::encode("animation", format!("{}: {why}", path.display()));
+    let bytes = fs::read(&path).map_err(|error| again(error.to_string()))?;
+    let decoded = image::load_from_memory_with_format(&bytes, ImageFormat::Png);
+    let picture = decoded.map_err(|error| again(error.to_string()))?.into_rgb8();
+    let pixels = picture.pixels().map(|pixel| pixel.0).collect();
+    Ok(Screen { width: picture.width(), height: picture.height(), pixels })
+}
+
+fn side(pixels: u32) -> Result<u16, ExportError> {
+    u16::try_from(pixels).map_err(|_| ExportError::encode("animation", "a GIF is at most 65535 pixels wide and high"))
+}
+
+fn failed(path: &Path, error: EncodingError) -> ExportError {
+    match error {
+        EncodingError::Io(error) => file::failed(path, file::WRITING, error),
+        error => ExportError::encode("animation", error),
+    }
+}

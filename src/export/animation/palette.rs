@@ -1,0 +1,116 @@
+//! The colours of a GIF: at most 256 for all of its frames, so that nothing flickers.
+//!
+//! Median cut (Heckbert, Color Image Quantization for Frame Buffer Display, 1982), with two changes. The box that is cut
+//! next is the one whose colours lie farthest from their mean, and it is cut there; and a box stands for its most frequent
+//! colour, not for its mean: a drawing's flat colours stay what they are to the bit. Nothing is dithered, as grain would
+//! be taken for cells, and would crawl from frame to frame.
+
+use crate::export::figure::{Screen, scale::Rgb};
+use rustc_hash::FxHashMap;
+
+/// What a GIF can hold.
+const MOST_COLOURS: usize = 256;
+
+/// How often each colour is seen.
+#[derive(Default)]
+pub(super) struct Counts(FxHashMap<Rgb, u64>);
+
+impl Counts {
+    pub(super) fn add(&mut self, frame: &Screen) {
+        for run in frame.pixels.chunk_by(|a, b| a == b) {
+            *self.0.entry(run[0]).or_default() += run.len() as u64;
+        }
+    }
+
+    pub(super) fn palette(self) -> Palette {
+        let mut colours: Vec<Counted> = self.0.into_iter().collect();
+        // a map's order is not the same everywhere
+        colours.sort_unstable();
+        let mut boxes = vec![Box::of(colours)];
+        while boxes.len() < MOST_COLOURS {
+            let widest = boxes.iter().enumerate().max_by(|(_, a), (_, b)| a.spread.total_cmp(&b.spread));
+            let Some((at, _)) = widest.filter(|(_, widest)| widest.spread > 0.0) else { break };
+            let [low, high] = boxes.swap_remove(at).cut();
+            boxes.extend([low, high]);
+        }
+        let most =
+            |of: &Box| of.colours.iter().max_by_key(|(colour, count)| (*count, *colour)).map(|(colour, _)| *colour);
+        Palette { colours: boxes.iter().filter_map(most).collect(), known: FxHashMap::default() }
+    }
+}
+
+type Counted = (Rgb, u64);
+
+/// Some colours that are near each other.
+struct Box {
+    colours: Vec<Counted>,
+    /// In which part they differ most, and its mean.
+    part: usize,
+    mean: f64,
+    /// How far they are from it: the sum of squares over all pixels. 0 where there is one colour.
+    spread: f64,
+}
+
+impl Box {
+    fn of(colours: Vec<Counted>) -> Box {
+        let pixels = colours.iter().map(|(_, count)| *count as f64).sum::<f64>().max(1.0);
+        let of_part = |part: usize| {
+            let sum = |value: &dyn Fn(f64) -> f64| {
+                let each = colours.iter().map(|(colour, count)| *count as f64 * value(f64::from(colour[part])));
+                each.sum::<f64>()
+            };
+            let mean = sum(&|value| value) / pixels;
+            (part, mean, sum(&|value| (value - mean).powi(2)))
+        };
+        let widest = (0..3).map(of_part).max_by(|(.., a), (.., b)| a.total_cmp(b));
+        let (part, mean, spread) = widest.unwrap_or((0, 0.0, 0.0));
+        let spread = if colours.len() > 1 { spread } else { 0.0 };
+        Box { colours, part, mean, spread }
+    }
+
+    /// Into what lies below the mean and what does not. Neither is empty where there is a spread.
+    fn cut(self) -> [Box; 2] {
+        let Box { colours, part, mean, .. } = self;
+        let (low, high) = colours.into_iter().partition(|(colour, _)| f64::from(colour[part]) < mean);
+        [Box::of(low), Box::of(high)]
+    }
+}
+
+/// The colours, and which of them is nearest to those that were asked for.
+pub(super) struct Palette {
+    colours: Vec<Rgb>,
+    known: FxHashMap<Rgb, u8>,
+}
+
+impl Palette {
+    /// Red, green, blue of each colour in turn.
+    pub(super) fn bytes(&self) -> Vec<u8> {
+        self.colours.concat()
+    }
+
+    /// A frame in the palette's numbers.
+    pub(super) fn of(&mut self, frame: &Screen) -> Vec<u8> {
+        /// What is remembered, so that a long animation does not remember all.
+        const MOST_KNOWN: usize = 1 << 20;
+        if self.known.len() > MOST_KNOWN {
+            self.known.clear();
+        }
+        let Palette { colours, known } = self;
+        let mut numbers = Vec::with_capacity(frame.pixels.len());
+        for run in frame.pixels.chunk_by(|a, b| a == b) {
+            let number = *known.entry(run[0]).or_insert_with(|| nearest(colours, run[0]));
+            numbers.resize(numbers.len() + run.len(), number);
+        }
+        numbers
+    }
+}
+
+fn nearest(colours: &[Rgb], asked: Rgb) -> u8 {
+    let distance = |colour: &Rgb| -> i32 {
+        let parts = colour.iter().zip(asked).map(|(one, other)| i32::from(*one) - i32::from(other));
+        parts.map(|apart| apart * apart).sum()
+    };
+    let nearest = colours.iter().enumerate().min_by_key(|(_, colour)| distance(colour));
+    // there are at most 256
+    nearest.map_or(0, |(at, _)| at as u8)
+}

@@ -1,0 +1,60 @@
+//! A drawing for a screen: the sheet as it is for paper, in fewer pixels.
+
+use super::page::{HEIGHT, Sheet, WIDTH};
+use super::scale::Rgb;
+use super::{Scene, Shown, instant_as};
+use crate::export::{ExportError, raster};
+use crate::view::{Mask, View};
+use image::imageops::{self, FilterType};
+use image::{ImageBuffer, RgbImage};
+
+/// A drawing's pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Screen {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Row 0 first.
+    pub pixels: Vec<Rgb>,
+}
+
+impl Screen {
+    /// As a PNG, compressed fast.
+    ///
+    /// # Errors
+    /// [`ExportError::Encode`] from the encoder.
+    pub fn png(&self) -> Result<Vec<u8>, ExportError> {
+        let kind = (png::ColorType::Rgb, png::BitDepth::Eight);
+        raster::png_bytes((self.width, self.height), kind, None, bytemuck::cast_slice(&self.pixels))
+            .map_err(|error| ExportError::encode("drawing", error))
+    }
+}
+
+/// As [`super::instant`], `width` pixels wide, 1 to [`WIDTH`], and as high as a sheet of that width is: each pixel is the
+/// mean of the sheet's under it.
+///
+/// # Errors
+/// As [`super::instant`].
+pub fn instant_on_screen(
+    scene: &Scene,
+    view: &View,
+    mask: &Mask,
+    shown: &Shown,
+    width: u32,
+) -> Result<Screen, ExportError> {
+    instant_as(scene, view, mask, shown, |sheet| on_screen(sheet, width))
+}
+
+fn on_screen(sheet: &Sheet, width: u32) -> Result<Screen, ExportError> {
+    let pixels = sheet.pixels();
+    if width == WIDTH {
+        return Ok(Screen { width, height: HEIGHT, pixels });
+    }
+    let height = (u64::from(width) * u64::from(HEIGHT)).div_ceil(u64::from(WIDTH)) as u32;
+    let sheet: RgbImage = ImageBuffer::from_raw(WIDTH, HEIGHT, bytemuck::cast_vec(pixels))
+        .ok_or_else(|| ExportError::encode("drawing", "its pixels do not fill the sheet"))?;
+    let small = imageops::resize(&sheet, width, height, FilterType::Triangle);
+    let pixels = small.pixels().map(|pixel| pixel.0).collect();
+    Ok(Screen { width, height, pixels })
+}
