@@ -141,6 +141,11 @@ impl App {
             && open.is_none_or(|open| open.adding.is_none() && open.probing.is_none() && open.viewer.is_settled())
     }
 
+    /// Whether a picture is being drawn.
+    pub fn is_drawing(&self) -> bool {
+        self.stage.is_busy()
+    }
+
     /// What the picture shows: the view, and the unit vector to the sun.
     pub fn shown(&self) -> Option<(View, DVec3)> {
         let wish = &self.open.as_ref()?.viewer.shown()?.wish;
