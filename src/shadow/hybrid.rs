@@ -108,6 +108,13 @@ impl Technique for Hybrid {
         Ok(DrawnMask::Texture(gpu, &self.mask))
     }
 
+    fn turn_to(&mut self, view: View) -> Result<bool, ShadowError> {
+        self.counting.turn_to(view)?;
+        self.map.turn_to(&self.counting.surface)?;
+        self.mask = self.counting.surface.mask("hybrid.mask");
+        Ok(true)
+    }
+
     fn surface(&self) -> Result<Surface, ShadowError> {
         self.counting.surface.read()
     }

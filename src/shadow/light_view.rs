@@ -31,6 +31,8 @@ pub(super) struct Extents {
     /// Receivers that may lie beyond all casters.
     receivers: Vec<DVec3>,
     ground_z: f64,
+    /// Above the scene's origin, metres.
+    casters_top: f64,
     /// From the highest caster to the lowest point that is judged, metres.
     fall: f64,
 }
@@ -42,14 +44,23 @@ impl Extents {
         let bounds =
             |bounds: Option<(DVec3, DVec3)>| bounds.map(|(low, high)| (low - casters.origin, high - casters.origin));
         let casters_boxes = bounds(casters.bounds()).map_or(Vec::new(), |(low, high)| grouped(corners(), low, high));
-        let corners_of = |boxes: Vec<(DVec3, DVec3)>| boxes.into_iter().flat_map(corners_of_box).collect();
-        Ok(Extents {
+        let mut extents = Extents {
             casters: corners_of(casters_boxes),
-            seen: corners_of(surface.boxes_of_seen()?),
+            seen: Vec::new(),
             receivers: corners_of(bounds(receivers.bounds()).into_iter().collect()),
             ground_z: ground - casters.origin.z,
-            fall: (casters.top() - casters.origin.z - surface.lowest_z).max(0.0),
-        })
+            casters_top: casters.top() - casters.origin.z,
+            fall: 0.0,
+        };
+        extents.turn_to(surface)?;
+        Ok(extents)
+    }
+
+    /// Takes what another view of the same scene sees.
+    pub(super) fn turn_to(&mut self, surface: &GpuSurface) -> Result<(), ShadowError> {
+        self.seen = corners_of(surface.boxes_of_seen()?);
+        self.fall = (self.casters_top - surface.lowest_z).max(0.0);
+        Ok(())
     }
 
     /// The view along the sun's rays.
@@ -163,6 +174,10 @@ fn grouped(points: impl Iterator<Item = DVec3>, low: DVec3, high: DVec3) -> Vec<
     }
     boxes.retain(|(low, high)| low.x <= high.x);
     boxes
+}
+
+fn corners_of(boxes: Vec<(DVec3, DVec3)>) -> Vec<DVec3> {
+    boxes.into_iter().flat_map(corners_of_box).collect()
 }
 
 fn corners_of_box((low, high): (DVec3, DVec3)) -> impl Iterator<Item = DVec3> {

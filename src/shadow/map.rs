@@ -96,6 +96,11 @@ impl DepthMap {
         self.extents.along_sun(to_sun).uniform(&self.extents, self.size, 0.0, Smoothies::default()).texel
     }
 
+    /// Turns to what another view sees.
+    pub(super) fn turn_to(&mut self, surface: &GpuSurface) -> Result<(), ShadowError> {
+        self.extents.turn_to(surface)
+    }
+
     /// Turns to a light around the scene's origin (sun: w = 0, lamp: w = 1).
     pub(super) fn aim(&self, local_light: DVec4, smoothies: Smoothies) {
         let view = match local_light.w > 0.0 {

@@ -27,7 +27,7 @@ pub mod walls;
 
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
-use crate::view::{Bits, Counted, Mask, Surface};
+use crate::view::{Bits, Counted, Mask, Surface, View};
 use glam::{DVec3, DVec4};
 
 pub use plan_surface::{PlanSurface, plan_surface};
@@ -83,10 +83,18 @@ impl DrawnMask<'_> {
     }
 }
 
-/// A way to find shadows, made for one scene and one view.
+/// A way to find shadows, made for one scene and one view at a time.
 pub trait Technique {
     /// Draws the mask for the unit vector to the sun, which is above the horizon.
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
+
+    /// Turns to another view of the same scene, and keeps what does not depend on it; no where it has to be made anew.
+    ///
+    /// # Errors
+    /// [`ShadowError`], where the view does not fit the adapter.
+    fn turn_to(&mut self, _view: View) -> Result<bool, ShadowError> {
+        Ok(false)
+    }
 
     /// What the cells see of the receivers.
     fn surface(&self) -> Result<Surface, ShadowError>;

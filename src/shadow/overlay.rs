@@ -76,7 +76,7 @@ impl VolumePicture<'_> {
             };
             gpu.pipeline(&format!("overlay.{vertex}"), stages, Some(counts))
         };
-        let judged = self.surface.judged();
+        let judged = self.surface.judged(&self.surface.judging());
         let unused = gpu.texture("overlay.unused", self.size(), SHARE, TextureUsages::RENDER_ATTACHMENT);
         let (unused_view, judged_view) = (whole(&unused), whole(&judged));
         let counted = RenderPassDepthStencilAttachment {

@@ -29,6 +29,7 @@ pub enum Filter {
 
 /// The technique, made for one scene and one view.
 pub struct ShadowMap {
+    scene: Scene,
     surface: GpuSurface,
     map: DepthMap,
     packed: Option<PackedMap>,
@@ -77,7 +78,7 @@ impl ShadowMap {
         let pipeline = gpu.pipeline("shadow_map", stages, None);
         let mask = surface.mask("shadow_map.mask");
         gpu.check()?;
-        Ok(ShadowMap { surface, map, packed, compared, pipeline, mask })
+        Ok(ShadowMap { scene: scene.clone(), surface, map, packed, compared, pipeline, mask })
     }
 
     /// How large a texel is across the rays of that sun, metres along the map's axes.
@@ -109,6 +110,13 @@ impl Technique for ShadowMap {
         });
         self.surface.gpu.queue.submit([encoder.finish()]);
         Ok(DrawnMask::Texture(&self.surface.gpu, &self.mask))
+    }
+
+    fn turn_to(&mut self, view: View) -> Result<bool, ShadowError> {
+        self.surface.look_at(&self.scene, view)?;
+        self.map.turn_to(&self.surface)?;
+        self.mask = self.surface.mask("shadow_map.mask");
+        Ok(true)
     }
 
     fn surface(&self) -> Result<Surface, ShadowError> {

@@ -239,6 +239,13 @@ impl Technique for Smoothie {
         self.draw_light(to_sun.extend(0.0), self.asked)
     }
 
+    fn turn_to(&mut self, view: View) -> Result<bool, ShadowError> {
+        self.surface.look_at(&self.scene, view)?;
+        self.map.turn_to(&self.surface)?;
+        self.mask = self.surface.mask("smoothie.mask");
+        Ok(true)
+    }
+
     fn surface(&self) -> Result<Surface, ShadowError> {
         self.surface.read()
     }

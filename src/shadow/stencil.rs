@@ -73,6 +73,12 @@ impl Technique for Stencil {
         Ok(DrawnMask::Texture(gpu, &self.mask))
     }
 
+    fn turn_to(&mut self, view: View) -> Result<bool, ShadowError> {
+        self.counting.turn_to(view)?;
+        self.mask = self.counting.surface.mask("stencil.mask");
+        Ok(true)
+    }
+
     fn surface(&self) -> Result<Surface, ShadowError> {
         self.counting.surface.read()
     }

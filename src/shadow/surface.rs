@@ -257,12 +257,8 @@ impl GpuSurface {
         pipeline_layout(&self.gpu, &groups)
     }
 
-    /// The depth at which each cell is judged, in a texture with a stencil.
-    pub(super) fn judged(&self) -> Texture {
-        let gpu = &self.gpu;
-        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
-        let judged = gpu.texture("surface.judged", self.view.size(), COUNTED, usage);
-        let module = gpu.shader("judged", shaders::JUDGED);
+    /// What draws the depth at which each cell is judged.
+    pub(super) fn judging(&self) -> RenderPipeline {
         let always = DepthStencilState {
             format: COUNTED,
             depth_write_enabled: Some(true),
@@ -271,14 +267,21 @@ impl GpuSurface {
             bias: DepthBiasState::default(),
         };
         let stages = Stages {
-            module: &module,
+            module: &self.gpu.shader("judged", shaders::JUDGED),
             vertex: "whole_picture",
             fragment: "judged_depth",
             buffers: &[],
             target: None,
             layout: Some(&self.seeing_layout(&[])),
         };
-        let pipeline = gpu.pipeline("judged", stages, Some(always));
+        self.gpu.pipeline("judged", stages, Some(always))
+    }
+
+    /// The depth at which each cell is judged, in a texture with a stencil.
+    pub(super) fn judged(&self, judging: &RenderPipeline) -> Texture {
+        let gpu = &self.gpu;
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
+        let judged = gpu.texture("surface.judged", self.view.size(), COUNTED, usage);
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("judged"),
@@ -289,7 +292,7 @@ impl GpuSurface {
             }),
             ..RenderPassDescriptor::default()
         });
-        pass.set_pipeline(&pipeline);
+        pass.set_pipeline(judging);
         pass.set_bind_group(0, &self.frame, &[]);
         pass.set_bind_group(1, &self.seen, &[]);
         pass.draw(0..3, 0..1);

@@ -38,7 +38,7 @@ pub struct Live {
     picture: Picture,
     /// What the picture looks at now, and whether rays told it.
     looks_at: (View, bool),
-    /// The technique, and the view and way that it was made for.
+    /// The technique, the view that it is turned to, and the way that it was made for.
     made: Option<(View, Way, Box<dyn Technique>)>,
     /// Rays turn to another view at once; they go to so many points of the sun.
     rays: Option<(RayCast, Option<u32>)>,
@@ -166,19 +166,22 @@ impl Live {
     }
 }
 
-/// The technique at hand, or a new one where that was made for another view or way.
+/// The technique at hand, turned to the view; a new one where it does not turn, or was made for another way.
 fn made<'a>(
     at_hand: &'a mut Option<(View, Way, Box<dyn Technique>)>,
     machine: Machine,
     (view, way): (View, Way),
     scene: &Scene,
 ) -> Result<&'a mut Box<dyn Technique>, StudyError> {
-    let kept = at_hand.take().filter(|(of_view, of_way, _)| (*of_view, *of_way) == (view, way));
-    let made = match kept {
-        Some(kept) => kept,
-        None => (view, way, machine.technique(scene.clone(), view)?),
+    let kept = match at_hand.take().filter(|(_, of_way, _)| *of_way == way) {
+        Some((of_view, _, mut technique)) => (of_view == view || technique.turn_to(view)?).then_some(technique),
+        None => None,
     };
-    Ok(&mut at_hand.insert(made).2)
+    let technique = match kept {
+        Some(kept) => kept,
+        None => machine.technique(scene.clone(), view)?,
+    };
+    Ok(&mut at_hand.insert((view, way, technique)).2)
 }
 
 /// A view of one cell from as far away as any.

@@ -74,6 +74,7 @@ pub(super) struct Counting {
     pub(super) surface: GpuSurface,
     /// The depth at which cells are judged, and the stencil.
     pub(super) judged: Texture,
+    judging: RenderPipeline,
     bits: Bits,
     casters: Vec<Batch>,
     /// Every caster is among what is seen, so that z-pass needs no light cap.
@@ -111,7 +112,8 @@ impl Counting {
         bits: Bits,
     ) -> Result<Counting, ShadowError> {
         let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
-        let judged = surface.judged();
+        let judging = surface.judging();
+        let judged = surface.judged(&judging);
         let twice: Vec<[f32; 4]> = scene
             .casters
             .vertices
@@ -130,6 +132,7 @@ impl Counting {
             view,
             surface,
             judged,
+            judging,
             bits,
             casters,
             casters_are_seen,
@@ -140,6 +143,14 @@ impl Counting {
             covered,
             forced_z_fail: None,
         })
+    }
+
+    /// Turns to another view; the casters and their walls stay.
+    pub(super) fn turn_to(&mut self, view: View) -> Result<(), ShadowError> {
+        self.surface.look_at(&self.scene, view)?;
+        self.judged = self.surface.judged(&self.judging);
+        self.view = view;
+        Ok(())
     }
 
     /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong: z-fail always is right, and z-pass must be
