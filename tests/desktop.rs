@@ -1,14 +1,17 @@
 //! The window, driven by the names that it gives its parts, as a person and as assistive technology would.
 
 mod handing_in;
+mod keeping;
 mod opening;
+mod playing;
 mod showing;
 mod soak;
+mod viewing;
 mod xvfb;
 
 use eframe::egui::{self, Event, Key, Pos2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use gnomon::desktop::{self, App};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -75,6 +78,13 @@ pub(crate) fn write(harness: &mut Harness<'_, App>, label: &str, text: &str) {
     harness.key_press(Key::Enter);
     harness.step();
     harness.step();
+}
+
+/// The whole name of the part whose name holds this, and where it is.
+pub(crate) fn named(harness: &Harness<'_, App>, part: &str) -> (String, egui::Rect) {
+    let node = harness.get_by_label_contains(part);
+    let whole = node.accesskit_node();
+    (whole.label().or_else(|| whole.value()).unwrap_or_default(), node.rect())
 }
 
 /// What a part that is named so says beyond its name.

@@ -269,3 +269,37 @@ fn the_default_camera_sees_the_models() {
         assert!(sun.truncate().dot((camera.eye - camera.target).truncate()) > 0.0, "{latitude}");
     }
 }
+
+/// What is not changed stays as a person wrote it; what is changed reads as it was set.
+#[test]
+fn rewritten_file_keeps_its_comments() {
+    let text = "# the client's site\n\n[place] # surveyed\nlatitude=48.2 # of the gate\nlongitude = 16.37\nelevation = 35\n\n\
+                # the works\n[[model]]\npath = 'works.glb'\ncasts = true # all\n\n[study]\ndate = 2026-03-21 # equinox\n\
+                from = \"9:00\"\nto = \"17:00\"\n# every two hours\nstep = \"2h\"\n# the end\n";
+    let before = SiteFile::parse("site.toml", text).unwrap();
+    assert_eq!(before.to_toml_in(text).unwrap(), text, "nothing was changed");
+    let mut after = before.clone();
+    after.study.step = Some("4h".to_owned());
+    after.study.to = None;
+    after.place.as_mut().unwrap().latitude = Some(-33.9);
+    after.camera.eye = Some([1.0, -2.0, 3.5]);
+    after.model[0].north = Some(12.0);
+    after.model.push(after.model[0].clone());
+    after.probe.push(gnomon::site::file::ProbeTable { point: Some([1.0, 2.0, 0.0]), ..Default::default() });
+    let written = after.to_toml_in(text).unwrap();
+    assert_eq!(SiteFile::parse("site.toml", &written).unwrap(), after, "{written}");
+    for line in text.lines() {
+        let is_changed = ["latitude", "to =", "step"].iter().any(|key| line.starts_with(key));
+        assert!(is_changed || written.lines().any(|kept| kept == line), "lost: {line}\n{written}");
+    }
+    assert!(written.contains("latitude=-33.9 # of the gate\n"), "{written}");
+    assert!(written.contains("# every two hours\nstep = \"4h\"\n"), "{written}");
+    // there and back; and a list in one line becomes tables
+    let back = before.to_toml_in(&written).unwrap();
+    assert_eq!(SiteFile::parse("site.toml", &back).unwrap(), before, "{back}");
+    let inline = "place = { latitude = 1.0, longitude = 2.0 }\nmodel = [{ path = \"a.glb\" }] # one\n";
+    let written = after.to_toml_in(inline).unwrap();
+    assert_eq!(SiteFile::parse("site.toml", &written).unwrap(), after, "{written}");
+    let written = after.to_toml_in("").unwrap();
+    assert_eq!(SiteFile::parse("site.toml", &written).unwrap(), after, "{written}");
+}

@@ -33,10 +33,11 @@ impl App {
         match purpose {
             Purpose::Open => {}
             Purpose::SaveSite => {
-                let written = files::written(&open.project, &self.settings, &open.viewer.eye, &path);
-                let text = written.site.to_toml().map_err(anyhow::Error::from);
-                match text.and_then(|text| Ok(file::write(&path, text.as_bytes())?)) {
-                    Ok(()) => {
+                let mut written = files::written(&open.project, &self.settings, &open.viewer.eye, &path);
+                let text = written.site.to_toml_in(&written.text).map_err(anyhow::Error::from);
+                match text.and_then(|text| file::write(&path, text.as_bytes()).map(|()| text).map_err(Into::into)) {
+                    Ok(text) => {
+                        written.text = text;
                         self.notice = Some(format!("Written: {}", path.display()));
                         open.project.path = Some(path);
                         self.settings.site = written.site.clone();

@@ -40,6 +40,10 @@ pub(super) struct Clock {
     pub(super) fault: Option<String>,
     /// What plays.
     pub(super) play: Option<Play>,
+    /// How much of it is left: seconds of the day, or days of the year.
+    left: f64,
+    /// The clock time that was asked for, which other dates keep, though some skip it.
+    asked: NaiveTime,
 }
 
 impl Clock {
@@ -59,6 +63,8 @@ impl Clock {
             typed: [None, None],
             fault: None,
             play: None,
+            left: 0.0,
+            asked: at.time.time(),
         };
         clock.turn_day();
         clock
@@ -83,6 +89,7 @@ impl Clock {
     pub(super) fn set(&mut self, time: DateTime<Tz>) {
         if let Some(instant) = self.instant(time) {
             let turns = instant.time.date_naive() != self.date();
+            self.asked = instant.time.time();
             self.now = instant;
             if turns {
                 self.turn_day();
@@ -98,11 +105,12 @@ impl Clock {
 
     /// Shows the same clock time on another date; an hour that clocks skip there becomes the next one.
     pub(super) fn set_date(&mut self, date: NaiveDate) {
-        let clock = self.now.time.time();
+        let clock = self.asked;
         let at = |clock: NaiveTime| self.place.time_zone.from_local_datetime(&date.and_time(clock)).earliest();
         let next = clock.overflowing_add_signed(TimeDelta::hours(1)).0;
         if let Some(time) = at(clock).or_else(|| at(next)) {
             self.set(time);
+            self.asked = clock;
         }
     }
 
@@ -148,24 +156,42 @@ impl Clock {
         (0..=length_secs as i64).step_by(300).filter_map(|secs| self.instant(from + TimeDelta::seconds(secs))).collect()
     }
 
+    /// Plays the whole day or the whole year, round to where it began; or stops.
+    pub(super) fn toggle(&mut self, play: Play) {
+        self.play = if self.play == Some(play) { None } else { Some(play) };
+        self.left = match play {
+            Play::Day => self.length_secs,
+            Play::Year => self.days_of_year(),
+        };
+    }
+
+    fn days_of_year(&self) -> f64 {
+        if self.date().leap_year() { 366.0 } else { 365.0 }
+    }
+
     /// Moves on what plays.
     pub(super) fn tick(&mut self, context: &egui::Context) {
         let Some(play) = self.play else { return };
         let passed = f64::from(context.input(|input| input.stable_dt)).min(0.5);
         match play {
             Play::Day => {
-                let next = self.secs() + passed * 5400.0;
-                self.set_secs(if next >= self.length_secs - 1.0 { 0.0 } else { next });
+                // whole seconds, as the clock has no others
+                let step = (passed * 5400.0).ceil().min(self.left);
+                self.left -= step;
+                self.set_secs((self.secs() + step) % self.length_secs);
             }
             Play::Year => {
                 let from = f64::from(self.date().ordinal0());
-                let days = (passed * 20.0).max(1.0).round();
-                let year = self.date().year();
-                let ordinal = ((from + days) as u32) % if self.date().leap_year() { 366 } else { 365 };
-                if let Some(date) = NaiveDate::from_yo_opt(year, ordinal + 1) {
+                let step = (passed * 20.0).max(1.0).round().min(self.left);
+                self.left -= step;
+                let ordinal0 = (from + step) % self.days_of_year();
+                if let Some(date) = NaiveDate::from_yo_opt(self.date().year(), ordinal0 as u32 + 1) {
                     self.set_date(date);
                 }
             }
+        }
+        if self.left <= 0.0 {
+            self.play = None;
         }
         context.request_repaint();
     }

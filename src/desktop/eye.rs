@@ -133,12 +133,16 @@ impl Eye {
         self.target += (up * pixels.y - right * pixels.x) * self.metres_a_pixel(height);
     }
 
-    /// Comes nearer by a factor, about a point that lies so many pixels right of and below the middle; within limits.
-    pub(super) fn zoom(&mut self, factor: f64, from_middle: DVec2, height: u32, limits: [f64; 2]) {
-        let distance = (self.distance / factor).clamp(limits[0], limits[1]);
+    /// The point as far away as the target that lies so many pixels right of and below the middle.
+    pub(super) fn beside_target(&self, from_middle: DVec2, height: u32) -> DVec3 {
         let [right, up] = self.across();
-        let there = (right * from_middle.x - up * from_middle.y) * self.metres_a_pixel(height);
-        self.target += there * (1.0 - distance / self.distance);
+        self.target + (right * from_middle.x - up * from_middle.y) * self.metres_a_pixel(height)
+    }
+
+    /// Comes nearer by a factor, within limits, about a point: it stays where it is in the picture.
+    pub(super) fn zoom(&mut self, factor: f64, about: DVec3, limits: [f64; 2]) {
+        let distance = (self.distance / factor).clamp(limits[0], limits[1]);
+        self.target = about + (self.target - about) * (distance / self.distance);
         self.distance = distance;
     }
 

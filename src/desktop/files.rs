@@ -196,18 +196,23 @@ pub(super) fn sample(name: &str) -> anyhow::Result<PathBuf> {
     Ok(path)
 }
 
+/// The eye of the perspective, as a site file says it: to the millimetre.
+fn camera(eye: &Eye) -> CameraTable {
+    let camera = eye.camera((16, 10));
+    let millimetres = |point: glam::DVec3| (point * 1000.0).round().to_array().map(|metres| metres / 1000.0 + 0.0);
+    CameraTable {
+        eye: Some(millimetres(camera.eye)),
+        target: Some(millimetres(camera.target)),
+        up: None,
+        fov: Some((camera.fov_rad.to_degrees() * 1000.0).round() / 1000.0),
+    }
+}
+
 /// What a site file at a path is to say, so that it reopens to the same view.
 pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &Path) -> Written {
     let mut site = settings.site.clone();
     if eye.stand == Stand::Perspective {
-        let camera = eye.camera((16, 10));
-        let millimetres = |point: glam::DVec3| (point * 1000.0).round().to_array().map(|metres| metres / 1000.0 + 0.0);
-        site.camera = CameraTable {
-            eye: Some(millimetres(camera.eye)),
-            target: Some(millimetres(camera.target)),
-            up: None,
-            fov: Some((camera.fov_rad.to_degrees() * 1000.0).round() / 1000.0),
-        };
+        site.camera = camera(eye);
     }
     site.study.technique = match settings.shown.method {
         Method::Auto => None,
@@ -223,7 +228,7 @@ pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &
         let relative = there.strip_prefix(&here).map(Path::to_owned).unwrap_or(there);
         *name = relative.display().to_string().replace('\\', "/");
     }
-    Written { file: path.display().to_string(), folder, site }
+    Written { file: path.display().to_string(), folder, site, text: project.written.text.clone() }
 }
 
 /// Draws the instant as the command does: on the site's plan, or as the eye sees it.
@@ -235,7 +240,11 @@ pub(super) fn drawing(
     path: PathBuf,
     context: egui::Context,
 ) -> Work<PathBuf> {
-    let written = Written { site: settings.site.clone(), ..project.written.clone() };
+    let mut written = Written { site: settings.site.clone(), ..project.written.clone() };
+    if eye.stand == Stand::Perspective {
+        // the command draws from the saved camera, and so the same drawing
+        written.site.camera = camera(&eye);
+    }
     let shown = settings.shown;
     Work::start(context, move |on_event| {
         let is_plan = eye.stand == Stand::Plan;
@@ -249,7 +258,11 @@ pub(super) fn drawing(
         let at = Some(time.format("%Y-%m-%dT%H:%M:%S%:z").to_string());
         let asked = Overrides { at, technique: Some(method), ..Overrides::default() };
         let site = Site::of(&written, &asked, model::load)?;
-        let view = if is_plan { View::Plan(site.grid) } else { View::Camera(eye.camera((1600, 1000))) };
+        let view = match eye.stand {
+            Stand::Plan => View::Plan(site.grid),
+            Stand::Perspective => View::Camera(site.camera),
+            _ => View::Camera(eye.camera((site.camera.width, site.camera.height))),
+        };
         let wants = InstantWants {
             surface: true,
             volumes: shown.volumes && !is_plan,

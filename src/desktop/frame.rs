@@ -15,6 +15,25 @@ const EXPORT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::
 const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
 const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
 
+/// Larger, smaller, and as the screen has it. The keys are egui's own.
+fn interface_scale(ui: &mut Ui) {
+    use egui::gui_zoom::{kb_shortcuts, zoom_in, zoom_out};
+    let context = ui.ctx().clone();
+    ui.weak(format!("Interface at {:.0}%", context.zoom_factor() * 100.0));
+    let entry = |ui: &mut Ui, name: &str, keys| {
+        ui.add(egui::Button::new(name).shortcut_text(context.format_shortcut(keys))).clicked()
+    };
+    if entry(ui, "Larger interface", &kb_shortcuts::ZOOM_IN) {
+        zoom_in(&context);
+    }
+    if entry(ui, "Smaller interface", &kb_shortcuts::ZOOM_OUT) {
+        zoom_out(&context);
+    }
+    if entry(ui, "Interface at its own size", &kb_shortcuts::ZOOM_RESET) {
+        context.set_zoom_factor(1.0);
+    }
+}
+
 impl App {
     pub(super) fn shortcuts(&mut self, context: &egui::Context) {
         let pressed = |shortcut| context.input_mut(|input| input.consume_shortcut(&shortcut));
@@ -48,7 +67,7 @@ impl App {
             open.clock.step_days(days);
         }
         if context.input(|input| input.key_pressed(Key::Space)) {
-            open.clock.play = if open.clock.play.is_some() { None } else { Some(Play::Day) };
+            open.clock.toggle(open.clock.play.unwrap_or(Play::Day));
         }
         let stands = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6];
         for (key, (stand, _)) in stands.into_iter().zip(Stand::ALL) {
@@ -147,7 +166,7 @@ impl App {
                     }
                 }
                 ui.separator();
-                egui::gui_zoom::zoom_menu_buttons(ui);
+                interface_scale(ui);
             });
             if let Some(open) = &self.open {
                 ui.separator();

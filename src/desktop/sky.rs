@@ -112,6 +112,7 @@ pub(super) fn north(ui: &egui::Ui, view: &View, rect: Rect) {
     let north = north.normalized();
     let middle = rect.right_top() + vec2(-46.0, 46.0);
     let painter = ui.painter_at(rect);
+    named(ui, Rect::from_center_size(middle, Vec2::splat(44.0)), "North arrow".to_owned());
     painter.circle(middle, 22.0, Color32::from_white_alpha(170), Stroke::new(1.0, INK.gamma_multiply(0.5)));
     let side = vec2(-north.y, north.x);
     let tip = middle + north * 13.0;
@@ -139,7 +140,15 @@ pub(super) fn scale_bar(ui: &egui::Ui, rect: Rect, metres_a_point: f64, feet: bo
     }
     let name = if feet { "ft" } else { "m" };
     let text = if !feet && round >= 1000.0 { format!("{} km", round / 1000.0) } else { format!("{round} {name}") };
+    named(ui, Rect::from_min_max(left - vec2(0.0, 5.0), right + vec2(0.0, 1.0)), format!("Scale bar: {text}"));
     label(&painter, pos2((left.x + right.x) / 2.0, right.y - 12.0), Align2::CENTER_CENTER, &text);
+}
+
+/// Names what is only painted.
+fn named(ui: &egui::Ui, rect: Rect, name: String) {
+    let id = ui.scope_id().with(name.split(':').next().unwrap_or_default());
+    let response = ui.interact(rect, id, Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name.clone()));
 }
 
 /// Letters with a light rim, legible over anything.

@@ -55,7 +55,7 @@ impl Clock {
         }
         response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_on, name));
         if response.on_hover_text(name).clicked() {
-            self.play = if is_on { None } else { Some(play) };
+            self.toggle(play);
         }
     }
 

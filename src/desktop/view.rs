@@ -247,7 +247,12 @@ impl Viewer {
                 let from = (pointer - rect.center()) * ui.pixels_per_point();
                 let size = dome(project).radius;
                 let limits = [size * 0.02, size * FARTHEST / 12.0];
-                self.eye.zoom(factor, DVec2::new(f64::from(from.x), f64::from(from.y)), height, limits);
+                let view = self.eye.view(((rect.width() * ui.pixels_per_point()).round().max(1.0) as u32, height));
+                let about = under(project, &view, rect, pointer).map_or_else(
+                    || self.eye.beside_target(DVec2::new(f64::from(from.x), f64::from(from.y)), height),
+                    |under| under.point,
+                );
+                self.eye.zoom(factor, about, limits);
             }
         }
     }

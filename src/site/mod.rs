@@ -15,6 +15,7 @@ pub mod model;
 mod pair;
 mod plan;
 mod probe;
+mod rewrite;
 mod study;
 mod written;
 

@@ -16,6 +16,8 @@ pub struct Written {
     pub folder: PathBuf,
     /// What it says.
     pub site: SiteFile,
+    /// The text that was read, comments and all; empty for a bare model.
+    pub text: String,
 }
 
 impl Written {
@@ -71,6 +73,7 @@ impl Written {
             site: SiteFile::parse(&file, &text)?,
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
             file,
+            text,
         })
     }
 
@@ -91,6 +94,7 @@ impl Written {
                 model: vec![ModelTable { path: Some(name), ..ModelTable::default() }],
                 ..SiteFile::default()
             },
+            text: String::new(),
         })
     }
 

@@ -23,7 +23,7 @@ fn answer(harness: &mut Harness<'_, App>, path: &Path, go: &str) {
     settle(harness);
 }
 
-fn menu(harness: &mut Harness<'_, App>, entry: &str) {
+pub(crate) fn menu(harness: &mut Harness<'_, App>, entry: &str) {
     click(harness, "File");
     // its keys are part of its name
     harness.get_by_label_contains(entry).click();
@@ -81,11 +81,18 @@ fn click_on_the_model_finds_when_the_sun_reaches_it() {
 #[test]
 fn saved_site_reopens_to_the_same_view() {
     let (folder, site) = small_site();
+    let text = std::fs::read_to_string(&site).unwrap();
+    std::fs::write(&site, text.replace("[[model]]", "# drawn in 2024\n[[model]]").replace("\"2h\"", "\"2h\" # coarse"))
+        .unwrap();
     let mut harness = window(Some(&site));
     let rect = harness.get_by_label("Model").rect();
     drag(&mut harness, rect.left_bottom() + egui::vec2(80.0, -60.0), rect.left_bottom() + egui::vec2(180.0, -90.0));
     write(&mut harness, "step", "4h");
     settle(&mut harness);
+    // what is exported from here is what the command draws from what is saved
+    menu(&mut harness, "Export the drawing…");
+    let ours = folder.path().join("window.png");
+    answer(&mut harness, &ours, "Write");
     menu(&mut harness, "Save the site file…");
     let saved = folder.path().join("elsewhere/site.toml");
     answer(&mut harness, &saved, "Write");
@@ -97,7 +104,13 @@ fn saved_site_reopens_to_the_same_view() {
     };
     assert!(before.eye.distance(after.eye) < 0.005, "{before:?}, {after:?}");
     assert_eq!(again.state().site_file().study.step.as_deref(), Some("4h"));
-    command(&["sun".as_ref(), saved.as_ref()]);
+    let theirs = folder.path().join("command.png");
+    let camera = ["--view", "camera", "--at", "2026-03-21T13:00", "--out"].map(std::ffi::OsStr::new);
+    command(&[&["shadow".as_ref(), saved.as_os_str()], camera.as_slice(), &[theirs.as_ref()]].concat());
+    let [ours, theirs] = [ours, theirs].map(|path| std::fs::read(path).unwrap());
+    assert!(ours == theirs, "the perspective is another one");
+    let text = std::fs::read_to_string(&saved).unwrap();
+    assert!(text.contains("# drawn in 2024") && text.contains("step = \"4h\" # coarse"), "{text}");
 }
 
 #[test]
@@ -115,4 +128,40 @@ fn drawing_is_that_of_the_command() {
     command(&["shadow".as_ref(), site.as_ref(), "--at".as_ref(), at.as_ref(), "--out".as_ref(), theirs.as_ref()]);
     let [ours, theirs] = [ours, theirs].map(|path| std::fs::read(path).unwrap());
     assert!(ours == theirs, "the drawing is another one");
+}
+
+#[test]
+fn hours_can_be_cancelled() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    write(&mut harness, "step", "1s");
+    settle(&mut harness);
+    click(&mut harness, "Find the hours");
+    assert!(!harness.state().is_settled(), "hours are on their way");
+    click(&mut harness, "Cancel the hours");
+    settle(&mut harness);
+    harness.get_by_label("Find the hours");
+    assert!(harness.query_by_label("Show the hours").is_none(), "no hours came");
+}
+
+#[test]
+fn copied_picture_is_the_one_that_is_shown() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let (width, height, pixels) = harness.state().picture().unwrap();
+    click(&mut harness, "File");
+    harness.get_by_label("Copy the picture").click();
+    let mut copied = None;
+    for _ in 0..3 {
+        harness.step();
+        for command in &harness.output().platform_output.commands {
+            if let egui::OutputCommand::CopyImage(image) = command {
+                copied = Some(image.clone());
+            }
+        }
+    }
+    let copied = copied.expect("an image for the clipboard");
+    assert_eq!(copied.size, [width as usize, height as usize]);
+    assert!(copied.pixels.iter().zip(&pixels).all(|(ours, shown)| ours.to_array() == *shown));
+    harness.get_by_label("The picture is on the clipboard");
 }

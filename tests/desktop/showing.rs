@@ -207,14 +207,27 @@ fn components_are_switched() {
 /// At its smallest common size nothing is cut off: every named part of the frame lies within the window.
 #[test]
 fn nothing_is_cut_off() {
-    for theme in [egui::Theme::Light, egui::Theme::Dark] {
-        let mut harness = sized(Some(&sample("industry")), [1280.0, 720.0], theme);
+    // at a scale of 1.25 the same window has so many points fewer
+    for (theme, scale) in [(egui::Theme::Light, 1.0), (egui::Theme::Dark, 1.0), (egui::Theme::Light, 1.25)] {
+        let size = egui::vec2(1280.0, 720.0) / scale;
+        let mut harness = sized(Some(&sample("industry")), size.into(), theme);
+        harness.ctx.set_pixels_per_point(scale);
+        harness.run_steps(2);
+        settle(&mut harness);
         for label in ["File", "Technique", "Window", "Study date", "step", "Find the hours", "Clock", "altitude"] {
             let found = harness.query_all_by_label_contains(label).next();
             let rect = found.unwrap_or_else(|| panic!("no {label}")).rect();
-            let inside = egui::Rect::from_min_size(Pos2::ZERO, egui::vec2(1280.0, 720.0)).expand(0.5);
-            assert!(inside.contains_rect(rect), "{label} is cut off: {rect:?}");
+            let inside = egui::Rect::from_min_size(Pos2::ZERO, size).expand(0.5);
+            assert!(inside.contains_rect(rect), "{label} is cut off at {scale}: {rect:?}");
         }
+        // the panel and the bar below keep what they say apart
+        let panel = harness.get_by_label("Model").rect().left();
+        let right = |label: &str| harness.query_all_by_label_contains(label).next().map(|node| node.rect().right());
+        for label in ["Technique", "Find the hours", "Click a point of the model"] {
+            assert!(right(label).is_some_and(|right| right <= panel), "{label} leaves the panel at {scale}");
+        }
+        let azimuth = harness.get_by_label_contains("azimuth").rect().left();
+        assert!(right("(UTC").is_some_and(|right| right < azimuth), "letters run into others at {scale}");
         assert!(harness.render().is_ok());
     }
 }

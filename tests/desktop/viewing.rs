@@ -1,0 +1,152 @@
+//! Where the eye stands and what lies over the picture; and what can be shown instead of sun and shadow.
+
+use super::*;
+use glam::DVec3;
+use gnomon::view::{Camera, View};
+
+fn view(harness: &Harness<'_, App>) -> View {
+    harness.state().shown().expect("a picture").0
+}
+
+fn camera(harness: &Harness<'_, App>) -> Camera {
+    match view(harness) {
+        View::Camera(camera) => camera,
+        View::Plan(_) => panic!("a plan"),
+    }
+}
+
+/// The point that the readout names, metres.
+fn readout(harness: &Harness<'_, App>) -> DVec3 {
+    let text = named(harness, " up, m").0.replace('−', "-");
+    let said = text.rsplit("    ").next().unwrap_or_default().to_owned();
+    let number = |unit: &str| -> f64 {
+        let before = said.split(unit).next().unwrap_or_default();
+        before.split_whitespace().last().and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{said}"))
+    };
+    DVec3::new(number(" E"), number(" N"), number(" up"))
+}
+
+fn hover(harness: &mut Harness<'_, App>, at: Pos2) {
+    harness.hover_at(at);
+    harness.run_steps(3);
+}
+
+#[test]
+fn point_under_the_pointer_stays() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    for key in [Key::Num1, Key::Num2] {
+        harness.key_press(key);
+        harness.step();
+        settle(&mut harness);
+        let at = harness.get_by_label("Model").rect().left_bottom() + egui::vec2(150.0, -80.0);
+        hover(&mut harness, at);
+        let before = readout(&harness);
+        harness.event(Event::Zoom(2.0));
+        harness.step();
+        settle(&mut harness);
+        hover(&mut harness, at + egui::vec2(1.0, 0.0));
+        hover(&mut harness, at);
+        let after = readout(&harness);
+        assert!(before.distance(after) < 0.15, "{key:?}: {before}, then {after}");
+        // and the hand takes it along, in the plan to the pixel
+        if key == Key::Num2 {
+            let to = at + egui::vec2(60.0, -40.0);
+            drag(&mut harness, at, to);
+            settle(&mut harness);
+            hover(&mut harness, to + egui::vec2(1.0, 0.0));
+            hover(&mut harness, to);
+            let after = readout(&harness);
+            assert!(before.truncate().distance(after.truncate()) < 0.15, "{before}, then {after}");
+        }
+    }
+}
+
+#[test]
+fn elevations_look_level_from_their_side() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    for (key, name, from) in [
+        (Key::Num3, "From north", DVec3::Y),
+        (Key::Num4, "From east", DVec3::X),
+        (Key::Num5, "From south", DVec3::NEG_Y),
+        (Key::Num6, "From west", DVec3::NEG_X),
+    ] {
+        harness.key_press(key);
+        harness.step();
+        settle(&mut harness);
+        let by_key = camera(&harness);
+        let back = (by_key.eye - by_key.target).normalize();
+        assert!(back.distance(from) < 1e-9, "{name}: {back}");
+        harness.key_press(Key::Num1);
+        harness.step();
+        settle(&mut harness);
+        click(&mut harness, "View");
+        harness.get_by_label_contains(name).click_accesskit();
+        harness.run_steps(2);
+        settle(&mut harness);
+        assert_eq!(camera(&harness), by_key, "{name}");
+        harness.key_press(Key::Escape);
+        harness.run_steps(2);
+    }
+}
+
+#[test]
+fn north_and_scale_are_named() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    harness.key_press(Key::Num2);
+    harness.step();
+    settle(&mut harness);
+    let model = harness.get_by_label("Model").rect();
+    assert!(model.contains_rect(harness.get_by_label("North arrow").rect()));
+    let View::Plan(grid) = view(&harness) else { panic!("no plan") };
+    let metres_a_point = grid.cell * f64::from(grid.width) / f64::from(model.width());
+    let mut bar = |unit: &str, metres: f64| {
+        let (name, rect) = named(&harness, "Scale bar: ");
+        let said = name.strip_prefix("Scale bar: ").and_then(|said| said.strip_suffix(unit));
+        let length: f64 = said.unwrap_or_else(|| panic!("{name}")).trim().parse().expect("a length");
+        let drawn = f64::from(rect.width()) * metres_a_point / metres;
+        assert!((drawn / length - 1.0).abs() < 0.01, "{name} is {drawn} long");
+        click(&mut harness, "View");
+        click(&mut harness, "Lengths in feet");
+        harness.key_press(Key::Escape);
+        harness.run_steps(2);
+    };
+    bar(" m", 1.0);
+    bar(" ft", 0.3048);
+}
+
+fn choose(harness: &mut Harness<'_, App>, list: &str, entry: &str) {
+    harness.get_by_role_and_label(egui::Role::ComboBox, list).click();
+    harness.run_steps(2);
+    // wherever the list is scrolled to
+    harness.get_by_label(entry).click_accesskit();
+    harness.step();
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    harness.step();
+    settle(harness);
+}
+
+#[test]
+fn diagrams_and_the_disc_are_seen() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    choose(&mut harness, "Technique", "hybrid");
+    let plain = harness.state().picture().unwrap().2;
+    choose(&mut harness, "Picture of", "who decides a cell");
+    let mask = harness.state().picture().unwrap().2;
+    choose(&mut harness, "Picture of", "volumes counted");
+    let counted = harness.state().picture().unwrap().2;
+    assert_eq!(harness.state().drawn().map(|drawn| drawn.technique), Some("hybrid"));
+    assert!(plain != mask && mask != counted && counted != plain, "three pictures");
+    choose(&mut harness, "Technique", "ray-cast");
+    let hard = harness.state().picture().unwrap().2;
+    assert_eq!(harness.state().drawn().map(|drawn| drawn.technique), Some("ray-cast"));
+    click(&mut harness, "The sun as a disc: soft edges");
+    settle(&mut harness);
+    let soft = harness.state().picture().unwrap().2;
+    let changed = hard.iter().zip(&soft).filter(|(a, b)| a != b).count();
+    assert!(changed > 100 && changed * 4 < hard.len(), "{changed} of {} pixels, those at edges", hard.len());
+}
