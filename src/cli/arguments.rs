@@ -2,6 +2,7 @@
 
 use super::WrongUse;
 use super::animate::AnimateArgs;
+use super::compare::CompareArgs;
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings, Site};
@@ -248,29 +249,6 @@ pub(super) struct ProfileArgs {
     pub(super) common: Common,
 }
 
-#[derive(Debug, Args)]
-pub(super) struct CompareArgs {
-    /// The site as it is: a site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
-    #[arg(value_name = "BEFORE")]
-    pub(super) before: PathBuf,
-    /// The site as it is to be; what says no place stands where the first does
-    #[arg(value_name = "AFTER")]
-    pub(super) after: PathBuf,
-    #[command(flatten)]
-    place: PlaceArgs,
-    #[command(flatten)]
-    window: WindowArgs,
-    #[command(flatten)]
-    draw: DrawArgs,
-    #[command(flatten)]
-    plan: PlanArgs,
-    /// The folder for the files
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    pub(super) out: PathBuf,
-    #[command(flatten)]
-    pub(super) common: Common,
-}
-
 /// A file of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Written {
@@ -411,7 +389,7 @@ impl SiteArgs {
 }
 
 impl PlaceArgs {
-    fn overrides(&self) -> Overrides {
+    pub(super) fn overrides(&self) -> Overrides {
         Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..Overrides::default() }
     }
 }
@@ -467,12 +445,6 @@ impl ProfileArgs {
             return Err(WrongUse(what));
         }
         Ok(if self.write.is_empty() { possible.to_vec() } else { self.write.clone() })
-    }
-}
-
-impl CompareArgs {
-    pub(super) fn overrides(&self) -> Overrides {
-        self.plan.onto(self.draw.onto(self.window.onto(self.place.overrides())))
     }
 }
 

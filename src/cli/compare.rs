@@ -1,16 +1,48 @@
 //! `gnomon compare`: what a change of the site does to its shadow.
 
-use super::arguments::CompareArgs;
+use super::arguments::{Common, DrawArgs, PlaceArgs, PlanArgs, WindowArgs};
 use super::commands::drawn_by;
 use super::profile::written;
 use super::progress::Progress;
 use super::{interrupt, say};
 use crate::export::report::Told;
 use crate::export::{comparison, figure, file, raster};
-use crate::site::Pair;
+use crate::site::{Overrides, Pair};
 use crate::study::{self, Stopwatch};
+use clap::Args;
 use std::fmt::Write;
+use std::path::PathBuf;
 
+#[derive(Debug, Args)]
+pub(super) struct CompareArgs {
+    /// The site as it is: a site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
+    #[arg(value_name = "BEFORE")]
+    before: PathBuf,
+    /// The site as it is to be; what says no place stands where the first does
+    #[arg(value_name = "AFTER")]
+    after: PathBuf,
+    #[command(flatten)]
+    place: PlaceArgs,
+    #[command(flatten)]
+    window: WindowArgs,
+    #[command(flatten)]
+    draw: DrawArgs,
+    #[command(flatten)]
+    plan: PlanArgs,
+    /// The folder for the files
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+impl CompareArgs {
+    fn overrides(&self) -> Overrides {
+        self.plan.onto(self.draw.onto(self.window.onto(self.place.overrides())))
+    }
+}
+
+/// `gnomon compare`
 pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     let mut watch = Stopwatch::start();
     let pair = Pair::load(&asked.before, &asked.after, &asked.overrides())?;
