@@ -7,9 +7,10 @@ mod timing;
 
 use gnomon::gpu::Gpu;
 use gnomon::profile::accumulate::Sum;
+use gnomon::shadow::projected::{Projected, ProjectedOnGpu};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
-use gnomon::shadow::{Scene, Technique};
+use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::brute_force::BruteForce;
 use gnomon::silhouette::{Kind, SilhouetteFinder};
 use gnomon::site::{Overrides, Site};
@@ -34,7 +35,44 @@ fn main() {
     for site in ["tower", "industry", "headquarters"] {
         row(site, gpu.clone());
     }
-    println!("\nMilliseconds an instant, medians over the study's instants, at the site's own plan.");
+    println!("\nMilliseconds an instant, medians over the study's instants, at the site's own plan.\n");
+    println!("| the ground alone | projected, processor | projected, adapter | stencil | rays |");
+    println!("|---|---|---|---|---|");
+    for site in ["tower", "industry", "headquarters"] {
+        ground_row(site, gpu.as_ref());
+    }
+}
+
+/// The ways to the ground's shadow, which take turns at each sun.
+fn ground_row(name: &str, gpu: Option<&Arc<Gpu>>) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
+    let site = Site::load(&folder, &Overrides::default()).expect("a sample site");
+    let nothing = site.mesh.of_components(&[]);
+    let scene = Scene { casters: site.mesh.of_components(&site.casts), receivers: nothing, ground: site.ground };
+    let view = View::Plan(site.grid);
+    let mut ways: Vec<Option<Box<dyn Technique>>> = vec![Some(Box::new(Projected::new(&scene, site.grid)))];
+    ways.push(gpu.map(|gpu| {
+        Box::new(ProjectedOnGpu::new(Arc::clone(gpu), &scene, site.grid).expect("it fits")) as Box<dyn Technique>
+    }));
+    ways.push(gpu.map(|gpu| {
+        let finder = if gpu.software() { Kind::Hierarchy.into() } else { Silhouettes::OnGpu };
+        Box::new(Stencil::new(Arc::clone(gpu), scene.clone(), view, finder).expect("it fits")) as Box<dyn Technique>
+    }));
+    ways.push(Some(Box::new(RayCast::new(scene.clone(), view, None))));
+    let mut times: Vec<Vec<f64>> = vec![Vec::new(); ways.len()];
+    for instant in site.track.instants.iter().filter(|instant| !instant.night) {
+        for (way, times) in ways.iter_mut().zip(&mut times) {
+            let Some(way) = way else { continue };
+            timed(times, || {
+                way.draw(instant.to_sun).expect("a mask");
+                if let Some(gpu) = gpu {
+                    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter answers");
+                }
+            });
+        }
+    }
+    let cells: Vec<String> = times.into_iter().map(|calls| format!("{:.1}", median(calls))).collect();
+    println!("| {name} | {} |", cells.join(" | "));
 }
 
 fn row(name: &str, gpu: Option<Arc<Gpu>>) {

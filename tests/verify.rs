@@ -213,10 +213,10 @@ fn a_box_is_verified_as_a_table_and_as_json() {
     {
         assert!(table.contains(word), "{table}");
     }
-    for row in ["stencil", "projected", "hybrid", "shadow-map", "smoothie", "ray-cast"] {
+    for row in ["stencil", "projected", "  on gpu", "hybrid", "shadow-map", "smoothie", "ray-cast"] {
         assert_eq!(table.lines().filter(|line| line.starts_with(&format!("{row} "))).count(), 1, "{table}");
     }
-    assert_eq!(table.matches("  holds\n").count(), 3, "{table}");
+    assert_eq!(table.matches("  holds\n").count(), 4, "{table}");
     assert!(
         table.contains(", silhouettes hextree\nmaps of 2048 × 2048 texels, shadow-map filtered fast-2x2\n"),
         "{table}"

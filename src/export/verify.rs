@@ -216,7 +216,7 @@ fn line(table: &mut String, row: &Row, holds: Option<bool>) {
     let _ = writeln!(
         table,
         "{:<10} {:<7} {:>9} {:>9} {:>7} {:>8.3} {:>6} {:>6} {:>8} {:>7.3} {:>6} {:>7} {:>9.4}{}",
-        row.drawn.technique,
+        if is_projected_on_gpu(row) { "  on gpu" } else { row.drawn.technique },
         match row.against {
             Truth::Centre => "centre",
             Truth::Disc => "disc",
@@ -277,6 +277,11 @@ fn bound(verification: &Verification) -> String {
     )
 }
 
+/// The one technique that draws on both machines; on the processor it has the line before.
+fn is_projected_on_gpu(row: &Row) -> bool {
+    row.drawn.technique == "projected" && row.drawn.engine == "gpu"
+}
+
 /// Which techniques do not hold, in one line; none where all do.
 pub fn failure(verification: &Verification) -> Option<String> {
     let told = |row: &Row| {
@@ -284,7 +289,8 @@ pub fn failure(verification: &Verification) -> Option<String> {
             Promise::Same => "none may".to_owned(),
             _ => format!("at most {}% of the former may, and one in {OTHERS} others", 100.0 * verification.edge_share),
         };
-        format!("{} does not hold: {}; {most}", row.drawn.technique, row.difference)
+        let machine = if is_projected_on_gpu(row) { " on the gpu" } else { "" };
+        format!("{}{machine} does not hold: {}; {most}", row.drawn.technique, row.difference)
     };
     let failed: Vec<String> = verification.failed().map(told).collect();
     (!failed.is_empty()).then(|| failed.join("; "))

@@ -182,6 +182,16 @@ pub struct Quadrilateral {
     pub b: u32,
 }
 
+/// `Fall` of `shaders/projected.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Fall {
+    /// Columns and rows that a shadow falls away from the sun, a metre of height.
+    pub a_metre: [f32; 2],
+    /// Columns and rows of the raster.
+    pub size: [f32; 2],
+}
+
 /// `Run` of `shaders/soft_texture.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -224,5 +234,6 @@ pub const ALL: &[Layout] = &[
     layout!(Quadrilateral: first, a, second, b),
     layout!(Shown: hours_corner, hours_cell, hours, focus, night, lines, both_sides, tinted, overlay, painted, unused),
     layout!(Weight: secs),
+    layout!(Fall: a_metre, size),
     layout!(Run: first, count),
 ];

@@ -17,6 +17,8 @@ pub const JUDGED: &str = joined!("common/view", "common/seen", "judged");
 pub const STENCIL: &str = joined!("common/view", "common/seen", "stencil");
 /// Depth as a light sees it.
 pub const MAP: &str = joined!("common/map", "map");
+/// Faces that fall onto a plan's raster.
+pub const PROJECTED: &str = joined!("projected");
 /// Shadow maps.
 pub const SHADOW_MAP: &str = joined!("common/view", "common/seen", "common/map", "common/compared", "shadow_map");
 /// Which cells a map decides.
@@ -45,6 +47,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("surface", SURFACE),
     ("judged", JUDGED),
     ("stencil", STENCIL),
+    ("projected", PROJECTED),
     ("map", MAP),
     ("shadow_map", SHADOW_MAP),
     ("hybrid", HYBRID),

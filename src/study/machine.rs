@@ -5,7 +5,7 @@ use crate::gpu::{Gpu, GpuError};
 use crate::profile::{Drawn, DrawnSettings};
 use crate::shadow::hybrid::Hybrid;
 use crate::shadow::map;
-use crate::shadow::projected::Projected;
+use crate::shadow::projected::{Projected, ProjectedOnGpu};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::shadow_map::{Filter, ShadowMap};
 use crate::shadow::smoothie::Smoothie;
@@ -34,9 +34,21 @@ pub(super) enum Machine {
 #[derive(Clone, Copy)]
 pub(super) enum Drawing {
     Stencil(Silhouettes),
-    ShadowMap { size: u32, filter: Filter },
-    Hybrid { silhouettes: Silhouettes, map_size: u32 },
-    Smoothie { finder: Kind, map_size: u32, width_m: Option<f64> },
+    /// On the ground of a plan alone.
+    Projected(Grid),
+    ShadowMap {
+        size: u32,
+        filter: Filter,
+    },
+    Hybrid {
+        silhouettes: Silhouettes,
+        map_size: u32,
+    },
+    Smoothie {
+        finder: Kind,
+        map_size: u32,
+        width_m: Option<f64>,
+    },
 }
 
 impl Drawing {
@@ -66,7 +78,7 @@ impl Drawing {
 impl Machine {
     /// On the adapter that is open already, else on one that is opened.
     fn open(site: &Site, gpu: Option<&Arc<Gpu>>) -> Result<Machine, GpuError> {
-        let gpu = gpu.map_or_else(|| Gpu::open().map(Arc::new), |gpu| Ok(Arc::clone(gpu)))?;
+        let gpu = opened(gpu)?;
         let drawing = Drawing::of(site.method, site, &gpu);
         Ok(Machine::OnGpu(gpu, drawing))
     }
@@ -89,6 +101,7 @@ impl Machine {
             Machine::Projected(_) => (Method::Projected, None),
             Machine::SoftPicture { .. } => (Method::SoftTexture, None),
             Machine::OnGpu(_, Drawing::Stencil(silhouettes)) => (Method::Stencil, Some(found(silhouettes))),
+            Machine::OnGpu(_, Drawing::Projected(_)) => (Method::Projected, None),
             Machine::OnGpu(_, Drawing::ShadowMap { .. }) => (Method::ShadowMap, None),
             Machine::OnGpu(_, Drawing::Hybrid { silhouettes, .. }) => (Method::Hybrid, Some(found(silhouettes))),
             Machine::OnGpu(_, Drawing::Smoothie { finder, .. }) => (Method::Smoothie, Some(found(&(*finder).into()))),
@@ -97,7 +110,7 @@ impl Machine {
         match *self {
             Machine::RayCast { sun_samples } => settings.sun_samples = sun_samples,
             Machine::SoftPicture { sun_samples, .. } => settings.sun_samples = Some(sun_samples),
-            Machine::Projected(_) | Machine::OnGpu(_, Drawing::Stencil(_)) => {}
+            Machine::Projected(_) | Machine::OnGpu(_, Drawing::Stencil(_) | Drawing::Projected(_)) => {}
             Machine::OnGpu(_, Drawing::ShadowMap { size, filter }) => {
                 settings.map_size = Some(size);
                 settings.pcf = Some(pcf(filter).word());
@@ -126,6 +139,7 @@ impl Machine {
         };
         Ok(match drawing {
             Drawing::Stencil(silhouettes) => Box::new(Stencil::new(gpu, scene, view, silhouettes)?),
+            Drawing::Projected(grid) => Box::new(ProjectedOnGpu::new(gpu, &scene, grid)?),
             Drawing::ShadowMap { size, filter } => Box::new(ShadowMap::new(gpu, &scene, view, size, filter)?),
             Drawing::Hybrid { silhouettes, map_size } => {
                 Box::new(Hybrid::new(gpu, scene, view, silhouettes, map_size)?)
@@ -135,6 +149,11 @@ impl Machine {
             }
         })
     }
+}
+
+/// The adapter that is open already, else one that is opened.
+fn opened(gpu: Option<&Arc<Gpu>>) -> Result<Arc<Gpu>, GpuError> {
+    gpu.map_or_else(|| Gpu::open().map(Arc::new), |gpu| Ok(Arc::clone(gpu)))
 }
 
 /// The word of a filter.
@@ -254,16 +273,22 @@ pub(super) fn choose_on(
         return Ok(on_processor);
     }
     let machine = match (site.method, site.engine) {
-        (Method::Projected, Engine::Gpu) => {
-            return conflict("the technique projected works on the cpu; take --technique stencil with gpu");
-        }
-        (Method::Projected, _) => {
+        (Method::Projected, engine) => {
             unused(site, Method::Projected)?;
             let Some(grid) = plan else {
                 let what = "projected draws the plan alone; leave --view camera out, or take another technique";
                 return Err(StudyError::Conflict { option: "--technique", what });
             };
-            Machine::Projected(grid)
+            match engine {
+                Engine::Gpu if !ground_alone => {
+                    return conflict(
+                        "on the gpu projected draws on the ground alone; \
+                         add --receivers ground, or take --technique stencil",
+                    );
+                }
+                Engine::Gpu => Machine::OnGpu(opened(gpu)?, Drawing::Projected(grid)),
+                Engine::Auto | Engine::Cpu => Machine::Projected(grid),
+            }
         }
         (Method::SoftTexture, engine) => {
             let View::Camera(camera) = view else {
@@ -284,10 +309,14 @@ pub(super) fn choose_on(
             unused(site, Method::RayCast)?;
             cast
         }
-        (Method::Auto, Engine::Gpu) => {
-            unused(site, Method::Stencil)?;
-            Machine::open(site, gpu)?
-        }
+        (Method::Auto, Engine::Gpu) => match plan {
+            // measured (docs/benchmarks/instants.md): faces that are filled need no silhouette, and no count
+            Some(grid) if is_plain && ground_alone => Machine::OnGpu(opened(gpu)?, Drawing::Projected(grid)),
+            _ => {
+                unused(site, Method::Stencil)?;
+                Machine::open(site, gpu)?
+            }
+        },
         // silhouettes are asked, and only the stencil has them
         (Method::Auto, Engine::Auto) if site.finder != Finder::Auto => {
             unused(site, Method::Stencil)?;

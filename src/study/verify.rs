@@ -74,6 +74,11 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
         };
         let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
         trials.push(Trial { drawn: machine.drawn(), against, promise, technique: look.technique()? });
+        if method == Method::Projected && site.receivers == Receivers::Ground {
+            let machine = Machine::OnGpu(Arc::clone(&gpu), Drawing::Projected(site.grid));
+            let technique = Look { machine: &machine, ..look }.technique()?;
+            trials.push(Trial { drawn: machine.drawn(), against, promise, technique });
+        }
     }
     hold(site, trials, on_event)
 }

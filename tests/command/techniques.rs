@@ -34,6 +34,36 @@ fn every_technique_draws_a_profile_and_is_named() {
 }
 
 #[test]
+fn the_ground_alone_is_projected_on_either_machine() {
+    let folder = site();
+    let draw = |options: &str| {
+        let report = json(&done(folder.path(), &format!("profile . --size 64 --receivers ground --json {options}")));
+        let drew = [&report["technique"], &report["engine"]].map(|word| word.as_str().unwrap().to_owned());
+        (drew.join(" "), std::fs::read(folder.path().join("out/shadow-hours.tif")).unwrap())
+    };
+    let (asked, hours) = draw("--technique projected --engine gpu");
+    assert_eq!(asked, "projected gpu");
+    for (options, drew) in [
+        ("--technique projected", "projected cpu"),
+        ("--engine gpu", "projected gpu"),
+        ("", "projected cpu"),
+        ("--engine gpu --silhouette brute", "stencil gpu"),
+        ("--technique stencil", "stencil gpu"),
+    ] {
+        // on a box they agree to the second
+        assert!(draw(options) == (drew.to_owned(), hours.clone()), "{options}");
+    }
+    let refused = "--technique projected --engine gpu";
+    fails(folder.path(), &format!("profile . --size 16 {refused}"), 2, &["--engine", "--receivers ground"]);
+    fails(
+        folder.path(),
+        &format!("shadow . --at 15:00 --date 2026-09-18 --view camera {refused}"),
+        2,
+        &["--technique"],
+    );
+}
+
+#[test]
 fn the_options_of_a_technique_change_what_it_draws() {
     let folder = site();
     let draw = |options: &str| {

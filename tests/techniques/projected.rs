@@ -7,21 +7,27 @@ use crate::exact::scenes::{cuboid, sheet, small, stack};
 use crate::exact::{day, plan, scene_of, to_sun};
 use crate::{dense, dome};
 use glam::{DVec3, dvec2, dvec3};
+use gnomon::gpu::Gpu;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::shadow::projected::Projected;
+use gnomon::shadow::projected::{Projected, ProjectedOnGpu};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{PlanSurface, Scene, Technique, plan_surface};
 use gnomon::site::Receivers;
 use gnomon::view::{Grid, Mask, Surface, SurfaceRows, View};
+use std::sync::Arc;
+
+/// How near an edge may pass a cell that differs, in cells.
+const ON_PROCESSOR: f64 = 1e-3;
+const ON_GPU: f64 = 1.0 / 128.0;
 
 fn projected(scene: &Scene, view: View, sun: DVec3) -> Mask {
     let View::Plan(grid) = view else { panic!("a plan") };
     draw(&mut Projected::new(scene, grid), sun)
 }
 
-/// Cells that differ from ray casting, or with `twin` from the plain scan, and those of them at which no edge runs within a
-/// thousandth of a cell.
-fn differing(scene: &Scene, view: View, sun: DVec3, drawn: &Mask, twin: bool) -> (usize, Vec<usize>) {
+/// Cells that differ from ray casting, or with `twin` from the plain scan, and those of them at which no edge runs within so
+/// much of a cell.
+fn differing(scene: &Scene, view: View, sun: DVec3, drawn: &Mask, twin: bool, within: f64) -> (usize, Vec<usize>) {
     let View::Plan(grid) = view else { panic!("a plan") };
     let mut truth = RayCast::new(scene.clone(), view, None);
     let right = if twin { scanned(scene, &grid, sun) } else { draw(&mut truth, sun).share };
@@ -29,7 +35,7 @@ fn differing(scene: &Scene, view: View, sun: DVec3, drawn: &Mask, twin: bool) ->
     let all = differ.len();
     let wrong = differ.into_iter().filter(|&at| {
         let centre = grid.centre(at as u32 % grid.width, at as u32 / grid.width);
-        let cell = grid.cell * 1e-3;
+        let cell = grid.cell * within;
         let corner = centre + dvec2(-1.5, 1.5) * cell;
         truth.look_at(View::Plan(Grid { west: corner.x, north: corner.y, cell, width: 3, height: 3 }));
         let around = draw(&mut truth, sun).share;
@@ -46,7 +52,7 @@ fn agree(what: &str, scene: &Scene, view: View, suns: &[DVec3]) {
         for (name, twin) in
             [("ray casting", false), ("its twin", true)].into_iter().take(2 - usize::from(with_receivers))
         {
-            let (all, wrong) = differing(scene, view, sun, &drawn, twin);
+            let (all, wrong) = differing(scene, view, sun, &drawn, twin, ON_PROCESSOR);
             assert!(wrong.is_empty(), "{what}, sun {sun}: of {all} unlike {name} {} lie at no edge", wrong.len());
             assert!(all * 2000 <= drawn.share.len(), "{what}, sun {sun}: {all} unlike {name}");
         }
@@ -148,8 +154,8 @@ fn one_wrong_cell_is_seen() {
     let mut drawn = projected(&scene, view, sun);
     let at = drawn.share.iter().position(|share| *share == 0).unwrap() + 6 * 300;
     drawn.share[at] ^= 255;
-    assert_eq!(differing(&scene, view, sun, &drawn, false).1, [at]);
-    assert_eq!(differing(&scene, view, sun, &drawn, true).1, [at]);
+    assert_eq!(differing(&scene, view, sun, &drawn, false, ON_PROCESSOR).1, [at]);
+    assert_eq!(differing(&scene, view, sun, &drawn, true, ON_PROCESSOR).1, [at]);
 }
 
 /// Cells that see something else of the receivers than a ray does: of two faces at one height either may be seen.
@@ -236,4 +242,58 @@ fn what_does_not_receive_is_looked_through() {
     agree("half receives", &Scene { receivers: half.clone(), ..scene.clone() }, view, &suns[..2]);
     let casters = scene.casters.of_components(&keep);
     agree("half casts", &Scene { casters, ..scene }, view, &suns[..2]);
+}
+
+/// The adapter's mask of the ground held against ray casting's, sun by sun; how many cells differ at edges.
+fn agree_on_gpu(gpu: &Arc<Gpu>, what: &str, scene: &Scene, view: View, suns: &[DVec3]) -> usize {
+    let View::Plan(grid) = view else { panic!("a plan") };
+    let mut technique = ProjectedOnGpu::new(Arc::clone(gpu), scene, grid).unwrap();
+    let mut at_edges = 0;
+    for &sun in suns {
+        let drawn = draw(&mut technique, sun);
+        let (all, wrong) = differing(scene, view, sun, &drawn, false, ON_GPU);
+        assert!(wrong.is_empty(), "{what}, sun {sun}: of {all} unlike ray casting {} lie at no edge", wrong.len());
+        assert!(all * 500 <= drawn.share.len(), "{what}, sun {sun}: {all} unlike ray casting");
+        at_edges += all;
+    }
+    at_edges
+}
+
+#[test]
+fn the_adapter_draws_the_ground_as_rays_do() {
+    let gpu = Arc::new(Gpu::open().unwrap());
+    let suns = [to_sun(95.3, 4.1), to_sun(171.2, 51.9), to_sun(271.6, 21.8), to_sun(20.0, 0.7), to_sun(180.0, 89.9)];
+    for (name, parts) in small().into_iter().chain(dirty()) {
+        let scene = scene_of(&Mesh::build(parts).unwrap(), Receivers::Ground, 0.0);
+        agree_on_gpu(&gpu, name, &scene, plan(40.371_93, 500), &suns);
+        for ground in [3.3, -50.0] {
+            agree_on_gpu(&gpu, name, &Scene { ground, ..scene.clone() }, plan(40.371_93, 300), &suns[..3]);
+        }
+    }
+    agree_on_gpu(
+        &gpu,
+        "a tree",
+        &scene_of(&Mesh::build(dense::tree().parts).unwrap(), Receivers::Ground, 0.0),
+        plan(17.371_93, 700),
+        &suns[..3],
+    );
+    for name in ["tower", "industry", "headquarters"] {
+        let (scene, view, suns) = site(name, 600);
+        let ground = Scene { receivers: scene.receivers.of_components(&[]), ..scene };
+        let suns: Vec<DVec3> = suns.iter().step_by(4).copied().chain([to_sun(250.0, 4.0)]).collect();
+        agree_on_gpu(&gpu, name, &ground, view, &suns);
+    }
+}
+
+#[test]
+fn the_adapter_rounds_corners_and_no_more() {
+    // an edge drawn 1/40 of a cell beside its place is found
+    let gpu = Arc::new(Gpu::open().unwrap());
+    let (_, parts) = small().swap_remove(0);
+    let scene = scene_of(&Mesh::build(parts).unwrap(), Receivers::Ground, 0.0);
+    let (View::Plan(grid), sun) = (plan(40.371_93, 500), to_sun(131.0, 31.0)) else { panic!("a plan") };
+    let beside = Grid { west: grid.west + grid.cell / 40.0, ..grid };
+    let drawn = draw(&mut ProjectedOnGpu::new(gpu, &scene, beside).unwrap(), sun);
+    let (_, wrong) = differing(&scene, View::Plan(grid), sun, &drawn, false, ON_GPU);
+    assert!(!wrong.is_empty());
 }

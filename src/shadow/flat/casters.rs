@@ -132,7 +132,7 @@ impl Casters {
 }
 
 /// Where an edge between a point above the plane and one that is not meets it. The same whichever is named first.
-fn where_cut([one, other]: [DVec3; 2]) -> DVec3 {
+pub(in crate::shadow) fn where_cut([one, other]: [DVec3; 2]) -> DVec3 {
     let (low, high) = if one.z < other.z { (one, other) } else { (other, one) };
     low.lerp(high, -low.z / (high.z - low.z)).xy().extend(0.0)
 }

@@ -11,6 +11,8 @@
 mod casters;
 mod scan;
 
+pub(super) use casters::where_cut;
+
 use crate::mesh::Mesh;
 use crate::view::Bits;
 use casters::Casters;
@@ -49,8 +51,13 @@ impl FlatShadow {
 
     /// How many columns and rows away from the sun a shadow falls, a metre of height.
     pub(super) fn throw(&self, to_sun: DVec3) -> DVec2 {
-        // the sun may be in the plane but for rounding
-        let along = self.raster_from_local.transform_vector3(to_sun);
-        along.truncate() / along.z.max(1e-9 * along.length())
+        throw(&self.raster_from_local, to_sun)
     }
+}
+
+/// How many columns and rows away from the sun a shadow falls, a metre of height.
+pub(super) fn throw(raster_from_local: &DAffine3, to_sun: DVec3) -> DVec2 {
+    // the sun may be in the plane but for rounding
+    let along = raster_from_local.transform_vector3(to_sun);
+    along.truncate() / along.z.max(1e-9 * along.length())
 }
