@@ -53,3 +53,39 @@ fn turning_leaves_no_trace() {
         assert!(night != wanted, "{method}: night is dark");
     }
 }
+
+/// A part that casts no more is gone from the picture as if it had never cast, and what receives is another scene.
+#[test]
+fn casters_change_and_leave_no_trace() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites/tower");
+    let site = Site::load(&path, &Overrides { size: Some(300), ..Overrides::default() }).unwrap();
+    let gpu = gpu();
+    let faces = |at: &usize| site.mesh.components[*at].faces.len();
+    let largest = (0..site.casts.len()).filter(|at| site.casts[*at]).max_by_key(faces).unwrap();
+    let mut casts = site.casts.clone();
+    casts[largest] = false;
+    let without = Site { casts, ..site.clone() };
+    let sun = site.track.instants[3].to_sun;
+    let views = [View::Camera(Camera { width: 320, height: 200, ..site.camera }), View::Plan(site.grid)];
+    for method in [Method::RayCast, Method::Stencil, Method::Hybrid, Method::ShadowMap, Method::Smoothie] {
+        let drawn = |live: &mut Live, view| {
+            let target = Picture::target(&gpu, &view);
+            live.look_at(view);
+            live.draw(&way(method), sun, &STYLE, &target).unwrap();
+            readback::texels::<[u8; 4]>(&gpu, &target, TextureAspect::All).unwrap()
+        };
+        let mut changed = Live::new(&site, gpu.clone(), views[0]).unwrap();
+        for view in views {
+            let mut fresh = Live::new(&without, gpu.clone(), view).unwrap();
+            let wanted = drawn(&mut fresh, view);
+            assert!(changed.change_to(&site));
+            assert!(drawn(&mut changed, view) != wanted, "{method}: the part throws a shadow");
+            assert!(changed.change_to(&without));
+            assert!(drawn(&mut changed, view) == wanted, "{method}: the part still throws a shadow");
+        }
+        let receives = without.casts.clone();
+        assert!(!changed.change_to(&Site { receives, ..site.clone() }));
+        assert!(!changed.change_to(&Site { ground: site.ground + 1.0, ..site.clone() }));
+        assert!(!changed.change_to(&Site::load(&path, &Overrides::default()).unwrap()), "another mesh");
+    }
+}

@@ -4,7 +4,7 @@ use glam::DVec3;
 use gnomon::mesh::Part;
 use gnomon::site::file::SiteFile;
 use gnomon::site::model::{ModelError, Placement};
-use gnomon::site::{Engine, Method, Overrides, Receivers, Site, SiteError, load_sun};
+use gnomon::site::{Engine, Method, Models, Overrides, Receivers, Site, SiteError, Written, load_sun};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -302,4 +302,32 @@ fn rewritten_file_keeps_its_comments() {
     assert_eq!(SiteFile::parse("site.toml", &written).unwrap(), after, "{written}");
     let written = after.to_toml_in("").unwrap();
     assert_eq!(SiteFile::parse("site.toml", &written).unwrap(), after, "{written}");
+}
+
+/// What was read serves as long as the same files stand in the same places, whatever else is asked of them.
+#[test]
+fn models_are_read_once_as_long_as_they_stay() {
+    let folder = folder(SITE);
+    let written = Written::read(folder.path(), &Overrides::default()).unwrap();
+    let models = Models::read(&written, tower).unwrap();
+    assert_eq!(models.component_counts(), [2]);
+    let mut other = Written::read(folder.path(), &Overrides::default()).unwrap();
+    other.site.model[0].casts = gnomon::site::file::Names::Some(vec!["yard".to_owned()]);
+    other.site.study.step = some("1h");
+    assert!(models.are_those_of(&other));
+    let again = Site::with_models(&other, &Overrides::default(), || Ok(models.clone())).unwrap();
+    let anew = Site::of(&other, &Overrides::default(), tower).unwrap();
+    assert_eq!((&again.casts, &again.receives, again.grid), (&anew.casts, &anew.receives, anew.grid));
+    assert_eq!((&again.casts[..], again.camera), (&[false, true][..], anew.camera));
+    let wrong = gnomon::site::file::Names::Some(vec!["yerd".to_owned()]);
+    other.site.model[0].casts = wrong;
+    let told = Site::with_models(&other, &Overrides::default(), || Ok(models.clone())).unwrap_err().to_string();
+    assert!(told.contains("yerd") && told.contains("yard"), "{told}");
+
+    other.site.model[0].position = Some([1.0, 0.0, 0.0]);
+    assert!(!models.are_those_of(&other), "it stands elsewhere");
+    std::fs::write(folder.path().join("tower.glb"), "another").unwrap();
+    assert!(!models.are_those_of(&written), "the file is another");
+    std::fs::remove_file(folder.path().join("tower.glb")).unwrap();
+    assert!(!models.are_those_of(&written), "the file is gone");
 }

@@ -296,8 +296,8 @@ impl App {
         if changed && rests && !is_refused && self.loading.is_none() {
             let mut written = open.project.written.clone();
             written.site = self.settings.site.clone();
-            let path = open.project.path.clone();
-            self.loading = Some(Loading::start(Wanted::Again(path, Box::new(written)), context.clone()));
+            let wanted = Wanted::Again(Box::new(written), Box::new(open.project.before()));
+            self.loading = Some(Loading::start(wanted, context.clone()));
             self.is_reading = true;
         }
     }

@@ -63,7 +63,7 @@ pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings
 fn switch(project: &Project, settings: &mut Settings, index: usize, casts: bool, on: bool) {
     let site = &project.site;
     let mut first = 0;
-    for (model, &count) in project.parts.iter().enumerate() {
+    for (model, count) in project.models.component_counts().into_iter().enumerate() {
         if (first..first + count).contains(&index) {
             let Some(table) = settings.site.model.get_mut(model) else { return };
             let now = if casts { &site.casts } else { &site.receives };

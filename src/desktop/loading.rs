@@ -6,9 +6,9 @@ use crate::export::figure::component_colours;
 use crate::mesh::Mesh;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::file::{PlaceTable, SiteFile, Text};
-use crate::site::{Overrides, Site, SiteError, Written, model};
+use crate::site::{Models, Overrides, Site, SiteError, Written, model};
 use eframe::egui;
-use std::cell::RefCell;
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
@@ -21,8 +21,8 @@ pub(super) struct Project {
     pub(super) written: Written,
     /// As it is meant.
     pub(super) site: Arc<Site>,
-    /// How many components each of its models has.
-    pub(super) parts: Vec<usize>,
+    /// Its models where they stand, whatever is asked of them.
+    pub(super) models: Models,
     /// The colour of each component.
     pub(super) colours: Vec<[u8; 3]>,
     /// What is seen, to be asked what lies under the pointer; and whose faces those are.
@@ -40,6 +40,14 @@ pub(super) struct Bare {
     pub(super) north: String,
 }
 
+/// What an open site is made of.
+pub(super) struct Before {
+    path: Option<PathBuf>,
+    models: Models,
+    receives: Vec<bool>,
+    seen: Arc<(Mesh, RayCaster)>,
+}
+
 /// Why there is no project.
 pub(super) enum Fault {
     /// It is a bare model.
@@ -54,8 +62,8 @@ pub(super) enum Wanted {
     File(PathBuf),
     /// A bare model, where it stands.
     Placed(Bare),
-    /// The open site, as it is written now.
-    Again(Option<PathBuf>, Box<Written>),
+    /// The open site, as it is written now, and what of it may still do.
+    Again(Box<Written>, Box<Before>),
 }
 
 /// Work that goes on beside the window.
@@ -75,7 +83,7 @@ impl Loading {
         let path = match &wanted {
             Wanted::File(path) => path.clone(),
             Wanted::Placed(bare) => bare.path.clone(),
-            Wanted::Again(_, written) => PathBuf::from(&written.file),
+            Wanted::Again(written, _) => PathBuf::from(&written.file),
         };
         let (tell, result) = mpsc::channel();
         let stage = Arc::new(Mutex::new((0.0, "Reading".to_owned())));
@@ -166,41 +174,62 @@ fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
             (None, written)
         }
         // what is left out of the open site by hand is told, and not filled in
-        Wanted::Again(path, written) => return read(path, *written, progress),
+        Wanted::Again(written, before) => return read(before.path.clone(), *written, Some(&before), progress),
     };
     let mut written = written;
     complete(&mut written.site);
-    read(path, written, progress)
+    read(path, written, None, progress)
 }
 
-/// The site as it is written, with what the window needs of it.
-fn read(path: Option<PathBuf>, written: Written, progress: &Progress) -> Result<Project, Fault> {
-    progress.tell(0.15, "Reading the models");
-    let parts = RefCell::new(Vec::new());
-    let count = written.site.model.len().max(1) as f32;
-    let site = Site::of(&written, &Overrides::default(), |path, placement| {
-        let read = model::load(path, placement)?;
-        parts.borrow_mut().push(read.len());
-        let share = parts.borrow().len() as f32 / count;
-        progress.tell(0.15 + 0.35 * share, if share < 1.0 { "Reading the models" } else { "Joining triangles" });
-        Ok(read)
+/// The site as it is written, with what the window needs of it. What an open site has, and still does, is not made again.
+fn read(
+    path: Option<PathBuf>,
+    written: Written,
+    before: Option<&Before>,
+    progress: &Progress,
+) -> Result<Project, Fault> {
+    let at_hand = before.filter(|before| before.models.are_those_of(&written));
+    let mut models = None;
+    let site = Site::with_models(&written, &Overrides::default(), || {
+        let read = at_hand.map_or_else(|| read_models(&written, progress), |before| Ok(before.models.clone()))?;
+        Ok(models.insert(read).clone())
     })
     .map_err(told)?;
     if progress.cancelled.load(Ordering::Relaxed) {
         return Err(Fault::Told("given up".to_owned()));
     }
-    progress.tell(0.85, "Sorting what is seen");
-    let seen = site.mesh.of_components(&site.receives);
-    let reach = seen.bounds().map_or(1.0, |(low, high)| (high - low).length()) * crate::study::live::FARTHEST;
-    let rays = RayCaster::new(&seen, reach);
+    let seen = match at_hand {
+        Some(before) if before.receives == site.receives => Arc::clone(&before.seen),
+        _ => {
+            progress.tell(0.85, "Sorting what is seen");
+            let seen = site.mesh.of_components(&site.receives);
+            let reach = seen.bounds().map_or(1.0, |(low, high)| (high - low).length()) * crate::study::live::FARTHEST;
+            let rays = RayCaster::new(&seen, reach);
+            Arc::new((seen, rays))
+        }
+    };
     progress.tell(1.0, "Drawing");
+    let Some(models) = models else { return Err(Fault::Told("the models were not read".to_owned())) };
     Ok(Project {
         path,
         written,
-        parts: parts.into_inner(),
+        models,
         colours: component_colours(&site.mesh, &site.casts),
-        seen: Arc::new((seen, rays)),
+        seen,
         site: Arc::new(site),
+    })
+}
+
+fn read_models(written: &Written, progress: &Progress) -> Result<Models, SiteError> {
+    progress.tell(0.15, "Reading the models");
+    let count = written.site.model.len().max(1) as f32;
+    let done = Cell::new(0.0);
+    Models::read(written, |path, placement| {
+        let read = model::load(path, placement)?;
+        done.set(done.get() + 1.0);
+        let share = done.get() / count;
+        progress.tell(0.15 + 0.35 * share, if share < 1.0 { "Reading the models" } else { "Joining triangles" });
+        Ok(read)
     })
 }
 
@@ -225,6 +254,16 @@ fn told(error: impl Into<anyhow::Error>) -> Fault {
 }
 
 impl Project {
+    /// What of it may do for the site as it is written now.
+    pub(super) fn before(&self) -> Before {
+        Before {
+            path: self.path.clone(),
+            models: self.models.clone(),
+            receives: self.site.receives.clone(),
+            seen: Arc::clone(&self.seen),
+        }
+    }
+
     /// The settings that it comes with.
     pub(super) fn settings(&self, before: &Settings) -> Settings {
         let mut shown = before.shown;

@@ -175,13 +175,20 @@ impl Shared {
     fn draw(&self, kept: &mut Kept, wish: Wish) -> Result<Shown, String> {
         let started = Instant::now();
         let told = |error: crate::study::StudyError| error.to_string();
-        let mut live = match kept.live.take() {
-            Some((number, live)) if number == wish.number => live,
-            _ => {
-                // the old one's memory first
+        let tint = |live: &mut Live| live.picture().tint(super::components::face_colours(&wish.site));
+        // one of another scene goes first, with its memory
+        let at_hand = kept.live.take().and_then(|(number, mut live)| {
+            if number != wish.number {
+                live.change_to(&wish.site).then(|| tint(&mut live))?;
+            }
+            Some(live)
+        });
+        let mut live = match at_hand {
+            Some(live) => live,
+            None => {
                 (kept.hours, kept.target) = (None, None);
                 let mut live = Live::new(&wish.site, Arc::clone(&self.gpu), wish.view).map_err(told)?;
-                live.picture().tint(super::components::face_colours(&wish.site));
+                tint(&mut live);
                 live
             }
         };

@@ -1,16 +1,15 @@
 //! The request as written → as meant.
 
 use super::asked::{Overrides, refuse};
-use super::error::{At, SiteError, nearest};
-use super::extent::{Bounds, with_shadows};
-use super::file::Names;
+use super::error::{At, SiteError};
+use super::extent::with_shadows;
 use super::model::{self, ModelError, Placement};
+use super::models::{self, Models};
 use super::written::Written;
-use super::{Finder, Method, Receivers, Site, camera, keys, plan, study};
+use super::{Finder, Method, Receivers, Site, camera, plan, study};
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::mesh::{Mesh, Part};
 use crate::sun::{Place, SunTrack};
-use glam::DVec3;
 use std::path::Path;
 
 /// A shadow that is longer than this, in heights, does not make the default region larger:
@@ -50,14 +49,7 @@ pub fn load_mesh(path: &Path) -> Result<(Mesh, Frame), SiteError> {
         return Ok((Mesh::build(model::load(path, &Placement::default())?)?, Frame::Model));
     }
     let written = Written::read(path, &Overrides::default())?;
-    if written.site.model.is_empty() {
-        return Err(no_model(&written));
-    }
-    let mut parts = Vec::new();
-    for index in 0..written.site.model.len() {
-        parts.extend(read(&written, index, &model::load)?);
-    }
-    Ok((Mesh::build(parts)?, Frame::Place))
+    Ok((models::mesh(&written, model::load)?.0, Frame::Place))
 }
 
 impl Site {
@@ -91,6 +83,18 @@ impl Site {
         asked: &Overrides,
         read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
     ) -> Result<Site, SiteError> {
+        Self::with_models(written, asked, || Models::read(written, read_model))
+    }
+
+    /// As [`Site::of`], with models that may have been read before.
+    ///
+    /// # Errors
+    /// As [`Site::load`].
+    pub fn with_models(
+        written: &Written,
+        asked: &Overrides,
+        models: impl FnOnce() -> Result<Models, SiteError>,
+    ) -> Result<Site, SiteError> {
         let place = written.place(asked)?;
         // Cheap and quick to fail; models come last.
         let track = study::track(&place, written, asked)?;
@@ -107,7 +111,9 @@ impl Site {
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
         let level = ground_level(written)?;
-        let Models { mesh, casts, receives, bounds } = Models::read(written, read_model)?;
+        let models = models()?;
+        let [casts, receives] = models.roles(written)?;
+        let Models { mesh, bounds, .. } = models;
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
         let grid = plan::grid(written, asked, shadows(SHADOW_CUT))?;
@@ -130,43 +136,6 @@ impl Site {
             settings: asked.settings,
         })
     }
-}
-
-/// The models, and what the site file says of their components.
-pub(super) struct Models {
-    pub(super) mesh: Mesh,
-    pub(super) casts: Vec<bool>,
-    pub(super) receives: Vec<bool>,
-    pub(super) bounds: Bounds,
-}
-
-impl Models {
-    /// Reads all of them; there must be a triangle.
-    pub(super) fn read(
-        written: &Written,
-        read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
-    ) -> Result<Models, SiteError> {
-        if written.site.model.is_empty() {
-            return Err(no_model(written));
-        }
-        let mut parts = Vec::new();
-        let (mut casts, mut receives) = (Vec::new(), Vec::new());
-        for index in 0..written.site.model.len() {
-            let model = read(written, index, &read_model)?;
-            let table = &written.site.model[index];
-            casts.extend(chosen(written, index, "casts", &table.casts, &model)?);
-            receives.extend(chosen(written, index, "receives", &table.receives, &model)?);
-            parts.extend(model);
-        }
-        // One component a part, in their order: `casts` and `receives` fit the mesh.
-        let mesh = Mesh::build(parts)?;
-        let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
-        Ok(Models { mesh, casts, receives, bounds })
-    }
-}
-
-fn no_model(written: &Written) -> SiteError {
-    written.missing("[[model]]", "[[model]] with path = \"tower.glb\"")
 }
 
 fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {
@@ -203,66 +172,4 @@ fn patch_cell(receivers: Receivers, asked: &Overrides) -> Result<f64, SiteError>
             Err(refuse(at, format!("{cell} is no cell; write metres above 0, for example --patch-cell 0.25")))
         }
     }
-}
-
-/// The parts of one of the models.
-fn read(
-    written: &Written,
-    index: usize,
-    read_model: &impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
-) -> Result<Vec<Part>, SiteError> {
-    let table = &written.site.model[index];
-    let at = |key: &str| written.model_key(index, key);
-    let Some(path) = &table.path else {
-        let model = keys::numbered("model", index, written.site.model.len());
-        return Err(written.missing(format!("path in {model}"), keys::example("model", "path")));
-    };
-    let north_deg = table.north.unwrap_or(0.0);
-    if !north_deg.is_finite() {
-        return Err(refuse(at("north"), format!("{north_deg} is no angle; write degrees, for example 0.0")));
-    }
-    let position = DVec3::from_array(table.position.unwrap_or_default());
-    if !position.is_finite() {
-        return Err(refuse(
-            at("position"),
-            format!("{position} is no point; write metres, for example [0.0, 0.0, 0.0]"),
-        ));
-    }
-    let scale = table.scale.unwrap_or(1.0);
-    // A NaN is not above zero either.
-    if !(scale.is_finite() && scale > 0.0) {
-        return Err(refuse(
-            at("scale"),
-            format!("{scale} is no scale; write metres per model unit above 0, for example 0.001 for millimetres"),
-        ));
-    }
-    let file = written.folder.join(path);
-    if !file.is_file() {
-        return Err(refuse(
-            at("path"),
-            format!("there is no file {}; write where the model lies, from the site file's folder", file.display()),
-        ));
-    }
-    let placement = Placement { north_rad: north_deg.to_radians(), position, scale };
-    Ok(read_model(&file, &placement)?)
-}
-
-/// Per part, whether a name (or all) means it.
-fn chosen(written: &Written, index: usize, key: &str, names: &Names, parts: &[Part]) -> Result<Vec<bool>, SiteError> {
-    let names = match names {
-        Names::All(all) => return Ok(vec![*all; parts.len()]),
-        Names::Some(names) => names,
-    };
-    let means = |name: &String, part: &Part| part.name == *name || part.aliases.contains(name);
-    for name in names {
-        if !parts.iter().any(|part| means(name, part)) {
-            let known = parts.iter().flat_map(|part| part.aliases.iter().chain([&part.name])).map(String::as_str);
-            return Err(SiteError::UnknownName {
-                at: written.model_key(index, key),
-                name: name.clone(),
-                nearest: nearest(name, known).unwrap_or_default().to_owned(),
-            });
-        }
-    }
-    Ok(parts.iter().map(|part| names.iter().any(|name| means(name, part))).collect())
 }

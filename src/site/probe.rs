@@ -3,8 +3,9 @@
 use super::asked::{Overrides, numbers, refuse};
 use super::dates::{of_each_day, own_date, several};
 use super::error::{At, SiteError};
-use super::load::{Models, ground_level};
+use super::load::ground_level;
 use super::model;
+use super::models::Models;
 use super::study::{date_of, no_study};
 use super::written::Written;
 use crate::mesh::Mesh;
@@ -55,7 +56,9 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
     }
     .map_err(|error| SiteError::sun(At::Option("--step"), error))?;
     let level = ground_level(&written)?;
-    let Models { mesh, casts, bounds, .. } = Models::read(&written, model::load)?;
+    let models = Models::read(&written, model::load)?;
+    let [casts, _] = models.roles(&written)?;
+    let Models { mesh, bounds, .. } = models;
     Ok(Probing {
         place,
         mesh,

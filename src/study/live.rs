@@ -55,11 +55,9 @@ impl Live {
         let receivers = site.mesh.of_components(&site.receives);
         let scene = Scene { casters, receivers, ground: site.ground };
         let picture = Picture::new(Arc::clone(&gpu), &scene, view)?;
-        let (mesh, receivers) = (site.mesh.of_components(&[]), Receivers::Top);
-        let site = Site { mesh, receivers, ..site.clone() };
         Ok(Live {
             gpu,
-            site,
+            site: without_models(site),
             view,
             scene,
             picture,
@@ -68,6 +66,22 @@ impl Live {
             rays: None,
             night: night(&view),
         })
+    }
+
+    /// Takes the site as it is written now, where the same models receive in the same way, and keeps all that does not depend
+    /// on the rest; no where the scene is another.
+    pub fn change_to(&mut self, site: &Site) -> bool {
+        let seen = |of: &Site| (of.receives.clone(), of.ground);
+        let is_same_mesh = Arc::ptr_eq(&self.scene.receivers.vertices, &site.mesh.vertices);
+        if !is_same_mesh || seen(&self.site) != seen(site) {
+            return false;
+        }
+        if self.site.casts != site.casts {
+            self.scene.casters = site.mesh.of_components(&site.casts);
+            (self.made, self.rays) = (None, None);
+        }
+        self.site = without_models(site);
+        true
     }
 
     /// The picture, to be given what lies over it.
@@ -164,6 +178,11 @@ impl Live {
         (self.site.method, self.site.settings) = (way.method, way.settings);
         choose_on(Some(&self.gpu), &self.site, &self.view, &mut |_| ControlFlow::Continue(()))
     }
+}
+
+/// What is asked; a live view judges all that it sees.
+fn without_models(site: &Site) -> Site {
+    Site { mesh: site.mesh.of_components(&[]), receivers: Receivers::Top, ..site.clone() }
 }
 
 /// The technique at hand, turned to the view; a new one where it does not turn, or was made for another way.
