@@ -26,12 +26,14 @@ impl App {
 
     pub(super) fn answer(&mut self, purpose: Purpose, path: PathBuf, context: &egui::Context) {
         self.notice = None;
-        if purpose == Purpose::Open {
-            return self.load(Wanted::File(path), context);
+        match purpose {
+            Purpose::Open => return self.load(Wanted::File(path), context),
+            Purpose::Compare => return self.compare_with(&path, context),
+            _ => {}
         }
         let Some(open) = &mut self.open else { return };
         match purpose {
-            Purpose::Open => {}
+            Purpose::Open | Purpose::Compare => {}
             Purpose::SaveSite => {
                 let mut written = files::written(&open.project, &self.settings, &open.viewer.eye, &path);
                 let text = written.site.to_toml_in(&written.text).map_err(anyhow::Error::from);

@@ -1,13 +1,15 @@
 //! The window's state, and its frame: menus above, panel beside, time below, the picture in the middle.
 
+use super::change::Known;
 use super::clock::Clock;
 use super::eye::Stand;
 use super::files::{self, Answer, Asking};
-use super::hours::{self, Laid, Work};
+use super::hours::{self, Laid};
 use super::loading::{Bare, Fault, Loading, Project, Wanted};
 use super::settings::{History, Settings};
 use super::stage::Stage;
 use super::view::{Asked, Viewer};
+use super::work::Work;
 use super::{cards, look, panel};
 use crate::export::figure::Colours;
 use crate::gpu::{Gpu, readback};
@@ -42,8 +44,10 @@ pub(super) struct Open {
     pub(super) answers: u64,
     /// The hours that are being added up.
     pub(super) adding: Option<Work<Laid>>,
-    /// The hours that were found.
+    /// The hours that were found, or the change.
     pub(super) laid: Option<Arc<Laid>>,
+    /// The state that was kept to be compared with.
+    pub(super) known: Option<Known>,
     /// The point that is being searched.
     pub(super) probing: Option<Work<Sunlight>>,
     /// When a point lies in the sun.
@@ -219,6 +223,9 @@ impl App {
             open.adding = None;
             match result {
                 Ok(laid) => {
+                    if let Some(change) = laid.change() {
+                        self.settings.before = Some(Arc::clone(&change.before));
+                    }
                     open.laid = Some(Arc::new(laid));
                     self.settings.shown.hours = true;
                 }
@@ -276,6 +283,7 @@ impl App {
                     answers: 0,
                     adding: None,
                     laid: None,
+                    known: None,
                     probing: None,
                     sunlight: None,
                     project,

@@ -50,23 +50,10 @@ pub(super) fn swatch(ui: &mut Ui, [r, g, b]: [u8; 3], what: &str) {
     });
 }
 
-/// What the colours of the hours mean.
+/// What the colours mean of what lies over the scene.
 fn legend(ui: &mut Ui, laid: &Laid) {
-    let bands = &laid.bands;
-    let hours = |secs: u32| {
-        if bands.band_secs.is_multiple_of(60) {
-            format!("{}:{:02}", secs / 3600, secs / 60 % 60)
-        } else {
-            format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60)
-        }
-    };
-    ui.label(format!("Hours of shadow out of {}", hours(bands.day_secs)));
-    let entry = |band: usize| {
-        let (from, to) = bands.bounds(band);
-        (bands.colours[band], format!("{} – {}", hours(from), hours(to)))
-    };
-    let none = (crate::export::figure::scale::NO_SHADOW, "none".to_owned());
-    let entries: Vec<_> = std::iter::once(none).chain((0..bands.colours.len()).map(entry)).collect();
+    let (head, entries) = laid.legend();
+    ui.label(head);
     // a row is no taller than its letters
     (ui.spacing_mut().item_spacing.y, ui.spacing_mut().interact_size.y) = (1.0, 16.0);
     entries.iter().for_each(|(colour, what)| swatch(ui, *colour, what));

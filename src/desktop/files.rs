@@ -1,11 +1,12 @@
 //! Files in and out: dialogs of the system, or one in the window where the system has none; samples; what is handed in.
 
 use super::eye::{Eye, Stand};
-use super::hours::{Laid, Work};
+use super::hours::Laid;
 use super::loading::Project;
 use super::look;
 use super::settings::Settings;
 use super::view;
+use super::work::Work;
 use crate::export::figure::Diagram;
 use crate::export::{figure, file};
 use crate::site::file::CameraTable;
@@ -24,11 +25,13 @@ use std::time::{Duration, Instant};
 pub(super) enum Purpose {
     /// To open what lies there.
     Open,
+    /// To compare the open site with what lies there.
+    Compare,
     /// To write the site file.
     SaveSite,
     /// To write the drawing of the instant.
     Drawing,
-    /// To write the hours: drawing, raster and report, in a folder.
+    /// To write the hours, or the change, in a folder.
     Hours,
 }
 
@@ -36,15 +39,21 @@ impl Purpose {
     fn title(self) -> &'static str {
         match self {
             Purpose::Open => "Open a site or a model",
+            Purpose::Compare => "Compare with a site or a model: how it stood before",
             Purpose::SaveSite => "Save the site file",
             Purpose::Drawing => "Export the drawing",
-            Purpose::Hours => "Export the hours of shadow: a folder for three files",
+            Purpose::Hours => "Export the hours: a folder for the files",
         }
+    }
+
+    /// Whether something is there already.
+    fn reads(self) -> bool {
+        matches!(self, Purpose::Open | Purpose::Compare)
     }
 
     fn name(self) -> &'static str {
         match self {
-            Purpose::Open => "",
+            Purpose::Open | Purpose::Compare => "",
             Purpose::SaveSite => "site.toml",
             Purpose::Drawing => "shadow.png",
             Purpose::Hours => "out",
@@ -83,7 +92,7 @@ impl Asking {
                 dialog = dialog.set_directory(folder);
             }
             let path = match purpose {
-                Purpose::Open => dialog
+                Purpose::Open | Purpose::Compare => dialog
                     .add_filter("Sites and models", &["toml", "glb", "gltf"])
                     .add_filter("All", &["*"])
                     .pick_file(),
@@ -121,12 +130,16 @@ impl Asking {
                 self.is_met = true;
             }
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-            if self.purpose == Purpose::Open {
+            if self.purpose.reads() {
                 listing(ui, typed);
             }
             ui.add_space(6.0);
             ui.horizontal(|ui| {
-                let go = if self.purpose == Purpose::Open { "Open" } else { "Write" };
+                let go = match self.purpose {
+                    Purpose::Open => "Open",
+                    Purpose::Compare => "Compare",
+                    _ => "Write",
+                };
                 if ui.button(go).clicked() || entered {
                     answer = Answer::Path(self.purpose, PathBuf::from(typed.trim()));
                 }

@@ -177,8 +177,8 @@ impl App {
                     if let Some(under) = &open.viewer.under {
                         let point = under.point;
                         let hours = open.laid.as_ref().filter(|_| self.settings.shown.hours);
-                        let hours = hours.and_then(|laid| laid.at(point));
-                        let hours = hours.map_or(String::new(), |hours| format!("{hours:.2} h of shadow    "));
+                        let hours = hours.and_then(|laid| laid.said(under));
+                        let hours = hours.map_or(String::new(), |hours| format!("{hours}    "));
                         let (unit, name) = if self.kept.feet { (0.3048, "ft") } else { (1.0, "m") };
                         let at = point / unit;
                         let at = format!("{:.1} E  {:.1} N  {:.1} up, {name}", at.x, at.y, at.z).replace('-', "−");

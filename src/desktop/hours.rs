@@ -1,80 +1,153 @@
-//! The hours of shadow of the site's study, and when a single point lies in the sun: both found beside the window.
+//! What is found of a site's study and lies over the scene; and when a single point lies in the sun. Both are found beside
+//! the window.
 
+use super::change::Change;
 use super::loading::Project;
-use crate::cli::one_line;
-use crate::export::figure::scale::Bands;
+use super::pick::Under;
+use super::settings::Settings;
+use super::work::Work;
+use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
 use crate::export::{figure, raster, report};
 use crate::profile::probe::Sunlight;
-use crate::shadow::picture::Hours;
+use crate::shadow::picture::{Hours, Picture};
 use crate::site::{Probing, Site};
-use crate::study::{self, Event, Outcome, StudyError, Wants};
+use crate::study::{self, Outcome, StudyError, Wants};
 use crate::sun::DayWindow;
-use crate::view::Probe;
+use crate::view::{Grid, Probe, Surface};
 use chrono::NaiveDate;
 use eframe::egui;
 use glam::DVec3;
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, mpsc};
+use std::sync::Arc;
 
-/// Hours of shadow, ready to be laid over the scene.
+/// A file's name, and what is in it.
+pub(super) type NamedFile = (&'static str, Vec<u8>);
+
+/// What was found, ready to be laid over the scene.
 pub(super) struct Laid {
     /// Grows with every answer.
     pub(super) number: u64,
-    /// What was asked.
+    /// The open site that it was found of.
     pub(super) site: Arc<Site>,
-    /// The answer.
-    pub(super) outcome: Outcome,
-    /// What its colours mean.
-    pub(super) bands: Bands,
-    colours: Vec<[u8; 3]>,
+    /// What.
+    pub(super) found: Found,
+}
+
+/// What can be found.
+pub(super) enum Found {
+    /// The hours of shadow on ground and roofs.
+    Shadow(Box<ShadowHours>),
+    /// What changes from another state to that of the site.
+    Change(Box<Change>),
 }
 
 impl Laid {
-    fn new(number: u64, site: Arc<Site>, outcome: Outcome) -> Laid {
-        let bands = Bands::new(site.track.step_secs, outcome.profile.day_secs);
-        let colours = outcome.profile.shaded.iter().map(|shaded| bands.colour(shaded)).collect();
-        Laid { number, site, outcome, bands, colours }
-    }
-
-    /// As the picture takes them.
-    pub(super) fn hours(&self) -> Hours<'_> {
-        let grid = &self.outcome.profile.grid;
-        Hours {
-            corner: [grid.west, grid.north],
-            cell: grid.cell,
-            size: (grid.width, grid.height),
-            colours: &self.colours,
-            height_m: self.outcome.surface.as_ref().map_or(&[], |surface| &surface.height_m),
+    /// Lays it over a picture of the site.
+    pub(super) fn lay(&self, picture: &mut Picture) {
+        match &self.found {
+            Found::Shadow(hours) => picture.lay_hours(Some(hours.raster())),
+            Found::Change(change) => picture.lay_hours(Some(change.raster())),
         }
     }
 
-    /// The hours of shadow at a point, where its surface is the one that was counted.
-    pub(super) fn at(&self, point: DVec3) -> Option<f64> {
-        let grid = &self.outcome.profile.grid;
-        let column = ((point.x - grid.west) / grid.cell).floor();
-        let row = ((grid.north - point.y) / grid.cell).floor();
-        let inside = column >= 0.0 && row >= 0.0 && column < f64::from(grid.width) && row < f64::from(grid.height);
-        let cell = inside.then(|| row as usize * grid.width as usize + column as usize)?;
-        let height = f64::from(*self.outcome.surface.as_ref()?.height_m.get(cell)?);
-        let near = (height - point.z).abs() < grid.cell.max(0.05);
-        near.then(|| f64::from(self.outcome.profile.hours(cell)))
+    /// What it says of a point, where its surface is the one that was counted.
+    pub(super) fn said(&self, under: &Under) -> Option<String> {
+        match &self.found {
+            Found::Shadow(hours) => hours.said(under.point),
+            Found::Change(change) => change.said(under.point),
+        }
     }
 
-    /// The drawing, the raster and the report, as the command makes them.
+    /// What its colours mean: a head, and each of them.
+    pub(super) fn legend(&self) -> (String, Vec<(Rgb, String)>) {
+        match &self.found {
+            Found::Shadow(hours) => hours.legend(),
+            Found::Change(change) => (change.colours.legend_head.clone(), change.colours.legend.clone()),
+        }
+    }
+
+    /// Its files, as the command makes them.
     ///
     /// # Errors
     /// What the encoders say.
-    pub(super) fn files(&self) -> anyhow::Result<[(&'static str, Vec<u8>); 3]> {
+    pub(super) fn files(&self) -> anyhow::Result<Vec<NamedFile>> {
+        match &self.found {
+            Found::Shadow(hours) => hours.files(&self.site),
+            Found::Change(change) => change.files(),
+        }
+    }
+
+    /// Whether it is what the settings ask of the site.
+    pub(super) fn is_asked(&self, project: &Project, settings: &Settings) -> bool {
+        let is_found = match (&self.found, &settings.before) {
+            (Found::Shadow(_), before) => before.is_none(),
+            (Found::Change(change), Some(before)) => change.before == *before,
+            (Found::Change(_), None) => false,
+        };
+        is_found && Arc::ptr_eq(&self.site, &project.site)
+    }
+
+    /// The change, where it is one.
+    pub(super) fn change(&self) -> Option<&Change> {
+        match &self.found {
+            Found::Change(change) => Some(change),
+            Found::Shadow(_) => None,
+        }
+    }
+}
+
+/// The hours of shadow on ground and roofs.
+pub(super) struct ShadowHours {
+    /// The answer.
+    pub(super) outcome: Outcome,
+    bands: Bands,
+    colours: Vec<Rgb>,
+}
+
+impl ShadowHours {
+    fn new(site: &Site, outcome: Outcome) -> ShadowHours {
+        let bands = Bands::new(site.track.step_secs, outcome.profile.day_secs);
+        let colours = outcome.profile.shaded.iter().map(|shaded| bands.colour(shaded)).collect();
+        ShadowHours { outcome, bands, colours }
+    }
+
+    fn raster(&self) -> Hours<'_> {
+        let height_m = self.outcome.surface.as_ref().map_or([].as_slice(), |surface| &surface.height_m);
+        raster(&self.outcome.profile.grid, &self.colours, height_m)
+    }
+
+    fn said(&self, point: DVec3) -> Option<String> {
+        let cell = cell_at(&self.outcome.profile.grid, self.outcome.surface.as_ref()?, point)?;
+        Some(format!("{:.2} h of shadow", self.outcome.profile.hours(cell)))
+    }
+
+    fn legend(&self) -> (String, Vec<(Rgb, String)>) {
+        let bands = &self.bands;
+        let hours = |secs: u32| {
+            if bands.band_secs.is_multiple_of(60) {
+                format!("{}:{:02}", secs / 3600, secs / 60 % 60)
+            } else {
+                format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60)
+            }
+        };
+        let entry = |band: usize| {
+            let (from, to) = bands.bounds(band);
+            (bands.colours[band], format!("{} – {}", hours(from), hours(to)))
+        };
+        let none = (NO_SHADOW, "none".to_owned());
+        let entries = std::iter::once(none).chain((0..bands.colours.len()).map(entry)).collect();
+        (format!("Hours of shadow out of {}", hours(bands.day_secs)), entries)
+    }
+
+    /// The drawing, the raster and the report.
+    fn files(&self, site: &Site) -> anyhow::Result<Vec<NamedFile>> {
         let Outcome { profile, drawn, surface_mesh, timings, .. } = &self.outcome;
-        let site = &self.site;
         let Some(surface) = &self.outcome.surface else {
             anyhow::bail!("what is seen is not there");
         };
         let (place, track, receivers) = (&site.place, &site.track, site.receivers);
         let scene = figure::Scene { place, track, mesh: surface_mesh, surface, receivers, drawn };
         let told = report::Told { receivers, drawn, timings, statistics: None };
-        Ok([
+        Ok(vec![
             ("profile.png", figure::profile(&scene, profile)?),
             ("shadow-hours.tif", raster::geotiff(profile, place)?),
             ("profile.json", report::profile_json(profile, place, track, &told)?.into_bytes()),
@@ -82,57 +155,20 @@ impl Laid {
     }
 }
 
-/// Work that goes on beside the window, and can be given up.
-pub(super) struct Work<T> {
-    progress: Arc<Mutex<(usize, usize)>>,
-    cancelled: Arc<AtomicBool>,
-    result: mpsc::Receiver<Result<T, String>>,
+/// Colours of a plan's cells, as the picture takes them.
+pub(super) fn raster<'a>(grid: &Grid, colours: &'a [Rgb], height_m: &'a [f32]) -> Hours<'a> {
+    let size = (grid.width, grid.height);
+    Hours { corner: [grid.west, grid.north], cell: grid.cell, size, colours, height_m }
 }
 
-impl<T: Send + 'static> Work<T> {
-    /// Begins; the work is given what hears its events.
-    pub(super) fn start(
-        context: egui::Context,
-        work: impl FnOnce(&mut study::OnEvent<'_>) -> anyhow::Result<T> + Send + 'static,
-    ) -> Work<T> {
-        let (tell, result) = mpsc::channel();
-        let progress = Arc::new(Mutex::new((0, 0)));
-        let cancelled = Arc::new(AtomicBool::new(false));
-        let (told, heard) = (Arc::clone(&progress), Arc::clone(&cancelled));
-        std::thread::spawn(move || {
-            let answer = work(&mut |event| {
-                if let (Event::Drawn { index, count, .. }, Ok(mut told)) = (&event, told.lock()) {
-                    *told = (index + 1, *count);
-                }
-                context.request_repaint();
-                if heard.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            });
-            // who gave it up listens no more
-            let _ = tell.send(answer.map_err(|error| one_line(&error)));
-            context.request_repaint();
-        });
-        Work { progress, cancelled, result }
-    }
-
-    /// How much is done, of how much.
-    pub(super) fn progress(&self) -> (usize, usize) {
-        self.progress.lock().map(|progress| *progress).unwrap_or_default()
-    }
-
-    /// What came of it, once it is done.
-    pub(super) fn done(&self) -> Option<Result<T, String>> {
-        match self.result.try_recv() {
-            Ok(result) => Some(result),
-            Err(mpsc::TryRecvError::Empty) => None,
-            Err(mpsc::TryRecvError::Disconnected) => Some(Err("the work ended early".to_owned())),
-        }
-    }
-}
-
-impl<T> Drop for Work<T> {
-    fn drop(&mut self) {
-        self.cancelled.store(true, Ordering::Relaxed);
-    }
+/// The cell in which a point lies, where it lies on the surface that the cell sees.
+pub(super) fn cell_at(grid: &Grid, surface: &Surface, point: DVec3) -> Option<usize> {
+    let column = ((point.x - grid.west) / grid.cell).floor();
+    let row = ((grid.north - point.y) / grid.cell).floor();
+    let inside = column >= 0.0 && row >= 0.0 && column < f64::from(grid.width) && row < f64::from(grid.height);
+    let cell = inside.then(|| row as usize * grid.width as usize + column as usize)?;
+    let height = f64::from(*surface.height_m.get(cell)?);
+    ((height - point.z).abs() < grid.cell.max(0.05)).then_some(cell)
 }
 
 /// Adds up the hours of a site's study.
@@ -140,7 +176,8 @@ pub(super) fn add_up(site: Arc<Site>, number: u64, context: egui::Context) -> Wo
     Work::start(context, move |on_event| {
         let wants = Wants { surface: true, ..Wants::default() };
         let outcome = study::run(&site, &wants, on_event)?;
-        Ok(Laid::new(number, site, outcome))
+        let found = Found::Shadow(Box::new(ShadowHours::new(&site, outcome)));
+        Ok(Laid { number, site, found })
     })
 }
 

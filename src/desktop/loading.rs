@@ -269,7 +269,7 @@ impl Project {
         let mut shown = before.shown;
         shown.method = self.site.method;
         shown.hours = false;
-        Settings { site: self.written.site.clone(), shown }
+        Settings { site: self.written.site.clone(), shown, before: None }
     }
 
     /// What the site is called: its place, else its file.

@@ -6,10 +6,12 @@
 mod acts;
 mod app;
 mod cards;
+mod change;
 mod clock;
 mod components;
 mod eye;
 mod files;
+mod found;
 mod frame;
 mod hours;
 mod loading;
@@ -21,6 +23,7 @@ mod sky;
 mod stage;
 mod time;
 mod view;
+mod work;
 
 pub use app::App;
 

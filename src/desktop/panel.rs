@@ -1,12 +1,11 @@
 //! The panel beside the picture: place, shadows, components, hours.
 
 use super::app::App;
-use super::{cards, components, hours, look, view};
+use super::{cards, components, found, look, view};
 use crate::export::figure::Diagram;
 use crate::site::Method;
 use crate::site::file::Text;
 use eframe::egui::{self, Ui, vec2};
-use std::sync::Arc;
 
 /// What each technique is good for, in a line.
 fn good_for(method: Method) -> &'static str {
@@ -28,6 +27,9 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         section(ui, "Place", true, |ui| place(app, ui));
         section(ui, "Shadows", true, |ui| shadows(app, ui));
         section(ui, "Hours of shadow", true, |ui| study(app, ui));
+        if app.open.as_ref().and_then(|open| open.laid.as_ref()).is_some_and(|laid| laid.change().is_some()) {
+            section(ui, "Sun lost and gained", true, |ui| found::areas(app, ui));
+        }
         section(ui, "Components", false, |ui| {
             if let Some(open) = &app.open {
                 ui.checkbox(&mut app.settings.shown.tinted, "In their own colours");
@@ -204,32 +206,7 @@ fn study(app: &mut App, ui: &mut Ui) {
     {
         *text = date.to_string();
     }
-    let context = ui.ctx().clone();
-    let Some(open) = &mut app.open else { return };
-    if let Some(adding) = &open.adding {
-        let (done, count) = adding.progress();
-        let share = done as f32 / count.max(1) as f32;
-        ui.add(egui::ProgressBar::new(share).text(if count == 0 {
-            "Preparing".to_owned()
-        } else {
-            format!("{done} of {count} instants")
-        }));
-        if ui.button("Cancel the hours").clicked() {
-            open.adding = None;
-        }
-    } else if ui.add_enabled(!app.is_reading, egui::Button::new("Find the hours")).clicked() {
-        open.answers += 1;
-        open.adding = Some(hours::add_up(Arc::clone(&open.project.site), open.answers, context));
-    }
-    if let Some(laid) = &open.laid {
-        if !Arc::ptr_eq(&laid.site, &open.project.site) {
-            ui.weak("The site has changed since: find them anew.");
-        }
-        ui.checkbox(&mut app.settings.shown.hours, "Show the hours");
-    }
-    if open.sunlight.is_none() && open.probing.is_none() {
-        ui.weak("Click a point of the model: when does the sun reach it?");
-    }
+    found::show(app, ui);
 }
 
 /// A text that is read when it is finished.

@@ -1,16 +1,20 @@
 //! What a person sets, as one small value; and its history.
 
 use crate::export::figure::Diagram;
-use crate::site::Method;
+use crate::site::{Method, Written};
 use crate::site::file::SiteFile;
+use std::sync::Arc;
 
-/// Everything that undo brings back: the site as it is written, and how its shadows are shown.
+/// Everything that undo brings back: the site as it is written, how its shadows are shown, and
+/// what it is compared with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Settings {
     /// What the site file says.
     pub(super) site: SiteFile,
     /// How its shadows are shown.
     pub(super) shown: Shown,
+    /// The state that it is compared with.
+    pub(super) before: Option<Arc<Written>>,
 }
 
 /// How shadows are shown.

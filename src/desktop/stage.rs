@@ -195,7 +195,10 @@ impl Shared {
         live.look_at(wish.view);
         let laid = wish.hours.as_ref().map(|laid| laid.number);
         if laid != kept.hours {
-            live.picture().lay_hours(wish.hours.as_ref().map(|laid| laid.hours()));
+            match &wish.hours {
+                Some(laid) => laid.lay(live.picture()),
+                None => live.picture().lay_hours(None),
+            }
             kept.hours = laid;
         }
         let mut legend = None;

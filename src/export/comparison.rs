@@ -103,13 +103,10 @@ pub fn json(
     })
 }
 
-/// The areas for people.
-pub fn table(comparison: &Comparison, track: &SunTrack) -> String {
-    let mut table = String::new();
-    let mut row = |what: &str, [first, second]: [String; 2]| {
-        // Writing to a String cannot fail.
-        let _ = writeln!(table, "{what:<26}  {first:>16}  {second:>16}");
-    };
+/// What is told for people: what it is, and two of it. Heads of columns have an empty first.
+pub fn rows(comparison: &Comparison, track: &SunTrack) -> Vec<[String; 3]> {
+    let mut rows = Vec::new();
+    let mut row = |what: &str, [first, second]: [String; 2]| rows.push([what.to_owned(), first, second]);
     let both = |of: &dyn Fn(Change) -> String| [Change::SunLost, Change::SunGained].map(of);
     row("", ["sun lost".to_owned(), "sun gained".to_owned()]);
     for secs in thresholds(comparison, track) {
@@ -126,11 +123,25 @@ pub fn table(comparison: &Comparison, track: &SunTrack) -> String {
         let areas = comparison.sun_at_least_m2(secs).map(|area| format!("{area:.0} m²"));
         row(&format!("at least {} of sun", duration(secs)), areas);
     }
+    rows
+}
+
+/// How much of the plan was compared, in a sentence without its stop.
+pub fn extent(comparison: &Comparison) -> String {
     let [built, cleared] = [Altered::Built, Altered::Cleared].map(|altered| comparison.altered_m2(altered));
-    let _ = writeln!(
-        table,
+    format!(
         "{:.0} m² compared; not compared: {built:.0} m² with something new or higher, {cleared:.0} m² where it is gone",
         comparison.altered_m2(Altered::No)
-    );
+    )
+}
+
+/// The areas for people.
+pub fn table(comparison: &Comparison, track: &SunTrack) -> String {
+    let mut table = String::new();
+    for [what, first, second] in rows(comparison, track) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(table, "{what:<26}  {first:>16}  {second:>16}");
+    }
+    let _ = writeln!(table, "{}", extent(comparison));
     table
 }

@@ -30,15 +30,20 @@ pub struct CompareOutcome {
 /// As [`super::run`].
 pub fn compare(pair: &Pair, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome, StudyError> {
     not_surfaces(&pair.before)?;
-    let mut study = |when: &str, site: &Site, name: &str| {
-        tell(on_event, Event::Note(format!("{when}: {name}")))?;
-        let outcome = go_on(site, &Wants::default(), None, on_event)?;
-        // by the processor in both, so that no adapter's rounding passes for a change
-        let surface = plan_surface(&outcome.surface_mesh, site.ground, &site.grid);
-        Ok::<_, StudyError>((outcome, surface))
-    };
-    let (before, seen_before) = study("before", &pair.before, &pair.names[0])?;
-    let (after, seen_after) = study("after", &pair.after, &pair.names[1])?;
+    let before = study("before", &pair.before, &pair.names[0], on_event)?;
+    compare_with(pair, before, on_event)
+}
+
+/// As [`compare()`], where what [`super::run`] found of `pair.before` is at hand.
+///
+/// # Errors
+/// As [`super::run`].
+pub fn compare_with(pair: &Pair, before: Outcome, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome, StudyError> {
+    not_surfaces(&pair.after)?;
+    let after = study("after", &pair.after, &pair.names[1], on_event)?;
+    // by the processor in both, so that no adapter's rounding passes for a change
+    let [seen_before, seen_after] = [(&before, &pair.before), (&after, &pair.after)]
+        .map(|(outcome, site)| plan_surface(&outcome.surface_mesh, site.ground, &site.grid));
     let altered = match pair.before.receivers {
         Receivers::Ground => vec![Altered::No; pair.before.grid.cells()],
         _ => Altered::between(&seen_before, &seen_after),
@@ -51,4 +56,9 @@ pub fn compare(pair: &Pair, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome
         surfaces: [seen_before, seen_after],
         meshes: [mesh_before, mesh_after],
     })
+}
+
+fn study(when: &str, site: &Site, name: &str, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
+    tell(on_event, Event::Note(format!("{when}: {name}")))?;
+    go_on(site, &Wants::default(), None, on_event)
 }

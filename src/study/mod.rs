@@ -15,7 +15,7 @@ mod stopwatch;
 mod surfaces;
 pub mod verify;
 
-pub use compare::{CompareOutcome, compare};
+pub use compare::{CompareOutcome, compare, compare_with};
 pub use frames::{Frame, frames};
 pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};

@@ -5,6 +5,7 @@ use super::{Scene, cells, check_surface, page, panel, plan, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::comparison::{Altered, Change, Comparison};
 use crate::site::Receivers;
+use crate::view::Surface;
 
 /// More shadow, from a little to the most; darker in print without colours, too.
 const LOST: [Rgb; 3] = [[208, 224, 240], [84, 125, 176], [10, 30, 88]];
@@ -71,6 +72,60 @@ impl ChangeBands {
     }
 }
 
+/// A change in the drawing's colours.
+pub struct ChangeColours {
+    /// A colour a cell.
+    pub of_cells: Vec<Rgb>,
+    /// Over the legend.
+    pub legend_head: String,
+    /// Each colour and what it means: the most sun gained first.
+    pub legend: Vec<(Rgb, String)>,
+    /// How what each cell sees is drawn as altered.
+    altered: Vec<Altered>,
+}
+
+impl ChangeColours {
+    /// Of what is seen before and after, judged so in steps of so many seconds.
+    pub fn of(
+        comparison: &Comparison,
+        [before, after]: [&Surface; 2],
+        receivers: Receivers,
+        step_secs: u32,
+    ) -> ChangeColours {
+        let ground_only = receivers == Receivers::Ground;
+        let bands = ChangeBands::of(comparison, step_secs);
+        // under a ground that is judged alone buildings are drawn by what stands there
+        let altered: Vec<Altered> = match ground_only {
+            true => Altered::between(before, after),
+            false => (0..comparison.cells()).map(|cell| comparison.altered(cell)).collect(),
+        };
+        let roof = |cell: usize| after.face[cell] < Surface::GROUND;
+        let colour = |(cell, altered): (usize, &Altered)| match (altered, comparison.change(cell)) {
+            (Altered::Built, _) => BUILT,
+            (Altered::Cleared, None) => CLEARED,
+            _ if ground_only && roof(cell) => plan::ROOF_UNJUDGED,
+            (_, change) => bands.colour(change.unwrap_or(0)),
+        };
+        let of_cells: Vec<Rgb> = altered.iter().enumerate().map(colour).collect();
+        let mut legend_head = match comparison.after().day_secs {
+            0 => "No sun in this window".to_owned(),
+            day => format!("Hours of sun out of {}", words::long_duration(day)),
+        };
+        let total = |change| comparison.most(change).is_some();
+        if !total(Change::SunLost) && !total(Change::SunGained) {
+            legend_head = "Nothing changes".to_owned();
+        }
+        let mut legend = bands.legend();
+        let grays = [(BUILT, "new or higher"), (CLEARED, "gone or lower")];
+        let seen = grays.into_iter().filter(|(colour, _)| of_cells.contains(colour));
+        legend.extend(seen.map(|(colour, what)| (colour, what.to_owned())));
+        if ground_only {
+            legend.push((plan::ROOF_UNJUDGED, super::UNJUDGED.to_owned()));
+        }
+        ChangeColours { of_cells, legend_head, legend, altered }
+    }
+}
+
 /// `compare.png`: hours of sun lost and gained on the plan. The scenes are those before and after; the latter names the
 /// sheet.
 ///
@@ -83,21 +138,9 @@ pub fn difference(scenes: &[Scene; 2], names: &[String; 2], comparison: &Compari
         check_surface(scene.surface, (grid.width, grid.height))?;
     }
     let [before, after] = scenes;
-    let ground_only = after.receivers == Receivers::Ground;
-    let bands = ChangeBands::of(comparison, after.track.step_secs);
-    // under a ground that is judged alone buildings are drawn by what stands there
-    let altered: Vec<Altered> = match ground_only {
-        true => Altered::between(before.surface, after.surface),
-        false => (0..comparison.cells()).map(|cell| comparison.altered(cell)).collect(),
-    };
-    let roof = |cell: usize| after.surface.face[cell] < crate::view::Surface::GROUND;
-    let colour = |(cell, altered): (usize, &Altered)| match (altered, comparison.change(cell)) {
-        (Altered::Built, _) => BUILT,
-        (Altered::Cleared, None) => CLEARED,
-        _ if ground_only && roof(cell) => plan::ROOF_UNJUDGED,
-        (_, change) => bands.colour(change.unwrap_or(0)),
-    };
-    let of_cells: Vec<Rgb> = altered.iter().enumerate().map(colour).collect();
+    let surfaces = [before.surface, after.surface];
+    let ChangeColours { of_cells, legend_head, legend, altered } =
+        ChangeColours::of(comparison, surfaces, after.receivers, after.track.step_secs);
 
     let mut panel = panel(after, "Sun lost and gained");
     let [name_before, name_after] = names.clone();
@@ -109,24 +152,7 @@ pub fn difference(scenes: &[Scene; 2], names: &[String; 2], comparison: &Compari
         let night = words::long_duration(night_secs);
         panel.facts.push(("Night", format!("{night} of the window, not counted")));
     }
-    panel.legend_head = match comparison.after().day_secs {
-        0 => "No sun in this window".to_owned(),
-        day => format!("Hours of sun out of {}", words::long_duration(day)),
-    };
-    panel.legend = bands.legend();
-    let total = |change| comparison.most(change).is_some();
-    if !total(Change::SunLost) && !total(Change::SunGained) {
-        panel.legend_head = "Nothing changes".to_owned();
-    }
-    if of_cells.contains(&BUILT) {
-        panel.legend.push((BUILT, "new or higher".to_owned()));
-    }
-    if of_cells.contains(&CLEARED) {
-        panel.legend.push((CLEARED, "gone or lower".to_owned()));
-    }
-    if ground_only {
-        panel.legend.push((plan::ROOF_UNJUDGED, super::UNJUDGED.to_owned()));
-    }
+    (panel.legend_head, panel.legend) = (legend_head, legend);
     let draw = |fit| plan::difference(scenes, &of_cells, &altered, grid.cell, fit);
     page::page(&panel, (grid.width, grid.height), Some(grid.cell), draw, page::png)
 }

@@ -21,7 +21,7 @@ mod words;
 
 pub use components::of_all as component_colours;
 pub use counted::{Colours, Diagram};
-pub use difference::{ChangeBands, difference};
+pub use difference::{ChangeBands, ChangeColours, difference};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 pub use screen::{Screen, instant_on_screen};

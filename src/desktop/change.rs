@@ -1,0 +1,179 @@
+//! What a change does to the sun: another state of the site, before, and the open one, after.
+
+use super::hours::{Found, Laid, NamedFile, cell_at, raster};
+use super::loading::Project;
+use super::work::Work;
+use crate::export::figure::ChangeColours;
+use crate::export::report::Told;
+use crate::export::{comparison, figure, raster as geotiff};
+use crate::profile::comparison::Altered;
+use crate::shadow::picture::Hours;
+use crate::site::{Overrides, Pair, Site, SiteError, Written, model};
+use crate::study::{self, CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
+use eframe::egui;
+use glam::DVec3;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A change that was found.
+pub(super) struct Change {
+    /// The state before, as it was asked.
+    pub(super) before: Arc<Written>,
+    /// Both states, without their models.
+    pair: Pair,
+    outcome: CompareOutcome,
+    timings: Stopwatch,
+    /// As the drawing has them.
+    pub(super) colours: ChangeColours,
+}
+
+/// A state of the open site that is kept to be compared with, and what is known of it.
+#[derive(Clone)]
+pub(super) struct Known {
+    /// As it was written.
+    pub(super) before: Arc<Written>,
+    /// Its hours.
+    pub(super) laid: Arc<Laid>,
+}
+
+impl Known {
+    /// The hours of the state before, where they are those of its site.
+    fn outcome(self, before: &Written, site: &Site) -> Option<Outcome> {
+        let (known, found) = (&self.laid.site, &self.laid.found);
+        let same_study = known.track == site.track && known.grid == site.grid && known.ground == site.ground && known.method == site.method;
+        let same = same_study && self.before.site.model == before.site.model && self.before.file == before.file;
+        match found {
+            Found::Shadow(hours) if same => Some(hours.outcome.clone()),
+            _ => None,
+        }
+    }
+}
+
+/// Reads another file as the state before; what names no place stands in that of the open site.
+///
+/// # Errors
+/// As the command reads it.
+pub(super) fn read(path: &Path, project: &Project) -> Result<Written, SiteError> {
+    Written::read_beside(path, &project.written)
+}
+
+/// Finds what changes from `before` to the open site: over the study and on the plan of the latter.
+pub(super) fn find(
+    project: &Project,
+    before: Arc<Written>,
+    known: Option<Known>,
+    number: u64,
+    context: egui::Context,
+) -> Work<Laid> {
+    let site = Arc::clone(&project.site);
+    let mut after = project.written.clone();
+    let name = project.name();
+    Work::start(context, move |on_event| {
+        let mut timings = Stopwatch::start();
+        // the picture lies on this ground
+        after.site.ground.level = Some(site.ground);
+        let mut first = Written::clone(&before);
+        first.site.study = after.site.study.clone();
+        first.site.plan = after.site.plan.clone();
+        first.site.camera = after.site.camera.clone();
+        let mut pair = Pair::of(&first, &after, &Overrides::default(), model::load)?;
+        if pair.names[0] == pair.names[1] {
+            pair.names = [format!("{name}, before"), format!("{name}, after")];
+        }
+        timings.lap("load");
+        let known = known.and_then(|known| known.outcome(&before, &pair.before));
+        let outcome = compare(&pair, known, on_event)?;
+        timings.lap("shadows");
+        let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
+        let (receivers, step_secs) = (pair.after.receivers, pair.after.track.step_secs);
+        let colours = ChangeColours::of(&outcome.comparison, surfaces, receivers, step_secs);
+        for site in [&mut pair.before, &mut pair.after] {
+            site.mesh = site.mesh.of_components(&[]);
+        }
+        let found = Found::Change(Box::new(Change { before, pair, outcome, timings, colours }));
+        Ok(Laid { number, site, found })
+    })
+}
+
+/// Two studies tell how far they are as one does.
+fn compare(pair: &Pair, known: Option<Outcome>, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome, StudyError> {
+    let Some(known) = known else {
+        let mut done = 0;
+        return study::compare(pair, &mut |event| match event {
+            Event::Drawn { count, time, .. } => {
+                done += 1;
+                on_event(Event::Drawn { index: done - 1, count: 2 * count, time, mask: None, bits: None })
+            }
+            event => on_event(event),
+        });
+    };
+    study::compare_with(pair, known, on_event)
+}
+
+impl Change {
+    /// As the picture takes it.
+    pub(super) fn raster(&self) -> Hours<'_> {
+        raster(self.outcome.comparison.grid(), &self.colours.of_cells, &self.outcome.surfaces[1].height_m)
+    }
+
+    /// The hours of sun at a point, before and after.
+    pub(super) fn said(&self, point: DVec3) -> Option<String> {
+        let comparison = &self.outcome.comparison;
+        let cell = cell_at(comparison.grid(), &self.outcome.surfaces[1], point)?;
+        let [before, after] = [comparison.before(), comparison.after()].map(|profile| {
+            let day = f64::from(profile.day_secs) / 3600.0;
+            day - f64::from(profile.hours(cell))
+        });
+        Some(match comparison.altered(cell) {
+            Altered::No => {
+                let gained = -f64::from(comparison.hours(cell)) + 0.0;
+                format!("{before:.2} h of sun before, {after:.2} h after: {gained:+.2} h").replace('-', "−")
+            }
+            Altered::Built => format!("new or higher: {after:.2} h of sun after"),
+            Altered::Cleared => format!("gone or lower: {after:.2} h of sun after"),
+        })
+    }
+
+    /// What people call the states.
+    pub(super) fn names(&self) -> &[String; 2] {
+        &self.pair.names
+    }
+
+    /// The areas, as the command tells them.
+    pub(super) fn rows(&self) -> Vec<[String; 3]> {
+        comparison::rows(&self.outcome.comparison, &self.pair.after.track)
+    }
+
+    /// How much was compared.
+    pub(super) fn extent(&self) -> String {
+        comparison::extent(&self.outcome.comparison)
+    }
+
+    /// The drawing, the raster and the report.
+    pub(super) fn files(&self) -> anyhow::Result<Vec<NamedFile>> {
+        let Change { pair, outcome, .. } = self;
+        let mut watch = self.timings.clone();
+        let (place, track, receivers) = (&pair.after.place, &pair.after.track, pair.after.receivers);
+        let [first, second] = [0, 1].map(|at| {
+            let (mesh, surface, drawn) = (&outcome.meshes[at], &outcome.surfaces[at], &outcome.drawn[at]);
+            figure::Scene { place, track, mesh, surface, receivers, drawn }
+        });
+        let picture = figure::difference(&[first, second], &pair.names, &outcome.comparison)?;
+        watch.lap("picture");
+        let raster = geotiff::difference_geotiff(&outcome.comparison, place)?;
+        watch.lap("raster");
+        let told = Told { receivers, drawn: &outcome.drawn[1], timings: &watch.timings(), statistics: None };
+        let json = comparison::json(&outcome.comparison, &pair.names, place, track, &told)?;
+        Ok(vec![
+            ("compare.png", picture),
+            ("shadow-hours-difference.tif", raster),
+            ("compare.json", json.into_bytes()),
+        ])
+    }
+}
+
+/// A path that a state came from, as people call it.
+pub(super) fn name_of(before: &Written) -> String {
+    let named = before.site.place.as_ref().and_then(|place| place.name.clone());
+    named.filter(|name| !name.trim().is_empty()).unwrap_or_else(|| super::loading::name_of(Path::new(&before.file)))
+}

@@ -1,0 +1,143 @@
+//! The panel's part that finds hours and changes, and tells what was found.
+
+use super::app::{App, Open};
+use super::change::{self, Known};
+use super::files::Purpose;
+use super::hours::{self, Found};
+use super::loading::name_of;
+use super::settings::Settings;
+use eframe::egui::{self, Ui};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The buttons below the study's fields.
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let context = ui.ctx().clone();
+    let is_reading = app.is_reading;
+    let Some(open) = &mut app.open else { return };
+    if let Some(adding) = &open.adding {
+        let (done, count) = adding.progress();
+        let share = done as f32 / count.max(1) as f32;
+        ui.add(egui::ProgressBar::new(share).text(if count == 0 {
+            "Preparing".to_owned()
+        } else {
+            format!("{done} of {count} instants")
+        }));
+        if ui.button("Cancel the hours").clicked() {
+            open.adding = None;
+        }
+    } else {
+        let what = if app.settings.before.is_some() { "Find the change" } else { "Find the hours" };
+        if ui.add_enabled(!is_reading, egui::Button::new(what)).clicked() {
+            find(open, &app.settings, &context);
+        }
+    }
+    if let Some(laid) = &open.laid {
+        if !laid.is_asked(&open.project, &app.settings) {
+            ui.weak("What is asked has changed since: find it anew.");
+        }
+        ui.checkbox(&mut app.settings.shown.hours, "Show the hours");
+    }
+    compare(app, ui, &context);
+    let Some(open) = &app.open else { return };
+    if open.sunlight.is_none() && open.probing.is_none() {
+        ui.weak("Click a point of the model: when does the sun reach it?");
+    }
+}
+
+/// Begins to find what is asked.
+fn find(open: &mut Open, settings: &Settings, context: &egui::Context) {
+    open.answers += 1;
+    let (number, context) = (open.answers, context.clone());
+    open.adding = Some(match &settings.before {
+        Some(before) => {
+            let known = open.known.clone().filter(|known| known.before == *before);
+            change::find(&open.project, Arc::clone(before), known, number, context)
+        }
+        None => hours::add_up(Arc::clone(&open.project.site), number, context),
+    });
+}
+
+/// What the open site is compared with.
+fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
+    let mut other = None;
+    let mut asks = false;
+    let Some(open) = &mut app.open else { return };
+    let rests = open.adding.is_none() && !app.is_reading;
+    if let Some(before) = &app.settings.before {
+        let name = change::name_of(before);
+        ui.add(egui::Label::new(format!("Before: {name}")).truncate()).on_hover_text(&before.file);
+    }
+    ui.horizontal(|ui| {
+        let is_asked = |laid: &&Arc<hours::Laid>| laid.is_asked(&open.project, &app.settings);
+        let laid = open.laid.as_ref().filter(is_asked).filter(|laid| matches!(laid.found, Found::Shadow(_))).cloned();
+        if app.settings.before.is_some() {
+            if ui.button("Compare no more").clicked() {
+                app.settings.before = None;
+                open.laid = open.laid.take().filter(|laid| laid.change().is_none());
+            }
+        } else if let Some(laid) = laid
+            && ui.add_enabled(rests, egui::Button::new("Compare from here")).clicked()
+        {
+            let before = Arc::new(open.project.written.clone());
+            app.settings.before = Some(Arc::clone(&before));
+            open.known = Some(Known { before, laid });
+        }
+        ui.add_enabled_ui(rests, |ui| {
+            ui.menu_button("Compare with", |ui| {
+                asks = ui.button("Another file…").clicked();
+                for path in &app.kept.recent {
+                    let is_open = open.project.path.as_ref() == Some(path);
+                    if !is_open && ui.button(name_of(path)).on_hover_text(path.display().to_string()).clicked() {
+                        other = Some(path.clone());
+                    }
+                }
+            });
+        });
+    });
+    if asks {
+        app.ask(Purpose::Compare, context);
+    }
+    if let Some(path) = other {
+        app.compare_with(&path, context);
+    }
+}
+
+impl App {
+    /// Finds what changes from the site in a file to the open one.
+    pub(super) fn compare_with(&mut self, path: &Path, context: &egui::Context) {
+        (self.fault, self.notice) = (None, None);
+        let Some(open) = &mut self.open else { return };
+        match change::read(path, &open.project) {
+            Ok(before) => {
+                open.answers += 1;
+                let (before, number) = (Arc::new(before), open.answers);
+                open.adding = Some(change::find(&open.project, before, None, number, context.clone()));
+            }
+            Err(error) => self.fault = Some(error.to_string()),
+        }
+    }
+}
+
+/// How much sun is lost and gained, as the command tells it.
+pub(super) fn areas(app: &App, ui: &mut Ui) {
+    let Some(change) = app.open.as_ref().and_then(|open| open.laid.as_ref()).and_then(|laid| laid.change()) else {
+        return;
+    };
+    let [before, after] = change.names();
+    ui.add(egui::Label::new(format!("Before: {before}")).wrap());
+    ui.add(egui::Label::new(format!("After: {after}")).wrap());
+    egui::Grid::new("areas").num_columns(3).spacing([10.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
+        for [what, first, second] in change.rows() {
+            ui.weak(&what);
+            for cell in [first, second] {
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    let cell = cell.replace('-', "−");
+                    if what.is_empty() { ui.weak(cell) } else { ui.label(cell) };
+                });
+            }
+            ui.end_row();
+        }
+    });
+    ui.weak(change.extent());
+}

@@ -1,0 +1,61 @@
+//! Work that goes on beside the window.
+
+use crate::cli::one_line;
+use crate::study::{Event, OnEvent};
+use eframe::egui;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, mpsc};
+
+/// It can be given up.
+pub(super) struct Work<T> {
+    progress: Arc<Mutex<(usize, usize)>>,
+    cancelled: Arc<AtomicBool>,
+    result: mpsc::Receiver<Result<T, String>>,
+}
+
+impl<T: Send + 'static> Work<T> {
+    /// Begins; the work is given what hears its events.
+    pub(super) fn start(
+        context: egui::Context,
+        work: impl FnOnce(&mut OnEvent<'_>) -> anyhow::Result<T> + Send + 'static,
+    ) -> Work<T> {
+        let (tell, result) = mpsc::channel();
+        let progress = Arc::new(Mutex::new((0, 0)));
+        let cancelled = Arc::new(AtomicBool::new(false));
+        let (told, heard) = (Arc::clone(&progress), Arc::clone(&cancelled));
+        std::thread::spawn(move || {
+            let answer = work(&mut |event| {
+                if let (Event::Drawn { index, count, .. }, Ok(mut told)) = (&event, told.lock()) {
+                    *told = (index + 1, *count);
+                }
+                context.request_repaint();
+                if heard.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            // who gave it up listens no more
+            let _ = tell.send(answer.map_err(|error| one_line(&error)));
+            context.request_repaint();
+        });
+        Work { progress, cancelled, result }
+    }
+
+    /// How much is done, of how much.
+    pub(super) fn progress(&self) -> (usize, usize) {
+        self.progress.lock().map(|progress| *progress).unwrap_or_default()
+    }
+
+    /// What came of it, once it is done.
+    pub(super) fn done(&self) -> Option<Result<T, String>> {
+        match self.result.try_recv() {
+            Ok(result) => Some(result),
+            Err(mpsc::TryRecvError::Empty) => None,
+            Err(mpsc::TryRecvError::Disconnected) => Some(Err("the work ended early".to_owned())),
+        }
+    }
+}
+
+impl<T> Drop for Work<T> {
+    fn drop(&mut self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+    }
+}
