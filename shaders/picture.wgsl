@@ -5,7 +5,7 @@ struct Shown {
     // Where the hours' raster begins (west, north), metres around the scene's origin; its cell, metres.
     hours_corner: vec2f,
     hours_cell: f32,
-    // 1 where hours are shown instead of sun and shadow.
+    // Instead of sun and shadow: 1 hours on the plan's cells, 2 on patches.
     hours: f32,
     // From the eye to what it looks at, metres.
     focus: f32,
@@ -35,6 +35,11 @@ struct Shown {
 @group(2) @binding(5) var volumes: texture_2d<f32>;
 @group(2) @binding(6) var silhouette: texture_2d<f32>;
 @group(2) @binding(7) var cells: texture_2d<f32>;
+// Of each face its patch, in rows as planes; of each patch four texels: corner and column of its first texel in its page,
+// right and row, down and page (both directions over a texel's length), and columns, rows and how many sides are judged.
+@group(2) @binding(8) var patch_of: texture_2d<u32>;
+@group(2) @binding(9) var patch_frames: texture_2d<f32>;
+@group(2) @binding(10) var atlas: texture_2d_array<f32>;
 
 // What a pixel sees, from its face's plane: depths are not needed, which rays do not tell.
 fn point_on(face: u32, pixel: vec2f) -> vec3f {
@@ -112,6 +117,30 @@ fn hours_at(point: vec3f, normal: vec3f) -> vec4f {
     return vec4f(textureLoad(hours_colour, cell, 0).rgb, select(0.0, 1.0, near));
 }
 
+const NO_PATCH: u32 = 0xffffffffu;
+// The colour of what is not judged (src/export/figure/surfaces.rs).
+const NOT_JUDGED = vec3f(200.0, 191.0, 182.0) / 255.0;
+
+// A patch's colour at a seen point.
+fn on_patch(face: u32, point: vec3f, normal: vec3f) -> vec3f {
+    let number = textureLoad(patch_of, vec2u(face % PLANES_WIDTH, face / PLANES_WIDTH), 0).x;
+    if number == NO_PATCH {
+        return NOT_JUDGED;
+    }
+    let first = vec2u(number * 4u % PLANES_WIDTH, number * 4u / PLANES_WIDTH);
+    let corner = textureLoad(patch_frames, first, 0);
+    let right = textureLoad(patch_frames, first + vec2u(1u, 0u), 0);
+    let down = textureLoad(patch_frames, first + vec2u(2u, 0u), 0);
+    let size = textureLoad(patch_frames, first + vec2u(3u, 0u), 0).xyz;
+    if size.z < 2.0 && dot(cross(down.xyz, right.xyz), normal) <= 0.0 {
+        return NOT_JUDGED;
+    }
+    let from_corner = point - corner.xyz;
+    let place = vec2f(dot(from_corner, right.xyz), dot(from_corner, down.xyz));
+    let texel = vec2f(corner.w, right.w) + clamp(floor(place), vec2f(0.0), size.xy - 1.0);
+    return textureLoad(atlas, vec2u(texel), u32(down.w), 0).rgb;
+}
+
 fn before_camera(pixel: vec2f, face: u32) -> vec3f {
     let along = ray(pixel);
     if face == SKY {
@@ -130,8 +159,14 @@ fn before_camera(pixel: vec2f, face: u32) -> vec3f {
     if shown.hours == 0.0 {
         return at_night(mix(card * light_on(normal, share), HORIZON, haze));
     }
+    if shown.hours == 2.0 && face != GROUND {
+        return on_patch(face, point, normal);
+    }
     // what was not counted is plain card under the sky
-    let hours = hours_at(point, normal);
+    var hours = vec4f(0.0);
+    if shown.hours == 1.0 {
+        hours = hours_at(point, normal);
+    }
     let plain = mix(card * (0.74 + 0.18 * normal.z + 0.05 * normal.x - 0.03 * normal.y), HORIZON, haze);
     return mix(plain, hours.rgb * (0.90 + 0.10 * normal.z), hours.a);
 }
@@ -148,12 +183,16 @@ fn relief(normal: vec3f, strength: f32) -> f32 {
 fn from_above(pixel: vec2f, face: u32) -> vec3f {
     let share = textureLoad(share_of_sun, vec2u(pixel), 0).x;
     let normal = seen_normal(face);
-    let hours = hours_at(point_on(face, pixel), normal);
+    let point = point_on(face, pixel);
+    if shown.hours == 2.0 && face != GROUND {
+        return on_patch(face, point, normal);
+    }
+    let hours = hours_at(point, normal);
     if shown.hours == 1.0 && hours.a == 1.0 {
         return hours.rgb * relief(normal, 0.10);
     }
     if face == GROUND {
-        return mix(PLAN_GROUND_SHADE, PLAN_GROUND_SUN, select(share, 1.0, shown.hours == 1.0));
+        return mix(PLAN_GROUND_SHADE, PLAN_GROUND_SUN, select(share, 1.0, shown.hours > 0.0));
     }
     var roof = mix(PLAN_ROOF_SHADE, PLAN_ROOF_SUN, share);
     if shown.tinted == 1.0 {

@@ -6,7 +6,7 @@ use eframe::egui::{Event, Key, Modifiers, Role, Theme};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use gnomon::desktop::{self, App};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 fn main() -> Result<()> {
@@ -21,6 +21,12 @@ fn main() -> Result<()> {
     window.step();
     window.key_press(Key::F);
     keep(&mut window, "plan")?;
+
+    let mut window = open("headquarters", Theme::Light)?;
+    press(&mut window, "Compare with")?;
+    press(&mut window, "Another file…")?;
+    answer(&mut window, &sample("headquarters/without.toml"))?;
+    keep(&mut window, "change")?;
 
     let mut window = open("tower", Theme::Light)?;
     choose(&mut window, "Technique", "stencil")?;
@@ -40,8 +46,12 @@ fn main() -> Result<()> {
     keep(&mut window, "dark")
 }
 
+fn sample(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(path)
+}
+
 fn open(name: &str, theme: Theme) -> Result<Harness<'static, App>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
+    let path = sample(name);
     let mut fault = None;
     let mut window = Harness::<App>::builder()
         .with_size([1280.0, 720.0])
@@ -72,10 +82,29 @@ fn settle(window: &mut Harness<'_, App>) -> Result<()> {
 }
 
 fn click(window: &mut Harness<'_, App>, label: &str) -> Result<()> {
+    press(window, label)?;
+    settle(window)
+}
+
+/// Clicks, and does not wait for what comes of it.
+fn press(window: &mut Harness<'_, App>, label: &str) -> Result<()> {
     window.query_by_label(label).ok_or_else(|| anyhow!("there is no {label}"))?.click();
     window.step();
     window.step();
-    settle(window)
+    Ok(())
+}
+
+/// Names a path in the window's own dialog, which stands in for the system's where that has none.
+fn answer(window: &mut Harness<'_, App>, path: &Path) -> Result<()> {
+    let begun = Instant::now();
+    while window.query_by_role_and_label(Role::TextInput, "Path").is_none() {
+        window.step();
+        std::thread::sleep(Duration::from_millis(5));
+        if begun.elapsed() > Duration::from_secs(20) {
+            bail!("no dialog came");
+        }
+    }
+    write(window, "Path", &path.display().to_string())
 }
 
 fn choose(window: &mut Harness<'_, App>, list: &str, entry: &str) -> Result<()> {

@@ -2,7 +2,7 @@
 //!
 //! Results go to stdout, progress and notes to stderr. Exit status: 0 done, 1 failed, 2 wrong use, 130 interrupted.
 
-mod animate;
+pub(crate) mod animate;
 mod arguments;
 mod commands;
 mod compare;

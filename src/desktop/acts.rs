@@ -53,6 +53,10 @@ impl App {
                 let (eye, time) = (open.viewer.eye, open.clock.now.time);
                 self.writing = Some(files::drawing(&open.project, &self.settings, eye, time, path, context.clone()));
             }
+            Purpose::Animation => {
+                let eye = open.viewer.eye;
+                self.writing = Some(files::animation(&open.project, &self.settings, eye, path, context.clone()));
+            }
             Purpose::Hours => {
                 if let Some(laid) = &open.laid {
                     self.writing = Some(files::hours(Arc::clone(laid), path, context.clone()));

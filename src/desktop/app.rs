@@ -262,6 +262,7 @@ impl App {
                 };
                 let grown = length(&project) / length(&open.project);
                 (open.project, open.number) = (project, self.loaded);
+                open.laid = open.laid.take().filter(|laid| laid.lies_on(&open.project.site));
                 // another scale would leave the eye inside the model, or out of sight of it
                 if !(0.5..=2.0).contains(&grown) {
                     self.fit(1.6);

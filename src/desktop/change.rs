@@ -40,7 +40,10 @@ impl Known {
     /// The hours of the state before, where they are those of its site.
     fn outcome(self, before: &Written, site: &Site) -> Option<Outcome> {
         let (known, found) = (&self.laid.site, &self.laid.found);
-        let same_study = known.track == site.track && known.grid == site.grid && known.ground == site.ground && known.method == site.method;
+        let same_study = known.track == site.track
+            && known.grid == site.grid
+            && known.ground == site.ground
+            && known.method == site.method;
         let same = same_study && self.before.site.model == before.site.model && self.before.file == before.file;
         match found {
             Found::Shadow(hours) if same => Some(hours.outcome.clone()),
@@ -66,7 +69,7 @@ pub(super) fn find(
     context: egui::Context,
 ) -> Work<Laid> {
     let site = Arc::clone(&project.site);
-    let mut after = project.written.clone();
+    let (mut after, written) = (project.written.clone(), project.written.site.clone());
     let name = project.name();
     Work::start(context, move |on_event| {
         let mut timings = Stopwatch::start();
@@ -91,7 +94,7 @@ pub(super) fn find(
             site.mesh = site.mesh.of_components(&[]);
         }
         let found = Found::Change(Box::new(Change { before, pair, outcome, timings, colours }));
-        Ok(Laid { number, site, found })
+        Ok(Laid { number, site, written, found })
     })
 }
 
@@ -164,11 +167,7 @@ impl Change {
         watch.lap("raster");
         let told = Told { receivers, drawn: &outcome.drawn[1], timings: &watch.timings(), statistics: None };
         let json = comparison::json(&outcome.comparison, &pair.names, place, track, &told)?;
-        Ok(vec![
-            ("compare.png", picture),
-            ("shadow-hours-difference.tif", raster),
-            ("compare.json", json.into_bytes()),
-        ])
+        Ok(vec![("compare.png", picture), ("shadow-hours-difference.tif", raster), ("compare.json", json.into_bytes())])
     }
 }
 

@@ -7,15 +7,17 @@ use super::look;
 use super::settings::Settings;
 use super::view;
 use super::work::Work;
+use crate::cli::animate;
 use crate::export::figure::Diagram;
 use crate::export::{figure, file};
 use crate::site::file::CameraTable;
 use crate::site::{Method, Overrides, Site, Written, model};
-use crate::study::{self, InstantWants};
+use crate::study::{self, Event, InstantWants, StudyError};
 use crate::view::View;
 use chrono::DateTime;
 use chrono_tz::Tz;
 use eframe::egui;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
@@ -33,6 +35,8 @@ pub(super) enum Purpose {
     Drawing,
     /// To write the hours, or the change, in a folder.
     Hours,
+    /// To write the study as pictures and as a GIF, in a folder.
+    Animation,
 }
 
 impl Purpose {
@@ -43,6 +47,7 @@ impl Purpose {
             Purpose::SaveSite => "Save the site file",
             Purpose::Drawing => "Export the drawing",
             Purpose::Hours => "Export the hours: a folder for the files",
+            Purpose::Animation => "Export the animation: a folder for day.gif and its pictures",
         }
     }
 
@@ -57,6 +62,7 @@ impl Purpose {
             Purpose::SaveSite => "site.toml",
             Purpose::Drawing => "shadow.png",
             Purpose::Hours => "out",
+            Purpose::Animation => "animation",
         }
     }
 }
@@ -98,7 +104,7 @@ impl Asking {
                     .pick_file(),
                 Purpose::SaveSite => dialog.add_filter("Site", &["toml"]).set_file_name(purpose.name()).save_file(),
                 Purpose::Drawing => dialog.add_filter("PNG", &["png"]).set_file_name(purpose.name()).save_file(),
-                Purpose::Hours => dialog.pick_folder(),
+                Purpose::Hours | Purpose::Animation => dialog.pick_folder(),
             };
             // who closed the window listens no more
             let _ = tell.send(path);
@@ -244,6 +250,24 @@ pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &
     Written { file: path.display().to_string(), folder, site, text: project.written.text.clone() }
 }
 
+/// The site as the eye of the perspective sees it.
+fn seen_from(project: &Project, settings: &Settings, eye: &Eye) -> Written {
+    let mut written = Written { site: settings.site.clone(), ..project.written.clone() };
+    if eye.stand == Stand::Perspective {
+        // the command draws from the saved camera, and so the same drawing
+        written.site.camera = camera(eye);
+    }
+    written
+}
+
+fn view_from(site: &Site, eye: &Eye) -> View {
+    match eye.stand {
+        Stand::Plan => View::Plan(site.grid),
+        Stand::Perspective => View::Camera(site.camera),
+        _ => View::Camera(eye.camera((site.camera.width, site.camera.height))),
+    }
+}
+
 /// Draws the instant as the command does: on the site's plan, or as the eye sees it.
 pub(super) fn drawing(
     project: &Project,
@@ -253,11 +277,7 @@ pub(super) fn drawing(
     path: PathBuf,
     context: egui::Context,
 ) -> Work<PathBuf> {
-    let mut written = Written { site: settings.site.clone(), ..project.written.clone() };
-    if eye.stand == Stand::Perspective {
-        // the command draws from the saved camera, and so the same drawing
-        written.site.camera = camera(&eye);
-    }
+    let written = seen_from(project, settings, &eye);
     let shown = settings.shown;
     Work::start(context, move |on_event| {
         let is_plan = eye.stand == Stand::Plan;
@@ -271,11 +291,7 @@ pub(super) fn drawing(
         let at = Some(time.format("%Y-%m-%dT%H:%M:%S%:z").to_string());
         let asked = Overrides { at, technique: Some(method), ..Overrides::default() };
         let site = Site::of(&written, &asked, model::load)?;
-        let view = match eye.stand {
-            Stand::Plan => View::Plan(site.grid),
-            Stand::Perspective => View::Camera(site.camera),
-            _ => View::Camera(eye.camera((site.camera.width, site.camera.height))),
-        };
+        let view = view_from(&site, &eye);
         let wants = InstantWants {
             surface: true,
             volumes: shown.volumes && !is_plan,
@@ -303,6 +319,56 @@ pub(super) fn drawing(
         file::write(&path, &figure::instant(&scene, &view, &outcome.mask, &shown)?)?;
         Ok(path)
     })
+}
+
+/// Draws every instant of the study as the command does, into a folder: on the site's plan, or as the eye sees it.
+pub(super) fn animation(
+    project: &Project,
+    settings: &Settings,
+    eye: Eye,
+    folder: PathBuf,
+    context: egui::Context,
+) -> Work<PathBuf> {
+    let written = seen_from(project, settings, &eye);
+    let method = settings.shown.method;
+    Work::start(context, move |on_event| {
+        let method = if view::draws(method, eye.stand == Stand::Plan) { method } else { Method::Auto };
+        let asked = Overrides { technique: Some(method), ..Overrides::default() };
+        let site = Site::of(&written, &asked, model::load)?;
+        let count = animate::check(&site)?;
+        file::check_folder(&folder)?;
+        // the frames, and then each once more in the GIF
+        let both = 2 * count;
+        let drawn = |index: usize| {
+            let time = site.track.instants[index % count].time;
+            Event::Drawn { index, count: both, time, mask: None, bits: None }
+        };
+        let view = view_from(&site, &eye);
+        let (_, frames) = animate::frames(&site, view, &folder, animate::WIDTH, &mut |event| match event {
+            Event::Drawn { index, .. } => on_event(drawn(index)),
+            event => on_event(event),
+        })?;
+        animate::gif(frames, count, animate::FPS, &mut |index| match on_event(drawn(count + index)) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(StudyError::Interrupted),
+        })
+    })
+}
+
+/// Shows how far a file is; whether it is given up.
+pub(super) fn progress(writing: &Work<PathBuf>, ui: &mut egui::Ui) -> bool {
+    ui.horizontal(|ui| {
+        let (done, count) = writing.progress();
+        ui.label("Drawing");
+        if count > 1 {
+            let bar = egui::ProgressBar::new(done as f32 / count as f32);
+            ui.add(bar.desired_width(220.0).show_percentage());
+        } else {
+            ui.add(egui::Spinner::new().size(16.0));
+        }
+        ui.button("Cancel the export").clicked()
+    })
+    .inner
 }
 
 /// Writes the hours into a folder.

@@ -2,6 +2,7 @@
 
 use super::app::{App, Open};
 use super::change::{self, Known};
+use super::facades;
 use super::files::Purpose;
 use super::hours::{self, Found};
 use super::loading::name_of;
@@ -27,6 +28,13 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             open.adding = None;
         }
     } else {
+        let compares = app.settings.before.is_some();
+        let facades = egui::Checkbox::new(&mut app.settings.shown.facades, "On façades, too");
+        let response = ui.add_enabled(!compares, facades);
+        response.on_disabled_hover_text("Two states are compared on ground and roofs");
+        if app.settings.shown.facades && !compares && facades::method(&app.settings) != app.settings.shown.method {
+            ui.weak("Façades: by soft-texture or ray-cast, as auto chooses.");
+        }
         let what = if app.settings.before.is_some() { "Find the change" } else { "Find the hours" };
         if ui.add_enabled(!is_reading, egui::Button::new(what)).clicked() {
             find(open, &app.settings, &context);
@@ -54,7 +62,8 @@ fn find(open: &mut Open, settings: &Settings, context: &egui::Context) {
             let known = open.known.clone().filter(|known| known.before == *before);
             change::find(&open.project, Arc::clone(before), known, number, context)
         }
-        None => hours::add_up(Arc::clone(&open.project.site), number, context),
+        None if settings.shown.facades => facades::find(&open.project, facades::method(settings), number, context),
+        None => hours::add_up(&open.project, number, context),
     });
 }
 
@@ -133,7 +142,11 @@ pub(super) fn areas(app: &App, ui: &mut Ui) {
             for cell in [first, second] {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     let cell = cell.replace('-', "−");
-                    if what.is_empty() { ui.weak(cell) } else { ui.label(cell) };
+                    if what.is_empty() {
+                        ui.weak(cell)
+                    } else {
+                        ui.label(cell)
+                    };
                 });
             }
             ui.end_row();

@@ -119,6 +119,9 @@ impl App {
                 if ui.add_enabled(has_hours, egui::Button::new("Export the hours…")).clicked() {
                     self.ask(Purpose::Hours, &context);
                 }
+                if ui.add_enabled(is_open, egui::Button::new("Export the animation…")).clicked() {
+                    self.ask(Purpose::Animation, &context);
+                }
                 if ui.add_enabled(is_open, egui::Button::new("Copy the picture")).clicked() {
                     self.copy(&context);
                 }
@@ -206,11 +209,8 @@ impl App {
                 self.loading = None;
             }
         }
-        if self.writing.is_some() {
-            ui.horizontal(|ui| {
-                ui.add(egui::Spinner::new().size(16.0));
-                ui.label("Drawing the file");
-            });
+        if self.writing.as_ref().is_some_and(|writing| files::progress(writing, ui)) {
+            self.writing = None;
         }
         let of_view = self.open.as_ref().and_then(|open| open.viewer.fault.clone());
         let (fault, notice) = (self.fault.clone().or(of_view), self.notice.clone());

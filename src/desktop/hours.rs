@@ -2,6 +2,7 @@
 //! the window.
 
 use super::change::Change;
+use super::facades::Facades;
 use super::loading::Project;
 use super::pick::Under;
 use super::settings::Settings;
@@ -9,7 +10,9 @@ use super::work::Work;
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
 use crate::export::{figure, raster, report};
 use crate::profile::probe::Sunlight;
+use crate::shadow::ShadowError;
 use crate::shadow::picture::{Hours, Picture};
+use crate::site::file::SiteFile;
 use crate::site::{Probing, Site};
 use crate::study::{self, Outcome, StudyError, Wants};
 use crate::sun::DayWindow;
@@ -28,6 +31,8 @@ pub(super) struct Laid {
     pub(super) number: u64,
     /// The open site that it was found of.
     pub(super) site: Arc<Site>,
+    /// The same as it was written.
+    pub(super) written: SiteFile,
     /// What.
     pub(super) found: Found,
 }
@@ -38,15 +43,38 @@ pub(super) enum Found {
     Shadow(Box<ShadowHours>),
     /// What changes from another state to that of the site.
     Change(Box<Change>),
+    /// The hours of sun on façades and roofs.
+    Facades(Box<Facades>),
 }
 
 impl Laid {
     /// Lays it over a picture of the site.
-    pub(super) fn lay(&self, picture: &mut Picture) {
+    ///
+    /// # Errors
+    /// Where the adapter cannot hold it.
+    pub(super) fn lay(&self, picture: &mut Picture) -> Result<(), ShadowError> {
         match &self.found {
             Found::Shadow(hours) => picture.lay_hours(Some(hours.raster())),
             Found::Change(change) => picture.lay_hours(Some(change.raster())),
+            Found::Facades(facades) => facades.lay(picture)?,
         }
+        Ok(())
+    }
+
+    /// What it is, in a few words.
+    pub(super) fn what(&self) -> &'static str {
+        match &self.found {
+            Found::Shadow(_) => "hours of shadow",
+            Found::Change(_) => "sun lost and gained",
+            Found::Facades(_) => "hours of sun",
+        }
+    }
+
+    /// Whether it can lie over another site: hours on the plan lie wherever heights agree.
+    pub(super) fn lies_on(&self, site: &Site) -> bool {
+        let ours = &self.site;
+        let same_mesh = || ours.mesh.vertices == site.mesh.vertices && ours.mesh.faces == site.mesh.faces;
+        !matches!(self.found, Found::Facades(_)) || (ours.receives == site.receives && same_mesh())
     }
 
     /// What it says of a point, where its surface is the one that was counted.
@@ -54,6 +82,7 @@ impl Laid {
         match &self.found {
             Found::Shadow(hours) => hours.said(under.point),
             Found::Change(change) => change.said(under.point),
+            Found::Facades(facades) => facades.said(under),
         }
     }
 
@@ -62,6 +91,7 @@ impl Laid {
         match &self.found {
             Found::Shadow(hours) => hours.legend(),
             Found::Change(change) => (change.colours.legend_head.clone(), change.colours.legend.clone()),
+            Found::Facades(facades) => facades.legend.clone(),
         }
     }
 
@@ -73,24 +103,30 @@ impl Laid {
         match &self.found {
             Found::Shadow(hours) => hours.files(&self.site),
             Found::Change(change) => change.files(),
+            Found::Facades(facades) => facades.files(&self.site),
         }
     }
 
     /// Whether it is what the settings ask of the site.
     pub(super) fn is_asked(&self, project: &Project, settings: &Settings) -> bool {
         let is_found = match (&self.found, &settings.before) {
-            (Found::Shadow(_), before) => before.is_none(),
             (Found::Change(change), Some(before)) => change.before == *before,
-            (Found::Change(_), None) => false,
+            (Found::Shadow(_), None) => !settings.shown.facades,
+            (Found::Facades(_), None) => settings.shown.facades,
+            _ => false,
         };
-        is_found && Arc::ptr_eq(&self.site, &project.site)
+        let (then, now) = (&self.written, &project.written.site);
+        let of_models = then.model == now.model && then.ground == now.ground && then.place == now.place;
+        let of_study = then.study == now.study && then.plan == now.plan;
+        // undone and redone it is another site, and the same
+        is_found && (Arc::ptr_eq(&self.site, &project.site) || (of_models && of_study))
     }
 
     /// The change, where it is one.
     pub(super) fn change(&self) -> Option<&Change> {
         match &self.found {
             Found::Change(change) => Some(change),
-            Found::Shadow(_) => None,
+            _ => None,
         }
     }
 }
@@ -172,12 +208,13 @@ pub(super) fn cell_at(grid: &Grid, surface: &Surface, point: DVec3) -> Option<us
 }
 
 /// Adds up the hours of a site's study.
-pub(super) fn add_up(site: Arc<Site>, number: u64, context: egui::Context) -> Work<Laid> {
+pub(super) fn add_up(project: &Project, number: u64, context: egui::Context) -> Work<Laid> {
+    let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
     Work::start(context, move |on_event| {
         let wants = Wants { surface: true, ..Wants::default() };
         let outcome = study::run(&site, &wants, on_event)?;
         let found = Found::Shadow(Box::new(ShadowHours::new(&site, outcome)));
-        Ok(Laid { number, site, found })
+        Ok(Laid { number, site, written, found })
     })
 }
 

@@ -10,6 +10,7 @@ mod change;
 mod clock;
 mod components;
 mod eye;
+mod facades;
 mod files;
 mod found;
 mod frame;

@@ -13,6 +13,8 @@ pub(super) struct Under {
     pub(super) point: DVec3,
     /// The unit normal of its surface, on the seen side.
     pub(super) normal: DVec3,
+    /// Which of the faces that are seen; none on the ground.
+    pub(super) face: Option<u32>,
     /// The component's name, or the ground.
     pub(super) name: String,
 }
@@ -53,8 +55,8 @@ pub(super) fn under(project: &Project, view: &View, rect: Rect, pointer: egui::P
             let normal = if plane.dot(along) > 0.0 { -plane } else { plane };
             let component = mesh.components.partition_point(|component| component.faces.end <= face);
             let name = mesh.components.get(component)?.name.clone();
-            Some(Under { point: from + along * distance, normal, name })
+            Some(Under { point: from + along * distance, normal, face: Some(face), name })
         }
-        _ => Some(Under { point: from + along * ground?, normal: DVec3::Z, name: "ground".to_owned() }),
+        _ => Some(Under { point: from + along * ground?, normal: DVec3::Z, face: None, name: "ground".to_owned() }),
     }
 }

@@ -1,8 +1,8 @@
 //! What a person sets, as one small value; and its history.
 
 use crate::export::figure::Diagram;
-use crate::site::{Method, Written};
 use crate::site::file::SiteFile;
+use crate::site::{Method, Written};
 use std::sync::Arc;
 
 /// Everything that undo brings back: the site as it is written, how its shadows are shown, and
@@ -34,6 +34,8 @@ pub(super) struct Shown {
     pub(super) tinted: bool,
     /// The hours of shadow instead of one instant.
     pub(super) hours: bool,
+    /// Hours are found on façades, too.
+    pub(super) facades: bool,
 }
 
 /// The settings that were, and those that were undone.

@@ -196,7 +196,7 @@ impl Shared {
         let laid = wish.hours.as_ref().map(|laid| laid.number);
         if laid != kept.hours {
             match &wish.hours {
-                Some(laid) => laid.lay(live.picture()),
+                Some(laid) => laid.lay(live.picture()).map_err(|error| error.to_string())?,
                 None => live.picture().lay_hours(None),
             }
             kept.hours = laid;

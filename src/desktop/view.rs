@@ -261,8 +261,9 @@ impl Viewer {
     fn status(&self, ui: &Ui, rect: Rect, software: bool, asked: &Asked<'_>) {
         let Some(shown) = &self.shown else { return };
         let drawn = &shown.drawn;
-        let mut text = if shown.wish.style.hours {
-            "hours of shadow".to_owned()
+        let over = shown.wish.hours.as_ref().filter(|_| shown.wish.style.hours);
+        let mut text = if let Some(laid) = over {
+            laid.what().to_owned()
         } else if shown.wish.to_sun.z <= 0.0 {
             "night: nothing sees the sun".to_owned()
         } else {

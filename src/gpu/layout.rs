@@ -84,7 +84,7 @@ pub struct Shown {
     pub hours_corner: [f32; 2],
     /// Its cell, metres.
     pub hours_cell: f32,
-    /// 1 where hours are shown instead of sun and shadow.
+    /// Instead of sun and shadow: 1 hours on the plan's cells, 2 on patches.
     pub hours: f32,
     /// From the eye to what it looks at, metres.
     pub focus: f32,

@@ -11,6 +11,7 @@ mod light_view;
 pub mod map;
 pub mod near_clip;
 pub mod overlay;
+mod patch_textures;
 pub mod picture;
 mod plan_surface;
 pub mod projected;

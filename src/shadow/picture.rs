@@ -3,7 +3,9 @@
 //!
 //! [`crate::export`] draws sheets on the processor, cell by cell; a test holds the two against each other.
 
-use super::surface::{UNIFORM, bind_group_layout, texture_binding};
+pub use super::patch_textures::PatchColours;
+use super::patch_textures::textures;
+use super::surface::{PLANES_WIDTH, UNIFORM, bind_group_layout, texture_binding};
 use super::{DrawnMask, GpuSurface, Scene, ShadowError};
 use crate::gpu::layout::Shown;
 use crate::gpu::targets::{SHARE, Stages, whole};
@@ -15,8 +17,6 @@ use wgpu::*;
 
 /// The picture's colours: display values.
 pub const COLOURS: TextureFormat = TextureFormat::Rgba8Unorm;
-/// Faces' colours lie in rows of this many texels, as their planes do.
-const TINTS_WIDTH: usize = 4096;
 
 /// The hours of shadow of a profile, to be laid over what is seen.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ pub struct Style {
     pub wide_lines: bool,
     /// Components in their own colours, as [`Picture::tint`] says.
     pub tinted: bool,
-    /// Hours instead of sun and shadow, as [`Picture::lay_hours`] says.
+    /// Hours instead of sun and shadow, as [`Picture::lay_hours`] or [`Picture::lay_patches`] says.
     pub hours: bool,
 }
 
@@ -56,12 +56,20 @@ pub struct Picture {
     uniform: Buffer,
     origin: DVec3,
     uploaded: Option<Texture>,
-    hours: Option<([f32; 3], [Texture; 2])>,
+    hours: Option<Over>,
     tints: Option<Texture>,
     overlay: [Option<Texture>; 2],
     cells: Option<Texture>,
-    /// Bound where there is nothing.
-    nothing: Texture,
+    /// Bound where there is nothing: in colours, and in numbers.
+    nothing: [Texture; 2],
+}
+
+/// What lies over the scene.
+enum Over {
+    /// The plan's cells (corner and cell): their colours, and how high they lie.
+    Plan([f32; 3], [Texture; 2]),
+    /// Flat patches.
+    Patches([Texture; 3]),
 }
 
 impl Picture {
@@ -72,7 +80,15 @@ impl Picture {
     pub fn new(gpu: Arc<Gpu>, scene: &Scene, view: View) -> Result<Picture, ShadowError> {
         let surface = GpuSurface::draw(Arc::clone(&gpu), scene, view)?;
         let plain = texture_binding(TextureSampleType::Float { filterable: false });
-        let group = bind_group_layout(&gpu, "picture", &[UNIFORM, plain, plain, plain, plain, plain, plain, plain]);
+        let numbers = texture_binding(TextureSampleType::Uint);
+        let pages = BindingType::Texture {
+            sample_type: TextureSampleType::Float { filterable: false },
+            view_dimension: TextureViewDimension::D2Array,
+            multisampled: false,
+        };
+        let plains = [plain; 7];
+        let types: Vec<_> = [UNIFORM].into_iter().chain(plains).chain([numbers, plain, pages]).collect();
+        let group = bind_group_layout(&gpu, "picture", &types);
         let stages = Stages {
             module: &gpu.shader("picture", shaders::PICTURE),
             vertex: "whole_picture",
@@ -82,7 +98,8 @@ impl Picture {
             layout: Some(&surface.seeing_layout(&[&group])),
         };
         let pipeline = gpu.pipeline("picture", stages, None);
-        let nothing = gpu.texture("picture.nothing", (1, 1), COLOURS, TextureUsages::TEXTURE_BINDING);
+        let nothing = [COLOURS, TextureFormat::R32Uint]
+            .map(|format| gpu.texture("picture.nothing", (1, 1), format, TextureUsages::TEXTURE_BINDING));
         gpu.check()?;
         Ok(Picture {
             surface,
@@ -119,9 +136,9 @@ impl Picture {
     /// Gives each face of the receivers its colour.
     pub fn tint(&mut self, colours: impl Iterator<Item = [u8; 3]>) {
         let mut texels: Vec<[u8; 4]> = colours.map(|[red, green, blue]| [red, green, blue, 255]).collect();
-        let rows = texels.len().div_ceil(TINTS_WIDTH).max(1);
-        texels.resize(rows * TINTS_WIDTH, [255; 4]);
-        let size = (TINTS_WIDTH as u32, rows as u32);
+        let rows = texels.len().div_ceil(PLANES_WIDTH).max(1);
+        texels.resize(rows * PLANES_WIDTH, [255; 4]);
+        let size = (PLANES_WIDTH as u32, rows as u32);
         self.tints = Some(self.upload("picture.tints", size, COLOURS, bytemuck::cast_slice(&texels)));
     }
 
@@ -135,8 +152,19 @@ impl Picture {
             let corner = [(west - self.origin.x) as f32, (north - self.origin.y) as f32, hours.cell as f32];
             let colours = self.upload("picture.hours", hours.size, COLOURS, bytemuck::cast_slice(&texels));
             let format = TextureFormat::R32Float;
-            (corner, [colours, self.upload("picture.heights", hours.size, format, bytemuck::cast_slice(&heights))])
+            let heights = self.upload("picture.heights", hours.size, format, bytemuck::cast_slice(&heights));
+            Over::Plan(corner, [colours, heights])
         });
+    }
+
+    /// Lays patches over the scene. What has none is plain.
+    ///
+    /// # Errors
+    /// Where the adapter cannot hold them.
+    pub fn lay_patches(&mut self, colours: &PatchColours<'_>) -> Result<(), ShadowError> {
+        self.hours = None;
+        self.hours = Some(Over::Patches(textures(&self.surface.gpu, colours, self.origin)?));
+        Ok(())
     }
 
     /// Lays shadow volumes (layers) and silhouette (ink) over the view, rasters as fine or a whole number of times finer.
@@ -173,16 +201,20 @@ impl Picture {
             DrawnMask::Texture(..) => {}
         }
         let share = match mask {
-            DrawnMask::Memory(_) | DrawnMask::Bits(_) => self.uploaded.as_ref().unwrap_or(&self.nothing),
+            DrawnMask::Memory(_) | DrawnMask::Bits(_) => self.uploaded.as_ref().unwrap_or(&self.nothing[0]),
             DrawnMask::Texture(_, texture) => *texture,
         };
         let gpu = &self.surface.gpu;
         let is = |there: bool| f32::from(u8::from(there));
-        let [west, north, cell] = self.hours.as_ref().map_or([0.0, 0.0, 1.0], |(corner, _)| *corner);
+        let ([west, north, cell], over, plan, patches) = match &self.hours {
+            None => ([0.0, 0.0, 1.0], 0.0, None, None),
+            Some(Over::Plan(corner, textures)) => (*corner, 1.0, Some(textures), None),
+            Some(Over::Patches(textures)) => ([0.0, 0.0, 1.0], 2.0, None, Some(textures)),
+        };
         let shown = Shown {
             hours_corner: [west, north],
             hours_cell: cell,
-            hours: is(style.hours && self.hours.is_some()),
+            hours: if style.hours { over } else { 0.0 },
             focus: style.focus_m.max(1e-3) as f32,
             night: is(to_sun.z <= 0.0),
             // lines would be taken for cells
@@ -195,13 +227,14 @@ impl Picture {
         };
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&shown));
         self.surface.set_sun(to_sun);
-        let hours = |at: usize| self.hours.as_ref().map(|(_, textures)| &textures[at]);
+        let hours = |at: usize| plan.map(|textures| &textures[at]);
         let [volumes, silhouette] = &self.overlay;
         let further =
             [hours(0), hours(1), self.tints.as_ref(), volumes.as_ref(), silhouette.as_ref(), self.cells.as_ref()];
         let views: Vec<TextureView> = std::iter::once(Some(share))
             .chain(further)
-            .map(|texture| whole(texture.unwrap_or(&self.nothing)))
+            .map(|texture| whole(texture.unwrap_or(&self.nothing[0])))
+            .chain(self.patch_views(patches))
             .collect();
         let textures = views.iter().enumerate().map(|(at, view)| (at as u32 + 1, BindingResource::TextureView(view)));
         let entries: Vec<_> = std::iter::once((0, self.uniform.as_entire_binding())).chain(textures).collect();
@@ -215,6 +248,13 @@ impl Picture {
         });
         gpu.queue.submit([encoder.finish()]);
         Ok(gpu.check()?)
+    }
+
+    fn patch_views(&self, patches: Option<&[Texture; 3]>) -> [TextureView; 3] {
+        let [colours, numbers] = &self.nothing;
+        let [patch_of, frames, atlas] = patches.map_or([numbers, colours, colours], |textures| textures.each_ref());
+        let layers = TextureViewDescriptor { dimension: Some(TextureViewDimension::D2Array), ..Default::default() };
+        [whole(patch_of), whole(frames), atlas.create_view(&layers)]
     }
 
     fn upload_mask(&mut self, mask: &Mask) {
@@ -235,7 +275,7 @@ impl Picture {
 }
 
 /// Fills a texture with its texels, row 0 first.
-fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
+pub(super) fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
     let bytes_per_row = Some((bytes.len() / texture.height() as usize) as u32);
     let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
     gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());

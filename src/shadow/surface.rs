@@ -13,7 +13,7 @@ use std::sync::Arc;
 use wgpu::*;
 
 /// Receivers' planes lie in rows of this many texels (`PLANES_WIDTH` of `shaders/common/seen.wgsl`).
-const PLANES_WIDTH: usize = 4096;
+pub(super) const PLANES_WIDTH: usize = 4096;
 /// Faces that are uploaded at once: a receiver is drawn once, so no buffer of all of them is kept.
 const FACES_AT_ONCE: usize = 1 << 18;
 

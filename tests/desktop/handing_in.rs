@@ -3,13 +3,13 @@
 use super::*;
 use std::process::Command;
 
-fn command(arguments: &[&std::ffi::OsStr]) {
+pub(crate) fn command(arguments: &[&std::ffi::OsStr]) {
     let output = Command::new(env!("CARGO_BIN_EXE_gnomon")).args(arguments).output().expect("the command");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
 /// Where the system answers no dialog, the window has its own.
-fn answer(harness: &mut Harness<'_, App>, path: &Path, go: &str) {
+pub(crate) fn answer(harness: &mut Harness<'_, App>, path: &Path, go: &str) {
     let begun = Instant::now();
     while harness.query_by_role_and_label(egui::Role::TextInput, "Path").is_none() {
         harness.step();

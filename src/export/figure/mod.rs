@@ -27,7 +27,7 @@ pub use panel::ScaleBar;
 pub use screen::{Screen, instant_on_screen};
 pub use strips::strips;
 pub(super) use surfaces::NOT_JUDGED;
-pub use surfaces::surfaces;
+pub use surfaces::{legend as surfaces_legend, surfaces};
 pub(super) use words::duration;
 
 use super::{ExportError, check_size};

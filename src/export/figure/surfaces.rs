@@ -5,8 +5,7 @@ use super::perspective::{Lens, facing};
 use super::scale::{NO_SUN, Rgb};
 use super::{Scene, check_surface, page, panel, perspective, words};
 use crate::export::ExportError;
-use crate::export::surfaces::{Surfaces, pages};
-use crate::mesh::patches::Patch;
+use crate::export::surfaces::{Atlas, Surfaces};
 use crate::view::{Camera, Surface};
 use glam::Vec4Swizzles as _;
 use rayon::prelude::*;
@@ -40,36 +39,33 @@ fn labelled(scene: &Scene, surfaces: &Surfaces) -> Panel {
         let night = words::duration(hours.night_secs);
         panel.facts.push(("Night", format!("{night} of the window, not counted")));
     }
+    (panel.legend_head, panel.legend) = legend(surfaces);
+    panel
+}
+
+/// What the colours mean: a head, and each of them, the most sun first.
+pub fn legend(surfaces: &Surfaces) -> (String, Vec<(Rgb, String)>) {
     let bands = surfaces.bands();
-    panel.legend_head = match hours.day_secs {
+    let head = match surfaces.hours.day_secs {
         0 => "No sun in this window".to_owned(),
         day => format!("Hours of sun out of {}", words::duration(day)),
     };
     let with_secs = !bands.band_secs.is_multiple_of(60);
-    for band in (0..bands.colours.len()).rev() {
+    let entry = |band: usize| {
         let (from, to) = bands.bounds(band);
         let [from, to] = [from, to].map(|secs| words::hours(secs, with_secs));
-        panel.legend.push((bands.colours[bands.colours.len() - 1 - band], format!("{from} – {to}")));
-    }
-    panel.legend.push((NO_SUN, "none".to_owned()));
-    panel.legend.push((NOT_JUDGED, super::UNJUDGED.to_owned()));
-    panel
+        (bands.colours[bands.colours.len() - 1 - band], format!("{from} – {to}"))
+    };
+    let bands = (0..bands.colours.len()).rev().map(entry);
+    let rest = [(NO_SUN, "none".to_owned()), (NOT_JUDGED, super::UNJUDGED.to_owned())];
+    (head, bands.chain(rest).collect())
 }
 
 /// Per pixel its colour; the sky's is not looked at.
 fn painted(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Vec<Rgb> {
     let (patches, bands, samples) = (surfaces.patches, surfaces.bands(), surfaces.hours.samples);
-    let pages = pages::pages(patches, surfaces.hours);
-    let mut patch_of = vec![None; surfaces.mesh.faces.len()];
-    for patch in &patches.list {
-        for &face in &patches.faces[patch.faces.start as usize..patch.faces.end as usize] {
-            patch_of[face as usize] = Some(patch);
-        }
-    }
     // the scene's faces are those of the components that receive
-    let received = surfaces.mesh.components.iter().zip(surfaces.receives).filter(|(_, receives)| **receives);
-    let patch_of: Vec<Option<&Patch>> =
-        received.flat_map(|(component, _)| component.faces.clone()).map(|face| patch_of[face as usize]).collect();
+    let atlas = Atlas::of(surfaces);
     let lens = Lens::new(camera);
     let width = camera.width as usize;
     let colour = |pixel: usize| {
@@ -78,16 +74,10 @@ fn painted(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Vec<Rgb> {
             return GROUND;
         }
         let plane = facing(scene, face, camera.eye);
-        let seen_side = |patch: &&Patch| patch.two_sided || patch.normal().dot(plane.xyz()) > 0.0;
-        let Some(patch) = patch_of.get(face as usize).copied().flatten().filter(seen_side) else { return NOT_JUDGED };
+        let Some(patch) = atlas.patch(patches, face, plane.xyz()) else { return NOT_JUDGED };
         let ray = lens.ray(pixel % width, pixel / width);
         let depth = -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray);
-        let place = patches.in_page(patch, camera.eye + ray * depth - patches.origin);
-        // a pixel's centre may lie a hair beside the face that it sees
-        let [low, high] = [[patch.x, patch.y], [patch.x + patch.width - 1, patch.y + patch.height - 1]];
-        let within = |axis: usize| (place[axis] as u32).clamp(low[axis], high[axis]) as usize;
-        let lit = pages[patch.page as usize][within(1) * patches.page_size as usize + within(0)];
-        bands.of_sun(lit, samples)
+        bands.of_sun(atlas.lit(patches, patch, camera.eye + ray * depth - patches.origin), samples)
     };
     (0..scene.surface.face.len()).into_par_iter().map(colour).collect()
 }

@@ -5,6 +5,7 @@ mod glb;
 pub(super) mod pages;
 
 pub use glb::glb;
+pub use pages::Atlas;
 
 use super::figure::duration;
 use super::figure::scale::Bands;
@@ -34,7 +35,7 @@ pub struct Surfaces<'a> {
 
 impl Surfaces<'_> {
     /// The drawing's colours.
-    pub(super) fn bands(&self) -> Bands {
+    pub fn bands(&self) -> Bands {
         Bands::new(self.track.step_secs, self.hours.day_secs)
     }
 

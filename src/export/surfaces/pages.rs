@@ -1,9 +1,59 @@
 //! The atlas as rasters: what texels came to, and between and around them what their neighbours did, so that no picture
 //! shows an edge where a texel's centre lies just beside its faces.
 
+use super::Surfaces;
+use crate::export::figure::scale::{Bands, NO_SUN, Rgb};
 use crate::mesh::patches::{GUTTER, Patch, Patches};
 use crate::profile::surfaces::SurfaceHours;
+use glam::DVec3;
 use std::collections::VecDeque;
+
+/// What is seen of the answer: on which patch a face lies, and what each of its texels came to.
+pub struct Atlas {
+    /// Of each face of the components that receive, of these alone, its patch.
+    pub patch_of: Vec<Option<u32>>,
+    /// Per page, row by row, seconds in the sun times samples, as [`SurfaceHours::lit`], or [`EMPTY`].
+    pub(crate) pages: Vec<Vec<u32>>,
+}
+
+impl Atlas {
+    /// Of an answer.
+    pub fn of(surfaces: &Surfaces) -> Atlas {
+        let patches = surfaces.patches;
+        let mut patch_of = vec![None; surfaces.mesh.faces.len()];
+        for (number, patch) in patches.list.iter().enumerate() {
+            for &face in &patches.faces[patch.faces.start as usize..patch.faces.end as usize] {
+                patch_of[face as usize] = Some(number as u32);
+            }
+        }
+        let received = surfaces.mesh.components.iter().zip(surfaces.receives).filter(|(_, receives)| **receives);
+        let faces = received.flat_map(|(component, _)| component.faces.clone());
+        let patch_of = faces.map(|face| patch_of[face as usize]).collect();
+        Atlas { patch_of, pages: pages(patches, surfaces.hours) }
+    }
+
+    /// The patch of a face, where that is its judged side which looks along `facing`.
+    pub fn patch<'a>(&self, patches: &'a Patches, face: u32, facing: DVec3) -> Option<&'a Patch> {
+        let number = self.patch_of.get(face as usize).copied().flatten()?;
+        let patch = &patches.list[number as usize];
+        (patch.two_sided || patch.normal().dot(facing) > 0.0).then_some(patch)
+    }
+
+    /// What the texel came to in which a point around [`Patches::origin`] lies, on a patch.
+    pub fn lit(&self, patches: &Patches, patch: &Patch, point: DVec3) -> u32 {
+        let place = patches.in_page(patch, point);
+        // a pixel's centre may lie a hair beside the face that it sees
+        let [low, high] = [[patch.x, patch.y], [patch.x + patch.width - 1, patch.y + patch.height - 1]];
+        let within = |axis: usize| (place[axis] as u32).clamp(low[axis], high[axis]) as usize;
+        self.pages[patch.page as usize][within(1) * patches.page_size as usize + within(0)]
+    }
+
+    /// The pages in the drawing's colours.
+    pub fn colours(&self, bands: &Bands, samples: u32) -> Vec<Vec<Rgb>> {
+        let colour = |lit: &u32| if *lit == EMPTY { NO_SUN } else { bands.of_sun(*lit, samples) };
+        self.pages.iter().map(|page| page.iter().map(colour).collect()).collect()
+    }
+}
 
 /// A texel of a page that belongs to no patch.
 pub(crate) const EMPTY: u32 = u32::MAX;

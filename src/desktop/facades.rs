@@ -1,0 +1,100 @@
+//! Hours of sun on the model itself: façades, roofs and undersides, texel by texel.
+
+use super::hours::{Found, Laid, NamedFile};
+use super::loading::Project;
+use super::pick::Under;
+use super::settings::Settings;
+use super::work::Work;
+use crate::export::figure::{self, scale::Rgb};
+use crate::export::report::{self, Told};
+use crate::export::surfaces::{self, Atlas, Surfaces};
+use crate::shadow::ShadowError;
+use crate::shadow::picture::{PatchColours, Picture};
+use crate::site::{Method, Receivers, Site};
+use crate::study::{self, Stopwatch, SurfaceOutcome};
+use eframe::egui;
+use std::sync::Arc;
+
+/// The hours of sun on surfaces.
+pub(super) struct Facades {
+    outcome: SurfaceOutcome,
+    atlas: Atlas,
+    /// The atlas in the drawing's colours.
+    pages: Vec<Vec<Rgb>>,
+    /// What the colours mean.
+    pub(super) legend: (String, Vec<(Rgb, String)>),
+    timings: Stopwatch,
+}
+
+/// By what surfaces are judged, where the window draws by some technique: by that, or by the faster of the two that can.
+pub(super) fn method(settings: &Settings) -> Method {
+    match settings.shown.method {
+        method @ (Method::RayCast | Method::SoftTexture) => method,
+        _ => Method::Auto,
+    }
+}
+
+/// Finds the hours of sun on the surfaces of a site.
+pub(super) fn find(project: &Project, method: Method, number: u64, context: egui::Context) -> Work<Laid> {
+    let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
+    Work::start(context, move |on_event| {
+        let mut timings = Stopwatch::start();
+        let asked = Site { receivers: Receivers::Surfaces, method, ..Site::clone(&site) };
+        let outcome = study::surfaces(&asked, asked.patch_cell, on_event)?;
+        timings.laps(outcome.timings.clone());
+        let answer = answer(&site, &outcome);
+        let atlas = Atlas::of(&answer);
+        let pages = atlas.colours(&answer.bands(), outcome.hours.samples);
+        let legend = figure::surfaces_legend(&answer);
+        let found = Found::Facades(Box::new(Facades { outcome, atlas, pages, legend, timings }));
+        Ok(Laid { number, site, written, found })
+    })
+}
+
+fn answer<'a>(site: &'a Site, outcome: &'a SurfaceOutcome) -> Surfaces<'a> {
+    let Site { place, track, mesh, receives, .. } = site;
+    Surfaces { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours }
+}
+
+impl Facades {
+    /// Lays them over a picture of the site that they were found on.
+    ///
+    /// # Errors
+    /// Where the adapter cannot hold them.
+    pub(super) fn lay(&self, picture: &mut Picture) -> Result<(), ShadowError> {
+        let (patches, patch_of) = (&*self.outcome.patches, self.atlas.patch_of.as_slice());
+        picture.lay_patches(&PatchColours { patches, patch_of, pages: &self.pages })
+    }
+
+    /// The hours of sun at a point, and where it lies on its face.
+    pub(super) fn said(&self, under: &Under) -> Option<String> {
+        let patches = &self.outcome.patches;
+        let patch = self.atlas.patch(patches, under.face?, under.normal)?;
+        let point = under.point - patches.origin;
+        let lit = self.atlas.lit(patches, patch, point);
+        let hours = f64::from(lit) / (f64::from(self.outcome.hours.samples) * 3600.0);
+        let from_corner = point - patch.corner;
+        let [right, down] = [patch.right, patch.down].map(|along| from_corner.dot(along).max(0.0));
+        Some(format!("{hours:.2} h of sun, {right:.2} m right and {down:.2} m down on its face"))
+    }
+
+    /// The drawing, the model, the table and the report.
+    pub(super) fn files(&self, site: &Site) -> anyhow::Result<Vec<NamedFile>> {
+        let mut watch = self.timings.clone();
+        let (answer, drawn) = (answer(site, &self.outcome), &self.outcome.drawn);
+        let (mesh, surface) = &study::seen_receivers(site)?;
+        let (place, track, receivers) = (&site.place, &site.track, Receivers::Surfaces);
+        let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
+        let picture = figure::surfaces(&scene, &site.camera, &answer)?;
+        watch.lap("picture");
+        let model = surfaces::glb(&answer)?;
+        watch.lap("model");
+        let told = Told { receivers, drawn, timings: &watch.timings(), statistics: None };
+        Ok(vec![
+            ("surfaces.png", picture),
+            ("surfaces.glb", model),
+            ("surfaces.csv", surfaces::csv(&answer).into_bytes()),
+            ("profile.json", report::surfaces_json(&answer, &told)?.into_bytes()),
+        ])
+    }
+}

@@ -1,0 +1,238 @@
+//! Two states of a site: what a change does to the sun.
+
+use super::handing_in::{answer, command, menu};
+use super::*;
+use gnomon::export::comparison;
+use gnomon::export::figure::ChangeColours;
+use gnomon::profile::comparison::Change;
+use gnomon::site::{Overrides, Pair};
+use gnomon::study::{self, CompareOutcome};
+use gnomon::view::{Grid, Surface, View};
+use std::ops::ControlFlow;
+
+/// A second state beside a small site: some components of it do not cast.
+fn without(site: &Path, casts: &[String]) -> PathBuf {
+    let text = std::fs::read_to_string(site).unwrap();
+    let path = site.with_file_name("without.toml");
+    let list = format!("path = \"works.glb\"\ncasts = {casts:?}\n");
+    std::fs::write(&path, text.replace("path = \"works.glb\"\n", &list).replace("Works", "Works: before")).unwrap();
+    path
+}
+
+/// The names of the small site's components.
+fn components(site: &Path) -> Vec<String> {
+    let site = gnomon::site::Site::load(site, &Overrides::default()).unwrap();
+    site.mesh.components.into_iter().map(|component| component.name).collect()
+}
+
+fn compared(before: &Path, after: &Path) -> (Pair, CompareOutcome) {
+    let pair = Pair::load(before, after, &Overrides::default()).unwrap();
+    let outcome = study::compare(&pair, &mut |_| ControlFlow::Continue(())).unwrap();
+    (pair, outcome)
+}
+
+/// Chooses the file that the open site is compared with.
+fn compare_with(harness: &mut Harness<'_, App>, path: &Path) {
+    click(harness, "Compare with");
+    click(harness, "Another file…");
+    answer(harness, path, "Compare");
+}
+
+/// How many ground pixels of a plan are wrong, and how many are neither unchanged nor altered; at borders nothing is said.
+fn wrong(grid: &Grid, pixels: &[[u8; 4]], colours: &[[u8; 3]], of: &CompareOutcome) -> (usize, usize) {
+    let cells = of.comparison.grid();
+    let (width, height) = (i64::from(cells.width), i64::from(cells.height));
+    let (mut wrong, mut changed) = (0, 0);
+    for (at, pixel) in pixels.iter().enumerate() {
+        let centre = grid.centre(at as u32 % grid.width, at as u32 / grid.width);
+        let column = ((centre.x - cells.west) / cells.cell).floor() as i64;
+        let row = ((cells.north - centre.y) / cells.cell).floor() as i64;
+        if column < 1 || row < 1 || column >= width - 1 || row >= height - 1 {
+            continue;
+        }
+        let cell = (row * width + column) as usize;
+        let around = |dx: i64, dy: i64| (cell as i64 + dy * width + dx) as usize;
+        let all = || (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))).map(|(dx, dy)| around(dx, dy));
+        let is_plain = all().all(|it| {
+            of.surfaces.iter().all(|surface| surface.face[it] == Surface::GROUND) && colours[it] == colours[cell]
+        });
+        if is_plain {
+            wrong += usize::from((0..3).any(|part| pixel[part].abs_diff(colours[cell][part]) > 1));
+            changed += usize::from(of.comparison.change(cell).is_some_and(|change| change != 0));
+        }
+    }
+    (wrong, changed)
+}
+
+/// Undoes or redoes so many times.
+fn again(harness: &mut Harness<'_, App>, keys: egui::Modifiers, times: usize) {
+    for _ in 0..times {
+        harness.key_press_modifiers(keys, Key::Z);
+        harness.run_steps(2);
+        settle(harness);
+    }
+}
+
+/// The state is kept, a component casts no more, and the difference is that of the two states' files.
+#[test]
+fn change_from_a_kept_state_is_the_engines() {
+    let (_folder, site) = small_site();
+    let names = components(&site);
+    let mut harness = window(Some(&site));
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    click(&mut harness, "Compare from here");
+    click(&mut harness, "Components");
+    click(&mut harness, &format!("{} casts", names[0]));
+    settle(&mut harness);
+    click(&mut harness, "Find the change");
+    settle(&mut harness);
+
+    let after = without(&site, &names[1..]);
+    let (pair, outcome) = compared(&site, &after);
+    assert!(outcome.comparison.total_m2_hours(Change::SunGained) > 100.0, "something changes");
+    // every number of the table is there
+    let track = &pair.after.track;
+    let shown = |harness: &Harness<'_, App>, text: &str| harness.query_all_by_label(text).next().is_some();
+    for text in comparison::rows(&outcome.comparison, track).into_iter().flatten().filter(|text| !text.is_empty()) {
+        assert!(shown(&harness, &text.replace('-', "−")), "{text} is not told");
+    }
+    harness.get_by_label(&comparison::extent(&outcome.comparison));
+    // and every pixel of the plan
+    harness.key_press(Key::Num2);
+    harness.step();
+    harness.key_press(Key::F);
+    harness.step();
+    settle(&mut harness);
+    let (View::Plan(grid), _) = harness.state().shown().unwrap() else { panic!("a plan") };
+    let (_, _, pixels) = harness.state().picture().unwrap();
+    let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
+    let colours = ChangeColours::of(&outcome.comparison, surfaces, pair.after.receivers, track.step_secs);
+    let (faults, changed) = wrong(&grid, &pixels, &colours.of_cells, &outcome);
+    assert!(changed > 500, "{changed} pixels change");
+    assert_eq!(faults, 0, "pixels are wrong");
+    for (_, what) in &colours.legend {
+        assert!(shown(&harness, what), "the legend does not say {what}");
+    }
+    // a cell of another colour is seen
+    let mut other = colours.of_cells;
+    other.iter_mut().for_each(|colour| colour[0] ^= 8);
+    assert!(wrong(&grid, &pixels, &other, &outcome).0 > 500);
+
+    // what was undone is compared with nothing, and comes back
+    let undo = egui::Modifiers::COMMAND;
+    again(&mut harness, undo, 1);
+    harness.get_by_label("Find the change");
+    again(&mut harness, undo, 1);
+    harness.get_by_label("Find the hours");
+    harness.get_by_label("What is asked has changed since: find it anew.");
+    again(&mut harness, undo.plus(egui::Modifiers::SHIFT), 2);
+    harness.get_by_label("Find the change");
+    assert!(harness.query_by_label("What is asked has changed since: find it anew.").is_none());
+    click(&mut harness, "Compare no more");
+    harness.get_by_label("Find the hours");
+    assert!(harness.query_by_label("Sun lost and gained").is_none(), "nothing is told of a change any more");
+}
+
+/// The open site against another file: the command's files, byte for byte, and the pointer reads both hours.
+#[test]
+fn change_from_another_file_is_that_of_the_command() {
+    let (folder, site) = small_site();
+    let before = without(&site, &components(&site)[1..]);
+    let mut harness = window(Some(&site));
+    compare_with(&mut harness, &before);
+    menu(&mut harness, "Export the hours…");
+    let out = folder.path().join("window");
+    answer(&mut harness, &out, "Write");
+    let by_command = folder.path().join("command");
+    let paths = [before.as_os_str(), site.as_os_str()];
+    command(
+        &[&["compare".as_ref()], paths.as_slice(), &["--out".as_ref(), by_command.as_ref(), "--quiet".as_ref()]]
+            .concat(),
+    );
+    let [ours, theirs] = [&out, &by_command].map(|folder| {
+        let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+        let mut json: serde_json::Value = serde_json::from_slice(&read("compare.json")).unwrap();
+        let timings = json.as_object_mut().unwrap().remove("timings_secs").expect("timings");
+        let stages: Vec<String> = timings.as_object().unwrap().keys().cloned().collect();
+        (read("compare.png"), read("shadow-hours-difference.tif"), json, stages)
+    });
+    assert!(ours.0 == theirs.0, "the drawing is another one");
+    assert!(ours.1 == theirs.1, "the raster is another one");
+    assert_eq!((ours.2, ours.3), (theirs.2, theirs.3));
+
+    // under the pointer: what is read is what the engine found there
+    let (_, outcome) = compared(&before, &site);
+    let found = &outcome.comparison;
+    harness.key_press(Key::Num2);
+    harness.step();
+    harness.key_press(Key::F);
+    harness.step();
+    settle(&mut harness);
+    let (View::Plan(grid), _) = harness.state().shown().unwrap() else { panic!("a plan") };
+    let most = found.most(Change::SunLost).expect("sun is lost");
+    let rect = harness.get_by_label("Model").rect();
+    let [east, north] = most.at;
+    let x = (east - grid.west) / (grid.east() - grid.west);
+    let y = (grid.north - north) / (grid.north - grid.south());
+    harness.hover_at(rect.lerp_inside(egui::vec2(x as f32, y as f32)));
+    harness.run_steps(3);
+    let sun =
+        |profile: &gnomon::profile::Profile| f64::from(profile.day_secs) / 3600.0 - f64::from(profile.hours(most.cell));
+    let [earlier, later] = [found.before(), found.after()].map(sun);
+    let said = format!("{earlier:.2} h of sun before, {later:.2} h after: −{:.2} h", most.hours);
+    let (told, _) = named(&harness, "h of sun before");
+    assert!(told.starts_with(&said), "{told} is not {said}");
+}
+
+/// What does not go together is told in the command's words, and what was shown stays.
+#[test]
+fn other_place_is_refused_as_by_the_command() {
+    let (_folder, site) = small_site();
+    let text = std::fs::read_to_string(&site).unwrap();
+    let mut harness = window(Some(&site));
+    let changes =
+        [("latitude = 48.2", "latitude = 48.3"), ("[study]", "[ground]\nlevel = -3.0\n[study]"), ("[study]", "[stdy]")];
+    for (from, to) in changes {
+        let other = site.with_file_name("other.toml");
+        std::fs::write(&other, text.replace(from, to)).unwrap();
+        // the window holds the ground that it shows
+        let ours = site.with_file_name("ours.toml");
+        std::fs::write(&ours, text.replace("[study]", "[ground]\nlevel = 0.0\n[study]")).unwrap();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_gnomon"))
+            .args(["compare".as_ref(), other.as_os_str(), ours.as_os_str()])
+            .output()
+            .expect("the command");
+        let said = String::from_utf8_lossy(&output.stderr).replace("ours.toml", "site.toml");
+        let said = said.trim().trim_start_matches("error: ").to_owned();
+        assert!(!output.status.success() && !said.is_empty());
+        compare_with(&mut harness, &other);
+        let told = named(&harness, other.file_name().unwrap().to_str().unwrap()).0;
+        assert_eq!(told, said);
+        click(&mut harness, "Close");
+        harness.get_by_label("Find the hours");
+    }
+}
+
+#[test]
+fn change_can_be_cancelled() {
+    let (_folder, site) = small_site();
+    let before = without(&site, &components(&site)[1..]);
+    let mut harness = window(Some(&site));
+    write(&mut harness, "step", "1s");
+    settle(&mut harness);
+    click(&mut harness, "Compare with");
+    click(&mut harness, "Another file…");
+    let begun = Instant::now();
+    while harness.query_by_role_and_label(egui::Role::TextInput, "Path").is_none() {
+        harness.step();
+        std::thread::sleep(Duration::from_millis(5));
+        assert!(begun.elapsed() < Duration::from_secs(20), "no dialog came");
+    }
+    write(&mut harness, "Path", &before.display().to_string());
+    assert!(!harness.state().is_settled(), "the change is on its way");
+    click(&mut harness, "Cancel the hours");
+    settle(&mut harness);
+    harness.get_by_label("Find the hours");
+    assert!(harness.query_by_label("Sun lost and gained").is_none(), "no change came");
+}
