@@ -1,6 +1,7 @@
 //! The window, driven by the names that it gives its parts, as a person and as assistive technology would.
 
 mod comparing;
+mod facades;
 mod handing_in;
 mod keeping;
 mod opening;

@@ -23,6 +23,9 @@ fn main() -> Result<()> {
     keep(&mut window, "plan")?;
 
     let mut window = open("headquarters", Theme::Light)?;
+    // what is told of the change needs their place
+    click(&mut window, "Place")?;
+    click(&mut window, "Shadows")?;
     press(&mut window, "Compare with")?;
     press(&mut window, "Another file…")?;
     answer(&mut window, &sample("headquarters/without.toml"))?;
@@ -33,6 +36,11 @@ fn main() -> Result<()> {
     click(&mut window, "Volumes")?;
     click(&mut window, "Silhouette")?;
     keep(&mut window, "volumes")?;
+
+    let mut window = open("industry", Theme::Light)?;
+    click(&mut window, "On façades, too")?;
+    click(&mut window, "Find the hours")?;
+    keep(&mut window, "facades")?;
 
     let mut window = open("industry", Theme::Dark)?;
     write(&mut window, "Clock", "17:30")?;

@@ -1,6 +1,6 @@
 //! Two states of a site: what a change does to the sun.
 
-use super::handing_in::{answer, command, menu};
+use super::handing_in::{answer, command, menu, name};
 use super::*;
 use gnomon::export::comparison;
 use gnomon::export::figure::ChangeColours;
@@ -109,7 +109,7 @@ fn change_from_a_kept_state_is_the_engines() {
     let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
     let colours = ChangeColours::of(&outcome.comparison, surfaces, pair.after.receivers, track.step_secs);
     let (faults, changed) = wrong(&grid, &pixels, &colours.of_cells, &outcome);
-    assert!(changed > 500, "{changed} pixels change");
+    assert!(changed > 100, "{changed} pixels change");
     assert_eq!(faults, 0, "pixels are wrong");
     for (_, what) in &colours.legend {
         assert!(shown(&harness, what), "the legend does not say {what}");
@@ -223,13 +223,7 @@ fn change_can_be_cancelled() {
     settle(&mut harness);
     click(&mut harness, "Compare with");
     click(&mut harness, "Another file…");
-    let begun = Instant::now();
-    while harness.query_by_role_and_label(egui::Role::TextInput, "Path").is_none() {
-        harness.step();
-        std::thread::sleep(Duration::from_millis(5));
-        assert!(begun.elapsed() < Duration::from_secs(20), "no dialog came");
-    }
-    write(&mut harness, "Path", &before.display().to_string());
+    name(&mut harness, &before);
     assert!(!harness.state().is_settled(), "the change is on its way");
     click(&mut harness, "Cancel the hours");
     settle(&mut harness);

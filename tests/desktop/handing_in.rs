@@ -10,6 +10,15 @@ pub(crate) fn command(arguments: &[&std::ffi::OsStr]) {
 
 /// Where the system answers no dialog, the window has its own.
 pub(crate) fn answer(harness: &mut Harness<'_, App>, path: &Path, go: &str) {
+    name(harness, path);
+    if harness.query_by_label(go).is_some() {
+        click(harness, go);
+    }
+    settle(harness);
+}
+
+/// The same, and what comes of it is not waited for.
+pub(crate) fn name(harness: &mut Harness<'_, App>, path: &Path) {
     let begun = Instant::now();
     while harness.query_by_role_and_label(egui::Role::TextInput, "Path").is_none() {
         harness.step();
@@ -17,10 +26,6 @@ pub(crate) fn answer(harness: &mut Harness<'_, App>, path: &Path, go: &str) {
         assert!(begun.elapsed() < Duration::from_secs(20), "no dialog came");
     }
     write(harness, "Path", &path.display().to_string());
-    if harness.query_by_label(go).is_some() {
-        click(harness, go);
-    }
-    settle(harness);
 }
 
 pub(crate) fn menu(harness: &mut Harness<'_, App>, entry: &str) {
@@ -164,4 +169,57 @@ fn copied_picture_is_the_one_that_is_shown() {
     assert_eq!(copied.size, [width as usize, height as usize]);
     assert!(copied.pixels.iter().zip(&pixels).all(|(ours, shown)| ours.to_array() == *shown));
     harness.get_by_label("The picture is on the clipboard");
+}
+
+/// The frames and the GIF are the command's, of the plan and before the camera.
+#[test]
+fn animation_is_that_of_the_command() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    harness.key_press(Key::Num2);
+    harness.step();
+    settle(&mut harness);
+    menu(&mut harness, "Export the animation…");
+    let ours = folder.path().join("window");
+    answer(&mut harness, &ours, "Write");
+    harness.get_by_label(&format!("Written: {}", ours.join("day.gif").display()));
+    let theirs = folder.path().join("command");
+    command(&["animate".as_ref(), site.as_ref(), "--out".as_ref(), theirs.as_ref(), "--quiet".as_ref()]);
+    let files = |folder: &Path| {
+        let mut names: Vec<_> = folder.read_dir().unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(files(&ours), files(&theirs));
+    assert_eq!(files(&ours).len(), 6, "five instants and the GIF of them");
+    for name in files(&theirs) {
+        let [ours, theirs] = [&ours, &theirs].map(|folder| std::fs::read(folder.join(&name)).unwrap());
+        assert!(ours == theirs, "{name:?} is another one");
+    }
+}
+
+#[test]
+fn animation_can_be_cancelled() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    write(&mut harness, "step", "1min");
+    settle(&mut harness);
+    menu(&mut harness, "Export the animation…");
+    let out = folder.path().join("window");
+    name(&mut harness, &out);
+    let begun = Instant::now();
+    while !out.join("frame-0001.png").exists() {
+        harness.step();
+        std::thread::sleep(Duration::from_millis(5));
+        assert!(begun.elapsed() < Duration::from_secs(60), "no frame came");
+    }
+    click(&mut harness, "Cancel the export");
+    settle(&mut harness);
+    assert!(harness.query_by_label("Cancel the export").is_none());
+    std::thread::sleep(Duration::from_millis(1500));
+    let count = || out.read_dir().unwrap().count();
+    let then = count();
+    std::thread::sleep(Duration::from_millis(1500));
+    assert!(count() == then && then < 200, "frames are drawn on");
+    assert!(!out.join("day.gif").exists(), "a GIF of a part of them");
 }
