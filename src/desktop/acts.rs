@@ -2,7 +2,8 @@
 
 use super::app::App;
 use super::eye::Stand;
-use super::files::{self, Asking, Purpose};
+use super::files::{Asking, Purpose};
+use super::handing;
 use super::loading::Wanted;
 use crate::export::file;
 use eframe::egui;
@@ -35,7 +36,7 @@ impl App {
         match purpose {
             Purpose::Open | Purpose::Compare => {}
             Purpose::SaveSite => {
-                let mut written = files::written(&open.project, &self.settings, &open.viewer.eye, &path);
+                let mut written = handing::written(&open.project, &self.settings, &open.viewer.eye, &path);
                 let text = written.site.to_toml_in(&written.text).map_err(anyhow::Error::from);
                 match text.and_then(|text| file::write(&path, text.as_bytes()).map(|()| text).map_err(Into::into)) {
                     Ok(text) => {
@@ -51,15 +52,15 @@ impl App {
             }
             Purpose::Drawing => {
                 let (eye, time) = (open.viewer.eye, open.clock.now.time);
-                self.writing = Some(files::drawing(&open.project, &self.settings, eye, time, path, context.clone()));
+                self.writing = Some(handing::drawing(&open.project, &self.settings, eye, time, path, context.clone()));
             }
             Purpose::Animation => {
                 let eye = open.viewer.eye;
-                self.writing = Some(files::animation(&open.project, &self.settings, eye, path, context.clone()));
+                self.writing = Some(handing::animation(&open.project, &self.settings, eye, path, context.clone()));
             }
             Purpose::Hours => {
                 if let Some(laid) = &open.laid {
-                    self.writing = Some(files::hours(Arc::clone(laid), path, context.clone()));
+                    self.writing = Some(handing::hours(Arc::clone(laid), path, context.clone()));
                 }
             }
         }

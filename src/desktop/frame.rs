@@ -4,6 +4,7 @@ use super::app::App;
 use super::clock::Play;
 use super::eye::Stand;
 use super::files::{self, Purpose};
+use super::handing;
 use super::loading::{Wanted, name_of};
 use super::look;
 use super::time::steps;
@@ -209,7 +210,7 @@ impl App {
                 self.loading = None;
             }
         }
-        if self.writing.as_ref().is_some_and(|writing| files::progress(writing, ui)) {
+        if self.writing.as_ref().is_some_and(|writing| handing::progress(writing, ui)) {
             self.writing = None;
         }
         let of_view = self.open.as_ref().and_then(|open| open.viewer.fault.clone());

@@ -14,6 +14,7 @@ mod facades;
 mod files;
 mod found;
 mod frame;
+mod handing;
 mod hours;
 mod loading;
 mod look;

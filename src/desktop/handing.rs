@@ -1,0 +1,187 @@
+//! What is handed in, as the command makes it: the site file, drawings, hours and animations.
+
+use super::eye::{Eye, Stand};
+use super::hours::Laid;
+use super::loading::Project;
+use super::settings::Settings;
+use super::view;
+use super::work::Work;
+use crate::cli::animate;
+use crate::export::figure::{self, Diagram};
+use crate::export::file;
+use crate::site::file::CameraTable;
+use crate::site::{Method, Overrides, Site, Written, model};
+use crate::study::{self, Event, InstantWants, StudyError};
+use crate::view::View;
+use chrono::DateTime;
+use chrono_tz::Tz;
+use eframe::egui;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The eye of the perspective, as a site file says it: to the millimetre.
+fn camera(eye: &Eye) -> CameraTable {
+    let camera = eye.camera((16, 10));
+    let millimetres = |point: glam::DVec3| (point * 1000.0).round().to_array().map(|metres| metres / 1000.0 + 0.0);
+    CameraTable {
+        eye: Some(millimetres(camera.eye)),
+        target: Some(millimetres(camera.target)),
+        up: None,
+        fov: Some((camera.fov_rad.to_degrees() * 1000.0).round() / 1000.0),
+    }
+}
+
+/// What a site file at a path is to say, so that it reopens to the same view.
+pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &Path) -> Written {
+    let mut site = settings.site.clone();
+    if eye.stand == Stand::Perspective {
+        site.camera = camera(eye);
+    }
+    site.study.technique = match settings.shown.method {
+        Method::Auto => None,
+        method => Some(method.word().to_owned()),
+    };
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    for model in &mut site.model {
+        let Some(name) = &mut model.path else { continue };
+        let there = project.written.folder.join(&*name);
+        let there = std::path::absolute(&there).unwrap_or(there);
+        let here = std::path::absolute(&folder).unwrap_or(folder.clone());
+        // beside or below the site file the path is relative, so that both can move together
+        let relative = there.strip_prefix(&here).map(Path::to_owned).unwrap_or(there);
+        *name = relative.display().to_string().replace('\\', "/");
+    }
+    Written { file: path.display().to_string(), folder, site, text: project.written.text.clone() }
+}
+
+/// The site as the eye of the perspective sees it.
+fn seen_from(project: &Project, settings: &Settings, eye: &Eye) -> Written {
+    let mut written = Written { site: settings.site.clone(), ..project.written.clone() };
+    if eye.stand == Stand::Perspective {
+        // the command draws from the saved camera, and so the same drawing
+        written.site.camera = camera(eye);
+    }
+    written
+}
+
+fn view_from(site: &Site, eye: &Eye) -> View {
+    match eye.stand {
+        Stand::Plan => View::Plan(site.grid),
+        Stand::Perspective => View::Camera(site.camera),
+        _ => View::Camera(eye.camera((site.camera.width, site.camera.height))),
+    }
+}
+
+/// Draws the instant as the command does: on the site's plan, or as the eye sees it.
+pub(super) fn drawing(
+    project: &Project,
+    settings: &Settings,
+    eye: Eye,
+    time: DateTime<Tz>,
+    path: PathBuf,
+    context: egui::Context,
+) -> Work<PathBuf> {
+    let written = seen_from(project, settings, &eye);
+    let shown = settings.shown;
+    Work::start(context, move |on_event| {
+        let is_plan = eye.stand == Stand::Plan;
+        let method = match shown.method {
+            // volumes and silhouette are the stencil's
+            _ if (shown.volumes || shown.silhouette) && !is_plan => Method::Stencil,
+            method if view::draws(method, is_plan) => method,
+            _ => Method::Auto,
+        };
+        // as the command reads it, for the region of this instant's shadows
+        let at = Some(time.format("%Y-%m-%dT%H:%M:%S%:z").to_string());
+        let asked = Overrides { at, technique: Some(method), ..Overrides::default() };
+        let site = Site::of(&written, &asked, model::load)?;
+        let view = view_from(&site, &eye);
+        let wants = InstantWants {
+            surface: true,
+            volumes: shown.volumes && !is_plan,
+            silhouette: shown.silhouette && !is_plan,
+            counted: shown.diagram.filter(|_| view::counts(method)).map(|diagram| match diagram {
+                Diagram::Mask => "--show mask",
+                Diagram::Overdraw => "--show overdraw",
+            }),
+        };
+        let outcome = study::instant(&site, view, &wants, on_event)?;
+        let Some(surface) = &outcome.surface else { anyhow::bail!("what is seen is not there") };
+        let scene = figure::Scene {
+            place: &site.place,
+            track: &site.track,
+            mesh: &outcome.surface_mesh,
+            surface,
+            receivers: study::judged(&site, &view),
+            drawn: &outcome.drawn,
+        };
+        let seen = site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen);
+        let casts: Vec<bool> = seen.map(|(casts, _)| *casts).collect();
+        let components = (shown.tinted && !is_plan).then_some(casts.as_slice());
+        let counted = outcome.counted.as_ref().zip(shown.diagram);
+        let shown = figure::Shown { overlay: outcome.overlay.as_ref(), casts: components, counted };
+        file::write(&path, &figure::instant(&scene, &view, &outcome.mask, &shown)?)?;
+        Ok(path)
+    })
+}
+
+/// Draws every instant of the study as the command does, into a folder: on the site's plan, or as the eye sees it.
+pub(super) fn animation(
+    project: &Project,
+    settings: &Settings,
+    eye: Eye,
+    folder: PathBuf,
+    context: egui::Context,
+) -> Work<PathBuf> {
+    let written = seen_from(project, settings, &eye);
+    let method = settings.shown.method;
+    Work::start(context, move |on_event| {
+        let method = if view::draws(method, eye.stand == Stand::Plan) { method } else { Method::Auto };
+        let asked = Overrides { technique: Some(method), ..Overrides::default() };
+        let site = Site::of(&written, &asked, model::load)?;
+        let count = animate::check(&site)?;
+        file::check_folder(&folder)?;
+        // the frames, and then each once more in the GIF
+        let both = 2 * count;
+        let drawn = |index: usize| {
+            let time = site.track.instants[index % count].time;
+            Event::Drawn { index, count: both, time, mask: None, bits: None }
+        };
+        let view = view_from(&site, &eye);
+        let (_, frames) = animate::frames(&site, view, &folder, animate::WIDTH, &mut |event| match event {
+            Event::Drawn { index, .. } => on_event(drawn(index)),
+            event => on_event(event),
+        })?;
+        animate::gif(frames, count, animate::FPS, &mut |index| match on_event(drawn(count + index)) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(StudyError::Interrupted),
+        })
+    })
+}
+
+/// Shows how far a file is; whether it is given up.
+pub(super) fn progress(writing: &Work<PathBuf>, ui: &mut egui::Ui) -> bool {
+    ui.horizontal(|ui| {
+        let (done, count) = writing.progress();
+        ui.label("Drawing");
+        if count > 1 {
+            let bar = egui::ProgressBar::new(done as f32 / count as f32);
+            ui.add(bar.desired_width(220.0).show_percentage());
+        } else {
+            ui.add(egui::Spinner::new().size(16.0));
+        }
+        ui.button("Cancel the export").clicked()
+    })
+    .inner
+}
+
+/// Writes the hours into a folder.
+pub(super) fn hours(laid: Arc<Laid>, folder: PathBuf, context: egui::Context) -> Work<PathBuf> {
+    Work::start(context, move |_| {
+        for (name, bytes) in laid.files()? {
+            file::write(&folder.join(name), &bytes)?;
+        }
+        Ok(folder)
+    })
+}
