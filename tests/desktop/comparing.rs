@@ -5,6 +5,8 @@ use super::*;
 use gnomon::export::comparison;
 use gnomon::export::figure::ChangeColours;
 use gnomon::profile::comparison::Change;
+use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::{Scene, Technique};
 use gnomon::site::{Overrides, Pair};
 use gnomon::study::{self, CompareOutcome};
 use gnomon::view::{Grid, Surface, View};
@@ -38,8 +40,31 @@ fn compare_with(harness: &mut Harness<'_, App>, path: &Path) {
     answer(harness, path, "Compare");
 }
 
-/// How many ground pixels of a plan are wrong, and how many are neither unchanged nor altered; at borders nothing is said.
-fn wrong(grid: &Grid, pixels: &[[u8; 4]], colours: &[[u8; 3]], of: &CompareOutcome) -> (usize, usize) {
+/// Which pixels of a plan show ground, and their neighbours, too: no line and nothing thinner than a cell.
+fn ground(pair: &Pair, grid: &Grid) -> Vec<bool> {
+    let site = &pair.after;
+    let of = |components: &[bool]| site.mesh.of_components(components);
+    let scene = Scene { casters: of(&[]), receivers: of(&site.receives), ground: site.ground };
+    let surface = RayCast::new(scene, View::Plan(*grid), None).surface().unwrap();
+    let (width, height) = (grid.width as usize, grid.height as usize);
+    let is_ground = |pixel: usize| {
+        let (column, row) = (pixel % width, pixel / width);
+        let within = column > 0 && row > 0 && column + 1 < width && row + 1 < height;
+        within
+            && (row - 1..=row + 1).all(|row| {
+                (column - 1..=column + 1).all(|column| surface.face[row * width + column] == Surface::GROUND)
+            })
+    };
+    (0..width * height).map(is_ground).collect()
+}
+
+/// How many ground pixels of a plan are wrong, and how many change; at borders of colours nothing is said.
+fn wrong(
+    grid: &Grid,
+    (pixels, is_ground): (&[[u8; 4]], &[bool]),
+    colours: &[[u8; 3]],
+    of: &CompareOutcome,
+) -> (usize, usize) {
     let cells = of.comparison.grid();
     let (width, height) = (i64::from(cells.width), i64::from(cells.height));
     let (mut wrong, mut changed) = (0, 0);
@@ -47,15 +72,14 @@ fn wrong(grid: &Grid, pixels: &[[u8; 4]], colours: &[[u8; 3]], of: &CompareOutco
         let centre = grid.centre(at as u32 % grid.width, at as u32 / grid.width);
         let column = ((centre.x - cells.west) / cells.cell).floor() as i64;
         let row = ((cells.north - centre.y) / cells.cell).floor() as i64;
-        if column < 1 || row < 1 || column >= width - 1 || row >= height - 1 {
+        if !is_ground[at] || column < 1 || row < 1 || column >= width - 1 || row >= height - 1 {
             continue;
         }
         let cell = (row * width + column) as usize;
         let around = |dx: i64, dy: i64| (cell as i64 + dy * width + dx) as usize;
         let all = || (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))).map(|(dx, dy)| around(dx, dy));
-        let is_plain = all().all(|it| {
-            of.surfaces.iter().all(|surface| surface.face[it] == Surface::GROUND) && colours[it] == colours[cell]
-        });
+        let is_ground = |it: usize| of.surfaces.iter().all(|surface| surface.face[it] == Surface::GROUND);
+        let is_plain = all().all(|it| is_ground(it) && colours[it] == colours[cell]);
         if is_plain {
             wrong += usize::from((0..3).any(|part| pixel[part].abs_diff(colours[cell][part]) > 1));
             changed += usize::from(of.comparison.change(cell).is_some_and(|change| change != 0));
@@ -94,8 +118,21 @@ fn change_from_a_kept_state_is_the_engines() {
     // every number of the table is there
     let track = &pair.after.track;
     let shown = |harness: &Harness<'_, App>, text: &str| harness.query_all_by_label(text).next().is_some();
-    for text in comparison::rows(&outcome.comparison, track).into_iter().flatten().filter(|text| !text.is_empty()) {
-        assert!(shown(&harness, &text.replace('-', "−")), "{text} is not told");
+    for [what, first, second] in comparison::rows(&outcome.comparison, track) {
+        let places = |text: &str| -> Vec<egui::Pos2> {
+            let text = text.replace('-', "−");
+            harness.query_all_by_label(&text).map(|node| node.rect().center()).collect()
+        };
+        let (first_at, second_at) = (places(&first), places(&second));
+        let after = |from: egui::Pos2, to: &egui::Pos2| to.x > from.x + 20.0 && (to.y - from.y).abs() < 6.0;
+        let beside = |from: egui::Pos2| {
+            first_at.iter().filter(move |to| after(from, to)).any(|first| second_at.iter().any(|to| after(*first, to)))
+        };
+        let is_told = match what.is_empty() {
+            true => first_at.iter().any(|first| second_at.iter().any(|to| after(*first, to))),
+            false => places(&what).into_iter().any(beside),
+        };
+        assert!(is_told, "{what}: {first}, {second} is not told");
     }
     harness.get_by_label(&comparison::extent(&outcome.comparison));
     // and every pixel of the plan
@@ -108,7 +145,8 @@ fn change_from_a_kept_state_is_the_engines() {
     let (_, _, pixels) = harness.state().picture().unwrap();
     let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
     let colours = ChangeColours::of(&outcome.comparison, surfaces, pair.after.receivers, track.step_secs);
-    let (faults, changed) = wrong(&grid, &pixels, &colours.of_cells, &outcome);
+    let is_ground = ground(&pair, &grid);
+    let (faults, changed) = wrong(&grid, (&pixels, &is_ground), &colours.of_cells, &outcome);
     assert!(changed > 100, "{changed} pixels change");
     assert_eq!(faults, 0, "pixels are wrong");
     for (_, what) in &colours.legend {
@@ -117,7 +155,7 @@ fn change_from_a_kept_state_is_the_engines() {
     // a cell of another colour is seen
     let mut other = colours.of_cells;
     other.iter_mut().for_each(|colour| colour[0] ^= 8);
-    assert!(wrong(&grid, &pixels, &other, &outcome).0 > 500);
+    assert!(wrong(&grid, (&pixels, &is_ground), &other, &outcome).0 > 500);
 
     // what was undone is compared with nothing, and comes back
     let undo = egui::Modifiers::COMMAND;

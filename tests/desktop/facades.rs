@@ -83,7 +83,6 @@ fn hours_on_facades_are_the_engines() {
     let (folder, site) = small_site();
     let mut harness = window(Some(&site));
     click(&mut harness, "On façades, too");
-    harness.get_by_label_contains("by soft-texture or ray-cast");
     click(&mut harness, "Find the hours");
     settle(&mut harness);
     let (View::Camera(camera), _) = harness.state().shown().unwrap() else { panic!("a camera") };
