@@ -29,14 +29,18 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         }
     } else {
         let compares = app.settings.before.is_some();
-        let facades = egui::Checkbox::new(&mut app.settings.shown.facades, "On façades, too");
-        let response = ui.add_enabled(!compares, facades);
-        response.on_disabled_hover_text("Two states are compared on ground and roofs");
+        let mut goes = false;
+        ui.horizontal(|ui| {
+            let what = if compares { "Find the change" } else { "Find the hours" };
+            goes = ui.add_enabled(!is_reading, egui::Button::new(what)).clicked();
+            let facades = egui::Checkbox::new(&mut app.settings.shown.facades, "On façades, too");
+            let response = ui.add_enabled(!compares, facades);
+            response.on_disabled_hover_text("Two states are compared on ground and roofs");
+        });
         if app.settings.shown.facades && !compares && facades::method(&app.settings) != app.settings.shown.method {
-            ui.weak("Façades: by soft-texture or ray-cast, as auto chooses.");
+            ui.weak("On façades auto chooses: soft-texture or ray-cast.");
         }
-        let what = if app.settings.before.is_some() { "Find the change" } else { "Find the hours" };
-        if ui.add_enabled(!is_reading, egui::Button::new(what)).clicked() {
+        if goes {
             find(open, &app.settings, &context);
         }
     }
