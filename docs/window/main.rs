@@ -37,7 +37,7 @@ fn main() -> Result<()> {
     click(&mut window, "Silhouette")?;
     keep(&mut window, "volumes")?;
 
-    let mut window = open("industry", Theme::Light)?;
+    let mut window = open("industry", Theme::Dark)?;
     click(&mut window, "On façades, too")?;
     click(&mut window, "Find the hours")?;
     keep(&mut window, "facades")?;

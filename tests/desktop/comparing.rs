@@ -12,11 +12,16 @@ use gnomon::study::{self, CompareOutcome};
 use gnomon::view::{Grid, Surface, View};
 use std::ops::ControlFlow;
 
-/// A second state beside a small site: some components of it do not cast.
+/// A second state beside a small site: only some components of it cast.
 fn without(site: &Path, casts: &[String]) -> PathBuf {
+    beside(site, &format!("casts = {casts:?}\n"))
+}
+
+/// The same, its model with more said of it.
+fn beside(site: &Path, more: &str) -> PathBuf {
     let text = std::fs::read_to_string(site).unwrap();
     let path = site.with_file_name("without.toml");
-    let list = format!("path = \"works.glb\"\ncasts = {casts:?}\n");
+    let list = format!("path = \"works.glb\"\n{more}");
     std::fs::write(&path, text.replace("path = \"works.glb\"\n", &list).replace("Works", "Works: before")).unwrap();
     path
 }
@@ -88,6 +93,24 @@ fn wrong(
     (wrong, changed)
 }
 
+/// The first row of the areas that the panel does not tell: what it is, and beside it both columns in their order.
+fn not_told(harness: &Harness<'_, App>, pair: &Pair, of: &CompareOutcome) -> Option<[String; 3]> {
+    let places = |text: &str| -> Vec<egui::Pos2> {
+        let text = text.replace('-', "−");
+        harness.query_all_by_label(&text).map(|node| node.rect().center()).collect()
+    };
+    let follows = |from: egui::Pos2, to: egui::Pos2| to.x > from.x + 20.0 && (to.y - from.y).abs() < 6.0;
+    let is_told = |[what, first, second]: &[String; 3]| {
+        let (first_at, second_at) = (places(first), places(second));
+        let pairs = first_at.iter().flat_map(|first| second_at.iter().map(move |second| (*first, *second)));
+        let heads = if what.is_empty() { Vec::new() } else { places(what) };
+        pairs
+            .filter(|(first, second)| follows(*first, *second))
+            .any(|(first, _)| what.is_empty() || heads.iter().any(|head| follows(*head, first)))
+    };
+    comparison::rows(&of.comparison, &pair.after.track).into_iter().find(|row| !is_told(row))
+}
+
 /// Undoes or redoes so many times.
 fn again(harness: &mut Harness<'_, App>, keys: egui::Modifiers, times: usize) {
     for _ in 0..times {
@@ -118,22 +141,7 @@ fn change_from_a_kept_state_is_the_engines() {
     // every number of the table is there
     let track = &pair.after.track;
     let shown = |harness: &Harness<'_, App>, text: &str| harness.query_all_by_label(text).next().is_some();
-    for [what, first, second] in comparison::rows(&outcome.comparison, track) {
-        let places = |text: &str| -> Vec<egui::Pos2> {
-            let text = text.replace('-', "−");
-            harness.query_all_by_label(&text).map(|node| node.rect().center()).collect()
-        };
-        let (first_at, second_at) = (places(&first), places(&second));
-        let after = |from: egui::Pos2, to: &egui::Pos2| to.x > from.x + 20.0 && (to.y - from.y).abs() < 6.0;
-        let beside = |from: egui::Pos2| {
-            first_at.iter().filter(move |to| after(from, to)).any(|first| second_at.iter().any(|to| after(*first, to)))
-        };
-        let is_told = match what.is_empty() {
-            true => first_at.iter().any(|first| second_at.iter().any(|to| after(*first, to))),
-            false => places(&what).into_iter().any(beside),
-        };
-        assert!(is_told, "{what}: {first}, {second} is not told");
-    }
+    assert_eq!(not_told(&harness, &pair, &outcome), None);
     harness.get_by_label(&comparison::extent(&outcome.comparison));
     // and every pixel of the plan
     harness.key_press(Key::Num2);
@@ -172,23 +180,49 @@ fn change_from_a_kept_state_is_the_engines() {
     assert!(harness.query_by_label("Sun lost and gained").is_none(), "nothing is told of a change any more");
 }
 
+/// What was kept is of another study once that changes, and is found anew.
+#[test]
+fn kept_state_follows_the_study() {
+    let (_folder, site) = small_site();
+    let names = components(&site);
+    let mut harness = window(Some(&site));
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    click(&mut harness, "Compare from here");
+    click(&mut harness, "Components");
+    click(&mut harness, &format!("{} casts", names[0]));
+    write(&mut harness, "step", "4h");
+    settle(&mut harness);
+    click(&mut harness, "Find the change");
+    settle(&mut harness);
+    let (pair, outcome) = compared(&site, &without(&site, &names[1..]));
+    assert!(not_told(&harness, &pair, &outcome).is_some(), "of the study before it is another change");
+    let text = std::fs::read_to_string(&site).unwrap();
+    std::fs::write(&site, text.replace("\"2h\"", "\"4h\"")).unwrap();
+    let (pair, outcome) = compared(&site, &without(&site, &names[1..]));
+    assert_eq!(not_told(&harness, &pair, &outcome), None);
+}
+
 /// The open site against another file: the command's files, byte for byte, and the pointer reads both hours.
 #[test]
 fn change_from_another_file_is_that_of_the_command() {
     let (folder, site) = small_site();
-    let before = without(&site, &components(&site)[1..]);
+    let there = &components(&site)[1..];
+    let before = beside(&site, &format!("casts = {there:?}\nreceives = {there:?}\n"));
     let mut harness = window(Some(&site));
     compare_with(&mut harness, &before);
+    harness.get_by_label("new or higher");
     menu(&mut harness, "Export the hours…");
     let out = folder.path().join("window");
     answer(&mut harness, &out, "Write");
-    let by_command = folder.path().join("command");
-    let paths = [before.as_os_str(), site.as_os_str()];
-    command(
-        &[&["compare".as_ref()], paths.as_slice(), &["--out".as_ref(), by_command.as_ref(), "--quiet".as_ref()]]
-            .concat(),
-    );
-    let [ours, theirs] = [&out, &by_command].map(|folder| {
+    let by_command = |name: &str, paths: [&Path; 2]| {
+        let out = folder.path().join(name);
+        let [before, after] = paths.map(Path::as_os_str);
+        command(&["compare".as_ref(), before, after, "--out".as_ref(), out.as_ref(), "--quiet".as_ref()]);
+        out
+    };
+    let (right, wrong) = (by_command("command", [&before, &site]), by_command("wrong", [&site, &before]));
+    let [ours, theirs, others] = [&out, &right, &wrong].map(|folder| {
         let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
         let mut json: serde_json::Value = serde_json::from_slice(&read("compare.json")).unwrap();
         let timings = json.as_object_mut().unwrap().remove("timings_secs").expect("timings");
@@ -197,7 +231,9 @@ fn change_from_another_file_is_that_of_the_command() {
     });
     assert!(ours.0 == theirs.0, "the drawing is another one");
     assert!(ours.1 == theirs.1, "the raster is another one");
-    assert_eq!((ours.2, ours.3), (theirs.2, theirs.3));
+    assert_eq!((&ours.2, &ours.3), (&theirs.2, &theirs.3));
+    // the opposite change has other files
+    assert!(ours.0 != others.0 && ours.1 != others.1 && ours.2 != others.2);
 
     // under the pointer: what is read is what the engine found there
     let (_, outcome) = compared(&before, &site);
