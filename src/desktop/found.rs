@@ -77,7 +77,9 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
     let mut asks = false;
     let Some(open) = &mut app.open else { return };
     let rests = open.adding.is_none() && !app.is_reading;
-    if let Some(before) = &app.settings.before {
+    // what was found says it, too
+    let is_told = open.laid.as_ref().is_some_and(|laid| laid.change().is_some());
+    if let Some(before) = app.settings.before.as_ref().filter(|_| !is_told) {
         let name = change::name_of(before);
         ui.add(egui::Label::new(format!("Before: {name}")).truncate()).on_hover_text(&before.file);
     }
