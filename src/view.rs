@@ -239,6 +239,12 @@ impl Bits {
         bits
     }
 
+    /// Whether a cell, counted along the rows, is in shadow.
+    pub fn contains(&self, cell: usize) -> bool {
+        let (row, column) = (cell / self.width as usize, cell % self.width as usize);
+        self.words[row * self.in_row() + column / 64] >> (column % 64) & 1 == 1
+    }
+
     /// Words of a row.
     pub fn in_row(&self) -> usize {
         self.width.div_ceil(64) as usize

@@ -3,6 +3,7 @@
 use super::WrongUse;
 use super::animate::AnimateArgs;
 use super::compare::CompareArgs;
+use super::draw::LinesArgs;
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings, Site};
@@ -245,6 +246,8 @@ pub(super) struct ProfileArgs {
     /// Which files [default: png,tif,json; with --receivers surfaces png,glb,csv,json]
     #[arg(long, value_name = "png,tif,glb,csv,json", value_delimiter = ',')]
     write: Vec<Written>,
+    #[command(flatten)]
+    pub(super) lines: LinesArgs,
     #[command(flatten)]
     pub(super) common: Common,
 }

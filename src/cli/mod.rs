@@ -6,6 +6,7 @@ pub(crate) mod animate;
 mod arguments;
 mod commands;
 mod compare;
+mod draw;
 mod interrupt;
 mod probe;
 mod profile;

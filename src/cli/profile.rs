@@ -5,6 +5,7 @@ use super::commands::{drawn_by, took};
 use super::progress::Progress;
 use super::{interrupt, say, surfaces};
 use crate::export::bits::BitsFile;
+use crate::export::figure::Outline;
 use crate::export::report::Told;
 use crate::export::{ExportError, bytes, figure, file, raster, report, unfinished};
 use crate::profile::{Profile, Timings, Unfinished};
@@ -15,6 +16,7 @@ use crate::sun::SunTrack;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 /// How long work may be lost where a machine fails.
@@ -28,6 +30,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         return surfaces::profile(asked, &site, watch);
     }
     let kinds = asked.wanted(&[Written::Png, Written::Tif, Written::Json])?;
+    asked.lines.check(&site.track)?;
     // A folder that cannot be written to is told before the work, not after it.
     for folder in [Some(&asked.out), asked.masks.as_ref()].into_iter().flatten() {
         file::check_folder(folder)?;
@@ -44,10 +47,11 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let wanted = |kind| kinds.contains(&kind);
     let wants = Wants {
         masks: asked.masks.is_some(),
-        bits: asked.bits,
+        bits: asked.bits || asked.lines.outlines(),
         surface: false,
         statistics: asked.stats,
-        keep_every: Some(KEEP_EVERY),
+        // outlines are not kept
+        keep_every: (!asked.lines.outlines()).then_some(KEEP_EVERY),
     };
     let outcome = study::go_on(&site, &wants, begun, &mut |event| {
         progress.hear(&event);
@@ -70,13 +74,11 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
 
     let (profile, drawn) = (&outcome.profile, &outcome.drawn);
     let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
+    let (place, track, receivers, mesh) = (&site.place, &site.track, site.receivers, &outcome.surface_mesh);
+    let surface = LazyLock::new(|| PlanSurface::new(mesh, site.ground, &site.grid));
+    let scene = || figure::Scene { place, track, mesh, surface: &*surface, receivers, drawn };
     let picture = || {
-        let draw = || {
-            let (place, track, receivers) = (&site.place, &site.track, site.receivers);
-            let mesh = &outcome.surface_mesh;
-            let surface = &PlanSurface::new(mesh, site.ground, &site.grid);
-            figure::profile(&figure::Scene { place, track, mesh, surface, receivers, drawn }, profile)
-        };
+        let draw = || figure::profile(&scene(), profile);
         wanted(Written::Png).then(|| ("profile.png", timed("picture", draw)))
     };
     let raster = || {
@@ -90,6 +92,11 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         watch.laps(timing);
     }
     interrupt::check()?;
+    if asked.lines.given() {
+        files.extend(asked.lines.files(&scene(), profile, &kept.outlines)?);
+        watch.lap("lines");
+        interrupt::check()?;
+    }
     let (statistics, timings) = (outcome.statistics.as_ref(), &watch.timings());
     let told = Told { receivers: site.receivers, drawn, timings, statistics };
     let json = report::profile_json(profile, &site.place, &site.track, &told)?;
@@ -138,6 +145,9 @@ struct Files<'a> {
     out: &'a Path,
     masks: Option<&'a Path>,
     bits: Option<BitsFile>,
+    /// Each instant's shadow, where outlines are drawn when all is done.
+    outlines: Vec<Outline>,
+    draws_outlines: bool,
     /// Whether there is something to go on from.
     is_kept: bool,
     /// What could not be written.
@@ -147,11 +157,23 @@ struct Files<'a> {
 impl Files<'_> {
     fn new<'a>(site: &Site, asked: &'a ProfileArgs) -> Result<Files<'a>, ExportError> {
         let bits = asked.bits.then(|| BitsFile::new(&asked.out, site.grid, site.receivers, &site.track)).transpose()?;
-        Ok(Files { out: &asked.out, masks: asked.masks.as_deref(), bits, is_kept: false, fault: None })
+        Ok(Files {
+            out: &asked.out,
+            masks: asked.masks.as_deref(),
+            bits,
+            outlines: Vec::new(),
+            draws_outlines: asked.lines.outlines(),
+            is_kept: false,
+            fault: None,
+        })
     }
 
     /// What a stopped study left, where all that it wrote is still there.
     fn begun(&mut self, site: &Site) -> Result<Option<Unfinished>, ExportError> {
+        // nothing keeps the outlines of instants that were drawn before
+        if self.draws_outlines {
+            return Ok(None);
+        }
         let Some(begun) = unfinished::kept(self.out)? else { return Ok(None) };
         let masks = |folder: &Path| (0..begun.done).all(|index| mask_path(folder, index).is_file());
         let has_masks = self.masks.is_none_or(masks);
@@ -179,6 +201,9 @@ impl Files<'_> {
             Event::Drawn { index, mask, bits, .. } => {
                 if let (Some(mask), Some(folder)) = (mask, self.masks) {
                     file::write(&mask_path(folder, *index), &raster::mask_png(mask)?)?;
+                }
+                if let (Some(bits), true) = (bits, self.draws_outlines) {
+                    self.outlines.push(Outline { index: *index, shadow: (*bits).clone() });
                 }
                 if let (Some(bits), Some(file)) = (bits, &mut self.bits) {
                     file.add(bits)?;

@@ -14,7 +14,12 @@ use std::fmt::Write;
 
 pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) -> anyhow::Result<()> {
     let of_plan = asked.plan.given().into_iter().filter(|option| *option != "--receivers");
-    let of_masks = [("--masks", asked.masks.is_some()), ("--bits", asked.bits), ("--stats", asked.stats)];
+    let of_masks = [
+        ("--masks", asked.masks.is_some()),
+        ("--bits", asked.bits),
+        ("--stats", asked.stats),
+        ("--draw", asked.lines.given()),
+    ];
     let of_masks = of_masks.into_iter().filter(|(_, given)| *given).map(|(option, _)| option);
     if let Some(option) = of_plan.chain(of_masks).next() {
         let what = format!("{option} is for the plan, and --receivers surfaces has none; leave one of the two out");

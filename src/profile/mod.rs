@@ -3,6 +3,7 @@
 pub mod accumulate;
 pub mod compare;
 pub mod comparison;
+pub mod contour;
 pub mod probe;
 mod shaded;
 pub mod surfaces;

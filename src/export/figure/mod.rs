@@ -5,6 +5,7 @@
 mod components;
 mod counted;
 mod difference;
+mod lines;
 mod overlay;
 mod page;
 mod panel;
@@ -22,6 +23,7 @@ mod words;
 pub use components::of_all as component_colours;
 pub use counted::{Colours, Diagram};
 pub use difference::{ChangeBands, ChangeColours, difference};
+pub use lines::{LineDrawing, MOST_OUTLINES, Outline, iso_hours, outlines};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 pub use screen::{Screen, instant_on_screen};
@@ -78,8 +80,15 @@ pub fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<Ve
     check_size("profile", profile.shaded.len(), grid.width, grid.height)?;
     check_size("surface", scene.surface.cells(), grid.width, grid.height)?;
     let bands = Bands::new(scene.track.step_secs, profile.day_secs);
+    let panel = profile_panel(scene, profile, "Shadow profile");
+    let size = (grid.width, grid.height);
+    page::page(&panel, size, Some(grid.cell), |fit| plan::profile(scene, profile, &bands, fit), page::png)
+}
 
-    let mut panel = panel(scene, "Shadow profile");
+/// What drawings of hours of shadow say.
+fn profile_panel<S>(scene: &Scene<S>, profile: &Profile, kicker: &str) -> Panel {
+    let grid = &profile.grid;
+    let mut panel = panel(scene, kicker);
     let all = words::long_duration(profile.day_secs);
     panel.facts.push(("Cells", cells(grid.width, grid.height, grid.cell)));
     if profile.night_secs > 0 {
@@ -88,12 +97,11 @@ pub fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<Ve
     }
     panel.legend_head =
         if profile.day_secs > 0 { format!("Hours of shadow out of {all}") } else { "No sun in this window".to_owned() };
-    panel.legend = legend(&bands);
+    panel.legend = legend(&Bands::new(scene.track.step_secs, profile.day_secs));
     if scene.receivers == Receivers::Ground {
         panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
     }
-    let size = (grid.width, grid.height);
-    page::page(&panel, size, Some(grid.cell), |fit| plan::profile(scene, profile, &bands, fit), page::png)
+    panel
 }
 
 /// One instant, the first of the track, on the plan or in the camera's picture; what is `shown` over it is for the latter.
@@ -259,6 +267,7 @@ fn panel<S>(scene: &Scene<S>, kicker: &str) -> Panel {
         sun: sun_rows(place, track),
         legend_head: String::new(),
         legend: Vec::new(),
+        keys: Vec::new(),
     }
 }
 

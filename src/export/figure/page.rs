@@ -2,7 +2,7 @@
 
 use super::panel::{self, COLUMN, Panel};
 use super::picture::{Fit, Picture, Pixels};
-use super::svg::{Block, GRAY, HAIR};
+use super::svg::{Block, GRAY, HAIR, hex};
 use super::{scale::Rgb, text};
 use crate::export::{ExportError, raster};
 use rayon::prelude::*;
@@ -58,6 +58,15 @@ pub(super) fn page<P: Pixels, T>(
     let mut pieces = around.map(Piece::blank).collect::<Result<Vec<_>, _>>()?;
     letter(&layout.overlay, &mut pieces)?;
     finish(&Sheet { pieces, picture: Some(((left, top), &picture)) })
+}
+
+/// As [`page`], for a picture of lines and letters alone: the whole sheet is one block.
+pub(super) fn whole(panel: &Panel, cells: (u32, u32), cell_m: f64, draw: impl FnOnce(Fit) -> Block) -> Block {
+    let mut layout = beside_or_below(panel, cells, Some(cell_m));
+    let picture = draw(layout.fit);
+    layout.overlay.place(layout.corner.0.into(), layout.corner.1.into(), &picture);
+    frame(&mut layout);
+    layout.overlay
 }
 
 /// As [`page`] with the panel beside it, for what fills all of its field but the margins (left, top, right, bottom).
@@ -249,6 +258,18 @@ fn letter(overlay: &Block, pieces: &mut [Piece]) -> Result<(), ExportError> {
     Ok(())
 }
 
+/// A sheet as SVG, of its size on A3. Where there is no Noto Sans another plain face stands in.
+pub(super) fn svg(sheet: &Block) -> String {
+    let paper = hex(PAPER);
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"420mm\" height=\"297mm\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
+         font-family=\"'{}', Arial, Helvetica, sans-serif\">\n\
+         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"{paper}\"/>{}</svg>\n",
+        text::FAMILY,
+        sheet.svg
+    )
+}
+
 /// Rows of a sheet that one task puts together.
 const BAND: usize = 64;
 
@@ -260,6 +281,13 @@ pub(super) struct Sheet<'a> {
 }
 
 impl Sheet<'_> {
+    /// Of lines and letters alone.
+    pub(super) fn of(sheet: &Block) -> Result<Sheet<'static>, ExportError> {
+        let mut pieces = vec![Piece::blank([0, 0, WIDTH, HEIGHT])?];
+        letter(sheet, &mut pieces)?;
+        Ok(Sheet { pieces, picture: None })
+    }
+
     /// A band's rows, put together.
     fn draw(&self, band: usize, rows: &mut [Rgb]) {
         let width = WIDTH as usize;

@@ -23,6 +23,8 @@ pub(super) struct Panel {
     pub legend_head: String,
     /// From the lightest to the darkest.
     pub legend: Vec<(Rgb, String)>,
+    /// What lines mean, below that.
+    pub keys: Vec<(Rgb, String)>,
 }
 
 pub(super) fn title(panel: &Panel) -> Block {
@@ -85,35 +87,54 @@ const SWATCH_GAP: f64 = 24.0;
 /// From one of two columns of a legend to the next.
 const HALF: f64 = COLUMN / 2.0 + 6.0;
 
-/// Rows of the legend: more than eight short entries stand in two columns.
-fn legend_rows(entries: &[(Rgb, String)]) -> usize {
+/// How thick a line of the legend is.
+const KEY: f64 = 7.0;
+/// Between the colours and the lines of a legend.
+const KEYS_GAP: f64 = 14.0;
+
+/// Rows of the legend: more short entries than `most` stand in two columns.
+fn legend_rows(entries: &[(Rgb, String)], most: usize) -> usize {
     let room = COLUMN - HALF - SWATCH - SWATCH_GAP;
     let short = |(_, label): &(Rgb, String)| text::width(label, Style::BODY.weight, Style::BODY.size) <= room;
-    if entries.len() > 8 && entries.iter().all(short) { entries.len().div_ceil(2) } else { entries.len() }
+    if entries.len() > most && entries.iter().all(short) { entries.len().div_ceil(2) } else { entries.len() }
 }
 
 /// The legend with rows of at most `room` in height altogether, between 36 and 52 each.
 pub(super) fn legend(panel: &Panel, room: f64) -> Block {
     const HEAD: f64 = 62.0;
-    let rows = legend_rows(&panel.legend);
+    let rows = legend_rows(&panel.legend, 8);
+    let key_rows = legend_rows(&panel.keys, 4);
+    let keys_gap = if panel.keys.is_empty() { 0.0 } else { KEYS_GAP };
     let mut block = Block::default();
     wrapped(&mut block, 0.0, Style::HEAD, &panel.legend_head, 1);
-    let pitch = ((room - HEAD) / rows.max(1) as f64).floor().clamp(36.0, 52.0);
+    let pitch = ((room - HEAD - keys_gap) / (rows + key_rows).max(1) as f64).floor().clamp(36.0, 52.0);
+    let said = |block: &mut Block, x: f64, y: f64, label: &str| {
+        let baseline = y + pitch / 2.0 + Style::BODY.size * 0.36;
+        let label = text::wrap(label, Style::BODY.weight, Style::BODY.size, COLUMN - x - SWATCH - SWATCH_GAP, 1);
+        block.text(x + SWATCH + SWATCH_GAP, baseline, Anchor::Start, Style::BODY, &label.concat());
+    };
     for (column, entries) in panel.legend.chunks(rows.max(1)).enumerate() {
         let x = column as f64 * HALF;
         for (row, (colour, label)) in entries.iter().enumerate() {
             let y = HEAD + row as f64 * pitch;
             block.fill([x, y, SWATCH, pitch], *colour);
-            let baseline = y + pitch / 2.0 + Style::BODY.size * 0.36;
-            let label = text::wrap(label, Style::BODY.weight, Style::BODY.size, COLUMN - x - SWATCH - SWATCH_GAP, 1);
-            block.text(x + SWATCH + SWATCH_GAP, baseline, Anchor::Start, Style::BODY, &label.concat());
+            said(&mut block, x, y, label);
             if row > 0 {
                 block.fill([x, y - 1.0, SWATCH, 2.0], HAIR);
             }
         }
         block.frame([x, HEAD, SWATCH, entries.len() as f64 * pitch], 2.0, GRAY);
     }
-    block.height = HEAD + rows as f64 * pitch;
+    let below = HEAD + rows as f64 * pitch + keys_gap;
+    for (column, keys) in panel.keys.chunks(key_rows.max(1)).enumerate() {
+        let x = column as f64 * HALF;
+        for (row, (colour, label)) in keys.iter().enumerate() {
+            let y = below + row as f64 * pitch;
+            block.fill([x, y + (pitch - KEY) / 2.0, SWATCH, KEY], *colour);
+            said(&mut block, x, y, label);
+        }
+    }
+    block.height = below + key_rows as f64 * pitch;
     block
 }
 

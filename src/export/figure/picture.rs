@@ -105,6 +105,21 @@ pub(super) struct Cells {
 }
 
 impl Cells {
+    /// None yet, of so many columns.
+    pub(super) fn new(width: u32) -> Cells {
+        Cells { width: width as usize, ..Cells::default() }
+    }
+
+    /// Borders on a cell's east side: row, column, pen.
+    pub(super) fn east(&self) -> &[(u32, u32, Pen)] {
+        &self.east
+    }
+
+    /// Borders on the south side of neighbours in a row: row, first column, the column beyond the last, pen.
+    pub(super) fn south(&self) -> &[(u32, u32, u32, Pen)] {
+        &self.south
+    }
+
     /// The cells' colours, along the rows.
     pub(super) fn paint(&mut self, colours: impl Iterator<Item = Rgb>) {
         self.colours.extend(colours.map(|[r, g, b]| u32::from_le_bytes([r, g, b, 0])));
@@ -207,7 +222,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> Pixels for Composed<F> {
     fn draw(&self, top: usize, into: &mut [Rgb]) {
         let width = self.fit.pixels.0 as usize;
         let reach = self.reach(top, into.len() / width);
-        let mut cells = Cells { width: self.fit.cells.0 as usize, ..Cells::default() };
+        let mut cells = Cells::new(self.fit.cells.0);
         (self.tell)(reach.clone(), &mut cells);
         let ink = draw_lines(self.fit, top, into.len() / width, reach.start, &cells);
         for (row, line) in into.chunks_exact_mut(width).enumerate() {

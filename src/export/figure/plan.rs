@@ -173,7 +173,7 @@ fn shade(colour: Rgb, factor: f64) -> Rgb {
 }
 
 /// The line between two neighbours that see different things.
-fn pen(mesh: &Mesh, surface: &Surface, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
+pub(super) fn pen(mesh: &Mesh, surface: &Surface, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
     let east = b == a + 1;
     let half = if east { DVec3::X } else { DVec3::NEG_Y } * (0.5 * cell_m);
     let [from, to] = [a, b].map(|cell| face(surface, cell).map(|face| upward(mesh, face)));

@@ -139,12 +139,14 @@ impl Block {
         self.push(format_args!("<g transform=\"translate({x:.1} {y:.1})\">{}</g>", block.svg));
     }
 
-    fn push(&mut self, element: std::fmt::Arguments) {
+    /// An element, or some.
+    pub(super) fn push(&mut self, element: std::fmt::Arguments) {
         // Writing to a String cannot fail.
         let _ = self.svg.write_fmt(element);
     }
 }
 
-fn hex([r, g, b]: Rgb) -> String {
+/// As SVG writes a colour.
+pub(super) fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

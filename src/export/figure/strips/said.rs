@@ -42,6 +42,7 @@ pub(super) fn panel(sunlight: &Sunlight, place: &Place) -> Panel {
         sun: sun_rows(sunlight, place),
         legend_head: if sunlight.probes.len() > 1 { "At the probes" } else { "At the probe" }.to_owned(),
         legend,
+        keys: Vec::new(),
     }
 }
 

@@ -1,0 +1,94 @@
+//! `gnomon profile --draw`: drawings of lines, beside the profile's other files.
+
+use super::WrongUse;
+use crate::export::ExportError;
+use crate::export::figure::{self, LineDrawing, MOST_OUTLINES, Outline, Scene};
+use crate::profile::Profile;
+use crate::shadow::PlanSurface;
+use crate::sun::{Instant, SunTrack};
+use clap::{Args, ValueEnum};
+
+/// What is drawn with lines.
+#[derive(Debug, Args)]
+pub(super) struct LinesArgs {
+    /// Also drawings of lines, each as PNG and SVG: hours (a labelled line for each whole hour of shadow), outlines (the
+    /// border of each instant's shadow with its time: at most 24 instants with a sun, on one day)
+    #[arg(long = "draw", value_name = "hours,outlines", value_delimiter = ',')]
+    lines: Vec<Lines>,
+}
+
+/// A drawing of lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Lines {
+    Hours,
+    Outlines,
+}
+
+impl LinesArgs {
+    /// Whether there is any.
+    pub(super) fn given(&self) -> bool {
+        !self.lines.is_empty()
+    }
+
+    /// Whether each instant's shadow is needed.
+    pub(super) fn outlines(&self) -> bool {
+        self.lines.contains(&Lines::Outlines)
+    }
+
+    /// Errs where a drawing would show nothing, or more than can be told apart.
+    pub(super) fn check(&self, track: &SunTrack) -> Result<(), WrongUse> {
+        let day: Vec<&Instant> = track.instants.iter().filter(|instant| !instant.night).collect();
+        let (Some(first), Some(last)) = (day.first(), day.last()) else {
+            if self.given() {
+                let what =
+                    "--draw: there is no sun at any of the study's instants; take a window by day with --from and --to";
+                return Err(WrongUse(what.to_owned()));
+            }
+            return Ok(());
+        };
+        if !self.outlines() {
+            return Ok(());
+        }
+        let date = first.time.date_naive();
+        if date != last.time.date_naive() {
+            let what = format!(
+                "--draw outlines is for one day, and these instants lie on several; take one with --date {date}"
+            );
+            return Err(WrongUse(what));
+        }
+        if day.len() > MOST_OUTLINES {
+            let secs = (last.time - first.time).num_seconds();
+            let fits = |minutes: &&i64| secs / (**minutes * 60) < MOST_OUTLINES as i64;
+            let step = [1, 2, 5, 10, 15, 20, 30, 60].iter().find(fits).unwrap_or(&120);
+            let what = format!(
+                "--draw outlines: {} instants with a sun are too many to tell apart, at most {MOST_OUTLINES} are drawn; take a \
+                 longer --step, as {step}min, or a shorter window with --from and --to",
+                day.len()
+            );
+            return Err(WrongUse(what));
+        }
+        Ok(())
+    }
+
+    /// The files, by their names.
+    pub(super) fn files(
+        &self,
+        scene: &Scene<PlanSurface>,
+        profile: &Profile,
+        outlines: &[Outline],
+    ) -> Result<Vec<(&'static str, Vec<u8>)>, ExportError> {
+        let mut files = Vec::new();
+        let mut add = |[png, svg]: [&'static str; 2], drawing: LineDrawing| {
+            files.push((png, drawing.png()?));
+            files.push((svg, drawing.svg().into_bytes()));
+            Ok::<(), ExportError>(())
+        };
+        if self.lines.contains(&Lines::Hours) {
+            add(["hours.png", "hours.svg"], figure::iso_hours(scene, profile)?)?;
+        }
+        if self.outlines() {
+            add(["outlines.png", "outlines.svg"], figure::outlines(scene, &profile.grid, outlines)?)?;
+        }
+        Ok(files)
+    }
+}

@@ -1,0 +1,113 @@
+//! Lines of equal hours of shadow.
+
+use super::base::Base;
+use super::labels::{self, Labels};
+use super::{LineDrawing, Scale, fill, group, length, paths, stroke};
+use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb, mix};
+use crate::export::figure::svg::{Block, Style};
+use crate::export::figure::text::Weight;
+use crate::export::figure::{self, Scene, plan, words};
+use crate::export::{ExportError, check_size};
+use crate::profile::Profile;
+use crate::profile::contour::Contour;
+use crate::site::Receivers;
+use crate::view::SurfaceRows;
+use std::collections::BTreeMap;
+
+/// The lines, and their hours.
+const LINE: Rgb = [172, 56, 22];
+const LABEL: Style = Style { size: 31.0, weight: Weight::Bold, colour: LINE };
+/// Page pixels.
+const WIDTH: f64 = 3.6;
+/// Behind letters.
+const HALO: Rgb = [255, 255, 255];
+/// The bands are lighter than the profile's: lines and letters lie over them.
+const LIGHTER: f64 = 0.5;
+/// A label for each so long part of a line, pixels.
+const PART: f64 = 1300.0;
+
+/// `hours`: the profile's bands, and a labelled line for each whole hour of shadow; for as many hours as a band has where
+/// those are more, and for each band where the window has no whole hour.
+///
+/// A line parts cells with more shadow than it says from those with no more; along walls there is none.
+///
+/// # Errors
+/// [`ExportError::Size`] where surface and profile do not fill the grid.
+pub fn iso_hours<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<LineDrawing, ExportError> {
+    let grid = &profile.grid;
+    check_size("profile", profile.shaded.len(), grid.width, grid.height)?;
+    check_size("surface", scene.surface.cells(), grid.width, grid.height)?;
+    let bands = Bands::new(scene.track.step_secs, profile.day_secs);
+    let lighter = |colour| mix(colour, NO_SHADOW, LIGHTER);
+    let base = Base::new(scene, grid);
+    let value = |cell| profile.shaded.of(cell);
+    let each = line_secs(&bands);
+    let by_line = (1..).map(|line| line * each).take_while(|secs| *secs < profile.day_secs);
+    let by_band = (0..bands.colours.len() as u32).map(|band| band * bands.band_secs);
+    let contours: BTreeMap<u32, Vec<Contour>> =
+        by_line.clone().chain(by_band).map(|secs| (secs, base.contours(&value, 255 * u64::from(secs)))).collect();
+
+    let mut panel = figure::profile_panel(scene, profile, "Lines of equal shadow");
+    for (colour, _) in &mut panel.legend {
+        *colour = lighter(*colour);
+    }
+    let most = profile.shaded.iter().max().unwrap_or(0);
+    let drawn: Vec<u32> = by_line.filter(|secs| 255 * u64::from(*secs) < most).collect();
+    if let Some(last) = drawn.last() {
+        let said = format!("{} of shadow, then each {} to {}", said(each), said(each), said(*last));
+        panel.keys.push((LINE, said));
+    }
+    let draw = |fit: figure::picture::Fit| {
+        let scale = Scale::of(fit);
+        let mut block = Block::default();
+        group(&mut block, "bands", |block| {
+            block.fill([0.0, 0.0, f64::from(fit.pixels.0), f64::from(fit.pixels.1)], lighter(NO_SHADOW));
+            for (band, colour) in bands.colours.iter().enumerate() {
+                let contours = &contours[&(band as u32 * bands.band_secs)];
+                fill(block, &scale.areas(contours), lighter(*colour), 1.0);
+            }
+        });
+        if scene.receivers == Receivers::Ground {
+            base.fill(&mut block, scale, plan::ROOF_UNJUDGED);
+        }
+        let lines: Vec<(u32, Vec<_>)> = drawn.iter().map(|secs| (*secs, scale.lines(&contours[secs]))).collect();
+        group(&mut block, "iso-hours", |block| {
+            for (secs, lines) in &lines {
+                stroke(block, &paths(lines), WIDTH, LINE, &said(*secs));
+            }
+        });
+        base.draw(&mut block, scale, NO_SHADOW);
+        let mut labels = Labels::new(fit.pixels, LABEL);
+        lines.iter().flat_map(|(_, lines)| lines).for_each(|line| labels.avoid(line));
+        for (secs, lines) in &lines {
+            label(&mut labels, &said(*secs), lines);
+        }
+        labels.draw(&mut block, HALO);
+        block
+    };
+    Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
+}
+
+/// The hours on each line that is long enough for them, again and again.
+fn label(labels: &mut Labels, said: &str, lines: &[Vec<[f64; 2]>]) {
+    let width = 2.0 * labels.half(said)[0];
+    for line in lines {
+        let length = length(line);
+        let parts = (length / PART).ceil().max(1.0);
+        for part in 0..parts as usize {
+            let ends = [part as f64, part as f64 + 1.0].map(|at| at * length / parts);
+            labels.place(said, LINE, labels::along(line, ends, width));
+        }
+    }
+}
+
+/// From line to line, seconds.
+fn line_secs(bands: &Bands) -> u32 {
+    const HOUR: u32 = 3600;
+    if bands.day_secs > HOUR { bands.band_secs.max(HOUR) } else { bands.band_secs }
+}
+
+/// `2 h`, `30 min`.
+fn said(secs: u32) -> String {
+    words::long_duration(secs)
+}

@@ -1,0 +1,157 @@
+//! Line drawings: a plan of lines, flat colours and letters, as one SVG; its PNG is that SVG, drawn.
+//!
+//! Coordinates are page pixels from the picture's north-west corner, but for those of contours, which are cells.
+
+mod base;
+mod hours;
+mod labels;
+mod outlines;
+
+pub use hours::iso_hours;
+pub use outlines::{MOST_OUTLINES, Outline, outlines};
+
+use super::Panel;
+use super::page::{self, Sheet};
+use super::picture::Fit;
+use super::scale::Rgb;
+use super::svg::{Block, hex};
+use crate::export::ExportError;
+use crate::profile::contour::Contour;
+use std::fmt::Write;
+
+/// A line drawing on its sheet.
+pub struct LineDrawing(Block);
+
+impl LineDrawing {
+    /// Lays the sheet out; `draw` makes the picture once its size is known.
+    fn new(panel: &Panel, cells: (u32, u32), cell_m: f64, draw: impl FnOnce(Fit) -> Block) -> LineDrawing {
+        LineDrawing(page::whole(panel, cells, cell_m, draw))
+    }
+
+    /// As SVG, of the sheet's size on paper; text stays text.
+    pub fn svg(&self) -> String {
+        page::svg(&self.0)
+    }
+
+    /// As PNG, of the size that all drawings have.
+    ///
+    /// # Errors
+    /// [`ExportError::Encode`] where the sheet cannot be drawn or encoded.
+    pub fn png(&self) -> Result<Vec<u8>, ExportError> {
+        page::png(&Sheet::of(&self.0)?)
+    }
+}
+
+/// From cells to page pixels.
+#[derive(Clone, Copy)]
+struct Scale([f64; 2]);
+
+impl Scale {
+    fn of(fit: Fit) -> Scale {
+        let scale = |pixels: u32, cells: u32| f64::from(pixels) / f64::from(cells.max(1));
+        Scale([scale(fit.pixels.0, fit.cells.0), scale(fit.pixels.1, fit.cells.1)])
+    }
+
+    fn point(self, [column, row]: [f64; 2]) -> [f64; 2] {
+        [column * self.0[0], row * self.0[1]]
+    }
+
+    /// What is drawn of contours, longer lines first.
+    fn lines(self, contours: &[Contour]) -> Vec<Vec<[f64; 2]>> {
+        let lines = contours.iter().flat_map(Contour::lines);
+        let mut lines: Vec<Vec<_>> =
+            lines.map(|line| line.into_iter().map(|point| self.point(point)).collect()).collect();
+        lines.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        lines
+    }
+
+    /// The areas within contours, as a path's data.
+    fn areas(self, contours: &[Contour]) -> String {
+        let mut data = String::new();
+        for contour in contours {
+            line(&mut data, contour.points.iter().map(|point| self.point(*point)));
+            data.push('Z');
+        }
+        data
+    }
+}
+
+fn length(line: &[[f64; 2]]) -> f64 {
+    line.windows(2).map(|ends| distance(ends[0], ends[1])).sum()
+}
+
+fn distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
+    (bx - ax).hypot(by - ay)
+}
+
+/// Adds a line to a path's data; one that ends where it begins is closed.
+fn line(data: &mut String, points: impl Iterator<Item = [f64; 2]>) {
+    for (at, [x, y]) in points.enumerate() {
+        // Writing to a String cannot fail.
+        let _ = write!(data, "{}{} {}", if at == 0 { 'M' } else { 'L' }, Number(x), Number(y));
+    }
+}
+
+fn paths(lines: &[Vec<[f64; 2]>]) -> String {
+    let mut data = String::new();
+    for points in lines {
+        line(&mut data, points.iter().copied());
+        if points.first() == points.last() {
+            data.push('Z');
+        }
+    }
+    data
+}
+
+/// To a hundredth of a pixel, without zeros that say nothing.
+struct Number(f64);
+
+impl std::fmt::Display for Number {
+    fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let hundredths = (self.0 * 100.0).round() as i64;
+        let sign = if hundredths < 0 { "-" } else { "" };
+        let (whole, part) = (hundredths.abs() / 100, hundredths.abs() % 100);
+        match part {
+            0 => write!(to, "{sign}{whole}"),
+            part if part % 10 == 0 => write!(to, "{sign}{whole}.{}", part / 10),
+            part => write!(to, "{sign}{whole}.{part:02}"),
+        }
+    }
+}
+
+/// A group of the SVG under its name, by which a drawing program shows it as a layer.
+fn group(block: &mut Block, name: &str, what: impl FnOnce(&mut Block)) {
+    let mut group = Block::default();
+    what(&mut group);
+    if !group.svg.is_empty() {
+        block.push(format_args!("<g id=\"{name}\">{}</g>", group.svg));
+    }
+}
+
+/// Flat colour within contours.
+fn fill(block: &mut Block, data: &str, colour: Rgb, opacity: f64) {
+    if data.is_empty() {
+        return;
+    }
+    let colour = hex(colour);
+    if opacity < 1.0 {
+        block.push(format_args!(
+            "<path d=\"{data}\" fill=\"{colour}\" fill-opacity=\"{opacity:.3}\" fill-rule=\"evenodd\"/>"
+        ));
+    } else {
+        block.push(format_args!("<path d=\"{data}\" fill=\"{colour}\" fill-rule=\"evenodd\"/>"));
+    }
+}
+
+/// Lines of one width and colour; what they are is told by `title` where there is one.
+fn stroke(block: &mut Block, data: &str, width: f64, colour: Rgb, title: &str) {
+    if data.is_empty() {
+        return;
+    }
+    let title = if title.is_empty() { String::new() } else { format!("<title>{title}</title>") };
+    block.push(format_args!(
+        "<path d=\"{data}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\" stroke-linejoin=\"round\" \
+         stroke-linecap=\"round\">{title}</path>",
+        hex(colour),
+    ));
+}

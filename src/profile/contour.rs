@@ -1,0 +1,283 @@
+//! Lines in a raster that part the cells above a threshold from the others: marching squares between the cells' centres,
+//! straightened as far as every line still passes between the same cells.
+//!
+//! Values are whole, and a threshold lies half a unit above a whole number, so that no cell is ever on a line. Straight
+//! edges come out straight, at any slope: a line is free to lie anywhere between the centres that it parts, and it takes
+//! the fewest corners that a walk along it finds (after Guibas and others, "Approximating polygons and subdivisions with
+//! minimum-link paths", 1991; ours keeps to points of the marching squares, and is greedy).
+
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+/// Numbers of which the contours are asked.
+#[derive(Clone, Copy)]
+pub struct Field<'a> {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// A cell's number; row 0 first, below 2⁶².
+    pub value: &'a (dyn Fn(usize) -> u64 + Sync),
+    /// Whether a line may be drawn between two neighbours (west, east or north, south), where their numbers part. Where it
+    /// may not something else parts them, as a wall does, and lines end there.
+    pub open: &'a (dyn Fn(usize, usize) -> bool + Sync),
+}
+
+/// The line around one patch of cells above the threshold, or around a hole in it: closed, and clockwise around what is
+/// above as it is seen with row 0 on top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contour {
+    /// Columns and rows from the raster's north-west corner, in cells: a cell's centre is half a cell from its corners.
+    pub points: Vec<[f64; 2]>,
+    /// Of the segment from each point to the next whether it is drawn: not along the raster's own border, and not where
+    /// [`Field::open`] says no on both of its ends.
+    pub drawn: Vec<bool>,
+}
+
+impl Contour {
+    /// What is drawn of it: lines, of which a closed one ends with the point that it begins with.
+    pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
+        let count = self.points.len();
+        let Some(gap) = self.drawn.iter().position(|drawn| !drawn) else {
+            return vec![self.points.iter().chain(self.points.first()).copied().collect()];
+        };
+        let mut lines: Vec<Vec<[f64; 2]>> = Vec::new();
+        let mut goes_on = false;
+        for at in (gap..gap + count).map(|at| at % count) {
+            if self.drawn[at] {
+                match lines.last_mut().filter(|_| goes_on) {
+                    Some(line) => line.push(self.points[(at + 1) % count]),
+                    None => lines.push(vec![self.points[at], self.points[(at + 1) % count]]),
+                }
+            }
+            goes_on = self.drawn[at];
+        }
+        lines
+    }
+
+    /// How many cells it encloses, by its corners; negative for a hole.
+    pub fn area(&self) -> f64 {
+        let next = self.points.iter().cycle().skip(1);
+        self.points.iter().zip(next).map(|(from, to)| cross(*from, *to)).sum::<f64>() / 2.0
+    }
+}
+
+/// How near to a centre a line may come, in cells.
+const CLEAR: f64 = 0.05;
+
+/// The contours of all cells whose number is above `threshold`, in the order of their first rows.
+pub fn contours(field: &Field, threshold: u64) -> Vec<Contour> {
+    let walk = Walk { field, threshold, pitch: u64::from(field.width) + 2 * PAD };
+    let rows = (0..u64::from(field.height) + 2 * PAD - 1).into_par_iter();
+    let steps: Vec<(u64, u64)> = rows.flat_map_iter(|row| walk.steps(row)).collect();
+    let mut next: FxHashMap<u64, u64> = steps.iter().copied().collect();
+    let mut rings = Vec::new();
+    for (first, _) in steps {
+        let mut ring = Vec::new();
+        let mut at = first;
+        while let Some(to) = next.remove(&at) {
+            ring.push(walk.crossing(at));
+            at = to;
+        }
+        if !ring.is_empty() {
+            rings.push(ring);
+        }
+    }
+    rings.into_par_iter().map(straightened).collect()
+}
+
+/// Cells around the raster: one like its neighbour within, so that lines reach the border, and one below any threshold, so
+/// that they close.
+const PAD: u64 = 2;
+
+/// Why a line passes between two cells.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Between {
+    /// Their numbers part.
+    Open,
+    /// Something else parts them.
+    Wall,
+    /// One of them lies outside.
+    Border,
+}
+
+/// Where a line passes between two cells.
+#[derive(Clone, Copy)]
+struct Crossing {
+    point: [f64; 2],
+    /// Between these: below the threshold, and above it.
+    sides: [[f64; 2]; 2],
+    between: Between,
+}
+
+struct Walk<'a> {
+    field: &'a Field<'a>,
+    threshold: u64,
+    /// Columns with what is around.
+    pitch: u64,
+}
+
+impl Walk<'_> {
+    /// The cell of the raster that stands for a padded one; none outside.
+    fn cell(&self, column: u64, row: u64) -> Option<usize> {
+        let along = |at: u64, count: u32| {
+            let last = u64::from(count) + 2 * PAD - 1;
+            (at > 0 && at < last).then(|| at.saturating_sub(PAD).min(u64::from(count) - 1) as usize)
+        };
+        Some(along(row, self.field.height)? * self.field.width as usize + along(column, self.field.width)?)
+    }
+
+    fn above(&self, row: u64) -> Vec<bool> {
+        let is_above = |cell| (self.field.value)(cell) > self.threshold;
+        (0..self.pitch).map(|column| self.cell(column, row).is_some_and(is_above)).collect()
+    }
+
+    /// The steps of lines through the squares between the centres of a row and the next: each from a pair of neighbours,
+    /// of which it parts one from the other, to another one. A pair is twice the number of its first cell, and 1 more for
+    /// the one below it.
+    fn steps(&self, row: u64) -> Vec<(u64, u64)> {
+        let (upper, lower) = (self.above(row), self.above(row + 1));
+        let mut steps = Vec::new();
+        for (at, (up, low)) in upper.windows(2).zip(lower.windows(2)).enumerate() {
+            // clockwise from the north-west, as are the sides between them from the north
+            let corners = [up[0], up[1], low[1], low[0]];
+            if corners == [corners[0]; 4] {
+                continue;
+            }
+            let first = row * self.pitch + at as u64;
+            let sides = [2 * first, 2 * (first + 1) + 1, 2 * (first + self.pitch), 2 * first + 1];
+            let is_saddle = corners[0] == corners[2] && corners[1] == corners[3];
+            let turn = if is_saddle && self.joined(at as u64, row) { 1 } else { 3 };
+            for from in (0..4).filter(|&side| corners[side] && !corners[(side + 1) % 4]) {
+                let mut to = (from + turn) % 4;
+                while corners[to] || !corners[(to + 1) % 4] {
+                    to = (to + turn) % 4;
+                }
+                steps.push((sides[from], sides[to]));
+            }
+        }
+        steps
+    }
+
+    /// Whether the two of four cells that are above hang together: where the mean is above, too.
+    fn joined(&self, column: u64, row: u64) -> bool {
+        let cells = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(east, south)| self.cell(column + east, row + south));
+        let sum: u128 = cells.into_iter().flatten().map(|cell| u128::from((self.field.value)(cell))).sum();
+        sum > 4 * u128::from(self.threshold) + 2
+    }
+
+    fn crossing(&self, pair: u64) -> Crossing {
+        let (column, row, south) = (pair / 2 % self.pitch, pair / 2 / self.pitch, pair % 2);
+        let ends = [[column, row], [column + 1 - south, row + south]];
+        let centre = |[column, row]: [u64; 2]| {
+            let within = |at: u64, count: u32| (at as f64 - PAD as f64 + 0.5).clamp(0.0, f64::from(count));
+            [within(column, self.field.width), within(row, self.field.height)]
+        };
+        let centres = ends.map(centre);
+        let (Some(a), Some(b)) = (self.cell(ends[0][0], ends[0][1]), self.cell(ends[1][0], ends[1][1])) else {
+            // the one outside is as far away as the border, and so is the one that stands in
+            let point = centres[usize::from(self.cell(ends[0][0], ends[0][1]).is_none())];
+            return Crossing { point, sides: [point; 2], between: Between::Border };
+        };
+        let [from, to] = [a, b].map(|cell| (self.field.value)(cell));
+        let (between, share) = if (self.field.open)(a, b) {
+            // exact up to 2⁵³, which is more seconds than there are
+            let share = (self.threshold as f64 + 0.5 - from as f64) / (to as f64 - from as f64);
+            (Between::Open, share.clamp(2.0 * CLEAR, 1.0 - 2.0 * CLEAR))
+        } else {
+            (Between::Wall, 0.5)
+        };
+        let sides = if from > to { [centres[1], centres[0]] } else { centres };
+        Crossing { point: mix(centres[0], centres[1], share), sides, between }
+    }
+}
+
+/// A ring of crossings with the corners that it needs.
+fn straightened(mut ring: Vec<Crossing>) -> Contour {
+    let count = ring.len();
+    let is_drawn = |ring: &[Crossing], at: usize| {
+        let ends = [ring[at % count].between, ring[(at + 1) % count].between];
+        ends.contains(&Between::Open) && !ends.contains(&Between::Border)
+    };
+    // what is drawn begins and ends with points of its own
+    let change = (1..count).find(|&at| is_drawn(&ring, at - 1) != is_drawn(&ring, at));
+    ring.rotate_left(change.unwrap_or(0));
+    ring.push(ring[0]);
+    let (mut points, mut drawn) = (Vec::new(), Vec::new());
+    let mut from = 0;
+    while from < count {
+        let is_line = is_drawn(&ring, from);
+        let end = (from + 1..count).find(|&at| is_drawn(&ring, at) != is_line).unwrap_or(count);
+        while from < end {
+            points.push(ring[from].point);
+            drawn.push(is_line);
+            from += reach(&ring[from..=end]);
+        }
+    }
+    Contour { points, drawn }
+}
+
+/// How many crossings on a straight line from the first one may end: found by leaps that double, and then halve.
+fn reach(ring: &[Crossing]) -> usize {
+    let last = ring.len() - 1;
+    let (mut reach, mut leap) = (1, 1);
+    while reach + leap <= last && is_straight(&ring[..=reach + leap]) {
+        reach += leap;
+        leap *= 2;
+    }
+    while leap > 1 {
+        leap /= 2;
+        if reach + leap <= last && is_straight(&ring[..=reach + leap]) {
+            reach += leap;
+        }
+    }
+    reach
+}
+
+/// Whether the straight line from the first to the last passes between the same cells, in the same order and direction.
+fn is_straight(ring: &[Crossing]) -> bool {
+    let [first, between @ .., last] = ring else { return true };
+    let along = sub(last.point, first.point);
+    let square = dot(along, along);
+    if square < 1e-12 {
+        return false;
+    }
+    let mut before = 0.0;
+    between.iter().all(|crossing| {
+        let [low, high] = crossing.sides.map(|side| sub(side, first.point));
+        let hit = if crossing.between == Between::Border {
+            if cross(along, low).abs() > 1e-9 * square.sqrt() {
+                return false;
+            }
+            low
+        } else {
+            let [low, high] = [mix(low, high, CLEAR), mix(high, low, CLEAR)];
+            let [left, right] = [cross(along, low), cross(along, high)];
+            if left >= 0.0 || right <= 0.0 {
+                return false;
+            }
+            mix(low, high, left / (left - right))
+        };
+        let at = dot(hit, along) / square;
+        let goes_on = at >= before && at <= 1.0;
+        before = at;
+        goes_on
+    })
+}
+
+fn sub(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// Positive where `b` points to the right of `a`, with rows counted downwards.
+fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn mix(a: [f64; 2], b: [f64; 2], share: f64) -> [f64; 2] {
+    [a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share]
+}
