@@ -263,7 +263,7 @@ pub(super) fn svg(sheet: &Block) -> String {
     let paper = hex(PAPER);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"420mm\" height=\"297mm\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
-         font-family=\"'{}', Arial, Helvetica, sans-serif\">\n\
+         stroke=\"none\" font-family=\"'{}', Arial, Helvetica, sans-serif\">\n\
          <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"{paper}\"/>{}</svg>\n",
         text::FAMILY,
         sheet.svg

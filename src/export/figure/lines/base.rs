@@ -1,6 +1,6 @@
 //! What lies under the lines: the ground, the buildings, and where something else parts cells than the sun.
 
-use super::{Scale, fill, group, line, paths, stroke};
+use super::{Line, Lines, Scale, fill, group, line, paths, stroke};
 use crate::export::figure::picture::{Cells, Pen};
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::Block;
@@ -105,6 +105,12 @@ impl Base {
         group(block, "roofs", |block| fill(block, &scale.areas(&self.footprints), colour, 1.0));
     }
 
+    /// Around the buildings, where they step up.
+    pub(super) fn footprints(&self, scale: Scale) -> Vec<Line> {
+        let Lines { large, small } = scale.lines(&self.footprints);
+        [large, small].concat()
+    }
+
     /// The buildings' lines, on `paper`.
     pub(super) fn draw(&self, block: &mut Block, scale: Scale, paper: Rgb) {
         group(block, "buildings", |block| {
@@ -115,7 +121,7 @@ impl Base {
                 }
                 draw(block, &data, pen, paper);
             }
-            draw(block, &paths(&scale.lines(&self.footprints)), Pen::OUTLINE, paper);
+            draw(block, &paths(&self.footprints(scale)), Pen::OUTLINE, paper);
         });
     }
 }

@@ -2,7 +2,7 @@
 
 use super::base::Base;
 use super::labels::{self, Labels};
-use super::{LineDrawing, Scale, fill, group, length, paths, stroke};
+use super::{Line, LineDrawing, Lines, Scale, fill, group, length};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb, mix};
 use crate::export::figure::svg::{Block, Style};
 use crate::export::figure::text::Weight;
@@ -16,15 +16,17 @@ use std::collections::BTreeMap;
 
 /// The lines, and their hours.
 const LINE: Rgb = [172, 56, 22];
-const LABEL: Style = Style { size: 31.0, weight: Weight::Bold, colour: LINE };
+const LABEL: Style = Style { size: 27.0, weight: Weight::Bold, colour: LINE };
 /// Page pixels.
-const WIDTH: f64 = 3.6;
+const WIDTH: f64 = 2.6;
 /// Behind letters.
 const HALO: Rgb = [255, 255, 255];
 /// The bands are lighter than the profile's: lines and letters lie over them.
 const LIGHTER: f64 = 0.5;
-/// A label for each so long part of a line, pixels.
+/// A label for each so long part of a line, none on a shorter one than this, and so far from the same label: pixels.
 const PART: f64 = 1300.0;
+const SHORT: f64 = 130.0;
+const APART: f64 = 240.0;
 
 /// `hours`: the profile's bands, and a labelled line for each whole hour of shadow; for as many hours as a band has where
 /// those are more, and for each band where the window has no whole hour.
@@ -70,17 +72,18 @@ pub fn iso_hours<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<
         if scene.receivers == Receivers::Ground {
             base.fill(&mut block, scale, plan::ROOF_UNJUDGED);
         }
-        let lines: Vec<(u32, Vec<_>)> = drawn.iter().map(|secs| (*secs, scale.lines(&contours[secs]))).collect();
+        let lines: Vec<(u32, Lines)> = drawn.iter().map(|secs| (*secs, scale.lines(&contours[secs]))).collect();
         group(&mut block, "iso-hours", |block| {
             for (secs, lines) in &lines {
-                stroke(block, &paths(lines), WIDTH, LINE, &said(*secs));
+                lines.draw(block, WIDTH, LINE, &said(*secs));
             }
         });
         base.draw(&mut block, scale, NO_SHADOW);
-        let mut labels = Labels::new(fit.pixels, LABEL);
-        lines.iter().flat_map(|(_, lines)| lines).for_each(|line| labels.avoid(line));
+        let mut labels = Labels::new(fit.pixels, LABEL, APART);
+        lines.iter().flat_map(|(_, lines)| lines.all()).for_each(|line| labels.avoid(line));
+        base.footprints(scale).iter().for_each(|line| labels.avoid(line));
         for (secs, lines) in &lines {
-            label(&mut labels, &said(*secs), lines);
+            label(&mut labels, &said(*secs), &lines.large);
         }
         labels.draw(&mut block, HALO);
         block
@@ -89,14 +92,17 @@ pub fn iso_hours<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<
 }
 
 /// The hours on each line that is long enough for them, again and again.
-fn label(labels: &mut Labels, said: &str, lines: &[Vec<[f64; 2]>]) {
+fn label(labels: &mut Labels, said: &str, lines: &[Line]) {
     let width = 2.0 * labels.half(said)[0];
     for line in lines {
         let length = length(line);
+        if length < SHORT {
+            break;
+        }
         let parts = (length / PART).ceil().max(1.0);
         for part in 0..parts as usize {
             let ends = [part as f64, part as f64 + 1.0].map(|at| at * length / parts);
-            labels.place(said, LINE, labels::along(line, ends, width));
+            labels.place(said, LINE, &mut labels::along(line, ends, width));
         }
     }
 }

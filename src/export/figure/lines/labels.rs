@@ -23,20 +23,22 @@ pub(super) struct Labels {
     lines: Vec<f32>,
     letters: Vec<bool>,
     placed: Vec<(Spot, String, Rgb)>,
+    /// The same is not said again so near, pixels.
+    apart: f64,
 }
 
 /// Side of a square, pixels.
 const SQUARE: f64 = 6.0;
 /// Around letters, pixels.
-const AROUND: f64 = 7.0;
+const AROUND: f64 = 6.0;
 
 impl Labels {
     /// None yet, on a picture of so many pixels.
-    pub(super) fn new(pixels: (u32, u32), style: Style) -> Labels {
+    pub(super) fn new(pixels: (u32, u32), style: Style, apart: f64) -> Labels {
         let size = [f64::from(pixels.0), f64::from(pixels.1)];
         let [columns, rows] = size.map(|length| (length / SQUARE).ceil() as usize + 1);
         let (lines, letters) = (vec![0.0; columns * rows], vec![false; columns * rows]);
-        Labels { size, style, columns, lines, letters, placed: Vec::new() }
+        Labels { size, style, columns, lines, letters, placed: Vec::new(), apart }
     }
 
     /// A line that letters had better not lie on.
@@ -64,12 +66,23 @@ impl Labels {
         [text::width(said, self.style.weight, self.style.size) / 2.0, self.style.size * 0.40]
     }
 
+    /// Whether letters there would lie on no line.
+    pub(super) fn is_clear(&self, said: &str, spot: &Spot) -> bool {
+        let squares = self.under(spot, self.half(said).map(|half| half + AROUND));
+        squares.is_some_and(|squares| squares.iter().all(|&square| self.lines[square] == 0.0))
+    }
+
     /// Puts a label where it is least bad; says whether there was room at all.
-    pub(super) fn place(&mut self, said: &str, colour: Rgb, spots: impl IntoIterator<Item = Spot>) -> bool {
+    pub(super) fn place(&mut self, said: &str, colour: Rgb, spots: &mut [Spot]) -> bool {
+        spots.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let same: Vec<_> = self.placed.iter().filter(|placed| placed.1 == said).map(|placed| placed.0.at).collect();
         let half = self.half(said).map(|half| half + AROUND);
         let mut best: Option<(f64, Spot, Vec<usize>)> = None;
-        for spot in spots {
+        for spot in spots.iter().copied() {
             if best.as_ref().is_some_and(|best| best.0 <= spot.cost) {
+                break;
+            }
+            if same.iter().any(|at| distance(*at, spot.at) < self.apart) {
                 continue;
             }
             let Some(squares) = self.under(&spot, half) else { continue };
@@ -121,7 +134,7 @@ impl Labels {
         };
         let halo = hex(halo);
         super::group(block, "halos", |block| {
-            let clear = format!("fill=\"{halo}\" stroke=\"{halo}\" stroke-width=\"11\" stroke-linejoin=\"round\"");
+            let clear = format!("fill=\"{halo}\" stroke=\"{halo}\" stroke-width=\"9\" stroke-linejoin=\"round\"");
             draw(block, &|_| clear.clone());
         });
         super::group(block, "labels", |block| draw(block, &|colour| format!("fill=\"{}\"", hex(colour))));
@@ -133,6 +146,8 @@ impl Labels {
 pub(super) fn along(line: &[[f64; 2]], [from, to]: [f64; 2], width: f64) -> Vec<Spot> {
     /// Between spots, pixels.
     const PITCH: f64 = 9.0;
+    /// Letters turned further are turned the other way: 80°.
+    const STEEP: f64 = 1.4;
     /// How much longer the line may be than the way across the letters.
     const BENT: f64 = 1.09;
     let [from, to] = [from.max(width / 2.0), to.min(length(line) - width / 2.0)];
@@ -149,8 +164,11 @@ pub(super) fn along(line: &[[f64; 2]], [from, to]: [f64; 2], width: f64) -> Vec<
             return None;
         }
         let mut angle = (b[1] - a[1]).atan2(b[0] - a[0]);
-        if angle.abs() > std::f64::consts::FRAC_PI_2 {
-            angle -= angle.signum() * std::f64::consts::PI;
+        // what stands upright is read from the right, all of it
+        if angle > STEEP {
+            angle -= std::f64::consts::PI;
+        } else if angle <= STEEP - std::f64::consts::PI {
+            angle += std::f64::consts::PI;
         }
         // a bend pushes the line out of the letters' middle
         let at = [0, 1].map(|axis| (at[axis] * 2.0 + a[axis] + b[axis]) / 4.0);

@@ -56,12 +56,18 @@ impl Scale {
         [column * self.0[0], row * self.0[1]]
     }
 
-    /// What is drawn of contours, longer lines first.
-    fn lines(self, contours: &[Contour]) -> Vec<Vec<[f64; 2]>> {
-        let lines = contours.iter().flat_map(Contour::lines);
-        let mut lines: Vec<Vec<_>> =
-            lines.map(|line| line.into_iter().map(|point| self.point(point)).collect()).collect();
-        lines.sort_by(|a, b| length(b).total_cmp(&length(a)));
+    /// What is drawn of contours.
+    fn lines(self, contours: &[Contour]) -> Lines {
+        /// Square pixels.
+        const SMALL: f64 = 3000.0;
+        let mut lines = Lines::default();
+        for contour in contours {
+            let is_small = contour.area().abs() * self.0[0] * self.0[1] < SMALL;
+            let to = if is_small { &mut lines.small } else { &mut lines.large };
+            let to_page = |line: Vec<[f64; 2]>| line.into_iter().map(|point| self.point(point)).collect();
+            to.extend(contour.lines().into_iter().map(to_page));
+        }
+        lines.large.sort_by(|a: &Line, b| length(b).total_cmp(&length(a)));
         lines
     }
 
@@ -73,6 +79,30 @@ impl Scale {
             data.push('Z');
         }
         data
+    }
+}
+
+/// Page pixels.
+type Line = Vec<[f64; 2]>;
+
+/// Lines of one kind.
+#[derive(Default)]
+struct Lines {
+    /// The longest first.
+    large: Vec<Line>,
+    /// Around what is so small that a full line would drown it.
+    small: Vec<Line>,
+}
+
+impl Lines {
+    fn all(&self) -> impl Iterator<Item = &Line> {
+        self.large.iter().chain(&self.small)
+    }
+
+    fn draw(&self, block: &mut Block, width: f64, colour: Rgb, title: &str) {
+        const OF_SMALL: f64 = 0.45;
+        stroke(block, &paths(&self.large), width, colour, title);
+        stroke(block, &paths(&self.small), width * OF_SMALL, colour, title);
     }
 }
 
@@ -92,7 +122,7 @@ fn line(data: &mut String, points: impl Iterator<Item = [f64; 2]>) {
     }
 }
 
-fn paths(lines: &[Vec<[f64; 2]>]) -> String {
+fn paths(lines: &[Line]) -> String {
     let mut data = String::new();
     for points in lines {
         line(&mut data, points.iter().copied());

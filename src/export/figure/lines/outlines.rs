@@ -1,8 +1,8 @@
 //! The hourly diagram: each instant's shadow as a line with its time.
 
 use super::base::Base;
-use super::labels::{self, Labels, Spot};
-use super::{LineDrawing, Scale, distance, fill, group, paths, stroke};
+use super::labels::{Labels, Spot};
+use super::{LineDrawing, Lines, Scale, distance, fill, group};
 use crate::export::figure::picture::Fit;
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::{Block, Style};
@@ -29,18 +29,23 @@ pub struct Outline {
 /// From morning to evening.
 const DAY: [Rgb; 5] = [[24, 74, 150], [14, 120, 128], [96, 96, 24], [190, 84, 16], [150, 24, 60]];
 /// Ground and roofs, lighter than under a single shadow.
-const GROUND: Rgb = [251, 248, 240];
-const ROOF: Rgb = [255, 255, 255];
+const GROUND: Rgb = [253, 251, 246];
+const ROOF: Rgb = [231, 224, 210];
 const SHADE: Rgb = [92, 106, 132];
 /// How dark the shade is where all instants lie over each other.
 const DARKEST: f64 = 0.55;
 const HALO: Rgb = [255, 255, 255];
 /// Page pixels.
-const WIDTH: f64 = 4.0;
-const LABEL: Style = Style { size: 33.0, weight: Weight::Bold, colour: [0; 3] };
-/// Shadows that are so much smaller than the instant's largest have no time of their own, and there are at most so many.
-const SMALL: f64 = 0.25;
+const WIDTH: f64 = 3.0;
+const LABEL: Style = Style { size: 31.0, weight: Weight::Bold, colour: [0; 3] };
+/// How often an instant's time stands on its outline at most, where the shadow is how long in comparison with its longest,
+/// and how far apart, pixels.
 const MOST_LABELS: usize = 3;
+const NEARLY: f64 = 0.7;
+const APART: f64 = 600.0;
+/// Between places that are looked at, and between the line and letters beside it, pixels.
+const PITCH: f64 = 16.0;
+const BESIDE: f64 = 12.0;
 
 /// `outlines`: the border of each instant's shadow, in the track's order, with its time.
 ///
@@ -64,7 +69,7 @@ pub fn outlines<S: SurfaceRows>(
         let instant = instant.ok_or_else(|| ExportError::encode("outlines", "an instant is not of the track"))?;
         let contours = base.contours(&|cell| u64::from(shadow.contains(cell)), 0);
         let time = words::clock(&instant.time);
-        drawn.push(Drawn { instant, time, colour: colour(at, count), contours });
+        drawn.push(Drawn { instant, time, colour: colour(at, count), contours, lines: Lines::default(), shadow });
     }
 
     let mut panel = figure::panel(scene, "Shadow outlines");
@@ -96,15 +101,16 @@ pub fn outlines<S: SurfaceRows>(
             base.fill(&mut block, scale, plan::ROOF_UNJUDGED);
         }
         base.draw(&mut block, scale, ROOF);
-        let mut labels = Labels::new(fit.pixels, LABEL);
+        let mut labels = Labels::new(fit.pixels, LABEL, APART);
+        base.footprints(scale).iter().for_each(|line| labels.avoid(line));
         group(&mut block, "outlines", |block| {
-            for Drawn { time, colour, contours, .. } in &drawn {
-                let lines = scale.lines(contours);
-                lines.iter().for_each(|line| labels.avoid(line));
-                stroke(block, &paths(&lines), WIDTH, *colour, time);
+            for Drawn { time, colour, contours, lines, .. } in &mut drawn {
+                *lines = scale.lines(contours);
+                lines.all().for_each(|line| labels.avoid(line));
+                lines.draw(block, WIDTH, *colour, time);
             }
         });
-        drawn.iter().for_each(|drawn| label(&mut labels, drawn, scale));
+        (0..count).for_each(|at| label(&mut labels, &drawn, at, scale));
         labels.draw(&mut block, HALO);
         block
     };
@@ -116,53 +122,56 @@ struct Drawn<'a> {
     time: String,
     colour: Rgb,
     contours: Vec<Contour>,
+    /// Known when the sheet is laid out.
+    lines: Lines,
+    shadow: &'a Bits,
 }
 
-/// The time at the far ends of the largest shadows.
-fn label(labels: &mut Labels, drawn: &Drawn, scale: Scale) {
-    let Drawn { instant, time, colour, contours } = drawn;
-    let mut shadows: Vec<&Contour> = contours.iter().filter(|shadow| shadow.area() > 0.0).collect();
-    shadows.sort_by(|a, b| b.area().total_cmp(&a.area()));
-    let least = SMALL * shadows.first().map_or(0.0, |shadow| shadow.area());
+/// The time where the shadow reaches farthest, and once or twice more beside long shadows in open sun.
+fn label(labels: &mut Labels, drawn: &[Drawn], at: usize, scale: Scale) {
+    let Drawn { instant, time, colour, lines, shadow, .. } = &drawn[at];
     // rows run southwards
     let away = [-instant.to_sun.x, instant.to_sun.y];
     let length = away[0].hypot(away[1]).max(1e-9);
     let away = away.map(|part| part / length);
-    let mut placed = 0;
-    for shadow in shadows {
-        if placed > 0 && (shadow.area() < least || placed == MOST_LABELS) {
-            break;
-        }
-        let lines = scale.lines(std::slice::from_ref(shadow));
-        let spots: Vec<Spot> = lines.iter().flat_map(|line| spots(line, away, labels.half(time))).collect();
-        placed += usize::from(labels.place(time, *colour, spots));
-    }
-}
-
-/// Beyond a line's points and on them, better the farther away they lie.
-fn spots(line: &[[f64; 2]], away: [f64; 2], half: [f64; 2]) -> Vec<Spot> {
-    /// Between the line and the letters' edge, pixels.
-    const BESIDE: f64 = 12.0;
-    let reach = |at: &[f64; 2]| at[0] * away[0] + at[1] * away[1];
-    let farthest = line.iter().map(reach).fold(f64::NEG_INFINITY, f64::max);
+    let half = labels.half(time);
     let out = half[0] * away[0].abs() + half[1] * away[1].abs() + BESIDE;
-    let mut spots = Vec::new();
-    for ends in line.windows(2) {
-        let steps = (distance(ends[0], ends[1]) / 20.0).ceil().max(1.0);
+    let along = |from: [f64; 2], step: f64| [0, 1].map(|axis| from[axis] + away[axis] * step);
+    let is_shady = |at| cell(shadow, scale, at).is_none_or(|cell| drawn.iter().any(|it| it.shadow.contains(cell)));
+
+    let (mut spots, mut long_ones) = (Vec::new(), Vec::new());
+    for ends in lines.large.iter().flat_map(|line| line.windows(2)) {
+        let steps = (distance(ends[0], ends[1]) / PITCH).ceil().max(1.0);
         for step in 0..=steps as usize {
             let share = step as f64 / steps;
             let at = [0, 1].map(|axis| ends[0][axis] + (ends[1][axis] - ends[0][axis]) * share);
-            let short = farthest - reach(&at);
-            let beyond = [0, 1].map(|axis| at[axis] + out * away[axis]);
-            spots.push(Spot { at: beyond, angle: 0.0, cost: short * 0.5 });
-            spots.push(Spot { at, angle: 0.0, cost: 60.0 + short * 0.5 });
+            let short = -(at[0] * away[0] + at[1] * away[1]);
+            spots.push(Spot { at, angle: 0.0, cost: short + 60.0 });
+            let beyond = along(at, out);
+            if is_shady(beyond) {
+                spots.push(Spot { at: beyond, angle: 0.0, cost: short + 40.0 });
+            } else {
+                spots.push(Spot { at: beyond, angle: 0.0, cost: short });
+                let back = (1..).map(|step| along(at, -scale.0[0] * f64::from(step)));
+                let dark = |at: &[f64; 2]| cell(shadow, scale, *at).is_some_and(|cell| shadow.contains(cell));
+                let long = back.take_while(dark).count() as f64 * scale.0[0];
+                long_ones.push(Spot { at: beyond, angle: 0.0, cost: -long });
+            }
         }
     }
-    spots.extend(labels::along(line, [0.0, f64::INFINITY], 2.0 * half[0]).into_iter().map(|spot| {
-        let short = farthest - reach(&spot.at);
-        Spot { cost: spot.cost + 40.0 + short * 0.5, ..spot }
-    }));
-    spots
+    labels.place(time, *colour, &mut spots);
+    let longest = long_ones.iter().map(|spot| -spot.cost).fold(0.0, f64::max);
+    long_ones.retain(|spot| -spot.cost >= NEARLY * longest && labels.is_clear(time, spot));
+    for _ in 1..MOST_LABELS {
+        labels.place(time, *colour, &mut long_ones);
+    }
+}
+
+/// The cell under a place of the picture.
+fn cell(of: &Bits, scale: Scale, at: [f64; 2]) -> Option<usize> {
+    let at = [0, 1].map(|axis| at[axis] / scale.0[axis]);
+    let is_within = at.iter().zip([of.width, of.height]).all(|(at, count)| *at >= 0.0 && *at < f64::from(count));
+    is_within.then(|| at[1] as usize * of.width as usize + at[0] as usize)
 }
 
 /// Of one of so many shadows that lie over each other.
