@@ -29,6 +29,12 @@ profile() {
     shrink "$drawn/profile/profile.png" "$1"
 }
 
+# PICTURE SITE: the outlines of the shadows at the site's study.
+outlines() {
+    "$GNOMON" profile "sites/$2" --write json --draw outlines --out "$drawn/profile"
+    shrink "$drawn/profile/outlines.png" "$1"
+}
+
 # PICTURE SITE: the hours of sun on the site's surfaces.
 surfaces() {
     "$GNOMON" profile "sites/$2" --receivers surfaces --write png --out "$drawn/profile"
@@ -50,6 +56,7 @@ profile docs/pictures/industry-profile.png industry
 camera sites/tower/picture.png tower 2026-09-18T14:00
 camera docs/pictures/tower-volumes.png tower 2026-09-18T14:00 --show volumes,silhouette
 profile docs/pictures/tower-profile.png tower
+outlines docs/pictures/tower-outlines.png tower
 
 camera sites/headquarters/picture.png headquarters 2026-09-18T15:00
 camera docs/pictures/headquarters-parts.png headquarters/facade-and-concrete.toml 2026-09-18T15:00 --show components

@@ -2,6 +2,7 @@
 
 mod animate;
 mod compare;
+mod draw;
 mod surfaces;
 mod techniques;
 mod volumes;

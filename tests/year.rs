@@ -289,6 +289,22 @@ fn what_another_study_left_is_not_used() {
     assert!(stderr(&gnomon(path, &asked)).contains("goes on"));
 }
 
+/// Nothing keeps outlines: of a study that was stopped without them all instants are drawn anew.
+#[cfg(unix)]
+#[test]
+fn outlines_of_a_stopped_study_are_all_there() {
+    let folder = site();
+    let path = folder.path();
+    let asked = "profile . --technique ray-cast --size 900 --from 8:00 --to 18:00 --step 30min --write tif";
+    stopped(path, asked, "14%");
+    assert!(path.join("out/profile.unfinished").exists());
+    let told = stderr(&gnomon(path, &format!("{asked} --draw outlines")));
+    assert!(!told.contains("goes on"), "{told}");
+    done(path, &format!("{asked} --draw outlines --out alone"));
+    let [svg, alone] = ["out", "alone"].map(|out| fs::read(path.join(out).join("outlines.svg")).unwrap());
+    assert!(svg == alone && !path.join("out/profile.unfinished").exists());
+}
+
 #[test]
 fn several_days_are_the_sum_of_each() {
     let folder = site();

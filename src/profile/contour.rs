@@ -1,10 +1,10 @@
 //! Lines in a raster that part the cells above a threshold from the others: marching squares between the cells' centres,
 //! straightened as far as every line still passes between the same cells.
 //!
-//! Values are whole, and a threshold lies half a unit above a whole number, so that no cell is ever on a line. Straight
-//! edges come out straight, at any slope: a line is free to lie anywhere between the centres that it parts, and it takes
-//! the fewest corners that a walk along it finds (after Guibas and others, "Approximating polygons and subdivisions with
-//! minimum-link paths", 1991; ours keeps to points of the marching squares, and is greedy).
+//! A cell is above or it is not, so that none is ever on a line. Straight edges come out straight, at any slope: a line is
+//! free to lie anywhere between the centres that it parts. So it is first pulled straight between them, over long and then
+//! over shorter ways, and then takes the fewest corners that a walk along it finds (after Guibas and others, "Approximating
+//! polygons and subdivisions with minimum-link paths", 1991; ours keeps to points of the pulled line, and is greedy).
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -63,7 +63,7 @@ impl Contour {
 }
 
 /// How near to a centre a line may come, in cells.
-const CLEAR: f64 = 0.05;
+const CLEAR: f64 = 0.01;
 
 /// The contours of all cells whose number is above `threshold`, in the order of their first rows.
 pub fn contours(field: &Field, threshold: u64) -> Vec<Contour> {
@@ -179,16 +179,9 @@ impl Walk<'_> {
             let point = centres[usize::from(self.cell(ends[0][0], ends[0][1]).is_none())];
             return Crossing { point, sides: [point; 2], between: Between::Border };
         };
-        let [from, to] = [a, b].map(|cell| (self.field.value)(cell));
-        let (between, share) = if (self.field.open)(a, b) {
-            // exact up to 2⁵³, which is more seconds than there are
-            let share = (self.threshold as f64 + 0.5 - from as f64) / (to as f64 - from as f64);
-            (Between::Open, share.clamp(2.0 * CLEAR, 1.0 - 2.0 * CLEAR))
-        } else {
-            (Between::Wall, 0.5)
-        };
-        let sides = if from > to { [centres[1], centres[0]] } else { centres };
-        Crossing { point: mix(centres[0], centres[1], share), sides, between }
+        let between = if (self.field.open)(a, b) { Between::Open } else { Between::Wall };
+        let sides = if (self.field.value)(a) > self.threshold { [centres[1], centres[0]] } else { centres };
+        Crossing { point: mix(centres[0], centres[1], 0.5), sides, between }
     }
 }
 
@@ -208,6 +201,7 @@ fn straightened(mut ring: Vec<Crossing>) -> Contour {
     while from < count {
         let is_line = is_drawn(&ring, from);
         let end = (from + 1..count).find(|&at| is_drawn(&ring, at) != is_line).unwrap_or(count);
+        pull(&mut ring[from..=end]);
         while from < end {
             points.push(ring[from].point);
             drawn.push(is_line);
@@ -215,6 +209,29 @@ fn straightened(mut ring: Vec<Crossing>) -> Contour {
         }
     }
     Contour { points, drawn }
+}
+
+/// Pulls crossings towards the straight way between others before and behind them, as far as their sides let them.
+fn pull(ring: &mut [Crossing]) {
+    let last = ring.len() - 1;
+    for away in [128, 64, 32, 16, 8, 4, 2, 1] {
+        for at in 1..last {
+            // what is small keeps its shape
+            let away = away.min(at).min(last - at).min(last / 8);
+            if away == 0 {
+                continue;
+            }
+            let [before, behind] = [ring[at - away].point, ring[at + away].point];
+            let Crossing { sides: [low, high], between, .. } = ring[at];
+            let along = sub(behind, before);
+            let [left, right] = [low, high].map(|side| cross(along, sub(side, before)));
+            // from the back a line passes between no cells
+            if between != Between::Border && right - left > 1e-9 {
+                let share = left / (left - right);
+                ring[at].point = mix(low, high, share.clamp(2.0 * CLEAR, 1.0 - 2.0 * CLEAR));
+            }
+        }
+    }
 }
 
 /// How many crossings on a straight line from the first one may end: found by leaps that double, and then halve.
