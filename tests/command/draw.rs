@@ -183,6 +183,23 @@ fn under_box(cell: usize, width: usize) -> bool {
 }
 
 #[test]
+fn no_line_is_drawn_where_nothing_is_judged() {
+    let folder = site();
+    let text = std::fs::read_to_string(folder.path().join("site.toml")).unwrap();
+    // two metres above the ground it lets some sun in under it
+    let text = text.replace("[study]", "position = [0, 0, 2]\n[study]");
+    std::fs::write(folder.path().join("site.toml"), text).unwrap();
+    done(folder.path(), &format!("profile . {PLAN} --draw outlines --write json"));
+    let svg = std::fs::read_to_string(folder.path().join("out/outlines.svg")).unwrap();
+    let place = Place::of(&svg, [-70.0, -30.0, 50.0, 60.0]);
+    for path in elements(&svg, "outlines", "path") {
+        let points: Vec<_> = lines(attribute(path, "d")).concat().iter().map(|point| place.metres(*point)).collect();
+        assert!(points.len() > 4 && points.iter().any(|[x, y]| x.abs().max(y.abs()) < 5.5), "none at the box");
+        assert!(points.iter().all(|[x, y]| x.abs().max(y.abs()) > 4.5), "a line under the box: {points:?}");
+    }
+}
+
+#[test]
 fn times_do_not_lie_on_each_other() {
     let folder = site();
     let day = "--from 8:00 --to 19:00 --step 30min";

@@ -113,6 +113,16 @@ fn no_line_is_drawn_along_the_border() {
     assert_eq!(areas, [35.0, -0.5]);
 }
 
+/// Two cells that touch at a corner hang together where their mean with the other two is above.
+#[test]
+fn saddles_hang_together_by_their_mean() {
+    for values in [[9, 0, 0, 9], [0, 9, 9, 0]] {
+        let field = Field { width: 2, height: 2, value: &|cell| values[cell], open: &|_, _| true };
+        let counts = [3, 4].map(|threshold| contours(&field, threshold).len());
+        assert_eq!(counts, [1, 2], "{values:?}");
+    }
+}
+
 /// At any slope a straight edge comes out with few corners, and nowhere a cell off.
 #[test]
 fn straight_edges_are_straight() {

@@ -12,7 +12,7 @@ use crate::profile::Profile;
 use crate::profile::contour::Contour;
 use crate::site::Receivers;
 use crate::view::SurfaceRows;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The lines, and their hours.
 const LINE: Rgb = [172, 56, 22];
@@ -46,18 +46,22 @@ pub fn iso_hours<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<
     let each = line_secs(&bands);
     let by_line = (1..).map(|line| line * each).take_while(|secs| *secs < profile.day_secs);
     let by_band = (0..bands.colours.len() as u32).map(|band| band * bands.band_secs);
-    let contours: BTreeMap<u32, Vec<Contour>> =
-        by_line.clone().chain(by_band).map(|secs| (secs, base.contours(&value, 255 * u64::from(secs)))).collect();
+    let thresholds: BTreeSet<u32> = by_line.clone().chain(by_band).collect();
+    let of_secs = |secs| (secs, base.contours(&value, 255 * u64::from(secs)));
+    let contours: BTreeMap<u32, Vec<Contour>> = thresholds.into_iter().map(of_secs).collect();
 
     let mut panel = figure::profile_panel(scene, profile, "Lines of equal shadow");
     for (colour, _) in &mut panel.legend {
         *colour = lighter(*colour);
     }
-    let most = profile.shaded.iter().max().unwrap_or(0);
-    let drawn: Vec<u32> = by_line.filter(|secs| 255 * u64::from(*secs) < most).collect();
-    if let Some(last) = drawn.last() {
-        let said = format!("{} of shadow, then each {} to {}", said(each), said(each), said(*last));
-        panel.keys.push((LINE, said));
+    let is_drawn = |secs: &u32| contours[secs].iter().any(|contour| contour.drawn.contains(&true));
+    let drawn: Vec<u32> = by_line.filter(is_drawn).collect();
+    match drawn.as_slice() {
+        [] => panel.facts.push(("Lines", format!("none: the shadow passes {} nowhere but at walls", said(each)))),
+        [one] => panel.keys.push((LINE, format!("{} of shadow", said(*one)))),
+        [first, .., last] => {
+            panel.keys.push((LINE, format!("{} of shadow, then each {} to {}", said(*first), said(each), said(*last))));
+        }
     }
     let draw = |fit: figure::picture::Fit| {
         let scale = Scale::of(fit);
