@@ -91,7 +91,8 @@ impl Base {
 
     /// Whether two neighbours, which the sun parts, are parted by nothing else, and judged.
     pub(super) fn open(&self, a: usize, b: usize) -> bool {
-        !self.is_step(a, b) && !(self.ground_only && [a, b].iter().any(|&cell| self.buildings[cell]))
+        let is_judged = |cell: usize| !(self.ground_only && self.buildings[cell]);
+        !self.is_step(a, b) && is_judged(a) && is_judged(b)
     }
 
     /// The contours of numbers on this plan.

@@ -1,8 +1,8 @@
 //! Lines of equal hours of shadow.
 
 use super::base::Base;
-use super::labels::{self, Labels};
-use super::{Line, LineDrawing, Lines, Scale, fill, group, length};
+use super::labels::{self, Labels, Spot};
+use super::{LineDrawing, Lines, Scale, fill, group, length};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb, mix};
 use crate::export::figure::svg::{Block, Style};
 use crate::export::figure::text::Weight;
@@ -51,7 +51,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<
     let contours: BTreeMap<u32, Vec<Contour>> = thresholds.into_iter().map(of_secs).collect();
 
     let mut panel = figure::profile_panel(scene, profile, "Lines of equal shadow");
-    for (colour, _) in &mut panel.legend {
+    for (colour, _) in panel.legend.iter_mut().filter(|(colour, _)| *colour != plan::ROOF_UNJUDGED) {
         *colour = lighter(*colour);
     }
     let is_drawn = |secs: &u32| contours[secs].iter().any(|contour| contour.drawn.contains(&true));
@@ -87,7 +87,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<
         lines.iter().flat_map(|(_, lines)| lines.all()).for_each(|line| labels.avoid(line));
         base.footprints(scale).iter().for_each(|line| labels.avoid(line));
         for (secs, lines) in &lines {
-            label(&mut labels, &said(*secs), &lines.large);
+            label(&mut labels, &said(*secs), lines);
         }
         labels.draw(&mut block, HALO);
         block
@@ -95,10 +95,13 @@ pub fn iso_hours<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<
     Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
 }
 
-/// The hours on each line that is long enough for them, again and again.
-fn label(labels: &mut Labels, said: &str, lines: &[Line]) {
-    let width = 2.0 * labels.half(said)[0];
-    for line in lines {
+/// The hours on each line that is long enough for them, again and again; beside the longest one where none is.
+fn label(labels: &mut Labels, said: &str, lines: &Lines) {
+    /// Between a line and letters beside it, pixels.
+    const BESIDE: f64 = 10.0;
+    let half = labels.half(said);
+    let mut is_placed = false;
+    for line in &lines.large {
         let length = length(line);
         if length < SHORT {
             break;
@@ -106,8 +109,20 @@ fn label(labels: &mut Labels, said: &str, lines: &[Line]) {
         let parts = (length / PART).ceil().max(1.0);
         for part in 0..parts as usize {
             let ends = [part as f64, part as f64 + 1.0].map(|at| at * length / parts);
-            labels.place(said, LINE, &mut labels::along(line, ends, width));
+            is_placed |= labels.place(said, LINE, &mut labels::along(line, ends, 2.0 * half[0]));
         }
+    }
+    let longest = lines.all().max_by(|a, b| length(a).total_cmp(&length(b)));
+    if let (false, Some(line)) = (is_placed, longest) {
+        let beside = |[x, y]: &[f64; 2]| {
+            let [right, down] = half.map(|half| half + BESIDE);
+            [[*x, y - down], [*x, y + down], [x - right, *y], [x + right, *y]].map(|at| Spot {
+                at,
+                angle: 0.0,
+                cost: 0.0,
+            })
+        };
+        labels.place(said, LINE, &mut line.iter().flat_map(beside).collect::<Vec<_>>());
     }
 }
 

@@ -140,7 +140,8 @@ fn label(labels: &mut Labels, drawn: &[Drawn], at: usize, scale: Scale) {
     let is_shady = |at| cell(shadow, scale, at).is_none_or(|cell| drawn.iter().any(|it| it.shadow.contains(cell)));
 
     let (mut spots, mut long_ones) = (Vec::new(), Vec::new());
-    for ends in lines.large.iter().flat_map(|line| line.windows(2)) {
+    let lines = if lines.large.is_empty() { &lines.small } else { &lines.large };
+    for ends in lines.iter().flat_map(|line| line.windows(2)) {
         let steps = (distance(ends[0], ends[1]) / PITCH).ceil().max(1.0);
         for step in 0..=steps as usize {
             let share = step as f64 / steps;
