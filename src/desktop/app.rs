@@ -156,6 +156,12 @@ impl App {
         Some((wish.view, wish.to_sun))
     }
 
+    /// What was asked for at the last frame: the view at its full size, and the unit vector to the sun.
+    pub fn asked(&self) -> Option<(View, DVec3)> {
+        let wish = self.open.as_ref()?.viewer.asked()?;
+        Some((wish.view, wish.to_sun))
+    }
+
     /// What drew the picture.
     pub fn drawn(&self) -> Option<&Drawn> {
         Some(&self.open.as_ref()?.viewer.shown()?.drawn)

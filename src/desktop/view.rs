@@ -78,6 +78,11 @@ impl Viewer {
         self.shown.as_ref()
     }
 
+    /// The best picture of what was asked at the last frame.
+    pub(super) fn asked(&self) -> Option<&Wish> {
+        self.best.as_ref()
+    }
+
     /// Whether what is shown is the best picture of what is asked.
     pub(super) fn is_settled(&self) -> bool {
         let both = self.shown.as_ref().zip(self.best.as_ref());
