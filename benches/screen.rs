@@ -18,7 +18,12 @@ impl Screen {
     pub(crate) fn new(width: u32, height: u32) -> Screen {
         let config = WgpuConfiguration { wgpu_setup: desktop::setup(), ..WgpuConfiguration::default() };
         let instance = pollster::block_on(config.wgpu_setup.new_instance());
-        let state = RenderState::create(&config, &instance, None, RendererOptions::default());
+        let state = RenderState::create(
+            &config,
+            &instance,
+            None,
+            RendererOptions { dithering: false, ..RendererOptions::default() },
+        );
         let state = pollster::block_on(state).expect("a graphics adapter");
         let frame = state.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("screen"),

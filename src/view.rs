@@ -95,11 +95,16 @@ impl Camera {
 
     /// The direction in which a pixel's centre lies, a unit vector in the world frame.
     pub fn direction(&self, column: u32, row: u32) -> DVec3 {
-        let [right, up, forward] = self.axes();
-        let half = self.half_size();
-        let x = ((f64::from(column) + 0.5) / f64::from(self.width) * 2.0 - 1.0) * half.x;
-        let y = (1.0 - (f64::from(row) + 0.5) / f64::from(self.height) * 2.0) * half.y;
-        (forward + right * x + up * y).normalize()
+        self.lens().direction(column, row)
+    }
+
+    /// What the directions of all pixels have in common.
+    pub fn lens(&self) -> Lens {
+        Lens {
+            axes: self.axes(),
+            half: self.half_size(),
+            size: DVec2::new(f64::from(self.width), f64::from(self.height)),
+        }
     }
 
     /// The perspective, from the near plane (depth 1) to infinity (depth 0).
@@ -117,6 +122,29 @@ impl Camera {
             row(forward, 1.0),
         ];
         DMat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose()
+    }
+}
+
+/// A camera's axes and opening, found once for all of its pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct Lens {
+    axes: [DVec3; 3],
+    half: DVec2,
+    size: DVec2,
+}
+
+impl Lens {
+    /// As [`Camera::direction`].
+    pub fn direction(&self, column: u32, row: u32) -> DVec3 {
+        let [right, up, forward] = self.axes;
+        let x = ((f64::from(column) + 0.5) / self.size.x * 2.0 - 1.0) * self.half.x;
+        let y = (1.0 - (f64::from(row) + 0.5) / self.size.y * 2.0) * self.half.y;
+        (forward + right * x + up * y).normalize()
+    }
+
+    /// Forwards in the picture.
+    pub fn forward(&self) -> DVec3 {
+        self.axes[2]
     }
 }
 

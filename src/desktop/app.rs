@@ -10,7 +10,7 @@ use super::settings::{History, Settings};
 use super::stage::Stage;
 use super::view::{Asked, Viewer};
 use super::work::Work;
-use super::{cards, look, panel};
+use super::{cards, look, panel, screen};
 use crate::export::figure::Colours;
 use crate::gpu::{Gpu, readback};
 use crate::profile::Drawn;
@@ -94,6 +94,7 @@ impl App {
         look::set(&cc.egui_ctx);
         let render = cc.wgpu_render_state.clone().ok_or(crate::gpu::GpuError::NoAdapter)?;
         let gpu = Arc::new(Gpu::opened(&render.adapter, render.device.clone(), render.queue.clone())?);
+        screen::set_up(&render);
         let stage = Stage::new(Arc::clone(&gpu), cc.egui_ctx.clone());
         let kept = cc.storage.and_then(|storage| eframe::get_value(storage, eframe::APP_KEY)).unwrap_or_default();
         let mut app = App {
@@ -334,9 +335,11 @@ impl eframe::App for App {
         if let Some(path) = dropped {
             self.load(Wanted::File(path), &context);
         }
-        egui::Panel::top("menus").show(ui, |ui| self.menus(ui));
+        ui.painter().add(screen::ground(ui.max_rect(), ui.visuals().panel_fill));
+        let on_ground = egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT);
+        egui::Panel::top("menus").frame(on_ground).show(ui, |ui| self.menus(ui));
         if self.has_message() {
-            egui::Panel::top("messages").show(ui, |ui| {
+            egui::Panel::top("messages").frame(on_ground).show(ui, |ui| {
                 ui.add_space(2.0);
                 self.messages(ui);
                 ui.add_space(2.0);
@@ -345,15 +348,14 @@ impl eframe::App for App {
         if self.open.is_none() {
             egui::CentralPanel::default().show(ui, |ui| self.welcome(ui));
         } else {
-            egui::Panel::bottom("time").resizable(false).show(ui, |ui| {
+            egui::Panel::bottom("time").frame(on_ground).resizable(false).show(ui, |ui| {
                 ui.add_space(4.0);
                 if let Some(open) = &mut self.open {
                     open.clock.bar(ui);
                 }
             });
-            egui::Panel::left("panel").default_size(300.0).size_range(288.0..=460.0).resizable(true).show(ui, |ui| {
-                panel::show(self, ui);
-            });
+            let beside = egui::Panel::left("panel").default_size(300.0).size_range(288.0..=460.0).resizable(true);
+            beside.frame(on_ground).show(ui, |ui| panel::show(self, ui));
             egui::CentralPanel::no_frame().show(ui, |ui| self.view(ui));
         }
         self.ask_place(&context);

@@ -20,6 +20,7 @@ mod loading;
 mod look;
 mod panel;
 mod pick;
+mod screen;
 mod settings;
 mod sky;
 mod stage;
@@ -47,6 +48,8 @@ pub fn open(path: Option<&Path>) -> anyhow::Result<()> {
             .with_app_id("gnomon")
             .with_inner_size([1280.0, 760.0])
             .with_min_inner_size([960.0, 600.0]),
+        // panels are flat and the picture has its colours: there is nothing between two of them that a dither could hide
+        dithering: false,
         wgpu_options: WgpuConfiguration { wgpu_setup: setup(), ..WgpuConfiguration::default() },
         ..NativeOptions::default()
     };

@@ -5,13 +5,14 @@ use super::eye::{Eye, Stand};
 use super::hours::Laid;
 use super::loading::Project;
 use super::pick::{Under, dome, under};
+use super::screen::Print;
 use super::settings::Shown as Choice;
 use super::sky;
 use super::stage::{Shown, Stage, Wish};
 use crate::shadow::picture::Style;
 use crate::site::{Method, Settings};
 use crate::study::live::{FARTHEST, Way};
-use eframe::egui::{self, Align2, PointerButton, Rect, Sense, TextureId, Ui, pos2};
+use eframe::egui::{self, Align2, PointerButton, Rect, Sense, Ui};
 use eframe::egui_wgpu::RenderState;
 use glam::DVec2;
 use std::sync::Arc;
@@ -28,7 +29,7 @@ pub(super) struct Viewer {
     /// From where.
     pub(super) eye: Eye,
     shown: Option<Shown>,
-    texture: Option<TextureId>,
+    print: Option<Print>,
     wished: Option<Wish>,
     /// The best picture of what is asked, as asked at the last frame; and when that changed last.
     best: Option<Wish>,
@@ -63,7 +64,7 @@ impl Viewer {
         Viewer {
             eye: Eye::of(&project.site.camera),
             shown: None,
-            texture: None,
+            print: None,
             wished: None,
             best: None,
             moved_at: 0.0,
@@ -101,13 +102,7 @@ impl Viewer {
                 }
                 let is_new = self.shown.as_ref().is_none_or(|before| before.texture != shown.texture);
                 if is_new {
-                    let view = shown.texture.create_view(&wgpu::TextureViewDescriptor::default());
-                    let mut renderer = render.renderer.write();
-                    let filter = wgpu::FilterMode::Linear;
-                    match self.texture {
-                        Some(id) => renderer.update_egui_texture_from_wgpu_texture(&render.device, &view, filter, id),
-                        None => self.texture = Some(renderer.register_native_texture(&render.device, &view, filter)),
-                    }
+                    self.print = Print::of(&shown.texture, render);
                 }
                 self.shown = Some(shown);
             }
@@ -139,13 +134,12 @@ impl Viewer {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Model"));
         self.wish(ui, rect, stage, software, asked, clock);
-        ui.painter().rect_filled(rect, 0.0, egui::Color32::from_rgb(236, 235, 230));
-        let (Some(shown), Some(texture)) = (&self.shown, self.texture) else {
+        let (Some(shown), Some(print)) = (&self.shown, &self.print) else {
+            ui.painter().rect_filled(rect, 0.0, egui::Color32::from_rgb(236, 235, 230));
             self.move_eye(ui, rect, &response, asked.project);
             return None;
         };
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        ui.painter().image(texture, rect, whole, egui::Color32::WHITE);
+        ui.painter().add(print.shown_in(rect));
         let view = shown.wish.view;
         let dome = dome(asked.project);
         if asked.sun_path

@@ -36,6 +36,8 @@ pub const QUADRILATERALS: &str =
     joined!("common/view", "common/seen", "common/search", "common/edge", "stencil", "quadrilaterals");
 /// Sun and shadow for the eye.
 pub const PICTURE: &str = joined!("common/view", "common/seen", "picture");
+/// A picture in a window's frame.
+pub const SCREEN: &str = joined!("screen");
 /// Masks times weights.
 pub const ACCUMULATE: &str = joined!("accumulate");
 
@@ -57,6 +59,7 @@ pub const ALL: &[(&str, &str)] = &[
     ("extraction", EXTRACTION),
     ("quadrilaterals", QUADRILATERALS),
     ("picture", PICTURE),
+    ("screen", SCREEN),
     ("accumulate", ACCUMULATE),
     ("soft_texture", SOFT_TEXTURE),
 ];

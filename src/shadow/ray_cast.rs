@@ -10,7 +10,7 @@
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::sun::disc;
-use crate::view::{Camera, Mask, Surface, View};
+use crate::view::{Camera, Grid, Lens, Mask, Surface, View};
 use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
 use obvhs::ray::{Ray, RayHit};
@@ -257,32 +257,37 @@ struct Rays {
     view: View,
     /// The scene's origin.
     origin: DVec3,
-    /// A height above everything, in the world frame: whence the plan looks down.
-    top: f64,
-    /// The camera's; its rays begin at the near plane.
-    forward: DVec3,
+    whence: Whence,
+}
+
+/// Where rays begin.
+enum Whence {
+    /// A height above everything, in the world frame: the plan looks down from there.
+    Above(Grid, f64),
+    /// A camera's eye; its rays begin at the near plane.
+    Eye(DVec3, Lens),
 }
 
 impl Rays {
     fn new(scene: &Scene, view: View) -> Rays {
-        let forward = match view {
-            View::Plan(_) => DVec3::NEG_Z,
-            View::Camera(camera) => camera.axes()[2],
+        let whence = match view {
+            View::Plan(grid) => Whence::Above(grid, scene.receivers.top().max(scene.ground) + 1.0),
+            View::Camera(camera) => Whence::Eye(camera.eye, camera.lens()),
         };
-        Rays { view, origin: scene.casters.origin, top: scene.receivers.top().max(scene.ground) + 1.0, forward }
+        Rays { view, origin: scene.casters.origin, whence }
     }
 
     /// A cell's ray: from where (around the scene's origin), and the unit direction.
     fn of(&self, column: u32, row: u32) -> (DVec3, DVec3) {
-        match &self.view {
-            View::Plan(grid) => {
+        match &self.whence {
+            Whence::Above(grid, top) => {
                 let at = grid.centre(column, row) + TIE * grid.cell;
-                (at.extend(self.top) - self.origin, DVec3::NEG_Z)
+                (at.extend(*top) - self.origin, DVec3::NEG_Z)
             }
-            View::Camera(camera) => {
-                let direction = camera.direction(column, row);
-                let near = direction * (Camera::NEAR_M / direction.dot(self.forward));
-                (camera.eye + near - self.origin, direction)
+            Whence::Eye(eye, lens) => {
+                let direction = lens.direction(column, row);
+                let near = direction * (Camera::NEAR_M / direction.dot(lens.forward()));
+                (*eye + near - self.origin, direction)
             }
         }
     }
