@@ -42,14 +42,18 @@ fn main() {
          still frame, ms | whole picture, ms |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|");
-    for name in SITES {
+    // `cargo bench --bench window -- tower` measures that one
+    let named: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with("--")).collect();
+    let sites: Vec<&str> =
+        SITES.into_iter().filter(|site| named.is_empty() || named.iter().any(|name| name == site)).collect();
+    for &name in &sites {
         for on in ["the day", "the eye"] {
             line(name, on);
         }
     }
     println!("\nThe picture alone: milliseconds from the wish to its end, median of {PICTURES}\n");
     println!("| site | size | technique | sun moves | eye moves |\n|---|---|---|---|---|");
-    for name in SITES {
+    for &name in &sites {
         let site = Site::load(&path(name), &Overrides::default()).expect("a sample");
         for (width, height) in [(490, 275), (1920, 1080)] {
             for method in [Method::RayCast, Method::ShadowMap, Method::Smoothie, Method::Hybrid, Method::Stencil] {

@@ -8,6 +8,7 @@ use super::hours::{self, Laid};
 use super::loading::{Bare, Fault, Loading, Project, Wanted};
 use super::settings::{History, Settings};
 use super::stage::Stage;
+use super::unit::Unit;
 use super::view::{Asked, Viewer};
 use super::work::Work;
 use super::{cards, look, panel, screen};
@@ -394,7 +395,7 @@ impl App {
         if let Some(view) = viewer.shown().map(|shown| shown.wish.view) {
             cards::mark(ui, open, &view, rect);
         }
-        cards::show(ui, open, &mut self.settings.site, rect, self.settings.shown.hours);
+        cards::show(ui, open, &mut self.settings.site, rect, self.settings.shown.hours, Unit::of(self.kept.feet));
         if let Some(under) = clicked {
             let name = if under.name.is_empty() { "the point".to_owned() } else { under.name };
             let normal = under.normal.try_normalize();

@@ -4,20 +4,21 @@ use super::app::Open;
 use super::hours::Laid;
 use super::look;
 use super::sky;
+use super::unit::Unit;
 use crate::profile::probe::{Blocked, Sunlight, secs};
 use crate::site::file::{ProbeTable, SiteFile};
 use crate::view::View;
 use eframe::egui::{self, Align2, Color32, Id, Rect, Sense, Ui, Vec2, vec2};
 
 /// Shows the cards over a picture.
-pub(super) fn show(ui: &Ui, open: &mut Open, site: &mut SiteFile, rect: Rect, hours: bool) {
+pub(super) fn show(ui: &Ui, open: &mut Open, site: &mut SiteFile, rect: Rect, hours: bool, unit: Unit) {
     if let Some(laid) = open.laid.as_ref().filter(|_| hours) {
         card(ui, "hours", rect, Align2::LEFT_TOP, vec2(14.0, 14.0), |ui| legend(ui, laid));
     }
     if open.probing.is_none() && open.sunlight.is_none() {
         return;
     }
-    card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-14.0, 88.0), |ui| probe(open, site, ui));
+    card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-14.0, 88.0), |ui| probe(open, site, unit, ui));
 }
 
 fn card(ui: &Ui, name: &str, rect: Rect, corner: Align2, offset: Vec2, content: impl FnOnce(&mut Ui)) {
@@ -59,7 +60,7 @@ fn legend(ui: &mut Ui, laid: &Laid) {
     entries.iter().for_each(|(colour, what)| swatch(ui, *colour, what));
 }
 
-fn probe(open: &mut Open, site: &mut SiteFile, ui: &mut Ui) {
+fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, ui: &mut Ui) {
     if open.probing.is_some() {
         ui.horizontal(|ui| {
             ui.add(egui::Spinner::new().size(16.0));
@@ -72,7 +73,8 @@ fn probe(open: &mut Open, site: &mut SiteFile, ui: &mut Ui) {
     let Some(intervals) = probed.days.first() else { return };
     ui.label(egui::RichText::new(format!("Sun at {}", probed.probe.name)).font(look::bold(13.5)));
     let point = probed.probe.point;
-    ui.weak(format!("{:.2} m east, {:.2} m north, {:.2} m up", point.x, point.y, point.z).replace('-', "−"));
+    let (at, name) = (point / unit.metres, unit.name);
+    ui.weak(format!("{:.2} {name} east, {:.2} {name} north, {:.2} {name} up", at.x, at.y, at.z).replace('-', "−"));
     let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);
     ui.label(format!("{}: {} of sun", day.window.day.date, clock(secs(intervals))));
     egui::ScrollArea::vertical().max_height(190.0).show(ui, |ui| {

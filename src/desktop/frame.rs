@@ -8,6 +8,7 @@ use super::handing;
 use super::loading::{Wanted, name_of};
 use super::look;
 use super::time::steps;
+use super::unit::Unit;
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers, ThemePreference, Ui};
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
@@ -183,9 +184,10 @@ impl App {
                         let hours = open.laid.as_ref().filter(|_| self.settings.shown.hours);
                         let hours = hours.and_then(|laid| laid.said(under));
                         let hours = hours.map_or(String::new(), |hours| format!("{hours}    "));
-                        let (unit, name) = if self.kept.feet { (0.3048, "ft") } else { (1.0, "m") };
-                        let at = point / unit;
-                        let at = format!("{:.1} E  {:.1} N  {:.1} up, {name}", at.x, at.y, at.z).replace('-', "−");
+                        let unit = Unit::of(self.kept.feet);
+                        let at = point / unit.metres;
+                        let at =
+                            format!("{:.1} E  {:.1} N  {:.1} up, {}", at.x, at.y, at.z, unit.name).replace('-', "−");
                         ui.weak(format!("{hours}{}    {at}", under.name));
                     }
                 });

@@ -25,6 +25,7 @@ mod settings;
 mod sky;
 mod stage;
 mod time;
+mod unit;
 mod view;
 mod work;
 

@@ -1,6 +1,7 @@
 //! The panel beside the picture: place, shadows, components, hours.
 
 use super::app::App;
+use super::unit::Unit;
 use super::{cards, components, found, look, view};
 use crate::export::figure::Diagram;
 use crate::site::Method;
@@ -65,6 +66,7 @@ fn then(ui: &mut Ui, name: &str) -> egui::Id {
 }
 
 fn place(app: &mut App, ui: &mut Ui) {
+    let unit = Unit::of(app.kept.feet);
     let Some(table) = &mut app.settings.site.place else { return };
     let mut name = table.name.clone().unwrap_or_default();
     row(ui, "Name", |ui, label| field(ui, &mut app.typed, ("Name", Some(label)), &mut name, f32::INFINITY));
@@ -84,10 +86,12 @@ fn place(app: &mut App, ui: &mut Ui) {
         });
     }
     row(ui, "Elevation", |ui, label| {
-        let mut value = table.elevation.unwrap_or_default();
-        let drag = egui::DragValue::new(&mut value).speed(1.0).range(-500.0..=9000.0).suffix(" m").max_decimals(2);
-        if ui.add(drag).labelled_by(label).changed() {
-            table.elevation = Some(value);
+        let mut value = table.elevation.unwrap_or_default() / unit.metres;
+        let range = -500.0 / unit.metres..=9000.0 / unit.metres;
+        let drag = egui::DragValue::new(&mut value).speed(1.0).range(range).max_decimals(2);
+        if ui.add(drag.suffix(format!(" {}", unit.name))).labelled_by(label).changed() {
+            // to the millimetre, as feet are written in metres
+            table.elevation = Some((value * unit.metres * 1000.0).round() / 1000.0);
         }
     });
     if let [model] = app.settings.site.model.as_mut_slice() {

@@ -3,6 +3,7 @@
 
 use super::clock::Clock;
 use super::look::{self, SUN};
+use super::unit::Unit;
 use crate::sun::Instant;
 use crate::view::{Camera, View};
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, Vec2, pos2, vec2};
@@ -125,11 +126,11 @@ pub(super) fn north(ui: &egui::Ui, view: &View, rect: Rect) {
 
 /// A bar of a round length, as long as that is at the picture's middle.
 pub(super) fn scale_bar(ui: &egui::Ui, rect: Rect, metres_a_point: f64, feet: bool) {
-    let unit = if feet { 0.3048 } else { 1.0 };
-    let most = 150.0 * metres_a_point / unit;
+    let unit = Unit::of(feet);
+    let most = 150.0 * metres_a_point / unit.metres;
     let power = 10f64.powf(most.log10().floor());
     let round = [5.0, 2.0, 1.0].into_iter().map(|step| step * power).find(|length| *length <= most).unwrap_or(power);
-    let width = (round * unit / metres_a_point) as f32;
+    let width = (round * unit.metres / metres_a_point) as f32;
     let right = rect.right_bottom() + vec2(-18.0, -18.0);
     let left = right - vec2(width, 0.0);
     let painter = ui.painter_at(rect);
@@ -138,8 +139,8 @@ pub(super) fn scale_bar(ui: &egui::Ui, rect: Rect, metres_a_point: f64, feet: bo
     for end in [left, right] {
         painter.line_segment([end - vec2(0.0, 5.0), end + vec2(0.0, 1.0)], stroke);
     }
-    let name = if feet { "ft" } else { "m" };
-    let text = if !feet && round >= 1000.0 { format!("{} km", round / 1000.0) } else { format!("{round} {name}") };
+    let text =
+        if !feet && round >= 1000.0 { format!("{} km", round / 1000.0) } else { format!("{round} {}", unit.name) };
     named(ui, Rect::from_min_max(left - vec2(0.0, 5.0), right + vec2(0.0, 1.0)), format!("Scale bar: {text}"));
     label(&painter, pos2((left.x + right.x) / 2.0, right.y - 12.0), Align2::CENTER_CENTER, &text);
 }

@@ -8,7 +8,7 @@ use crate::profile::Drawn;
 use crate::shadow::picture::{Picture, Style};
 use crate::site::Site;
 use crate::study::live::{Live, Way};
-use crate::view::View;
+use crate::view::{Camera, Grid, View};
 use eframe::egui;
 use glam::DVec3;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -63,7 +63,8 @@ pub(super) struct Shown {
     pub(super) wish: Wish,
     /// What drew it.
     pub(super) drawn: Drawn,
-    /// How long that took, seconds.
+    /// How long that took until the adapter had all of it, seconds: what a size of the picture has a say in. How long the
+    /// adapter takes then is a matter of the window's frames as well.
     pub(super) secs: f64,
     /// What the colours of a diagram mean.
     pub(super) legend: Option<Colours>,
@@ -117,7 +118,7 @@ impl Stage {
 
     /// Whether it draws, or is about to.
     pub(super) fn is_busy(&self) -> bool {
-        self.shared.busy.load(Ordering::Acquire)
+        self.shared.is_busy()
     }
 }
 
@@ -135,6 +136,8 @@ struct Kept {
     /// The site's number, and the site itself with what draws it.
     live: Option<(u64, Live)>,
     hours: Option<u64>,
+    /// What was drawn last.
+    wish: Option<Wish>,
     target: Option<wgpu::Texture>,
 }
 
@@ -142,10 +145,10 @@ impl Shared {
     fn work(&self) {
         let mut kept = [Kept::default(), Kept::default()];
         while let Some(wish) = self.wait() {
-            let kept = &mut kept[usize::from(wish.quick)];
-            let result = self.draw(kept, wish);
+            let its = &mut kept[usize::from(wish.quick)];
+            let result = self.draw(its, wish);
             if result.is_err() {
-                *kept = Kept::default();
+                *its = Kept::default();
             }
             let Ok(mut done) = self.done.lock() else { return };
             *done = Some(result);
@@ -156,7 +159,31 @@ impl Shared {
                 self.busy.store(false, Ordering::Release);
             }
             self.context.request_repaint();
+            self.get_ready(&mut kept);
         }
+    }
+
+    /// Makes what quick looks need while nothing is asked, so that the first movement does not wait for it.
+    fn get_ready(&self, kept: &mut [Kept; 2]) {
+        let [best, quick] = kept;
+        let (Some(wish), false) = (&best.wish, self.is_busy()) else { return };
+        if quick.live.as_ref().is_some_and(|(number, _)| *number == wish.number) {
+            return;
+        }
+        let view = match wish.view {
+            View::Plan(grid) => View::Plan(Grid { width: 16, height: 16, ..grid }),
+            View::Camera(camera) => View::Camera(Camera { width: 16, height: 16, ..camera }),
+        };
+        let way = if self.gpu.software() { Way::quickest() } else { wish.way };
+        let small = Wish { view, way, overlay: [false; 2], diagram: None, quick: true, ..wish.clone() };
+        // what is wrong here will be told when it is asked for
+        if self.draw(quick, small).is_err() {
+            *quick = Kept::default();
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        self.busy.load(Ordering::Acquire)
     }
 
     fn wait(&self) -> Option<Wish> {
@@ -173,7 +200,6 @@ impl Shared {
     }
 
     fn draw(&self, kept: &mut Kept, wish: Wish) -> Result<Shown, String> {
-        let started = Instant::now();
         let told = |error: crate::study::StudyError| error.to_string();
         let tint = |live: &mut Live| live.picture().tint(super::components::face_colours(&wish.site));
         // one of another scene goes first, with its memory
@@ -192,6 +218,7 @@ impl Shared {
                 live
             }
         };
+        let started = Instant::now();
         live.look_at(wish.view);
         let laid = wish.hours.as_ref().map(|laid| laid.number);
         if laid != kept.hours {
@@ -215,11 +242,12 @@ impl Shared {
         let fits = |texture: &wgpu::Texture| (texture.width(), texture.height()) == size;
         let target = kept.target.take().filter(fits).unwrap_or_else(|| Picture::target(&self.gpu, &wish.view));
         let drawn = live.draw(&wish.way, wish.to_sun, &wish.style, &target).map_err(told)?;
+        let secs = started.elapsed().as_secs_f64();
         // no wish piles up on another: this one is finished before the next is taken
         self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| error.to_string())?;
         self.gpu.check().map_err(|error| error.to_string())?;
         kept.target = Some(target.clone());
-        kept.live = Some((wish.number, live));
-        Ok(Shown { texture: target, wish, drawn, secs: started.elapsed().as_secs_f64(), legend })
+        (kept.live, kept.wish) = (Some((wish.number, live)), Some(wish.clone()));
+        Ok(Shown { texture: target, wish, drawn, secs, legend })
     }
 }

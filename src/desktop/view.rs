@@ -12,6 +12,7 @@ use super::stage::{Shown, Stage, Wish};
 use crate::shadow::picture::Style;
 use crate::site::{Method, Settings};
 use crate::study::live::{FARTHEST, Way};
+use crate::view::View;
 use eframe::egui::{self, Align2, PointerButton, Rect, Sense, Ui};
 use eframe::egui_wgpu::RenderState;
 use glam::DVec2;
@@ -97,9 +98,7 @@ impl Viewer {
             Some(Err(fault)) => self.fault = Some(fault),
             Some(Ok(shown)) => {
                 self.fault = None;
-                if shown.wish.quick {
-                    self.adapt(shown.secs);
-                }
+                self.adapt(&shown);
                 let is_new = self.shown.as_ref().is_none_or(|before| before.texture != shown.texture);
                 if is_new {
                     self.print = Print::of(&shown.texture, render);
@@ -109,15 +108,21 @@ impl Viewer {
         }
     }
 
-    /// Chooses the size of the next quick look by how long the last one took. Sizes lie apart, as another one is looked at
-    /// anew.
-    fn adapt(&mut self, secs: f64) {
-        const SIZES: [f64; 6] = [0.18, 0.25, 0.35, 0.5, 0.7, 1.0];
-        let at = SIZES.iter().position(|size| *size >= self.scale).unwrap_or(SIZES.len() - 1);
-        if secs > 1.7 * QUICK_SECS {
-            self.scale = SIZES[at.saturating_sub(1)];
-        } else if secs < 0.4 * QUICK_SECS {
-            self.scale = SIZES[(at + 1).min(SIZES.len() - 1)];
+    /// Chooses the size of the next quick look by how long rays took for this picture. Sizes lie apart, as another one is
+    /// looked at anew; it does not grow before there is time to spare.
+    fn adapt(&mut self, shown: &Shown) {
+        const SIZES: [f64; 8] = [0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
+        let Some(best) = &self.best else { return };
+        let by_quickest = shown.drawn.technique == Way::quickest().method.word();
+        if !by_quickest || shown.wish.way.settings != Way::quickest().settings {
+            return;
+        }
+        let side = |view: &View| f64::from(view.size().0.max(1));
+        let scale = side(&shown.wish.view) / side(&best.view);
+        let takes = |size: f64| shown.secs * (size / scale).powi(2);
+        let fitting = SIZES.into_iter().rev().find(|size| takes(*size) <= QUICK_SECS).unwrap_or(SIZES[0]);
+        if takes(self.scale) > 1.5 * QUICK_SECS || takes(fitting) < 0.7 * QUICK_SECS {
+            self.scale = fitting;
         }
     }
 
@@ -206,10 +211,9 @@ impl Viewer {
         let moving = now - self.moved_at < STILL_SECS;
         let wish = if moving {
             ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(STILL_SECS));
-            let quickest = Way { method: Method::RayCast, settings: Settings::default() };
             Wish {
                 view: self.eye.view(sized(if software { self.scale } else { 1.0 })),
-                way: if software { quickest } else { best.way },
+                way: if software { Way::quickest() } else { best.way },
                 style: Style { wide_lines: false, lines: if software { 0.45 } else { 0.62 }, ..best.style },
                 overlay: [false; 2],
                 diagram: None,

@@ -28,6 +28,16 @@ pub struct Way {
     pub settings: Settings,
 }
 
+impl Way {
+    /// Where the adapter is a program on the processor: rays, one a pixel.
+    ///
+    /// Measured (docs/benchmarks/desktop.md): what a map or volumes cost grows with the model, and a quick look has few
+    /// pixels.
+    pub fn quickest() -> Way {
+        Way { method: Method::RayCast, settings: Settings::default() }
+    }
+}
+
 /// A site, a view of it, and what draws both.
 pub struct Live {
     gpu: Arc<Gpu>,
