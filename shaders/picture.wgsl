@@ -53,7 +53,8 @@ fn point_on(face: u32, pixel: vec2f) -> vec3f {
     }
     let along = ray(pixel);
     let away = dot(plane.xyz, along);
-    return view.viewer.xyz - along * (dot(plane, view.viewer) / select(1e-6, away, abs(away) > 1e-6));
+    let start = ray_start(pixel);
+    return start.xyz - along * (dot(plane, start) / select(1e-6, away, abs(away) > 1e-6));
 }
 
 // Reflectance of card and ground, and the light of sky and sun (src/export/figure/perspective.rs).
@@ -151,7 +152,7 @@ fn before_camera(pixel: vec2f, face: u32) -> vec3f {
     let share = textureLoad(share_of_sun, vec2u(pixel), 0).x;
     var card = GROUND_CARD;
     var haze = 0.0;
-    if face == GROUND {
+    if face == GROUND && !is_elevation() {
         haze = 1.0 - exp(-max(distance(point, view.viewer.xyz) / shown.focus - 1.3, 0.0) / 3.5);
     } else {
         card = tint_of(face);
@@ -204,7 +205,7 @@ fn from_above(pixel: vec2f, face: u32) -> vec3f {
 // Distance along the ray, in metres of depth, at which a face's plane is met.
 fn depth_on_plane(face: u32, pixel: vec2f) -> f32 {
     let plane = textureLoad(planes, vec2u(face % PLANES_WIDTH, face / PLANES_WIDTH), 0);
-    return -dot(plane, view.viewer) / dot(plane.xyz, ray(pixel));
+    return -dot(plane, ray_start(pixel)) / dot(plane.xyz, ray(pixel));
 }
 
 // How strong a line between two neighbours is: outlines, steps and creases.
@@ -215,7 +216,8 @@ fn line_between(a: vec2f, b: vec2f) -> f32 {
         return 0.0;
     }
     if from_face >= GROUND && to_face >= GROUND {
-        return 0.0;
+        // the ground's line
+        return select(0.0, 0.9, is_elevation());
     }
     if is_plan() {
         return line_in_plan(a, b, from_face, to_face);
@@ -228,7 +230,10 @@ fn line_between(a: vec2f, b: vec2f) -> f32 {
     }
     let here = depth_on_plane(from_face, a) - depth_on_plane(to_face, a);
     let there = depth_on_plane(from_face, b) - depth_on_plane(to_face, b);
-    let least = 0.004 * abs(depth_on_plane(from_face, a));
+    var least = 0.004 * abs(depth_on_plane(from_face, a));
+    if is_elevation() {
+        least = 4.0 * length(view.up.xyz) / view.size.y;
+    }
     // planes that cross between the two pixels adjoin, however steep; else there is air between them
     if here * there > 0.0 && min(abs(here), abs(there)) > least {
         return 0.75;

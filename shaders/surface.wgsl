@@ -26,6 +26,13 @@ fn ground(@builtin(position) pixel: vec4f) -> Ground {
     if is_plan() {
         return Ground((view.clip_from_local * vec4f(0.0, 0.0, view.ground_z, 1.0)).z, 0xfffffffeu);
     }
+    if is_elevation() {
+        // earth that is cut hides all behind it
+        if ray_start(pixel.xy).z >= view.ground_z {
+            discard;
+        }
+        return Ground(1.0, 0xfffffffeu);
+    }
     let distance = (view.ground_z - view.viewer.z) / ray(pixel.xy).z;
     if !(distance > view.depth_scale) {
         discard;

@@ -148,6 +148,43 @@ impl Lens {
     }
 }
 
+/// A picture of one side: level, along parallel rays, true to scale. What lies below the ground is behind the earth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elevation {
+    /// The point in the middle of the picture, metres.
+    pub target: DVec3,
+    /// The level unit vector towards the viewer.
+    pub to_viewer: DVec3,
+    /// Side of a pixel, metres.
+    pub cell: f64,
+    /// Picture width, pixels.
+    pub width: u32,
+    /// Picture height, pixels.
+    pub height: u32,
+}
+
+impl Elevation {
+    /// Rightwards, upwards and forwards in the picture: unit vectors in the world frame.
+    pub fn axes(&self) -> [DVec3; 3] {
+        let forward = -self.to_viewer;
+        [forward.cross(DVec3::Z), DVec3::Z, forward]
+    }
+
+    /// Half the picture's width and height, metres.
+    pub fn half_size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.width), f64::from(self.height)) * self.cell / 2.0
+    }
+
+    /// Where a pixel's centre lies in the plane of the picture, which goes through the target.
+    pub fn centre(&self, column: u32, row: u32) -> DVec3 {
+        let [right, up, _] = self.axes();
+        let half = self.half_size();
+        let x = (f64::from(column) + 0.5) * self.cell - half.x;
+        let y = half.y - (f64::from(row) + 0.5) * self.cell;
+        self.target + right * x + up * y
+    }
+}
+
 /// What a mask is drawn for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum View {
@@ -155,6 +192,8 @@ pub enum View {
     Plan(Grid),
     /// A perspective picture.
     Camera(Camera),
+    /// A side, as drawings have it.
+    Elevation(Elevation),
 }
 
 impl View {
@@ -163,14 +202,16 @@ impl View {
         match self {
             View::Plan(grid) => (grid.width, grid.height),
             View::Camera(camera) => (camera.width, camera.height),
+            View::Elevation(side) => (side.width, side.height),
         }
     }
 
-    /// From whence everything is seen, homogeneous: the eye, or the direction straight up.
+    /// From whence everything is seen, homogeneous: the eye, or the direction straight up or level towards the viewer.
     pub fn viewer(&self) -> DVec4 {
         match self {
             View::Plan(_) => DVec4::Z,
             View::Camera(camera) => camera.eye.extend(1.0),
+            View::Elevation(side) => side.to_viewer.extend(0.0),
         }
     }
 }

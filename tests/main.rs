@@ -6,6 +6,7 @@ mod dense;
 #[cfg(feature = "desktop")]
 mod desktop;
 mod dome;
+mod elevation;
 mod exact;
 mod export;
 mod far_wrong;

@@ -128,9 +128,9 @@ impl App {
         self.gpu.software()
     }
 
-    /// Whether the plan is shown.
-    pub(super) fn is_plan(&self) -> bool {
-        self.open.as_ref().is_some_and(|open| open.viewer.eye.stand == Stand::Plan)
+    /// From where one looks.
+    pub(super) fn stand(&self) -> Stand {
+        self.open.as_ref().map_or(Stand::Perspective, |open| open.viewer.eye.stand)
     }
 
     /// What the colours of the shown diagram mean.

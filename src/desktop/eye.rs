@@ -1,8 +1,8 @@
 //! Where the eye is: around a point, above it, or far before a façade.
 
-use crate::view::{Camera, Grid, View};
+use crate::view::{Camera, Elevation, Grid, View};
 use glam::{DVec2, DVec3};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// From where one looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,7 +11,7 @@ pub(super) enum Stand {
     Perspective,
     /// Straight down, north up, without perspective.
     Plan,
-    /// Level at the side that looks this way, through a lens so long that hardly anything converges.
+    /// Level at the side that looks this way, along parallel rays.
     North,
     /// The same from the east.
     East,
@@ -32,14 +32,14 @@ impl Stand {
         (Stand::West, "From west"),
     ];
 
-    /// The azimuth of an elevation's eye, radians.
-    fn azimuth_rad(self) -> Option<f64> {
+    /// The direction in which an elevation's viewer stands.
+    fn to_viewer(self) -> Option<DVec3> {
         match self {
             Stand::Perspective | Stand::Plan => None,
-            Stand::North => Some(0.0),
-            Stand::East => Some(FRAC_PI_2),
-            Stand::South => Some(PI),
-            Stand::West => Some(-FRAC_PI_2),
+            Stand::North => Some(DVec3::Y),
+            Stand::East => Some(DVec3::X),
+            Stand::South => Some(DVec3::NEG_Y),
+            Stand::West => Some(DVec3::NEG_X),
         }
     }
 }
@@ -61,8 +61,6 @@ pub(super) struct Eye {
     pub(super) fov_rad: f64,
 }
 
-/// The lens of elevations, radians.
-const LONG_LENS_RAD: f64 = 8.0 * PI / 180.0;
 const LOWEST_RAD: f64 = 0.02;
 const HIGHEST_RAD: f64 = 1.55;
 
@@ -89,19 +87,19 @@ impl Eye {
             let (west, north) = (self.target.x - half.x, self.target.y + half.y);
             return View::Plan(Grid { west, north, cell, width, height });
         }
+        if let Some(to_viewer) = self.stand.to_viewer() {
+            let cell = self.metres_a_pixel(height);
+            return View::Elevation(Elevation { target: self.target, to_viewer, cell, width, height });
+        }
         View::Camera(self.camera((width, height)))
     }
 
-    /// The camera of perspective and elevations.
+    /// The camera of the perspective.
     pub(super) fn camera(&self, (width, height): (u32, u32)) -> Camera {
-        let (azimuth, altitude, fov_rad) = match self.stand.azimuth_rad() {
-            Some(azimuth) => (azimuth, 0.0, LONG_LENS_RAD),
-            None => (self.azimuth_rad, self.altitude_rad, self.fov_rad),
-        };
-        let distance = self.distance * (self.fov_rad / 2.0).tan() / (fov_rad / 2.0).tan();
-        let (sin, cos) = altitude.sin_cos();
-        let back = DVec3::new(azimuth.sin() * cos, azimuth.cos() * cos, sin);
-        Camera { eye: self.target + back * distance, target: self.target, up: DVec3::Z, fov_rad, width, height }
+        let (sin, cos) = self.altitude_rad.sin_cos();
+        let back = DVec3::new(self.azimuth_rad.sin() * cos, self.azimuth_rad.cos() * cos, sin);
+        let (target, fov_rad) = (self.target, self.fov_rad);
+        Camera { eye: target + back * self.distance, target, up: DVec3::Z, fov_rad, width, height }
     }
 
     /// How large a pixel is at the target, metres.
@@ -111,9 +109,10 @@ impl Eye {
 
     /// Rightwards and upwards in the picture.
     fn across(&self) -> [DVec3; 2] {
-        match self.stand {
-            Stand::Plan => [DVec3::X, DVec3::Y],
-            _ => {
+        match self.view((1, 1)) {
+            View::Plan(_) => [DVec3::X, DVec3::Y],
+            View::Elevation(side) => [side.axes()[0], DVec3::Z],
+            View::Camera(_) => {
                 let [right, up, _] = self.camera((1, 1)).axes();
                 [right, up]
             }

@@ -69,7 +69,7 @@ fn view_from(site: &Site, eye: &Eye) -> View {
     match eye.stand {
         Stand::Plan => View::Plan(site.grid),
         Stand::Perspective => View::Camera(site.camera),
-        _ => View::Camera(eye.camera((site.camera.width, site.camera.height))),
+        _ => eye.view((site.camera.width, site.camera.height)),
     }
 }
 
@@ -85,11 +85,11 @@ pub(super) fn drawing(
     let written = seen_from(project, settings, &eye);
     let shown = settings.shown;
     Work::start(context, move |on_event| {
-        let is_plan = eye.stand == Stand::Plan;
+        let is_perspective = eye.stand == Stand::Perspective;
         let method = match shown.method {
             // volumes and silhouette are the stencil's
-            _ if (shown.volumes || shown.silhouette) && !is_plan => Method::Stencil,
-            method if view::draws(method, is_plan) => method,
+            _ if (shown.volumes || shown.silhouette) && is_perspective => Method::Stencil,
+            method if view::draws(method, eye.stand) => method,
             _ => Method::Auto,
         };
         // as the command reads it, for the region of this instant's shadows
@@ -99,8 +99,8 @@ pub(super) fn drawing(
         let view = view_from(&site, &eye);
         let wants = InstantWants {
             surface: true,
-            volumes: shown.volumes && !is_plan,
-            silhouette: shown.silhouette && !is_plan,
+            volumes: shown.volumes && is_perspective,
+            silhouette: shown.silhouette && is_perspective,
             counted: shown.diagram.filter(|_| view::counts(method)).map(|diagram| match diagram {
                 Diagram::Mask => "--show mask",
                 Diagram::Overdraw => "--show overdraw",
@@ -118,7 +118,7 @@ pub(super) fn drawing(
         };
         let seen = site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen);
         let casts: Vec<bool> = seen.map(|(casts, _)| *casts).collect();
-        let components = (shown.tinted && !is_plan).then_some(casts.as_slice());
+        let components = (shown.tinted && eye.stand != Stand::Plan).then_some(casts.as_slice());
         let counted = outcome.counted.as_ref().zip(shown.diagram);
         let shown = figure::Shown { overlay: outcome.overlay.as_ref(), casts: components, counted };
         file::write(&path, &figure::instant(&scene, &view, &outcome.mask, &shown)?)?;

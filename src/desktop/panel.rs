@@ -1,6 +1,7 @@
 //! The panel beside the picture: place, shadows, components, hours.
 
 use super::app::App;
+use super::eye::Stand;
 use super::unit::Unit;
 use super::{cards, components, found, look, view};
 use crate::export::figure::Diagram;
@@ -116,7 +117,7 @@ fn place(app: &mut App, ui: &mut Ui) {
 
 fn shadows(app: &mut App, ui: &mut Ui) {
     let software = app.is_software();
-    let is_plan = app.is_plan();
+    let stand = app.stand();
     let shown = &mut app.settings.shown;
     row(ui, "Technique", |ui, label| {
         let list = egui::ComboBox::from_id_salt("technique").selected_text(shown.method.word());
@@ -129,7 +130,7 @@ fn shadows(app: &mut App, ui: &mut Ui) {
         response.response.labelled_by(label);
     });
     ui.weak(good_for(shown.method));
-    if !view::draws(shown.method, is_plan) {
+    if !view::draws(shown.method, stand) {
         ui.weak("Not this view's: auto draws it.");
     }
     if view::casts_rays(shown.method, software) {
@@ -155,7 +156,7 @@ fn shadows(app: &mut App, ui: &mut Ui) {
             response.response.labelled_by(label);
         });
     }
-    if !is_plan {
+    if stand == Stand::Perspective {
         ui.horizontal(|ui| {
             ui.checkbox(&mut shown.volumes, "Volumes");
             ui.checkbox(&mut shown.silhouette, "Silhouette");

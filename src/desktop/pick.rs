@@ -45,6 +45,14 @@ pub(super) fn under(project: &Project, view: &View, rect: Rect, pointer: egui::P
             let along = forward + right * (half.x * (x * 2.0 - 1.0)) + up * (half.y * (1.0 - y * 2.0));
             (camera.eye, along.normalize())
         }
+        View::Elevation(side) => {
+            let ([right, up, forward], half) = (side.axes(), side.half_size());
+            let at = side.target + right * (half.x * (x * 2.0 - 1.0)) + up * (half.y * (1.0 - y * 2.0));
+            let dome = dome(project);
+            // before everything
+            let away = (dome.centre - at).dot(side.to_viewer) + dome.radius * 4.0;
+            (at + side.to_viewer * away, forward)
+        }
     };
     let hit = rays.first_hit(from - mesh.origin, along);
     let ground = (project.site.ground - from.z) / along.z;

@@ -27,6 +27,10 @@ pub(super) fn on_picture(view: &View, rect: Rect, point: DVec3) -> Option<Pos2> 
             }
             (clip.x / clip.w * 0.5 + 0.5, 0.5 - clip.y / clip.w * 0.5)
         }
+        View::Elevation(side) => {
+            let ([right, up, _], half, from) = (side.axes(), side.half_size(), point - side.target);
+            (from.dot(right) / half.x * 0.5 + 0.5, 0.5 - from.dot(up) / half.y * 0.5)
+        }
     };
     Some(rect.min + vec2(x as f32 * rect.width(), y as f32 * rect.height()))
 }
@@ -103,8 +107,12 @@ pub(super) fn path(ui: &egui::Ui, view: &View, rect: Rect, dome: &Dome, clock: &
 pub(super) fn north(ui: &egui::Ui, view: &View, rect: Rect) {
     let north = match view {
         View::Plan(_) => vec2(0.0, -1.0),
-        View::Camera(camera) => {
-            let [right, up, forward] = camera.axes();
+        View::Elevation(_) | View::Camera(_) => {
+            let [right, up, forward] = match view {
+                View::Camera(camera) => camera.axes(),
+                View::Elevation(side) => side.axes(),
+                View::Plan(_) => [DVec3::X, DVec3::Y, DVec3::NEG_Z],
+            };
             // on level ground, seen from above as from the side
             let flat = DVec3::new(forward.x, forward.y, 0.0).normalize_or(up);
             vec2(right.y as f32, -(flat.y as f32))

@@ -8,7 +8,7 @@ use crate::profile::Drawn;
 use crate::shadow::picture::{Picture, Style};
 use crate::site::Site;
 use crate::study::live::{Live, Way};
-use crate::view::{Camera, Grid, View};
+use crate::view::{Camera, Elevation, Grid, View};
 use eframe::egui;
 use glam::DVec3;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -173,6 +173,7 @@ impl Shared {
         let view = match wish.view {
             View::Plan(grid) => View::Plan(Grid { width: 16, height: 16, ..grid }),
             View::Camera(camera) => View::Camera(Camera { width: 16, height: 16, ..camera }),
+            View::Elevation(side) => View::Elevation(Elevation { width: 16, height: 16, ..side }),
         };
         let way = if self.gpu.software() { Way::quickest() } else { wish.way };
         let small = Wish { view, way, overlay: [false; 2], diagram: None, quick: true, ..wish.clone() };

@@ -174,8 +174,8 @@ impl Viewer {
         };
         let choice = asked.choice;
         let stand = self.eye.stand;
-        let is_plan = stand == Stand::Plan;
-        let method = if draws(choice.method, is_plan) { choice.method } else { Method::Auto };
+        let is_perspective = stand == Stand::Perspective;
+        let method = if draws(choice.method, stand) { choice.method } else { Method::Auto };
         let disc = choice.disc && casts_rays(method, software);
         let way = Way {
             method: if disc { Method::RayCast } else { method },
@@ -199,7 +199,7 @@ impl Viewer {
             to_sun: clock.now.to_sun,
             style,
             hours: asked.laid.filter(|_| choice.hours).cloned(),
-            overlay: [choice.volumes && !is_plan, choice.silhouette && !is_plan],
+            overlay: [choice.volumes && is_perspective, choice.silhouette && is_perspective],
             diagram: choice.diagram.filter(|_| counts(method)),
             quick: false,
         };
@@ -286,11 +286,12 @@ impl Viewer {
 }
 
 /// Whether a technique draws such a view.
-pub(super) fn draws(method: Method, is_plan: bool) -> bool {
+pub(super) fn draws(method: Method, stand: Stand) -> bool {
     match method {
-        Method::Projected => is_plan,
-        Method::SoftTexture => !is_plan,
-        _ => true,
+        Method::Auto | Method::RayCast => true,
+        Method::Projected => stand == Stand::Plan,
+        Method::SoftTexture => stand == Stand::Perspective,
+        _ => matches!(stand, Stand::Plan | Stand::Perspective),
     }
 }
 

@@ -55,6 +55,7 @@ struct StatisticsReport {
 enum ViewReport<'a> {
     Plan { region: [f64; 4], cell: f64, width: u32, height: u32 },
     Camera { camera: CameraReport, width: u32, height: u32 },
+    Elevation { target: [f64; 3], to_viewer: [f64; 3], cell: f64, width: u32, height: u32 },
     Surfaces { patch_cell: f64, patch_cell_asked: f64, texels: usize, components: Vec<ExposureReport<'a>> },
 }
 
@@ -230,6 +231,13 @@ fn view_report(view: &View) -> ViewReport<'static> {
                 up: camera.up.to_array(),
                 fov: camera.fov_rad.to_degrees(),
             },
+            width,
+            height,
+        },
+        View::Elevation(side) => ViewReport::Elevation {
+            target: side.target.to_array(),
+            to_viewer: side.to_viewer.to_array(),
+            cell: side.cell,
             width,
             height,
         },

@@ -5,7 +5,7 @@
 
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{ShadowError, Technique};
-use crate::view::{Camera, Grid, Mask, View};
+use crate::view::{Camera, Elevation, Grid, Mask, View};
 use glam::{DVec3, dvec2};
 use std::fmt;
 
@@ -160,9 +160,16 @@ impl Difference {
                     }
                 }
             }
-            View::Camera(camera) => {
-                let (width, height) = (camera.width * 5, camera.height * 5);
-                truth.look_at(View::Camera(Camera { width, height, ..camera }));
+            View::Camera(_) | View::Elevation(_) => {
+                let (width, height) = view.size();
+                let (width, height) = (width * 5, height * 5);
+                truth.look_at(match view {
+                    View::Camera(camera) => View::Camera(Camera { width, height, ..camera }),
+                    View::Elevation(side) => {
+                        View::Elevation(Elevation { width, height, cell: side.cell / 5.0, ..side })
+                    }
+                    View::Plan(_) => view,
+                });
                 let fine = truth.draw(to_sun)?.read()?;
                 let uniform = |&(column, row): &(u32, u32)| {
                     let rows = (row.max(1) - 1) * 5..((row + 2) * 5).min(height);

@@ -6,6 +6,7 @@
 mod batch;
 mod counting;
 mod flat;
+mod frame;
 pub mod hybrid;
 mod light_view;
 pub mod map;

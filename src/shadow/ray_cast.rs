@@ -10,7 +10,7 @@
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::sun::disc;
-use crate::view::{Camera, Grid, Lens, Mask, Surface, View};
+use crate::view::{Camera, Elevation, Grid, Lens, Mask, Surface, View};
 use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
 use obvhs::ray::{Ray, RayHit};
@@ -204,7 +204,8 @@ impl RayCast {
     pub(super) fn share(&self, at: usize, suns: &[(DVec3, Shear)]) -> u8 {
         let RayCast { scene, rays, casters, seen, mask, .. } = self;
         let Seen { face, distance } = seen[at];
-        if face == Surface::SKY {
+        // nor is cut earth asked
+        if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
             return 255;
         }
         let origin = scene.casters.origin;
@@ -233,7 +234,7 @@ impl RayCast {
         let faces = hits(&scene.receivers, from, &Shear::along(along));
         let first = faces.into_iter().min_by(|(_, one), (_, other)| one.total_cmp(other));
         let Seen { face, distance } = seen(scene, (from, along), first);
-        if face == Surface::SKY {
+        if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
             return 255;
         }
         let world_viewer = rays.view.viewer();
@@ -266,6 +267,8 @@ enum Whence {
     Above(Grid, f64),
     /// A camera's eye; its rays begin at the near plane.
     Eye(DVec3, Lens),
+    /// So far before a side's own plane that everything lies behind it.
+    Before(Elevation, f64),
 }
 
 impl Rays {
@@ -273,6 +276,11 @@ impl Rays {
         let whence = match view {
             View::Plan(grid) => Whence::Above(grid, scene.receivers.top().max(scene.ground) + 1.0),
             View::Camera(camera) => Whence::Eye(camera.eye, camera.lens()),
+            View::Elevation(side) => {
+                let (low, high) = scene.receivers.bounds().unwrap_or_default();
+                let nearest = DVec3::select(side.to_viewer.cmpgt(DVec3::ZERO), high, low);
+                Whence::Before(side, (nearest - side.target).dot(side.to_viewer) + 1.0)
+            }
         };
         Rays { view, origin: scene.casters.origin, whence }
     }
@@ -289,6 +297,9 @@ impl Rays {
                 let near = direction * (Camera::NEAR_M / direction.dot(lens.forward()));
                 (*eye + near - self.origin, direction)
             }
+            Whence::Before(side, away) => {
+                (side.centre(column, row) + side.to_viewer * *away - self.origin, -side.to_viewer)
+            }
         }
     }
 }
@@ -299,6 +310,10 @@ fn look(scene: &Scene, receivers: &RayCaster, ray: (DVec3, DVec3)) -> Seen {
 
 /// What a ray sees whose first face that is.
 fn seen(scene: &Scene, (origin, direction): (DVec3, DVec3), first_hit: Option<(u32, f64)>) -> Seen {
+    // a level ray that begins below the ground sees the earth that is cut there
+    if direction.z == 0.0 && origin.z + scene.casters.origin.z < scene.ground {
+        return Seen { face: Surface::GROUND, distance: 0.0 };
+    }
     let to_ground = (scene.ground - scene.casters.origin.z - origin.z) / direction.z;
     let ground = if to_ground > 0.0 && to_ground.is_finite() {
         Seen { face: Surface::GROUND, distance: to_ground }
@@ -319,6 +334,10 @@ fn reach(scene: &Scene, view: &View) -> f64 {
             DVec3::new(west.abs().max(east.abs()), south.abs().max(north.abs()), scene.ground.abs())
         }
         View::Camera(camera) => camera.eye.abs(),
+        View::Elevation(side) => {
+            let (low, high) = scene.receivers.bounds().unwrap_or_default();
+            (side.target.abs() + side.half_size().max_element()).max(low.abs()).max(high.abs()) + 1.0
+        }
     };
     (farthest + scene.casters.origin.abs()).max_element()
 }

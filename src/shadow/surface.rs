@@ -1,7 +1,8 @@
 //! What each cell of a view sees, on the GPU: drawn once for a scene and a view, and the ground that the stencil
 //! technique stands on.
 
-use super::{JUDGED_ABOVE_M, Scene, ShadowError};
+use super::frame::{clip_from_local, uniform};
+use super::{Scene, ShadowError};
 use crate::gpu::layout::{self, Light};
 use crate::gpu::targets::{COUNTED, DEPTH, NUMBER, SHARE, Stages, whole};
 use crate::gpu::{Gpu, GpuError, readback, shaders};
@@ -396,62 +397,6 @@ fn seen_edge_on(mesh: &Mesh, face: usize, view: &View) -> bool {
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
     let twice_area = (b - a).perp_dot(c - a).abs();
     mesh.planes()[face].z.abs() < 0.01 && twice_area < longest * grid.cell / 256.0
-}
-
-/// Metres around the scene's origin → clip space, depth 1 near and 0 far.
-fn clip_from_local(scene: &Scene, view: &View) -> DMat4 {
-    let to_world = DMat4::from_translation(scene.casters.origin);
-    match view {
-        View::Camera(camera) => camera.clip_from_world() * to_world,
-        View::Plan(grid) => {
-            let [west, south, east, north] = grid.region();
-            let (low, high) = heights(scene);
-            let span = DVec3::new((east - west) / 2.0, (north - south) / 2.0, high - low);
-            let middle = DVec3::new((west + east) / 2.0, (south + north) / 2.0, low);
-            DMat4::from_scale(span.recip()) * DMat4::from_translation(-middle) * to_world
-        }
-    }
-}
-
-/// The heights between which the plan's depth runs, metres of the world frame: nothing is cut at the upper end, so that
-/// counting in front of what is seen is right; what is cut at the lower end lies below the ground.
-fn heights(scene: &Scene) -> (f64, f64) {
-    let high = scene.casters.top().max(scene.receivers.top()).max(scene.ground);
-    (scene.ground - 1.0, high + 1.0)
-}
-
-fn uniform(scene: &Scene, view: &View) -> layout::View {
-    let origin = scene.casters.origin;
-    let world_viewer = view.viewer();
-    let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
-    let (width, height) = view.size();
-    let lowest_receiver = scene.receivers.bounds().map_or(scene.ground, |(low, _)| low.z.min(scene.ground));
-    let ([right, up, forward], lowest, depth_scale) = match view {
-        // the plan sees nothing below the ground, nor any underside
-        View::Plan(_) => {
-            let (low, high) = heights(scene);
-            ([DVec3::X, DVec3::Y, DVec3::NEG_Z], scene.ground + JUDGED_ABOVE_M, 1.0 / (high - low))
-        }
-        View::Camera(camera) => {
-            let [right, up, forward] = camera.axes();
-            let half = camera.half_size();
-            ([right * half.x, up * half.y, forward], lowest_receiver - JUDGED_ABOVE_M, crate::view::Camera::NEAR_M)
-        }
-    };
-    let direction = |axis: DVec3| axis.extend(0.0).as_vec4().to_array();
-    layout::View {
-        clip_from_local: clip_from_local(scene, view).as_mat4().to_cols_array_2d(),
-        viewer: viewer.as_vec4().to_array(),
-        right: direction(right),
-        up: direction(up),
-        forward: direction(forward),
-        ground_z: (scene.ground - origin.z) as f32,
-        lowest_z: (lowest - origin.z) as f32,
-        judged_above: JUDGED_ABOVE_M as f32,
-        depth_scale: depth_scale as f32,
-        size: [width as f32, height as f32],
-        unused: [0.0; 2],
-    }
 }
 
 /// The planes of faces as a texture, which no adapter limits to the size of a binding.

@@ -259,8 +259,16 @@ pub(super) fn choose_on(
     let cast = Machine::RayCast { sun_samples: site.settings.sun_samples };
     let plan = match view {
         View::Plan(grid) => Some(*grid),
-        View::Camera(_) => None,
+        View::Camera(_) | View::Elevation(_) => None,
     };
+    if matches!(view, View::Elevation(_)) {
+        if !matches!(site.method, Method::Auto | Method::RayCast) || site.engine == Engine::Gpu {
+            let what = "rays alone draw a side; take --technique ray-cast, or leave it out";
+            return Err(StudyError::Conflict { option: "--technique", what });
+        }
+        unused(site, Method::RayCast)?;
+        return Ok(cast);
+    }
     let is_plain = site.settings == Settings::default() && site.finder == Finder::Auto;
     let on_processor = match plan {
         Some(grid) if is_plain => Machine::Projected(grid),

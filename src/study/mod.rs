@@ -401,7 +401,7 @@ pub fn note_distance(mesh: &Mesh, on_event: &mut OnEvent<'_>) -> Result<(), Stud
 pub fn judged(site: &Site, view: &View) -> Receivers {
     match view {
         View::Plan(_) => site.receivers,
-        View::Camera(_) => Receivers::Top,
+        View::Camera(_) | View::Elevation(_) => Receivers::Top,
     }
 }
 

@@ -2,16 +2,16 @@
 
 use super::*;
 use glam::DVec3;
-use gnomon::view::{Camera, View};
+use gnomon::view::{Elevation, View};
 
 fn view(harness: &Harness<'_, App>) -> View {
     harness.state().shown().expect("a picture").0
 }
 
-fn camera(harness: &Harness<'_, App>) -> Camera {
+fn side(harness: &Harness<'_, App>) -> Elevation {
     match view(harness) {
-        View::Camera(camera) => camera,
-        View::Plan(_) => panic!("a plan"),
+        View::Elevation(side) => side,
+        other => panic!("{other:?}"),
     }
 }
 
@@ -75,9 +75,20 @@ fn elevations_look_level_from_their_side() {
         harness.key_press(key);
         harness.step();
         settle(&mut harness);
-        let by_key = camera(&harness);
-        let back = (by_key.eye - by_key.target).normalize();
-        assert!(back.distance(from) < 1e-9, "{name}: {back}");
+        let by_key = side(&harness);
+        assert_eq!(by_key.to_viewer, from, "{name}");
+        // parallel: whatever the depth, a point of the picture is as far east or north and as high as the scale says
+        let rect = harness.get_by_label("Model").rect();
+        let metres = by_key.cell * f64::from(by_key.height) / f64::from(rect.height());
+        for step in [egui::vec2(0.0, 0.0), egui::vec2(90.0, 10.0), egui::vec2(-90.0, -5.0)] {
+            hover(&mut harness, rect.center() + step);
+            let off = readout(&harness) - by_key.target;
+            let [right, up, _] = by_key.axes();
+            let is = (off.dot(right) / metres, -off.dot(up) / metres);
+            let wanted = (f64::from(step.x), f64::from(step.y));
+            let near = 0.1 / metres + 0.5;
+            assert!((is.0 - wanted.0).abs() < near && (is.1 - wanted.1).abs() < near, "{name}: {is:?}, not {wanted:?}");
+        }
         harness.key_press(Key::Num1);
         harness.step();
         settle(&mut harness);
@@ -85,7 +96,7 @@ fn elevations_look_level_from_their_side() {
         harness.get_by_label_contains(name).click_accesskit();
         harness.run_steps(2);
         settle(&mut harness);
-        assert_eq!(camera(&harness), by_key, "{name}");
+        assert_eq!(side(&harness), by_key, "{name}");
         harness.key_press(Key::Escape);
         harness.run_steps(2);
     }

@@ -141,7 +141,7 @@ fn instant_as<T>(
         None => "Shadow",
     };
     let mut panel = panel(scene, kicker);
-    if let (View::Camera(_), Receivers::Top) = (view, scene.receivers) {
+    if let (View::Camera(_) | View::Elevation(_), Receivers::Top) = (view, scene.receivers) {
         let judged = panel.facts.iter_mut().filter(|(label, _)| *label == JUDGED);
         judged.for_each(|(_, said)| *said = "what the camera sees".to_owned());
     }
@@ -152,7 +152,7 @@ fn instant_as<T>(
     panel.legend_head = "What sees the sun".to_owned();
     let tones = match view {
         View::Plan(_) => [plan::GROUND_SUN, plan::GROUND_SHADE],
-        View::Camera(_) => perspective::ground_tones(now.to_sun),
+        View::Camera(_) | View::Elevation(_) => perspective::ground_tones(now.to_sun),
     };
     panel.legend = vec![(tones[0], "sun".to_owned()), (tones[1], "shadow".to_owned())];
     if now.night {
@@ -179,19 +179,24 @@ fn instant_as<T>(
                 }
             }
         }
-        View::Camera(camera) => {
+        View::Camera(_) | View::Elevation(_) => {
+            let (lens, cell) = match view {
+                View::Elevation(side) => (perspective::Lens::of_side(side), Some(side.cell)),
+                View::Camera(camera) => (perspective::Lens::new(camera), None),
+                View::Plan(_) => return Err(ExportError::encode("drawing", "a plan has no lens")),
+            };
             panel.facts.push(("Picture", format!("{} × {}", size.0, size.1)));
             let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
             show(&mut panel, shown, tones[0], components.as_ref());
             let painted = perspective::Painted { components: components.as_ref(), of_cells };
             let draw = |fit| {
-                let mut picture = perspective::instant(scene, camera, mask, now.to_sun, painted, fit);
+                let mut picture = perspective::instant(scene, &lens, mask, now.to_sun, painted, fit);
                 if let Some(overlay) = shown.overlay {
                     overlay::lay(&mut picture, overlay);
                 }
                 picture
             };
-            page::page(&panel, size, None, draw, finish)
+            page::page(&panel, size, cell, draw, finish)
         }
     }
 }

@@ -5,7 +5,7 @@ use super::components::Components;
 use super::picture::{Between, Fit, Pen, Picture, compose};
 use super::scale::Rgb;
 use crate::site::Receivers;
-use crate::view::{Camera, Mask, Surface};
+use crate::view::{Camera, Elevation, Mask, Surface};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use rayon::prelude::*;
 
@@ -36,7 +36,7 @@ pub(super) struct Painted<'a> {
 /// Sun and shadow at one instant, as the camera sees them; of matt card where nothing is painted.
 pub(super) fn instant(
     scene: &Scene,
-    camera: &Camera,
+    lens: &Lens,
     mask: &Mask,
     to_sun: DVec3,
     Painted { components, of_cells }: Painted<'_>,
@@ -44,12 +44,11 @@ pub(super) fn instant(
 ) -> Picture {
     if let Some(of_cells) = of_cells {
         // lines would be taken for cells
-        return painted(scene, camera, of_cells, false, fit);
+        return painted(scene, lens, of_cells, false, fit);
     }
-    let lens = Lens::new(camera);
     let light = Light::new(to_sun);
     let ground_only = scene.receivers == Receivers::Ground;
-    let width = camera.width as usize;
+    let width = lens.width();
     let colours: Vec<Rgb> = (0..scene.surface.face.len())
         .into_par_iter()
         .map(|pixel| {
@@ -63,7 +62,7 @@ pub(super) fn instant(
                     lit.lerp(HORIZON, lens.haze(far))
                 }
                 face => {
-                    let plane = facing(scene, face, camera.eye);
+                    let plane = facing(scene, face, lens.viewer);
                     // A mask of the ground says nothing about the walls.
                     let share = if ground_only { 1.0 } else { share };
                     let own = |of: &Components| DVec3::from(of.colour(face).map(f64::from)) / 255.0;
@@ -76,19 +75,18 @@ pub(super) fn instant(
     // colours tell parts from each other, and lines upon lines would hide the colours of fine parts
     let strength = if components.is_some() { 0.55 } else { 1.0 };
     let quieter = |pen: Pen| Pen { strength: pen.strength * strength, ..pen };
-    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, camera, &lens, a, b).map(quieter))
+    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, lens, a, b).map(quieter))
 }
 
 /// Cells in the colours given, with or without lines, under the sky of a day; that of the sky's cells is not asked.
-pub(super) fn painted(scene: &Scene, camera: &Camera, of_cells: &[Rgb], with_lines: bool, fit: Fit) -> Picture {
-    let lens = Lens::new(camera);
-    let width = camera.width as usize;
+pub(super) fn painted(scene: &Scene, lens: &Lens, of_cells: &[Rgb], with_lines: bool, fit: Fit) -> Picture {
+    let width = lens.width();
     let colour = |(pixel, &colour): (usize, &Rgb)| match scene.surface.face[pixel] {
         Surface::SKY => display(sky(lens.ray(pixel % width, pixel / width))),
         _ => colour,
     };
     let colours: Vec<Rgb> = of_cells.par_iter().enumerate().map(colour).collect();
-    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, camera, &lens, a, b).filter(|_| with_lines))
+    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, lens, a, b).filter(|_| with_lines))
 }
 
 /// The colours of level ground in the sun and in the shade, for the legend.
@@ -109,7 +107,10 @@ pub(super) struct Lens {
     up: DVec3,
     size: [f64; 2],
     focus_m: f64,
-    eye_z: f64,
+    /// From whence everything is seen, homogeneous.
+    pub(super) viewer: DVec4,
+    /// Of a side along parallel rays: the middle of its picture, and a pixel's side, metres.
+    side: Option<(DVec3, f64)>,
 }
 
 impl Lens {
@@ -126,37 +127,69 @@ impl Lens {
             up: right.cross(forward) * tall,
             size,
             focus_m: sight.length().max(1e-6),
-            eye_z: camera.eye.z,
+            viewer: camera.eye.extend(1.0),
+            side: None,
         }
+    }
+
+    /// Of a side along parallel rays.
+    pub(super) fn of_side(side: &Elevation) -> Lens {
+        let [right, up, forward] = side.axes();
+        let half = side.half_size();
+        Lens {
+            forward,
+            right: right * half.x,
+            up: up * half.y,
+            size: [f64::from(side.width.max(1)), f64::from(side.height.max(1))],
+            focus_m: 1.0,
+            viewer: side.to_viewer.extend(0.0),
+            side: Some((side.target, side.cell)),
+        }
+    }
+
+    fn width(&self) -> usize {
+        self.size[0] as usize
+    }
+
+    /// A point on a pixel's ray: the eye, or of a side where the ray crosses the picture.
+    fn start(&self, column: usize, row: usize) -> DVec3 {
+        let [x, y] = self.at(column, row);
+        self.side.map_or(self.viewer.xyz(), |(target, _)| target + self.right * x + self.up * y)
+    }
+
+    fn at(&self, column: usize, row: usize) -> [f64; 2] {
+        [2.0 * (column as f64 + 0.5) / self.size[0] - 1.0, 1.0 - 2.0 * (row as f64 + 0.5) / self.size[1]]
     }
 
     /// From the eye through a pixel's centre; one metre along it is one metre of depth.
     pub(super) fn ray(&self, column: usize, row: usize) -> DVec3 {
-        let x = 2.0 * (column as f64 + 0.5) / self.size[0] - 1.0;
-        let y = 1.0 - 2.0 * (row as f64 + 0.5) / self.size[1];
-        self.forward + self.right * x + self.up * y
+        let [x, y] = self.at(column, row);
+        if self.side.is_some() { self.forward } else { self.forward + self.right * x + self.up * y }
     }
 
     fn ground_distance(&self, scene: &Scene, pixel: usize, ray: DVec3) -> f64 {
-        let drop = f64::from(scene.surface.height_m[pixel]) - self.eye_z;
+        let drop = f64::from(scene.surface.height_m[pixel]) - self.viewer.z;
         let depth = drop / ray.z;
         if depth.is_finite() { depth.max(0.0) * ray.length() } else { f64::INFINITY }
     }
 
     /// 0 at the subject, towards 1 at many times its distance.
     fn haze(&self, distance_m: f64) -> f64 {
+        if self.side.is_some() {
+            return 0.0;
+        }
         1.0 - (-(distance_m / self.focus_m - 1.3).max(0.0) / 3.5).exp()
     }
 }
 
-/// A face's plane (n, d) with n·p + d > 0 at the eye, in the world frame.
-pub(super) fn facing(scene: &Scene, face: u32, eye: DVec3) -> DVec4 {
+/// A face's plane (n, d) with n·p + d > 0 towards the viewer (homogeneous), in the world frame.
+pub(super) fn facing(scene: &Scene, face: u32, viewer: DVec4) -> DVec4 {
     let Some(plane) = scene.mesh.planes().get(face as usize) else {
         return DVec3::Z.extend(0.0);
     };
     let offset = plane.w - plane.xyz().dot(scene.mesh.origin);
     let plane = plane.xyz().extend(offset);
-    if plane.xyz().dot(eye) + plane.w < 0.0 { -plane } else { plane }
+    if plane.dot(viewer) < 0.0 { -plane } else { plane }
 }
 
 /// What falls on a surface: sky from above, the sun where it is seen.
@@ -200,25 +233,26 @@ fn display(colour: DVec3) -> Rgb {
     [soft(colour.x), soft(colour.y), soft(colour.z)]
 }
 
-fn pen(scene: &Scene, camera: &Camera, lens: &Lens, a: usize, b: usize) -> Option<Pen> {
+fn pen(scene: &Scene, lens: &Lens, a: usize, b: usize) -> Option<Pen> {
     let (from, to) = (scene.surface.face[a], scene.surface.face[b]);
     if from == to {
         return None;
     }
     let building = |face: u32| face < Surface::GROUND;
     match (building(from), building(to)) {
-        (false, false) => None,
+        // the ground's line is seen from a side alone
+        (false, false) => lens.side.map(|_| Pen::STEP),
         (true, true) => {
-            let (from, to) = (facing(scene, from, camera.eye), facing(scene, to, camera.eye));
-            let width = camera.width as usize;
+            let (from, to) = (facing(scene, from, lens.viewer), facing(scene, to, lens.viewer));
+            let width = lens.width();
             let depth = |plane: DVec4, pixel: usize| {
-                let ray = lens.ray(pixel % width, pixel / width);
-                -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray)
+                let (column, row) = (pixel % width, pixel / width);
+                -plane.dot(lens.start(column, row).extend(1.0)) / plane.xyz().dot(lens.ray(column, row))
             };
             let gap = |pixel| depth(from, pixel) - depth(to, pixel);
             let (here, there) = (gap(a), gap(b));
             // Planes that cross between the two pixels adjoin, however steep; else there is air between them.
-            let least = STEP_SHARE * depth(from, a).abs();
+            let least = lens.side.map_or_else(|| STEP_SHARE * depth(from, a).abs(), |(_, cell)| 2.0 * cell);
             let step = here * there > 0.0 && here.abs().min(there.abs()) > least;
             let crease = from.xyz().dot(to.xyz()) < CREASE_COS;
             match (step, crease) {

@@ -25,7 +25,7 @@ pub fn surfaces(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Result<V
     check_surface(scene.surface, size)?;
     let panel = labelled(scene, surfaces);
     let of_cells = painted(scene, camera, surfaces);
-    let draw = |fit| perspective::painted(scene, camera, &of_cells, true, fit);
+    let draw = |fit| perspective::painted(scene, &Lens::new(camera), &of_cells, true, fit);
     page::page(&panel, size, None, draw, page::png)
 }
 
@@ -73,7 +73,7 @@ fn painted(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Vec<Rgb> {
         if face >= Surface::GROUND {
             return GROUND;
         }
-        let plane = facing(scene, face, camera.eye);
+        let plane = facing(scene, face, camera.eye.extend(1.0));
         let Some(patch) = atlas.patch(patches, face, plane.xyz()) else { return NOT_JUDGED };
         let ray = lens.ray(pixel % width, pixel / width);
         let depth = -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray);

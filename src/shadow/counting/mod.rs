@@ -174,7 +174,7 @@ impl Counting {
     /// Sets the sun, and finds its volumes; what the adapter has to do for that goes into `encoder`.
     pub(super) fn find(&mut self, to_sun: DVec3, encoder: &mut CommandEncoder) -> Result<Count<'_>, ShadowError> {
         let z_fail = match &self.view {
-            View::Plan(_) => false,
+            View::Plan(_) | View::Elevation(_) => false,
             View::Camera(camera) => self.forced_z_fail.unwrap_or_else(|| needs_z_fail(camera, to_sun, &self.scene)),
         };
         self.surface.set_sun(to_sun);

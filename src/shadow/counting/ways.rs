@@ -35,7 +35,7 @@ impl Ways {
         match view {
             View::Plan(_) => &self.plan,
             View::Camera(_) if z_fail => &self.z_fail,
-            View::Camera(_) => &self.z_pass,
+            View::Camera(_) | View::Elevation(_) => &self.z_pass,
         }
     }
 
