@@ -38,10 +38,10 @@ fn main() {
     let [width, height] = SIZE;
     println!("\nThe window at {width} × {height}, while a hand moves without a pause for {} s\n", MOVING.as_secs());
     println!(
-        "| site | hand on | pictures a second | latency, ms | 95% | frame, ms | 95% | size of the picture | \
-         still frame, ms | whole picture, ms |"
+        "| site | hand on | pictures a second | latency, ms | 95% | frame, ms | 95% | processor, ms a picture | \
+         size of the picture | still frame, ms | whole picture, ms |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
     // `cargo bench --bench window -- tower` measures that one
     let named: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with("--")).collect();
     let sites: Vec<&str> =
@@ -121,6 +121,8 @@ struct Followed {
     /// From the beginning of the frame that took a movement in to the end of the first one that shows it, milliseconds.
     latencies: Vec<f64>,
     secs: f64,
+    /// What all threads took of the processor, seconds.
+    processor_secs: f64,
 }
 
 /// Follows a hand for so long. A picture is known by what was asked for when it was wished.
@@ -128,7 +130,7 @@ fn follow(real: &mut Real, next: &mut impl FnMut() -> Event, time: Duration) -> 
     let mut followed = Followed::default();
     let mut asked: VecDeque<((View, DVec3), Instant)> = VecDeque::new();
     let mut before = real.app().shown();
-    let began = Instant::now();
+    let (began, took) = (Instant::now(), processor_secs());
     while began.elapsed() < time {
         let taken = Instant::now();
         followed.frames.push(real.frame(Some(next())));
@@ -145,7 +147,18 @@ fn follow(real: &mut Real, next: &mut impl FnMut() -> Event, time: Duration) -> 
         }
     }
     followed.secs = began.elapsed().as_secs_f64();
+    followed.processor_secs = processor_secs() - took;
     followed
+}
+
+/// What this program has taken of the processor until now, seconds: other programs do not change it as they change how
+/// long things take. Not a number where the system does not say.
+fn processor_secs() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields: Vec<f64> =
+        stat.rsplit(')').next().unwrap_or_default().split_whitespace().flat_map(str::parse).collect();
+    // user and system time, in hundredths of a second; the state before them is a letter
+    fields.get(10..12).map_or(f64::NAN, |times| times.iter().sum::<f64>() / 100.0)
 }
 
 /// Whether a picture, of whatever size, is of what was asked.
@@ -169,9 +182,10 @@ fn line(name: &str, on: &str) {
     };
     // until the size of the picture is found
     follow(&mut real, &mut next, Duration::from_secs(2));
-    let Followed { frames, latencies, secs } = follow(&mut real, &mut next, MOVING);
+    let Followed { frames, latencies, secs, processor_secs } = follow(&mut real, &mut next, MOVING);
     let (width, height) = real.app().shown().expect("a picture").0.size();
     let a_second = latencies.len() as f64 / secs;
+    let a_picture = processor_secs * 1e3 / latencies.len() as f64;
     // the hand rests: the whole picture comes
     let began = Instant::now();
     real.frame(Some(Event::PointerButton { pos: to, button: PointerButton::Primary, pressed: false, modifiers }));
@@ -179,7 +193,8 @@ fn line(name: &str, on: &str) {
     let whole = began.elapsed().as_secs_f64() * 1e3;
     let still = median((0..PICTURES).map(|_| real.frame(None)).collect());
     println!(
-        "| {name} | {on} | {a_second:.1} | {:.0} | {:.0} | {:.0} | {:.0} | {width} × {height} | {still:.0} | {whole:.0} |",
+        "| {name} | {on} | {a_second:.1} | {:.0} | {:.0} | {:.0} | {:.0} | {a_picture:.0} | {width} × {height} | {still:.0} | \
+         {whole:.0} |",
         median(latencies.clone()),
         most(latencies),
         median(frames.clone()),

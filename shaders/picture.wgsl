@@ -65,6 +65,8 @@ const SUN_LIGHT = vec3f(1.10, 1.00, 0.84);
 const HORIZON = vec3f(0.945, 0.942, 0.925);
 const ZENITH = vec3f(0.640, 0.745, 0.850);
 const NIGHT = vec3f(0.62, 0.66, 0.76);
+// Earth that a side cuts, against the ground's card.
+const CUT_EARTH = 0.90;
 const LINE = vec3f(24.0, 27.0, 34.0) / 255.0;
 const VOLUME = vec3f(250.0, 205.0, 40.0) / 255.0;
 const SILHOUETTE = vec3f(10.0, 10.0, 12.0) / 255.0;
@@ -152,7 +154,9 @@ fn before_camera(pixel: vec2f, face: u32) -> vec3f {
     let share = textureLoad(share_of_sun, vec2u(pixel), 0).x;
     var card = GROUND_CARD;
     var haze = 0.0;
-    if face == GROUND && !is_elevation() {
+    if face == GROUND && is_elevation() {
+        card *= CUT_EARTH;
+    } else if face == GROUND {
         haze = 1.0 - exp(-max(distance(point, view.viewer.xyz) / shown.focus - 1.3, 0.0) / 3.5);
     } else {
         card = tint_of(face);

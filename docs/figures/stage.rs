@@ -118,6 +118,10 @@ impl Stage {
                 let at = camera.clip_from_world().project_point3(point);
                 [(at.x + 1.0) / 2.0 * f64::from(columns), (1.0 - at.y) / 2.0 * f64::from(rows)]
             }
+            View::Elevation(side) => {
+                let ([right, up, _], half, from) = (side.axes(), side.half_size(), point - side.target);
+                [(from.dot(right) + half.x) / side.cell, (half.y - from.dot(up)) / side.cell]
+            }
         }
     }
 

@@ -355,7 +355,7 @@ impl eframe::App for App {
                     open.clock.bar(ui);
                 }
             });
-            let beside = egui::Panel::left("panel").default_size(300.0).size_range(288.0..=460.0).resizable(true);
+            let beside = egui::Panel::left("panel").default_size(308.0).size_range(300.0..=460.0).resizable(true);
             beside.frame(on_ground).show(ui, |ui| panel::show(self, ui));
             egui::CentralPanel::no_frame().show(ui, |ui| self.view(ui));
         }

@@ -75,6 +75,10 @@ fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, ui: &mut Ui) {
     let point = probed.probe.point;
     let (at, name) = (point / unit.metres, unit.name);
     ui.weak(format!("{:.2} {name} east, {:.2} {name} north, {:.2} {name} up", at.x, at.y, at.z).replace('-', "−"));
+    // the answer stays when the pointer goes on
+    if let Some(hours) = open.laid.as_ref().and_then(|laid| laid.at(point)) {
+        ui.label(format!("{hours:.2} h of shadow in the study's window"));
+    }
     let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);
     ui.label(format!("{}: {} of sun", day.window.day.date, clock(secs(intervals))));
     egui::ScrollArea::vertical().max_height(190.0).show(ui, |ui| {

@@ -58,6 +58,8 @@ pub(super) fn set(context: &egui::Context) {
         spacing.interact_size.y = 24.0;
         spacing.menu_margin = egui::Margin::same(6);
         spacing.combo_width = 150.0;
+        // beside what it scrolls, and not over its right end
+        spacing.scroll.floating_allocated_width = 8.0;
         style.animation_time = 0.08;
     });
     // where the system has no wish

@@ -140,7 +140,9 @@ impl Viewer {
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Model"));
         self.wish(ui, rect, stage, software, asked, clock);
         let (Some(shown), Some(print)) = (&self.shown, &self.print) else {
-            ui.painter().rect_filled(rect, 0.0, egui::Color32::from_rgb(236, 235, 230));
+            let painter = ui.painter_at(rect);
+            painter.rect_filled(rect, 0.0, egui::Color32::from_rgb(236, 235, 230));
+            sky::label(&painter, rect.center(), Align2::CENTER_CENTER, "Drawing the first picture");
             self.move_eye(ui, rect, &response, asked.project);
             return None;
         };

@@ -12,6 +12,8 @@ use rayon::prelude::*;
 /// Matt card, and the ground it stands on: reflectance in display values.
 const BUILDING: DVec3 = DVec3::new(0.995, 0.975, 0.935);
 const GROUND: DVec3 = DVec3::new(0.965, 0.945, 0.895);
+/// Earth that a side cuts, against that.
+const CUT_EARTH: f64 = 0.90;
 /// The light of the sky and of the sun, tinted.
 const SKY_LIGHT: DVec3 = DVec3::new(0.90, 0.97, 1.12);
 const SUN_LIGHT: DVec3 = DVec3::new(1.10, 1.00, 0.84);
@@ -57,7 +59,8 @@ pub(super) fn instant(
             let colour = match scene.surface.face[pixel] {
                 Surface::SKY => sky(ray),
                 Surface::GROUND => {
-                    let lit = GROUND * light.on(DVec3::Z, share);
+                    let card = if lens.side.is_some() { GROUND * CUT_EARTH } else { GROUND };
+                    let lit = card * light.on(DVec3::Z, share);
                     let far = lens.ground_distance(scene, pixel, ray);
                     lit.lerp(HORIZON, lens.haze(far))
                 }
