@@ -180,8 +180,8 @@ fn line(name: &str, on: &str) {
         moves += 1;
         Event::PointerMoved(from.lerp(to, (moves * 7 % 97) as f32 / 97.0))
     };
-    // until the size of the picture is found
-    follow(&mut real, &mut next, Duration::from_secs(2));
+    // until the size of the picture is found, and on a cold start all shaders are compiled
+    while follow(&mut real, &mut next, Duration::from_secs(2)).latencies.len() < 3 {}
     let Followed { frames, latencies, secs, processor_secs } = follow(&mut real, &mut next, MOVING);
     let (width, height) = real.app().shown().expect("a picture").0.size();
     let a_second = latencies.len() as f64 / secs;
