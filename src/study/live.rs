@@ -31,8 +31,8 @@ pub struct Way {
 impl Way {
     /// Where the adapter is a program on the processor: rays, one a pixel.
     ///
-    /// Measured (docs/benchmarks/desktop.md): what a map or volumes cost grows with the model, and a quick look has few
-    /// pixels.
+    /// What a map or volumes cost grows with the model, and a quick look has few pixels; at a few hundred a side a map
+    /// takes about as long as rays do on the tower (docs/benchmarks/desktop.md), and has coarse edges.
     pub fn quickest() -> Way {
         Way { method: Method::RayCast, settings: Settings::default() }
     }
