@@ -3,6 +3,7 @@
 use super::app::Open;
 use super::hours::Laid;
 use super::look;
+use super::pick::Under;
 use super::sky;
 use super::unit::Unit;
 use crate::profile::probe::{Blocked, Sunlight, secs};
@@ -76,8 +77,10 @@ fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, ui: &mut Ui) {
     let (at, name) = (point / unit.metres, unit.name);
     ui.weak(format!("{:.2} {name} east, {:.2} {name} north, {:.2} {name} up", at.x, at.y, at.z).replace('-', "−"));
     // the answer stays when the pointer goes on
-    if let Some(hours) = open.laid.as_ref().and_then(|laid| laid.at(point)) {
-        ui.label(format!("{hours:.2} h of shadow in the study's window"));
+    let normal = probed.probe.normal.unwrap_or(glam::DVec3::Z);
+    let under = Under { point, normal, face: None, name: String::new() };
+    if let Some(said) = open.laid.as_ref().and_then(|laid| laid.said(&under)) {
+        ui.label(format!("{said} in the study"));
     }
     let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);
     ui.label(format!("{}: {} of sun", day.window.day.date, clock(secs(intervals))));

@@ -137,7 +137,7 @@ pub(super) fn animation(
     let written = seen_from(project, settings, &eye);
     let method = settings.shown.method;
     Work::start(context, move |on_event| {
-        let method = if view::draws(method, eye.stand == Stand::Plan) { method } else { Method::Auto };
+        let method = if view::draws(method, eye.stand) { method } else { Method::Auto };
         let asked = Overrides { technique: Some(method), ..Overrides::default() };
         let site = Site::of(&written, &asked, model::load)?;
         let count = animate::check(&site)?;
