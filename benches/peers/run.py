@@ -10,7 +10,7 @@ The programs of others are for the reader to install. Two kinds have options of 
     PROGRAM GLB SUNS N WEST SOUTH SIDE THREADS [PACKET] MODE OUT [robust]
 
 with MODE mask, hours or top. Any other program joins with --peer, where COMMAND may use {glb}, {suns} (a line for each
-instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side), {threads} and {out}.
+instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side), {threads}, {test} (T1 to T4) and {out}.
 
 Programs take turns, so that ratios hold whatever else the machine does: each is the median of its turns' own ratios.
 Seconds are medians; CPU is user and system time together; the peak is the largest resident size.
@@ -72,7 +72,7 @@ def compare(asked, glb, folder):
     for test in wanted:
         cells, study, command, mode = TESTS[test]
         suns = write_suns(asked.gnomon, site, study, folder / "suns.txt")
-        fill = dict(glb=glb, suns=suns, n=cells, threads=asked.threads, site=site, study=study)
+        fill = dict(glb=glb, suns=suns, n=cells, threads=asked.threads, site=site, study=study, test=test.split()[0])
         ours = gnomon.format(command=command.format(out=folder / "gnomon", **fill))
         commands = {"Gnomon": ours}
         raster = f"{fill['glb']} {suns} {cells} {REGION[0]} {REGION[1]} {REGION[2]} {asked.threads}"
