@@ -48,6 +48,43 @@ impl Grid {
     }
 }
 
+/// A rectangle of a plan's cells, which is worked out on its own where the plan is too large for one go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tile {
+    /// The whole plan.
+    pub plan: Grid,
+    /// The north-west cell: column and row on the plan.
+    pub first: [u32; 2],
+    /// Columns and rows.
+    pub size: [u32; 2],
+}
+
+impl From<Grid> for Tile {
+    fn from(plan: Grid) -> Tile {
+        Tile { plan, first: [0, 0], size: [plan.width, plan.height] }
+    }
+}
+
+impl Tile {
+    /// Whether it is the whole plan.
+    pub fn is_whole(&self) -> bool {
+        *self == self.plan.into()
+    }
+
+    /// Its cells as a plan of their own. They lie where they lay but for the rounding of its corner.
+    pub fn grid(&self) -> Grid {
+        let Tile { plan, first: [column, row], size: [width, height] } = *self;
+        let west = plan.west + f64::from(column) * plan.cell;
+        let north = plan.north - f64::from(row) * plan.cell;
+        Grid { west, north, cell: plan.cell, width, height }
+    }
+
+    /// How many cells there are.
+    pub fn cells(&self) -> usize {
+        self.size[0] as usize * self.size[1] as usize
+    }
+}
+
 /// A point of which is asked when it lies in the sun.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {

@@ -29,7 +29,7 @@ pub mod walls;
 
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
-use crate::view::{Bits, Counted, Mask, Surface, View};
+use crate::view::{Bits, Counted, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
 
 pub use plan_surface::{PlanSurface, plan_surface};
@@ -96,6 +96,18 @@ pub trait Technique {
     /// [`ShadowError`], where the view does not fit the adapter.
     fn turn_to(&mut self, _view: View) -> Result<bool, ShadowError> {
         Ok(false)
+    }
+
+    /// Turns to a tile of the plan that it was made for, with the cells where they are on the whole of it; no where it has
+    /// to be made anew.
+    ///
+    /// On the processor a tile's cells are those of the whole plan to the bit. On a graphics adapter corners are rounded
+    /// anew, to 1/256 of a cell, and maps are drawn for what the tile sees.
+    ///
+    /// # Errors
+    /// As [`Technique::turn_to`].
+    fn turn_to_tile(&mut self, tile: Tile) -> Result<bool, ShadowError> {
+        self.turn_to(View::Plan(tile.grid()))
     }
 
     /// What the cells see of the receivers.

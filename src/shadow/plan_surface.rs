@@ -5,7 +5,7 @@
 
 use super::ray_cast::TIE;
 use crate::mesh::{Mesh, scan};
-use crate::view::{Grid, Surface, SurfaceRows};
+use crate::view::{Grid, Surface, SurfaceRows, Tile};
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -15,24 +15,25 @@ const BAND: usize = 32;
 
 /// The highest face of some receivers below each cell's centre, or the ground, if that is higher.
 pub fn plan_surface(receivers: &Mesh, ground: f64, grid: &Grid) -> Surface {
-    let (face, height_m) = highest(receivers, ground, grid, |height| height as f32);
+    let (face, height_m) = highest(receivers, ground, (*grid).into(), |height| height as f32);
     Surface { width: grid.width, height: grid.height, face, height_m }
 }
 
-/// Per cell the face and its height in the world, metres, as it is to be kept.
+/// Per cell of a tile the face and its height in the world, metres, as it is to be kept.
 pub(super) fn highest<T: Copy + Default + Send>(
     receivers: &Mesh,
     ground: f64,
-    grid: &Grid,
+    tile: Tile,
     keep: impl Fn(f64) -> T + Sync,
 ) -> (Vec<u32>, Vec<T>) {
-    let (width, height) = (grid.width as usize, grid.height as usize);
-    let plan = PlanSurface::new(receivers, ground, grid);
+    let [width, height] = tile.size.map(|size| size as usize);
+    let plan = PlanSurface::of_tile(receivers, ground, tile);
+    let top = tile.first[1] as usize;
     let mut face = vec![Surface::GROUND; width * height];
     let mut kept = vec![T::default(); width * height];
     let rows = face.par_chunks_mut(BAND * width).zip(kept.par_chunks_mut(BAND * width));
     rows.enumerate().for_each_init(Vec::new, |heights, (band, (face, kept))| {
-        let first = band * BAND;
+        let first = top + band * BAND;
         plan.highest(first..first + face.len() / width, face, heights);
         kept.iter_mut().zip(heights).for_each(|(kept, height)| *kept = keep(*height));
     });
@@ -43,8 +44,7 @@ pub(super) fn highest<T: Copy + Default + Send>(
 pub struct PlanSurface<'a> {
     receivers: &'a Mesh,
     ground: f64,
-    width: u32,
-    height: u32,
+    tile: Tile,
     corners: Corners,
     /// Which faces reach into which band; a list for each run of faces, so that their order stays.
     bands: Vec<Vec<Vec<u32>>>,
@@ -53,22 +53,27 @@ pub struct PlanSurface<'a> {
 impl<'a> PlanSurface<'a> {
     /// Sorts the receivers' faces by the rows that they reach.
     pub fn new(receivers: &'a Mesh, ground: f64, grid: &Grid) -> PlanSurface<'a> {
-        let corners = Corners::new(receivers, grid);
-        let bands = corners.by_band(receivers, grid.height as usize);
-        PlanSurface { receivers, ground, width: grid.width, height: grid.height, corners, bands }
+        Self::of_tile(receivers, ground, (*grid).into())
     }
 
-    /// Per cell of some rows the face that it sees, where `face` is the ground's so far, and how high that is.
+    fn of_tile(receivers: &'a Mesh, ground: f64, tile: Tile) -> PlanSurface<'a> {
+        let corners = Corners::new(receivers, &tile.plan);
+        let [first, count] = [tile.first[1], tile.size[1]].map(|row| row as usize);
+        let bands = corners.by_band(receivers, first..first + count);
+        PlanSurface { receivers, ground, tile, corners, bands }
+    }
+
+    /// Per cell of some of the plan's rows the face that it sees, where `face` is the ground's so far, and how high that is.
     fn highest(&self, rows: Range<usize>, face: &mut [u32], heights: &mut Vec<f64>) {
-        let width = self.width as usize;
+        let [first, width] = [self.tile.first[0], self.tile.size[0]].map(|column| column as usize);
         heights.clear();
         heights.resize(face.len(), self.ground);
         for band in rows.start / BAND..rows.end.div_ceil(BAND) {
             let of_band = rows.start.max(band * BAND)..rows.end.min((band + 1) * BAND);
             for &at in self.bands.iter().flat_map(|bands| &bands[band]) {
                 let triangle = self.corners.of(self.receivers.faces[at as usize]);
-                triangle.scan(width, of_band.clone(), |row, column, z| {
-                    let cell = (row - rows.start) * width + column;
+                triangle.scan(first..first + width, of_band.clone(), |row, column, z| {
+                    let cell = (row - rows.start) * width + column - first;
                     // a receiver in the ground hides it; of two at one height the first is seen
                     if z > heights[cell] || (z == heights[cell] && face[cell] == Surface::GROUND) {
                         heights[cell] = z;
@@ -82,15 +87,16 @@ impl<'a> PlanSurface<'a> {
 
 impl SurfaceRows for PlanSurface<'_> {
     fn cells(&self) -> usize {
-        self.width as usize * self.height as usize
+        self.tile.cells()
     }
 
     fn rows(&self, rows: Range<usize>) -> Surface {
-        let mut face = vec![Surface::GROUND; self.width as usize * rows.len()];
+        let width = self.tile.size[0];
+        let mut face = vec![Surface::GROUND; width as usize * rows.len()];
         let mut heights = Vec::new();
         let height = rows.len() as u32;
         self.highest(rows, &mut face, &mut heights);
-        Surface { width: self.width, height, face, height_m: heights.iter().map(|height| *height as f32).collect() }
+        Surface { width, height, face, height_m: heights.iter().map(|height| *height as f32).collect() }
     }
 }
 
@@ -114,12 +120,12 @@ impl Corners {
     }
 
     /// Which faces reach into which band; a list for each run of faces, so that their order stays.
-    fn by_band(&self, mesh: &Mesh, height: usize) -> Vec<Vec<Vec<u32>>> {
+    fn by_band(&self, mesh: &Mesh, of: Range<usize>) -> Vec<Vec<Vec<u32>>> {
         let run = mesh.faces.len().div_ceil(4 * rayon::current_num_threads()).max(1);
         let runs = mesh.faces.par_chunks(run).enumerate().map(|(index, faces)| {
-            let mut bands = vec![Vec::new(); height.div_ceil(BAND)];
+            let mut bands = vec![Vec::new(); of.end.div_ceil(BAND)];
             for (at, face) in faces.iter().enumerate() {
-                let rows = self.of(*face).rows(0..height);
+                let rows = self.of(*face).rows(of.clone());
                 if !rows.is_empty() {
                     let bands = &mut bands[rows.start / BAND..=(rows.end - 1) / BAND];
                     bands.iter_mut().for_each(|band| band.push((index * run + at) as u32));
@@ -149,8 +155,8 @@ impl Triangle {
         scan::wholes([top.y, bottom.y], of)
     }
 
-    /// Tells row, column and height of each centre within it or on its edge.
-    fn scan(&self, width: usize, rows: Range<usize>, mut tell: impl FnMut(usize, usize, f64)) {
+    /// Tells row, column and height of each of some centres that lies within it or on its edge.
+    fn scan(&self, columns: Range<usize>, rows: Range<usize>, mut tell: impl FnMut(usize, usize, f64)) {
         let [top, middle, bottom] = self.corners;
         let normal = (middle - top).cross(bottom - top);
         // seen from its edge it is nothing
@@ -161,7 +167,7 @@ impl Triangle {
         let (low, high) = (top.z.min(middle.z).min(bottom.z), top.z.max(middle.z).max(bottom.z));
         scan::spans(self.corners.map(|corner| corner.xy()), rows, |row, from, to| {
             let z = top.z + (row as f64 - top.y) * slope.y - top.x * slope.x;
-            for column in scan::wholes([from, to], 0..width) {
+            for column in scan::wholes([from, to], columns.clone()) {
                 tell(row, column, (z + column as f64 * slope.x).clamp(low, high));
             }
         });

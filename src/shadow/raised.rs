@@ -10,22 +10,22 @@
 use super::plan_surface::highest;
 use super::{JUDGED_ABOVE_M, Scene, seen_normal};
 use crate::mesh::Mesh;
-use crate::view::{Bits, Grid, Surface};
+use crate::view::{Bits, Surface, Tile};
 use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU8, Ordering};
 
-/// The cells of a plan that see something above the ground.
+/// The cells of a plan, or of a tile of it, that see something above the ground.
 pub(super) struct Raised {
     /// The judged points: column, row, height.
     points: Vec<DVec3>,
-    /// Per point its column on the plan, and which of the normals is its face's.
+    /// Per point its column in the tile, and which of the normals is its face's.
     columns: Vec<u32>,
     normal_of: Vec<u32>,
     /// The seen side's normal of each face that is seen.
     normals: Vec<DVec3>,
-    /// Where each row's points begin; one longer than the plan has rows.
+    /// Where each row's points begin; one longer than the tile has rows.
     row_first: Vec<usize>,
     faces: Mesh,
     /// Per point whether it is in shadow.
@@ -36,26 +36,32 @@ pub(super) struct Raised {
 const BANDS: usize = 128;
 
 impl Raised {
-    /// Looks down on the receivers; `raster_from_local` as the ground's shadow has it.
-    pub(super) fn new(scene: &Scene, grid: &Grid, raster_from_local: &DAffine3) -> Raised {
-        let Scene { casters, receivers, ground } = scene;
-        let mut number = vec![u32::MAX; receivers.faces.len()];
-        let mut raised = Raised {
+    /// No cell.
+    pub(super) fn none(faces: Mesh) -> Raised {
+        Raised {
             points: Vec::new(),
             columns: Vec::new(),
             normal_of: Vec::new(),
             normals: Vec::new(),
             row_first: vec![0],
-            faces: casters.clone(),
+            faces,
             shaded: Vec::new(),
-        };
+        }
+    }
+
+    /// Looks down on the receivers; `raster_from_local` as the ground's shadow has it.
+    pub(super) fn new(scene: &Scene, tile: Tile, raster_from_local: &DAffine3) -> Raised {
+        let Scene { casters, receivers, ground } = scene;
+        let mut number = vec![u32::MAX; receivers.faces.len()];
+        let mut raised = Raised::none(casters.clone());
         if receivers.faces.is_empty() {
             return raised;
         }
-        let (face, height) = highest(receivers, *ground, grid, |height| height);
-        let width = grid.width as usize;
-        for row in 0..grid.height {
-            for column in 0..grid.width {
+        let (face, height) = highest(receivers, *ground, tile, |height| height);
+        let [first_column, first_row] = tile.first;
+        let width = tile.size[0] as usize;
+        for row in 0..tile.size[1] {
+            for column in 0..tile.size[0] {
                 let cell = row as usize * width + column as usize;
                 if face[cell] == Surface::GROUND {
                     continue;
@@ -68,7 +74,7 @@ impl Raised {
                 let normal = raised.normals[*number as usize];
                 // the raster's whole numbers are the very places that are judged
                 let plane = raster_from_local.transform_point3(DVec3::Z * (height[cell] - receivers.origin.z));
-                let at = DVec3::new(f64::from(column), f64::from(row), plane.z);
+                let at = DVec3::new(f64::from(first_column + column), f64::from(first_row + row), plane.z);
                 raised.points.push(at + raster_from_local.transform_vector3(normal * JUDGED_ABOVE_M));
                 raised.columns.push(column);
                 raised.normal_of.push(*number);

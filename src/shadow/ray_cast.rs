@@ -10,7 +10,7 @@
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::sun::disc;
-use crate::view::{Camera, Elevation, Grid, Lens, Mask, Surface, View};
+use crate::view::{Camera, Elevation, Grid, Lens, Mask, Surface, Tile, View};
 use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
 use obvhs::ray::{Ray, RayHit};
@@ -150,13 +150,23 @@ pub struct RayCast {
 impl RayCast {
     /// Builds the trees and finds what the cells see. Rays go to so many points of the sun's disc, or to its centre.
     pub fn new(scene: Scene, view: View, sun_samples: Option<u32>) -> RayCast {
+        let size = view.size();
+        Self::of_part(scene, view, ([0, 0], size.into()), sun_samples)
+    }
+
+    /// The same for a tile of a plan alone.
+    pub fn of_tile(scene: Scene, tile: Tile, sun_samples: Option<u32>) -> RayCast {
+        Self::of_part(scene, View::Plan(tile.plan), (tile.first, tile.size), sun_samples)
+    }
+
+    fn of_part(scene: Scene, view: View, part: ([u32; 2], [u32; 2]), sun_samples: Option<u32>) -> RayCast {
         let reach = reach(&scene, &view);
         let receivers = RayCaster::new(&scene.receivers, reach);
         let casters = RayCaster::new(&scene.casters, reach);
         let mask = Mask { width: 0, height: 0, share: Vec::new() };
         let rays = Rays::new(&scene, view);
         let mut cast = RayCast { scene, rays, receivers, casters, seen: Vec::new(), mask, sun_samples };
-        cast.look_at(view);
+        cast.look_at_part(view, part);
         cast
     }
 
@@ -172,9 +182,14 @@ impl RayCast {
 
     /// Turns to another view, whose rays begin no farther away than those of the first.
     pub fn look_at(&mut self, view: View) {
-        self.rays = Rays::new(&self.scene, view);
+        let size = view.size();
+        self.look_at_part(view, ([0, 0], size.into()));
+    }
+
+    /// Looks at some of a view's cells: from which column and row, and how many.
+    fn look_at_part(&mut self, view: View, (first, [width, height]): ([u32; 2], [u32; 2])) {
+        self.rays = Rays { first, ..Rays::new(&self.scene, view) };
         let RayCast { scene, rays, receivers, seen, mask, .. } = self;
-        let (width, height) = view.size();
         *seen = vec![Seen { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
         seen.par_chunks_mut(width as usize).enumerate().for_each(|(row, cells)| {
             for (column, cell) in cells.iter_mut().enumerate() {
@@ -256,6 +271,8 @@ pub(super) const TIE: DVec2 = DVec2::new(1e-4, -1e-5);
 /// The rays on which cells are seen.
 struct Rays {
     view: View,
+    /// Column and row of the view at which what is looked at begins.
+    first: [u32; 2],
     /// The scene's origin.
     origin: DVec3,
     whence: Whence,
@@ -282,11 +299,12 @@ impl Rays {
                 Whence::Before(side, (nearest - side.target).dot(side.to_viewer) + 1.0)
             }
         };
-        Rays { view, origin: scene.casters.origin, whence }
+        Rays { view, first: [0, 0], origin: scene.casters.origin, whence }
     }
 
     /// A cell's ray: from where (around the scene's origin), and the unit direction.
     fn of(&self, column: u32, row: u32) -> (DVec3, DVec3) {
+        let (column, row) = (self.first[0] + column, self.first[1] + row);
         match &self.whence {
             Whence::Above(grid, top) => {
                 let at = grid.centre(column, row) + TIE * grid.cell;
@@ -356,8 +374,17 @@ impl Technique for RayCast {
         Ok(DrawnMask::Memory(&self.mask))
     }
 
+    fn turn_to_tile(&mut self, tile: Tile) -> Result<bool, ShadowError> {
+        let view = View::Plan(tile.plan);
+        if view != self.rays.view {
+            return Ok(false);
+        }
+        self.look_at_part(view, (tile.first, tile.size));
+        Ok(true)
+    }
+
     fn surface(&self) -> Result<Surface, ShadowError> {
-        let (width, height) = self.rays.view.size();
+        let Mask { width, height, .. } = self.mask;
         let height_of = |(at, seen): (usize, &Seen)| {
             let (origin, direction) = self.rays.of(at as u32 % width, at as u32 / width);
             if seen.face == Surface::SKY {

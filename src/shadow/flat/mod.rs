@@ -28,10 +28,16 @@ pub(super) struct FlatShadow {
 
 impl FlatShadow {
     /// `raster_from_local` takes metres around the mesh's origin to columns, rows and the height above the plane. Centres of
-    /// cells are whole numbers; what is not above the plane casts nothing on it.
-    pub(super) fn new(mesh: &Mesh, raster_from_local: DAffine3, width: u32, height: u32) -> FlatShadow {
+    /// cells are whole numbers; what is not above the plane casts nothing on it. So many columns and rows are drawn, from
+    /// the first ones on.
+    pub(super) fn new(mesh: &Mesh, raster_from_local: DAffine3, first: [u32; 2], size: [u32; 2]) -> FlatShadow {
         let casters = Casters::cut(mesh, &raster_from_local);
-        FlatShadow { raster_from_local, casters, scan: Scan::new(width, height) }
+        FlatShadow { raster_from_local, casters, scan: Scan::new(first, size) }
+    }
+
+    /// Draws another part of the same raster.
+    pub(super) fn turn_to(&mut self, first: [u32; 2], size: [u32; 2]) {
+        self.scan = Scan::new(first, size);
     }
 
     /// Which cells are in shadow under a sun in front of the plane; the vector may have any length.

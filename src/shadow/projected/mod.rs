@@ -11,31 +11,30 @@ mod on_gpu;
 pub use on_gpu::ProjectedOnGpu;
 
 use super::flat::FlatShadow;
-use super::plan_surface::plan_surface;
+use super::plan_surface::highest;
 use super::raised::Raised;
 use super::ray_cast::TIE;
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique};
-use crate::mesh::Mesh;
-use crate::view::{Grid, Surface};
+use crate::view::{Grid, Surface, Tile};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-/// The technique, made for one scene and one plan.
+/// The technique, made for one scene and one plan, or a tile of it.
 pub struct Projected {
     shadow: FlatShadow,
     raised: Raised,
-    receivers: Mesh,
-    ground: f64,
-    grid: Grid,
+    scene: Scene,
+    raster_from_local: DAffine3,
+    tile: Tile,
 }
 
 impl Projected {
     /// Cuts the casters at the height at which the ground is judged, and looks down on the receivers.
-    pub fn new(scene: &Scene, grid: Grid) -> Projected {
-        let Scene { casters, receivers, ground } = scene;
-        let raster_from_local = raster_from_local(scene, &grid);
-        let shadow = FlatShadow::new(casters, raster_from_local, grid.width, grid.height);
-        let raised = Raised::new(scene, &grid, &raster_from_local);
-        Projected { shadow, raised, receivers: receivers.clone(), ground: *ground, grid }
+    pub fn new(scene: &Scene, tile: impl Into<Tile>) -> Projected {
+        let tile: Tile = tile.into();
+        let raster_from_local = raster_from_local(scene, &tile.plan);
+        let shadow = FlatShadow::new(&scene.casters, raster_from_local, tile.first, tile.size);
+        let raised = Raised::new(scene, tile, &raster_from_local);
+        Projected { shadow, raised, scene: scene.clone(), raster_from_local, tile }
     }
 }
 
@@ -48,8 +47,22 @@ impl Technique for Projected {
         Ok(DrawnMask::Bits(bits))
     }
 
+    fn turn_to_tile(&mut self, tile: Tile) -> Result<bool, ShadowError> {
+        if tile.plan != self.tile.plan {
+            return Ok(false);
+        }
+        self.shadow.turn_to(tile.first, tile.size);
+        // what the last tile took goes before the next one's
+        self.raised = Raised::none(self.scene.casters.clone());
+        self.raised = Raised::new(&self.scene, tile, &self.raster_from_local);
+        self.tile = tile;
+        Ok(true)
+    }
+
     fn surface(&self) -> Result<Surface, ShadowError> {
-        Ok(plan_surface(&self.receivers, self.ground, &self.grid))
+        let Tile { size: [width, height], .. } = self.tile;
+        let (face, height_m) = highest(&self.scene.receivers, self.scene.ground, self.tile, |height| height as f32);
+        Ok(Surface { width, height, face, height_m })
     }
 }
 
