@@ -131,8 +131,8 @@ pub struct Told<'a> {
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn profile_json(
-    profile: &Profile,
+pub fn profile_json<S>(
+    profile: &Profile<S>,
     place: &Place,
     track: &SunTrack,
     told: &Told<'_>,

@@ -29,7 +29,7 @@ enum Running {
 }
 
 /// The longest time that 32 bits hold in 1/255 s, seconds: 194 days.
-const MOST_SECS: u32 = u32::MAX / 255;
+pub const MOST_SECS: u32 = u32::MAX / 255;
 
 /// A sum in a texture, and the pipeline that adds to it.
 struct GpuSum {
@@ -111,14 +111,17 @@ impl Sum {
 
     /// The sum so far. Slow where it is on the GPU: it is read back.
     pub fn so_far(&self) -> Result<Shaded, ShadowError> {
-        Ok(self.larger()?.into())
+        match (&self.running, &self.poured) {
+            (Running::Memory(sum), None) => Ok(sum.clone().into()),
+            (Running::Texture(sum), None) => Ok(sum.read()?.into()),
+            _ => Ok(self.larger()?.into()),
+        }
     }
 
     /// The sum.
     pub fn finish(self) -> Result<Shaded, ShadowError> {
         match self {
             Sum { running: Running::Memory(sum), poured: None, .. } => Ok(sum.into()),
-            Sum { running: Running::Texture(sum), poured: None, .. } => Ok(sum.read()?.into()),
             sum => sum.so_far(),
         }
     }

@@ -9,7 +9,7 @@ mod shaded;
 pub mod surfaces;
 pub mod verify;
 
-pub use shaded::Shaded;
+pub use shaded::{Part, Shaded, ShadedCells};
 
 use crate::view::{Counted, Decided, Grid};
 use serde::Serialize;
@@ -18,11 +18,11 @@ use serde::Serialize;
 ///
 /// Sums are exact integers, the same on every machine: seconds times the covered share of the sun in 1/255.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Profile {
+pub struct Profile<S = Shaded> {
     /// Where the raster lies.
     pub grid: Grid,
     /// Per cell the shaded time; night is not in it.
-    pub shaded: Shaded,
+    pub shaded: S,
     /// Seconds of the window with the sun above the horizon.
     pub day_secs: u32,
     /// Seconds of the window without.
@@ -32,18 +32,23 @@ pub struct Profile {
 impl Profile {
     /// Hours of shadow in a cell, 0 to `day_secs / 3600`.
     pub fn hours(&self, cell: usize) -> f32 {
-        (self.shaded.of(cell) as f64 / (255.0 * 3600.0)) as f32
+        hours(self.shaded.of(cell))
     }
 }
 
-/// A study that was stopped, as far as it came.
+/// Hours of a shaded time.
+pub fn hours(shaded: u64) -> f32 {
+    (shaded as f64 / (255.0 * 3600.0)) as f32
+}
+
+/// A study that was stopped, as far as it came. Tiles before the one that was worked on last are whole, and not in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unfinished {
     /// Which study: a number of all that its result depends on.
     pub study: u64,
-    /// How many of its instants are done.
+    /// How many of its instants are done, those of each tile counted.
     pub done: usize,
-    /// Their sum.
+    /// The sum of those of the last tile.
     pub shaded: Shaded,
     /// What counting them took, where that was asked.
     pub statistics: Option<Statistics>,

@@ -1,22 +1,34 @@
 //! Shaded time per cell.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 /// Per cell the shaded time in 1/255 s, row 0 (north) first: one word of 32 bits, as a year of daylight just fits, or two
 /// where a longer study needs them.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Shaded(Words);
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Shaded(Part<'static>);
 
+/// Some cells' shaded time, as it lies in memory or was read for the purpose.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Words {
-    One(Vec<u32>),
-    Two(Vec<u64>),
+pub enum Part<'a> {
+    /// In one word each.
+    One(Cow<'a, [u32]>),
+    /// In two.
+    Two(Cow<'a, [u64]>),
 }
 
-impl Shaded {
+impl Default for Part<'_> {
+    fn default() -> Self {
+        Part::One(Cow::default())
+    }
+}
+
+impl Part<'_> {
     /// How many cells there are.
     pub fn len(&self) -> usize {
-        match &self.0 {
-            Words::One(cells) => cells.len(),
-            Words::Two(cells) => cells.len(),
+        match self {
+            Part::One(cells) => cells.len(),
+            Part::Two(cells) => cells.len(),
         }
     }
 
@@ -27,10 +39,49 @@ impl Shaded {
 
     /// A cell's, in 1/255 s.
     pub fn of(&self, cell: usize) -> u64 {
-        match &self.0 {
-            Words::One(cells) => cells[cell].into(),
-            Words::Two(cells) => cells[cell],
+        match self {
+            Part::One(cells) => cells[cell].into(),
+            Part::Two(cells) => cells[cell],
         }
+    }
+}
+
+/// Shaded time of all cells of a plan, some at a time: not all of it has to be held in memory.
+pub trait ShadedCells: Sync {
+    /// How many cells there are.
+    fn cells(&self) -> usize;
+
+    /// Some of them.
+    fn part(&self, cells: Range<usize>) -> Part<'_>;
+}
+
+impl ShadedCells for Shaded {
+    fn cells(&self) -> usize {
+        self.len()
+    }
+
+    fn part(&self, cells: Range<usize>) -> Part<'_> {
+        match &self.0 {
+            Part::One(all) => Part::One(Cow::Borrowed(&all[cells])),
+            Part::Two(all) => Part::Two(Cow::Borrowed(&all[cells])),
+        }
+    }
+}
+
+impl Shaded {
+    /// How many cells there are.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// A cell's, in 1/255 s.
+    pub fn of(&self, cell: usize) -> u64 {
+        self.0.of(cell)
     }
 
     /// All cells', in 1/255 s.
@@ -41,24 +92,24 @@ impl Shaded {
     /// The cells, where one word is enough for each.
     pub fn in_one_word(&self) -> Option<&[u32]> {
         match &self.0 {
-            Words::One(cells) => Some(cells),
-            Words::Two(_) => None,
+            Part::One(cells) => Some(cells),
+            Part::Two(_) => None,
         }
     }
 }
 
 impl From<Vec<u32>> for Shaded {
     fn from(cells: Vec<u32>) -> Shaded {
-        Shaded(Words::One(cells))
+        Shaded(Part::One(cells.into()))
     }
 }
 
 impl From<Vec<u64>> for Shaded {
     /// One word where that is enough for all cells, so that equal sums are equal.
     fn from(cells: Vec<u64>) -> Shaded {
-        match cells.iter().map(|&cell| u32::try_from(cell)).collect() {
-            Ok(cells) => Shaded(Words::One(cells)),
-            Err(_) => Shaded(Words::Two(cells)),
+        match cells.iter().map(|&cell| u32::try_from(cell)).collect::<Result<Vec<u32>, _>>() {
+            Ok(cells) => cells.into(),
+            Err(_) => Shaded(Part::Two(cells.into())),
         }
     }
 }

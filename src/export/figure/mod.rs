@@ -34,7 +34,7 @@ pub(super) use words::duration;
 
 use super::{ExportError, check_size};
 use crate::mesh::Mesh;
-use crate::profile::{Drawn, Profile};
+use crate::profile::{Drawn, Profile, ShadedCells};
 use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{Counted, Mask, Overlay, Surface, SurfaceRows, View};
@@ -75,9 +75,9 @@ pub struct Shown<'a> {
 ///
 /// # Errors
 /// [`ExportError::Size`] where surface and profile do not fill the grid; [`ExportError::Encode`] from the encoder.
-pub fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<Vec<u8>, ExportError> {
+pub fn profile<S: SurfaceRows, C: ShadedCells>(scene: &Scene<S>, profile: &Profile<C>) -> Result<Vec<u8>, ExportError> {
     let grid = &profile.grid;
-    check_size("profile", profile.shaded.len(), grid.width, grid.height)?;
+    check_size("profile", profile.shaded.cells(), grid.width, grid.height)?;
     check_size("surface", scene.surface.cells(), grid.width, grid.height)?;
     let bands = Bands::new(scene.track.step_secs, profile.day_secs);
     let panel = profile_panel(scene, profile, "Shadow profile");

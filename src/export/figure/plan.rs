@@ -4,8 +4,8 @@ use super::Scene;
 use super::picture::{Between, Cells, Composed, Fit, Pen, Picture, Pixels, compose};
 use super::scale::{Bands, Rgb, mix};
 use crate::mesh::Mesh;
-use crate::profile::Profile;
 use crate::profile::comparison::Altered;
+use crate::profile::{Profile, ShadedCells};
 use crate::site::Receivers;
 use crate::view::{Mask, Surface, SurfaceRows};
 use glam::DVec3;
@@ -29,15 +29,23 @@ const RELIEF_OF_HOURS: f64 = 0.10;
 const CREASE_COS: f64 = 0.990;
 
 /// Hours of shadow.
-pub(super) fn profile<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile, bands: &Bands, fit: Fit) -> impl Pixels {
+pub(super) fn profile<S: SurfaceRows, C: ShadedCells>(
+    scene: &Scene<S>,
+    profile: &Profile<C>,
+    bands: &Bands,
+    fit: Fit,
+) -> impl Pixels {
     let ground_only = scene.receivers == Receivers::Ground;
     let strength = if ground_only { RELIEF } else { RELIEF_OF_HOURS };
-    let value = |cell| profile.shaded.of(cell);
+    let values = |cells| {
+        let part = profile.shaded.part(cells);
+        move |at| part.of(at)
+    };
     let flat = move |shaded, is_ground: bool| match ground_only && !is_ground {
         true => ROOF_UNJUDGED,
         false => bands.colour(shaded),
     };
-    draw(scene, profile.grid.cell, fit, strength, value, flat, |_, _| ())
+    draw(scene, profile.grid.cell, fit, strength, values, flat, |_, _| ())
 }
 
 /// Sun and shadow at one instant.
@@ -48,7 +56,7 @@ pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, fit: Fit) -> impl
         cell_m,
         fit,
         RELIEF,
-        |cell| mask.share[cell],
+        move |cells: Range<usize>| move |at| mask.share[cells.start + at],
         move |share, is_ground| {
             let share = f64::from(share) / 255.0;
             match is_ground {
@@ -85,17 +93,26 @@ pub(super) fn difference<'a>(
             if parts { pen(before.mesh, surface, cell_m, a, b) } else { None }
         });
     };
-    draw(after, cell_m, fit, RELIEF_OF_HOURS, |cell| of_cells[cell], |colour, _| colour, lines_of_gone)
+    draw(
+        after,
+        cell_m,
+        fit,
+        RELIEF_OF_HOURS,
+        move |cells: Range<usize>| move |at| of_cells[cells.start + at],
+        |colour, _| colour,
+        lines_of_gone,
+    )
 }
 
-/// Colours by `flat`, of a cell's value and whether it is ground, as if all were level; slopes get their relief, borders
+/// Colours by `flat`, of a cell's value and whether it is ground, as if all were level; `values` of some cells tells those
+/// counted from the first of them; slopes get their relief, borders
 /// their lines, and `more` lines of some rows lie beside those.
-fn draw<S: SurfaceRows, V: Copy + PartialEq>(
+fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
     scene: &Scene<S>,
     cell_m: f64,
     fit: Fit,
     strength: f64,
-    value: impl Fn(usize) -> V + Sync,
+    values: impl Fn(Range<usize>) -> G + Sync,
     flat: impl Fn(V, bool) -> Rgb + Sync,
     more: impl Fn(Range<usize>, &mut Cells) + Sync,
 ) -> impl Pixels {
@@ -104,10 +121,11 @@ fn draw<S: SurfaceRows, V: Copy + PartialEq>(
     Composed::new(fit, Between::Sharp, move |rows: Range<usize>, cells: &mut Cells| {
         let surface = &scene.surface.rows(rows.clone());
         let mesh = scene.mesh;
+        let value = values(rows.start * width..rows.end * width);
         // along a row the same is seen again and again
         let mut last = None;
         let colour = |(at, &seen): (usize, &u32)| {
-            let value = value(rows.start * width + at);
+            let value = value(at);
             if let Some((its, face, colour)) = last
                 && (its, face) == (value, seen)
             {
