@@ -26,6 +26,7 @@ mod soft_texture;
 mod sums;
 mod sun;
 mod techniques;
+mod tiles;
 mod timers;
 mod try_models;
 mod verify;

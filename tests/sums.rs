@@ -112,7 +112,7 @@ fn a_sum_goes_on_from_another() {
             sum.add(&DrawnMask::Memory(&half(100)), 16_000_000).unwrap();
         }
         let mut second = new();
-        second.begin_with(&first.so_far().unwrap());
+        second.begin_with(&first.so_far().unwrap(), 16_000_000);
         for sum in [&mut whole, &mut second] {
             sum.add(&DrawnMask::Memory(&half(7)), 15_000_000).unwrap();
         }

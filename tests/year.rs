@@ -90,7 +90,7 @@ fn a_day_without_a_time_between_from_and_to_has_no_instant() {
 }
 
 /// All files of a folder but what took how long.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
         let entry = entry.unwrap();
@@ -205,7 +205,7 @@ fn bits_are_the_masks() {
 
 /// Starts a study, stops it by Ctrl-C when it has told of a part of its work, and says what it told.
 #[cfg(unix)]
-fn stopped(folder: &Path, arguments: &str, when: &str) -> String {
+pub(crate) fn stopped(folder: &Path, arguments: &str, when: &str) -> String {
     use std::io::{BufRead, BufReader};
     use std::process::{Command, Stdio};
     let mut child = command(folder, arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();

@@ -4,6 +4,7 @@ use super::WrongUse;
 use super::animate::AnimateArgs;
 use super::compare::CompareArgs;
 use super::draw::LinesArgs;
+use super::memory;
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings, Site};
@@ -239,6 +240,10 @@ pub(super) struct ProfileArgs {
     /// Also shadow.bits: one bit a cell for every instant with a sun, for questions that come later
     #[arg(long)]
     pub(super) bits: bool,
+    /// Memory for all that grows with the number of cells, as 512MiB or 2GB: where the plan takes more, it is done in tiles,
+    /// with the same results. Models, the program and the adapter's driver come on top [default: as much as it takes]
+    #[arg(long, value_name = "SIZE", value_parser = memory::parse)]
+    pub(super) memory: Option<u64>,
     /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
     /// cells, those of the sky too)
     #[arg(long)]

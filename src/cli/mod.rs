@@ -8,6 +8,7 @@ mod commands;
 mod compare;
 mod draw;
 mod interrupt;
+mod memory;
 mod probe;
 mod profile;
 mod progress;

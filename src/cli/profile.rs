@@ -7,17 +7,20 @@ use super::{interrupt, say, surfaces};
 use crate::export::bits::BitsFile;
 use crate::export::figure::Outline;
 use crate::export::report::Told;
+use crate::export::sums::{self, SumsFile};
 use crate::export::{ExportError, bytes, figure, file, raster, report, unfinished};
-use crate::profile::{Profile, Timings, Unfinished};
+use crate::profile::{Part, Profile, Shaded, ShadedCells, Timings, Unfinished};
 use crate::shadow::PlanSurface;
 use crate::site::{Receivers, Site};
-use crate::study::{self, Event, Stopwatch, Wants};
-use crate::sun::SunTrack;
+use crate::study::{self, Budget, Event, Stopwatch, Wants};
+use crate::sun::{Instant, SunTrack};
+use crate::view::Tile;
 use std::fmt::Write;
-use std::ops::ControlFlow;
+use std::iter;
+use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
-use std::time::{Duration, Instant};
+use std::sync::{Arc, LazyLock};
+use std::time::{self, Duration};
 
 /// How long work may be lost where a machine fails.
 const KEEP_EVERY: Duration = Duration::from_secs(60);
@@ -50,14 +53,21 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         bits: asked.bits || asked.lines.outlines(),
         surface: false,
         statistics: asked.stats,
+        whole: asked.lines.given().then_some("--draw"),
         // outlines are not kept
         keep_every: (!asked.lines.outlines()).then_some(KEEP_EVERY),
+        budget: asked.memory.map(|bytes| Budget {
+            bytes,
+            drawing: if wanted(Written::Png) { figure::profile_bytes(&site.grid) } else { 0 },
+        }),
     };
-    let outcome = study::go_on(&site, &wants, begun, &mut |event| {
+    let outcome = study::in_tiles(&site, &wants, begun, &mut |event| {
         progress.hear(&event);
-        match kept.hear(&event, &site) {
-            ControlFlow::Continue(()) => interrupt::flow(),
-            stop => stop,
+        match (kept.hear(&event, &site), &event) {
+            // once an instant is drawn, what is done can be kept
+            (ControlFlow::Continue(()), Event::Tile(_) | Event::Summed(_)) => ControlFlow::Continue(()),
+            (ControlFlow::Continue(()), _) => interrupt::flow(),
+            (stop, _) => stop,
         }
     });
     let outcome = match kept.fault.take() {
@@ -72,43 +82,64 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     };
     watch.laps(outcome.timings);
 
-    let (profile, drawn) = (&outcome.profile, &outcome.drawn);
+    let (day_secs, night_secs) = outcome.day_and_night_secs;
+    let sums = std::mem::replace(&mut kept.sums, Sums::Memory(Arc::default()));
+    let profile = Profile { grid: site.grid, shaded: sums, day_secs, night_secs };
+    let drawn = &outcome.drawn;
     let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
     let (place, track, receivers, mesh) = (&site.place, &site.track, site.receivers, &outcome.surface_mesh);
     let surface = LazyLock::new(|| PlanSurface::new(mesh, site.ground, &site.grid));
     let scene = || figure::Scene { place, track, mesh, surface: &*surface, receivers, drawn };
     let picture = || {
-        let draw = || figure::profile(&scene(), profile);
+        let draw = || figure::profile(&scene(), &profile);
         wanted(Written::Png).then(|| ("profile.png", timed("picture", draw)))
     };
     let raster = || {
-        let raster = || timed("raster", || raster::geotiff(profile, &site.place));
-        wanted(Written::Tif).then(|| ("shadow-hours.tif", raster()))
+        let path = asked.out.join("shadow-hours.tif");
+        let raster = || timed("raster", || raster::geotiff_file(&profile, &site.place, &path));
+        wanted(Written::Tif).then(raster)
     };
     // much of either is for one processor alone
     let (picture, raster) = rayon::join(picture, raster);
-    for (name, (bytes, timing)) in [picture, raster].into_iter().flatten() {
+    if let Some((name, (bytes, timing))) = picture {
         files.push((name, bytes?));
         watch.laps(timing);
     }
+    let raster = match raster {
+        Some((beside, timing)) => {
+            watch.laps(timing);
+            Some(beside?)
+        }
+        None => None,
+    };
+    profile.shaded.check()?;
     interrupt::check()?;
-    if asked.lines.given() {
-        files.extend(asked.lines.files(&scene(), profile, &kept.outlines)?);
+    // lines are drawn of a plan in one go
+    if let (Sums::Memory(shaded), true) = (&profile.shaded, asked.lines.given()) {
+        let profile = Profile { grid: site.grid, shaded: Shaded::clone(shaded), day_secs, night_secs };
+        files.extend(asked.lines.files(&scene(), &profile, &kept.outlines)?);
         watch.lap("lines");
         interrupt::check()?;
     }
     let (statistics, timings) = (outcome.statistics.as_ref(), &watch.timings());
     let told = Told { receivers: site.receivers, drawn, timings, statistics };
-    let json = report::profile_json(profile, &site.place, &site.track, &told)?;
-    if wanted(Written::Json) {
-        files.push(("profile.json", json.clone().into_bytes()));
-    }
+    let json = report::profile_json(&profile, &site.place, &site.track, &told)?;
     let mut text = written(&asked.out, &files)?;
+    if let Some(raster) = raster {
+        let _ = writeln!(text, "{}", raster.path().display());
+        raster.put_in_place()?;
+    }
+    if wanted(Written::Json) {
+        text += &written(&asked.out, &[("profile.json", json.clone().into_bytes())])?;
+    }
     if let Some(bits) = kept.bits.take() {
         let _ = writeln!(text, "{}", bits.path().display());
         bits.finish()?;
     }
     unfinished::remove(&asked.out)?;
+    let range = hours(&profile, &site.track);
+    profile.shaded.check()?;
+    profile.shaded.remove()?;
     if let Some(folder) = &asked.masks {
         let _ = writeln!(text, "{} ({} masks)", folder.display(), site.track.instants.len());
     }
@@ -117,7 +148,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     }
     let _ = writeln!(text, "{}", drawn_by(drawn));
     text.push_str(&statistics.map(took).unwrap_or_default());
-    text.push_str(&hours(profile, &site.track));
+    text.push_str(&range);
     say(&text)
 }
 
@@ -135,9 +166,47 @@ pub(super) fn written(folder: &Path, files: &[(&str, Vec<u8>)]) -> Result<String
 
 /// Work as a stage of its own, that is done beside others.
 fn timed<T>(stage: &'static str, work: impl FnOnce() -> T) -> (T, Timings) {
-    let started = Instant::now();
+    let started = time::Instant::now();
     let result = work();
     (result, Timings(vec![(stage, started.elapsed().as_secs_f64())]))
+}
+
+/// The sums: in memory where the plan is done in one go, else in a file.
+enum Sums {
+    Memory(Arc<Shaded>),
+    File(SumsFile),
+}
+
+impl Sums {
+    fn check(&self) -> Result<(), ExportError> {
+        match self {
+            Sums::Memory(_) => Ok(()),
+            Sums::File(file) => file.check(),
+        }
+    }
+
+    fn remove(self) -> Result<(), ExportError> {
+        match self {
+            Sums::Memory(_) => Ok(()),
+            Sums::File(file) => file.remove(),
+        }
+    }
+}
+
+impl ShadedCells for Sums {
+    fn cells(&self) -> usize {
+        match self {
+            Sums::Memory(shaded) => shaded.cells(),
+            Sums::File(file) => file.cells(),
+        }
+    }
+
+    fn part(&self, cells: Range<usize>) -> Part<'_> {
+        match self {
+            Sums::Memory(shaded) => shaded.part(cells),
+            Sums::File(file) => file.part(cells),
+        }
+    }
 }
 
 /// What is written while the study goes on.
@@ -148,6 +217,12 @@ struct Files<'a> {
     /// Each instant's shadow, where outlines are drawn when all is done.
     outlines: Vec<Outline>,
     draws_outlines: bool,
+    /// How many instants before each have a sun; one more than there are.
+    with_sun: Vec<usize>,
+    sums: Sums,
+    /// The tile that is worked on, of how many, and whether this run begins anew.
+    tile: (Tile, usize),
+    is_new: bool,
     /// Whether there is something to go on from.
     is_kept: bool,
     /// What could not be written.
@@ -157,12 +232,21 @@ struct Files<'a> {
 impl Files<'_> {
     fn new<'a>(site: &Site, asked: &'a ProfileArgs) -> Result<Files<'a>, ExportError> {
         let bits = asked.bits.then(|| BitsFile::new(&asked.out, site.grid, site.receivers, &site.track)).transpose()?;
+        let count = |before: &mut usize, instant: &Instant| {
+            *before += usize::from(!instant.night);
+            Some(*before)
+        };
+        let with_sun = iter::once(0).chain(site.track.instants.iter().scan(0, count)).collect();
         Ok(Files {
+            with_sun,
             out: &asked.out,
             masks: asked.masks.as_deref(),
             bits,
             outlines: Vec::new(),
             draws_outlines: asked.lines.outlines(),
+            sums: Sums::Memory(Arc::default()),
+            tile: (site.grid.into(), 1),
+            is_new: true,
             is_kept: false,
             fault: None,
         })
@@ -175,10 +259,13 @@ impl Files<'_> {
             return Ok(None);
         }
         let Some(begun) = unfinished::kept(self.out)? else { return Ok(None) };
-        let masks = |folder: &Path| (0..begun.done).all(|index| mask_path(folder, index).is_file());
+        let in_tiles = begun.tiles > 1;
+        let done = begun.done.min(site.track.instants.len());
+        let masks = |folder: &Path| (0..done).all(|index| mask_path(folder, index).is_file());
         let has_masks = self.masks.is_none_or(masks);
-        let has_bits = self.bits.as_ref().is_none_or(|bits| bits.has(with_sun(site, begun.done)));
-        Ok((has_masks && has_bits).then_some(begun))
+        let has_bits = self.bits.as_ref().is_none_or(|bits| bits.has(self.with_sun[done], begun.tiles));
+        let has_sums = !in_tiles || sums::has(self.out, &site.grid, study::day_and_night(&site.track).0);
+        Ok((has_masks && has_bits && has_sums).then_some(begun))
     }
 
     fn hear(&mut self, event: &Event<'_>, site: &Site) -> ControlFlow<()> {
@@ -193,20 +280,42 @@ impl Files<'_> {
 
     fn write(&mut self, event: &Event<'_>, site: &Site) -> Result<(), ExportError> {
         match event {
-            Event::GoesOn { done } => {
+            Event::Started { tiles, .. } => self.tile.1 = *tiles,
+            Event::GoesOn { .. } => {
+                self.is_new = false;
                 if let Some(file) = &mut self.bits {
-                    file.begin(with_sun(site, *done))?;
+                    file.begin(true)?;
                 }
             }
+            Event::Tile(tile) => {
+                self.tile.0 = *tile;
+                if self.tile.1 > 1 && matches!(self.sums, Sums::Memory(_)) {
+                    if self.is_new {
+                        // what another study left there goes with its own
+                        unfinished::remove(self.out)?;
+                    }
+                    self.sums = Sums::File(SumsFile::open(
+                        self.out,
+                        site.grid,
+                        study::day_and_night(&site.track).0,
+                        !self.is_new,
+                    )?);
+                }
+            }
+            Event::Summed(shaded) => match &mut self.sums {
+                Sums::Memory(sums) => *sums = Arc::clone(shaded),
+                Sums::File(file) => file.put(&self.tile.0, shaded)?,
+            },
             Event::Drawn { index, mask, bits, .. } => {
+                let index = index % site.track.instants.len();
                 if let (Some(mask), Some(folder)) = (mask, self.masks) {
-                    file::write(&mask_path(folder, *index), &raster::mask_png(mask)?)?;
+                    file::write(&mask_path(folder, index), &raster::mask_png(mask)?)?;
                 }
                 if let (Some(bits), true) = (bits, self.draws_outlines) {
-                    self.outlines.push(Outline { index: *index, shadow: (*bits).clone() });
+                    self.outlines.push(Outline { index, shadow: (*bits).clone() });
                 }
                 if let (Some(bits), Some(file)) = (bits, &mut self.bits) {
-                    file.add(bits)?;
+                    file.add(self.with_sun[index], &self.tile.0, bits)?;
                 }
             }
             // after a fault there is nothing to go on from
@@ -223,19 +332,20 @@ impl Files<'_> {
     }
 }
 
-/// How many of the first instants have a sun.
-fn with_sun(site: &Site, first: usize) -> usize {
-    site.track.instants.iter().take(first).filter(|instant| !instant.night).count()
-}
-
 fn mask_path(folder: &Path, index: usize) -> PathBuf {
     folder.join(format!("mask-{index:04}.png"))
 }
 
 /// The range of the answer, in two lines.
-fn hours(profile: &Profile, track: &SunTrack) -> String {
-    let (least, most) =
-        profile.shaded.iter().fold((u64::MAX, 0), |(least, most), shaded| (least.min(shaded), most.max(shaded)));
+fn hours(profile: &Profile<Sums>, track: &SunTrack) -> String {
+    let width = profile.grid.width as usize;
+    let (mut least, mut most) = (u64::MAX, 0);
+    for row in 0..profile.grid.height as usize {
+        let part = profile.shaded.part(row * width..(row + 1) * width);
+        for shaded in (0..width).map(|cell| part.of(cell)) {
+            (least, most) = (least.min(shaded), most.max(shaded));
+        }
+    }
     let hours = |secs: f64| secs / 3600.0;
     let night = track.instants.iter().filter(|instant| instant.night).count();
     format!(

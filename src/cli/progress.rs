@@ -35,7 +35,10 @@ impl Progress {
         }
         match event {
             Event::Note(note) => self.line(&format!("note: {}", words(note))),
-            Event::Started { instants } => {
+            Event::Started { instants, tiles } => {
+                if *tiles > 1 {
+                    self.what = "instants of tiles";
+                }
                 (self.begun, self.told) = ((0, Instant::now()), 0);
                 // One instant is done before a bar is seen.
                 if *instants > 1 && io::stderr().is_terminal() {
@@ -50,7 +53,7 @@ impl Progress {
                     bar.reset_eta();
                 }
             }
-            Event::Kept(_) => {}
+            Event::Tile(_) | Event::Summed(_) | Event::Kept(_) => {}
             Event::Drawn { index, count, time, .. } => {
                 let done = index + 1;
                 let time = time.format("%Y-%m-%d %H:%M");

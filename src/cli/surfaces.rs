@@ -17,8 +17,9 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
     let of_masks = [
         ("--masks", asked.masks.is_some()),
         ("--bits", asked.bits),
-        ("--stats", asked.stats),
+        ("--memory", asked.memory.is_some()),
         ("--draw", asked.lines.given()),
+        ("--stats", asked.stats),
     ];
     let of_masks = of_masks.into_iter().filter(|(_, given)| *given).map(|(option, _)| option);
     if let Some(option) = of_plan.chain(of_masks).next() {

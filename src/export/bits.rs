@@ -11,13 +11,13 @@
 //!   bit of a row's first byte is its westmost cell; 1 is shadow, where at most half of the sun is seen. Bits beyond the
 //!   row's end are 0.
 //!
-//! It is written instant by instant beside its place, and renamed when it is whole.
+//! It is written instant by instant, for each tile of the plan, beside its place, and renamed when it is whole.
 
 use super::report::{InstantReport, instant_report};
 use super::{ExportError, file};
 use crate::site::Receivers;
 use crate::sun::SunTrack;
-use crate::view::{Bits, Grid};
+use crate::view::{Bits, Grid, Tile};
 use serde::Serialize;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufWriter, Seek, SeekFrom, Write};
@@ -47,6 +47,8 @@ pub struct BitsFile {
     /// Instants with a sun.
     count: usize,
     file: Option<BufWriter<File>>,
+    /// Where the next byte goes.
+    at: u64,
 }
 
 impl BitsFile {
@@ -65,7 +67,15 @@ impl BitsFile {
         let mut header = [&MAGIC[..], &(begin as u64).to_le_bytes(), &json].concat();
         header.resize(begin, b' ');
         let path = folder.join("shadow.bits");
-        Ok(BitsFile { unfinished: path.with_extension("bits.unfinished"), path, header, grid, count, file: None })
+        Ok(BitsFile {
+            unfinished: path.with_extension("bits.unfinished"),
+            path,
+            header,
+            grid,
+            count,
+            file: None,
+            at: 0,
+        })
     }
 
     /// Its place.
@@ -83,60 +93,60 @@ impl BitsFile {
     /// # Errors
     /// [`ExportError::NoRoom`]; [`ExportError::Write`] where the file system does not say.
     pub fn check_room(&self) -> Result<(), ExportError> {
-        let folder = self.path.parent().unwrap_or(Path::new("."));
-        let room = fs4::available_space(folder).map_err(|error| file::failed(folder, "asking for its room", error))?;
-        let there = fs::metadata(&self.unfinished).map_or(0, |found| found.len());
-        let size = self.size();
-        if size > room.saturating_add(there) {
-            return Err(ExportError::NoRoom { path: self.path.clone(), size, room });
-        }
-        Ok(())
+        file::check_room(&self.path, &self.unfinished, self.size())
     }
 
     fn size_after(&self, instants: usize) -> u64 {
-        let raster = u64::from(self.grid.width.div_ceil(8)) * u64::from(self.grid.height);
+        let raster = u64::from(self.bytes_a_row()) * u64::from(self.grid.height);
         self.header.len() as u64 + raster * instants as u64
     }
 
-    /// Whether a stopped study left it with so many instants with a sun.
-    pub fn has(&self, instants: usize) -> bool {
-        fs::metadata(&self.unfinished).is_ok_and(|found| found.len() >= self.size_after(instants))
+    fn bytes_a_row(&self) -> u32 {
+        self.grid.width.div_ceil(8)
     }
 
-    /// Begins, or goes on after so many instants with a sun.
+    /// Whether a stopped study left it with so many instants with a sun, of the whole plan, or of some tile at least.
+    pub fn has(&self, instants: usize, tiles: usize) -> bool {
+        let least = if tiles > 1 { self.size_after(instants.saturating_sub(1)) } else { self.size_after(instants) };
+        fs::metadata(&self.unfinished).is_ok_and(|found| found.len() >= least)
+    }
+
+    /// Begins, or goes on with what a stopped study left.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
-    pub fn begin(&mut self, done: usize) -> Result<(), ExportError> {
+    pub fn begin(&mut self, goes_on: bool) -> Result<(), ExportError> {
         let failed = |error| file::failed(&self.path, "opening a file beside it", error);
-        let end = self.size_after(done);
-        let mut file =
-            OpenOptions::new().write(true).create(true).truncate(done == 0).open(&self.unfinished).map_err(failed)?;
-        if done == 0 {
-            file.write_all(&self.header).map_err(failed)?;
-        } else {
-            // what lies beyond belongs to instants that are drawn again
-            file.set_len(end).and_then(|()| file.seek(SeekFrom::Start(end))).map_err(failed)?;
-        }
-        self.file = Some(BufWriter::with_capacity(1 << 20, file));
+        let opened = OpenOptions::new().write(true).create(true).truncate(!goes_on).open(&self.unfinished);
+        let mut file = BufWriter::with_capacity(1 << 20, opened.map_err(failed)?);
+        file.write_all(&self.header).map_err(failed)?;
+        (self.file, self.at) = (Some(file), self.header.len() as u64);
         Ok(())
     }
 
-    /// Adds the next instant with a sun.
+    /// Adds a tile's cells at an instant: at which of those with a sun.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
-    pub fn add(&mut self, bits: &Bits) -> Result<(), ExportError> {
+    pub fn add(&mut self, instant: usize, tile: &Tile, bits: &Bits) -> Result<(), ExportError> {
         if self.file.is_none() {
-            self.begin(0)?;
+            self.begin(false)?;
         }
+        let row_bytes = u64::from(self.bytes_a_row());
+        let first = self.size_after(instant) + u64::from(tile.first[1]) * row_bytes + u64::from(tile.first[0] / 8);
         let Some(file) = &mut self.file else { return Ok(()) };
-        let bytes_a_row = self.grid.width.div_ceil(8) as usize;
+        let tile_bytes = bits.width.div_ceil(8) as usize;
         let mut write = || {
-            for words in bits.words.chunks(bits.in_row()) {
-                for (at, word) in words.iter().enumerate() {
-                    file.write_all(&word.to_le_bytes()[..8.min(bytes_a_row - at * 8)])?;
+            for (row, words) in bits.words.chunks(bits.in_row()).enumerate() {
+                let at = first + row as u64 * row_bytes;
+                // to seek is to write out what is gathered
+                if self.at != at {
+                    file.seek(SeekFrom::Start(at))?;
                 }
+                for (at, word) in words.iter().enumerate() {
+                    file.write_all(&word.to_le_bytes()[..8.min(tile_bytes - at * 8)])?;
+                }
+                self.at = at + tile_bytes as u64;
             }
             Ok(())
         };
@@ -159,10 +169,13 @@ impl BitsFile {
     pub fn finish(mut self) -> Result<(), ExportError> {
         // nights alone have a header, too
         if self.file.is_none() {
-            self.begin(0)?;
+            self.begin(false)?;
         }
         self.flush()?;
-        drop(self.file.take());
+        // what lies beyond is of a study that was stopped, and fits no more
+        let size = self.size();
+        let cut = self.file.take().map_or(Ok(()), |file| file.get_ref().set_len(size));
+        cut.map_err(|error| file::failed(&self.path, "writing the file beside it", error))?;
         fs::rename(&self.unfinished, &self.path).map_err(|error| file::failed(&self.path, "putting it in place", error))
     }
 

@@ -23,7 +23,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
 pub(super) const WRITING: &str = "writing a temporary file in its folder";
 
 /// A file that is written beside its place. It is gone again unless it is put there.
-pub(super) struct Beside {
+pub struct Beside {
     pub(super) file: File,
     beside: Cleanup,
     target: PathBuf,
@@ -53,8 +53,16 @@ impl Beside {
         Ok(Beside { file, beside: Cleanup(beside), target, asked: asked.to_owned() })
     }
 
+    /// Where it is to be, as asked.
+    pub fn path(&self) -> &Path {
+        &self.asked
+    }
+
     /// It is whole: it replaces what was there.
-    pub(super) fn put_in_place(self) -> Result<(), ExportError> {
+    ///
+    /// # Errors
+    /// [`ExportError::Write`] where the file system refuses.
+    pub fn put_in_place(self) -> Result<(), ExportError> {
         // Windows renames no open file.
         drop(self.file);
         fs::rename(&self.beside.0, &self.target).map_err(|error| failed(&self.asked, "putting it in place", error))?;
@@ -75,6 +83,19 @@ pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
     let file = OpenOptions::new().write(true).create_new(true).open(&beside);
     drop(file.map_err(|error| failed("opening a temporary file in it", error))?);
     drop(Cleanup(beside));
+    Ok(())
+}
+
+/// Errs where the disk has less room than a file takes; what lies at `there` already is a part of it.
+pub(super) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), ExportError> {
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    let room = fs4::available_space(folder).map_err(|error| failed(folder, "asking for its room", error))?;
+    // a file that was begun may have gaps, which take no room yet
+    let found = OpenOptions::new().read(true).open(there);
+    let taken = found.and_then(|file| fs4::FileExt::allocated_size(&file)).unwrap_or(0);
+    if size > room.saturating_add(taken) {
+        return Err(ExportError::NoRoom { path: path.to_owned(), size, room });
+    }
     Ok(())
 }
 

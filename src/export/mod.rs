@@ -12,6 +12,7 @@ mod places;
 pub mod probe;
 pub mod raster;
 pub mod report;
+pub mod sums;
 pub mod surfaces;
 pub mod unfinished;
 pub mod verify;

@@ -1,30 +1,59 @@
 //! Bare numbers: the hours of shadow as a GeoTIFF, a mask as an 8-bit gray PNG.
 
+use super::file::{self, Beside};
 use super::{ExportError, check_size};
-use crate::profile::Profile;
 use crate::profile::comparison::Comparison;
+use crate::profile::{Profile, ShadedCells, hours};
 use crate::sun::Place;
 use crate::view::{Grid, Mask};
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
-use std::io::{self, Cursor, Write};
+use std::io::{self, BufWriter, Cursor, Seek, Write};
+use std::ops::Range;
+use std::path::Path;
 use tiff::TiffError;
-use tiff::encoder::compression::DeflateLevel;
-use tiff::encoder::{Compression, TiffEncoder, colortype::Gray32Float};
-use tiff::tags::Tag;
+use tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, TiffKindBig, TiffKindStandard};
+use tiff::tags::{CompressionMethod, PhotometricInterpretation, SampleFormat, Tag};
 
 /// `shadow-hours.tif`: one band of `f32`, hours of shadow per cell, north up, nodata NaN.
 ///
 /// The map frame is an azimuthal equidistant projection around the place on WGS 84, so that its metres east and north
-/// are the world frame's. Deflated without a predictor: the crate's writer has none for floats, and hours repeat so
-/// much that they shrink well without.
+/// are the world frame's. Deflated without a predictor: hours repeat so much that they shrink well without.
 ///
 /// # Errors
 /// [`ExportError::Size`] where the sums do not fill the grid; [`ExportError::Encode`] where the raster is too large.
-pub fn geotiff(profile: &Profile, place: &Place) -> Result<Vec<u8>, ExportError> {
+pub fn geotiff<S: ShadedCells>(profile: &Profile<S>, place: &Place) -> Result<Vec<u8>, ExportError> {
+    let mut bytes = Cursor::new(Vec::new());
+    write_geotiff(profile, place, &mut bytes)?;
+    Ok(bytes.into_inner())
+}
+
+/// The same beside its place, strip by strip: nothing of it is held.
+///
+/// # Errors
+/// As [`geotiff`]; [`ExportError::Write`] where the file system refuses.
+pub fn geotiff_file<S: ShadedCells>(profile: &Profile<S>, place: &Place, path: &Path) -> Result<Beside, ExportError> {
+    let mut beside = Beside::open(path)?;
+    let mut file = BufWriter::with_capacity(1 << 20, &mut beside.file);
+    write_geotiff(profile, place, &mut file)?;
+    file.flush().map_err(|error| file::failed(path, file::WRITING, error))?;
+    drop(file);
+    Ok(beside)
+}
+
+fn write_geotiff<S: ShadedCells>(
+    profile: &Profile<S>,
+    place: &Place,
+    to: &mut (impl Write + Seek),
+) -> Result<(), ExportError> {
     let grid = &profile.grid;
-    check_size("profile", profile.shaded.len(), grid.width, grid.height)?;
-    let hours: Vec<f32> = (0..profile.shaded.len()).into_par_iter().map(|cell| profile.hours(cell)).collect();
-    encode(grid, place, "hours of shadow", &hours).map_err(|error| ExportError::encode("GeoTIFF", error))
+    check_size("profile", profile.shaded.cells(), grid.width, grid.height)?;
+    let hours = |cells: Range<usize>| {
+        let part = profile.shaded.part(cells);
+        (0..part.len()).map(|cell| hours(part.of(cell))).collect()
+    };
+    encode(grid, place, "hours of shadow", hours, to).map_err(|error| ExportError::encode("GeoTIFF", error))
 }
 
 /// `shadow-hours-difference.tif`: as [`geotiff`], the hours of shadow after minus those before; NaN where they are not
@@ -35,20 +64,75 @@ pub fn geotiff(profile: &Profile, place: &Place) -> Result<Vec<u8>, ExportError>
 pub fn difference_geotiff(comparison: &Comparison, place: &Place) -> Result<Vec<u8>, ExportError> {
     let grid = comparison.grid();
     check_size("comparison", comparison.cells(), grid.width, grid.height)?;
-    let hours: Vec<f32> = (0..comparison.cells()).into_par_iter().map(|cell| comparison.hours(cell)).collect();
+    let hours = |cells: Range<usize>| cells.map(|cell| comparison.hours(cell)).collect();
     let what = "hours of shadow, after minus before";
-    encode(grid, place, what, &hours).map_err(|error| ExportError::encode("GeoTIFF", error))
+    let mut bytes = Cursor::new(Vec::new());
+    encode(grid, place, what, hours, &mut bytes).map_err(|error| ExportError::encode("GeoTIFF", error))?;
+    Ok(bytes.into_inner())
 }
 
 /// GDAL's own tag for what a band means.
 const GDAL_METADATA: u16 = 42112;
+/// Bytes of a strip before it is deflated.
+const STRIP_BYTES: usize = 1_000_000;
+/// Beyond this a raster's offsets may not fit 32 bits.
+const MOST_CLASSIC: u64 = 4_000_000_000;
 
-fn encode(grid: &Grid, place: &Place, what: &str, hours: &[f32]) -> Result<Vec<u8>, TiffError> {
-    let mut bytes = Cursor::new(Vec::new());
-    let mut tiff = TiffEncoder::new(&mut bytes)?.with_compression(Compression::Deflate(DeflateLevel::Fast));
-    let mut image = tiff.new_image::<Gray32Float>(grid.width, grid.height)?;
+fn encode(
+    grid: &Grid,
+    place: &Place,
+    what: &str,
+    hours: impl Fn(Range<usize>) -> Vec<f32> + Sync,
+    to: &mut (impl Write + Seek),
+) -> Result<(), TiffError> {
+    if grid.cells() as u64 * 4 < MOST_CLASSIC {
+        let offsets = |offsets: &[u64], directory: &mut DirectoryEncoder<'_, _, TiffKindStandard>| {
+            let offsets: Vec<u32> = offsets.iter().map(|&at| u32::try_from(at)).collect::<Result<_, _>>()?;
+            directory.write_tag(Tag::StripOffsets, &offsets[..])
+        };
+        encode_as(TiffEncoder::new(to)?, grid, place, what, hours, offsets)
+    } else {
+        let offsets = |offsets: &[u64], directory: &mut DirectoryEncoder<'_, _, TiffKindBig>| {
+            directory.write_tag(Tag::StripOffsets, offsets)
+        };
+        encode_as(TiffEncoder::new_big(to)?, grid, place, what, hours, offsets)
+    }
+}
+
+/// The crate deflates a whole image or nothing, so strips are deflated here, as many at once as there are processors.
+fn encode_as<W: Write + Seek, K: TiffKind>(
+    mut tiff: TiffEncoder<W, K>,
+    grid: &Grid,
+    place: &Place,
+    what: &str,
+    hours: impl Fn(Range<usize>) -> Vec<f32> + Sync,
+    write_offsets: impl FnOnce(&[u64], &mut DirectoryEncoder<'_, W, K>) -> Result<(), TiffError>,
+) -> Result<(), TiffError> {
+    let mut tags = tiff.image_directory()?;
+    let (width, height) = (grid.width as usize, grid.height as usize);
+    let rows_a_strip = STRIP_BYTES.div_ceil(width * size_of::<f32>());
+    let strips: Vec<Range<usize>> =
+        (0..height).step_by(rows_a_strip).map(|row| row * width..(row + rows_a_strip).min(height) * width).collect();
+    let (mut offsets, mut lengths) = (Vec::new(), Vec::new());
+    for some in strips.chunks(2 * rayon::current_num_threads()) {
+        let deflated: Vec<_> = some.par_iter().map(|cells| deflate(&hours(cells.clone()))).collect();
+        for strip in deflated {
+            let strip = strip?;
+            offsets.push(tags.write_data(&strip[..])?);
+            lengths.push(u32::try_from(strip.len())?);
+        }
+    }
     let keys = geo_keys(place);
-    let tags = image.encoder();
+    tags.write_tag(Tag::ImageWidth, grid.width)?;
+    tags.write_tag(Tag::ImageLength, grid.height)?;
+    tags.write_tag(Tag::BitsPerSample, 32_u16)?;
+    tags.write_tag(Tag::Compression, CompressionMethod::Deflate.to_u16())?;
+    tags.write_tag(Tag::PhotometricInterpretation, PhotometricInterpretation::BlackIsZero.to_u16())?;
+    tags.write_tag(Tag::SamplesPerPixel, 1_u16)?;
+    tags.write_tag(Tag::SampleFormat, SampleFormat::IEEEFP.to_u16())?;
+    tags.write_tag(Tag::RowsPerStrip, u32::try_from(rows_a_strip)?)?;
+    write_offsets(&offsets, &mut tags)?;
+    tags.write_tag(Tag::StripByteCounts, &lengths[..])?;
     tags.write_tag(Tag::Software, concat!("Gnomon ", env!("CARGO_PKG_VERSION")))?;
     tags.write_tag(Tag::ModelPixelScaleTag, &[grid.cell, grid.cell, 0.0][..])?;
     // Raster (0, 0), the north-west cell's outer corner, lies at (west, north).
@@ -67,8 +151,14 @@ fn encode(grid: &Grid, place: &Place, what: &str, hours: &[f32]) -> Result<Vec<u
         )
         .as_str(),
     )?;
-    image.write_data(hours)?;
-    Ok(bytes.into_inner())
+    tags.finish()
+}
+
+/// Bytes in the machine's own order, as the file's header says.
+fn deflate(hours: &[f32]) -> io::Result<Vec<u8>> {
+    let mut zlib = ZlibEncoder::new(Vec::new(), Compression::fast());
+    zlib.write_all(bytemuck::cast_slice(hours))?;
+    zlib.finish()
 }
 
 /// The three tags of OGC GeoTIFF 1.1 that say which map the raster lies on.

@@ -1,7 +1,7 @@
 //! What a stopped study leaves in its folder, so that it can go on another time.
 //!
-//! The layout, all numbers from the lowest byte up: the line `gnomon unfinished 1`; in 64 bits each the study's number,
-//! how many instants are done, how many cells there are, and the bytes of a cell, 4 or 8; a byte that says what counting
+//! The layout, all numbers from the lowest byte up: the line `gnomon unfinished 2`; in 64 bits each the study's number,
+//! how many tiles it has, how many instants are done, how many cells there are, and the bytes of a cell, 4 or 8; a byte that says what counting
 //! took follows: 0 nothing, 1 without and 2 with cells that a map left to the volumes; then in 64 bits each the four
 //! numbers of that; the cells.
 
@@ -11,7 +11,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-const FIRST_LINE: &[u8] = b"gnomon unfinished 1\n";
+const FIRST_LINE: &[u8] = b"gnomon unfinished 2\n";
 
 /// Its file in a study's folder.
 pub fn path(folder: &Path) -> PathBuf {
@@ -48,10 +48,10 @@ pub fn remove(folder: &Path) -> Result<(), ExportError> {
 }
 
 fn encode(unfinished: &Unfinished) -> Vec<u8> {
-    let Unfinished { study, done, shaded, statistics } = unfinished;
+    let Unfinished { study, tiles, done, shaded, statistics } = unfinished;
     let mut bytes = FIRST_LINE.to_vec();
     let word_bytes = if shaded.in_one_word().is_some() { 4_u64 } else { 8 };
-    for number in [*study, *done as u64, shaded.len() as u64, word_bytes] {
+    for number in [*study, *tiles as u64, *done as u64, shaded.len() as u64, word_bytes] {
         bytes.extend(number.to_le_bytes());
     }
     let (kind, counted) = match statistics {
@@ -72,7 +72,7 @@ fn encode(unfinished: &Unfinished) -> Vec<u8> {
 
 fn decode(bytes: &[u8]) -> Option<Unfinished> {
     let mut rest = bytes.strip_prefix(FIRST_LINE)?;
-    let [study, done, cells, word_bytes] = numbers(&mut rest)?;
+    let [study, tiles, done, cells, word_bytes] = numbers(&mut rest)?;
     let (&kind, mut rest) = rest.split_first()?;
     let [all, silhouette, fragments, fragments_without_mask] = numbers(&mut rest)?;
     let silhouette_cells = (kind == 2).then_some(silhouette);
@@ -90,7 +90,8 @@ fn decode(bytes: &[u8]) -> Option<Unfinished> {
         8 => rest.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect::<Vec<u64>>().into(),
         _ => return None,
     };
-    Some(Unfinished { study, done: usize::try_from(done).ok()?, shaded, statistics })
+    let [tiles, done] = [usize::try_from(tiles).ok()?, usize::try_from(done).ok()?];
+    Some(Unfinished { study, tiles, done, shaded, statistics })
 }
 
 /// The first numbers, which are taken away.

@@ -49,9 +49,15 @@ impl Sum {
         Sum { running, secs: 0, poured: None }
     }
 
-    /// Goes on from a sum.
-    pub fn begin_with(&mut self, shaded: &Shaded) {
-        self.poured = Some(shaded.iter().collect());
+    /// Goes on from a sum over so many seconds.
+    pub fn begin_with(&mut self, shaded: &Shaded, secs: u32) {
+        match (&mut self.running, shaded.in_one_word()) {
+            (Running::Memory(running), Some(cells)) if secs <= MOST_SECS => {
+                running.copy_from_slice(cells);
+                self.secs = secs;
+            }
+            _ => self.poured = Some(shaded.iter().collect()),
+        }
     }
 
     /// Adds one mask for so many seconds. A mask that lies elsewhere than the sum is fetched or brought there.

@@ -46,6 +46,8 @@ pub fn hours(shaded: u64) -> f32 {
 pub struct Unfinished {
     /// Which study: a number of all that its result depends on.
     pub study: u64,
+    /// How many tiles it has.
+    pub tiles: usize,
     /// How many of its instants are done, those of each tile counted.
     pub done: usize,
     /// The sum of those of the last tile.

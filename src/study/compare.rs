@@ -1,6 +1,6 @@
 //! The study of two states of a site: what a change does to the shadow.
 
-use super::{Event, OnEvent, Outcome, StudyError, Wants, go_on, not_surfaces, tell};
+use super::{Event, OnEvent, Outcome, StudyError, Wants, not_surfaces, run, tell};
 use crate::mesh::Mesh;
 use crate::profile::Drawn;
 use crate::profile::comparison::{Altered, Comparison};
@@ -60,5 +60,5 @@ pub fn compare_with(pair: &Pair, before: Outcome, on_event: &mut OnEvent<'_>) ->
 
 fn study(when: &str, site: &Site, name: &str, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
     tell(on_event, Event::Note(format!("{when}: {name}")))?;
-    go_on(site, &Wants::default(), None, on_event)
+    run(site, &Wants::default(), on_event)
 }

@@ -2,10 +2,11 @@
 
 use crate::profile::Drawn;
 use crate::site::Site;
+use crate::view::Tile;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Of a study that a machine draws. The same for the same request, and for another one another.
-pub(super) fn of(site: &Site, drawn: &Drawn) -> u64 {
+/// Of a study that a machine draws in tiles. The same for the same request, and for another one another.
+pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile]) -> u64 {
     let mut hasher = DefaultHasher::new();
     let Site { mesh, casts, receives, ground, track, grid, receivers, settings, hextree_depth, .. } = site;
     env!("CARGO_PKG_VERSION").hash(&mut hasher);
@@ -17,6 +18,7 @@ pub(super) fn of(site: &Site, drawn: &Drawn) -> u64 {
     (casts, receives, receivers.word(), hextree_depth).hash(&mut hasher);
     numbers(&[*ground, grid.west, grid.north, grid.cell]).hash(&mut hasher);
     (grid.width, grid.height).hash(&mut hasher);
+    tiles.iter().for_each(|tile| (tile.first, tile.size).hash(&mut hasher));
     for instant in &track.instants {
         (instant.time.timestamp(), instant.weight_secs, instant.night).hash(&mut hasher);
         numbers(&instant.to_sun.to_array()).hash(&mut hasher);

@@ -47,7 +47,7 @@ pub fn frames<E: From<StudyError>>(
     let dark = night(&view);
 
     let count = site.track.instants.len();
-    tell(on_event, Event::Started { instants: count })?;
+    tell(on_event, Event::Started { instants: count, tiles: 1 })?;
     let mut noted = None;
     for (index, (instant, track)) in site.track.instants.iter().zip(site.track.each()).enumerate() {
         let lit = if instant.night { None } else { Some(draw(&mut *technique, instant.to_sun)?) };

@@ -1,6 +1,6 @@
 //! Who draws: technique, engine and finder as asked, or the fastest of them.
 
-use super::{Event, OnEvent, StudyError, tell};
+use super::{Event, OnEvent, StudyError, Wants, tell};
 use crate::gpu::{Gpu, GpuError};
 use crate::profile::{Drawn, DrawnSettings};
 use crate::shadow::hybrid::Hybrid;
@@ -14,7 +14,7 @@ use crate::shadow::stencil::Stencil;
 use crate::shadow::{Scene, ShadowError, Silhouettes, Technique};
 use crate::silhouette::Kind;
 use crate::site::{Engine, Finder, Method, Pcf, Receivers, Settings, Site};
-use crate::view::{Camera, Grid, View};
+use crate::view::{Camera, Grid, Tile, View};
 use std::sync::Arc;
 
 /// A technique with all that it needs to be made for a view.
@@ -126,6 +126,35 @@ impl Machine {
             Machine::OnGpu(gpu, _) => (Engine::Gpu, Some(gpu.name().to_owned())),
         };
         Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter, settings }
+    }
+
+    /// What a cell of the plan takes at the most, bytes. Measured (docs/benchmarks/growth.md), and rounded up.
+    pub(super) fn cell_bytes(&self, receivers: Receivers, wants: &Wants) -> u64 {
+        let drawing = match (self, receivers) {
+            // sums, and their copy while they are kept
+            (Machine::Projected(_), Receivers::Ground) => 14,
+            // what is seen, and the points that are judged, three times over while they are sorted
+            (Machine::Projected(_), _) => 160,
+            (Machine::RayCast { .. } | Machine::SoftPicture { .. }, _) => 36,
+            // textures of what is seen, of the depth that is judged, of mask and sums; and what is read back
+            (Machine::OnGpu(..), _) => 64,
+        };
+        // bits twice; fragments as they are added up, and as they are read
+        drawing + u64::from(wants.bits) + if wants.statistics { 32 } else { 0 }
+    }
+
+    /// The most columns and rows that are drawn at once.
+    pub(super) fn most_cells(&self) -> Option<u32> {
+        self.gpu().map(|gpu| gpu.limits.max_texture_dimension_2d)
+    }
+
+    /// The technique for a tile of the plan.
+    pub(super) fn technique_of(&self, scene: Scene, tile: Tile) -> Result<Box<dyn Technique>, ShadowError> {
+        match self {
+            Machine::RayCast { sun_samples } => Ok(Box::new(RayCast::of_tile(scene, tile, *sun_samples))),
+            Machine::Projected(_) => Ok(Box::new(Projected::new(&scene, tile))),
+            Machine::SoftPicture { .. } | Machine::OnGpu(..) => self.technique(scene, View::Plan(tile.grid())),
+        }
     }
 
     pub(super) fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {

@@ -1,6 +1,6 @@
 //! The flow: a checked request in, its shadow profile out.
 //!
-//! [`run`] reads as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
+//! [`run`] and [`in_tiles`] read as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
 //! [`surfaces()`] is the study on facades and roofs; [`compare()`] is the study of two states of a site; [`verify`] holds
 //! every technique against ray casting; [`probe`] finds when single points lie in the sun; [`frames()`] is every instant
 //! as a picture; [`live`] draws one picture after another for whoever looks.
@@ -11,32 +11,35 @@ mod frames;
 pub mod live;
 mod machine;
 pub mod probe;
+mod profile;
 mod stopwatch;
 mod surfaces;
+mod tiles;
 pub mod verify;
 
 pub use compare::{CompareOutcome, compare, compare_with};
 pub use frames::{Frame, frames};
+pub use profile::{Worked, in_tiles, run};
 pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
+pub use tiles::Budget;
 
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
-use crate::profile::accumulate::Sum;
-use crate::profile::{Drawn, Profile, Statistics, Timings, Unfinished};
+use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
 use crate::sun::{SunError, SunTrack};
-use crate::view::{Bits, Camera, Counted, Mask, Overlay, Surface, View};
+use crate::view::{Bits, Camera, Counted, Mask, Overlay, Surface, Tile, View};
 use chrono::DateTime;
 use chrono_tz::Tz;
 use glam::DVec3;
 use machine::{Machine, choose, counting, not_surfaces, stencil_alone};
-use std::cell::LazyCell;
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::time::Duration;
 
 /// What is made beside the profile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,12 +48,16 @@ pub struct Wants {
     pub masks: bool,
     /// Of every instant with a sun which cells are in shadow, in [`Event::Drawn`].
     pub bits: bool,
+    /// Whether drawings are made of all cells at once, so that tiles will not do: the option that asks for them.
+    pub whole: Option<&'static str>,
     /// What the cells see, for a drawing.
     pub surface: bool,
     /// What counting took.
     pub statistics: bool,
     /// What is done so far, in [`Event::Kept`]: each time that so long has passed, and when the work is ended.
     pub keep_every: Option<Duration>,
+    /// What memory there is for rasters; without one as much as they take.
+    pub budget: Option<Budget>,
 }
 
 /// What is made beside the mask of one instant.
@@ -73,15 +80,21 @@ pub enum Event<'a> {
     Note(String),
     /// All is prepared; drawing begins.
     Started {
-        /// How many instants there are.
+        /// How many instants there are, those of each tile counted.
         instants: usize,
+        /// How many tiles there are.
+        tiles: usize,
     },
     /// So many of them were done before, and are not drawn again.
     GoesOn {
         /// How many.
         done: usize,
     },
-    /// One instant is done, in time's order.
+    /// A tile of the plan begins, or goes on: the next instants are its.
+    Tile(Tile),
+    /// The tile's sums, once all of its instants are done.
+    Summed(Arc<Shaded>),
+    /// One instant is done, in time's order for each tile.
     Drawn {
         /// From 0.
         index: usize,
@@ -148,6 +161,20 @@ pub enum StudyError {
         /// Why, and the way out.
         what: &'static str,
     },
+    /// The plan does not fit the memory that there is for it.
+    #[error(
+        "--memory: {} is too little for rows of {width} cells; take at least {}, or larger cells (--cell)",
+        tiles::amount(*asked),
+        tiles::amount(*least)
+    )]
+    LittleMemory {
+        /// What there is, bytes.
+        asked: u64,
+        /// What the smallest tile takes, bytes.
+        least: u64,
+        /// Columns of the plan.
+        width: u32,
+    },
     /// Time on surfaces is summed in 32 bits.
     #[error(
         "the study has {} hours of daylight, and surfaces sum at most {}; ask for fewer days or a shorter window",
@@ -200,110 +227,9 @@ pub enum StudyError {
 impl StudyError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
-        matches!(self, StudyError::Conflict { .. })
+        matches!(self, StudyError::Conflict { .. } | StudyError::LittleMemory { .. })
     }
 }
-
-/// The study: every instant's shadows, summed to the time in shadow.
-///
-/// # Errors
-/// [`StudyError`]; choices that exclude each other before anything is drawn.
-pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
-    go_on(site, wants, None, on_event)
-}
-
-/// As [`run`], from where the same study was stopped; the result is the same to the bit. What another study left is told
-/// of, and not used.
-///
-/// # Errors
-/// As [`run`].
-pub fn go_on(
-    site: &Site,
-    wants: &Wants,
-    begun: Option<Unfinished>,
-    on_event: &mut OnEvent<'_>,
-) -> Result<Outcome, StudyError> {
-    not_surfaces(site)?;
-    let mut watch = Stopwatch::start();
-    let (day_secs, night_secs) = day_and_night(&site.track);
-    note_distance(&site.mesh, on_event)?;
-    let view = View::Plan(site.grid);
-    let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, &view, on_event)? };
-    let look = Look { site, machine: &machine, view, receivers: site.receivers };
-    let mut technique = look.technique()?;
-    let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
-    let mut sum = Sum::new(machine.gpu(), site.grid.width, site.grid.height);
-    let mut statistics = wants.statistics.then(Statistics::default);
-    let mut done = 0;
-    let study = LazyCell::new(|| fingerprint::of(site, &machine.drawn()));
-    if let Some(begun) = begun {
-        if is_of(&begun, *study, site, wants) {
-            sum.begin_with(&begun.shaded);
-            (done, statistics) = (begun.done, begun.statistics);
-        } else {
-            tell(on_event, Event::Note(ANOTHER_STUDY.to_owned()))?;
-        }
-    }
-    watch.lap("prepare");
-
-    let count = site.track.instants.len();
-    tell(on_event, Event::Started { instants: count })?;
-    if done > 0 {
-        tell(on_event, Event::GoesOn { done })?;
-    }
-    let mut kept = Instant::now();
-    for (index, instant) in site.track.instants.iter().enumerate().skip(done) {
-        let (mut mask, mut bits) = (None, None);
-        if !instant.night {
-            let drawn = technique.draw(instant.to_sun)?;
-            sum.add(&drawn, instant.weight_secs)?;
-            mask = wants.masks.then(|| drawn.read()).transpose()?;
-            bits = wants.bits.then(|| drawn.bits()).transpose()?;
-            if let Some(statistics) = &mut statistics
-                && let Some(counted) = technique.counted(instant.to_sun)?
-            {
-                statistics.add(&counted);
-            }
-        } else if wants.masks {
-            mask = Some(night(&look.view));
-        }
-        let (mask, bits) = (mask.as_ref(), bits.as_ref());
-        let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });
-        if wants.keep_every.is_some_and(|every| told.is_err() || kept.elapsed() >= every) {
-            let unfinished = Unfinished { study: *study, done: index + 1, shaded: sum.so_far()?, statistics };
-            tell(on_event, Event::Kept(&unfinished))?;
-            kept = Instant::now();
-        }
-        told?;
-    }
-    if statistics.is_some_and(|statistics| statistics.cells == 0) {
-        tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
-        statistics = None;
-    }
-    let shaded = sum.finish()?;
-    watch.lap("shadows");
-
-    let profile = Profile { grid: site.grid, shaded, day_secs, night_secs };
-    Ok(Outcome {
-        profile,
-        surface,
-        surface_mesh: look.surface_mesh(),
-        statistics,
-        timings: watch.stages,
-        drawn: machine.drawn(),
-    })
-}
-
-/// Whether what was left is of this study, and whole.
-fn is_of(begun: &Unfinished, study: u64, site: &Site, wants: &Wants) -> bool {
-    let same_wants = begun.statistics.is_some() == wants.statistics;
-    let fits = begun.shaded.len() == site.grid.cells() && begun.done <= site.track.instants.len();
-    begun.study == study && same_wants && fits
-}
-
-/// What a study that finds another one's sum says.
-const ANOTHER_STUDY: &str =
-    "what was left unfinished there is another study, or was asked otherwise: this one begins anew";
 
 /// The first instant alone; at night nothing sees the sun, and a note says so.
 ///
@@ -333,7 +259,7 @@ pub fn instant(
     let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
     watch.lap("prepare");
 
-    tell(on_event, Event::Started { instants: 1 })?;
+    tell(on_event, Event::Started { instants: 1, tiles: 1 })?;
     let (mut overlay, mut counted) = (None, None);
     let mask = if instant.night {
         let below = -instant.altitude_deg();
@@ -406,7 +332,7 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
 }
 
 /// The seconds of the window with the sun above the horizon, and without.
-fn day_and_night(track: &SunTrack) -> (u32, u32) {
+pub fn day_and_night(track: &SunTrack) -> (u32, u32) {
     // both fit: a window is at most ten years, 3.2e8 s
     let secs = |night: bool| {
         let instants = track.instants.iter().filter(|instant| instant.night == night);
@@ -426,6 +352,10 @@ struct Look<'a> {
 impl Look<'_> {
     fn technique(&self) -> Result<Box<dyn Technique>, ShadowError> {
         self.machine.technique(self.scene(), self.view)
+    }
+
+    fn technique_of(&self, tile: Tile) -> Result<Box<dyn Technique>, ShadowError> {
+        self.machine.technique_of(self.scene(), tile)
     }
 
     fn scene(&self) -> Scene {

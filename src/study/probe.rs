@@ -34,7 +34,7 @@ pub fn probe(asked: &Probing, on_event: &mut OnEvent<'_>) -> Result<Sunlight, St
     };
 
     let count = asked.days.len();
-    tell(on_event, Event::Started { instants: count })?;
+    tell(on_event, Event::Started { instants: count, tiles: 1 })?;
     // as many at a time as all processors have work for between two looks at the listener
     for windows in asked.days.chunks(4 * rayon::current_num_threads()) {
         let days: Vec<_> = windows.par_iter().map(|window| search.day(window)).collect::<Result<_, _>>()?;

@@ -68,7 +68,7 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
     watch.lap("prepare");
 
     let count = site.track.instants.len();
-    tell(on_event, Event::Started { instants: count })?;
+    tell(on_event, Event::Started { instants: count, tiles: 1 })?;
     for (index, instant) in site.track.instants.iter().enumerate() {
         if !instant.night {
             texture.add(&samples_of(instant, site.settings.sun_samples))?;

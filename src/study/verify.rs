@@ -97,7 +97,7 @@ pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Resu
     let mut trees = Tally::new(&site.grid);
 
     let count = instants.len();
-    tell(on_event, Event::Started { instants: count })?;
+    tell(on_event, Event::Started { instants: count, tiles: 1 })?;
     for (index, instant) in instants.iter().enumerate() {
         centre.draw(instant)?;
         disc.draw(instant)?;

@@ -212,7 +212,7 @@ fn the_legend_is_the_plan() {
     let surface = Surface { width: 6, height: 6, face: vec![Surface::GROUND; 36], height_m: vec![0.0; 36] };
     // Row by row: none, then more and more shadow.
     let shaded: Vec<u32> = (0..36).map(|cell| cell / 6 * 255 * 5400).collect();
-    let profile = Profile { grid, shaded: shaded.into(), day_secs: 8 * H, night_secs: 0 };
+    let profile: Profile = Profile { grid, shaded: shaded.into(), day_secs: 8 * H, night_secs: 0 };
     let png = figure::profile(&town.scene(&surface, Receivers::Top), &profile).unwrap();
     let page = image::load_from_memory(&png).unwrap().to_rgb8();
     assert_eq!(page.dimensions(), (figure::WIDTH, figure::HEIGHT));
@@ -233,7 +233,7 @@ fn a_surface_of_another_size_is_an_error() {
     let town = Town::new(1.0, 9 * H, 17 * H, 1800);
     let grid = synthetic::grid(4, 3, 1.0);
     let surface = synthetic::plan(&town.mesh, &synthetic::grid(3, 3, 1.0));
-    let profile = Profile { grid, shaded: vec![0_u32; 12].into(), day_secs: 8 * H, night_secs: 0 };
+    let profile: Profile = Profile { grid, shaded: vec![0_u32; 12].into(), day_secs: 8 * H, night_secs: 0 };
     assert!(figure::profile(&town.scene(&surface, Receivers::Top), &profile).is_err());
     let mask = Mask { width: 4, height: 3, share: vec![0; 12] };
     assert!(

@@ -16,7 +16,7 @@ fn keys(text: &str, indent: usize) -> Vec<&str> {
 fn profile_json_is_the_contract() {
     let town = Town::new(1.0, 32_400, 61_200, 1800);
     let grid = synthetic::grid(8, 4, 0.5);
-    let profile = Profile { grid, shaded: vec![0_u32; 32].into(), day_secs: 28_800, night_secs: 0 };
+    let profile: Profile = Profile { grid, shaded: vec![0_u32; 32].into(), day_secs: 28_800, night_secs: 0 };
     let timings = Timings(vec![("load", 0.5), ("draw", 1.5), ("total", 2.25)]);
     let write = |town: &Town| {
         let told = Told { receivers: Receivers::Ground, drawn: &town.drawn, timings: &timings, statistics: None };

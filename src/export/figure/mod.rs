@@ -37,7 +37,7 @@ use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile, ShadedCells};
 use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
-use crate::view::{Counted, Mask, Overlay, Surface, SurfaceRows, View};
+use crate::view::{Counted, Grid, Mask, Overlay, Surface, SurfaceRows, View};
 use components::Components;
 use page::Sheet;
 use panel::Panel;
@@ -86,7 +86,7 @@ pub fn profile<S: SurfaceRows, C: ShadedCells>(scene: &Scene<S>, profile: &Profi
 }
 
 /// What drawings of hours of shadow say.
-fn profile_panel<S>(scene: &Scene<S>, profile: &Profile, kicker: &str) -> Panel {
+fn profile_panel<S, C>(scene: &Scene<S>, profile: &Profile<C>, kicker: &str) -> Panel {
     let grid = &profile.grid;
     let mut panel = panel(scene, kicker);
     let all = words::long_duration(profile.day_secs);
@@ -102,6 +102,13 @@ fn profile_panel<S>(scene: &Scene<S>, profile: &Profile, kicker: &str) -> Panel 
         panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
     }
     panel
+}
+
+/// What [`profile`] takes at the most of what grows with the plan, bytes.
+pub fn profile_bytes(grid: &Grid) -> u64 {
+    // the sheet may be higher or wider than its picture, never the other way round
+    let fit = picture::Fit::within((grid.width, grid.height), (f64::from(WIDTH) / 2.0, f64::from(HEIGHT) / 2.0));
+    picture::task_bytes(&fit) * rayon::current_num_threads() as u64
 }
 
 /// One instant, the first of the track, on the plan or in the camera's picture; what is `shown` over it is for the latter.

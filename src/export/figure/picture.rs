@@ -90,6 +90,10 @@ pub(super) enum Between {
 
 /// Pixel rows that one task draws.
 const BAND: usize = 64;
+/// So many pixel rows beside those that are drawn have lines that reach into them.
+const REACH: usize = Pen::OUTLINE.radius as usize + 2;
+/// Cells that a task looks at in one go.
+const AT_ONCE: usize = 1 << 18;
 
 /// Some rows of cells as they are to be drawn.
 #[derive(Default)]
@@ -203,14 +207,10 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> Composed<F> {
         Picture { width, height, pixels }
     }
 
-    /// The rows of cells that some rows of pixels show, and whose borders reach into them.
-    fn reach(&self, top: usize, rows: usize) -> Range<usize> {
-        let scale = self.fit.pixels.1 as f32 / self.fit.cells.1 as f32;
-        let reach = Pen::OUTLINE.radius + 1.0;
-        let first = ((top as f32 - reach) / scale).floor().max(1.0) as usize - 1;
-        let last = (((top + rows) as f32 + reach) / scale).ceil() as usize + 2;
-        first.min(self.rows[top].cells.start)
-            ..last.max(self.rows[top + rows - 1].cells.end).min(self.fit.cells.1 as usize)
+    /// Rows of pixels whose cells are looked at in one go: no more cells than are worth it, or one row's.
+    fn at_once(fit: &Fit) -> usize {
+        let rows = AT_ONCE / fit.cells.0.max(1) as usize;
+        ((rows as f64 * f64::from(fit.pixels.1) / f64::from(fit.cells.1.max(1))) as usize).max(1)
     }
 }
 
@@ -220,35 +220,55 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> Pixels for Composed<F> {
     }
 
     fn draw(&self, top: usize, into: &mut [Rgb]) {
-        let width = self.fit.pixels.0 as usize;
-        let reach = self.reach(top, into.len() / width);
-        let mut cells = Cells::new(self.fit.cells.0);
-        (self.tell)(reach.clone(), &mut cells);
-        let ink = draw_lines(self.fit, top, into.len() / width, reach.start, &cells);
-        for (row, line) in into.chunks_exact_mut(width).enumerate() {
-            let span = &self.rows[top + row];
-            let of_row = |row: usize| &cells.colours[(row - reach.start) * cells.width..][..cells.width];
-            if span.cells.len() <= 2 {
-                let (north, south) = (of_row(span.cells.start), of_row(span.cells.end - 1));
-                for (columns, pixel) in self.columns.iter().zip(&mut *line) {
-                    let (west, east) = (columns.cells.start, columns.cells.end - 1);
-                    let first = north[west];
-                    // most of a picture is of one colour
-                    let is_one =
-                        east - west < 2 && first == north[east] && first == south[west] && first == south[east];
-                    *pixel = if is_one { rgb(first) } else { average(of_row, columns, span) };
-                }
-            } else {
-                for (columns, pixel) in self.columns.iter().zip(&mut *line) {
-                    *pixel = average(of_row, columns, span);
-                }
+        let (width, height) = (self.fit.pixels.0 as usize, self.fit.pixels.1 as usize);
+        let count = into.len() / width;
+        let mut ink = Ink { width, top: top as f32, rows: count, strength: vec![0.0; width * count] };
+        let (first, last) = (top.saturating_sub(REACH), (top + count + REACH).min(height));
+        for from in (first..last).step_by(Self::at_once(&self.fit)) {
+            let to = (from + Self::at_once(&self.fit)).min(last);
+            // and the row below, from which they part
+            let rows = self.rows[from].cells.start..(self.rows[to - 1].cells.end + 1).min(self.fit.cells.1 as usize);
+            let mut cells = Cells::new(self.fit.cells.0);
+            (self.tell)(rows.clone(), &mut cells);
+            ink.lines(self.fit, rows.start, &cells);
+            for row in from.max(top)..to.min(top + count) {
+                self.paint(row, rows.start, &cells, &mut into[(row - top) * width..(row - top + 1) * width]);
             }
-            let ink = &ink[row * width..(row + 1) * width];
-            for (pixel, &ink) in line.iter_mut().zip(ink).filter(|(_, ink)| **ink > 0.0) {
-                *pixel = blend(*pixel, ink);
+        }
+        for (pixel, &ink) in into.iter_mut().zip(&ink.strength).filter(|(_, ink)| **ink > 0.0) {
+            *pixel = blend(*pixel, ink);
+        }
+    }
+}
+
+impl<F> Composed<F> {
+    /// A row of pixels without its lines; the cells' rows begin with `first`.
+    fn paint(&self, row: usize, first: usize, cells: &Cells, line: &mut [Rgb]) {
+        let span = &self.rows[row];
+        let of_row = |row: usize| &cells.colours[(row - first) * cells.width..][..cells.width];
+        if span.cells.len() <= 2 {
+            let (north, south) = (of_row(span.cells.start), of_row(span.cells.end - 1));
+            for (columns, pixel) in self.columns.iter().zip(line) {
+                let (west, east) = (columns.cells.start, columns.cells.end - 1);
+                let first = north[west];
+                // most of a picture is of one colour
+                let is_one = east - west < 2 && first == north[east] && first == south[west] && first == south[east];
+                *pixel = if is_one { rgb(first) } else { average(of_row, columns, span) };
+            }
+        } else {
+            for (columns, pixel) in self.columns.iter().zip(line) {
+                *pixel = average(of_row, columns, span);
             }
         }
     }
+}
+
+/// What a task takes at the most to draw so many cells, bytes: what they see, its heights, hours and colours.
+pub(super) fn task_bytes(fit: &Fit) -> u64 {
+    let rows_a_pixel = f64::from(fit.cells.1) / f64::from(fit.pixels.1.max(1));
+    let at_once = Composed::<fn(Range<usize>, &mut Cells)>::at_once(fit).min(BAND + 2 * REACH);
+    let rows = (at_once as f64 * rows_a_pixel).ceil() as u64 + 2;
+    rows * u64::from(fit.cells.0) * 32
 }
 
 /// Draws `colours`, one a cell, with the line that `pen` gives for each pair of neighbours (west, east or north, south).
@@ -344,22 +364,7 @@ fn blend(paper: Rgb, ink: f32) -> Rgb {
     std::array::from_fn(|i| (f32::from(paper[i]) + (f32::from(LINE[i]) - f32::from(paper[i])) * ink + 0.5) as u8)
 }
 
-/// The strength of the lines in pixel rows `top..top + rows`; the cells' rows begin with `first`.
-fn draw_lines(fit: Fit, top: usize, rows: usize, first: usize, cells: &Cells) -> Vec<f32> {
-    let scale = [fit.pixels.0 as f32 / fit.cells.0 as f32, fit.pixels.1 as f32 / fit.cells.1 as f32];
-    let width = fit.pixels.0 as usize;
-    let mut ink = Ink { width, top: top as f32, rows, strength: vec![0.0; width * rows] };
-    let x = |column: u32| column as f32 * scale[0];
-    let y = |row: u32| (first as u32 + row) as f32 * scale[1];
-    for &(row, column, pen) in &cells.east {
-        ink.stroke([x(column + 1), y(row)], [x(column + 1), y(row + 1)], pen);
-    }
-    for &(row, from, to, pen) in &cells.south {
-        ink.stroke([x(from), y(row + 1)], [x(to), y(row + 1)], pen);
-    }
-    ink.strength
-}
-
+/// The strength of the lines in some rows of pixels.
 struct Ink {
     width: usize,
     top: f32,
@@ -368,6 +373,19 @@ struct Ink {
 }
 
 impl Ink {
+    /// The lines between cells, whose rows begin with `first`.
+    fn lines(&mut self, fit: Fit, first: usize, cells: &Cells) {
+        let scale = [fit.pixels.0 as f32 / fit.cells.0 as f32, fit.pixels.1 as f32 / fit.cells.1 as f32];
+        let x = |column: u32| column as f32 * scale[0];
+        let y = |row: u32| (first as u32 + row) as f32 * scale[1];
+        for &(row, column, pen) in &cells.east {
+            self.stroke([x(column + 1), y(row)], [x(column + 1), y(row + 1)], pen);
+        }
+        for &(row, from, to, pen) in &cells.south {
+            self.stroke([x(from), y(row + 1)], [x(to), y(row + 1)], pen);
+        }
+    }
+
     /// A stroke with round ends, along one axis; where strokes overlap the stronger one counts.
     fn stroke(&mut self, from: [f32; 2], to: [f32; 2], pen: Pen) {
         let reach = pen.radius + 0.5;

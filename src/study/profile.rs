@@ -1,0 +1,199 @@
+//! Every instant's shadows, summed to the time in shadow: of the plan in one go, or tile by tile.
+
+use super::machine::{choose, counting, not_surfaces};
+use super::{Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
+use super::{day_and_night, fingerprint, night, note_distance, tell, tiles};
+use crate::mesh::Mesh;
+use crate::profile::accumulate::Sum;
+use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
+use crate::shadow::plan_surface;
+use crate::site::Site;
+use crate::view::{Surface, Tile, View};
+use std::cell::LazyCell;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What a study in tiles tells beside the sums, which [`Event::Summed`] tells.
+#[derive(Clone, Debug)]
+pub struct Worked {
+    /// What drew.
+    pub drawn: Drawn,
+    /// Seconds of the window with the sun above the horizon, and without.
+    pub day_and_night_secs: (u32, u32),
+    /// What the cells see, where wanted.
+    pub surface: Option<Surface>,
+    /// Whose faces [`Surface::face`] counts.
+    pub surface_mesh: Mesh,
+    /// What counting took, where wanted.
+    pub statistics: Option<Statistics>,
+    /// `prepare` and `shadows`.
+    pub timings: Timings,
+}
+
+/// The study: every instant's shadows, summed to the time in shadow.
+///
+/// # Errors
+/// [`StudyError`]; choices that exclude each other before anything is drawn.
+pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
+    let (mut tile, mut whole) = (Tile::from(site.grid), Arc::default());
+    let worked = in_tiles(site, wants, None, &mut |event| {
+        match &event {
+            Event::Tile(next) => tile = *next,
+            Event::Summed(shaded) => whole = paste(&whole, &tile, shaded),
+            _ => {}
+        }
+        on_event(event)
+    })?;
+    let Worked { drawn, day_and_night_secs: (day_secs, night_secs), .. } = worked;
+    let Worked { surface, surface_mesh, statistics, timings, .. } = worked;
+    let profile = Profile { grid: site.grid, shaded: Arc::unwrap_or_clone(whole), day_secs, night_secs };
+    Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, timings })
+}
+
+/// The whole with a tile in its place.
+fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
+    if tile.is_whole() {
+        return Arc::clone(shaded);
+    }
+    let mut cells: Vec<u64> = if whole.is_empty() { vec![0; tile.plan.cells()] } else { whole.iter().collect() };
+    let [left, top] = tile.first.map(|first| first as usize);
+    let [width, _] = tile.size.map(|size| size as usize);
+    for (cell, shaded) in shaded.iter().enumerate() {
+        cells[(top + cell / width) * tile.plan.width as usize + left + cell % width] = shaded;
+    }
+    Arc::new(cells.into())
+}
+
+/// As [`run`], with the sums tile by tile ([`Event::Tile`], [`Event::Summed`]), so that not all of them are held; from where
+/// the same study was stopped, where that is `begun`: sums are the same to the bit. Tiles before the one that was worked on
+/// are not told again. What another study left is told of, and not used.
+///
+/// # Errors
+/// As [`run`]; [`StudyError::LittleMemory`].
+pub fn in_tiles(
+    site: &Site,
+    wants: &Wants,
+    begun: Option<Unfinished>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Worked, StudyError> {
+    not_surfaces(site)?;
+    let mut watch = Stopwatch::start();
+    let (day_secs, night_secs) = day_and_night(&site.track);
+    note_distance(&site.mesh, on_event)?;
+    let view = View::Plan(site.grid);
+    let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, &view, on_event)? };
+    let tiles = tiles::of(site, &machine, wants, day_secs)?;
+    note_tiles(&tiles, wants, on_event)?;
+    let look = Look { site, machine: &machine, view, receivers: site.receivers };
+    let instants = &site.track.instants;
+    let count = tiles.len() * instants.len();
+    let study = LazyCell::new(|| fingerprint::of(site, &machine.drawn(), &tiles));
+    let mut statistics = wants.statistics.then(Statistics::default);
+    let (mut done, mut begun_with) = (0, None);
+    if let Some(begun) = begun {
+        if begun.study == *study && begun.statistics.is_some() == wants.statistics && is_whole(&begun, &tiles, count) {
+            (done, statistics, begun_with) = (begun.done, begun.statistics, Some(begun.shaded));
+        } else {
+            tell(on_event, Event::Note(ANOTHER_STUDY.to_owned()))?;
+        }
+    }
+    let first = worked_on(done, instants.len());
+    let mut technique = look.technique_of(tiles[first])?;
+    let surface = match wants.surface {
+        true if tiles.len() > 1 => Some(plan_surface(&look.surface_mesh(), site.ground, &site.grid)),
+        true => Some(look.surface(&*technique)?),
+        false => None,
+    };
+    watch.lap("prepare");
+
+    tell(on_event, Event::Started { instants: count, tiles: tiles.len() })?;
+    if done > 0 {
+        tell(on_event, Event::GoesOn { done })?;
+    }
+    let mut kept = Instant::now();
+    for (number, tile) in tiles.iter().enumerate().skip(first) {
+        if number > first && !technique.turn_to_tile(*tile)? {
+            technique = look.technique_of(*tile)?;
+        }
+        tell(on_event, Event::Tile(*tile))?;
+        let mut sum = Sum::new(machine.gpu(), tile.size[0], tile.size[1]);
+        let before = number * instants.len();
+        let done_of_it = done.saturating_sub(before);
+        if let Some(shaded) = begun_with.take() {
+            let by_day = instants[..done_of_it].iter().filter(|instant| !instant.night);
+            sum.begin_with(&shaded, by_day.map(|instant| instant.weight_secs).sum());
+        }
+        for (at, instant) in instants.iter().enumerate().skip(done_of_it) {
+            let index = before + at;
+            let (mut mask, mut bits) = (None, None);
+            if !instant.night {
+                let drawn = technique.draw(instant.to_sun)?;
+                sum.add(&drawn, instant.weight_secs)?;
+                mask = wants.masks.then(|| drawn.read()).transpose()?;
+                bits = wants.bits.then(|| drawn.bits()).transpose()?;
+                if let Some(statistics) = &mut statistics
+                    && let Some(counted) = technique.counted(instant.to_sun)?
+                {
+                    statistics.add(&counted);
+                }
+            } else if wants.masks {
+                mask = Some(night(&look.view));
+            }
+            let (mask, bits) = (mask.as_ref(), bits.as_ref());
+            let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });
+            if wants.keep_every.is_some_and(|every| told.is_err() || kept.elapsed() >= every) {
+                let shaded = sum.so_far()?;
+                let unfinished = Unfinished { study: *study, tiles: tiles.len(), done: index + 1, shaded, statistics };
+                tell(on_event, Event::Kept(&unfinished))?;
+                kept = Instant::now();
+            }
+            told?;
+        }
+        tell(on_event, Event::Summed(Arc::new(sum.finish()?)))?;
+    }
+    if statistics.is_some_and(|statistics| statistics.cells == 0) {
+        tell(on_event, Event::Note(super::NOTHING_COUNTED.to_owned()))?;
+        statistics = None;
+    }
+    watch.lap("shadows");
+    Ok(Worked {
+        drawn: machine.drawn(),
+        day_and_night_secs: (day_secs, night_secs),
+        surface,
+        surface_mesh: look.surface_mesh(),
+        statistics,
+        timings: watch.stages,
+    })
+}
+
+/// Says when the plan is done in tiles.
+fn note_tiles(tiles: &[Tile], wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let [first, _, ..] = tiles else { return Ok(()) };
+    if wants.masks {
+        let what = "the plan is done in tiles, and masks are written whole; take --bits, which holds the same, or larger \
+                    cells (--cell)";
+        return Err(StudyError::Conflict { option: "--masks", what });
+    }
+    if let Some(option) = wants.whole {
+        let what = "the plan is done in tiles, and lines are drawn of the whole; take larger cells (--cell), more --memory, or \
+                    leave it out";
+        return Err(StudyError::Conflict { option, what });
+    }
+    let [width, height] = first.size;
+    tell(on_event, Event::Note(format!("the plan is done in {} tiles of {width} × {height} cells", tiles.len())))
+}
+
+/// The tile that is worked on after so many instants: the last one until all of its instants are done and told.
+fn worked_on(done: usize, instants: usize) -> usize {
+    done.saturating_sub(1) / instants.max(1)
+}
+
+/// Whether what was left is of these tiles, as far as its numbers say.
+fn is_whole(begun: &Unfinished, tiles: &[Tile], count: usize) -> bool {
+    let tile = tiles.get(worked_on(begun.done, count / tiles.len()));
+    begun.tiles == tiles.len() && begun.done <= count && tile.is_some_and(|tile| begun.shaded.len() == tile.cells())
+}
+
+/// What a study that finds another one's sum says.
+const ANOTHER_STUDY: &str =
+    "what was left unfinished there is another study, or was asked otherwise: this one begins anew";

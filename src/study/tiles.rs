@@ -1,0 +1,63 @@
+//! A plan in tiles: where it has more cells than the adapter draws at once, or than there is memory for.
+
+use super::machine::Machine;
+use super::{StudyError, Wants};
+use crate::profile::accumulate::MOST_SECS;
+use crate::site::Site;
+use crate::view::Tile;
+
+/// Memory for all that grows with the raster: sums, masks, what cells see and what the drawing takes, on the adapter too.
+/// The models, the program and the adapter's driver come on top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// All that there is, bytes.
+    pub bytes: u64,
+    /// What whoever asks takes of it for a drawing once the sums are done, bytes.
+    pub drawing: u64,
+}
+
+/// Rows of the smallest tile: each tile has the models projected anew.
+const LEAST_ROWS: u32 = 16;
+/// Columns of a tile are a multiple of this, so that none begins within a byte of bits.
+const ALIGNED: u32 = 64;
+
+/// So much memory as `--memory` takes it, no less than that.
+pub(super) fn amount(bytes: u64) -> String {
+    if bytes < 10 << 20 {
+        return format!("{}KiB", bytes.div_ceil(1 << 10));
+    }
+    format!("{}MiB", bytes.div_ceil(1 << 20))
+}
+
+/// The tiles of a site's plan, row after row; one where all of it can be done at once.
+pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -> Result<Vec<Tile>, StudyError> {
+    let grid = site.grid;
+    // sums of more days run in larger words beside
+    let long = if day_secs > MOST_SECS { 24 } else { 0 };
+    let cell_bytes = machine.cell_bytes(site.receivers, wants) + long;
+    let most = machine.most_cells().unwrap_or(u32::MAX);
+    let columns = match grid.width.div_ceil(most) {
+        1 => grid.width,
+        parts => grid.width.div_ceil(parts).next_multiple_of(ALIGNED).min(most / ALIGNED * ALIGNED),
+    };
+    let row_bytes = u64::from(columns) * cell_bytes;
+    let rows = match wants.budget {
+        None => most,
+        Some(Budget { bytes, drawing }) => {
+            let least = drawing.max(row_bytes * u64::from(LEAST_ROWS.min(grid.height)));
+            if bytes < least {
+                return Err(StudyError::LittleMemory { asked: bytes, least, width: grid.width });
+            }
+            u32::try_from(bytes / row_bytes).unwrap_or(u32::MAX).min(most)
+        }
+    };
+    // of about the same height
+    let rows = grid.height.div_ceil(grid.height.div_ceil(rows));
+    let begins = |end: u32, step: u32| (0..end).step_by(step as usize);
+    let tile = |row: u32, column: u32| Tile {
+        plan: grid,
+        first: [column, row],
+        size: [columns.min(grid.width - column), rows.min(grid.height - row)],
+    };
+    Ok(begins(grid.height, rows).flat_map(|row| begins(grid.width, columns).map(move |at| tile(row, at))).collect())
+}

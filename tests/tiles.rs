@@ -1,0 +1,265 @@
+//! A plan in tiles is the plan in one go: on the processor to the bit, on a graphics adapter but for cells that lie within a
+//! 64th of a cell of an edge; and what does not go together with tiles is told.
+
+use crate::command::{done, fails, gnomon, site, stderr};
+use crate::exact::scenes::small;
+use crate::exact::{day, plan, scene_of};
+use crate::year::files;
+use glam::{DVec3, dvec2};
+use gnomon::gpu::Gpu;
+use gnomon::mesh::Mesh;
+use gnomon::shadow::projected::Projected;
+use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::stencil::Stencil;
+use gnomon::shadow::{Scene, Silhouettes, Technique};
+use gnomon::silhouette::Kind;
+use gnomon::site::{Overrides, Receivers, Site};
+use gnomon::view::{Grid, Mask, Tile, View};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Tiles of uneven size, that begin and end anywhere.
+fn tiles(plan: Grid) -> Vec<Tile> {
+    let cuts = |length: u32, parts: &[u32]| {
+        let ends = parts.iter().map(|part| length * part / 100).chain([length]);
+        ends.scan(0, |from, to| Some((std::mem::replace(from, to), to))).collect::<Vec<_>>()
+    };
+    let mut tiles = Vec::new();
+    for (top, bottom) in cuts(plan.height, &[13, 50, 51]) {
+        for (left, right) in cuts(plan.width, &[37, 74]) {
+            tiles.push(Tile { plan, first: [left, top], size: [right - left, bottom - top] });
+        }
+    }
+    tiles
+}
+
+/// Which cells of a tile's mask are others than the whole's, as places on the plan.
+fn differing(whole: &Mask, tile: &Tile, part: &Mask) -> Vec<(u32, u32)> {
+    assert_eq!([part.width, part.height], tile.size);
+    let mut differ = Vec::new();
+    for (at, share) in part.share.iter().enumerate() {
+        let column = tile.first[0] + at as u32 % part.width;
+        let row = tile.first[1] + at as u32 / part.width;
+        if whole.share[(row * whole.width + column) as usize] != *share {
+            differ.push((column, row));
+        }
+    }
+    differ
+}
+
+fn draw(technique: &mut dyn Technique, to_sun: DVec3) -> Mask {
+    technique.draw(to_sun).unwrap().read().unwrap()
+}
+
+/// Scenes of all kinds, with plans on which cells' corners are no round numbers, and some suns.
+fn scenes() -> Vec<(String, Scene, Grid, Vec<DVec3>)> {
+    let mut scenes = Vec::new();
+    for (name, parts) in small() {
+        for receivers in [Receivers::Ground, Receivers::Top] {
+            let View::Plan(grid) = plan(40.371_93, 150) else { panic!("a plan") };
+            let scene = scene_of(&Mesh::build(parts.clone()).unwrap(), receivers, 0.0);
+            scenes.push((format!("{name}, {}", receivers.word()), scene, grid, day()));
+        }
+    }
+    let asked = Overrides { size: Some(500), ..Overrides::default() };
+    let site = Site::load(Path::new("sites/tower"), &asked).unwrap();
+    let scene = Scene {
+        casters: site.mesh.of_components(&site.casts),
+        receivers: site.mesh.of_components(&site.receives),
+        ground: site.ground,
+    };
+    let suns = site.track.instants.iter().filter(|instant| !instant.night).map(|instant| instant.to_sun);
+    scenes.push(("tower".to_owned(), scene, site.grid, suns.step_by(3).collect()));
+    scenes
+}
+
+#[test]
+fn on_the_processor_tiles_are_the_whole_to_the_bit() {
+    for (name, scene, grid, suns) in scenes() {
+        let whole: [&mut dyn Technique; 3] = [
+            &mut Projected::new(&scene, grid),
+            &mut RayCast::new(scene.clone(), View::Plan(grid), None),
+            &mut RayCast::new(scene.clone(), View::Plan(grid), Some(5)),
+        ];
+        let all = tiles(grid);
+        let parts: [&mut dyn Technique; 3] = [
+            &mut Projected::new(&scene, all[0]),
+            &mut RayCast::of_tile(scene.clone(), all[0], None),
+            &mut RayCast::of_tile(scene.clone(), all[0], Some(5)),
+        ];
+        for (number, (whole, part)) in whole.into_iter().zip(parts).enumerate() {
+            let masks: Vec<Mask> = suns.iter().map(|sun| draw(whole, *sun)).collect();
+            let seen = whole.surface().unwrap();
+            for (at, tile) in all.iter().enumerate() {
+                assert!(at == 0 || part.turn_to_tile(*tile).unwrap());
+                for (sun, mask) in suns.iter().zip(&masks) {
+                    let differ = differing(mask, tile, &draw(part, *sun));
+                    assert!(differ.is_empty(), "{name}, {number}, {sun}: {} cells, {:?}", differ.len(), differ[0]);
+                }
+                let surface = part.surface().unwrap();
+                for (cell, face) in surface.face.iter().enumerate() {
+                    let column = tile.first[0] as usize + cell % tile.size[0] as usize;
+                    let row = tile.first[1] as usize + cell / tile.size[0] as usize;
+                    let there = row * grid.width as usize + column;
+                    let heights = [surface.height_m[cell], seen.height_m[there]].map(f32::to_bits);
+                    assert_eq!((*face, heights[0]), (seen.face[there], heights[1]), "{name}, {number}");
+                }
+            }
+        }
+    }
+}
+
+/// Of some cells those at which no shadow's edge runs within a 64th of a cell of the centre.
+fn beside_no_edge(scene: &Scene, grid: &Grid, sun: DVec3, cells: &[(u32, u32)]) -> Vec<(u32, u32)> {
+    let mut truth = RayCast::new(scene.clone(), View::Plan(*grid), None);
+    let far = |&(column, row): &(u32, u32)| {
+        let cell = grid.cell / 256.0;
+        let corner = grid.centre(column, row) + dvec2(-4.5, 4.5) * cell;
+        truth.look_at(View::Plan(Grid { west: corner.x, north: corner.y, cell, width: 9, height: 9 }));
+        let around = draw(&mut truth, sun).share;
+        around.iter().all(|share| *share == around[0])
+    };
+    cells.iter().copied().filter(far).collect()
+}
+
+#[test]
+fn on_the_adapter_tiles_differ_beside_edges_alone() {
+    let gpu = Arc::new(Gpu::open().unwrap());
+    let silhouettes = Silhouettes::OnProcessor(Kind::Hierarchy);
+    let (mut all, mut differ_at_all) = (0, 0);
+    for (name, scene, grid, suns) in scenes() {
+        let stencil = |view| Stencil::new(Arc::clone(&gpu), scene.clone(), view, silhouettes).unwrap();
+        let mut whole = stencil(View::Plan(grid));
+        let mut part = stencil(View::Plan(tiles(grid)[0].grid()));
+        for (at, tile) in tiles(grid).iter().enumerate() {
+            assert!(at == 0 || part.turn_to_tile(*tile).unwrap());
+            for sun in suns.iter().filter(|sun| sun.z > 0.17) {
+                let differ = differing(&draw(&mut whole, *sun), tile, &draw(&mut part, *sun));
+                let wrong = beside_no_edge(&scene, &grid, *sun, &differ);
+                assert!(wrong.is_empty(), "{name}, {sun}: {} of {} cells, {:?}", wrong.len(), differ.len(), wrong[0]);
+                (all, differ_at_all) = (all + tile.cells(), differ_at_all + differ.len());
+            }
+        }
+    }
+    assert!(differ_at_all * 2000 < all, "{differ_at_all} of {all} cells differ");
+    println!("{differ_at_all} of {all} cells differ, each within a 64th of a cell of an edge");
+}
+
+/// Of a whole file, byte by byte, but for what took how long.
+fn same(folder: &Path, one: &str, other: &str) {
+    let [one_files, other_files] = [one, other].map(|out| files(&folder.join(out)));
+    assert_eq!(one_files.keys().collect::<Vec<_>>(), other_files.keys().collect::<Vec<_>>());
+    for (file, bytes) in &one_files {
+        assert!(bytes == &other_files[file], "{one}, {other}: {file} is another");
+    }
+}
+
+/// A street of boxes and sheets, as a site of the command.
+const STUDY: &str = "--size 230 --region -47.3,-38.1,51.7,60.9 --threads 2 --step 20min --bits";
+
+#[test]
+fn files_of_a_study_in_tiles_are_those_of_the_whole() {
+    let folder = site();
+    let path = folder.path();
+    for (name, asked, memory) in [
+        ("ground", "--receivers ground --engine cpu", "200KiB"),
+        ("top", "--engine cpu", "1000KiB"),
+        ("rays", "--technique ray-cast", "300kB"),
+        ("disc", "--technique ray-cast --sun-samples 4", "300kB"),
+    ] {
+        done(path, &format!("profile . {STUDY} {asked} --out {name}"));
+        let told = stderr(&gnomon(path, &format!("profile . {STUDY} {asked} --memory {memory} --out {name}-tiles")));
+        assert!(told.contains("the plan is done in ") && told.contains(" instants of tiles"), "{told}");
+        same(path, name, &format!("{name}-tiles"));
+        // what is enough makes no tiles
+        let told = stderr(&gnomon(path, &format!("profile . {STUDY} {asked} --memory 1GiB --out {name}-enough")));
+        assert!(!told.contains("tiles"), "{told}");
+    }
+}
+
+#[test]
+fn a_plan_wider_than_the_largest_texture_is_done_in_tiles() {
+    let folder = site();
+    let path = folder.path();
+    let largest = Gpu::open().unwrap().limits.max_texture_dimension_2d;
+    let wide = format!("--region -40,-2,40,18 --receivers ground --cell {:?} --bits", 80.0 / f64::from(largest + 1000));
+    let wide = wide.replace("-40,-2,40,18", "-40,8,40,8.1");
+    let told = stderr(&gnomon(path, &format!("profile . {wide} --engine gpu --silhouette hextree --out gpu")));
+    assert!(told.contains("the plan is done in 2 tiles of "), "{told}");
+    done(path, &format!("profile . {wide} --engine cpu --out cpu"));
+    let [gpu, cpu] = ["gpu", "cpu"].map(|out| std::fs::read(path.join(out).join("shadow.bits")).unwrap());
+    assert_eq!(gpu.len(), cpu.len());
+    let differ: u32 = gpu.iter().zip(&cpu).map(|(one, other)| (one ^ other).count_ones()).sum();
+    let shadow: u32 = cpu.iter().map(|byte| byte.count_ones()).sum();
+    assert!(shadow > 10_000 && differ < shadow / 100, "{differ} of {shadow}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_study_that_was_stopped_among_its_tiles_goes_on_and_comes_to_the_same() {
+    let folder = site();
+    let path = folder.path();
+    for (name, engine, memory) in
+        [("ground", "--receivers ground --engine cpu", "200KiB"), ("gpu", "--technique stencil --stats", "1MiB")]
+    {
+        let asked = |out: &str, memory: &str| {
+            let study = STUDY.replace("--step 20min", "--from 8:00 --to 18:00 --step 1min");
+            let step = if name == "gpu" { study.replace("--step 1min", "--step 10min") } else { study };
+            format!("profile . {step} {engine} {memory} --out {name}-{out}")
+        };
+        let memory = &format!("--memory {memory}");
+        done(path, &asked("whole", memory));
+        for when in ["10%", "40%", "70%"] {
+            crate::year::stopped(path, &asked("stopped", memory), when);
+        }
+        let left = files(&path.join(format!("{name}-stopped")));
+        let names = ["profile.sums.unfinished", "profile.unfinished", "shadow.bits.unfinished"];
+        assert_eq!(left.keys().collect::<Vec<_>>(), names);
+        // other tiles are another study
+        let other = if name == "gpu" { "--memory 2MiB" } else { "--memory 300KiB" };
+        done(path, &asked("other", other));
+        for file in names {
+            std::fs::copy(
+                path.join(format!("{name}-stopped")).join(file),
+                path.join(format!("{name}-other")).join(file),
+            )
+            .unwrap();
+        }
+        let told = stderr(&gnomon(path, &asked("other", other)));
+        assert!(told.contains("begins anew") && !told.contains("goes on"), "{told}");
+        let told = stderr(&gnomon(path, &asked("stopped", memory)));
+        assert!(told.contains("goes on where it was stopped, after"), "{told}");
+        same(path, &format!("{name}-whole"), &format!("{name}-stopped"));
+        // sums of tiles that are gone are not taken for nothing
+        if name == "ground" {
+            same(path, &format!("{name}-whole"), &format!("{name}-other"));
+            std::fs::remove_dir_all(path.join(format!("{name}-stopped"))).unwrap();
+            crate::year::stopped(path, &asked("stopped", memory), "60%");
+            std::fs::remove_file(path.join(format!("{name}-stopped")).join(names[0])).unwrap();
+            assert!(!stderr(&gnomon(path, &asked("stopped", memory))).contains("goes on"));
+            same(path, &format!("{name}-whole"), &format!("{name}-stopped"));
+        }
+    }
+}
+
+#[test]
+fn memory_that_cannot_be_kept_to_is_told() {
+    let folder = site();
+    let path = folder.path();
+    let study = "profile . --engine cpu --size 300 --threads 2";
+    for wrong in ["512", "MiB", "1.5GiB", "-1MiB", "512mib", "99999999999GiB", "0x10MiB", "512 MiB"] {
+        // the command line is split at blanks
+        let wrong = wrong.split(' ').next().unwrap();
+        fails(path, &format!("{study} --memory={wrong}"), 2, &["--memory", "512MiB"]);
+    }
+    fails(path, &format!("{study} --memory 0KiB"), 2, &["--memory", "take at least", "300 cells"]);
+    // the least that is told is enough
+    let told = stderr(&gnomon(path, &format!("{study} --memory 5KiB")));
+    let least = told.split("at least ").nth(1).unwrap().split(',').next().unwrap();
+    done(path, &format!("{study} --memory {least}"));
+    let less = format!("{}KiB", least.strip_suffix("KiB").unwrap().parse::<u32>().unwrap() - 1);
+    fails(path, &format!("{study} --memory {less}"), 2, &["--memory", least]);
+    fails(path, &format!("{study} --memory {least} --masks masks"), 2, &["--masks", "--bits"]);
+    assert!(!path.join("masks/mask-0000.png").exists());
+    fails(path, "profile . --receivers surfaces --memory 1GiB", 2, &["--memory", "surfaces"]);
+}
