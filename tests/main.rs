@@ -2,6 +2,7 @@
 
 mod architecture;
 mod command;
+mod counts;
 mod dense;
 #[cfg(feature = "desktop")]
 mod desktop;

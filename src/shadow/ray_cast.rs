@@ -217,23 +217,42 @@ impl RayCast {
 
     /// Which share of those a cell sees.
     pub(super) fn share(&self, at: usize, suns: &[(DVec3, Shear)]) -> u8 {
-        let RayCast { scene, rays, casters, seen, mask, .. } = self;
+        let RayCast { rays, casters, seen, mask, .. } = self;
         let Seen { face, distance } = seen[at];
         // nor is cut earth asked
         if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
             return 255;
         }
-        let origin = scene.casters.origin;
-        let world_viewer = rays.view.viewer();
-        let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
-        let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
-        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
-        let normal = seen_normal(plane, viewer);
+        let normal = self.normal(face);
         let (from, along) = rays.of(at as u32 % mask.width, at as u32 / mask.width);
         let judged = from + along * distance + normal * JUDGED_ABOVE_M;
         let lit = |(to_point, shear): &&(DVec3, Shear)| normal.dot(*to_point) > 0.0 && !casters.blocked(judged, shear);
         let seen = suns.iter().filter(lit).count();
         (255.0 * seen as f64 / suns.len() as f64).round() as u8
+    }
+
+    /// The normal of a face's seen side, or of the ground's.
+    fn normal(&self, face: u32) -> DVec3 {
+        let RayCast { scene, rays, .. } = self;
+        let origin = scene.casters.origin;
+        let world_viewer = rays.view.viewer();
+        let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
+        let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
+        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
+        seen_normal(plane, viewer)
+    }
+
+    /// How many rays a mask takes: one for each point of the sun and each cell whose seen side it shines on.
+    pub fn rays(&self, to_sun: DVec3) -> usize {
+        let suns = self.suns(to_sun);
+        let of_cell = |seen: &Seen| {
+            if seen.face == Surface::SKY {
+                return 0;
+            }
+            let normal = self.normal(seen.face);
+            suns.iter().filter(|(to_point, _)| normal.dot(*to_point) > 0.0).count()
+        };
+        self.seen.par_iter().map(of_cell).sum()
     }
 
     /// Which share of the sun's centre a cell sees, found without the trees: every face is asked. Slow; by this the trees
@@ -252,11 +271,7 @@ impl RayCast {
         if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
             return 255;
         }
-        let world_viewer = rays.view.viewer();
-        let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
-        let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
-        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
-        let normal = seen_normal(plane, viewer);
+        let normal = self.normal(face);
         let judged = from + along * distance + normal * JUDGED_ABOVE_M;
         let lit = normal.dot(to_sun) > 0.0 && hits(&scene.casters, judged, &Shear::along(to_sun)).is_empty();
         if lit { 255 } else { 0 }

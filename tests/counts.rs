@@ -1,0 +1,131 @@
+//! How much work is done, in counts that do not drift, held against those in `docs/benchmarks/counts.md`: a technique that
+//! comes to look at twice as much is found out on a machine that is busy with something else.
+
+use crate::exact::gpu;
+use gnomon::shadow::hybrid::Hybrid;
+use gnomon::shadow::map::DEFAULT_SIZE;
+use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::stencil::Stencil;
+use gnomon::shadow::{Scene, Technique};
+use gnomon::silhouette::Kind;
+use gnomon::site::model;
+use gnomon::site::{Overrides, Receivers, Site};
+use gnomon::view::View;
+use std::cell::Cell;
+use std::path::Path;
+
+const RECORD: &str = include_str!("../docs/benchmarks/counts.md");
+const SITES: [&str; 3] = ["tower", "industry", "headquarters"];
+/// So much may a count be off, of what is recorded: adapters' rasters differ at edges.
+const TOLERANCE: f64 = 0.01;
+
+/// Counts by name.
+type Counts = Vec<(&'static str, u64)>;
+
+fn counts(name: &str) -> Counts {
+    let asked = Overrides { size: Some(256), receivers: Some(Receivers::Top), ..Overrides::default() };
+    let corners = Cell::new(0);
+    let site = Site::load_with(&Path::new("sites").join(name), &asked, |path, placement| {
+        let parts = model::load(path, placement)?;
+        corners.set(corners.get() + parts.iter().map(|part| part.positions.len()).sum::<usize>());
+        Ok(parts)
+    });
+    let site = site.unwrap();
+    let casters = site.mesh.of_components(&site.casts);
+    let by_day: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
+    let suns = [0, by_day.len() / 2, by_day.len() - 1].map(|at| by_day[at].to_sun);
+    let mut counts: Counts = vec![
+        ("corners that are read", corners.get() as u64),
+        ("vertices after welding", site.mesh.vertices.len() as u64),
+        ("triangles that cast", casters.faces.len() as u64),
+        ("edges of those", casters.edges.len() as u64),
+    ];
+    let finders = [
+        ("edges tested by brute force", Kind::BruteForce),
+        ("edges and nodes tested by the hextree, depth 4", Kind::Hextree { depth: 4 }),
+        ("edges and nodes tested by the hierarchy", Kind::Hierarchy),
+    ];
+    let mut silhouettes = Vec::new();
+    for (what, kind) in finders {
+        let (mut finder, mut silhouette) = (kind.build(&casters), Vec::new());
+        let look = |sun: &glam::DVec3| finder.find(&casters, casters.local_light(sun.extend(0.0)), &mut silhouette).at;
+        counts.push((what, suns.iter().map(look).sum::<usize>() as u64));
+        silhouettes.push(silhouette.len());
+    }
+    assert!(silhouettes.iter().all(|count| *count == silhouettes[0]), "{silhouettes:?}");
+    counts.push(("silhouette edges", silhouettes[0] as u64));
+
+    let receivers = site.mesh.of_components(&site.receives);
+    let (scene, view) = (Scene { casters, receivers, ground: site.ground }, View::Plan(site.grid));
+    let rays = RayCast::new(scene.clone(), view, None);
+    counts.push(("rays", suns.iter().map(|sun| rays.rays(*sun)).sum::<usize>() as u64));
+    let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::Hierarchy).unwrap();
+    let mut hybrid = Hybrid::new(gpu(), scene, view, Kind::Hierarchy, DEFAULT_SIZE).unwrap();
+    let [mut all, mut reached] = [0; 2];
+    for sun in suns {
+        all += stencil.counted(sun).unwrap().unwrap().all;
+        reached += hybrid.counted(sun).unwrap().unwrap().reached.iter().map(|&it| u64::from(it)).sum::<u64>();
+    }
+    counts.extend([("fragments of the stencil", all), ("fragments that the hybrid's mask lets through", reached)]);
+    counts
+}
+
+/// The recorded counts of all sites, by name, in the order of the table.
+fn recorded(record: &str) -> Vec<(String, [u64; 3])> {
+    let table = record.split("## Work on the sites").nth(1).unwrap().split("##").next().unwrap();
+    let row = |line: &str| {
+        let cells: Vec<_> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let [name, numbers @ ..] = &cells[..] else { return None };
+        let numbers: Vec<u64> = numbers.iter().filter_map(|number| number.replace(',', "").parse().ok()).collect();
+        Some(((*name).to_owned(), numbers.try_into().ok()?))
+    };
+    table.lines().filter(|line| line.starts_with('|')).filter_map(row).collect()
+}
+
+/// What is off, and what stands in one table alone.
+fn off(recorded: &[(String, [u64; 3])], found: &[(String, [u64; 3])]) -> Vec<String> {
+    let mut off = Vec::new();
+    for (name, counts) in found {
+        match recorded.iter().find(|(recorded, _)| recorded == name) {
+            None => off.push(format!("{name}: not recorded")),
+            Some((_, recorded)) => {
+                for at in 0..3 {
+                    let most = recorded[at] as f64 * TOLERANCE;
+                    if (counts[at] as f64 - recorded[at] as f64).abs() > most {
+                        off.push(format!("{name}, {}: {}, recorded {}", SITES[at], counts[at], recorded[at]));
+                    }
+                }
+            }
+        }
+    }
+    let is_found = |name: &str| found.iter().any(|(found, _)| found == name);
+    off.extend(recorded.iter().filter(|(name, _)| !is_found(name)).map(|(name, _)| format!("{name}: not counted")));
+    off
+}
+
+#[test]
+fn work_is_what_is_recorded() {
+    let of_sites = SITES.map(counts);
+    let row = |at: usize| (of_sites[0][at].0.to_owned(), [0, 1, 2].map(|site: usize| of_sites[site][at].1));
+    let found: Vec<_> = (0..of_sites[0].len()).map(row).collect();
+    let off = off(&recorded(RECORD), &found);
+    let line = |(name, [a, b, c]): &(String, [u64; 3])| format!("| {name} | {a} | {b} | {c} |\n");
+    let table: String = found.iter().map(line).collect();
+    assert!(off.is_empty(), "{}\nwhere that is meant, put into docs/benchmarks/counts.md:\n{table}", off.join("\n"));
+}
+
+#[test]
+fn what_is_off_is_found() {
+    let recorded = recorded(RECORD);
+    assert!(recorded.len() > 8 && off(&recorded, &recorded).is_empty());
+    let change = |change: &dyn Fn(&mut Vec<(String, [u64; 3])>)| {
+        let mut found = recorded.clone();
+        change(&mut found);
+        off(&recorded, &found).len()
+    };
+    assert_eq!(change(&|found| found[4].1[2] = found[4].1[2] * 1009 / 1000), 0);
+    assert_eq!(change(&|found| found[4].1[2] = found[4].1[2] * 1011 / 1000), 1);
+    assert_eq!(change(&|found| found[5].1[0] = found[5].1[0] * 98 / 100), 1);
+    assert_eq!(change(&|found| drop(found.remove(3))), 1);
+    assert_eq!(change(&|found| found[3].0.push('x')), 2);
+}
