@@ -259,7 +259,6 @@ impl RayCast {
     /// themselves are proven.
     pub fn share_without_trees(&self, column: u32, row: u32, to_sun: DVec3) -> u8 {
         let RayCast { scene, rays, .. } = self;
-        let origin = scene.casters.origin;
         let hits = |mesh: &Mesh, from: DVec3, shear: &Shear| -> Vec<(u32, f64)> {
             let hit = |face: u32| Some((face, shear.hit(from, &mesh.corners(face as usize))?));
             (0..mesh.faces.len() as u32).filter_map(hit).collect()

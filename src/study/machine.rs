@@ -153,6 +153,10 @@ impl Machine {
         match self {
             Machine::RayCast { sun_samples } => Ok(Box::new(RayCast::of_tile(scene, tile, *sun_samples))),
             Machine::Projected(_) => Ok(Box::new(Projected::new(&scene, tile))),
+            Machine::OnGpu(gpu, Drawing::Projected(_)) => {
+                Machine::OnGpu(Arc::clone(gpu), Drawing::Projected(tile.grid()))
+                    .technique(scene, View::Plan(tile.grid()))
+            }
             Machine::SoftPicture { .. } | Machine::OnGpu(..) => self.technique(scene, View::Plan(tile.grid())),
         }
     }
