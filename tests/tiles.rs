@@ -109,6 +109,34 @@ fn on_the_processor_tiles_are_the_whole_to_the_bit() {
     }
 }
 
+#[test]
+fn tiles_that_lie_elsewhere_are_found_out() {
+    let (_, scene, grid, suns) = scenes().pop().unwrap();
+    let tile = tiles(grid)[4];
+    // a cell to the east, and to the south
+    for beside in [[1, 0], [0, 1]] {
+        let first = [tile.first[0] + beside[0], tile.first[1] + beside[1]];
+        let parts: [&mut dyn Technique; 2] = [
+            &mut Projected::new(&scene, Tile { first, ..tile }),
+            &mut RayCast::of_tile(scene.clone(), Tile { first, ..tile }, None),
+        ];
+        for part in parts {
+            let whole = draw(&mut Projected::new(&scene, grid), suns[1]);
+            assert!(differing(&whole, &tile, &draw(part, suns[1])).len() > 50);
+        }
+    }
+    // an eighth of a cell, on the adapter
+    let gpu = Arc::new(Gpu::open().unwrap());
+    let stencil = |grid| {
+        let silhouettes = Silhouettes::OnProcessor(Kind::Hierarchy);
+        draw(&mut Stencil::new(Arc::clone(&gpu), scene.clone(), View::Plan(grid), silhouettes).unwrap(), suns[1])
+    };
+    let at = tile.grid();
+    let off = Grid { west: at.west + grid.cell / 8.0, ..at };
+    let differ = differing(&stencil(grid), &tile, &stencil(off));
+    assert!(beside_no_edge(&scene, &grid, suns[1], &differ).len() > 10);
+}
+
 /// Of some cells those at which no shadow's edge runs within a 64th of a cell of the centre.
 fn beside_no_edge(scene: &Scene, grid: &Grid, sun: DVec3, cells: &[(u32, u32)]) -> Vec<(u32, u32)> {
     let mut truth = RayCast::new(scene.clone(), View::Plan(*grid), None);

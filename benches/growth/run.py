@@ -5,7 +5,7 @@
 
 The city is repeated side by side, as often as asked; its nodes are, so that the file stays small, but every copy is
 loaded, welded and has its own edges. The plan covers all copies in 2048 × 2048 cells; with --cells it covers one city in
-so many times as many. The instants are those of a day, one an hour and one every six minutes: what an instant costs is
+so many times as many. The instants are those of a day, one every four hours and one every half hour: what an instant costs is
 the difference of both runs over that of their instants, so that it is free of loading and writing. Runs take turns, and
 the median counts. CPU is user and system time together; the peak is the largest resident size.
 """
@@ -14,7 +14,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 WINDOW = "--date 2026-09-18 --from 08:00 --to 16:00"
-STEPS = (("1h", 9), ("6min", 81))
+STEPS = (("4h", 3), ("30min", 17))
 SITE = """[place]
 latitude = 48.2
 longitude = 16.37
