@@ -4,7 +4,7 @@ Markdown, and holds it against the one in docs/benchmarks/counts.md.
 
     python benches/instructions.py [--gnomon PROGRAM] [--write]
 
-It needs valgrind and a release build, and takes some minutes: it is no part of the tests. It fails where a count is off
+It needs valgrind, and takes a minute on the dev build, which whoever changes the code has: it is no part of the tests. It fails where a count is off
 the recorded one by more than 5 %; --write puts what it finds into the document in place of what is there. Another
 compiler makes other code, so the counts are recorded with their compiler's name.
 """
@@ -28,13 +28,13 @@ ROW = re.compile(r"^\| (.+?) \| ([\d,]+) \|$", re.M)
 
 def main():
     ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    ask.add_argument("--gnomon", type=Path, default=ROOT / "target/release/gnomon")
+    ask.add_argument("--gnomon", type=Path, default=ROOT / "target/debug/gnomon")
     ask.add_argument("--write", action="store_true")
     asked = ask.parse_args()
     if not shutil.which("valgrind"):
         sys.exit("valgrind is not there; install it")
     if not asked.gnomon.is_file():
-        sys.exit(f"{asked.gnomon} is not there; build it with cargo build --release")
+        sys.exit(f"{asked.gnomon} is not there; build it with cargo build")
     text = RECORD.read_text()
     before, heading, rest = text.partition("## Instructions")
     recorded = {name: int(count.replace(",", "")) for name, count in ROW.findall(rest)}

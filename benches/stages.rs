@@ -1,8 +1,8 @@
 //! What is done once a study: loading, welding, adjacency, planes, and the files, on the sample sites:
 //! `cargo bench --bench stages`. Prints a table in Markdown.
 //!
-//! Instants and their sums are in `instants`. `docs/benchmarks/counts.md` keeps a run beside the counts of the same stages;
-//! compare ratios, since absolute times drift with the machine.
+//! Instants and their sums are in `instants`; `docs/benchmarks/counts.md` keeps counts that do not drift. Compare ratios, since
+//! absolute times drift with the machine.
 
 mod timing;
 

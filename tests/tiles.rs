@@ -190,7 +190,7 @@ fn files_of_a_study_in_tiles_are_those_of_the_whole() {
     let folder = site();
     let path = folder.path();
     for (name, asked, memory) in [
-        ("ground", "--receivers ground --engine cpu", "200KiB"),
+        ("ground", "--receivers ground --engine cpu", "240KiB"),
         ("top", "--engine cpu", "1000KiB"),
         ("rays", "--technique ray-cast", "300kB"),
         ("disc", "--technique ray-cast --sun-samples 4", "300kB"),
@@ -228,7 +228,7 @@ fn a_study_that_was_stopped_among_its_tiles_goes_on_and_comes_to_the_same() {
     let folder = site();
     let path = folder.path();
     for (name, engine, memory) in
-        [("ground", "--receivers ground --engine cpu", "200KiB"), ("gpu", "--technique stencil --stats", "1MiB")]
+        [("ground", "--receivers ground --engine cpu", "240KiB"), ("gpu", "--technique stencil --stats", "1MiB")]
     {
         let asked = |out: &str, memory: &str| {
             let study = STUDY.replace("--step 20min", "--from 8:00 --to 18:00 --step 1min");

@@ -139,7 +139,9 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     unfinished::remove(&asked.out)?;
     let range = hours(&profile, &site.track);
     profile.shaded.check()?;
-    profile.shaded.remove()?;
+    // Windows removes no open file.
+    drop(profile);
+    sums::remove(&asked.out)?;
     if let Some(folder) = &asked.masks {
         let _ = writeln!(text, "{} ({} masks)", folder.display(), site.track.instants.len());
     }
@@ -182,13 +184,6 @@ impl Sums {
         match self {
             Sums::Memory(_) => Ok(()),
             Sums::File(file) => file.check(),
-        }
-    }
-
-    fn remove(self) -> Result<(), ExportError> {
-        match self {
-            Sums::Memory(_) => Ok(()),
-            Sums::File(file) => file.remove(),
         }
     }
 }

@@ -114,7 +114,7 @@ fn encode_as<W: Write + Seek, K: TiffKind>(
     let strips: Vec<Range<usize>> =
         (0..height).step_by(rows_a_strip).map(|row| row * width..(row + rows_a_strip).min(height) * width).collect();
     let (mut offsets, mut lengths) = (Vec::new(), Vec::new());
-    for some in strips.chunks(2 * rayon::current_num_threads()) {
+    for some in strips.chunks(rayon::current_num_threads()) {
         let deflated: Vec<_> = some.par_iter().map(|cells| deflate(&hours(cells.clone()))).collect();
         for strip in deflated {
             let strip = strip?;

@@ -34,6 +34,14 @@ pub fn has(folder: &Path, grid: &Grid, day_secs: u32) -> bool {
     fs::metadata(path(folder)).is_ok_and(|found| found.len() == size(grid, day_secs))
 }
 
+/// Removes it, whichever study left it: the one that was asked is done.
+///
+/// # Errors
+/// [`ExportError::Write`] where the file system refuses.
+pub fn remove(folder: &Path) -> Result<(), ExportError> {
+    file::remove(&path(folder))
+}
+
 /// How large it is, bytes.
 pub fn size(grid: &Grid, day_secs: u32) -> u64 {
     grid.cells() as u64 * cell_bytes(day_secs)
@@ -94,17 +102,6 @@ impl SumsFile {
     pub fn check(&self) -> Result<(), ExportError> {
         let fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner).take();
         fault.map_or(Ok(()), |source| Err(ExportError::Read { path: self.path.clone(), source }))
-    }
-
-    /// Removes it: the study is done.
-    ///
-    /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
-    pub fn remove(self) -> Result<(), ExportError> {
-        let SumsFile { path, file, .. } = self;
-        // Windows removes no open file.
-        drop(file);
-        file::remove(&path)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::site::Site;
 use crate::view::Tile;
 
 /// Memory for all that grows with the raster: sums, masks, what cells see and what the drawing takes, on the adapter too.
-/// The models, the program and the adapter's driver come on top.
+/// The models, the program with the few megabytes that each of its threads works with, and the adapter's driver come on top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// All that there is, bytes.
