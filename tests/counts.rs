@@ -21,6 +21,8 @@ const TOLERANCE: f64 = 0.01;
 
 /// Counts by name.
 type Counts = Vec<(&'static str, u64)>;
+/// A line of the table: a name, and the counts of the sites.
+type Row = (String, [u64; 3]);
 
 fn counts(name: &str) -> Counts {
     let asked = Overrides { size: Some(256), receivers: Some(Receivers::Top), ..Overrides::default() };
@@ -71,7 +73,7 @@ fn counts(name: &str) -> Counts {
 }
 
 /// The recorded counts of all sites, by name, in the order of the table.
-fn recorded(record: &str) -> Vec<(String, [u64; 3])> {
+fn recorded(record: &str) -> Vec<Row> {
     let table = record.split("## Work on the sites").nth(1).unwrap().split("##").next().unwrap();
     let row = |line: &str| {
         let cells: Vec<_> = line.trim_matches('|').split('|').map(str::trim).collect();
@@ -83,7 +85,7 @@ fn recorded(record: &str) -> Vec<(String, [u64; 3])> {
 }
 
 /// What is off, and what stands in one table alone.
-fn off(recorded: &[(String, [u64; 3])], found: &[(String, [u64; 3])]) -> Vec<String> {
+fn off(recorded: &[Row], found: &[Row]) -> Vec<String> {
     let mut off = Vec::new();
     for (name, counts) in found {
         match recorded.iter().find(|(recorded, _)| recorded == name) {
@@ -109,7 +111,7 @@ fn work_is_what_is_recorded() {
     let row = |at: usize| (of_sites[0][at].0.to_owned(), [0, 1, 2].map(|site: usize| of_sites[site][at].1));
     let found: Vec<_> = (0..of_sites[0].len()).map(row).collect();
     let off = off(&recorded(RECORD), &found);
-    let line = |(name, [a, b, c]): &(String, [u64; 3])| format!("| {name} | {a} | {b} | {c} |\n");
+    let line = |(name, [a, b, c]): &Row| format!("| {name} | {a} | {b} | {c} |\n");
     let table: String = found.iter().map(line).collect();
     assert!(off.is_empty(), "{}\nwhere that is meant, put into docs/benchmarks/counts.md:\n{table}", off.join("\n"));
 }
@@ -118,7 +120,7 @@ fn work_is_what_is_recorded() {
 fn what_is_off_is_found() {
     let recorded = recorded(RECORD);
     assert!(recorded.len() > 8 && off(&recorded, &recorded).is_empty());
-    let change = |change: &dyn Fn(&mut Vec<(String, [u64; 3])>)| {
+    let change = |change: &dyn Fn(&mut Vec<Row>)| {
         let mut found = recorded.clone();
         change(&mut found);
         off(&recorded, &found).len()
