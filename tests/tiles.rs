@@ -289,5 +289,7 @@ fn memory_that_cannot_be_kept_to_is_told() {
     fails(path, &format!("{study} --memory {less}"), 2, &["--memory", least]);
     fails(path, &format!("{study} --memory {least} --masks masks"), 2, &["--masks", "--bits"]);
     assert!(!path.join("masks/mask-0000.png").exists());
+    fails(path, &format!("{study} --memory {least} --draw hours"), 2, &["--draw", "in tiles"]);
+    assert!(!path.join("out/hours.svg").exists());
     fails(path, "profile . --receivers surfaces --memory 1GiB", 2, &["--memory", "surfaces"]);
 }
