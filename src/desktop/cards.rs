@@ -79,7 +79,7 @@ fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, ui: &mut Ui) {
     // the answer stays when the pointer goes on
     let normal = probed.probe.normal.unwrap_or(glam::DVec3::Z);
     let under = Under { point, normal, face: None, name: String::new() };
-    if let Some(said) = open.laid.as_ref().and_then(|laid| laid.said(&under)) {
+    if let Some(said) = open.laid.as_ref().and_then(|laid| laid.said(&under, unit)) {
         ui.label(format!("{said} in the study"));
     }
     let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);

@@ -4,6 +4,7 @@ use super::hours::{Found, Laid, NamedFile};
 use super::loading::Project;
 use super::pick::Under;
 use super::settings::Settings;
+use super::unit::Unit;
 use super::work::Work;
 use crate::export::figure::{self, scale::Rgb};
 use crate::export::report::{self, Told};
@@ -67,15 +68,16 @@ impl Facades {
     }
 
     /// The hours of sun at a point, and where it lies on its face.
-    pub(super) fn said(&self, under: &Under) -> Option<String> {
+    pub(super) fn said(&self, under: &Under, unit: Unit) -> Option<String> {
         let patches = &self.outcome.patches;
         let patch = self.atlas.patch(patches, under.face?, under.normal)?;
         let point = under.point - patches.origin;
         let lit = self.atlas.lit(patches, patch, point);
         let hours = f64::from(lit) / (f64::from(self.outcome.hours.samples) * 3600.0);
         let from_corner = point - patch.corner;
-        let [right, down] = [patch.right, patch.down].map(|along| from_corner.dot(along).max(0.0));
-        Some(format!("{hours:.2} h of sun, {right:.2} m right and {down:.2} m down on its face"))
+        let [right, down] = [patch.right, patch.down].map(|along| from_corner.dot(along).max(0.0) / unit.metres);
+        let name = unit.name;
+        Some(format!("{hours:.2} h of sun, {right:.2} {name} right and {down:.2} {name} down on its face"))
     }
 
     /// The drawing, the model, the table and the report.

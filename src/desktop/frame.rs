@@ -182,9 +182,9 @@ impl App {
                     if let Some(under) = &open.viewer.under {
                         let point = under.point;
                         let hours = open.laid.as_ref().filter(|_| self.settings.shown.hours);
-                        let hours = hours.and_then(|laid| laid.said(under));
-                        let hours = hours.map_or(String::new(), |hours| format!("{hours}    "));
                         let unit = Unit::of(self.kept.feet);
+                        let hours = hours.and_then(|laid| laid.said(under, unit));
+                        let hours = hours.map_or(String::new(), |hours| format!("{hours}    "));
                         let at = point / unit.metres;
                         let at =
                             format!("{:.1} E  {:.1} N  {:.1} up, {}", at.x, at.y, at.z, unit.name).replace('-', "−");

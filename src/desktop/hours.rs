@@ -6,6 +6,7 @@ use super::facades::Facades;
 use super::loading::Project;
 use super::pick::Under;
 use super::settings::Settings;
+use super::unit::Unit;
 use super::work::Work;
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
 use crate::export::{figure, raster, report};
@@ -78,11 +79,11 @@ impl Laid {
     }
 
     /// What it says of a point, where its surface is the one that was counted.
-    pub(super) fn said(&self, under: &Under) -> Option<String> {
+    pub(super) fn said(&self, under: &Under, unit: Unit) -> Option<String> {
         match &self.found {
             Found::Shadow(hours) => hours.said(under.point),
             Found::Change(change) => change.said(under.point),
-            Found::Facades(facades) => facades.said(under),
+            Found::Facades(facades) => facades.said(under, unit),
         }
     }
 
