@@ -199,11 +199,13 @@ fn choices_that_exclude_each_other_are_wrong_use() {
 #[test]
 fn the_graphics_adapter_is_named() {
     let folder = site();
-    for receivers in ["top", "ground"] {
+    for (receivers, technique, silhouette) in
+        [("top", "stencil", "hextree".into()), ("ground", "projected", Value::Null)]
+    {
         let options = format!("--engine gpu --size 64 --json --receivers {receivers}");
         let json: Value = serde_json::from_str(&done(folder.path(), &format!("profile . {options}"))).unwrap();
-        assert_eq!((&json["technique"], &json["engine"]), (&"stencil".into(), &"gpu".into()));
-        assert_eq!((&json["silhouette"], json["adapter"].is_string()), (&"hextree".into(), true));
+        assert_eq!((&json["technique"], &json["engine"]), (&technique.into(), &"gpu".into()));
+        assert_eq!((&json["silhouette"], json["adapter"].is_string()), (&silhouette, true));
     }
 }
 
