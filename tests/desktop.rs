@@ -1,5 +1,6 @@
 //! The window, driven by the names that it gives its parts, as a person and as assistive technology would.
 
+mod changing;
 mod comparing;
 mod facades;
 mod handing_in;

@@ -330,3 +330,44 @@ fn several_days_are_the_sum_of_each() {
         assert!((all - sum).abs() < 1e-5, "cell {cell}: {all} and {sum}");
     }
 }
+
+/// What is written while a study goes on is of that study, whichever others were stopped in its folder.
+#[cfg(unix)]
+#[test]
+fn what_another_stopped_study_wrote_is_not_taken_over() {
+    let folder = site();
+    let path = folder.path();
+    let study = |date: &str, more: &str| {
+        format!(
+            "profile . --technique ray-cast --size 64 --date {date} --from 9:00 --to 15:00 --step 1min \
+             --write tif,json {more}"
+        )
+    };
+    done(path, &study("2026-09-18", "--bits --masks right --out right"));
+    // bits and masks of another day; then the day itself, which writes none and is stopped later
+    stopped(path, &study("2026-06-18", "--bits --masks masks --out out"), "60%");
+    stopped(path, &study("2026-09-18", "--out out"), "40%");
+    let told = stderr(&gnomon(path, &study("2026-09-18", "--bits --masks masks --out out")));
+    assert!(!told.contains("goes on"), "{told}");
+    // elsewhere is another study, too: what lies there already is not its own
+    stopped(path, &study("2026-09-18", "--masks other --out there"), "40%");
+    done(path, &study("2026-06-18", "--masks others --out another"));
+    let told = stderr(&gnomon(path, &study("2026-09-18", "--masks others --out there")));
+    assert!(told.contains("begins anew"), "{told}");
+    let masks = files(&path.join("right"));
+    for (name, bytes) in files(&path.join("out")) {
+        assert!(bytes == masks[&name], "{name}");
+    }
+    for folder in ["masks", "others"] {
+        for index in [0, 100, 250, 360] {
+            let mask = |folder: &str| fs::read(path.join(folder).join(format!("mask-{index:04}.png"))).unwrap();
+            let right = fs::read(path.join("right").join(format!("mask-{index:04}.png"))).unwrap();
+            assert!(mask(folder) == right, "{folder}, {index}");
+        }
+    }
+    // nothing of what was stopped stays behind one that is done
+    stopped(path, &study("2026-09-18", "--bits --out left"), "40%");
+    done(path, &study("2026-09-18", "--out left"));
+    let left: Vec<String> = files(&path.join("left")).into_keys().collect();
+    assert_eq!(left, ["profile.json", "shadow-hours.tif"]);
+}

@@ -242,7 +242,7 @@ pub(super) struct ProfileArgs {
     pub(super) bits: bool,
     /// Memory for all that grows with the number of cells, as 512MiB or 2GB: where the plan takes more, it is done in tiles,
     /// with the same results. Models, the program and the adapter's driver come on top [default: as much as it takes]
-    #[arg(long, value_name = "SIZE", value_parser = memory::parse)]
+    #[arg(long, value_name = "SIZE", value_parser = memory::parse, allow_hyphen_values = true)]
     pub(super) memory: Option<u64>,
     /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
     /// cells, those of the sky too)

@@ -4,7 +4,7 @@ use super::arguments::{ProfileArgs, Written};
 use super::commands::{drawn_by, took};
 use super::progress::Progress;
 use super::{interrupt, say, surfaces};
-use crate::export::bits::BitsFile;
+use crate::export::bits::{self, BitsFile};
 use crate::export::figure::Outline;
 use crate::export::report::Told;
 use crate::export::sums::{self, SumsFile};
@@ -15,7 +15,9 @@ use crate::site::{Receivers, Site};
 use crate::study::{self, Budget, Event, Stopwatch, Wants};
 use crate::sun::{Instant, SunTrack};
 use crate::view::Tile;
+use rustc_hash::FxBuildHasher;
 use std::fmt::Write;
+use std::hash::BuildHasher;
 use std::iter;
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
@@ -51,6 +53,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let wants = Wants {
         masks: asked.masks.is_some(),
         bits: asked.bits || asked.lines.outlines(),
+        written: FxBuildHasher.hash_one(&asked.masks),
         surface: false,
         statistics: asked.stats,
         whole: asked.lines.given().then_some("--draw"),
@@ -218,6 +221,8 @@ struct Files<'a> {
     /// The tile that is worked on, of how many, and whether this run begins anew.
     tile: (Tile, usize),
     is_new: bool,
+    /// Whether no tile was begun yet.
+    is_first: bool,
     /// Whether there is something to go on from.
     is_kept: bool,
     /// What could not be written.
@@ -242,6 +247,7 @@ impl Files<'_> {
             sums: Sums::Memory(Arc::default()),
             tile: (site.grid.into(), 1),
             is_new: true,
+            is_first: true,
             is_kept: false,
             fault: None,
         })
@@ -284,11 +290,14 @@ impl Files<'_> {
             }
             Event::Tile(tile) => {
                 self.tile.0 = *tile;
+                if self.is_new && self.is_first {
+                    // what another study left there is not gone on with, and must not be taken for this one's
+                    unfinished::remove(self.out)?;
+                    bits::remove(self.out)?;
+                    sums::remove(self.out)?;
+                }
+                self.is_first = false;
                 if self.tile.1 > 1 && matches!(self.sums, Sums::Memory(_)) {
-                    if self.is_new {
-                        // what another study left there goes with its own
-                        unfinished::remove(self.out)?;
-                    }
                     self.sums = Sums::File(SumsFile::open(
                         self.out,
                         site.grid,
@@ -316,7 +325,10 @@ impl Files<'_> {
             // after a fault there is nothing to go on from
             Event::Kept(done) if self.fault.is_none() => {
                 if let Some(file) = &mut self.bits {
-                    file.flush()?;
+                    file.sync()?;
+                }
+                if let Sums::File(file) = &self.sums {
+                    file.sync()?;
                 }
                 unfinished::keep(self.out, done)?;
                 self.is_kept = true;

@@ -41,6 +41,9 @@ impl App {
                 match text.and_then(|text| file::write(&path, text.as_bytes()).map(|()| text).map_err(Into::into)) {
                     Ok(text) => {
                         written.text = text;
+                        // what undo brings back is read from the new place, too
+                        let from = open.project.written.folder.clone();
+                        self.history.change_all(|site| handing::move_models(site, &from, &written.folder));
                         self.notice = Some(format!("Written: {}", path.display()));
                         open.project.path = Some(path);
                         self.settings.site = written.site.clone();

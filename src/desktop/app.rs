@@ -6,6 +6,7 @@ use super::eye::Stand;
 use super::files::{self, Answer, Asking};
 use super::hours::{self, Laid};
 use super::loading::{Bare, Fault, Loading, Project, Wanted};
+use super::pick::Under;
 use super::settings::{History, Settings};
 use super::stage::Stage;
 use super::unit::Unit;
@@ -53,6 +54,8 @@ pub(super) struct Open {
     pub(super) probing: Option<Work<Sunlight>>,
     /// When a point lies in the sun.
     pub(super) sunlight: Option<Sunlight>,
+    /// What was clicked for it.
+    pub(super) clicked: Option<Under>,
 }
 
 /// The window.
@@ -230,6 +233,10 @@ impl App {
         if let Some(result) = open.adding.as_ref().and_then(Work::done) {
             open.adding = None;
             match result {
+                // colours of faces are those of the very model that they were found on
+                Ok(laid) if !laid.lies_on(&open.project.site) => {
+                    self.notice = Some("The model has changed since: find the hours anew".to_owned());
+                }
                 Ok(laid) => {
                     if let Some(change) = laid.change() {
                         self.settings.before = Some(Arc::clone(&change.before));
@@ -269,6 +276,11 @@ impl App {
                     project.site.mesh.bounds().map_or(1.0, |(low, high)| (high - low).length().max(1e-6))
                 };
                 let grown = length(&project) / length(&open.project);
+                let (then, now) = (&open.project.written.site, &project.written.site);
+                if then.model != now.model || then.ground != now.ground || then.place != now.place {
+                    // what was found of a point was found of another scene
+                    (open.sunlight, open.probing, open.clicked) = (None, None, None);
+                }
                 (open.project, open.number) = (project, self.loaded);
                 open.laid = open.laid.take().filter(|laid| laid.lies_on(&open.project.site));
                 // another scale would leave the eye inside the model, or out of sight of it
@@ -295,6 +307,7 @@ impl App {
                     known: None,
                     probing: None,
                     sunlight: None,
+                    clicked: None,
                     project,
                 });
             }
@@ -321,6 +334,10 @@ impl App {
 
     pub(super) fn set(&mut self, settings: Option<Settings>) {
         if let Some(settings) = settings {
+            if let Some(open) = self.open.as_mut().filter(|_| settings.before != self.settings.before) {
+                // what it would bring is undone
+                open.adding = None;
+            }
             self.settings = settings;
             (self.refused, self.fault) = (None, None);
         }
@@ -397,6 +414,7 @@ impl App {
         }
         cards::show(ui, open, &mut self.settings.site, rect, self.settings.shown.hours, Unit::of(self.kept.feet));
         if let Some(under) = clicked {
+            open.clicked = Some(under.clone());
             let name = if under.name.is_empty() { "the point".to_owned() } else { under.name };
             let normal = under.normal.try_normalize();
             let probe = Probe { name, point: under.point, normal };

@@ -3,7 +3,6 @@
 use super::app::Open;
 use super::hours::Laid;
 use super::look;
-use super::pick::Under;
 use super::sky;
 use super::unit::Unit;
 use crate::profile::probe::{Blocked, Sunlight, secs};
@@ -77,9 +76,8 @@ fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, ui: &mut Ui) {
     let (at, name) = (point / unit.metres, unit.name);
     ui.weak(format!("{:.2} {name} east, {:.2} {name} north, {:.2} {name} up", at.x, at.y, at.z).replace('-', "−"));
     // the answer stays when the pointer goes on
-    let normal = probed.probe.normal.unwrap_or(glam::DVec3::Z);
-    let under = Under { point, normal, face: None, name: String::new() };
-    if let Some(said) = open.laid.as_ref().and_then(|laid| laid.said(&under, unit)) {
+    let under = open.clicked.as_ref().filter(|under| under.point == point);
+    if let Some(said) = open.laid.as_ref().zip(under).and_then(|(laid, under)| laid.said(under, unit)) {
         ui.label(format!("{said} in the study"));
     }
     let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);

@@ -8,7 +8,7 @@ use crate::export::report::Told;
 use crate::export::{comparison, figure, raster as geotiff};
 use crate::profile::comparison::Altered;
 use crate::shadow::picture::Hours;
-use crate::site::{Overrides, Pair, Site, SiteError, Written, model};
+use crate::site::{Method, Overrides, Pair, Site, SiteError, Written, model};
 use crate::study::{self, CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
 use eframe::egui;
 use glam::DVec3;
@@ -43,7 +43,7 @@ impl Known {
         let same_study = known.track == site.track
             && known.grid == site.grid
             && known.ground == site.ground
-            && known.method == site.method;
+            && self.laid.method == site.method;
         let same = same_study && self.before.site.model == before.site.model && self.before.file == before.file;
         match found {
             Found::Shadow(hours) if same => Some(hours.outcome.clone()),
@@ -65,6 +65,7 @@ pub(super) fn find(
     project: &Project,
     before: Arc<Written>,
     known: Option<Known>,
+    method: Method,
     number: u64,
     context: egui::Context,
 ) -> Work<Laid> {
@@ -75,11 +76,12 @@ pub(super) fn find(
         let mut timings = Stopwatch::start();
         // the picture lies on this ground
         after.site.ground.level = Some(site.ground);
+        let asked = Overrides { technique: Some(method), ..Overrides::default() };
         let mut first = Written::clone(&before);
         first.site.study = after.site.study.clone();
         first.site.plan = after.site.plan.clone();
         first.site.camera = after.site.camera.clone();
-        let mut pair = Pair::of(&first, &after, &Overrides::default(), model::load)?;
+        let mut pair = Pair::of(&first, &after, &asked, model::load)?;
         if pair.names[0] == pair.names[1] {
             pair.names = [format!("{name}, before"), format!("{name}, after")];
         }
@@ -94,7 +96,7 @@ pub(super) fn find(
             site.mesh = site.mesh.of_components(&[]);
         }
         let found = Found::Change(Box::new(Change { before, pair, outcome, timings, colours }));
-        Ok(Laid { number, site, written, found })
+        Ok(Laid { number, site, method, written, found })
     })
 }
 

@@ -48,7 +48,7 @@ pub(super) fn find(project: &Project, method: Method, number: u64, context: egui
         let pages = atlas.colours(&answer.bands(), outcome.hours.samples);
         let legend = figure::surfaces_legend(&answer);
         let found = Found::Facades(Box::new(Facades { outcome, atlas, pages, legend, timings }));
-        Ok(Laid { number, site, written, found })
+        Ok(Laid { number, site, method, written, found })
     })
 }
 

@@ -60,14 +60,14 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 /// Begins to find what is asked.
 fn find(open: &mut Open, settings: &Settings, context: &egui::Context) {
     open.answers += 1;
-    let (number, context) = (open.answers, context.clone());
+    let (method, number, context) = (settings.shown.method, open.answers, context.clone());
     open.adding = Some(match &settings.before {
         Some(before) => {
             let known = open.known.clone().filter(|known| known.before == *before);
-            change::find(&open.project, Arc::clone(before), known, number, context)
+            change::find(&open.project, Arc::clone(before), known, method, number, context)
         }
         None if settings.shown.facades => facades::find(&open.project, facades::method(settings), number, context),
-        None => hours::add_up(&open.project, number, context),
+        None => hours::add_up(&open.project, method, number, context),
     });
 }
 
@@ -88,7 +88,8 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
         let laid = open.laid.as_ref().filter(is_asked).filter(|laid| matches!(laid.found, Found::Shadow(_))).cloned();
         if app.settings.before.is_some() {
             if ui.button("Compare no more").clicked() {
-                app.settings.before = None;
+                // what is being found would bring it back
+                (app.settings.before, open.adding) = (None, None);
                 open.laid = open.laid.take().filter(|laid| laid.change().is_none());
             }
         } else if let Some(laid) = laid
@@ -127,7 +128,14 @@ impl App {
             Ok(before) => {
                 open.answers += 1;
                 let (before, number) = (Arc::new(before), open.answers);
-                open.adding = Some(change::find(&open.project, before, None, number, context.clone()));
+                open.adding = Some(change::find(
+                    &open.project,
+                    before,
+                    None,
+                    self.settings.shown.method,
+                    number,
+                    context.clone(),
+                ));
             }
             Err(error) => self.fault = Some(error.to_string()),
         }

@@ -185,7 +185,7 @@ impl App {
                         let unit = Unit::of(self.kept.feet);
                         let hours = hours.and_then(|laid| laid.said(under, unit));
                         let hours = hours.map_or(String::new(), |hours| format!("{hours}    "));
-                        let at = point / unit.metres;
+                        let at = (point / unit.metres * 10.0).round() / 10.0 + 0.0;
                         let at =
                             format!("{:.1} E  {:.1} N  {:.1} up, {}", at.x, at.y, at.z, unit.name).replace('-', "−");
                         ui.weak(format!("{hours}{}    {at}", under.name));

@@ -9,7 +9,7 @@ use super::work::Work;
 use crate::cli::animate;
 use crate::export::figure::{self, Diagram};
 use crate::export::file;
-use crate::site::file::CameraTable;
+use crate::site::file::{CameraTable, SiteFile};
 use crate::site::{Method, Overrides, Site, Written, model};
 use crate::study::{self, Event, InstantWants, StudyError};
 use crate::view::View;
@@ -32,6 +32,18 @@ fn camera(eye: &Eye) -> CameraTable {
     }
 }
 
+/// Names the models of a site file that lay in one folder so that one in another means the same.
+pub(super) fn move_models(site: &mut SiteFile, from: &Path, to: &Path) {
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    for model in &mut site.model {
+        let Some(name) = &mut model.path else { continue };
+        let there = absolute(&from.join(&*name));
+        // beside or below the site file the path is relative, so that both can move together
+        let relative = there.strip_prefix(absolute(to)).unwrap_or(&there).display().to_string();
+        *name = if cfg!(windows) { relative.replace('\\', "/") } else { relative };
+    }
+}
+
 /// What a site file at a path is to say, so that it reopens to the same view.
 pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &Path) -> Written {
     let mut site = settings.site.clone();
@@ -43,15 +55,7 @@ pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &
         method => Some(method.word().to_owned()),
     };
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    for model in &mut site.model {
-        let Some(name) = &mut model.path else { continue };
-        let there = project.written.folder.join(&*name);
-        let there = std::path::absolute(&there).unwrap_or(there);
-        let here = std::path::absolute(&folder).unwrap_or(folder.clone());
-        // beside or below the site file the path is relative, so that both can move together
-        let relative = there.strip_prefix(&here).map(Path::to_owned).unwrap_or(there);
-        *name = relative.display().to_string().replace('\\', "/");
-    }
+    move_models(&mut site, &project.written.folder, &folder);
     Written { file: path.display().to_string(), folder, site, text: project.written.text.clone() }
 }
 

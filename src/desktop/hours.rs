@@ -2,7 +2,7 @@
 //! the window.
 
 use super::change::Change;
-use super::facades::Facades;
+use super::facades::{self, Facades};
 use super::loading::Project;
 use super::pick::Under;
 use super::settings::Settings;
@@ -14,7 +14,7 @@ use crate::profile::probe::Sunlight;
 use crate::shadow::ShadowError;
 use crate::shadow::picture::{Hours, Picture};
 use crate::site::file::SiteFile;
-use crate::site::{Probing, Site};
+use crate::site::{Method, Probing, Site};
 use crate::study::{self, Outcome, StudyError, Wants};
 use crate::sun::DayWindow;
 use crate::view::{Grid, Probe, Surface};
@@ -32,6 +32,8 @@ pub(super) struct Laid {
     pub(super) number: u64,
     /// The open site that it was found of.
     pub(super) site: Arc<Site>,
+    /// By which technique, as it was asked.
+    pub(super) method: Method,
     /// The same as it was written.
     pub(super) written: SiteFile,
     /// What.
@@ -116,11 +118,15 @@ impl Laid {
             (Found::Facades(_), None) => settings.shown.facades,
             _ => false,
         };
+        let method = match self.found {
+            Found::Facades(_) => facades::method(settings),
+            Found::Shadow(_) | Found::Change(_) => settings.shown.method,
+        };
         let (then, now) = (&self.written, &project.written.site);
         let of_models = then.model == now.model && then.ground == now.ground && then.place == now.place;
         let of_study = then.study == now.study && then.plan == now.plan;
         // undone and redone it is another site, and the same
-        is_found && (Arc::ptr_eq(&self.site, &project.site) || (of_models && of_study))
+        is_found && self.method == method && (Arc::ptr_eq(&self.site, &project.site) || (of_models && of_study))
     }
 
     /// The change, where it is one.
@@ -209,13 +215,13 @@ pub(super) fn cell_at(grid: &Grid, surface: &Surface, point: DVec3) -> Option<us
 }
 
 /// Adds up the hours of a site's study.
-pub(super) fn add_up(project: &Project, number: u64, context: egui::Context) -> Work<Laid> {
+pub(super) fn add_up(project: &Project, method: Method, number: u64, context: egui::Context) -> Work<Laid> {
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
     Work::start(context, move |on_event| {
         let wants = Wants { surface: true, ..Wants::default() };
-        let outcome = study::run(&site, &wants, on_event)?;
+        let outcome = study::run(&Site { method, ..Site::clone(&site) }, &wants, on_event)?;
         let found = Found::Shadow(Box::new(ShadowHours::new(&site, outcome)));
-        Ok(Laid { number, site, written, found })
+        Ok(Laid { number, site, method, written, found })
     })
 }
 

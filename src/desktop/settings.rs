@@ -80,6 +80,12 @@ impl History {
         Some(after)
     }
 
+    /// Changes the site in all of them.
+    pub(super) fn change_all(&mut self, change: impl Fn(&mut SiteFile)) {
+        let all = self.past.iter_mut().chain(&mut self.future).chain([&mut self.last]);
+        all.for_each(|settings| change(&mut settings.site));
+    }
+
     /// Whether there is something to undo, and to redo.
     pub(super) fn has(&self) -> [bool; 2] {
         [!self.past.is_empty(), !self.future.is_empty()]

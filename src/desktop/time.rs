@@ -3,7 +3,7 @@
 use super::clock::{Clock, Play};
 use super::look::{self, SUN};
 use crate::sun::{Day, Reading, SunError, parse_date};
-use chrono::{Datelike, NaiveDate, Offset};
+use chrono::{Datelike, NaiveDate, Offset, TimeDelta};
 use eframe::egui::{self, Align2, Color32, CornerRadius, FontId, Key, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
 impl Clock {
@@ -137,7 +137,8 @@ impl Clock {
             let Some(event) = event else { continue };
             let at = x((event - self.midnight).num_seconds() as f64);
             painter.vline(at, rect.y_range(), Stroke::new(1.5, look::ACCENT));
-            let text = format!("{name} {}", event.format("%H:%M"));
+            // to the nearest minute, as drawings say it
+            let text = format!("{name} {}", (event + TimeDelta::seconds(30)).format("%H:%M"));
             painter.text(pos2(at, rect.top() - 1.0), Align2::CENTER_BOTTOM, text, FontId::proportional(11.0), ink);
         }
         handle(ui, pos2(x(self.secs()), rect.center().y), &response, self.now.night);

@@ -38,6 +38,18 @@ struct Header {
     instants: Vec<InstantReport>,
 }
 
+/// Removes what a stopped study left: another one begins in its place.
+///
+/// # Errors
+/// [`ExportError::Write`] where the file system refuses.
+pub fn remove(folder: &Path) -> Result<(), ExportError> {
+    file::remove(&unfinished(&folder.join("shadow.bits")))
+}
+
+fn unfinished(path: &Path) -> PathBuf {
+    path.with_extension("bits.unfinished")
+}
+
 /// The file as it comes to be.
 pub struct BitsFile {
     path: PathBuf,
@@ -67,15 +79,7 @@ impl BitsFile {
         let mut header = [&MAGIC[..], &(begin as u64).to_le_bytes(), &json].concat();
         header.resize(begin, b' ');
         let path = folder.join("shadow.bits");
-        Ok(BitsFile {
-            unfinished: path.with_extension("bits.unfinished"),
-            path,
-            header,
-            grid,
-            count,
-            file: None,
-            at: 0,
-        })
+        Ok(BitsFile { unfinished: unfinished(&path), path, header, grid, count, file: None, at: 0 })
     }
 
     /// Its place.
@@ -153,13 +157,14 @@ impl BitsFile {
         write().map_err(|error| file::failed(&self.path, "writing the file beside it", error))
     }
 
-    /// Sees that what was added is with the system.
+    /// Sees that what was added is on the disk.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
-    pub fn flush(&mut self) -> Result<(), ExportError> {
+    pub fn sync(&mut self) -> Result<(), ExportError> {
         let Some(file) = &mut self.file else { return Ok(()) };
-        file.flush().map_err(|error| file::failed(&self.path, "writing the file beside it", error))
+        let synced = file.flush().and_then(|()| file.get_ref().sync_data());
+        synced.map_err(|error| file::failed(&self.path, "writing the file beside it", error))
     }
 
     /// Puts the whole file in place.
@@ -171,19 +176,11 @@ impl BitsFile {
         if self.file.is_none() {
             self.begin(false)?;
         }
-        self.flush()?;
+        self.sync()?;
         // what lies beyond is of a study that was stopped, and fits no more
         let size = self.size();
         let cut = self.file.take().map_or(Ok(()), |file| file.get_ref().set_len(size));
         cut.map_err(|error| file::failed(&self.path, "writing the file beside it", error))?;
         fs::rename(&self.unfinished, &self.path).map_err(|error| file::failed(&self.path, "putting it in place", error))
-    }
-
-    /// Removes what a stopped study left, where this one begins anew.
-    ///
-    /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
-    pub fn forget(&self) -> Result<(), ExportError> {
-        file::remove(&self.unfinished)
     }
 }

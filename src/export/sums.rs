@@ -95,6 +95,15 @@ impl SumsFile {
         write().map_err(|error| file::failed(&self.path, "writing to it", error))
     }
 
+    /// Sees that what was put is on the disk.
+    ///
+    /// # Errors
+    /// [`ExportError::Write`] where the file system refuses.
+    pub fn sync(&self) -> Result<(), ExportError> {
+        let file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.sync_data().map_err(|error| file::failed(&self.path, "writing to it", error))
+    }
+
     /// Errs where something could not be read since it was opened: it was taken for nothing.
     ///
     /// # Errors

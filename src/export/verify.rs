@@ -272,7 +272,7 @@ fn bound(verification: &Verification) -> String {
         "\n         (as not every part that casts is clean: gnomon check says more)"
     };
     format!(
-        "holds: of the stencil's edge cells at most {}% differ, and of its others one in {OTHERS}; of ray casting's none{why}",
+        "holds: of edge cells at most {}% differ, and of others one in {OTHERS}; of ray casting's none{why}",
         100.0 * verification.edge_share
     )
 }

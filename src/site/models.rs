@@ -27,7 +27,8 @@ pub struct Models {
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
     file: PathBuf,
-    /// When the file was changed last, and its bytes; none where the system does not tell.
+    /// When the file was changed last, and its bytes; none where the system does not tell, and where the file names others
+    /// that may change.
     stamp: Option<(SystemTime, u64)>,
     placement: Placement,
 }
@@ -92,7 +93,8 @@ pub(super) fn mesh(
 fn sources(written: &Written) -> Result<Vec<Source>, SiteError> {
     let source = |index| {
         let (file, placement) = placed(written, index)?;
-        let told = file.metadata().ok();
+        let is_whole = file.extension().is_some_and(|is| is.eq_ignore_ascii_case("glb"));
+        let told = file.metadata().ok().filter(|_| is_whole);
         let stamp = told.and_then(|told| Some((told.modified().ok()?, told.len())));
         Ok(Source { file, stamp, placement })
     };

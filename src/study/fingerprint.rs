@@ -1,12 +1,13 @@
 //! Which study it is: a number of all that its result depends on, so that another one does not go on from its sum.
 
+use super::Wants;
 use crate::profile::Drawn;
 use crate::site::Site;
 use crate::view::Tile;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Of a study that a machine draws in tiles. The same for the same request, and for another one another.
-pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile]) -> u64 {
+pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile], wants: &Wants) -> u64 {
     let mut hasher = DefaultHasher::new();
     let Site { mesh, casts, receives, ground, track, grid, receivers, settings, hextree_depth, .. } = site;
     env!("CARGO_PKG_VERSION").hash(&mut hasher);
@@ -23,6 +24,8 @@ pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile]) -> u64 {
         (instant.time.timestamp(), instant.weight_secs, instant.night).hash(&mut hasher);
         numbers(&instant.to_sun.to_array()).hash(&mut hasher);
     }
+    // what is written while it goes on is not there for instants that were drawn without it
+    (wants.masks, wants.bits, wants.written).hash(&mut hasher);
     // what is asked of techniques, whatever that is
     format!("{settings:?} {drawn:?}").hash(&mut hasher);
     hasher.finish()

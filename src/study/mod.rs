@@ -50,6 +50,8 @@ pub struct Wants {
     pub bits: bool,
     /// Whether drawings are made of all cells at once, so that tiles will not do: the option that asks for them.
     pub whole: Option<&'static str>,
+    /// Where whoever asks writes them, as a number: what is written elsewhere is another study.
+    pub written: u64,
     /// What the cells see, for a drawing.
     pub surface: bool,
     /// What counting took.

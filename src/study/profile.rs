@@ -87,7 +87,7 @@ pub fn in_tiles(
     let look = Look { site, machine: &machine, view, receivers: site.receivers };
     let instants = &site.track.instants;
     let count = tiles.len() * instants.len();
-    let study = LazyCell::new(|| fingerprint::of(site, &machine.drawn(), &tiles));
+    let study = LazyCell::new(|| fingerprint::of(site, &machine.drawn(), &tiles, wants));
     let mut statistics = wants.statistics.then(Statistics::default);
     let (mut done, mut begun_with) = (0, None);
     if let Some(begun) = begun {
@@ -141,7 +141,9 @@ pub fn in_tiles(
             }
             let (mask, bits) = (mask.as_ref(), bits.as_ref());
             let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });
-            if wants.keep_every.is_some_and(|every| told.is_err() || kept.elapsed() >= every) {
+            // what lies in files already must not be lost while a drawing is made of it
+            let is_last = index + 1 == count && (tiles.len() > 1 || wants.bits);
+            if wants.keep_every.is_some_and(|every| told.is_err() || is_last || kept.elapsed() >= every) {
                 let shaded = sum.so_far()?;
                 let unfinished = Unfinished { study: *study, tiles: tiles.len(), done: index + 1, shaded, statistics };
                 tell(on_event, Event::Kept(&unfinished))?;
@@ -175,8 +177,8 @@ fn note_tiles(tiles: &[Tile], wants: &Wants, on_event: &mut OnEvent<'_>) -> Resu
         return Err(StudyError::Conflict { option: "--masks", what });
     }
     if let Some(option) = wants.whole {
-        let what = "the plan is done in tiles, and lines are drawn of the whole; take larger cells (--cell), more --memory, or \
-                    leave it out";
+        let what = "the plan is done in tiles, and lines are drawn of the whole; take larger cells (--cell), leave \
+                    --memory out, or leave this out";
         return Err(StudyError::Conflict { option, what });
     }
     let [width, height] = first.size;

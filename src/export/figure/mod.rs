@@ -108,7 +108,7 @@ fn profile_panel<S, C>(scene: &Scene<S>, profile: &Profile<C>, kicker: &str) -> 
 pub fn profile_bytes(grid: &Grid) -> u64 {
     // the sheet may be higher or wider than its picture, never the other way round
     let fit = picture::Fit::within((grid.width, grid.height), (f64::from(WIDTH) / 2.0, f64::from(HEIGHT) / 2.0));
-    picture::task_bytes(&fit) * rayon::current_num_threads() as u64
+    picture::task_bytes(&fit) * page::tasks() as u64
 }
 
 /// One instant, the first of the track, on the plan or in the camera's picture; what is `shown` over it is for the latter.

@@ -318,11 +318,16 @@ impl Sheet<'_> {
     }
 }
 
+/// How many bands of a sheet are drawn at once.
+pub(super) fn tasks() -> usize {
+    rayon::current_num_threads().min(8)
+}
+
 /// As a PNG of its size on paper. It is put together band by band, while those before are compressed.
 pub(super) fn png(sheet: &Sheet) -> Result<Vec<u8>, ExportError> {
     let width = WIDTH as usize;
     // some at once, for as many processors
-    let at_once = rayon::current_num_threads().min(8);
+    let at_once = tasks();
     let bands: Vec<usize> = (0..(HEIGHT as usize).div_ceil(BAND)).collect();
     let make = |bands: &[usize], rows: &mut Vec<Rgb>| {
         let first = bands.first().map_or(0, |band| band * BAND);

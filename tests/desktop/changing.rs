@@ -1,0 +1,90 @@
+//! What is changed while something else goes on, and after it.
+
+use super::handing_in::{answer, command, menu};
+use super::*;
+use gnomon::site::file::Names;
+use gnomon::site::{Overrides, Site};
+
+/// The hours are found by the technique that the panel shows, and the saved site gives the command the same.
+#[test]
+fn hours_are_found_by_the_technique_chosen() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    harness.get_by_role_and_label(egui::Role::ComboBox, "Technique").click();
+    harness.run_steps(2);
+    harness.get_by_label("shadow-map").click();
+    harness.step();
+    settle(&mut harness);
+    harness.get_by_label("What is asked has changed since: find it anew.");
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    menu(&mut harness, "Export the hours…");
+    let out = folder.path().join("window");
+    answer(&mut harness, &out, "Write");
+    menu(&mut harness, "Save the site file…");
+    let saved = folder.path().join("saved.toml");
+    answer(&mut harness, &saved, "Write");
+    let by_command = folder.path().join("command");
+    command(&["profile".as_ref(), saved.as_ref(), "--out".as_ref(), by_command.as_ref(), "--quiet".as_ref()]);
+    let [ours, theirs] = [&out, &by_command].map(|folder| std::fs::read(folder.join("shadow-hours.tif")).unwrap());
+    assert!(ours == theirs, "the hours are others");
+    let report = std::fs::read_to_string(out.join("profile.json")).unwrap();
+    assert!(report.contains("\"shadow-map\""), "{report}");
+}
+
+/// After the site is saved elsewhere, what undo brings back still finds its model.
+#[test]
+fn undo_finds_the_model_of_a_site_saved_elsewhere() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    write(&mut harness, "step", "4h");
+    settle(&mut harness);
+    menu(&mut harness, "Save the site file…");
+    answer(&mut harness, &folder.path().join("elsewhere/site.toml"), "Write");
+    for _ in 0..3 {
+        if harness.state().site_file().study.step.as_deref() != Some("2h") {
+            harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+            harness.step();
+            settle(&mut harness);
+        }
+    }
+    assert_eq!(harness.state().site_file().study.step.as_deref(), Some("2h"));
+    assert!(harness.query_by_label_contains("there is no file").is_none());
+    assert_eq!(harness.state().site_file().model[0].path.as_deref(), folder.path().join("works.glb").to_str());
+}
+
+/// Two switches one right after the other hold both, though the first is still being read.
+#[test]
+fn switches_do_not_undo_each_other() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    click(&mut harness, "Components");
+    let loaded = Site::load(&site, &Overrides::default()).unwrap();
+    let names: Vec<&String> = loaded.mesh.components.iter().take(3).map(|component| &component.name).collect();
+    // both in one frame, which is before either is read
+    for name in &names {
+        harness.get_by_label(&format!("{name} casts")).click_accesskit();
+    }
+    harness.step();
+    settle(&mut harness);
+    let Names::Some(casts) = harness.state().site_file().model[0].casts.clone() else { panic!("some cast, not all") };
+    assert!(names.iter().all(|name| !casts.contains(name)), "{casts:?}");
+    assert_eq!(casts.len(), loaded.mesh.components.len() - names.len());
+}
+
+/// Hours on façades are of the very model that they were found on, whenever that changes.
+#[test]
+fn facades_of_another_model_are_not_laid() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    click(&mut harness, "Components");
+    let loaded = Site::load(&site, &Overrides::default()).unwrap();
+    let name = loaded.mesh.components[0].name.clone();
+    click(&mut harness, "On façades, too");
+    click(&mut harness, "Find the hours");
+    click(&mut harness, &format!("{name} seen"));
+    settle(&mut harness);
+    assert!(harness.query_by_label("Show the hours").is_none(), "the hours are of other faces");
+}
