@@ -3,12 +3,15 @@
 use crate::dense::slab;
 use crate::exact::{gpu, to_sun};
 use glam::{DVec3, dvec3};
+use gnomon::export::figure;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{GpuSurface, Scene, Technique};
 use gnomon::site::{Method, Overrides, Settings, Site};
 use gnomon::study::live::{Live, Way};
+use gnomon::study::{self, InstantWants};
 use gnomon::view::{Elevation, Surface, View};
+use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A wall that begins below the ground, and a post two metres before it, from the south.
@@ -98,4 +101,33 @@ fn no_other_technique_draws_a_side() {
         let drawn = live.draw(&way, to_sun(180.0, 40.0), &style, &target).unwrap();
         assert_eq!(drawn.technique, "ray-cast", "{method}");
     }
+}
+
+/// The sheet has a scale bar and says from where it looks; a north arrow stands by plans alone.
+#[test]
+fn the_sheet_of_a_side_has_no_north_arrow() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites/industry");
+    let site = Site::load(&path, &Overrides { size: Some(500), ..Overrides::default() }).unwrap();
+    let (low, high) = site.mesh.bounds().unwrap();
+    let target = (low + high) / 2.0;
+    let side = Elevation { target, to_viewer: DVec3::NEG_Y, cell: 0.4, width: 800, height: 500 };
+    let accents = |view: View| {
+        let wants = InstantWants { surface: true, ..InstantWants::default() };
+        let outcome = study::instant(&site, view, &wants, &mut |_| ControlFlow::Continue(())).unwrap();
+        let scene = figure::Scene {
+            place: &site.place,
+            track: &site.track,
+            mesh: &outcome.surface_mesh,
+            surface: outcome.surface.as_ref().unwrap(),
+            receivers: study::judged(&site, &view),
+            drawn: &outcome.drawn,
+        };
+        let png = figure::instant(&scene, &view, &outcome.mask, &figure::Shown::default()).unwrap();
+        let page = image::load_from_memory(&png).unwrap().to_rgb8();
+        let arrow =
+            page.enumerate_pixels().filter(|(_, y, pixel)| y * 5 > page.height() * 4 && pixel.0 == [190, 82, 44]);
+        arrow.count()
+    };
+    assert!(accents(View::Plan(site.grid)) > 500);
+    assert_eq!(accents(View::Elevation(side)), 0);
 }

@@ -38,7 +38,11 @@ pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings
     };
     let mut changes = Vec::new();
     let height = ui.spacing().interact_size.y;
-    let area = egui::ScrollArea::vertical().max_height(220.0).auto_shrink([false, true]).id_salt("components");
+    let area = egui::ScrollArea::vertical()
+        .min_scrolled_height(160.0)
+        .max_height(220.0)
+        .auto_shrink([false, true])
+        .id_salt("components");
     area.show_rows(ui, height, site.mesh.components.len(), |ui, rows| {
         for index in rows {
             let name = &site.mesh.components[index].name;

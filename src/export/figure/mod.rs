@@ -192,6 +192,10 @@ fn instant_as<T>(
                 View::Camera(camera) => (perspective::Lens::new(camera), None),
                 View::Plan(_) => return Err(ExportError::encode("drawing", "a plan has no lens")),
             };
+            if let View::Elevation(side) = view {
+                panel.facts.push(("Seen", words::side(side)));
+                panel.north_up = false;
+            }
             panel.facts.push(("Picture", format!("{} × {}", size.0, size.1)));
             let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
             show(&mut panel, shown, tones[0], components.as_ref());
@@ -280,6 +284,7 @@ fn panel<S>(scene: &Scene<S>, kicker: &str) -> Panel {
         legend_head: String::new(),
         legend: Vec::new(),
         keys: Vec::new(),
+        north_up: true,
     }
 }
 

@@ -126,7 +126,7 @@ fn stand_beside(panel: &Panel, metres_a_pixel: Option<f64>, overlay: &mut Block)
     }
     let mut foot = vec![panel::footer()];
     if let Some(metres_a_pixel) = metres_a_pixel {
-        foot.insert(0, panel::scale_and_north(metres_a_pixel));
+        foot.insert(0, panel::scale_and_north(panel, metres_a_pixel));
     }
     let taken: f64 = top.iter().chain(&foot).map(|block| block.height).sum();
     let gaps = (top.len() + foot.len()) as f64;
@@ -158,7 +158,7 @@ fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
     let (title, facts, sun) = (panel::title(panel), panel::facts(panel), panel::sun_table(panel));
     let (legend, footer) = (panel::legend(panel, LEGEND), panel::footer());
     // The scale's block is as tall at any scale.
-    let scale_height = cell_m.map_or(0.0, |_| panel::scale_and_north(1.0).height + 2.0 * GAP);
+    let scale_height = cell_m.map_or(0.0, |_| panel::scale_and_north(panel, 1.0).height + 2.0 * GAP);
     let height = [title.height + GAP + footer.height, facts.height, sun.height + scale_height, legend.height]
         .into_iter()
         .fold(0.0, f64::max);
@@ -175,7 +175,7 @@ fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
     layout.overlay.place(column(1.0), top, &facts);
     layout.overlay.place(column(2.0), top, &sun);
     if let Some(cell_m) = cell_m {
-        let scale = panel::scale_and_north(cell_m / layout.fit.scale());
+        let scale = panel::scale_and_north(panel, cell_m / layout.fit.scale());
         layout.overlay.place(column(2.0), top + height - scale.height, &scale);
     }
     layout.overlay.place(column(3.0), top, &legend);

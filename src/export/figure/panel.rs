@@ -25,6 +25,8 @@ pub(super) struct Panel {
     pub legend: Vec<(Rgb, String)>,
     /// What lines mean, below that.
     pub keys: Vec<(Rgb, String)>,
+    /// Whether what is up in the picture is north.
+    pub north_up: bool,
 }
 
 pub(super) fn title(panel: &Panel) -> Block {
@@ -138,8 +140,8 @@ pub(super) fn legend(panel: &Panel, room: f64) -> Block {
     block
 }
 
-/// The scale bar and the north arrow of a plan; its height does not depend on the scale.
-pub(super) fn scale_and_north(metres_a_pixel: f64) -> Block {
+/// The scale bar, and of a plan the north arrow; its height does not depend on the scale.
+pub(super) fn scale_and_north(panel: &Panel, metres_a_pixel: f64) -> Block {
     const ROOM: f64 = 560.0;
     let mut block = Block { height: 172.0, ..Block::default() };
     let bar = ScaleBar::within(metres_a_pixel, ROOM);
@@ -155,6 +157,9 @@ pub(super) fn scale_and_north(metres_a_pixel: f64) -> Block {
     block.text(bar.pixels, y - 18.0, Anchor::Middle, Style::BODY, &bar.label());
     block.text(0.0, y + 66.0, Anchor::Start, Style::FINE, &paper_scale(metres_a_pixel));
 
+    if !panel.north_up {
+        return block;
+    }
     let (x, middle, radius) = (COLUMN - 72.0, 104.0, 66.0);
     block.ring(x, middle, radius, 3.0, INK);
     let (tip, tail, wing) = (middle - radius + 6.0, middle + 44.0, 30.0);

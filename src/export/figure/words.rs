@@ -3,6 +3,7 @@
 use crate::profile::{Drawn, DrawnSettings};
 use crate::site::Receivers;
 use crate::sun::{Air, Day, EachDay, Instant, Place, SunTrack};
+use crate::view::Elevation;
 use chrono::{DateTime, NaiveDate, Offset, Timelike};
 use chrono_tz::Tz;
 
@@ -48,6 +49,17 @@ pub(super) fn clock(time: &DateTime<Tz>) -> String {
 /// `06:35`: to the nearest minute, as almanacs print it.
 pub(super) fn almanac(time: &DateTime<Tz>) -> String {
     (*time + chrono::Duration::seconds(30)).format("%H:%M").to_string()
+}
+
+/// `from the south, along level rays`.
+pub(super) fn side(side: &Elevation) -> String {
+    let azimuth_deg = side.to_viewer.x.atan2(side.to_viewer.y).to_degrees().rem_euclid(360.0);
+    let nearest = (azimuth_deg / 90.0).round();
+    let from = match ["the north", "the east", "the south", "the west"].get(nearest as usize % 4) {
+        Some(word) if (azimuth_deg - nearest * 90.0).abs() < 0.5 => (*word).to_owned(),
+        _ => format!("{azimuth_deg:.0}°"),
+    };
+    format!("from {from}, along level rays")
 }
 
 /// `09:00–17:00 CEST (UTC+2), Europe/Vienna`, or one clock time.

@@ -59,9 +59,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<
     match drawn.as_slice() {
         [] => panel.facts.push(("Lines", format!("none: the shadow passes {} nowhere but at walls", said(each)))),
         [one] => panel.keys.push((LINE, format!("{} of shadow", said(*one)))),
-        [first, .., last] => {
-            panel.keys.push((LINE, format!("{} of shadow, then each {} to {}", said(*first), said(each), said(*last))));
-        }
+        [.., last] => panel.keys.push((LINE, format!("each {} of shadow, to {}", said(each), said(*last)))),
     }
     let draw = |fit: figure::picture::Fit| {
         let scale = Scale::of(fit);

@@ -43,6 +43,7 @@ pub(super) fn panel(sunlight: &Sunlight, place: &Place) -> Panel {
         legend_head: if sunlight.probes.len() > 1 { "At the probes" } else { "At the probe" }.to_owned(),
         legend,
         keys: Vec::new(),
+        north_up: true,
     }
 }
 
