@@ -269,6 +269,21 @@ impl Files<'_> {
         Ok((has_masks && has_bits && has_sums).then_some(begun))
     }
 
+    /// Makes room for what is written, before the first tile.
+    fn begin(&mut self, site: &Site) -> Result<(), ExportError> {
+        if self.is_new {
+            // what another study left there is not gone on with, and must not be taken for this one's
+            unfinished::remove(self.out)?;
+            bits::remove(self.out)?;
+            sums::remove(self.out)?;
+        }
+        if self.tile.1 > 1 {
+            let day_secs = study::day_and_night(&site.track).0;
+            self.sums = Sums::File(SumsFile::open(self.out, site.grid, day_secs, !self.is_new)?);
+        }
+        Ok(())
+    }
+
     fn hear(&mut self, event: &Event<'_>, site: &Site) -> ControlFlow<()> {
         match self.write(event, site) {
             Ok(()) => ControlFlow::Continue(()),
@@ -290,20 +305,8 @@ impl Files<'_> {
             }
             Event::Tile(tile) => {
                 self.tile.0 = *tile;
-                if self.is_new && self.is_first {
-                    // what another study left there is not gone on with, and must not be taken for this one's
-                    unfinished::remove(self.out)?;
-                    bits::remove(self.out)?;
-                    sums::remove(self.out)?;
-                }
-                self.is_first = false;
-                if self.tile.1 > 1 && matches!(self.sums, Sums::Memory(_)) {
-                    self.sums = Sums::File(SumsFile::open(
-                        self.out,
-                        site.grid,
-                        study::day_and_night(&site.track).0,
-                        !self.is_new,
-                    )?);
+                if std::mem::take(&mut self.is_first) {
+                    self.begin(site)?;
                 }
             }
             Event::Summed(shaded) => match &mut self.sums {

@@ -120,17 +120,22 @@ fn again(harness: &mut Harness<'_, App>, keys: egui::Modifiers, times: usize) {
     }
 }
 
+/// Keeps the site's hours to be compared with, and lets a component cast no more.
+fn keep_and_switch_off(harness: &mut Harness<'_, App>, name: &str) {
+    click(harness, "Find the hours");
+    settle(harness);
+    click(harness, "Compare from here");
+    click(harness, "Components");
+    click(harness, &format!("{name} casts"));
+}
+
 /// The state is kept, a component casts no more, and the difference is that of the two states' files.
 #[test]
 fn change_from_a_kept_state_is_the_engines() {
     let (_folder, site) = small_site();
     let names = components(&site);
     let mut harness = window(Some(&site));
-    click(&mut harness, "Find the hours");
-    settle(&mut harness);
-    click(&mut harness, "Compare from here");
-    click(&mut harness, "Components");
-    click(&mut harness, &format!("{} casts", names[0]));
+    keep_and_switch_off(&mut harness, &names[0]);
     settle(&mut harness);
     click(&mut harness, "Find the change");
     settle(&mut harness);
@@ -186,11 +191,7 @@ fn kept_state_follows_the_study() {
     let (_folder, site) = small_site();
     let names = components(&site);
     let mut harness = window(Some(&site));
-    click(&mut harness, "Find the hours");
-    settle(&mut harness);
-    click(&mut harness, "Compare from here");
-    click(&mut harness, "Components");
-    click(&mut harness, &format!("{} casts", names[0]));
+    keep_and_switch_off(&mut harness, &names[0]);
     write(&mut harness, "step", "4h");
     settle(&mut harness);
     click(&mut harness, "Find the change");
