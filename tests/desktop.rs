@@ -4,6 +4,7 @@ mod changing;
 mod comparing;
 mod facades;
 mod handing_in;
+mod hiding;
 mod keeping;
 mod opening;
 mod playing;

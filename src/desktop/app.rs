@@ -321,12 +321,14 @@ impl App {
             self.history.note(&self.settings);
         }
         let Some(open) = &self.open else { return };
-        let changed = open.project.written.site != self.settings.site;
+        let project = &open.project;
+        let changed = project.written.site != self.settings.site || project.hidden != self.settings.hidden;
         let is_refused = self.refused.as_ref().is_some_and(|refused| refused.site == self.settings.site);
         if changed && rests && !is_refused && self.loading.is_none() {
-            let mut written = open.project.written.clone();
+            let mut written = project.written.clone();
             written.site = self.settings.site.clone();
-            let wanted = Wanted::Again(Box::new(written), Box::new(open.project.before()));
+            let hidden = Arc::clone(&self.settings.hidden);
+            let wanted = Wanted::Again(Box::new(written), hidden, Box::new(project.before()));
             self.loading = Some(Loading::start(wanted, context.clone()));
             self.is_reading = true;
         }

@@ -1,15 +1,16 @@
 //! Components: their colours, and what each of them does.
 
 use super::loading::Project;
-use super::settings::Settings;
+use super::settings::{Hidden, Settings};
 use crate::export::figure::component_colours;
 use crate::mesh::Component;
 use crate::site::Site;
 use crate::site::file::{ModelTable, Names};
 use eframe::egui::{self, Color32, Sense};
 use rustc_hash::FxHashSet;
+use std::sync::Arc;
 
-/// The colour of every face that is seen, as the picture takes them.
+/// The colour of every face that is visible, as the picture takes them.
 pub(super) fn face_colours(site: &Site) -> impl Iterator<Item = [u8; 3]> {
     let colours = component_colours(&site.mesh, &site.casts);
     let seen = site.mesh.components.iter().zip(colours).zip(&site.receives).filter(|(_, seen)| **seen);
@@ -17,15 +18,26 @@ pub(super) fn face_colours(site: &Site) -> impl Iterator<Item = [u8; 3]> {
     faces.into_iter().flat_map(|(count, colour)| std::iter::repeat_n(colour, count))
 }
 
-/// The list: name, colour, and two switches.
+/// What a component's switches say, in the order of their columns.
+const SWITCHES: [(&str, &str); 3] = [
+    ("casts", "Takes the sun away from others"),
+    ("receives", "Is judged, and drawn; what does not receive is looked through"),
+    ("visible", "Is in this window's picture: what is hidden there counts all the same"),
+];
+/// How wide such a column is, points.
+const COLUMN: f32 = 50.0;
+
+/// The list: colour, name, and three switches.
 pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings) {
     let site = &project.site;
-    ui.horizontal(|ui| {
-        ui.weak(format!("{} components", site.mesh.components.len()));
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.weak("seen");
-            ui.weak("casts");
-        });
+    row(ui, |ui, column| match column {
+        Some(column) => {
+            let (what, means) = SWITCHES[column];
+            ui.weak(what).on_hover_text(means);
+        }
+        None => {
+            ui.weak(format!("{} components", site.mesh.components.len()));
+        }
     });
     // what is switched already and not read yet counts, too
     let roles = (settings.site.model != project.written.site.model).then(|| {
@@ -46,32 +58,68 @@ pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings
     area.show_rows(ui, height, site.mesh.components.len(), |ui, rows| {
         for index in rows {
             let name = &site.mesh.components[index].name;
-            ui.horizontal(|ui| {
-                let [r, g, b] = project.colours[index];
-                let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), Sense::hover());
-                ui.painter().rect_filled(rect, 3.0, Color32::from_rgb(r, g, b));
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    let switches = [("seen", receives[index]), ("casts", casts[index])];
-                    for (what, is_on) in switches {
-                        let mut on = is_on;
-                        let response = ui.add(egui::Checkbox::without_text(&mut on));
-                        let label = format!("{name} {what}");
-                        response
-                            .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, on, label.clone()));
-                        if on != is_on {
-                            changes.push((index, what, on));
-                        }
-                    }
-                    ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                        ui.add(egui::Label::new(name).truncate());
-                    });
-                });
+            let states = [casts[index], receives[index], receives[index] && !settings.hidden.contains(name)];
+            row(ui, |ui, column| {
+                let Some(column) = column else {
+                    let [r, g, b] = project.colours[index];
+                    let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), Sense::hover());
+                    ui.painter().rect_filled(rect, 3.0, Color32::from_rgb(r, g, b));
+                    ui.add(egui::Label::new(name).truncate());
+                    return;
+                };
+                let (mut on, what) = (states[column], SWITCHES[column].0);
+                let can = what != "visible" || receives[index];
+                let response = ui.add_enabled(can, egui::Checkbox::without_text(&mut on));
+                let label = format!("{name} {what}");
+                response.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, can, on, label.clone()));
+                response.on_disabled_hover_text("It does not receive, and is looked through");
+                if on != states[column] {
+                    changes.push((index, what, on));
+                }
             });
         }
     });
     for (index, what, on) in changes {
-        let now = if what == "casts" { casts } else { receives };
-        switch(project, settings, (index, what == "casts", on), now);
+        match what {
+            "casts" => switch(project, settings, (index, true, on), casts),
+            "receives" => switch(project, settings, (index, false, on), receives),
+            _ => hide(settings, &site.mesh.components[index].name, !on),
+        }
+    }
+    if !settings.hidden.is_empty() {
+        ui.horizontal_wrapped(|ui| {
+            ui.weak(format!("{} hidden here, and counted all the same", settings.hidden.len()));
+            if ui.button("Show all").clicked() {
+                settings.hidden = Hidden::default();
+            }
+        });
+    }
+}
+
+/// A row: what stands at its left, which is no column, and the columns of switches at its right.
+fn row(ui: &mut egui::Ui, mut content: impl FnMut(&mut egui::Ui, Option<usize>)) {
+    let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(size, egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        for column in (0..SWITCHES.len()).rev() {
+            let size = egui::vec2(COLUMN, size.y);
+            let centred = egui::Layout::centered_and_justified(egui::Direction::LeftToRight);
+            ui.allocate_ui_with_layout(size, centred, |ui| content(ui, Some(column)));
+        }
+        ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 8.0;
+            content(ui, None);
+        });
+    });
+}
+
+/// Leaves a component out of the picture, or takes it in again.
+fn hide(settings: &mut Settings, name: &str, hides: bool) {
+    let hidden = Arc::make_mut(&mut settings.hidden);
+    if hides {
+        hidden.insert(name.to_owned());
+    } else {
+        hidden.remove(name);
     }
 }
 

@@ -58,13 +58,17 @@ fn answer<'a>(site: &'a Site, outcome: &'a SurfaceOutcome) -> Surfaces<'a> {
 }
 
 impl Facades {
-    /// Lays them over a picture of the site that they were found on.
+    /// Lays them over a picture of the site that they were found on, or of what of it is visible.
     ///
     /// # Errors
     /// Where the adapter cannot hold them.
-    pub(super) fn lay(&self, picture: &mut Picture) -> Result<(), ShadowError> {
-        let (patches, patch_of) = (&*self.outcome.patches, self.atlas.patch_of.as_slice());
-        picture.lay_patches(&PatchColours { patches, patch_of, pages: &self.pages })
+    pub(super) fn lay(&self, picture: &mut Picture, site: &Site, visible: &Site) -> Result<(), ShadowError> {
+        let components = site.mesh.components.iter().zip(site.receives.iter().zip(&visible.receives));
+        let received = components.filter(|(_, (receives, _))| **receives);
+        let faces = received.flat_map(|(component, (_, visible))| std::iter::repeat_n(*visible, component.faces.len()));
+        let patch_of = self.atlas.patch_of.iter().zip(faces).filter(|(_, visible)| *visible).map(|(patch, _)| *patch);
+        let patch_of: Vec<_> = patch_of.collect();
+        picture.lay_patches(&PatchColours { patches: &self.outcome.patches, patch_of: &patch_of, pages: &self.pages })
     }
 
     /// The hours of sun at a point, and where it lies on its face.

@@ -51,15 +51,15 @@ pub(super) enum Found {
 }
 
 impl Laid {
-    /// Lays it over a picture of the site.
+    /// Lays it over a picture of the site, or of what of it is visible.
     ///
     /// # Errors
     /// Where the adapter cannot hold it.
-    pub(super) fn lay(&self, picture: &mut Picture) -> Result<(), ShadowError> {
+    pub(super) fn lay(&self, picture: &mut Picture, visible: &Site) -> Result<(), ShadowError> {
         match &self.found {
             Found::Shadow(hours) => picture.lay_hours(Some(hours.raster())),
             Found::Change(change) => picture.lay_hours(Some(change.raster())),
-            Found::Facades(facades) => facades.lay(picture)?,
+            Found::Facades(facades) => facades.lay(picture, &self.site, visible)?,
         }
         Ok(())
     }

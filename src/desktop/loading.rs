@@ -1,6 +1,6 @@
 //! A site is loaded beside the window, which shows how far it is and can give it up.
 
-use super::settings::Settings;
+use super::settings::{Hidden, Settings};
 use crate::cli::one_line;
 use crate::export::figure::component_colours;
 use crate::mesh::Mesh;
@@ -21,11 +21,15 @@ pub(super) struct Project {
     pub(super) written: Written,
     /// As it is meant.
     pub(super) site: Arc<Site>,
+    /// What the picture leaves out.
+    pub(super) hidden: Hidden,
+    /// The site as the picture has it: what is hidden is looked through, as what does not receive is everywhere.
+    pub(super) visible: Arc<Site>,
     /// Its models where they stand, whatever is asked of them.
     pub(super) models: Models,
     /// The colour of each component.
     pub(super) colours: Vec<[u8; 3]>,
-    /// What is seen, to be asked what lies under the pointer; and whose faces those are.
+    /// What is visible, to be asked what lies under the pointer; and whose faces those are.
     pub(super) seen: Arc<(Mesh, RayCaster)>,
 }
 
@@ -44,7 +48,7 @@ pub(super) struct Bare {
 pub(super) struct Before {
     path: Option<PathBuf>,
     models: Models,
-    receives: Vec<bool>,
+    visible: Arc<Site>,
     seen: Arc<(Mesh, RayCaster)>,
 }
 
@@ -62,8 +66,8 @@ pub(super) enum Wanted {
     File(PathBuf),
     /// A bare model, where it stands.
     Placed(Bare),
-    /// The open site, as it is written now, and what of it may still do.
-    Again(Box<Written>, Box<Before>),
+    /// The open site, as it is written now, what of it is hidden, and what may still do.
+    Again(Box<Written>, Hidden, Box<Before>),
 }
 
 /// Work that goes on beside the window.
@@ -83,7 +87,7 @@ impl Loading {
         let path = match &wanted {
             Wanted::File(path) => path.clone(),
             Wanted::Placed(bare) => bare.path.clone(),
-            Wanted::Again(written, _) => PathBuf::from(&written.file),
+            Wanted::Again(written, ..) => PathBuf::from(&written.file),
         };
         let (tell, result) = mpsc::channel();
         let stage = Arc::new(Mutex::new((0.0, "Reading".to_owned())));
@@ -174,17 +178,20 @@ fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
             (None, written)
         }
         // what is left out of the open site by hand is told, and not filled in
-        Wanted::Again(written, before) => return read(before.path.clone(), *written, Some(&before), progress),
+        Wanted::Again(written, hidden, before) => {
+            return read(before.path.clone(), *written, hidden, Some(&before), progress);
+        }
     };
     let mut written = written;
     complete(&mut written.site);
-    read(path, written, None, progress)
+    read(path, written, Hidden::default(), None, progress)
 }
 
 /// The site as it is written, with what the window needs of it. What an open site has, and still does, is not made again.
 fn read(
     path: Option<PathBuf>,
     written: Written,
+    hidden: Hidden,
     before: Option<&Before>,
     progress: &Progress,
 ) -> Result<Project, Fault> {
@@ -198,11 +205,13 @@ fn read(
     if progress.cancelled.load(Ordering::Relaxed) {
         return Err(Fault::Told("given up".to_owned()));
     }
+    let site = Arc::new(site);
+    let visible = visible(&site, &hidden);
     let seen = match at_hand {
-        Some(before) if before.receives == site.receives => Arc::clone(&before.seen),
+        Some(before) if before.visible.receives == visible.receives => Arc::clone(&before.seen),
         _ => {
             progress.tell(0.85, "Sorting what is seen");
-            let seen = site.mesh.of_components(&site.receives);
+            let seen = visible.mesh.of_components(&visible.receives);
             let reach = seen.bounds().map_or(1.0, |(low, high)| (high - low).length()) * crate::study::live::FARTHEST;
             let rays = RayCaster::new(&seen, reach);
             Arc::new((seen, rays))
@@ -216,8 +225,20 @@ fn read(
         models,
         colours: component_colours(&site.mesh, &site.casts),
         seen,
-        site: Arc::new(site),
+        site,
+        hidden,
+        visible,
     })
+}
+
+/// The site without what is hidden.
+fn visible(site: &Arc<Site>, hidden: &Hidden) -> Arc<Site> {
+    if hidden.is_empty() {
+        return Arc::clone(site);
+    }
+    let components = site.mesh.components.iter().zip(&site.receives);
+    let receives = components.map(|(component, receives)| *receives && !hidden.contains(&component.name)).collect();
+    Arc::new(Site { receives, ..Site::clone(site) })
 }
 
 fn read_models(written: &Written, progress: &Progress) -> Result<Models, SiteError> {
@@ -259,7 +280,7 @@ impl Project {
         Before {
             path: self.path.clone(),
             models: self.models.clone(),
-            receives: self.site.receives.clone(),
+            visible: Arc::clone(&self.visible),
             seen: Arc::clone(&self.seen),
         }
     }
@@ -269,7 +290,7 @@ impl Project {
         let mut shown = before.shown;
         shown.method = self.site.method;
         shown.hours = false;
-        Settings { site: self.written.site.clone(), shown, before: None }
+        Settings { site: self.written.site.clone(), shown, hidden: Arc::clone(&self.hidden), before: None }
     }
 
     /// What the site is called: its place, else its file.

@@ -13,7 +13,7 @@ pub(super) struct Under {
     pub(super) point: DVec3,
     /// The unit normal of its surface, on the seen side.
     pub(super) normal: DVec3,
-    /// Which of the faces that are seen; none on the ground.
+    /// Which of the faces that receive, hidden ones among them; none on the ground.
     pub(super) face: Option<u32>,
     /// The component's name, or the ground.
     pub(super) name: String,
@@ -63,8 +63,27 @@ pub(super) fn under(project: &Project, view: &View, rect: Rect, pointer: egui::P
             let normal = if plane.dot(along) > 0.0 { -plane } else { plane };
             let component = mesh.components.partition_point(|component| component.faces.end <= face);
             let name = mesh.components.get(component)?.name.clone();
-            Some(Under { point: from + along * distance, normal, face: Some(face), name })
+            let face = Some(among_receivers(project, face));
+            Some(Under { point: from + along * distance, normal, face, name })
         }
         _ => Some(Under { point: from + along * ground?, normal: DVec3::Z, face: None, name: "ground".to_owned() }),
     }
+}
+
+/// Which of the faces that receive it is, told which of those that are visible.
+fn among_receivers(project: &Project, face: u32) -> u32 {
+    let Project { site, visible, .. } = project;
+    let (mut passed, mut hidden) = (0, 0);
+    let roles = site.receives.iter().zip(&visible.receives);
+    for (component, (receives, visible)) in site.mesh.components.iter().zip(roles) {
+        match (receives, visible) {
+            (_, true) => passed += component.faces.len() as u32,
+            (true, false) => hidden += component.faces.len() as u32,
+            (false, false) => {}
+        }
+        if face < passed {
+            break;
+        }
+    }
+    face + hidden
 }

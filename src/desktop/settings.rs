@@ -3,19 +3,25 @@
 use crate::export::figure::Diagram;
 use crate::site::file::SiteFile;
 use crate::site::{Method, Written};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Everything that undo brings back: the site as it is written, how its shadows are shown, and
-/// what it is compared with.
+/// Everything that undo brings back: the site as it is written, how its shadows are shown, what is
+/// hidden, and what it is compared with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Settings {
     /// What the site file says.
     pub(super) site: SiteFile,
     /// How its shadows are shown.
     pub(super) shown: Shown,
+    /// The components that the picture leaves out, by name.
+    pub(super) hidden: Hidden,
     /// The state that it is compared with.
     pub(super) before: Option<Arc<Written>>,
 }
+
+/// Names of components that the window's picture leaves out, whatever they do.
+pub(super) type Hidden = Arc<BTreeSet<String>>;
 
 /// How shadows are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -18,7 +18,7 @@ use std::time::Instant;
 /// What the window wishes to see.
 #[derive(Clone)]
 pub(super) struct Wish {
-    /// The site, and which one of those that were loaded.
+    /// The site without what is hidden, and which one of those that were loaded.
     pub(super) site: Arc<Site>,
     /// Grows with every site loaded.
     pub(super) number: u64,
@@ -224,7 +224,7 @@ impl Shared {
         let laid = wish.hours.as_ref().map(|laid| laid.number);
         if laid != kept.hours {
             match &wish.hours {
-                Some(laid) => laid.lay(live.picture()).map_err(|error| error.to_string())?,
+                Some(laid) => laid.lay(live.picture(), &wish.site).map_err(|error| error.to_string())?,
                 None => live.picture().lay_hours(None),
             }
             kept.hours = laid;

@@ -194,7 +194,7 @@ impl Viewer {
             hours: choice.hours && asked.laid.is_some(),
         };
         let best = Wish {
-            site: Arc::clone(&asked.project.site),
+            site: Arc::clone(&asked.project.visible),
             number: asked.number,
             view: self.eye.view(sized(fine)),
             way,

@@ -84,7 +84,7 @@ fn facades_of_another_model_are_not_laid() {
     let name = loaded.mesh.components[0].name.clone();
     click(&mut harness, "On façades, too");
     click(&mut harness, "Find the hours");
-    click(&mut harness, &format!("{name} seen"));
+    click(&mut harness, &format!("{name} receives"));
     settle(&mut harness);
     assert!(harness.query_by_label("Show the hours").is_none(), "the hours are of other faces");
 }

@@ -125,7 +125,7 @@ fn hours_on_facades_are_the_engines() {
     // hours do not lie on what receives otherwise
     click(&mut harness, "Components");
     let name = loaded.mesh.components[0].name.clone();
-    click(&mut harness, &format!("{name} seen"));
+    click(&mut harness, &format!("{name} receives"));
     settle(&mut harness);
     assert!(harness.query_by_label("Show the hours").is_none(), "the hours are of other faces");
 }
