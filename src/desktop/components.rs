@@ -25,7 +25,7 @@ const SWITCHES: [(&str, &str); 3] = [
     ("visible", "Is in this window's picture: what is hidden there counts all the same"),
 ];
 /// How wide such a column is, points.
-const COLUMN: f32 = 50.0;
+const COLUMN: f32 = 52.0;
 
 /// The list: colour, name, and three switches.
 pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings) {
