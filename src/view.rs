@@ -130,6 +130,13 @@ impl Camera {
         DVec2::new(half_height * f64::from(self.width) / f64::from(self.height), half_height)
     }
 
+    /// A side, with the same point in the middle and as much of what lies there.
+    pub fn side(&self, side: Side) -> Elevation {
+        let Camera { target, width, height, .. } = *self;
+        let cell = 2.0 * (self.eye - target).length() * (self.fov_rad / 2.0).tan() / f64::from(height);
+        Elevation { target, to_viewer: side.to_viewer(), cell, width, height }
+    }
+
     /// The direction in which a pixel's centre lies, a unit vector in the world frame.
     pub fn direction(&self, column: u32, row: u32) -> DVec3 {
         self.lens().direction(column, row)
@@ -182,6 +189,31 @@ impl Lens {
     /// Forwards in the picture.
     pub fn forward(&self) -> DVec3 {
         self.axes[2]
+    }
+}
+
+/// One of four sides: what is seen from there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// From the north.
+    North,
+    /// From the east.
+    East,
+    /// From the south.
+    South,
+    /// From the west.
+    West,
+}
+
+impl Side {
+    /// The level unit vector towards the viewer.
+    pub fn to_viewer(self) -> DVec3 {
+        match self {
+            Side::North => DVec3::Y,
+            Side::East => DVec3::X,
+            Side::South => DVec3::NEG_Y,
+            Side::West => DVec3::NEG_X,
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 mod animate;
 mod compare;
 mod draw;
+mod sides;
 mod surfaces;
 mod techniques;
 mod volumes;
@@ -337,7 +338,7 @@ fn shadow_is_seen_by_a_camera() {
 }
 
 /// How many pixels of a drawing are so.
-fn pixels(path: PathBuf, so: impl Fn([u8; 3]) -> bool) -> usize {
+pub(crate) fn pixels(path: PathBuf, so: impl Fn([u8; 3]) -> bool) -> usize {
     image::open(path).unwrap().into_rgb8().pixels().filter(|pixel| so(pixel.0)).count()
 }
 

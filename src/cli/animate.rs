@@ -1,7 +1,8 @@
 //! `gnomon animate`: the study's instants as pictures, and as a GIF.
 
-use super::arguments::{Common, DrawArgs, Eye, PlanArgs, SiteArgs, WindowArgs};
+use super::arguments::{Common, DrawArgs, PlanArgs, SiteArgs, WindowArgs};
 use super::commands::drawn_by;
+use super::eye::Eye;
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::animation::{Frames, MOST_FRAMES};
@@ -29,7 +30,7 @@ pub(super) struct AnimateArgs {
     draw: DrawArgs,
     #[command(flatten)]
     plan: PlanArgs,
-    /// From above, or in perspective
+    /// From where
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
     view: Eye,
     /// How wide a picture is, 320 to 3508: the sheet that shadow draws, in fewer pixels
@@ -49,13 +50,14 @@ pub(super) struct AnimateArgs {
 
 impl AnimateArgs {
     fn overrides(&self) -> Overrides {
-        self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())))
+        let asked = self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())));
+        Overrides { side: self.view.side(), ..asked }
     }
 }
 
 pub(super) fn animate(asked: &AnimateArgs) -> anyhow::Result<()> {
     let mut watch = Stopwatch::start();
-    asked.plan.check_eye(asked.view)?;
+    asked.view.check(&asked.plan)?;
     let site = Site::load(&asked.site.path, &asked.overrides())?;
     let (place, track, out) = (&site.place, &site.track, &asked.out);
     let count = check(&site)?;

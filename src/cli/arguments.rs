@@ -4,12 +4,12 @@ use super::WrongUse;
 use super::animate::AnimateArgs;
 use super::compare::CompareArgs;
 use super::draw::LinesArgs;
+use super::eye::Eye;
 use super::memory;
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
-use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings, Site};
+use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
 use crate::study::verify::SIZE;
-use crate::view::View;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use std::path::PathBuf;
 
@@ -208,14 +208,6 @@ impl PlanArgs {
         ];
         given.into_iter().filter(|(_, given)| *given).map(|(name, _)| name).collect()
     }
-
-    /// A camera's picture has nothing of them.
-    pub(super) fn check_eye(&self, eye: Eye) -> Result<(), WrongUse> {
-        if let (Eye::Camera, [option, ..]) = (eye, self.given().as_slice()) {
-            return Err(WrongUse(format!("{option} is for the plan, and --view camera has none; leave one out")));
-        }
-        Ok(())
-    }
 }
 
 #[derive(Debug, Args)]
@@ -285,7 +277,7 @@ pub(super) struct ShadowArgs {
     /// cells, those of the sky too)
     #[arg(long)]
     pub(super) stats: bool,
-    /// From above, or in perspective
+    /// From where
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
     pub(super) view: Eye,
     /// Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours.
@@ -301,22 +293,6 @@ pub(super) struct ShadowArgs {
     pub(super) mask: Option<PathBuf>,
     #[command(flatten)]
     pub(super) common: Common,
-}
-
-/// From where the shadows are seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Eye {
-    Plan,
-    Camera,
-}
-
-impl Eye {
-    pub(super) fn of(self, site: &Site) -> View {
-        match self {
-            Eye::Plan => View::Plan(site.grid),
-            Eye::Camera => View::Camera(site.camera),
-        }
-    }
 }
 
 /// What a camera's drawing shows besides sun and shadow.
@@ -459,7 +435,7 @@ impl ProfileArgs {
 impl ShadowArgs {
     pub(super) fn overrides(&self) -> Overrides {
         let asked = self.plan.onto(self.draw.onto(self.site.overrides()));
-        Overrides { at: Some(self.at.clone()), date: self.date.clone(), ..asked }
+        Overrides { at: Some(self.at.clone()), date: self.date.clone(), side: self.view.side(), ..asked }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The subcommands: load, work, write, say.
 
-use super::arguments::{CheckArgs, Eye, ShadowArgs, Show, SunArgs};
+use super::arguments::{CheckArgs, ShadowArgs, Show, SunArgs};
+use super::eye::Eye;
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::figure::Diagram;
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// `gnomon shadow`
 pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     let mut watch = Stopwatch::start();
-    asked.plan.check_eye(asked.view)?;
+    asked.view.check(&asked.plan)?;
     let out = match (&asked.out, &asked.mask) {
         (Some(out), _) => Some(out.clone()),
         (None, Some(_)) => None,
@@ -112,7 +113,9 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
         ([_, _, ..], _) if diagram.is_some() => {
             wrong("mask and overdraw stand instead of all else; show one of them alone")
         }
-        (_, Eye::Plan) if diagram.is_none() => wrong("is for the camera's picture; add --view camera, or leave it out"),
+        (_, Eye::Plan) if diagram.is_none() => {
+            wrong("is not for the plan; add --view camera or a side, or leave it out")
+        }
         _ => Ok(diagram),
     }
 }

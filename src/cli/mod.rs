@@ -7,6 +7,7 @@ mod arguments;
 mod commands;
 mod compare;
 mod draw;
+mod eye;
 mod interrupt;
 mod memory;
 mod probe;

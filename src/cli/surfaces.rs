@@ -44,7 +44,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
     if kinds.contains(&Written::Png) {
         let (mesh, surface) = &study::seen_receivers(site)?;
         let scene = figure::Scene { place, track, mesh, surface, receivers: Receivers::Surfaces, drawn };
-        files.push(("surfaces.png", figure::surfaces(&scene, &site.camera, &answer)?));
+        files.push(("surfaces.png", figure::surfaces(&scene, &site.picture(), &answer)?));
         watch.lap("picture");
         interrupt::check()?;
     }

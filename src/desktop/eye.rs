@@ -1,6 +1,7 @@
 //! Where the eye is: around a point, above it, or far before a façade.
 
-use crate::view::{Camera, Elevation, Grid, View};
+use crate::site::Site;
+use crate::view::{Camera, Grid, Side, View};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -11,14 +12,8 @@ pub(super) enum Stand {
     Perspective,
     /// Straight down, north up, without perspective.
     Plan,
-    /// Level at the side that looks this way, along parallel rays.
-    North,
-    /// The same from the east.
-    East,
-    /// The same from the south.
-    South,
-    /// The same from the west.
-    West,
+    /// Level at a side, along parallel rays.
+    Side(Side),
 }
 
 impl Stand {
@@ -26,22 +21,11 @@ impl Stand {
     pub(super) const ALL: [(Stand, &'static str); 6] = [
         (Stand::Perspective, "Perspective"),
         (Stand::Plan, "Plan"),
-        (Stand::North, "From north"),
-        (Stand::East, "From east"),
-        (Stand::South, "From south"),
-        (Stand::West, "From west"),
+        (Stand::Side(Side::North), "From north"),
+        (Stand::Side(Side::East), "From east"),
+        (Stand::Side(Side::South), "From south"),
+        (Stand::Side(Side::West), "From west"),
     ];
-
-    /// The direction in which an elevation's viewer stands.
-    fn to_viewer(self) -> Option<DVec3> {
-        match self {
-            Stand::Perspective | Stand::Plan => None,
-            Stand::North => Some(DVec3::Y),
-            Stand::East => Some(DVec3::X),
-            Stand::South => Some(DVec3::NEG_Y),
-            Stand::West => Some(DVec3::NEG_X),
-        }
-    }
 }
 
 /// The eye and what it looks at.
@@ -65,12 +49,13 @@ const LOWEST_RAD: f64 = 0.02;
 const HIGHEST_RAD: f64 = 1.55;
 
 impl Eye {
-    /// The eye of a site's camera.
-    pub(super) fn of(camera: &Camera) -> Eye {
+    /// The eye of a site's camera, or before the side that it shows.
+    pub(super) fn of(site: &Site) -> Eye {
+        let camera = &site.camera;
         let back = camera.eye - camera.target;
         let distance = back.length().max(0.1);
         Eye {
-            stand: Stand::Perspective,
+            stand: site.side.map_or(Stand::Perspective, Stand::Side),
             target: camera.target,
             distance,
             azimuth_rad: back.x.atan2(back.y),
@@ -87,11 +72,11 @@ impl Eye {
             let (west, north) = (self.target.x - half.x, self.target.y + half.y);
             return View::Plan(Grid { west, north, cell, width, height });
         }
-        if let Some(to_viewer) = self.stand.to_viewer() {
-            let cell = self.metres_a_pixel(height);
-            return View::Elevation(Elevation { target: self.target, to_viewer, cell, width, height });
+        let camera = self.camera((width, height));
+        match self.stand {
+            Stand::Side(side) => View::Elevation(camera.side(side)),
+            _ => View::Camera(camera),
         }
-        View::Camera(self.camera((width, height)))
     }
 
     /// The camera of the perspective.

@@ -91,7 +91,7 @@ impl Facades {
         let (mesh, surface) = &study::seen_receivers(site)?;
         let (place, track, receivers) = (&site.place, &site.track, Receivers::Surfaces);
         let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
-        let picture = figure::surfaces(&scene, &site.camera, &answer)?;
+        let picture = figure::surfaces(&scene, &site.picture(), &answer)?;
         watch.lap("picture");
         let model = surfaces::glb(&answer)?;
         watch.lap("model");

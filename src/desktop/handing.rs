@@ -20,8 +20,13 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The eye of the perspective, as a site file says it: to the millimetre.
-fn camera(eye: &Eye) -> CameraTable {
+/// The eye as a site file says it, to the millimetre; the plan is no camera's picture, and leaves the table as it was.
+fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {
+    let side = match eye.stand {
+        Stand::Plan => return before.clone(),
+        Stand::Perspective => None,
+        Stand::Side(side) => Some(side.word().to_owned()),
+    };
     let camera = eye.camera((16, 10));
     let millimetres = |point: glam::DVec3| (point * 1000.0).round().to_array().map(|metres| metres / 1000.0 + 0.0);
     CameraTable {
@@ -29,6 +34,7 @@ fn camera(eye: &Eye) -> CameraTable {
         target: Some(millimetres(camera.target)),
         up: None,
         fov: Some((camera.fov_rad.to_degrees() * 1000.0).round() / 1000.0),
+        side,
     }
 }
 
@@ -47,9 +53,7 @@ pub(super) fn move_models(site: &mut SiteFile, from: &Path, to: &Path) {
 /// What a site file at a path is to say, so that it reopens to the same view.
 pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &Path) -> Written {
     let mut site = settings.site.clone();
-    if eye.stand == Stand::Perspective {
-        site.camera = camera(eye);
-    }
+    site.camera = camera(eye, &site.camera);
     site.study.technique = match settings.shown.method {
         Method::Auto => None,
         method => Some(method.word().to_owned()),
@@ -59,21 +63,17 @@ pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &
     Written { file: path.display().to_string(), folder, site, text: project.written.text.clone() }
 }
 
-/// The site as the eye of the perspective sees it.
+/// The site as the eye sees it: the command draws from the saved camera, and so the same drawing.
 fn seen_from(project: &Project, settings: &Settings, eye: &Eye) -> Written {
     let mut written = Written { site: settings.site.clone(), ..project.written.clone() };
-    if eye.stand == Stand::Perspective {
-        // the command draws from the saved camera, and so the same drawing
-        written.site.camera = camera(eye);
-    }
+    written.site.camera = camera(eye, &written.site.camera);
     written
 }
 
 fn view_from(site: &Site, eye: &Eye) -> View {
     match eye.stand {
         Stand::Plan => View::Plan(site.grid),
-        Stand::Perspective => View::Camera(site.camera),
-        _ => eye.view((site.camera.width, site.camera.height)),
+        Stand::Perspective | Stand::Side(_) => site.picture(),
     }
 }
 

@@ -63,7 +63,7 @@ impl Viewer {
     /// Looks at a site from where its camera is.
     pub(super) fn new(project: &Project) -> Viewer {
         Viewer {
-            eye: Eye::of(&project.site.camera),
+            eye: Eye::of(&project.site),
             shown: None,
             print: None,
             wished: None,

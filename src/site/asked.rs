@@ -2,6 +2,7 @@
 
 use super::error::{At, SiteError};
 use super::{Engine, Finder, Method, Receivers, Settings};
+use crate::view::Side;
 
 /// Options of the command line; each, where given, goes before the site file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +35,8 @@ pub struct Overrides {
     pub size: Option<u32>,
     /// `--receivers top|ground|surfaces`
     pub receivers: Option<Receivers>,
+    /// `--view north|east|south|west`: the side that the camera's picture shows.
+    pub side: Option<Side>,
     /// `--patch-cell M`, metres, with `--receivers surfaces`.
     pub patch_cell: Option<f64>,
     /// `--technique auto|…`

@@ -1,12 +1,14 @@
-//! The camera as asked, or a good one: from the sunlit side, three-quarter, models and shadows in view.
+//! The camera as asked, or a good one: from the sunlit side, three-quarter, models and shadows in view; or before a side,
+//! with the models in view.
 
-use super::asked::refuse;
+use super::asked::{Overrides, refuse};
+use super::choice::ChoiceError;
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::keys;
 use super::written::Written;
 use crate::sun::SunTrack;
-use crate::view::Camera;
+use crate::view::{Camera, Side};
 use glam::{DVec2, DVec3};
 
 const WIDTH: u32 = 1600;
@@ -19,9 +21,21 @@ const ASIDE_DEG: f64 = 35.0;
 /// Of the picture, around what it has to hold.
 const MARGIN: f64 = 1.06;
 
-/// The camera; `shadows` are the south-west and north-east corner of what should be in view on the ground.
+/// The side that is seen instead of the perspective, as asked or as written.
+pub(super) fn side(written: &Written, asked: &Overrides) -> Result<Option<Side>, SiteError> {
+    match (asked.side, &written.site.camera.side) {
+        (None, Some(word)) => {
+            let read = word.parse().map(Some);
+            read.map_err(|error: ChoiceError| refuse(written.key("camera", "side"), error.to_string()))
+        }
+        (side, _) => Ok(side),
+    }
+}
+
+/// The camera, or the one that sees as much as a side is to show; `shadows` are the south-west and north-east corner of what should be in view on the ground.
 pub(super) fn camera(
     written: &Written,
+    side: Option<Side>,
     bounds: Bounds,
     shadows: [DVec2; 2],
     ground: f64,
@@ -50,12 +64,19 @@ pub(super) fn camera(
     let target = vector("target", table.target)?;
     let eye = vector("eye", table.eye)?;
     let middle = (shadows[0] + shadows[1]) / 2.0;
-    // Between the models and the middle of the picture's ground, so that neither is at its edge.
+    // Between the models and the middle of the picture's ground, so that neither is at its edge; a side shows no ground.
     let centre = bounds.centre();
-    let target = target.unwrap_or(((centre.truncate() + middle) / 2.0).extend(centre.z));
+    let target = target.unwrap_or(match side {
+        Some(_) => centre,
+        None => ((centre.truncate() + middle) / 2.0).extend(centre.z),
+    });
     let eye = eye.unwrap_or_else(|| {
         let back = direction_to_eye(written, track);
-        target + back * distance(back, target, fov_rad, bounds, shadows, ground)
+        let far = match side {
+            Some(side) => distance_of_side(side, target, fov_rad, bounds),
+            None => distance(back, target, fov_rad, bounds, shadows, ground),
+        };
+        target + back * far
     });
     let Some(forward) = (target - eye).try_normalize() else {
         return Err(fault("eye", "it is the target itself".to_owned()));
@@ -79,6 +100,17 @@ fn direction_to_eye(written: &Written, track: &SunTrack) -> DVec3 {
     let aside = DVec2::from_angle(turn.to_radians()).rotate(sunlit);
     let (sin, cos) = ELEVATION_DEG.to_radians().sin_cos();
     (aside * cos).extend(sin)
+}
+
+/// From how far the perspective sees as much at its target as a side with all corners has.
+fn distance_of_side(side: Side, target: DVec3, fov_rad: f64, bounds: Bounds) -> f64 {
+    let right = side.to_viewer().cross(DVec3::Z);
+    let aspect = f64::from(WIDTH) / f64::from(HEIGHT);
+    let half = [bounds.low, bounds.high].map(|corner| {
+        let corner = (corner - target).abs();
+        (corner.dot(right.abs()) / aspect).max(corner.z)
+    });
+    (half[0].max(half[1]) * MARGIN / (fov_rad / 2.0).tan()).max(1.0)
 }
 
 /// How far back the eye must stand to see all corners.

@@ -1,7 +1,8 @@
-//! The words by which people choose a technique, a finder, an engine and receivers.
+//! The words by which people choose a technique, a finder, an engine, a side and receivers.
 
 use super::error::nearest;
 use super::{Engine, Finder, Method, Pcf, Receivers};
+use crate::view::Side;
 use std::fmt;
 use std::str::FromStr;
 
@@ -105,6 +106,16 @@ words!(
     later []
 );
 words!(Engine, ["auto" => Engine::Auto, "gpu" => Engine::Gpu, "cpu" => Engine::Cpu], later []);
+words!(
+    Side,
+    [
+        "north" => Side::North,
+        "east" => Side::East,
+        "south" => Side::South,
+        "west" => Side::West
+    ],
+    later []
+);
 words!(
     Receivers,
     [

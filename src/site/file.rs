@@ -109,6 +109,8 @@ pub struct CameraTable {
     pub up: Option<[f64; 3]>,
     /// Vertical, degrees.
     pub fov: Option<f64>,
+    /// A side's name: this side is seen instead, along parallel rays.
+    pub side: Option<String>,
 }
 
 /// `[[probe]]`

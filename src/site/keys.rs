@@ -29,6 +29,7 @@ const KEYS: &[(&str, &str, &str)] = &[
     ("camera", "target", "target = [0, 0, 60]"),
     ("camera", "up", "up = [0, 0, 1]"),
     ("camera", "fov", "fov = 40.0"),
+    ("camera", "side", "side = \"south\""),
     ("probe", "name", "name = \"kitchen window\""),
     ("probe", "point", "point = [12.0, -3.0, 4.5]"),
     ("probe", "normal", "normal = [0, -1, 0]"),

@@ -117,7 +117,8 @@ impl Site {
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
         let grid = plan::grid(written, asked, shadows(SHADOW_CUT))?;
-        let camera = camera::camera(written, bounds, shadows(VIEW_CUT), ground, &track)?;
+        let side = camera::side(written, asked)?;
+        let camera = camera::camera(written, side, bounds, shadows(VIEW_CUT), ground, &track)?;
         Ok(Site {
             place,
             mesh,
@@ -127,6 +128,7 @@ impl Site {
             track,
             grid,
             camera,
+            side,
             receivers,
             patch_cell,
             method,

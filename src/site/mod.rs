@@ -31,7 +31,7 @@ pub use written::Written;
 
 use crate::mesh::Mesh;
 use crate::sun::{Place, SunTrack};
-use crate::view::{Camera, Grid};
+use crate::view::{Camera, Grid, Side, View};
 
 /// Which surfaces are judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -138,6 +138,8 @@ pub struct Site {
     pub grid: Grid,
     /// The perspective view.
     pub camera: Camera,
+    /// The side that is seen instead, with as much of it as the perspective shows at its target.
+    pub side: Option<Side>,
     /// Which surfaces are judged.
     pub receivers: Receivers,
     /// Side of a texel of [`Receivers::Surfaces`], metres.
@@ -152,4 +154,14 @@ pub struct Site {
     pub engine: Engine,
     /// What was asked of single techniques.
     pub settings: Settings,
+}
+
+impl Site {
+    /// What the camera's picture shows: a side, where one is asked, else the perspective.
+    pub fn picture(&self) -> View {
+        match self.side {
+            Some(side) => View::Elevation(self.camera.side(side)),
+            None => View::Camera(self.camera),
+        }
+    }
 }

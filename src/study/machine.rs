@@ -295,9 +295,12 @@ pub(super) fn choose_on(
         View::Camera(_) | View::Elevation(_) => None,
     };
     if matches!(view, View::Elevation(_)) {
-        if !matches!(site.method, Method::Auto | Method::RayCast) || site.engine == Engine::Gpu {
+        if !matches!(site.method, Method::Auto | Method::RayCast) {
             let what = "rays alone draw a side; take --technique ray-cast, or leave it out";
             return Err(StudyError::Conflict { option: "--technique", what });
+        }
+        if site.engine == Engine::Gpu {
+            return conflict("rays alone draw a side, on the cpu; leave the option out");
         }
         unused(site, Method::RayCast)?;
         return Ok(cast);
@@ -388,7 +391,8 @@ pub(super) fn choose_on(
 }
 
 /// A technique that counts, as something asks what that took: as asked, else the stencil.
-pub(super) fn counting(site: &Site, option: &'static str) -> Result<Machine, StudyError> {
+pub(super) fn counting(site: &Site, view: &View, option: &'static str) -> Result<Machine, StudyError> {
+    not_side(view, option)?;
     let method = match site.method {
         Method::Auto => Method::Stencil,
         method => method,
@@ -403,7 +407,8 @@ pub(super) fn counting(site: &Site, option: &'static str) -> Result<Machine, Stu
 }
 
 /// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.
-pub(super) fn stencil_alone(site: &Site) -> Result<Machine, StudyError> {
+pub(super) fn stencil_alone(site: &Site, view: &View) -> Result<Machine, StudyError> {
+    not_side(view, "--show")?;
     if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {
         let what = "volumes and silhouette are drawn by the technique stencil on the gpu alone; \
                     take --technique stencil without --engine cpu, or leave them out";
@@ -413,6 +418,16 @@ pub(super) fn stencil_alone(site: &Site) -> Result<Machine, StudyError> {
     let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(why_none(error)))?;
     let drawing = Drawing::of(Method::Stencil, site, &gpu);
     Ok(Machine::OnGpu(Arc::new(gpu), drawing))
+}
+
+/// Volumes are drawn and counted in the plan and in perspective.
+fn not_side(view: &View, option: &'static str) -> Result<(), StudyError> {
+    if matches!(view, View::Elevation(_)) {
+        let what =
+            "rays alone draw a side, and there are no shadow volumes in it; look from elsewhere, or leave it out";
+        return Err(StudyError::Conflict { option, what });
+    }
+    Ok(())
 }
 
 /// Masks are of a plan or of a camera's picture.

@@ -251,8 +251,8 @@ pub fn instant(
     note_distance(&site.mesh, on_event)?;
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
-        (true, _) => stencil_alone(site)?,
-        (false, Some(option)) => counting(site, option)?,
+        (true, _) => stencil_alone(site, &view)?,
+        (false, Some(option)) => counting(site, &view, option)?,
         (false, None) => choose(site, &view, on_event)?,
     };
     let receivers = judged(site, &view);

@@ -81,7 +81,7 @@ pub fn in_tiles(
     let (day_secs, night_secs) = day_and_night(&site.track);
     note_distance(&site.mesh, on_event)?;
     let view = View::Plan(site.grid);
-    let machine = if wants.statistics { counting(site, "--stats")? } else { choose(site, &view, on_event)? };
+    let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
     let tiles = tiles::of(site, &machine, wants, day_secs)?;
     note_tiles(&tiles, wants, on_event)?;
     let look = Look { site, machine: &machine, view, receivers: site.receivers };

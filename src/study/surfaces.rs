@@ -12,7 +12,7 @@ use crate::shadow::soft_texture::{Choice, Fill, Judged, Painter, Sample, SoftTex
 use crate::shadow::{JUDGED_ABOVE_M, Scene, Technique};
 use crate::site::{Engine, Finder, Method, Site};
 use crate::sun::{Instant, disc};
-use crate::view::{Surface, View};
+use crate::view::Surface;
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -91,7 +91,7 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
 pub fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError> {
     let receivers = site.mesh.of_components(&site.receives);
     let scene = Scene { casters: site.mesh.of_components(&[]), receivers: receivers.clone(), ground: site.ground };
-    let surface = RayCast::new(scene, View::Camera(site.camera), None).surface()?;
+    let surface = RayCast::new(scene, site.picture(), None).surface()?;
     Ok((receivers, surface))
 }
 

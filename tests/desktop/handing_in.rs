@@ -118,6 +118,49 @@ fn saved_site_reopens_to_the_same_view() {
     assert!(text.contains("# drawn in 2024") && text.contains("step = \"4h\" # coarse"), "{text}");
 }
 
+/// So it does before a side, with the same point in the middle and the same scale.
+#[test]
+fn saved_site_reopens_to_the_same_side() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    harness.key_press(Key::Num6);
+    harness.step();
+    let rect = harness.get_by_label("Model").rect();
+    drag(&mut harness, rect.left_bottom() + egui::vec2(80.0, -60.0), rect.left_bottom() + egui::vec2(187.0, -93.0));
+    settle(&mut harness);
+    menu(&mut harness, "Export the drawing…");
+    let ours = folder.path().join("window.png");
+    answer(&mut harness, &ours, "Write");
+    menu(&mut harness, "Save the site file…");
+    let saved = folder.path().join("elsewhere/site.toml");
+    answer(&mut harness, &saved, "Write");
+    let before = harness.state().shown().unwrap();
+    let mut again = window(Some(&saved));
+    let after = again.state().shown().unwrap();
+    let (gnomon::view::View::Elevation(before), gnomon::view::View::Elevation(after)) = (before.0, after.0) else {
+        panic!("two sides")
+    };
+    assert_eq!(before.to_viewer, after.to_viewer);
+    assert!(before.target.distance(after.target) < 0.001, "{before:?}, {after:?}");
+    let [high, again_high] = [before, after].map(|side| side.cell * f64::from(side.height));
+    assert!((high / again_high - 1.0).abs() < 1e-4, "{before:?}, {after:?}");
+    let theirs = folder.path().join("command.png");
+    for view in ["camera", "west"] {
+        let asked = ["--view", view, "--at", "2026-03-21T13:00", "--out"].map(std::ffi::OsStr::new);
+        command(&[&["shadow".as_ref(), saved.as_os_str()], asked.as_slice(), &[theirs.as_ref()]].concat());
+        let [ours, theirs] = [&ours, &theirs].map(|path| std::fs::read(path).unwrap());
+        assert!(ours == theirs, "--view {view} is another drawing");
+    }
+    // the perspective is still there, and saved in its turn it is no side any more
+    again.key_press(Key::Num1);
+    again.step();
+    settle(&mut again);
+    menu(&mut again, "Save the site file…");
+    answer(&mut again, &saved, "Write");
+    let text = std::fs::read_to_string(&saved).unwrap();
+    assert!(text.contains("eye = ") && !text.contains("side"), "{text}");
+}
+
 #[test]
 fn drawing_is_that_of_the_command() {
     let (folder, site) = small_site();

@@ -187,15 +187,7 @@ fn instant_as<T>(
             }
         }
         View::Camera(_) | View::Elevation(_) => {
-            let (lens, cell) = match view {
-                View::Elevation(side) => (perspective::Lens::of_side(side), Some(side.cell)),
-                View::Camera(camera) => (perspective::Lens::new(camera), None),
-                View::Plan(_) => return Err(ExportError::encode("drawing", "a plan has no lens")),
-            };
-            if let View::Elevation(side) = view {
-                panel.facts.push(("Seen", words::side(side)));
-                panel.north_up = false;
-            }
+            let (lens, cell) = lens(view, &mut panel)?;
             panel.facts.push(("Picture", format!("{} × {}", size.0, size.1)));
             let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
             show(&mut panel, shown, tones[0], components.as_ref());
@@ -208,6 +200,19 @@ fn instant_as<T>(
                 picture
             };
             page::page(&panel, size, cell, draw, finish)
+        }
+    }
+}
+
+/// Through what a picture is seen, and where it is true to scale its pixel's side, metres; the sheet says of a side which.
+fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::Lens, Option<f64>), ExportError> {
+    match view {
+        View::Plan(_) => Err(ExportError::encode("drawing", "a plan has no lens")),
+        View::Camera(camera) => Ok((perspective::Lens::new(camera), None)),
+        View::Elevation(side) => {
+            panel.facts.push(("Seen", words::side(side)));
+            panel.north_up = false;
+            Ok((perspective::Lens::of_side(side), Some(side.cell)))
         }
     }
 }

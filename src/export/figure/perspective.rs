@@ -155,7 +155,7 @@ impl Lens {
     }
 
     /// A point on a pixel's ray: the eye, or of a side where the ray crosses the picture.
-    fn start(&self, column: usize, row: usize) -> DVec3 {
+    pub(super) fn start(&self, column: usize, row: usize) -> DVec3 {
         let [x, y] = self.at(column, row);
         self.side.map_or(self.viewer.xyz(), |(target, _)| target + self.right * x + self.up * y)
     }

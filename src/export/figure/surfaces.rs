@@ -1,12 +1,12 @@
-//! The model coloured by hours of sun, as the camera sees it.
+//! The model coloured by hours of sun, as the camera sees it, or from a side.
 
 use super::panel::{Panel, thousands};
 use super::perspective::{Lens, facing};
 use super::scale::{NO_SUN, Rgb};
-use super::{Scene, check_surface, page, panel, perspective, words};
+use super::{Scene, check_surface, lens, page, panel, perspective, words};
 use crate::export::ExportError;
 use crate::export::surfaces::{Atlas, Surfaces};
-use crate::view::{Camera, Surface};
+use crate::view::{Surface, View};
 use glam::Vec4Swizzles as _;
 use rayon::prelude::*;
 
@@ -15,18 +15,19 @@ pub(in crate::export) const NOT_JUDGED: Rgb = [200, 191, 182];
 /// The ground, which is not judged either; it needs no word in the legend.
 const GROUND: Rgb = [236, 234, 229];
 
-/// `surfaces.png`: the hours of sun on the surfaces that `camera` sees. `scene`'s mesh is that of what
+/// `surfaces.png`: the hours of sun on the surfaces that a camera or a side sees. `scene`'s mesh is that of what
 /// receives alone.
 ///
 /// # Errors
-/// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder.
-pub fn surfaces(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Result<Vec<u8>, ExportError> {
-    let size = (camera.width, camera.height);
+/// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder, and for a plan.
+pub fn surfaces(scene: &Scene, view: &View, surfaces: &Surfaces) -> Result<Vec<u8>, ExportError> {
+    let size = view.size();
     check_surface(scene.surface, size)?;
-    let panel = labelled(scene, surfaces);
-    let of_cells = painted(scene, camera, surfaces);
-    let draw = |fit| perspective::painted(scene, &Lens::new(camera), &of_cells, true, fit);
-    page::page(&panel, size, None, draw, page::png)
+    let mut panel = labelled(scene, surfaces);
+    let (lens, cell) = lens(view, &mut panel)?;
+    let of_cells = painted(scene, &lens, surfaces);
+    let draw = |fit| perspective::painted(scene, &lens, &of_cells, true, fit);
+    page::page(&panel, size, cell, draw, page::png)
 }
 
 fn labelled(scene: &Scene, surfaces: &Surfaces) -> Panel {
@@ -62,22 +63,22 @@ pub fn legend(surfaces: &Surfaces) -> (String, Vec<(Rgb, String)>) {
 }
 
 /// Per pixel its colour; the sky's is not looked at.
-fn painted(scene: &Scene, camera: &Camera, surfaces: &Surfaces) -> Vec<Rgb> {
+fn painted(scene: &Scene, lens: &Lens, surfaces: &Surfaces) -> Vec<Rgb> {
     let (patches, bands, samples) = (surfaces.patches, surfaces.bands(), surfaces.hours.samples);
     // the scene's faces are those of the components that receive
     let atlas = Atlas::of(surfaces);
-    let lens = Lens::new(camera);
-    let width = camera.width as usize;
+    let width = scene.surface.width as usize;
     let colour = |pixel: usize| {
         let face = scene.surface.face[pixel];
         if face >= Surface::GROUND {
             return GROUND;
         }
-        let plane = facing(scene, face, camera.eye.extend(1.0));
+        let plane = facing(scene, face, lens.viewer);
         let Some(patch) = atlas.patch(patches, face, plane.xyz()) else { return NOT_JUDGED };
-        let ray = lens.ray(pixel % width, pixel / width);
-        let depth = -(plane.xyz().dot(camera.eye) + plane.w) / plane.xyz().dot(ray);
-        bands.of_sun(atlas.lit(patches, patch, camera.eye + ray * depth - patches.origin), samples)
+        let (column, row) = (pixel % width, pixel / width);
+        let (start, ray) = (lens.start(column, row), lens.ray(column, row));
+        let depth = -plane.dot(start.extend(1.0)) / plane.xyz().dot(ray);
+        bands.of_sun(atlas.lit(patches, patch, start + ray * depth - patches.origin), samples)
     };
     (0..scene.surface.face.len()).into_par_iter().map(colour).collect()
 }

@@ -1,0 +1,56 @@
+//! `--view`: from where the shadows are seen.
+
+use super::WrongUse;
+use super::arguments::PlanArgs;
+use crate::site::Site;
+use crate::view::{Side, View};
+use clap::ValueEnum;
+
+/// From where the shadows are seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Eye {
+    /// From above, north up
+    Plan,
+    /// As the site's camera sees it: in perspective, or the side that it names
+    Camera,
+    /// From the north: along parallel, level rays, true to scale
+    North,
+    /// The same from the east
+    East,
+    /// The same from the south
+    South,
+    /// The same from the west
+    West,
+}
+
+impl Eye {
+    /// The side that is named.
+    pub(super) fn side(self) -> Option<Side> {
+        match self {
+            Eye::Plan | Eye::Camera => None,
+            Eye::North => Some(Side::North),
+            Eye::East => Some(Side::East),
+            Eye::South => Some(Side::South),
+            Eye::West => Some(Side::West),
+        }
+    }
+
+    /// The view of a site that was asked for that side.
+    pub(super) fn of(self, site: &Site) -> View {
+        match self {
+            Eye::Plan => View::Plan(site.grid),
+            _ => site.picture(),
+        }
+    }
+
+    /// Errs where something is asked of the plan, and none is drawn.
+    pub(super) fn check(self, plan: &PlanArgs) -> Result<(), WrongUse> {
+        match (self, plan.given().as_slice()) {
+            (Eye::Plan, _) | (_, []) => Ok(()),
+            (_, [option, ..]) => {
+                let word = self.to_possible_value().map_or_else(String::new, |word| word.get_name().to_owned());
+                Err(WrongUse(format!("{option} is for the plan, and --view {word} has none; leave one out")))
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! `--view south` and `[camera] side`: a side along parallel rays, by the command.
+
+use super::{done, fails, pixels, site};
+use serde_json::{Value, json};
+use std::path::Path;
+
+const AT: &str = "shadow . --at 2026-09-18T15:00";
+
+/// Another camera in the site file.
+fn write(folder: &Path, camera: &str) {
+    let path = folder.join("site.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let before = text.split("[camera]").next().unwrap();
+    std::fs::write(path, format!("{before}[camera]\n{camera}\n")).unwrap();
+}
+
+fn drawn(folder: &Path, options: &str) -> (Value, Vec<u8>) {
+    let said = done(folder, &format!("{AT} {options} --out side.png --json"));
+    (serde_json::from_str(&said).unwrap(), std::fs::read(folder.join("side.png")).unwrap())
+}
+
+/// Without a camera in the site file the models fill the picture; the side away from the sun is dark, cell for cell.
+#[test]
+fn a_side_holds_the_models_to_scale() {
+    let folder = site();
+    let said = done(folder.path(), &format!("{AT} --view north --mask m.png --json"));
+    let json: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!((&json["target"], &json["to_viewer"]), (&json!([0.0, 0.0, 10.0]), &json!([0.0, 1.0, 0.0])));
+    // the tower is 10 m wide and 20 m high, and has 6% around it
+    let cell = json["cell"].as_f64().unwrap();
+    assert!((cell - 21.2 / 1000.0).abs() < 1e-9, "{cell}");
+    let mask = image::open(folder.path().join("m.png")).unwrap().into_luma8();
+    assert_eq!(mask.dimensions(), (1600, 1000));
+    for (column, row, pixel) in mask.enumerate_pixels() {
+        let (x, z) = ((f64::from(column) + 0.5 - 800.0) * cell, 10.0 - (f64::from(row) + 0.5 - 500.0) * cell);
+        let dark = x.abs() < 5.0 && z > 0.0 && z < 20.0;
+        assert_eq!(pixel.0, [if dark { 0 } else { 255 }], "at {x}, {z}");
+    }
+}
+
+/// A side that the site file names is the one of the option; with a camera there it shows as much at the same point.
+#[test]
+fn the_site_file_names_a_side() {
+    let folder = site();
+    let (_, south) = drawn(folder.path(), "--view south");
+    write(folder.path(), "side = \"south\"");
+    assert!(drawn(folder.path(), "--view camera").1 == south, "another side");
+    // the option goes before the file
+    assert!(drawn(folder.path(), "--view east").1 != south, "the same side");
+    let eye = "eye = [30, -40, 8]\ntarget = [0, 0, 8]\nfov = 90";
+    write(folder.path(), &format!("{eye}\nside = \"west\""));
+    let (json, west) = drawn(folder.path(), "--view camera");
+    assert_eq!((&json["target"], &json["to_viewer"]), (&json!([0.0, 0.0, 8.0]), &json!([-1.0, 0.0, 0.0])));
+    let cell = json["cell"].as_f64().unwrap();
+    assert!((cell - 2.0 * 50.0 / 1000.0).abs() < 1e-9, "{cell}");
+    write(folder.path(), eye);
+    assert!(drawn(folder.path(), "--view west").1 == west, "another side");
+    let (json, perspective) = drawn(folder.path(), "--view camera");
+    assert!(json["camera"].is_object() && perspective != west, "{json}");
+    // frames are drawn from there, too
+    let frames = "animate . --view west --from 14:00 --to 15:00 --step 1h --width 3508 --quiet";
+    done(folder.path(), frames);
+    let [frame, sheet] = ["out/frame-0001.png", "side.png"].map(|name| image::open(folder.path().join(name)).unwrap());
+    assert!(frame.into_rgb8() != sheet.into_rgb8(), "the side is in no frame");
+    drawn(folder.path(), "--view west");
+    let [frame, sheet] = ["out/frame-0001.png", "side.png"].map(|name| image::open(folder.path().join(name)).unwrap());
+    assert!(frame.into_rgb8() == sheet.into_rgb8(), "the frame is another sheet");
+}
+
+/// Hours on surfaces are seen as the site's camera sees them: from the north the wall has no sun.
+#[test]
+fn hours_on_surfaces_are_seen_from_a_side() {
+    let folder = site();
+    let dark = |side: &str| {
+        write(folder.path(), &format!("side = \"{side}\""));
+        done(folder.path(), "profile . --receivers surfaces --patch-cell 1 --write png --quiet");
+        let no_sun = [70, 66, 74];
+        pixels(folder.path().join("out/surfaces.png"), |colour| colour == no_sun)
+    };
+    let (north, south) = (dark("north"), dark("south"));
+    assert!(north > south + 500_000, "{north} and {south} dark pixels");
+}
+
+#[test]
+fn what_a_side_cannot_have_is_told() {
+    let folder = site();
+    let refused = |options: &str, words: &[&str]| fails(folder.path(), &format!("{AT} {options}"), 2, words);
+    refused("--view up", &["up", "plan, camera, north, east, south, west"]);
+    refused("--view south --cell 1", &["--cell", "--view south", "leave one out"]);
+    refused("--view south --receivers ground", &["--receivers", "--view south"]);
+    for show in ["volumes", "silhouette", "overdraw"] {
+        refused(&format!("--view south --show {show}"), &["--show", "rays alone draw a side", "leave it out"]);
+    }
+    refused("--view south --stats", &["--stats", "rays alone draw a side"]);
+    refused("--view south --technique stencil", &["--technique", "ray-cast"]);
+    refused("--view south --engine gpu", &["--engine", "on the cpu"]);
+    refused("--view south --silhouette hextree", &["--silhouette"]);
+    write(folder.path(), "side = \"sout\"");
+    for options in ["--view camera", "--view plan"] {
+        fails(
+            folder.path(),
+            &format!("{AT} {options}"),
+            1,
+            &["[camera] side", "north, east, south, west", "\"south\""],
+        );
+    }
+    write(folder.path(), "side = 4");
+    fails(folder.path(), &format!("{AT} --view camera"), 1, &["[camera] side", "side = \"south\""]);
+    write(folder.path(), "sides = \"south\"");
+    fails(folder.path(), &format!("{AT} --view camera"), 1, &["side in [camera]"]);
+}
