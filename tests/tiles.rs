@@ -222,6 +222,31 @@ fn a_plan_wider_than_the_largest_texture_is_done_in_tiles() {
     assert!(shadow > 10_000 && differ < shadow / 100, "{differ} of {shadow}");
 }
 
+/// The same at one instant: the mask is that of the processor, and the drawing is made.
+#[test]
+fn an_instant_wider_than_the_largest_texture_is_drawn() {
+    let folder = site();
+    let path = folder.path();
+    let largest = Gpu::open().unwrap().limits.max_texture_dimension_2d;
+    let wide = format!("--region -40,8,40,8.1 --cell {:?} --receivers ground", 80.0 / f64::from(largest + 1000));
+    let at = "shadow . --at 2026-09-18T11:00";
+    let told = stderr(&gnomon(path, &format!("{at} {wide} --technique stencil --mask gpu.png --out gpu-sheet.png")));
+    assert!(told.contains("the plan is done in 2 tiles of "), "{told}");
+    done(path, &format!("{at} {wide} --engine cpu --mask cpu.png"));
+    let [gpu, cpu] = ["gpu.png", "cpu.png"].map(|name| image::open(path.join(name)).unwrap().into_luma8());
+    assert_eq!((gpu.width(), gpu.dimensions()), (largest + 1000, cpu.dimensions()));
+    let differ = gpu.pixels().zip(cpu.pixels()).filter(|(one, other)| one != other).count();
+    let shadow = cpu.pixels().filter(|pixel| pixel.0 == [0]).count();
+    assert!(shadow > 10_000 && differ < shadow / 100, "{differ} of {shadow}");
+    assert_eq!(image::open(path.join("gpu-sheet.png")).unwrap().width(), 3508);
+    let stats = format!("{at} {wide} --technique stencil --stats --mask m.png");
+    fails(path, &stats, 2, &["--stats", "in tiles", "--cell"]);
+    // what draws the plan at once says that it is too large, on either machine
+    for asked in ["animate . --engine gpu", "animate . --engine cpu", "verify ."] {
+        fails(path, &format!("{asked} --size 40000"), 2, &["40000 × ", "at once", "--cell", "--size"]);
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn a_study_that_was_stopped_among_its_tiles_goes_on_and_comes_to_the_same() {

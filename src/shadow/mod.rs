@@ -130,7 +130,7 @@ pub enum ShadowError {
     /// The raster does not fit the adapter.
     #[error(
         "a raster of {width} × {height} cells is larger than the {largest} that '{adapter}' draws; \
-         choose larger cells (--cell), fewer (--size) or --engine cpu"
+         choose larger cells (--cell) or fewer (--size)"
     )]
     TooLarge {
         /// Columns asked.

@@ -1,7 +1,7 @@
 //! Every instant of a study as a picture: night too.
 
 use super::machine::{choose, not_surfaces};
-use super::{Event, Look, OnEvent, StudyError, judged, night, note_distance, tell};
+use super::{Event, Look, OnEvent, StudyError, judged, night, note_distance, tell, tiles};
 use crate::mesh::Mesh;
 use crate::profile::Drawn;
 use crate::shadow::Technique;
@@ -40,6 +40,9 @@ pub fn frames<E: From<StudyError>>(
     not_surfaces(site)?;
     note_distance(&site.mesh, on_event)?;
     let machine = choose(site, &view, on_event)?;
+    if let View::Plan(grid) = view {
+        tiles::at_once(grid, site.receivers, &machine)?;
+    }
     let look = Look { site, machine: &machine, view, receivers: judged(site, &view) };
     let mut technique = look.technique().map_err(StudyError::from)?;
     let surface = look.surface(&*technique).map_err(StudyError::from)?;

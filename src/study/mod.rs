@@ -8,6 +8,7 @@
 mod compare;
 mod fingerprint;
 mod frames;
+mod instant;
 pub mod live;
 mod machine;
 pub mod probe;
@@ -19,6 +20,7 @@ pub mod verify;
 
 pub use compare::{CompareOutcome, compare, compare_with};
 pub use frames::{Frame, frames};
+pub use instant::instant;
 pub use profile::{Worked, in_tiles, run};
 pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
@@ -36,7 +38,7 @@ use crate::view::{Bits, Camera, Counted, Mask, Overlay, Surface, Tile, View};
 use chrono::DateTime;
 use chrono_tz::Tz;
 use glam::DVec3;
-use machine::{Machine, choose, counting, not_surfaces, stencil_alone};
+use machine::{Machine, not_surfaces};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Duration;
@@ -177,6 +179,16 @@ pub enum StudyError {
         /// Columns of the plan.
         width: u32,
     },
+    /// The plan is drawn at once, and has too many cells for that.
+    #[error(
+        "{width} × {height} cells are more than can be drawn at once; choose larger cells (--cell) or fewer (--size)"
+    )]
+    TooManyCells {
+        /// Columns of the plan.
+        width: u32,
+        /// Its rows.
+        height: u32,
+    },
     /// Time on surfaces is summed in 32 bits.
     #[error(
         "the study has {} hours of daylight, and surfaces sum at most {}; ask for fewer days or a shorter window",
@@ -229,75 +241,8 @@ pub enum StudyError {
 impl StudyError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
-        matches!(self, StudyError::Conflict { .. } | StudyError::LittleMemory { .. })
+        matches!(self, StudyError::Conflict { .. } | StudyError::LittleMemory { .. } | StudyError::TooManyCells { .. })
     }
-}
-
-/// The first instant alone; at night nothing sees the sun, and a note says so.
-///
-/// A camera always judges what it sees; [`Site::receivers`] is the plan's.
-///
-/// # Errors
-/// [`StudyError`].
-pub fn instant(
-    site: &Site,
-    view: View,
-    wants: &InstantWants,
-    on_event: &mut OnEvent<'_>,
-) -> Result<InstantOutcome, StudyError> {
-    not_surfaces(site)?;
-    let mut watch = Stopwatch::start();
-    let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
-    note_distance(&site.mesh, on_event)?;
-    let shows_volumes = wants.volumes || wants.silhouette;
-    let machine = match (shows_volumes, wants.counted) {
-        (true, _) => stencil_alone(site, &view)?,
-        (false, Some(option)) => counting(site, &view, option)?,
-        (false, None) => choose(site, &view, on_event)?,
-    };
-    let receivers = judged(site, &view);
-    let look = Look { site, machine: &machine, view, receivers };
-    let mut technique = look.technique()?;
-    let surface = wants.surface.then(|| look.surface(&*technique)).transpose()?;
-    watch.lap("prepare");
-
-    tell(on_event, Event::Started { instants: 1, tiles: 1 })?;
-    let (mut overlay, mut counted) = (None, None);
-    let mask = if instant.night {
-        let below = -instant.altitude_deg();
-        tell(on_event, Event::Note(format!("night: the sun is {below:.1}° below the horizon, and nothing sees it")))?;
-        if shows_volumes {
-            tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned()))?;
-        }
-        if wants.counted.is_some() {
-            tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
-        }
-        night(&view)
-    } else {
-        overlay = look.overlay(wants, instant.to_sun)?;
-        if overlay.as_ref().is_some_and(Overlay::is_empty) {
-            let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
-            tell(on_event, Event::Note(note.to_owned()))?;
-        }
-        if wants.counted.is_some() {
-            counted = technique.counted(instant.to_sun)?;
-        }
-        technique.draw(instant.to_sun)?.read()?
-    };
-    if let Some(note) = technique.note() {
-        tell(on_event, Event::Note(note))?;
-    }
-    tell(on_event, Event::Drawn { index: 0, count: 1, time: instant.time, mask: Some(&mask), bits: None })?;
-    watch.lap("shadows");
-    Ok(InstantOutcome {
-        mask,
-        surface,
-        overlay,
-        counted,
-        surface_mesh: look.surface_mesh(),
-        timings: watch.stages,
-        drawn: machine.drawn(),
-    })
 }
 
 /// Where something asks what counting took.

@@ -83,7 +83,8 @@ pub fn in_tiles(
     let view = View::Plan(site.grid);
     let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
     let tiles = tiles::of(site, &machine, wants, day_secs)?;
-    note_tiles(&tiles, wants, on_event)?;
+    check_tiles(&tiles, wants)?;
+    tiles::note(&tiles, on_event)?;
     let look = Look { site, machine: &machine, view, receivers: site.receivers };
     let instants = &site.track.instants;
     let count = tiles.len() * instants.len();
@@ -110,7 +111,7 @@ pub fn in_tiles(
     if done > 0 {
         tell(on_event, Event::GoesOn { done })?;
     }
-    let mut kept = Instant::now();
+    let (mut kept, mut was_kept) = (Instant::now(), done > 0);
     for (number, tile) in tiles.iter().enumerate().skip(first) {
         if number > first && !technique.turn_to_tile(*tile)? {
             technique = look.technique_of(*tile)?;
@@ -141,13 +142,13 @@ pub fn in_tiles(
             }
             let (mask, bits) = (mask.as_ref(), bits.as_ref());
             let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });
-            // what lies in files already must not be lost while a drawing is made of it
-            let is_last = index + 1 == count && (tiles.len() > 1 || wants.bits);
+            // what lies in files already, and long work, must not be lost while a drawing is made of it
+            let is_last = index + 1 == count && (tiles.len() > 1 || wants.bits || was_kept);
             if wants.keep_every.is_some_and(|every| told.is_err() || is_last || kept.elapsed() >= every) {
                 let shaded = sum.so_far()?;
                 let unfinished = Unfinished { study: *study, tiles: tiles.len(), done: index + 1, shaded, statistics };
                 tell(on_event, Event::Kept(&unfinished))?;
-                kept = Instant::now();
+                (kept, was_kept) = (Instant::now(), true);
             }
             told?;
         }
@@ -168,9 +169,11 @@ pub fn in_tiles(
     })
 }
 
-/// Says when the plan is done in tiles.
-fn note_tiles(tiles: &[Tile], wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-    let [first, _, ..] = tiles else { return Ok(()) };
+/// Errs where what is wanted is made of the whole plan, and that is done in tiles.
+fn check_tiles(tiles: &[Tile], wants: &Wants) -> Result<(), StudyError> {
+    if tiles.len() < 2 {
+        return Ok(());
+    }
     if wants.masks {
         let what = "the plan is done in tiles, and masks are written whole; take --bits, which holds the same, or larger \
                     cells (--cell)";
@@ -181,8 +184,7 @@ fn note_tiles(tiles: &[Tile], wants: &Wants, on_event: &mut OnEvent<'_>) -> Resu
                     --memory out, or leave this out";
         return Err(StudyError::Conflict { option, what });
     }
-    let [width, height] = first.size;
-    tell(on_event, Event::Note(format!("the plan is done in {} tiles of {width} × {height} cells", tiles.len())))
+    Ok(())
 }
 
 /// The tile that is worked on after so many instants: the last one until all of its instants are done and told.

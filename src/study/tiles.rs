@@ -1,10 +1,10 @@
 //! A plan in tiles: where it has more cells than the adapter draws at once, or than there is memory for.
 
 use super::machine::Machine;
-use super::{StudyError, Wants};
+use super::{Event, OnEvent, StudyError, Wants, tell};
 use crate::profile::accumulate::MOST_SECS;
-use crate::site::Site;
-use crate::view::Tile;
+use crate::site::{Receivers, Site};
+use crate::view::{Grid, Tile};
 
 /// Memory for all that grows with the raster: sums, masks, what cells see and what the drawing takes, on the adapter too.
 /// The models, the program with the few megabytes that each of its threads works with, and the adapter's driver come on top.
@@ -21,6 +21,9 @@ const LEAST_ROWS: u32 = 16;
 /// Columns of a tile are a multiple of this, so that none begins within a byte of bits.
 const ALIGNED: u32 = 64;
 
+/// What one instant's plan takes at once, bytes: on an adapter 8192 × 8192 cells are still one tile.
+const INSTANT_BYTES: u64 = 4 << 30;
+
 /// So much memory as `--memory` takes it, no less than that.
 pub(super) fn amount(bytes: u64) -> String {
     if bytes < 10 << 20 {
@@ -35,11 +38,7 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
     // sums of more days run in larger words beside
     let long = if day_secs > MOST_SECS { 24 } else { 0 };
     let cell_bytes = machine.cell_bytes(site.receivers, wants) + long;
-    let most = machine.most_cells().unwrap_or(u32::MAX);
-    let columns = match grid.width.div_ceil(most) {
-        1 => grid.width,
-        parts => grid.width.div_ceil(parts).next_multiple_of(ALIGNED).min(most / ALIGNED * ALIGNED),
-    };
+    let (most, columns) = columns(grid, machine);
     let row_bytes = u64::from(columns) * cell_bytes;
     let rows = match wants.budget {
         None => most,
@@ -51,6 +50,37 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
             u32::try_from(bytes / row_bytes).unwrap_or(u32::MAX).min(most)
         }
     };
+    Ok(split(grid, columns, rows))
+}
+
+/// The same of one instant's plan: however many cells it has, little is taken beside its mask.
+pub(super) fn of_instant(grid: Grid, receivers: Receivers, machine: &Machine) -> Vec<Tile> {
+    let (most, columns) = columns(grid, machine);
+    let row_bytes = u64::from(columns) * machine.cell_bytes(receivers, &Wants::default());
+    let rows = u32::try_from(INSTANT_BYTES / row_bytes).unwrap_or(u32::MAX).clamp(1, most);
+    split(grid, columns, rows)
+}
+
+/// Errs where one instant's plan is more than can be drawn at once.
+pub(super) fn at_once(grid: Grid, receivers: Receivers, machine: &Machine) -> Result<(), StudyError> {
+    match of_instant(grid, receivers, machine).len() {
+        1 => Ok(()),
+        _ => Err(StudyError::TooManyCells { width: grid.width, height: grid.height }),
+    }
+}
+
+/// The most columns and rows that a machine draws at once, and how many columns tiles are to have.
+fn columns(grid: Grid, machine: &Machine) -> (u32, u32) {
+    let most = machine.most_cells().unwrap_or(u32::MAX);
+    let columns = match grid.width.div_ceil(most) {
+        1 => grid.width,
+        parts => grid.width.div_ceil(parts).next_multiple_of(ALIGNED).min(most / ALIGNED * ALIGNED),
+    };
+    (most, columns)
+}
+
+/// Tiles of so many columns and about so many rows.
+fn split(grid: Grid, columns: u32, rows: u32) -> Vec<Tile> {
     // of about the same height
     let rows = grid.height.div_ceil(grid.height.div_ceil(rows));
     let begins = |end: u32, step: u32| (0..end).step_by(step as usize);
@@ -59,5 +89,12 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
         first: [column, row],
         size: [columns.min(grid.width - column), rows.min(grid.height - row)],
     };
-    Ok(begins(grid.height, rows).flat_map(|row| begins(grid.width, columns).map(move |at| tile(row, at))).collect())
+    begins(grid.height, rows).flat_map(|row| begins(grid.width, columns).map(move |at| tile(row, at))).collect()
+}
+
+/// Says when the plan is done in tiles.
+pub(super) fn note(tiles: &[Tile], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let [first, _, ..] = tiles else { return Ok(()) };
+    let [width, height] = first.size;
+    tell(on_event, Event::Note(format!("the plan is done in {} tiles of {width} × {height} cells", tiles.len())))
 }

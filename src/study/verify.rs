@@ -4,7 +4,7 @@
 //! itself without its trees, at some cells.
 
 use super::machine::{Drawing, Machine, not_surfaces, why_none};
-use super::{Event, Look, OnEvent, StudyError, day_and_night, note_distance, tell};
+use super::{Event, Look, OnEvent, StudyError, day_and_night, note_distance, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::report;
 use crate::profile::Drawn;
@@ -61,6 +61,7 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
     by_day(site)?;
     note_distance(&site.mesh, on_event)?;
     let gpu = Arc::new(Gpu::open().map_err(|error| StudyError::NoVerification(why_none(error)))?);
+    tiles::at_once(site.grid, site.receivers, &Machine::RayCast { sun_samples: None })?;
     let mut trials = Vec::new();
     for (method, against, promise) in TECHNIQUES {
         if method == Method::Smoothie && gpu.blends_float32("").is_err() {
@@ -72,6 +73,7 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
             Method::Projected => Machine::Projected(site.grid),
             _ => Machine::OnGpu(Arc::clone(&gpu), Drawing::of(method, site, &gpu)),
         };
+        tiles::at_once(site.grid, site.receivers, &machine)?;
         let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
         trials.push(Trial { drawn: machine.drawn(), against, promise, technique: look.technique()? });
         if method == Method::Projected && site.receivers == Receivers::Ground {

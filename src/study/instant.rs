@@ -1,0 +1,127 @@
+//! One instant's shadows, seen from above, from a side or by a camera.
+
+use super::machine::{choose, counting, not_surfaces, stencil_alone};
+use super::{Event, InstantOutcome, InstantWants, Look, NOTHING_COUNTED, OnEvent, Stopwatch, StudyError};
+use super::{judged, night, note_distance, tell, tiles};
+use crate::shadow::{Technique, plan_surface};
+use crate::site::Site;
+use crate::sun::Instant;
+use crate::view::{Mask, Overlay, Tile, View};
+
+/// The first instant alone; at night nothing sees the sun, and a note says so.
+///
+/// A camera always judges what it sees; [`Site::receivers`] is the plan's.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn instant(
+    site: &Site,
+    view: View,
+    wants: &InstantWants,
+    on_event: &mut OnEvent<'_>,
+) -> Result<InstantOutcome, StudyError> {
+    not_surfaces(site)?;
+    let mut watch = Stopwatch::start();
+    let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
+    note_distance(&site.mesh, on_event)?;
+    let shows_volumes = wants.volumes || wants.silhouette;
+    let machine = match (shows_volumes, wants.counted) {
+        (true, _) => stencil_alone(site, &view)?,
+        (false, Some(option)) => counting(site, &view, option)?,
+        (false, None) => choose(site, &view, on_event)?,
+    };
+    let receivers = judged(site, &view);
+    let look = Look { site, machine: &machine, view, receivers };
+    let tiles = match view {
+        View::Plan(grid) => tiles::of_instant(grid, receivers, &machine),
+        View::Camera(_) | View::Elevation(_) => Vec::new(),
+    };
+    let first = tiles.first().filter(|tile| !tile.is_whole());
+    if let (Some(_), Some(option)) = (first, wants.counted) {
+        let what = "the plan is done in tiles, and what counting took is told of the whole; take larger cells (--cell), \
+                    or leave it out";
+        return Err(StudyError::Conflict { option, what });
+    }
+    tiles::note(&tiles, on_event)?;
+    let mut technique = first.map_or_else(|| look.technique(), |tile| look.technique_of(*tile))?;
+    let surface = match (wants.surface, view) {
+        (false, _) => None,
+        (true, View::Plan(grid)) if first.is_some() => Some(plan_surface(&look.surface_mesh(), site.ground, &grid)),
+        (true, _) => Some(look.surface(&*technique)?),
+    };
+    watch.lap("prepare");
+
+    let count = tiles.len().max(1);
+    tell(on_event, Event::Started { instants: count, tiles: count })?;
+    let (mut overlay, mut counted) = (None, None);
+    let mask = if instant.night {
+        let below = -instant.altitude_deg();
+        tell(on_event, Event::Note(format!("night: the sun is {below:.1}° below the horizon, and nothing sees it")))?;
+        if shows_volumes {
+            tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned()))?;
+        }
+        if wants.counted.is_some() {
+            tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
+        }
+        night(&view)
+    } else {
+        overlay = look.overlay(wants, instant.to_sun)?;
+        if overlay.as_ref().is_some_and(Overlay::is_empty) {
+            let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
+            tell(on_event, Event::Note(note.to_owned()))?;
+        }
+        if wants.counted.is_some() {
+            counted = technique.counted(instant.to_sun)?;
+        }
+        match first {
+            None => technique.draw(instant.to_sun)?.read()?,
+            Some(_) => in_tiles(&look, technique.as_mut(), &tiles, instant, on_event)?,
+        }
+    };
+    if let Some(note) = technique.note() {
+        tell(on_event, Event::Note(note))?;
+    }
+    tell(on_event, Event::Drawn { index: count - 1, count, time: instant.time, mask: Some(&mask), bits: None })?;
+    watch.lap("shadows");
+    Ok(InstantOutcome {
+        mask,
+        surface,
+        overlay,
+        counted,
+        surface_mesh: look.surface_mesh(),
+        timings: watch.stages,
+        drawn: machine.drawn(),
+    })
+}
+
+/// The plan's mask, tile by tile; `technique` is the first one's.
+fn in_tiles(
+    look: &Look<'_>,
+    technique: &mut dyn Technique,
+    tiles: &[Tile],
+    instant: &Instant,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Mask, StudyError> {
+    let mut mask = night(&look.view);
+    let plan_width = mask.width as usize;
+    let mut made;
+    let mut technique = technique;
+    for (index, tile) in tiles.iter().enumerate() {
+        if index > 0 && !technique.turn_to_tile(*tile)? {
+            made = look.technique_of(*tile)?;
+            technique = made.as_mut();
+        }
+        let part = technique.draw(instant.to_sun)?.read()?;
+        let [left, top] = tile.first.map(|first| first as usize);
+        let rows = mask.share.chunks_exact_mut(plan_width).skip(top);
+        for (to, from) in rows.zip(part.share.chunks_exact(part.width as usize)) {
+            to[left..left + from.len()].copy_from_slice(from);
+        }
+        // the last one is told with the whole mask
+        if index + 1 < tiles.len() {
+            let drawn = Event::Drawn { index, count: tiles.len(), time: instant.time, mask: None, bits: None };
+            tell(on_event, drawn)?;
+        }
+    }
+    Ok(mask)
+}
