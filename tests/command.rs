@@ -3,6 +3,7 @@
 mod animate;
 mod compare;
 mod draw;
+mod letters;
 mod sides;
 mod surfaces;
 mod techniques;

@@ -66,6 +66,7 @@ pub(super) fn animate(asked: &AnimateArgs) -> anyhow::Result<()> {
 
     let view = asked.view.of(&site);
     let mut progress = Progress::new(asked.common.quiet);
+    progress.letters([place.name.as_str()]);
     let (drawn, frames) = frames(&site, view, out, asked.width, &mut |event| {
         progress.hear(&event);
         interrupt::flow()

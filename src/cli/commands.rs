@@ -63,6 +63,10 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         },
     };
     let mut progress = Progress::new(asked.common.quiet);
+    if out.is_some() {
+        let parts = site.mesh.components.iter().filter(|_| shows(Show::Components)).map(|part| part.name.as_str());
+        progress.letters([site.place.name.as_str()].into_iter().chain(parts));
+    }
     let outcome = study::instant(&site, view, &wants, &mut |event| {
         progress.hear(&event);
         interrupt::flow()

@@ -49,6 +49,7 @@ pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     file::check_folder(&asked.out)?;
     watch.lap("load");
     let mut progress = Progress::new(asked.common.quiet);
+    progress.letters([&pair.names[0], &pair.names[1], &pair.after.place.name].map(String::as_str));
     let outcome = study::compare(&pair, &mut |event| {
         progress.hear(&event);
         interrupt::flow()

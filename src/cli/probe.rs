@@ -76,6 +76,10 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
         file::check_folder(path.parent().unwrap_or(Path::new("")))?;
     }
     let mut progress = Progress::of("days", asked.common.quiet);
+    if asked.out.is_some() {
+        let probes = probing.probes.iter().map(|probe| probe.name.as_str());
+        progress.letters([probing.place.name.as_str()].into_iter().chain(probes));
+    }
     let sunlight = study::probe::probe(&probing, &mut |event| {
         progress.hear(&event);
         interrupt::flow()

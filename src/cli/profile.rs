@@ -12,7 +12,7 @@ use crate::export::{ExportError, bytes, figure, file, raster, report, unfinished
 use crate::profile::{Part, Profile, Shaded, ShadedCells, Timings, Unfinished};
 use crate::shadow::PlanSurface;
 use crate::site::{Receivers, Site};
-use crate::study::{self, Budget, Event, Stopwatch, Wants};
+use crate::study::{self, Budget, Event, Stopwatch, StudyError, Wants};
 use crate::sun::{Instant, SunTrack};
 use crate::view::Tile;
 use rustc_hash::FxBuildHasher;
@@ -41,6 +41,9 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         file::check_folder(folder)?;
     }
     let mut progress = Progress::new(asked.common.quiet);
+    if kinds.contains(&Written::Png) || asked.lines.given() {
+        progress.letters([site.place.name.as_str()]);
+    }
     let mut kept = Files::new(&site, asked)?;
     if let Some(bits) = &kept.bits {
         bits.check_room()?;
@@ -75,13 +78,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     });
     let outcome = match kept.fault.take() {
         Some(fault) => return Err(fault.into()),
-        None => outcome.inspect_err(|_| {
-            if kept.is_kept {
-                let path = unfinished::path(&asked.out);
-                let note = format!("{} keeps what is done; the same command goes on from there", path.display());
-                progress.hear(&Event::Note(note));
-            }
-        })?,
+        None => outcome.inspect_err(|_| kept.tell(&mut progress))?,
     };
     watch.laps(outcome.timings);
 
@@ -116,13 +113,13 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         None => None,
     };
     profile.shaded.check()?;
-    interrupt::check()?;
+    kept.check(&mut progress)?;
     // lines are drawn of a plan in one go
     if let (Sums::Memory(shaded), true) = (&profile.shaded, asked.lines.given()) {
         let profile = Profile { grid: site.grid, shaded: Shaded::clone(shaded), day_secs, night_secs };
         files.extend(asked.lines.files(&scene(), &profile, &kept.outlines)?);
         watch.lap("lines");
-        interrupt::check()?;
+        kept.check(&mut progress)?;
     }
     let (statistics, timings) = (outcome.statistics.as_ref(), &watch.timings());
     let told = Told { receivers: site.receivers, drawn, timings, statistics };
@@ -267,6 +264,26 @@ impl Files<'_> {
         let has_bits = self.bits.as_ref().is_none_or(|bits| bits.has(self.with_sun[done], begun.tiles));
         let has_sums = !in_tiles || sums::has(self.out, &site.grid, study::day_and_night(&site.track).0);
         Ok((has_masks && has_bits && has_sums).then_some(begun))
+    }
+
+    /// Fails after Ctrl-C, between stages.
+    fn check(&self, progress: &mut Progress) -> Result<(), StudyError> {
+        interrupt::check().inspect_err(|_| {
+            if !self.is_kept {
+                let note = "what is done took little time and is not kept; the same command begins anew";
+                progress.hear(&Event::Note(note.to_owned()));
+            }
+            self.tell(progress);
+        })
+    }
+
+    /// Tells who ended the work where it goes on.
+    fn tell(&self, progress: &mut Progress) {
+        if self.is_kept {
+            let path = unfinished::path(self.out);
+            let note = format!("{} keeps what is done; the same command goes on from there", path.display());
+            progress.hear(&Event::Note(note));
+        }
     }
 
     /// Makes room for what is written, before the first tile.

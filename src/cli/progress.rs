@@ -1,6 +1,7 @@
 //! Progress and notes on stderr: a bar on a terminal, plain lines otherwise, nothing with `--quiet`.
 
 use super::words;
+use crate::export::figure;
 use crate::study::Event;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
@@ -78,6 +79,18 @@ impl Progress {
         let each = since.elapsed().as_secs_f64() / (done.saturating_sub(before)).max(1) as f64;
         let secs = (each * (count - done) as f64).round();
         if secs < 2.0 { String::new() } else { format!(", {} left", HumanDuration(Duration::from_secs_f64(secs))) }
+    }
+
+    /// Tells of letters that no font has, of texts that are drawn.
+    pub(super) fn letters<'a>(&mut self, texts: impl IntoIterator<Item = &'a str>) {
+        let missing = texts.into_iter().map(|text| (text, figure::without_face(text)));
+        if let Some((text, letters)) = missing.into_iter().find(|(_, letters)| !letters.is_empty()) {
+            let note = format!(
+                "no font has the letters {letters} of \"{text}\", and boxes are drawn for them; install one that has, or \
+                 write other letters"
+            );
+            self.hear(&Event::Note(note));
+        }
     }
 
     fn line(&self, line: &str) {

@@ -31,6 +31,9 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
     watch.lap("load");
 
     let mut progress = Progress::new(asked.common.quiet);
+    if kinds.contains(&Written::Png) {
+        progress.letters([site.place.name.as_str()]);
+    }
     let outcome = study::surfaces(site, site.patch_cell, &mut |event| {
         progress.hear(&event);
         interrupt::flow()

@@ -69,6 +69,37 @@ fn a_box_takes_the_sun_from_its_shadow() {
     assert_eq!(hours[cell(along(-length))], 0.0);
 }
 
+/// Names that begin and end alike are cut so that they are told apart: with other names the sheet is another one.
+#[test]
+fn long_names_are_told_apart_on_the_sheet() {
+    let folder = site();
+    let path = folder.path();
+    let deep = "a-folder-with-a-name-that-is-as-long-as-people-write-them/and-one-more-below-it";
+    let sheet = |names: [&str; 2]| {
+        for name in names {
+            std::fs::create_dir_all(path.join(name).parent().unwrap()).unwrap();
+            std::fs::copy(path.join("tower.glb"), path.join(name)).unwrap();
+        }
+        let study = "--place 48.8583,2.2945 --date 2026-09-18 --from 10:00 --to 12:00 --step 1h --engine cpu --size 60";
+        done(path, &format!("compare {} {} {study}", names[0], names[1]));
+        image::open(path.join("out/compare.png")).unwrap().into_rgb8()
+    };
+    let model = format!("{deep}/{deep}/tower.glb");
+    for (one, other) in [
+        // the same file in two folders, far down and above
+        (format!("{deep}/existing/tower.glb"), format!("{deep}/proposed/tower.glb")),
+        (format!("existing/{model}"), format!("proposed/{model}")),
+        // two files of a folder, with long names that differ in the middle
+        (
+            format!("{deep}/{}-before-{}.glb", "x".repeat(60), "y".repeat(60)),
+            format!("{deep}/{}-after-{}.glb", "x".repeat(60), "y".repeat(60)),
+        ),
+    ] {
+        let (both, same) = (sheet([&one, &other]), sheet([&one, &one]));
+        assert!(both != same, "{one} and {other} are cut alike");
+    }
+}
+
 #[test]
 fn another_place_or_ground_is_refused() {
     let folder = pair();

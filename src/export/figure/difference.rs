@@ -1,7 +1,7 @@
 //! The drawing of a change: sun lost in blues, sun gained in oranges, what is new or gone in grays.
 
 use super::scale::{NO_SHADOW, Rgb, band_secs, mix};
-use super::{Scene, cells, check_surface, page, panel, plan, words};
+use super::{Scene, cells, check_surface, page, panel, plan, text, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::comparison::{Altered, Change, Comparison};
 use crate::site::Receivers;
@@ -143,7 +143,7 @@ pub fn difference(scenes: &[Scene; 2], names: &[String; 2], comparison: &Compari
         ChangeColours::of(comparison, surfaces, after.receivers, after.track.step_secs);
 
     let mut panel = panel(after, "Sun lost and gained");
-    let [name_before, name_after] = names.clone();
+    let [name_before, name_after] = text::told_apart(names, super::panel::holds);
     panel.facts.insert(0, ("Before", name_before));
     panel.facts.insert(1, ("After", name_after));
     panel.facts.push(("Cells", cells(grid.width, grid.height, grid.cell)));

@@ -5,6 +5,7 @@
 mod components;
 mod counted;
 mod difference;
+mod fonts;
 mod lines;
 mod overlay;
 mod page;
@@ -23,6 +24,7 @@ mod words;
 pub use components::of_all as component_colours;
 pub use counted::{Colours, Diagram};
 pub use difference::{ChangeBands, ChangeColours, difference};
+pub use fonts::without_face;
 pub use lines::{LineDrawing, MOST_OUTLINES, Outline, iso_hours, outlines};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;

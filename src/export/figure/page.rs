@@ -3,11 +3,11 @@
 use super::panel::{self, COLUMN, Panel};
 use super::picture::{Fit, Picture, Pixels};
 use super::svg::{Block, GRAY, HAIR, hex};
-use super::{scale::Rgb, text};
+use super::{fonts, scale::Rgb};
 use crate::export::{ExportError, raster};
 use rayon::prelude::*;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::{Options, Tree};
+use resvg::usvg::Tree;
 
 /// Page size, pixels: A3 landscape at 212 dots an inch.
 pub const WIDTH: u32 = 3508;
@@ -245,11 +245,10 @@ impl Piece {
 fn letter(overlay: &Block, pieces: &mut [Piece]) -> Result<(), ExportError> {
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"{}\">{}</svg>",
-        text::FAMILY,
+        fonts::FAMILY,
         overlay.svg
     );
-    let options = Options { fontdb: text::fonts(), font_family: text::FAMILY.to_owned(), ..Options::default() };
-    let tree = Tree::from_str(&svg, &options).map_err(|error| failed(&error.to_string()))?;
+    let tree = Tree::from_str(&svg, &fonts::options(&svg)).map_err(|error| failed(&error.to_string()))?;
     pieces.par_iter_mut().for_each(|piece| {
         let [west, north, ..] = piece.place;
         let moved = Transform::from_translate(-(west as f32), -(north as f32));
@@ -265,7 +264,7 @@ pub(super) fn svg(sheet: &Block) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"420mm\" height=\"297mm\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
          stroke=\"none\" font-family=\"'{}', Arial, Helvetica, sans-serif\">\n\
          <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"{paper}\"/>{}</svg>\n",
-        text::FAMILY,
+        fonts::FAMILY,
         sheet.svg
     )
 }

@@ -50,13 +50,22 @@ pub(super) fn title(panel: &Panel) -> Block {
     block
 }
 
+/// From a fact's label to its value, which has so many lines.
+const INDENT: f64 = 200.0;
+const FACT_LINES: usize = 3;
+
+/// Whether a fact's value stands whole.
+pub(super) fn holds(value: &str) -> bool {
+    let lines = text::wrap(value, Style::BODY.weight, Style::BODY.size, COLUMN - INDENT, FACT_LINES);
+    lines.join(" ") == value
+}
+
 pub(super) fn facts(panel: &Panel) -> Block {
-    const INDENT: f64 = 200.0;
     let mut block = Block::default();
     for (label, value) in &panel.facts {
         let baseline = block.height + Style::LABEL.size;
         block.text(0.0, baseline, Anchor::Start, Style::LABEL, label);
-        wrapped(&mut block, INDENT, Style::BODY, value, 3);
+        wrapped(&mut block, INDENT, Style::BODY, value, FACT_LINES);
         block.height += 7.0;
     }
     block.height -= 7.0;

@@ -1,31 +1,13 @@
-//! Letters: Noto Sans and nothing else, so that a drawing looks the same on every machine.
+//! Lines of letters: how wide they are, and how they are cut.
 
-use resvg::usvg::fontdb::{Database, Source};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
-use std::sync::{Arc, OnceLock};
-
-/// The family's name in the drawings' SVG.
-pub(super) const FAMILY: &str = "Noto Sans";
 
 /// Regular or bold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Weight {
     Regular,
     Bold,
-}
-
-/// The two faces, and never the system's.
-pub(super) fn fonts() -> Arc<Database> {
-    static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
-    let load = || {
-        let mut fonts = Database::new();
-        for face in [notosans::REGULAR_TTF, notosans::BOLD_TTF] {
-            fonts.load_font_source(Source::Binary(Arc::new(face)));
-        }
-        Arc::new(fonts)
-    };
-    Arc::clone(FONTS.get_or_init(load))
 }
 
 /// How wide a line is, in the unit of `size`; kerning, which only tightens, is left out.
@@ -35,7 +17,7 @@ pub(super) fn width(text: &str, weight: Weight, size: f64) -> f64 {
         Weight::Bold => notosans::BOLD_TTF,
     };
     let letters = text.chars();
-    // A character that the face lacks is drawn as a box, about as wide as the widest letters.
+    // What the face lacks, another one draws, or it is a box: about as wide as the widest letters.
     let guess = size;
     let Ok(font) = FontRef::new(face) else {
         return guess * letters.count() as f64;
@@ -92,6 +74,44 @@ fn ellipsis(line: &str, weight: Weight, size: f64, room: f64) -> String {
         kept.push(letter);
     }
     format!("{}…", kept.trim_end())
+}
+
+/// Two names in as few letters as fit, and still told apart: without the folders that both begin with, then with an
+/// ellipsis in the middle, and where those are alike with one before what differs.
+pub(super) fn told_apart(names: &[String; 2], fits: impl Fn(&str) -> bool) -> [String; 2] {
+    let names = names.each_ref().map(|name| clean(name));
+    if names.iter().all(|name| fits(name)) {
+        return names;
+    }
+    let alike = |[one, other]: [&str; 2]| {
+        let pairs = one.chars().zip(other.chars());
+        pairs.take_while(|(one, other)| one == other).map(|(letter, _)| letter.len_utf8()).sum::<usize>()
+    };
+    let [one, other] = names.each_ref().map(String::as_str);
+    let folders = match one != other {
+        true => one[..alike([one, other])].rfind(['/', '\\']).map_or(0, |slash| slash + 1),
+        false => 0,
+    };
+    let [one, other] = [&one[folders..], &other[folders..]];
+    let cut = [one, other].map(|name| without_middle(name, &fits));
+    if cut[0] != cut[1] || one == other {
+        return cut;
+    }
+    let differs = alike([one, other]);
+    [one, other].map(|name| format!("…{}", &name[differs..]))
+}
+
+/// The name if it fits, else its beginning and its end.
+fn without_middle(name: &str, fits: impl Fn(&str) -> bool) -> String {
+    if fits(name) {
+        return name.to_owned();
+    }
+    let letters: Vec<char> = name.chars().collect();
+    let of = |kept: usize| {
+        let (head, tail) = (&letters[..kept.div_ceil(2)], &letters[letters.len() - kept / 2..]);
+        head.iter().chain(&['…']).chain(tail).collect::<String>()
+    };
+    (0..letters.len()).rev().map(of).find(|cut| fits(cut)).unwrap_or_else(|| of(0))
 }
 
 /// Text as XML wants it.
