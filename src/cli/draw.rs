@@ -12,7 +12,7 @@ use clap::{Args, ValueEnum};
 #[derive(Debug, Args)]
 pub(super) struct LinesArgs {
     /// Also drawings of lines, each as PNG and SVG: hours (a labelled line for each whole hour of shadow), outlines (the
-    /// border of each instant's shadow with its time: at most 24 instants with a sun, on one day)
+    /// border of each instant's shadow with its time: at most 24 instants with a sun, in one window)
     #[arg(long = "draw", value_name = "hours,outlines", value_delimiter = ',')]
     lines: Vec<Lines>,
 }
@@ -49,10 +49,12 @@ impl LinesArgs {
         if !self.outlines() {
             return Ok(());
         }
+        // a single window is shorter than a day, so that no clock time comes twice
         let date = first.time.date_naive();
-        if date != last.time.date_naive() {
+        if track.each_day.is_some() && date != last.time.date_naive() {
             let what = format!(
-                "--draw outlines is for one day, and these instants lie on several; take one with --date {date}"
+                "--draw outlines is for one day, and these instants lie on several; take one without dates: --date {date} \
+                 with --from and --to"
             );
             return Err(WrongUse(what));
         }

@@ -229,6 +229,32 @@ fn times_do_not_lie_on_each_other() {
     assert_eq!((page.width(), page.height()), (3508, 2480));
 }
 
+/// Where the sun does not set a window may run past midnight: it is shorter than a day, and no time comes twice.
+#[test]
+fn outlines_run_past_midnight_in_summer() {
+    let folder = site();
+    let place = "latitude = 69.65\nlongitude = 18.96\n";
+    let text = std::fs::read_to_string(folder.path().join("site.toml")).unwrap();
+    let text = text.replace("latitude = 48.8583\nlongitude = 2.2945\n", place);
+    std::fs::write(folder.path().join("north.toml"), &text).unwrap();
+    std::fs::write(folder.path().join("day.toml"), text.replace("from =", "# from =").replace("to =", "# to ="))
+        .unwrap();
+    let drawn = |window: &str| {
+        let asked = "profile north.toml --date 2026-06-21 --draw outlines --write json --engine cpu --size 100";
+        done(folder.path(), &format!("{asked} {window}"));
+        std::fs::read_to_string(folder.path().join("out/outlines.svg")).unwrap()
+    };
+    let svg = drawn("--from 22:00 --to 2:00 --step 1h");
+    for time in ["22:00", "23:00", "00:00", "01:00", "02:00"] {
+        assert!(svg.contains(&format!(">{time}<")), "no {time}");
+    }
+    let svg = drawn("--from 1:00 --to 0:00 --step 1h");
+    assert!(svg.contains(">01:00<") && svg.contains(">00:00<"));
+    // a whole day has its midnight twice
+    let dates = "--from-date 2026-06-21 --to-date 2026-06-21 --step 2h";
+    fails(folder.path(), &format!("profile day.toml --draw outlines {dates}"), 2, &["one day", "--from and --to"]);
+}
+
 #[test]
 fn what_cannot_be_drawn_is_told() {
     let folder = site();
@@ -243,7 +269,14 @@ fn what_cannot_be_drawn_is_told() {
     ] {
         fails(path, options, 2, words);
     }
+    // the days, and a window with its own date in place of them
+    let days = "dates = [\"2026-03-01\", \"2026-03-02\"]";
+    let text = std::fs::read_to_string(path.join("site.toml")).unwrap();
+    std::fs::write(path.join("days.toml"), text.replace("date = 2026-09-18", days)).unwrap();
+    fails(path, "profile days.toml --draw outlines", 2, &["one day", "--date 2026-03-01 with --from and --to"]);
     assert!(names(path.join("out")).is_empty());
+    let window = "--date 2026-03-01 --from 10:00 --to 12:00";
+    done(path, &format!("profile days.toml --draw outlines --engine cpu --size 60 --write json {window}"));
     // a day is counted by its instants with a sun: the whole of it is 25 instants, of which 13 have one
     let date = "--from-date 2026-09-18 --to-date 2026-09-18 --from 0:00 --to 23:59 --step 1h";
     done(path, &format!("profile . --engine cpu --size 60 {date} --draw outlines --write json"));
