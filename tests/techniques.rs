@@ -6,6 +6,7 @@ mod plain_scan;
 mod projected;
 mod shadow_map;
 mod smoothie;
+mod tiles;
 
 use glam::DVec3;
 use gnomon::shadow::{Scene, Technique};

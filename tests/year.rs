@@ -223,6 +223,36 @@ pub(crate) fn stopped(folder: &Path, arguments: &str, when: &str) -> String {
     told
 }
 
+/// Stopped while its drawing is made, a study says whether it goes on.
+#[cfg(unix)]
+#[test]
+fn a_study_stopped_at_its_drawing_says_where_it_goes_on() {
+    let folder = site();
+    let path = folder.path();
+    let asked = "profile . --engine cpu --receivers ground --size 6000 --from 8:00 --to 18:00 --step 1h";
+    // all is kept before the drawing is made
+    let mut child = command(path, &format!("{asked} --bits --out bits"))
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let kept = path.join("bits/profile.unfinished");
+    while !kept.is_file() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    std::thread::sleep(std::time::Duration::from_millis(100));
+    let kill = ["-INT", &child.id().to_string()].map(str::to_owned);
+    assert!(std::process::Command::new("kill").args(kill).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let told = stderr(&output);
+    assert_eq!(output.status.code(), Some(130), "{told}");
+    assert!(told.contains("100%") && told.contains("the same command goes on from there"), "{told}");
+    assert!(kept.is_file());
+    let told = stopped(path, &format!("{asked} --out short"), "100%");
+    assert!(told.contains("is not kept; the same command begins anew"), "{told}");
+    assert!(!path.join("short/profile.unfinished").exists());
+}
+
 #[cfg(unix)]
 #[test]
 fn a_stopped_study_goes_on_and_comes_to_the_same() {
