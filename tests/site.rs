@@ -326,8 +326,21 @@ fn models_are_read_once_as_long_as_they_stay() {
 
     other.site.model[0].position = Some([1.0, 0.0, 0.0]);
     assert!(!models.are_those_of(&other), "it stands elsewhere");
-    std::fs::write(folder.path().join("tower.glb"), "another").unwrap();
-    assert!(!models.are_those_of(&written), "the file is another");
-    std::fs::remove_file(folder.path().join("tower.glb")).unwrap();
-    assert!(!models.are_those_of(&written), "the file is gone");
+    assert_eq!(models.changed_file(), None);
+    let file = folder.path().join("tower.glb");
+    std::fs::write(&file, "another").unwrap();
+    assert_eq!(models.changed_file(), Some(file.as_path()), "the file is another");
+    // what was read is still what it was
+    assert!(models.are_those_of(&written));
+    let again = Models::read(&written, tower).unwrap();
+    assert_eq!((again.changed_file(), again.mark()), (None, models.mark()));
+    std::fs::remove_file(&file).unwrap();
+    assert_eq!(again.changed_file(), Some(file.as_path()), "the file is gone");
+    let moved = |path: &Path, placement: &Placement| {
+        let mut parts = tower(path, placement)?;
+        parts[0].positions[0].x += 0.001;
+        Ok(parts)
+    };
+    std::fs::write(&file, "another").unwrap();
+    assert_ne!(Models::read(&written, moved).unwrap().mark(), models.mark(), "a corner is elsewhere");
 }

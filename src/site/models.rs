@@ -9,6 +9,8 @@ use super::model::{ModelError, Placement};
 use super::written::Written;
 use crate::mesh::{Component, Mesh, Part};
 use glam::DVec3;
+use rustc_hash::FxBuildHasher;
+use std::hash::BuildHasher;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -21,16 +23,16 @@ pub struct Models {
     /// Which components are whose.
     of_model: Vec<Range<usize>>,
     sources: Vec<Source>,
+    mark: u64,
 }
 
 /// Where a model comes from, and where it stands.
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
     file: PathBuf,
-    /// When the file was changed last, and its bytes; none where the system does not tell, and where the file names others
-    /// that may change.
-    stamp: Option<(SystemTime, u64)>,
     placement: Placement,
+    /// When the file was changed last, and its bytes; none where the system does not tell.
+    stamp: Option<(SystemTime, u64)>,
 }
 
 impl Models {
@@ -42,16 +44,37 @@ impl Models {
         written: &Written,
         read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
     ) -> Result<Models, SiteError> {
-        // a file that changes while it is read is read again
+        // a file that changes while it is read has changed since
         let sources = sources(written)?;
         let (mesh, of_model) = mesh(written, read_model)?;
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
-        Ok(Models { mesh, bounds, of_model, sources })
+        let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
+        let mark = FxBuildHasher.hash_one((
+            bytemuck::cast_slice::<_, u8>(&mesh.vertices),
+            bytemuck::cast_slice::<_, u8>(&mesh.faces),
+            mesh.origin.to_array().map(f64::to_bits),
+            names.collect::<Vec<_>>(),
+        ));
+        Ok(Models { mesh, bounds, of_model, sources, mark })
     }
 
-    /// Whether these are the very models that a request asks for, standing where it says, their files unchanged since.
+    /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.
     pub fn are_those_of(&self, written: &Written) -> bool {
-        sources(written).is_ok_and(|sources| sources == self.sources && sources.iter().all(|of| of.stamp.is_some()))
+        let is_it = |(index, source): (usize, &Source)| {
+            placed(written, index).is_ok_and(|(file, placement)| file == source.file && placement == source.placement)
+        };
+        written.site.model.len() == self.sources.len() && self.sources.iter().enumerate().all(is_it)
+    }
+
+    /// The first of the files that is no more what was read. A file that a `.gltf` names is not asked.
+    pub fn changed_file(&self) -> Option<&Path> {
+        let changed = self.sources.iter().find(|source| source.stamp != stamp(&source.file));
+        changed.map(|source| source.file.as_path())
+    }
+
+    /// A number of all that stands there: other triangles, or other names, have another one.
+    pub fn mark(&self) -> u64 {
+        self.mark
     }
 
     /// How many components each model has.
@@ -83,6 +106,11 @@ pub(super) fn mesh(
     let (mut parts, mut of_model) = (Vec::new(), Vec::new());
     for index in 0..count {
         let (file, placement) = placed(written, index)?;
+        if !file.is_file() {
+            let what =
+                format!("there is no file {}; write where the model lies, from the site file's folder", file.display());
+            return Err(refuse(written.model_key(index, "path"), what));
+        }
         let first = parts.len();
         parts.extend(read_model(&file, &placement)?);
         of_model.push(first..parts.len());
@@ -93,12 +121,14 @@ pub(super) fn mesh(
 fn sources(written: &Written) -> Result<Vec<Source>, SiteError> {
     let source = |index| {
         let (file, placement) = placed(written, index)?;
-        let is_whole = file.extension().is_some_and(|is| is.eq_ignore_ascii_case("glb"));
-        let told = file.metadata().ok().filter(|_| is_whole);
-        let stamp = told.and_then(|told| Some((told.modified().ok()?, told.len())));
-        Ok(Source { file, stamp, placement })
+        Ok(Source { stamp: stamp(&file), file, placement })
     };
     (0..written.site.model.len()).map(source).collect()
+}
+
+fn stamp(file: &Path) -> Option<(SystemTime, u64)> {
+    let told = file.metadata().ok()?;
+    Some((told.modified().ok()?, told.len()))
 }
 
 /// Where one of the models lies, and where it stands.
@@ -128,14 +158,7 @@ fn placed(written: &Written, index: usize) -> Result<(PathBuf, Placement), SiteE
             format!("{scale} is no scale; write metres per model unit above 0, for example 0.001 for millimetres"),
         ));
     }
-    let file = written.folder.join(path);
-    if !file.is_file() {
-        return Err(refuse(
-            at("path"),
-            format!("there is no file {}; write where the model lies, from the site file's folder", file.display()),
-        ));
-    }
-    Ok((file, Placement { north_rad: north_deg.to_radians(), position, scale }))
+    Ok((written.folder.join(path), Placement { north_rad: north_deg.to_radians(), position, scale }))
 }
 
 /// Per component, whether a name (or all) means it.

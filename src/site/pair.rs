@@ -5,6 +5,7 @@ use super::error::SiteError;
 use super::extent::{Bounds, with_shadows};
 use super::load::SHADOW_CUT;
 use super::model::{self, ModelError, Placement};
+use super::models::Models;
 use super::written::Written;
 use super::{Site, plan};
 use crate::mesh::Part;
@@ -50,6 +51,21 @@ impl Pair {
         asked: &Overrides,
         read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
     ) -> Result<Pair, SiteError> {
+        let read = |written: &Written| Models::read(written, &read_model);
+        Self::with_models(before, after, asked, read, read)
+    }
+
+    /// As [`Pair::of`], with models of either that may have been read before.
+    ///
+    /// # Errors
+    /// As [`Pair::load`].
+    pub fn with_models(
+        before: &Written,
+        after: &Written,
+        asked: &Overrides,
+        models_before: impl FnOnce(&Written) -> Result<Models, SiteError>,
+        models_after: impl FnOnce(&Written) -> Result<Models, SiteError>,
+    ) -> Result<Pair, SiteError> {
         let after_name = same_place(before, after, asked)?;
         let mut second = after.clone();
         let table = &mut second.site;
@@ -58,7 +74,7 @@ impl Pair {
         table.plan = before.site.plan.clone();
         table.camera = before.site.camera.clone();
 
-        let mut first = Site::of(before, asked, &read_model)?;
+        let mut first = Site::with_models(before, asked, || models_before(before))?;
         match table.ground.level {
             Some(level) if (level - first.ground).abs() > ONE_GROUND_M => {
                 let what = format!(
@@ -69,7 +85,7 @@ impl Pair {
             }
             _ => table.ground.level = Some(first.ground),
         }
-        let mut second = Site::of(&second, asked, &read_model)?;
+        let mut second = Site::with_models(&second, asked, || models_after(&second))?;
         let [(low, high), (other_low, other_high)] = [&first, &second].map(|site| {
             // a site has a triangle
             let bounds = Bounds::of(&site.mesh).unwrap_or_default();
