@@ -2,10 +2,10 @@
 
 use super::WrongUse;
 use crate::export::ExportError;
-use crate::export::figure::{self, LineDrawing, MOST_OUTLINES, Outline, Scene};
+use crate::export::figure::{self, MOST_OUTLINES, Outline, Scene};
 use crate::profile::Profile;
-use crate::shadow::PlanSurface;
 use crate::sun::{Instant, SunTrack};
+use crate::view::SurfaceRows;
 use clap::{Args, ValueEnum};
 
 /// What is drawn with lines.
@@ -19,34 +19,21 @@ pub(super) struct LinesArgs {
 
 /// A drawing of lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Lines {
+pub(crate) enum Lines {
     Hours,
     Outlines,
 }
 
-impl LinesArgs {
-    /// Whether there is any.
-    pub(super) fn given(&self) -> bool {
-        !self.lines.is_empty()
-    }
-
-    /// Whether each instant's shadow is needed.
-    pub(super) fn outlines(&self) -> bool {
-        self.lines.contains(&Lines::Outlines)
-    }
-
-    /// Errs where a drawing would show nothing, or more than can be told apart.
-    pub(super) fn check(&self, track: &SunTrack) -> Result<(), WrongUse> {
+impl Lines {
+    /// Errs where a drawing of such a study would show nothing, or more than can be told apart.
+    pub(crate) fn check(self, track: &SunTrack) -> Result<(), WrongUse> {
         let day: Vec<&Instant> = track.instants.iter().filter(|instant| !instant.night).collect();
         let (Some(first), Some(last)) = (day.first(), day.last()) else {
-            if self.given() {
-                let what =
-                    "--draw: there is no sun at any of the study's instants; take a window by day with --from and --to";
-                return Err(WrongUse(what.to_owned()));
-            }
-            return Ok(());
+            let what =
+                "--draw: there is no sun at any of the study's instants; take a window by day with --from and --to";
+            return Err(WrongUse(what.to_owned()));
         };
-        if !self.outlines() {
+        if self == Lines::Hours {
             return Ok(());
         }
         // a single window is shorter than a day, so that no clock time comes twice
@@ -73,23 +60,46 @@ impl LinesArgs {
     }
 
     /// The files, by their names.
-    pub(super) fn files(
+    pub(crate) fn files<S: SurfaceRows>(
+        self,
+        scene: &Scene<S>,
+        profile: &Profile,
+        outlines: &[Outline],
+    ) -> Result<[(&'static str, Vec<u8>); 2], ExportError> {
+        let ([png, svg], drawing) = match self {
+            Lines::Hours => (["hours.png", "hours.svg"], figure::iso_hours(scene, profile)?),
+            Lines::Outlines => (["outlines.png", "outlines.svg"], figure::outlines(scene, &profile.grid, outlines)?),
+        };
+        Ok([(png, drawing.png()?), (svg, drawing.svg().into_bytes())])
+    }
+}
+
+impl LinesArgs {
+    /// Whether there is any.
+    pub(super) fn given(&self) -> bool {
+        !self.lines.is_empty()
+    }
+
+    /// Whether each instant's shadow is needed.
+    pub(super) fn outlines(&self) -> bool {
+        self.lines.contains(&Lines::Outlines)
+    }
+
+    /// As [`Lines::check`], for all that are asked for.
+    pub(super) fn check(&self, track: &SunTrack) -> Result<(), WrongUse> {
+        self.lines.iter().try_for_each(|lines| lines.check(track))
+    }
+
+    /// The files, by their names.
+    pub(super) fn files<S: SurfaceRows>(
         &self,
-        scene: &Scene<PlanSurface>,
+        scene: &Scene<S>,
         profile: &Profile,
         outlines: &[Outline],
     ) -> Result<Vec<(&'static str, Vec<u8>)>, ExportError> {
         let mut files = Vec::new();
-        let mut add = |[png, svg]: [&'static str; 2], drawing: LineDrawing| {
-            files.push((png, drawing.png()?));
-            files.push((svg, drawing.svg().into_bytes()));
-            Ok::<(), ExportError>(())
-        };
-        if self.lines.contains(&Lines::Hours) {
-            add(["hours.png", "hours.svg"], figure::iso_hours(scene, profile)?)?;
-        }
-        if self.outlines() {
-            add(["outlines.png", "outlines.svg"], figure::outlines(scene, &profile.grid, outlines)?)?;
+        for lines in [Lines::Hours, Lines::Outlines].into_iter().filter(|lines| self.lines.contains(lines)) {
+            files.extend(lines.files(scene, profile, outlines)?);
         }
         Ok(files)
     }

@@ -6,7 +6,7 @@ pub(crate) mod animate;
 mod arguments;
 mod commands;
 mod compare;
-mod draw;
+pub(crate) mod draw;
 mod eye;
 mod interrupt;
 mod memory;
@@ -84,7 +84,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
 /// A mistake on the command line that only the command can see.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-struct WrongUse(String);
+pub(crate) struct WrongUse(String);
 
 /// The exit status of an error.
 fn status(error: &anyhow::Error) -> u8 {

@@ -150,9 +150,15 @@ fn instant_as<T>(
         None => "Shadow",
     };
     let mut panel = panel(scene, kicker);
-    if let (View::Camera(_) | View::Elevation(_), Receivers::Top) = (view, scene.receivers) {
+    let seen = match view {
+        View::Camera(_) => Some("what the camera sees"),
+        // the cut earth is not
+        View::Elevation(_) => Some("what is seen above the ground"),
+        View::Plan(_) => None,
+    };
+    if let (Some(seen), Receivers::Top) = (seen, scene.receivers) {
         let judged = panel.facts.iter_mut().filter(|(label, _)| *label == JUDGED);
-        judged.for_each(|(_, said)| *said = "what the camera sees".to_owned());
+        judged.for_each(|(_, said)| *said = seen.to_owned());
     }
     if now.night {
         let below = words::degrees(-now.altitude_rad);
