@@ -3,11 +3,13 @@
 mod changing;
 mod comparing;
 mod facades;
+mod fitting;
 mod handing_in;
 mod hiding;
 mod keeping;
 mod opening;
 mod playing;
+mod reloading;
 mod showing;
 mod soak;
 mod viewing;
@@ -22,14 +24,15 @@ use std::time::{Duration, Instant};
 
 /// The window, with a site in it where one is named, once all is drawn.
 pub(crate) fn window(path: Option<&Path>) -> Harness<'static, App> {
-    sized(path, [1280.0, 720.0], egui::Theme::Light)
+    scaled(path, 1.0, egui::Theme::Light)
 }
 
-/// The same, of another size and theme.
-pub(crate) fn sized(path: Option<&Path>, size: [f32; 2], theme: egui::Theme) -> Harness<'static, App> {
+/// The same in another theme, with an interface so many times as large; always of 1280 × 720 pixels.
+pub(crate) fn scaled(path: Option<&Path>, scale: f32, theme: egui::Theme) -> Harness<'static, App> {
     let path = path.map(Path::to_owned);
     let mut harness = Harness::<App>::builder()
-        .with_size(size)
+        .with_size(egui::vec2(1280.0, 720.0) / scale)
+        .with_pixels_per_point(scale)
         .with_theme(theme)
         .wgpu_setup(desktop::setup())
         .build_eframe(move |cc| App::new(cc, path.as_deref()).expect("an adapter: run tests/run.sh"));

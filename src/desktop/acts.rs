@@ -1,13 +1,11 @@
 //! What a person asks of the window: to open, to write, to copy, to see all.
 
 use super::app::App;
-use super::eye::Stand;
 use super::files::{Asking, Purpose};
 use super::handing;
-use super::loading::Wanted;
+use super::loading::{Loading, Wanted, name_of};
 use crate::export::file;
 use eframe::egui;
-use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -15,6 +13,33 @@ impl App {
     pub(super) fn ask(&mut self, purpose: Purpose, context: &egui::Context) {
         if self.asking.is_none() {
             self.asking = Some(Asking::start(purpose, Some(self.folder()), context.clone()));
+        }
+    }
+
+    /// Looks whether the site's files are still what was read: when the window gets the focus back.
+    pub(super) fn look_for_changes(&mut self, context: &egui::Context) {
+        let has_focus = context.input(|input| input.focused);
+        if has_focus && !std::mem::replace(&mut self.had_focus, has_focus) {
+            let changed = self.open.as_ref().and_then(|open| open.project.changed_file());
+            self.changed = changed.map(name_of);
+        }
+        self.had_focus = has_focus;
+    }
+
+    /// Reads the open site's files anew. What was set in the window stays where the site file has not changed on the disk,
+    /// and else is what undo brings back.
+    pub(super) fn reload(&mut self, context: &egui::Context) {
+        let Some(open) = self.open.as_ref().filter(|_| self.loading.is_none()) else { return };
+        (self.fault, self.notice, self.changed) = (None, None, None);
+        match open.project.on_disk(&self.settings.site) {
+            Ok(written) => {
+                self.settings.site = written.site.clone();
+                let hidden = Arc::clone(&self.settings.hidden);
+                let wanted = Wanted::Again(Box::new(written), hidden, Box::new(open.project.before(true)));
+                self.loading = Some(Loading::start(wanted, context.clone()));
+                self.is_reading = true;
+            }
+            Err(error) => self.fault = Some(error.to_string()),
         }
     }
 
@@ -62,8 +87,13 @@ impl App {
                 self.writing = Some(handing::animation(&open.project, &self.settings, eye, path, context.clone()));
             }
             Purpose::Hours => {
-                if let Some(laid) = &open.laid {
-                    self.writing = Some(handing::hours(Arc::clone(laid), path, context.clone()));
+                if let Some(laid) = open.laid.clone() {
+                    self.writing = Some(handing::found(move || laid.files(), path, context.clone()));
+                }
+            }
+            Purpose::Lines(lines) => {
+                if let Some(laid) = open.laid.clone() {
+                    self.writing = Some(handing::found(move || laid.lines(lines), path, context.clone()));
                 }
             }
         }
@@ -78,18 +108,6 @@ impl App {
                 self.notice = Some("The picture is on the clipboard".to_owned());
             }
             Err(error) => self.fault = Some(error.to_string()),
-        }
-    }
-
-    pub(super) fn fit(&mut self, width_by_height: f64) {
-        let Some(open) = &mut self.open else { return };
-        let site = &open.project.site;
-        // the plan holds the shadows, too
-        let [west, south, east, north] = site.grid.region();
-        let region = (DVec3::new(west, south, site.ground), DVec3::new(east, north, site.ground));
-        let is_plan = open.viewer.eye.stand == Stand::Plan;
-        if let Some(bounds) = if is_plan { Some(region) } else { site.mesh.bounds() } {
-            open.viewer.eye.fit(bounds, width_by_height);
         }
     }
 }

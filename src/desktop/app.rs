@@ -48,6 +48,8 @@ pub(super) struct Open {
     pub(super) adding: Option<Work<Laid>>,
     /// The hours that were found, or the change.
     pub(super) laid: Option<Arc<Laid>>,
+    /// Whether they lie over the model, instead of one instant: a matter of looking, which undo leaves alone.
+    pub(super) shows_hours: bool,
     /// The state that was kept to be compared with.
     pub(super) known: Option<Known>,
     /// The point that is being searched.
@@ -74,7 +76,7 @@ pub struct App {
     /// The site is being read again, as its settings have changed.
     pub(super) is_reading: bool,
     /// Settings of which it is known that no site comes of them.
-    refused: Option<Settings>,
+    pub(super) refused: Option<Settings>,
     pub(super) bare: Option<Bare>,
     pub(super) asking: Option<Asking>,
     pub(super) writing: Option<Work<PathBuf>>,
@@ -84,6 +86,10 @@ pub struct App {
     pub(super) fault: Option<String>,
     /// What was done.
     pub(super) notice: Option<String>,
+    /// A file of the open site that is no more what was read.
+    pub(super) changed: Option<String>,
+    /// Whether the window had the focus at the last frame.
+    pub(super) had_focus: bool,
 }
 
 impl App {
@@ -119,6 +125,8 @@ impl App {
             typed: None,
             fault: None,
             notice: None,
+            changed: None,
+            had_focus: true,
         };
         if let Some(path) = path {
             app.load(Wanted::File(path.to_owned()), &cc.egui_ctx);
@@ -239,10 +247,15 @@ impl App {
                 }
                 Ok(laid) => {
                     if let Some(change) = laid.change() {
-                        self.settings.before = Some(Arc::clone(&change.before));
+                        let before = Arc::clone(&change.before);
+                        if open.known.as_ref().is_none_or(|known| known.before != before || known.laid.is_none()) {
+                            let models = change.models.clone();
+                            open.known = Some(Known { before: Arc::clone(&before), models, laid: None });
+                        }
+                        self.settings.before = Some(before);
                     }
                     open.laid = Some(Arc::new(laid));
-                    self.settings.shown.hours = true;
+                    open.shows_hours = true;
                 }
                 Err(fault) => self.fault = Some(fault),
             }
@@ -260,6 +273,7 @@ impl App {
     fn take(&mut self, project: Project, opens: bool) {
         self.loaded += 1;
         self.refused = None;
+        self.changed = self.changed.take().filter(|_| project.changed_file().is_some());
         let track = &project.site.track;
         let Some(middle) = track.instants.get(track.instants.len() / 2) else { return };
         match &mut self.open {
@@ -277,7 +291,8 @@ impl App {
                 };
                 let grown = length(&project) / length(&open.project);
                 let (then, now) = (&open.project.written.site, &project.written.site);
-                if then.model != now.model || then.ground != now.ground || then.place != now.place {
+                let is_rebuilt = open.project.models.mark() != project.models.mark();
+                if is_rebuilt || then.model != now.model || then.ground != now.ground || then.place != now.place {
                     // what was found of a point was found of another scene
                     (open.sunlight, open.probing, open.clicked) = (None, None, None);
                 }
@@ -285,7 +300,7 @@ impl App {
                 open.laid = open.laid.take().filter(|laid| laid.lies_on(&open.project.site));
                 // another scale would leave the eye inside the model, or out of sight of it
                 if !(0.5..=2.0).contains(&grown) {
-                    self.fit(1.6);
+                    open.viewer.fit_all(&open.project);
                 }
             }
             _ => {
@@ -304,6 +319,7 @@ impl App {
                     answers: 0,
                     adding: None,
                     laid: None,
+                    shows_hours: false,
                     known: None,
                     probing: None,
                     sunlight: None,
@@ -328,7 +344,7 @@ impl App {
             let mut written = project.written.clone();
             written.site = self.settings.site.clone();
             let hidden = Arc::clone(&self.settings.hidden);
-            let wanted = Wanted::Again(Box::new(written), hidden, Box::new(project.before()));
+            let wanted = Wanted::Again(Box::new(written), hidden, Box::new(project.before(false)));
             self.loading = Some(Loading::start(wanted, context.clone()));
             self.is_reading = true;
         }
@@ -374,11 +390,19 @@ impl eframe::App for App {
                     open.clock.bar(ui);
                 }
             });
-            let beside = egui::Panel::left("panel").default_size(308.0).size_range(300.0..=460.0).resizable(true);
-            beside.frame(on_ground).show(ui, |ui| panel::show(self, ui));
+            // the picture keeps some room
+            let most = (ui.available_width() - 240.0).clamp(300.0, 460.0);
+            let beside = egui::Panel::left("panel").default_size(308.0).size_range(300.0..=most).resizable(true);
+            beside.frame(on_ground).show(ui, |ui| {
+                // as wide as it was made by hand, whatever stands in it
+                let rect = ui.available_rect_before_wrap();
+                panel::show(self, &mut ui.new_child(egui::UiBuilder::new().max_rect(rect)));
+                ui.advance_cursor_after_rect(rect);
+            });
             egui::CentralPanel::no_frame().show(ui, |ui| self.view(ui));
         }
         self.ask_place(&context);
+        self.look_for_changes(&context);
         if let Some(mut asking) = self.asking.take() {
             match asking.show(&context, &self.folder()) {
                 Answer::None => self.asking = Some(asking),
@@ -400,12 +424,12 @@ impl App {
         let context = ui.ctx().clone();
         let Some(open) = &mut self.open else { return };
         open.clock.tick(&context);
-        let Open { project, number, clock, viewer, laid, .. } = open;
+        let Open { project, number, clock, viewer, laid, shows_hours, .. } = open;
         let asked = Asked {
             project,
             number: *number,
             choice: self.settings.shown,
-            laid: laid.as_ref(),
+            laid: laid.as_ref().filter(|_| *shows_hours),
             sun_path: !self.kept.no_sun_path,
             feet: self.kept.feet,
         };
@@ -414,7 +438,7 @@ impl App {
         if let Some(view) = viewer.shown().map(|shown| shown.wish.view) {
             cards::mark(ui, open, &view, rect);
         }
-        cards::show(ui, open, &mut self.settings.site, rect, self.settings.shown.hours, Unit::of(self.kept.feet));
+        cards::show(ui, open, &mut self.settings.site, rect, Unit::of(self.kept.feet));
         if let Some(under) = clicked {
             open.clicked = Some(under.clone());
             let name = if under.name.is_empty() { "the point".to_owned() } else { under.name };

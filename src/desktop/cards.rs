@@ -9,27 +9,46 @@ use crate::profile::probe::{Blocked, Sunlight, secs};
 use crate::site::file::{ProbeTable, SiteFile};
 use crate::view::View;
 use eframe::egui::{self, Align2, Color32, Id, Rect, Sense, Ui, Vec2, vec2};
+use std::sync::Arc;
 
-/// Shows the cards over a picture.
-pub(super) fn show(ui: &Ui, open: &mut Open, site: &mut SiteFile, rect: Rect, hours: bool, unit: Unit) {
-    if let Some(laid) = open.laid.as_ref().filter(|_| hours) {
-        card(ui, "hours", rect, Align2::LEFT_TOP, vec2(14.0, 14.0), |ui| legend(ui, laid));
+/// As wide as a card may be, and as much room as one leaves around itself, points.
+const WIDTH: f32 = 290.0;
+const AROUND: f32 = 14.0;
+/// Within a card's border.
+const WITHIN: f32 = 10.0;
+
+/// Shows the cards over a picture: beside each other, or in one where there is no room for two.
+pub(super) fn show(ui: &Ui, open: &mut Open, site: &mut SiteFile, rect: Rect, unit: Unit) {
+    let laid = open.laid.clone().filter(|_| open.shows_hours);
+    let is_probed = open.probing.is_some() || open.sunlight.is_some();
+    let is_wide = rect.width() > 2.0 * WIDTH;
+    if let Some(laid) = laid.as_ref().filter(|_| is_wide || !is_probed) {
+        card(ui, "hours", rect, Align2::LEFT_TOP, Vec2::splat(AROUND), |ui| legend(ui, laid));
     }
-    if open.probing.is_none() && open.sunlight.is_none() {
-        return;
+    if is_probed {
+        // below the north arrow where that leaves room
+        let below = if rect.height() > 400.0 { 88.0 } else { AROUND };
+        let laid = laid.as_ref().filter(|_| !is_wide);
+        card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-AROUND, below), |ui| probe(open, site, unit, laid, ui));
     }
-    card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-14.0, 88.0), |ui| probe(open, site, unit, ui));
 }
 
 fn card(ui: &Ui, name: &str, rect: Rect, corner: Align2, offset: Vec2, content: impl FnOnce(&mut Ui)) {
     let area = egui::Area::new(Id::unique(name)).order(egui::Order::Middle).pivot(corner).constrain_to(rect);
     area.fixed_pos(corner.pos_in_rect(&rect) + offset).show(ui.ctx(), |ui| {
-        let frame = egui::Frame::popup(ui.style()).inner_margin(10.0);
+        let frame = egui::Frame::popup(ui.style()).inner_margin(WITHIN);
         frame.show(ui, |ui| {
-            ui.set_max_width(290.0);
+            ui.set_max_width(WIDTH.min(rect.width() - 2.0 * (AROUND + WITHIN)));
+            ui.set_max_height(rect.height() - offset.y - AROUND - 2.0 * WITHIN);
             content(ui);
         });
     });
+}
+
+/// What of a card may be longer than the picture is high; some room is kept below.
+fn scrolled(ui: &mut Ui, below: f32, content: impl FnOnce(&mut Ui)) {
+    let most = (ui.available_height() - below).max(24.0);
+    egui::ScrollArea::vertical().max_height(most).auto_shrink(true).min_scrolled_height(24.0).show(ui, content);
 }
 
 /// Marks the point that is searched or was found.
@@ -45,7 +64,8 @@ pub(super) fn mark(ui: &Ui, open: &Open, view: &View, rect: Rect) {
 /// A colour and what it means.
 pub(super) fn swatch(ui: &mut Ui, [r, g, b]: [u8; 3], what: &str) {
     ui.horizontal(|ui| {
-        let (rect, _) = ui.allocate_exact_size(vec2(30.0, 15.0), Sense::hover());
+        let height = ui.spacing().interact_size.y.min(16.0) - 1.0;
+        let (rect, _) = ui.allocate_exact_size(vec2(30.0, height), Sense::hover());
         ui.painter().rect_filled(rect, 2.0, Color32::from_rgb(r, g, b));
         ui.label(what);
     });
@@ -55,12 +75,17 @@ pub(super) fn swatch(ui: &mut Ui, [r, g, b]: [u8; 3], what: &str) {
 fn legend(ui: &mut Ui, laid: &Laid) {
     let (head, entries) = laid.legend();
     ui.label(head);
-    // a row is no taller than its letters
-    (ui.spacing_mut().item_spacing.y, ui.spacing_mut().interact_size.y) = (1.0, 16.0);
-    entries.iter().for_each(|(colour, what)| swatch(ui, *colour, what));
+    scrolled(ui, 0.0, |ui| {
+        // a row is no taller than its letters; many have small ones, so that they hide less of the picture
+        let is_long = entries.len() > 10;
+        (ui.spacing_mut().item_spacing.y, ui.spacing_mut().interact_size.y) =
+            if is_long { (0.0, 13.0) } else { (1.0, 16.0) };
+        ui.style_mut().override_text_style = is_long.then_some(egui::TextStyle::Small);
+        entries.iter().for_each(|(colour, what)| swatch(ui, *colour, what));
+    });
 }
 
-fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, ui: &mut Ui) {
+fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, laid: Option<&Arc<Laid>>, ui: &mut Ui) {
     if open.probing.is_some() {
         ui.horizontal(|ui| {
             ui.add(egui::Spinner::new().size(16.0));
@@ -73,21 +98,27 @@ fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, ui: &mut Ui) {
     let Some(intervals) = probed.days.first() else { return };
     ui.label(egui::RichText::new(format!("Sun at {}", probed.probe.name)).font(look::bold(13.5)));
     let point = probed.probe.point;
-    let (at, name) = (point / unit.metres, unit.name);
-    ui.weak(format!("{:.2} {name} east, {:.2} {name} north, {:.2} {name} up", at.x, at.y, at.z).replace('-', "−"));
-    // the answer stays when the pointer goes on
-    let under = open.clicked.as_ref().filter(|under| under.point == point);
-    if let Some(said) = open.laid.as_ref().zip(under).and_then(|(laid, under)| laid.said(under, unit)) {
-        ui.label(format!("{said} in the study"));
-    }
-    let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);
-    ui.label(format!("{}: {} of sun", day.window.day.date, clock(secs(intervals))));
-    egui::ScrollArea::vertical().max_height(190.0).show(ui, |ui| {
+    // the buttons stay in sight
+    let buttons = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
+    scrolled(ui, buttons, |ui| {
+        let (at, name) = (point / unit.metres, unit.name);
+        ui.weak(format!("{:.2} {name} east, {:.2} {name} north, {:.2} {name} up", at.x, at.y, at.z).replace('-', "−"));
+        // the answer stays when the pointer goes on
+        let under = open.clicked.as_ref().filter(|under| under.point == point);
+        if let Some(said) = open.laid.as_ref().zip(under).and_then(|(laid, under)| laid.said(under, unit)) {
+            ui.label(format!("In the study: {said}"));
+        }
+        let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);
+        ui.label(format!("{}: {} of sun", day.window.day.date, clock(secs(intervals))));
         for interval in intervals {
             let (start, end) = (interval.start.format("%H:%M:%S"), interval.end.format("%H:%M:%S"));
             ui.label(format!("{start} – {end}"));
             let (before, after) = (named(sunlight, interval.before), named(sunlight, interval.after));
             ui.weak(format!("before: {before}, after: {after}"));
+        }
+        if let Some(laid) = laid {
+            ui.separator();
+            legend(ui, laid);
         }
     });
     let mut closes = false;

@@ -8,7 +8,7 @@ use crate::export::report::Told;
 use crate::export::{comparison, figure, raster as geotiff};
 use crate::profile::comparison::Altered;
 use crate::shadow::picture::Hours;
-use crate::site::{Method, Overrides, Pair, Site, SiteError, Written, model};
+use crate::site::{Method, Models, Overrides, Pair, Site, SiteError, Written, model};
 use crate::study::{self, CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
 use eframe::egui;
 use glam::DVec3;
@@ -19,6 +19,8 @@ use std::sync::Arc;
 pub(super) struct Change {
     /// The state before, as it was asked.
     pub(super) before: Arc<Written>,
+    /// What stands there before.
+    pub(super) models: Models,
     /// Both states, without their models.
     pair: Pair,
     outcome: CompareOutcome,
@@ -27,25 +29,34 @@ pub(super) struct Change {
     pub(super) colours: ChangeColours,
 }
 
-/// A state of the open site that is kept to be compared with, and what is known of it.
+/// What is known of the state that is compared with.
 #[derive(Clone)]
 pub(super) struct Known {
     /// As it was written.
     pub(super) before: Arc<Written>,
-    /// Its hours.
-    pub(super) laid: Arc<Laid>,
+    /// Its models. Those of a kept state stay as they were, whatever becomes of their files; those of another file are that
+    /// file's.
+    pub(super) models: Models,
+    /// The hours of a state that was kept.
+    pub(super) laid: Option<Arc<Laid>>,
 }
 
 impl Known {
-    /// The hours of the state before, where they are those of its site.
-    fn outcome(self, before: &Written, site: &Site) -> Option<Outcome> {
-        let (known, found) = (&self.laid.site, &self.laid.found);
-        let same_study = known.track == site.track
+    /// Its models, where they need not be read anew.
+    fn models(&self) -> Option<Models> {
+        let holds = self.laid.is_some() || self.models.changed_file().is_none();
+        holds.then(|| self.models.clone())
+    }
+
+    /// Its hours, where they are those of such a study.
+    fn outcome(&self, site: &Site) -> Option<Outcome> {
+        let laid = self.laid.as_ref()?;
+        let known = &laid.site;
+        let same = known.track == site.track
             && known.grid == site.grid
             && known.ground == site.ground
-            && self.laid.method == site.method;
-        let same = same_study && self.before.site.model == before.site.model && self.before.file == before.file;
-        match found {
+            && laid.method == site.method;
+        match &laid.found {
             Found::Shadow(hours) if same => Some(hours.outcome.clone()),
             _ => None,
         }
@@ -71,6 +82,7 @@ pub(super) fn find(
 ) -> Work<Laid> {
     let site = Arc::clone(&project.site);
     let (mut after, written) = (project.written.clone(), project.written.site.clone());
+    let (models_after, mark) = (project.models.clone(), project.models.mark());
     let name = project.name();
     Work::start(context, move |on_event| {
         let mut timings = Stopwatch::start();
@@ -81,12 +93,14 @@ pub(super) fn find(
         first.site.study = after.site.study.clone();
         first.site.plan = after.site.plan.clone();
         first.site.camera = after.site.camera.clone();
-        let mut pair = Pair::of(&first, &after, &asked, model::load)?;
+        let at_hand = known.as_ref().and_then(Known::models);
+        let models = at_hand.map_or_else(|| Models::read(&first, model::load), Ok)?;
+        let mut pair = Pair::with_models(&first, &after, &asked, |_| Ok(models.clone()), |_| Ok(models_after))?;
         if pair.names[0] == pair.names[1] {
             pair.names = [format!("{name}, before"), format!("{name}, after")];
         }
         timings.lap("load");
-        let known = known.and_then(|known| known.outcome(&before, &pair.before));
+        let known = known.and_then(|known| known.outcome(&pair.before));
         let outcome = compare(&pair, known, on_event)?;
         timings.lap("shadows");
         let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
@@ -95,8 +109,8 @@ pub(super) fn find(
         for site in [&mut pair.before, &mut pair.after] {
             site.mesh = site.mesh.of_components(&[]);
         }
-        let found = Found::Change(Box::new(Change { before, pair, outcome, timings, colours }));
-        Ok(Laid { number, site, method, written, found })
+        let found = Found::Change(Box::new(Change { before, models, pair, outcome, timings, colours }));
+        Ok(Laid { number, site, method, written, mark, found })
     })
 }
 

@@ -38,6 +38,7 @@ pub(super) fn method(settings: &Settings) -> Method {
 /// Finds the hours of sun on the surfaces of a site.
 pub(super) fn find(project: &Project, method: Method, number: u64, context: egui::Context) -> Work<Laid> {
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
+    let mark = project.models.mark();
     Work::start(context, move |on_event| {
         let mut timings = Stopwatch::start();
         let asked = Site { receivers: Receivers::Surfaces, method, ..Site::clone(&site) };
@@ -48,7 +49,7 @@ pub(super) fn find(project: &Project, method: Method, number: u64, context: egui
         let pages = atlas.colours(&answer.bands(), outcome.hours.samples);
         let legend = figure::surfaces_legend(&answer);
         let found = Found::Facades(Box::new(Facades { outcome, atlas, pages, legend, timings }));
-        Ok(Laid { number, site, method, written, found })
+        Ok(Laid { number, site, method, written, mark, found })
     })
 }
 

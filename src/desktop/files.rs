@@ -1,6 +1,7 @@
 //! Paths that are asked for: by dialogs of the system, or one in the window where the system has none; and samples.
 
 use super::look;
+use crate::cli::draw::Lines;
 use crate::export::file;
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -20,6 +21,8 @@ pub(super) enum Purpose {
     Drawing,
     /// To write the hours, or the change, in a folder.
     Hours,
+    /// To write the hours as a drawing of lines, in a folder.
+    Lines(Lines),
     /// To write the study as pictures and as a GIF, in a folder.
     Animation,
 }
@@ -32,6 +35,8 @@ impl Purpose {
             Purpose::SaveSite => "Save the site file",
             Purpose::Drawing => "Export the drawing",
             Purpose::Hours => "Export the hours: a folder for the files",
+            Purpose::Lines(Lines::Hours) => "Export the iso-hour lines: a folder for hours.png and hours.svg",
+            Purpose::Lines(Lines::Outlines) => "Export the outlines: a folder for outlines.png and outlines.svg",
             Purpose::Animation => "Export the animation: a folder for day.gif and its pictures",
         }
     }
@@ -46,7 +51,7 @@ impl Purpose {
             Purpose::Open | Purpose::Compare => "",
             Purpose::SaveSite => "site.toml",
             Purpose::Drawing => "shadow.png",
-            Purpose::Hours => "out",
+            Purpose::Hours | Purpose::Lines(_) => "out",
             Purpose::Animation => "animation",
         }
     }
@@ -89,7 +94,7 @@ impl Asking {
                     .pick_file(),
                 Purpose::SaveSite => dialog.add_filter("Site", &["toml"]).set_file_name(purpose.name()).save_file(),
                 Purpose::Drawing => dialog.add_filter("PNG", &["png"]).set_file_name(purpose.name()).save_file(),
-                Purpose::Hours | Purpose::Animation => dialog.pick_folder(),
+                Purpose::Hours | Purpose::Lines(_) | Purpose::Animation => dialog.pick_folder(),
             };
             // who closed the window listens no more
             let _ = tell.send(path);
@@ -159,7 +164,9 @@ fn listing(ui: &mut egui::Ui, typed: &mut String) {
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(|path| is_ours(path)).collect();
     paths.retain(visible);
     paths.sort_by_key(|path| (!path.is_dir(), path.clone()));
-    egui::ScrollArea::vertical().max_height(220.0).show(ui, |ui| {
+    // the dialog's heading, field and buttons have their room
+    let most = (ui.ctx().content_rect().height() - 210.0).clamp(60.0, 220.0);
+    egui::ScrollArea::vertical().max_height(most).show(ui, |ui| {
         if let Some(parent) = folder.parent()
             && ui.button("Folder above").clicked()
         {

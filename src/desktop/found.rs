@@ -6,6 +6,7 @@ use super::facades;
 use super::files::Purpose;
 use super::hours::{self, Found};
 use super::loading::name_of;
+use super::look;
 use super::settings::Settings;
 use eframe::egui::{self, Ui};
 use std::path::Path;
@@ -44,11 +45,18 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             find(open, &app.settings, &context);
         }
     }
+    let mut exports = false;
     if let Some(laid) = &open.laid {
         if !laid.is_asked(&open.project, &app.settings) {
             ui.weak("What is asked has changed since: find it anew.");
         }
-        ui.checkbox(&mut app.settings.shown.hours, "Show the hours");
+        ui.horizontal(|ui| {
+            ui.checkbox(&mut open.shows_hours, "Show the hours");
+            exports = ui.button("Export…").on_hover_text("Drawing, raster and report, into a folder").clicked();
+        });
+    }
+    if exports {
+        app.ask(Purpose::Hours, &context);
     }
     compare(app, ui, &context);
     let Some(open) = &app.open else { return };
@@ -97,7 +105,7 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
         {
             let before = Arc::new(open.project.written.clone());
             app.settings.before = Some(Arc::clone(&before));
-            open.known = Some(Known { before, laid });
+            open.known = Some(Known { before, models: open.project.models.clone(), laid: Some(laid) });
         }
         ui.add_enabled_ui(rests, |ui| {
             ui.menu_button("Compare with", |ui| {
@@ -150,20 +158,31 @@ pub(super) fn areas(app: &App, ui: &mut Ui) {
     let [before, after] = change.names();
     ui.add(egui::Label::new(format!("Before: {before}")).wrap());
     ui.add(egui::Label::new(format!("After: {after}")).wrap());
-    egui::Grid::new("areas").num_columns(3).spacing([10.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
-        for [what, first, second] in change.rows() {
-            ui.weak(&what);
-            for cell in [first, second] {
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    let cell = cell.replace('-', "−");
-                    if what.is_empty() {
-                        ui.weak(cell)
-                    } else {
-                        ui.label(cell)
-                    };
-                });
-            }
-            ui.end_row();
+    let rows: Vec<_> = change.rows().into_iter().map(|row| row.map(|text| text.replace('-', "−"))).collect();
+    // numbers first; what they are goes on below itself where that leaves little room
+    const APART: f32 = 10.0;
+    let widest = |column: usize| rows.iter().map(|row| look::width_of(ui, &row[column])).fold(0.0, f32::max).ceil();
+    let [second, third] = [1, 2].map(widest);
+    let first = (ui.available_width() - second - third - 2.0 * APART).max(60.0);
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing = egui::vec2(APART, 2.0);
+        for [what, left, right] in &rows {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().interact_size.y = 17.0;
+                let cell = |ui: &mut Ui, width: f32, layout: egui::Layout, text: egui::RichText| {
+                    ui.allocate_ui_with_layout(egui::vec2(width, 17.0), layout, |ui| {
+                        ui.set_min_width(width);
+                        ui.add(egui::Label::new(text).wrap());
+                    });
+                };
+                let (to_left, to_right) =
+                    (egui::Layout::top_down(egui::Align::Min), egui::Layout::top_down(egui::Align::Max));
+                cell(ui, first, to_left, egui::RichText::new(what).weak());
+                for (text, width) in [(left, second), (right, third)] {
+                    let text = egui::RichText::new(text);
+                    cell(ui, width, to_right, if what.is_empty() { text.weak() } else { text });
+                }
+            });
         }
     });
     ui.weak(change.extent());

@@ -1,21 +1,30 @@
 //! The window's frame: keys, menus, messages, and what is shown before anything is open.
 
-use super::app::App;
+use super::app::{App, Open};
 use super::clock::Play;
 use super::eye::Stand;
 use super::files::{self, Purpose};
 use super::handing;
+use super::hours::Found;
 use super::loading::{Wanted, name_of};
 use super::look;
 use super::time::steps;
 use super::unit::Unit;
+use crate::cli::draw::Lines;
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers, ThemePreference, Ui};
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
 const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
+const RELOAD: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::R);
+const RELOAD_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::F5);
 const EXPORT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::E);
 const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
 const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+
+/// A menu; what is longer than the window is high is scrolled.
+fn menu(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
+    ui.menu_button(name, |ui| egui::ScrollArea::vertical().show(ui, content));
+}
 
 /// Larger, smaller, and as the screen has it. The keys are egui's own.
 fn interface_scale(ui: &mut Ui) {
@@ -41,6 +50,9 @@ impl App {
         let pressed = |shortcut| context.input_mut(|input| input.consume_shortcut(&shortcut));
         let redo = pressed(REDO);
         let (undo, opens, saves, exports) = (pressed(UNDO), pressed(OPEN), pressed(SAVE), pressed(EXPORT));
+        if pressed(RELOAD) || pressed(RELOAD_TOO) {
+            self.reload(context);
+        }
         if redo {
             let settings = self.history.redo();
             self.set(settings);
@@ -78,7 +90,7 @@ impl App {
             }
         }
         if context.input(|input| input.key_pressed(Key::F)) {
-            self.fit(1.6);
+            open.viewer.fit();
         }
     }
 
@@ -86,7 +98,7 @@ impl App {
         let context = ui.ctx().clone();
         let is_open = self.open.is_some();
         egui::MenuBar::new().ui(ui, |ui| {
-            ui.menu_button("File", |ui| {
+            menu(ui, "File", |ui| {
                 let button = |text: &str, shortcut: &KeyboardShortcut| {
                     egui::Button::new(text.to_owned()).shortcut_text(context.format_shortcut(shortcut))
                 };
@@ -110,6 +122,9 @@ impl App {
                         }
                     }
                 });
+                if ui.add_enabled(is_open, button("Reload from the disk", &RELOAD)).clicked() {
+                    self.reload(&context);
+                }
                 ui.separator();
                 if ui.add_enabled(is_open, button("Save the site file…", &SAVE)).clicked() {
                     self.ask(Purpose::SaveSite, &context);
@@ -117,9 +132,17 @@ impl App {
                 if ui.add_enabled(is_open, button("Export the drawing…", &EXPORT)).clicked() {
                     self.ask(Purpose::Drawing, &context);
                 }
-                let has_hours = self.open.as_ref().is_some_and(|open| open.laid.is_some());
-                if ui.add_enabled(has_hours, egui::Button::new("Export the hours…")).clicked() {
-                    self.ask(Purpose::Hours, &context);
+                let laid = self.open.as_ref().and_then(|open| open.laid.as_ref());
+                let has_lines = laid.is_some_and(|laid| matches!(laid.found, Found::Shadow(_)));
+                for (name, purpose, is_there) in [
+                    ("Export the hours…", Purpose::Hours, laid.is_some()),
+                    ("Export the iso-hour lines…", Purpose::Lines(Lines::Hours), has_lines),
+                    ("Export the outlines…", Purpose::Lines(Lines::Outlines), has_lines),
+                ] {
+                    let response = ui.add_enabled(is_there, egui::Button::new(name));
+                    if response.on_disabled_hover_text("Find the hours of shadow first").clicked() {
+                        self.ask(purpose, &context);
+                    }
                 }
                 if ui.add_enabled(is_open, egui::Button::new("Export the animation…")).clicked() {
                     self.ask(Purpose::Animation, &context);
@@ -128,7 +151,7 @@ impl App {
                     self.copy(&context);
                 }
             });
-            ui.menu_button("Edit", |ui| {
+            menu(ui, "Edit", |ui| {
                 let [undo, redo] = self.history.has();
                 let undo_text = egui::Button::new("Undo").shortcut_text(context.format_shortcut(&UNDO));
                 if ui.add_enabled(undo, undo_text).clicked() {
@@ -141,7 +164,7 @@ impl App {
                     self.set(settings);
                 }
             });
-            ui.menu_button("View", |ui| {
+            menu(ui, "View", |ui| {
                 if let Some(open) = &mut self.open {
                     for (number, (stand, name)) in Stand::ALL.into_iter().enumerate() {
                         let is_it = open.viewer.eye.stand == stand;
@@ -151,7 +174,7 @@ impl App {
                         }
                     }
                     if ui.add(egui::Button::new("Fit").shortcut_text("F")).clicked() {
-                        self.fit(1.6);
+                        open.viewer.fit();
                     }
                     ui.separator();
                 }
@@ -175,30 +198,37 @@ impl App {
             });
             if let Some(open) = &self.open {
                 ui.separator();
-                ui.label(egui::RichText::new(open.project.name()).font(look::bold(13.5)));
-            }
-            if let Some(open) = &self.open {
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    if let Some(under) = &open.viewer.under {
-                        let point = under.point;
-                        let hours = open.laid.as_ref().filter(|_| self.settings.shown.hours);
-                        let unit = Unit::of(self.kept.feet);
-                        let hours = hours.and_then(|laid| laid.said(under, unit));
-                        let hours = hours.map_or(String::new(), |hours| format!("{hours}    "));
-                        let at = (point / unit.metres * 10.0).round() / 10.0 + 0.0;
-                        let at =
-                            format!("{:.1} E  {:.1} N  {:.1} up, {}", at.x, at.y, at.z, unit.name).replace('-', "−");
-                        ui.weak(format!("{hours}{}    {at}", under.name));
-                    }
+                let name = egui::RichText::new(open.project.name()).font(look::bold(13.5));
+                ui.scope(|ui| {
+                    ui.set_max_width(240.0);
+                    ui.add(egui::Label::new(name).truncate());
                 });
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| self.read_out(open, ui));
             }
         });
+    }
+
+    /// What lies under the pointer, and where; the less of it, the less room there is.
+    fn read_out(&self, open: &Open, ui: &mut Ui) {
+        let Some(under) = &open.viewer.under else { return };
+        let unit = Unit::of(self.kept.feet);
+        let at = (under.point / unit.metres * 10.0).round() / 10.0 + 0.0;
+        let at = format!("{:.1} E  {:.1} N  {:.1} up, {}", at.x, at.y, at.z, unit.name).replace('-', "−");
+        let laid = open.laid.as_ref().filter(|_| open.shows_hours);
+        let hours = laid.and_then(|laid| laid.said(under, unit)).unwrap_or_default();
+        let parts = [hours, under.name.clone(), at].map(|part| Some(part).filter(|part| !part.is_empty()));
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        let mut texts = (1..=parts.len()).rev().map(|count| parts[..count].join("    "));
+        let fits = texts.clone().find(|text| look::width_of(ui, text) < ui.available_width());
+        if let Some(text) = fits.or_else(|| texts.next_back()) {
+            ui.add(egui::Label::new(egui::RichText::new(text).weak()).truncate());
+        }
     }
 
     /// What goes on, and what went wrong.
     pub(super) fn messages(&mut self, ui: &mut Ui) {
         if let Some(loading) = &self.loading
-            && loading.opens
+            && loading.reads
         {
             let (share, what) = loading.stage();
             let mut cancels = false;
@@ -209,11 +239,28 @@ impl App {
             });
             if cancels {
                 loading.cancel();
-                self.loading = None;
+                // settings of the open site that were to be read are refused until they change
+                self.refused = (!loading.opens).then(|| self.settings.clone());
+                (self.loading, self.is_reading) = (None, false);
             }
         }
         if self.writing.as_ref().is_some_and(|writing| handing::progress(writing, ui)) {
             self.writing = None;
+        }
+        if let Some(name) = &self.changed {
+            let mut reloads = false;
+            let mut leaves = false;
+            ui.horizontal(|ui| {
+                ui.label(format!("{name} has changed on the disk."));
+                reloads = ui.button("Reload").clicked();
+                leaves = ui.button("Leave it").clicked();
+            });
+            if reloads {
+                self.reload(&ui.ctx().clone());
+            }
+            if leaves {
+                self.changed = None;
+            }
         }
         let of_view = self.open.as_ref().and_then(|open| open.viewer.fault.clone());
         let (fault, notice) = (self.fault.clone().or(of_view), self.notice.clone());
@@ -240,7 +287,8 @@ impl App {
         self.fault.is_some()
             || self.notice.is_some()
             || self.writing.is_some()
-            || self.loading.as_ref().is_some_and(|loading| loading.opens)
+            || self.changed.is_some()
+            || self.loading.as_ref().is_some_and(|loading| loading.reads)
             || self.open.as_ref().is_some_and(|open| open.viewer.fault.is_some())
     }
 

@@ -1,7 +1,7 @@
 //! What is handed in, as the command makes it: the site file, drawings, hours and animations.
 
 use super::eye::{Eye, Stand};
-use super::hours::Laid;
+use super::hours::NamedFile;
 use super::loading::Project;
 use super::settings::Settings;
 use super::view;
@@ -10,7 +10,7 @@ use crate::cli::animate;
 use crate::export::figure::{self, Diagram};
 use crate::export::file;
 use crate::site::file::{CameraTable, SiteFile};
-use crate::site::{Method, Overrides, Site, Written, model};
+use crate::site::{Method, Models, Overrides, Site, SiteError, Written, model};
 use crate::study::{self, Event, InstantWants, StudyError};
 use crate::view::View;
 use chrono::DateTime;
@@ -18,7 +18,6 @@ use chrono_tz::Tz;
 use eframe::egui;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// The eye as a site file says it, to the millimetre; the plan is no camera's picture, and leaves the table as it was.
 fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {
@@ -27,7 +26,7 @@ fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {
         Stand::Perspective => None,
         Stand::Side(side) => Some(side.word().to_owned()),
     };
-    let camera = eye.camera((16, 10));
+    let camera = eye.kept();
     let millimetres = |point: glam::DVec3| (point * 1000.0).round().to_array().map(|metres| metres / 1000.0 + 0.0);
     CameraTable {
         eye: Some(millimetres(camera.eye)),
@@ -70,6 +69,11 @@ fn seen_from(project: &Project, settings: &Settings, eye: &Eye) -> Written {
     written
 }
 
+/// What is handed in is what is seen: of the models that are open, whatever their files have become.
+fn site_of(written: &Written, asked: &Overrides, models: Option<Models>) -> Result<Site, SiteError> {
+    Site::with_models(written, asked, || models.map_or_else(|| Models::read(written, model::load), Ok))
+}
+
 fn view_from(site: &Site, eye: &Eye) -> View {
     match eye.stand {
         Stand::Plan => View::Plan(site.grid),
@@ -87,6 +91,7 @@ pub(super) fn drawing(
     context: egui::Context,
 ) -> Work<PathBuf> {
     let written = seen_from(project, settings, &eye);
+    let models = project.models_of(&written);
     let shown = settings.shown;
     Work::start(context, move |on_event| {
         let is_perspective = eye.stand == Stand::Perspective;
@@ -99,7 +104,7 @@ pub(super) fn drawing(
         // as the command reads it, for the region of this instant's shadows
         let at = Some(time.format("%Y-%m-%dT%H:%M:%S%:z").to_string());
         let asked = Overrides { at, technique: Some(method), ..Overrides::default() };
-        let site = Site::of(&written, &asked, model::load)?;
+        let site = site_of(&written, &asked, models)?;
         let view = view_from(&site, &eye);
         let wants = InstantWants {
             surface: true,
@@ -139,11 +144,12 @@ pub(super) fn animation(
     context: egui::Context,
 ) -> Work<PathBuf> {
     let written = seen_from(project, settings, &eye);
+    let models = project.models_of(&written);
     let method = settings.shown.method;
     Work::start(context, move |on_event| {
         let method = if view::draws(method, eye.stand) { method } else { Method::Auto };
         let asked = Overrides { technique: Some(method), ..Overrides::default() };
-        let site = Site::of(&written, &asked, model::load)?;
+        let site = site_of(&written, &asked, models)?;
         let count = animate::check(&site)?;
         file::check_folder(&folder)?;
         // the frames, and then each once more in the GIF
@@ -180,10 +186,14 @@ pub(super) fn progress(writing: &Work<PathBuf>, ui: &mut egui::Ui) -> bool {
     .inner
 }
 
-/// Writes the hours into a folder.
-pub(super) fn hours(laid: Arc<Laid>, folder: PathBuf, context: egui::Context) -> Work<PathBuf> {
+/// Writes files of what was found into a folder.
+pub(super) fn found(
+    files: impl FnOnce() -> anyhow::Result<Vec<NamedFile>> + Send + 'static,
+    folder: PathBuf,
+    context: egui::Context,
+) -> Work<PathBuf> {
     Work::start(context, move |_| {
-        for (name, bytes) in laid.files()? {
+        for (name, bytes) in files()? {
             file::write(&folder.join(name), &bytes)?;
         }
         Ok(folder)

@@ -8,6 +8,8 @@ use super::pick::Under;
 use super::settings::Settings;
 use super::unit::Unit;
 use super::work::Work;
+use crate::cli::draw::Lines;
+use crate::export::figure::Outline;
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
 use crate::export::{figure, raster, report};
 use crate::profile::probe::Sunlight;
@@ -15,7 +17,7 @@ use crate::shadow::ShadowError;
 use crate::shadow::picture::{Hours, Picture};
 use crate::site::file::SiteFile;
 use crate::site::{Method, Probing, Site};
-use crate::study::{self, Outcome, StudyError, Wants};
+use crate::study::{self, Event, Outcome, StudyError, Wants};
 use crate::sun::DayWindow;
 use crate::view::{Grid, Probe, Surface};
 use chrono::NaiveDate;
@@ -36,6 +38,8 @@ pub(super) struct Laid {
     pub(super) method: Method,
     /// The same as it was written.
     pub(super) written: SiteFile,
+    /// The number of its models.
+    pub(super) mark: u64,
     /// What.
     pub(super) found: Found,
 }
@@ -110,6 +114,19 @@ impl Laid {
         }
     }
 
+    /// A drawing of its lines, as the command makes it.
+    ///
+    /// # Errors
+    /// Where the study has no such lines, in the command's words; what the encoders say.
+    pub(super) fn lines(&self, lines: Lines) -> anyhow::Result<Vec<NamedFile>> {
+        let Found::Shadow(hours) = &self.found else {
+            anyhow::bail!("lines are drawn of the hours of shadow on the plan; find those first");
+        };
+        lines.check(&self.site.track)?;
+        let files = lines.files(&hours.scene(&self.site)?, &hours.outcome.profile, &hours.outlines)?;
+        Ok(files.into())
+    }
+
     /// Whether it is what the settings ask of the site.
     pub(super) fn is_asked(&self, project: &Project, settings: &Settings) -> bool {
         let is_found = match (&self.found, &settings.before) {
@@ -123,7 +140,8 @@ impl Laid {
             Found::Shadow(_) | Found::Change(_) => settings.shown.method,
         };
         let (then, now) = (&self.written, &project.written.site);
-        let of_models = then.model == now.model && then.ground == now.ground && then.place == now.place;
+        let same_models = then.model == now.model && self.mark == project.models.mark();
+        let of_models = same_models && then.ground == now.ground && then.place == now.place;
         let of_study = then.study == now.study && then.plan == now.plan;
         // undone and redone it is another site, and the same
         is_found && self.method == method && (Arc::ptr_eq(&self.site, &project.site) || (of_models && of_study))
@@ -142,15 +160,17 @@ impl Laid {
 pub(super) struct ShadowHours {
     /// The answer.
     pub(super) outcome: Outcome,
+    /// Each instant's shadow, where outlines can be drawn of the study.
+    outlines: Vec<Outline>,
     bands: Bands,
     colours: Vec<Rgb>,
 }
 
 impl ShadowHours {
-    fn new(site: &Site, outcome: Outcome) -> ShadowHours {
+    fn new(site: &Site, outcome: Outcome, outlines: Vec<Outline>) -> ShadowHours {
         let bands = Bands::new(site.track.step_secs, outcome.profile.day_secs);
         let colours = outcome.profile.shaded.iter().map(|shaded| bands.colour(shaded)).collect();
-        ShadowHours { outcome, bands, colours }
+        ShadowHours { outcome, outlines, bands, colours }
     }
 
     fn raster(&self) -> Hours<'_> {
@@ -183,18 +203,20 @@ impl ShadowHours {
 
     /// The drawing, the raster and the report.
     fn files(&self, site: &Site) -> anyhow::Result<Vec<NamedFile>> {
-        let Outcome { profile, drawn, surface_mesh, timings, .. } = &self.outcome;
-        let Some(surface) = &self.outcome.surface else {
-            anyhow::bail!("what is seen is not there");
-        };
-        let (place, track, receivers) = (&site.place, &site.track, site.receivers);
-        let scene = figure::Scene { place, track, mesh: surface_mesh, surface, receivers, drawn };
-        let told = report::Told { receivers, drawn, timings, statistics: None };
+        let Outcome { profile, drawn, timings, .. } = &self.outcome;
+        let told = report::Told { receivers: site.receivers, drawn, timings, statistics: None };
         Ok(vec![
-            ("profile.png", figure::profile(&scene, profile)?),
-            ("shadow-hours.tif", raster::geotiff(profile, place)?),
-            ("profile.json", report::profile_json(profile, place, track, &told)?.into_bytes()),
+            ("profile.png", figure::profile(&self.scene(site)?, profile)?),
+            ("shadow-hours.tif", raster::geotiff(profile, &site.place)?),
+            ("profile.json", report::profile_json(profile, &site.place, &site.track, &told)?.into_bytes()),
         ])
+    }
+
+    fn scene<'a>(&'a self, site: &'a Site) -> anyhow::Result<figure::Scene<'a>> {
+        let Outcome { drawn, surface, surface_mesh: mesh, .. } = &self.outcome;
+        let Some(surface) = surface else { anyhow::bail!("what is seen is not there") };
+        let Site { place, track, receivers, .. } = site;
+        Ok(figure::Scene { place, track, mesh, surface, receivers: *receivers, drawn })
     }
 }
 
@@ -217,11 +239,20 @@ pub(super) fn cell_at(grid: &Grid, surface: &Surface, point: DVec3) -> Option<us
 /// Adds up the hours of a site's study.
 pub(super) fn add_up(project: &Project, method: Method, number: u64, context: egui::Context) -> Work<Laid> {
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
+    let mark = project.models.mark();
     Work::start(context, move |on_event| {
-        let wants = Wants { surface: true, ..Wants::default() };
-        let outcome = study::run(&Site { method, ..Site::clone(&site) }, &wants, on_event)?;
-        let found = Found::Shadow(Box::new(ShadowHours::new(&site, outcome)));
-        Ok(Laid { number, site, method, written, found })
+        // they are few where they can be drawn
+        let bits = Lines::Outlines.check(&site.track).is_ok();
+        let wants = Wants { surface: true, bits, ..Wants::default() };
+        let mut outlines = Vec::new();
+        let outcome = study::run(&Site { method, ..Site::clone(&site) }, &wants, &mut |event| {
+            if let Event::Drawn { index, bits: Some(shadow), .. } = event {
+                outlines.push(Outline { index, shadow: shadow.clone() });
+            }
+            on_event(event)
+        })?;
+        let found = Found::Shadow(Box::new(ShadowHours::new(&site, outcome, outlines)));
+        Ok(Laid { number, site, method, written, mark, found })
     })
 }
 

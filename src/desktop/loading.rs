@@ -47,7 +47,8 @@ pub(super) struct Bare {
 /// What an open site is made of.
 pub(super) struct Before {
     path: Option<PathBuf>,
-    models: Models,
+    /// None where they are to be read anew.
+    models: Option<Models>,
     visible: Arc<Site>,
     seen: Arc<(Mesh, RayCaster)>,
 }
@@ -76,6 +77,8 @@ pub(super) struct Loading {
     pub(super) name: String,
     /// Whether the site is opened, and not the open one read again.
     pub(super) opens: bool,
+    /// Whether it takes so long that it is shown: all but the open site's settings.
+    pub(super) reads: bool,
     stage: Arc<Mutex<(f32, String)>>,
     cancelled: Arc<AtomicBool>,
     result: mpsc::Receiver<Result<Project, Fault>>,
@@ -93,6 +96,7 @@ impl Loading {
         let stage = Arc::new(Mutex::new((0.0, "Reading".to_owned())));
         let cancelled = Arc::new(AtomicBool::new(false));
         let opens = !matches!(wanted, Wanted::Again(..));
+        let reads = !matches!(&wanted, Wanted::Again(_, _, before) if before.models.is_some());
         let progress = Progress { stage: Arc::clone(&stage), cancelled: Arc::clone(&cancelled), context };
         std::thread::spawn(move || {
             let project = project(wanted, &progress);
@@ -100,7 +104,7 @@ impl Loading {
             let _ = tell.send(project);
             progress.context.request_repaint();
         });
-        Loading { name: name_of(&path), opens, stage, cancelled, result }
+        Loading { name: name_of(&path), opens, reads, stage, cancelled, result }
     }
 
     /// How far it is, 0 to 1, and what is being done.
@@ -195,10 +199,10 @@ fn read(
     before: Option<&Before>,
     progress: &Progress,
 ) -> Result<Project, Fault> {
-    let at_hand = before.filter(|before| before.models.are_those_of(&written));
+    let known = before.and_then(|before| before.models.as_ref()).filter(|models| models.are_those_of(&written));
     let mut models = None;
     let site = Site::with_models(&written, &Overrides::default(), || {
-        let read = at_hand.map_or_else(|| read_models(&written, progress), |before| Ok(before.models.clone()))?;
+        let read = known.map_or_else(|| read_models(&written, progress), |models| Ok(models.clone()))?;
         Ok(models.insert(read).clone())
     })
     .map_err(told)?;
@@ -207,7 +211,7 @@ fn read(
     }
     let site = Arc::new(site);
     let visible = visible(&site, &hidden);
-    let seen = match at_hand {
+    let seen = match before.filter(|_| known.is_some()) {
         Some(before) if before.visible.receives == visible.receives => Arc::clone(&before.seen),
         _ => {
             progress.tell(0.85, "Sorting what is seen");
@@ -275,21 +279,48 @@ fn told(error: impl Into<anyhow::Error>) -> Fault {
 }
 
 impl Project {
-    /// What of it may do for the site as it is written now.
-    pub(super) fn before(&self) -> Before {
+    /// What of it may do for the site as it is written now; `anew` its models may not.
+    pub(super) fn before(&self, anew: bool) -> Before {
         Before {
             path: self.path.clone(),
-            models: self.models.clone(),
+            models: (!anew).then(|| self.models.clone()),
             visible: Arc::clone(&self.visible),
             seen: Arc::clone(&self.seen),
         }
+    }
+
+    /// Its models, for a site as it is written, where they are those of that.
+    pub(super) fn models_of(&self, written: &Written) -> Option<Models> {
+        self.models.are_those_of(written).then(|| self.models.clone())
+    }
+
+    /// Which of its files is no more what was read.
+    pub(super) fn changed_file(&self) -> Option<&Path> {
+        self.models.changed_file().or(self.path.as_deref().filter(|path| {
+            // what cannot be read is told by who asks for it
+            std::fs::read_to_string(path).is_ok_and(|text| text != self.written.text)
+        }))
+    }
+
+    /// As it is written on the disk now; the settings are those of the window where nobody has changed it there.
+    ///
+    /// # Errors
+    /// What is wrong with its file.
+    pub(super) fn on_disk(&self, now: &SiteFile) -> Result<Written, SiteError> {
+        let of_window = || Written { site: now.clone(), ..self.written.clone() };
+        let Some(path) = &self.path else { return Ok(of_window()) };
+        let mut read = Written::read(path, &Overrides::default())?;
+        if read.text == self.written.text {
+            return Ok(of_window());
+        }
+        complete(&mut read.site);
+        Ok(read)
     }
 
     /// The settings that it comes with.
     pub(super) fn settings(&self, before: &Settings) -> Settings {
         let mut shown = before.shown;
         shown.method = self.site.method;
-        shown.hours = false;
         Settings { site: self.written.site.clone(), shown, hidden: Arc::clone(&self.hidden), before: None }
     }
 

@@ -25,6 +25,12 @@ pub(super) fn modal(context: &egui::Context, name: &str) -> egui::Modal {
     egui::Modal::new(egui::Id::unique(name)).frame(frame)
 }
 
+/// How wide a line of plain letters is, points.
+pub(super) fn width_of(ui: &egui::Ui, text: &str) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
+}
+
 /// The accent of a theme.
 pub(super) fn accent(visuals: &egui::Visuals) -> Color32 {
     if visuals.dark_mode { ACCENT_ON_DARK } else { ACCENT }
@@ -58,8 +64,11 @@ pub(super) fn set(context: &egui::Context) {
         spacing.interact_size.y = 24.0;
         spacing.menu_margin = egui::Margin::same(6);
         spacing.combo_width = 150.0;
-        // beside what it scrolls, and not over its right end
+        // beside what it scrolls, and not over its right end; seen wherever there is more
         spacing.scroll.floating_allocated_width = 8.0;
+        (spacing.scroll.floating_width, spacing.scroll.dormant_handle_opacity) = (4.0, 0.35);
+        // lists are seen whole
+        spacing.combo_height = 400.0;
         style.animation_time = 0.08;
     });
     // where the system has no wish

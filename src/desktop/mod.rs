@@ -48,7 +48,8 @@ pub fn open(path: Option<&Path>) -> anyhow::Result<()> {
             .with_title("Gnomon")
             .with_app_id("gnomon")
             .with_inner_size([1280.0, 760.0])
-            .with_min_inner_size([960.0, 600.0]),
+            // all is seen down to here: twice as large on a screen of 1280 × 720
+            .with_min_inner_size([640.0, 360.0]),
         // panels are flat and the picture has its colours: there is nothing between two of them that a dither could hide
         dithering: false,
         wgpu_options: WgpuConfiguration { wgpu_setup: setup(), ..WgpuConfiguration::default() },

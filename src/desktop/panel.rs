@@ -1,4 +1,4 @@
-//! The panel beside the picture: place, shadows, components, hours.
+//! The panel beside the picture: shadows, hours, components, place.
 
 use super::app::App;
 use super::eye::Stand;
@@ -26,7 +26,6 @@ fn good_for(method: Method) -> &'static str {
 /// The whole panel.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        section(ui, "Place", true, |ui| place(app, ui));
         section(ui, "Shadows", true, |ui| shadows(app, ui));
         section(ui, "Hours of shadow", true, |ui| study(app, ui));
         if app.open.as_ref().and_then(|open| open.laid.as_ref()).is_some_and(|laid| laid.change().is_some()) {
@@ -38,6 +37,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 components::list(ui, &open.project, &mut app.settings);
             }
         });
+        // said once, when the site was opened
+        section(ui, "Place", true, |ui| place(app, ui));
     });
 }
 

@@ -38,8 +38,6 @@ pub(super) struct Shown {
     pub(super) diagram: Option<Diagram>,
     /// Components in their own colours.
     pub(super) tinted: bool,
-    /// The hours of shadow instead of one instant.
-    pub(super) hours: bool,
     /// Hours are found on façades, too.
     pub(super) facades: bool,
 }

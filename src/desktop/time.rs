@@ -9,30 +9,44 @@ use eframe::egui::{self, Align2, Color32, CornerRadius, FontId, Key, Rect, Respo
 impl Clock {
     /// The bar below the picture.
     pub(super) fn bar(&mut self, ui: &mut Ui) {
+        // at the longest: no other date is to change the rows
+        let widest = format!("{} (UTC+00:00, daylight saving)", self.place.time_zone.name());
+        let widest = look::width_of(ui, &(widest + "azimuth 000.0° altitude −00.0° night"));
+        let is_one_row = ui.available_width() > 420.0 + widest;
         ui.horizontal(|ui| {
             self.play_button(ui, Play::Day, "Play the day");
             self.play_button(ui, Play::Year, "Play the year at this hour");
             ui.add_space(6.0);
             self.field(ui, 0, "Date", 92.0);
             self.field(ui, 1, "Clock", 62.0);
-            let offset = self.now.time.offset().fix().to_string();
-            let standard = self.solstices.iter().flatten().map(|instant| instant.time.offset().fix().local_minus_utc());
-            let summer = standard.min().is_some_and(|least| self.now.time.offset().fix().local_minus_utc() > least);
-            let saving = if summer { ", daylight saving" } else { "" };
-            ui.weak(format!("{} (UTC{offset}{saving})", self.place.time_zone.name()));
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                if self.now.night {
-                    ui.label(egui::RichText::new("night").font(look::bold(13.5)));
-                }
-                ui.label(format!("altitude {:.1}°", self.now.altitude_deg()).replace('-', "−"));
-                ui.label(format!("azimuth {:.1}°", self.now.azimuth_deg()));
-            });
+            if is_one_row {
+                self.told(ui);
+            }
         });
+        if !is_one_row {
+            ui.horizontal(|ui| self.told(ui));
+        }
         if let Some(fault) = &self.fault {
             ui.colored_label(ui.visuals().error_fg_color, fault);
         }
         self.day_slider(ui);
         self.year_slider(ui);
+    }
+
+    /// The zone, and where the sun stands.
+    fn told(&self, ui: &mut Ui) {
+        let offset = self.now.time.offset().fix().to_string();
+        let standard = self.solstices.iter().flatten().map(|instant| instant.time.offset().fix().local_minus_utc());
+        let summer = standard.min().is_some_and(|least| self.now.time.offset().fix().local_minus_utc() > least);
+        let saving = if summer { ", daylight saving" } else { "" };
+        ui.weak(format!("{} (UTC{offset}{saving})", self.place.time_zone.name()));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if self.now.night {
+                ui.label(egui::RichText::new("night").font(look::bold(13.5)));
+            }
+            ui.label(format!("altitude {:.1}°", self.now.altitude_deg()).replace('-', "−"));
+            ui.label(format!("azimuth {:.1}°", self.now.azimuth_deg()));
+        });
     }
 
     fn play_button(&mut self, ui: &mut Ui, play: Play, name: &str) {
@@ -139,7 +153,10 @@ impl Clock {
             painter.vline(at, rect.y_range(), Stroke::new(1.5, look::ACCENT));
             // to the nearest minute, as drawings say it
             let text = format!("{name} {}", (event + TimeDelta::seconds(30)).format("%H:%M"));
-            painter.text(pos2(at, rect.top() - 1.0), Align2::CENTER_BOTTOM, text, FontId::proportional(11.0), ink);
+            let (at, font) = (pos2(at, rect.top() - 1.0), FontId::proportional(11.0));
+            let letters = painter.text(at, Align2::CENTER_BOTTOM, &text, font, ink);
+            let response = ui.interact(letters, response.id.with(name), Sense::hover());
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &text));
         }
         handle(ui, pos2(x(self.secs()), rect.center().y), &response, self.now.night);
         if let Some(share) = dragged(&response, rect) {

@@ -15,7 +15,7 @@ use crate::study::live::{FARTHEST, Way};
 use crate::view::View;
 use eframe::egui::{self, Align2, PointerButton, Rect, Sense, Ui};
 use eframe::egui_wgpu::RenderState;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
 /// How long nothing must move before a better picture is drawn, seconds.
@@ -29,6 +29,8 @@ pub(super) const DISC_SAMPLES: u32 = 32;
 pub(super) struct Viewer {
     /// From where.
     pub(super) eye: Eye,
+    /// All is to be seen, once the picture's proportion is known.
+    fits: bool,
     shown: Option<Shown>,
     print: Option<Print>,
     wished: Option<Wish>,
@@ -51,7 +53,7 @@ pub(super) struct Asked<'a> {
     pub(super) number: u64,
     /// How its shadows are shown.
     pub(super) choice: Choice,
-    /// The hours found.
+    /// The hours found, where they are to be seen.
     pub(super) laid: Option<&'a Arc<Laid>>,
     /// Whether the sun's path lies over it.
     pub(super) sun_path: bool,
@@ -63,7 +65,8 @@ impl Viewer {
     /// Looks at a site from where its camera is.
     pub(super) fn new(project: &Project) -> Viewer {
         Viewer {
-            eye: Eye::of(&project.site),
+            eye: Eye::of(&project.site, &project.written.site.camera),
+            fits: false,
             shown: None,
             print: None,
             wished: None,
@@ -73,6 +76,19 @@ impl Viewer {
             fault: None,
             under: None,
         }
+    }
+
+    /// Shows all from where one looks.
+    pub(super) fn fit(&mut self) {
+        self.fits = true;
+    }
+
+    /// Shows all from everywhere, as another scene stands there.
+    pub(super) fn fit_all(&mut self, project: &Project) {
+        self.eye.forget_flat();
+        let stand = std::mem::replace(&mut self.eye.stand, Stand::Perspective);
+        self.eye.fit(extent(project, Stand::Perspective));
+        self.eye.stand = stand;
     }
 
     /// The newest picture.
@@ -136,6 +152,10 @@ impl Viewer {
         clock: &mut Clock,
     ) -> Option<Under> {
         let rect = ui.available_rect_before_wrap();
+        self.eye.width_by_height = f64::from(rect.width() / rect.height().max(1.0));
+        if std::mem::take(&mut self.fits) || !self.eye.is_framed() {
+            self.eye.fit(extent(asked.project, self.eye.stand));
+        }
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Model"));
         self.wish(ui, rect, stage, software, asked, clock);
@@ -191,7 +211,7 @@ impl Viewer {
             lines: if software { 0.62 } else { 1.0 },
             wide_lines: !software,
             tinted: choice.tinted,
-            hours: choice.hours && asked.laid.is_some(),
+            hours: asked.laid.is_some(),
         };
         let best = Wish {
             site: Arc::clone(&asked.project.visible),
@@ -200,7 +220,7 @@ impl Viewer {
             way,
             to_sun: clock.now.to_sun,
             style,
-            hours: asked.laid.filter(|_| choice.hours).cloned(),
+            hours: asked.laid.cloned(),
             overlay: [choice.volumes && is_perspective, choice.silhouette && is_perspective],
             diagram: choice.diagram.filter(|_| counts(method)),
             quick: false,
@@ -284,6 +304,21 @@ impl Viewer {
         }
         let painter = ui.painter_at(rect);
         sky::label(&painter, rect.left_bottom() + egui::vec2(14.0, -12.0), Align2::LEFT_BOTTOM, &text);
+    }
+}
+
+/// What is to be seen from a stand: the models, from a side what of them stands above the ground; in the plan their shadows,
+/// too.
+fn extent(project: &Project, stand: Stand) -> (DVec3, DVec3) {
+    let site = &project.site;
+    let (low, high) = site.mesh.bounds().unwrap_or((DVec3::ZERO, DVec3::ONE));
+    match stand {
+        Stand::Perspective => (low, high),
+        Stand::Plan => {
+            let [west, south, east, north] = site.grid.region();
+            (DVec3::new(west, south, site.ground), DVec3::new(east, north, site.ground))
+        }
+        _ => (low.with_z(site.ground), high.with_z(high.z.max(site.ground))),
     }
 }
 

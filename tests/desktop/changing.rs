@@ -88,3 +88,32 @@ fn facades_of_another_model_are_not_laid() {
     settle(&mut harness);
     assert!(harness.query_by_label("Show the hours").is_none(), "the hours are of other faces");
 }
+
+/// Undo takes back what was asked, and not that its answer is looked at.
+#[test]
+fn undo_passes_over_the_hours_that_came() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let undo = |harness: &mut Harness<'_, App>| {
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+        harness.step();
+        settle(harness);
+    };
+    let shown = |harness: &Harness<'_, App>| {
+        harness.get_by_label("Show the hours").accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+    };
+    write(&mut harness, "step", "4h");
+    settle(&mut harness);
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    assert!(shown(&harness));
+    undo(&mut harness);
+    assert_eq!(harness.state().site_file().study.step.as_deref(), Some("2h"), "the step is what was set last");
+    assert!(shown(&harness), "what is looked at stays");
+    harness.get_by_label("What is asked has changed since: find it anew.");
+    // nor does ticking it count
+    click(&mut harness, "Show the hours");
+    assert!(!shown(&harness));
+    undo(&mut harness);
+    assert!(!shown(&harness));
+}

@@ -32,7 +32,7 @@ fn components(site: &Path) -> Vec<String> {
     site.mesh.components.into_iter().map(|component| component.name).collect()
 }
 
-fn compared(before: &Path, after: &Path) -> (Pair, CompareOutcome) {
+pub(crate) fn compared(before: &Path, after: &Path) -> (Pair, CompareOutcome) {
     let pair = Pair::load(before, after, &Overrides::default()).unwrap();
     let outcome = study::compare(&pair, &mut |_| ControlFlow::Continue(())).unwrap();
     (pair, outcome)
@@ -94,7 +94,7 @@ fn wrong(
 }
 
 /// The first row of the areas that the panel does not tell: what it is, and beside it both columns in their order.
-fn not_told(harness: &Harness<'_, App>, pair: &Pair, of: &CompareOutcome) -> Option<[String; 3]> {
+pub(crate) fn not_told(harness: &Harness<'_, App>, pair: &Pair, of: &CompareOutcome) -> Option<[String; 3]> {
     let places = |text: &str| -> Vec<egui::Pos2> {
         let text = text.replace('-', "−");
         harness.query_all_by_label(&text).map(|node| node.rect().center()).collect()
@@ -300,8 +300,11 @@ fn change_can_be_cancelled() {
     click(&mut harness, "Another file…");
     name(&mut harness, &before);
     assert!(!harness.state().is_settled(), "the change is on its way");
+    harness.get_by_label("Cancel the hours");
     click(&mut harness, "Cancel the hours");
+    assert!(harness.query_by_label("Cancel the hours").is_none(), "it is given up at once");
     settle(&mut harness);
+    // nor is the site compared with anything
     harness.get_by_label("Find the hours");
     assert!(harness.query_by_label("Sun lost and gained").is_none(), "no change came");
 }

@@ -107,6 +107,16 @@ fn hours_on_facades_are_the_engines() {
     let said: Vec<f64> = told.split(' ').filter_map(|word| word.parse().ok()).take(3).collect();
     let near = |one: f64, other: f64| (one - other).abs() < 0.03;
     assert!(near(said[0], hours) && near(said[1], right) && near(said[2], down), "{told}: {hours}, {right}, {down}");
+    // and so does the card of that point
+    let pointer = rect.lerp_inside(egui::vec2(share(column, camera.width), share(row, camera.height)));
+    harness.drag_at(pointer);
+    harness.step();
+    harness.drop_at(pointer);
+    harness.step();
+    settle(&mut harness);
+    let (card, _) = named(&harness, "In the study: ");
+    let of_study = card.strip_prefix("In the study: ").expect("the study");
+    assert!(told.starts_with(of_study), "{card}: {told}");
 
     menu(&mut harness, "Export the hours…");
     let out = folder.path().join("window");

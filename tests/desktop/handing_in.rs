@@ -58,6 +58,56 @@ fn hours_are_those_of_the_command() {
     }
 }
 
+/// Iso-hour lines and outlines, each as PNG and as SVG; what cannot be drawn is told in the command's words.
+#[test]
+fn lines_are_those_of_the_command() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    click(&mut harness, "File");
+    for entry in ["Export the iso-hour lines…", "Export the outlines…"] {
+        assert!(harness.get_by_label(entry).accesskit_node().is_disabled(), "{entry}: nothing is found yet");
+    }
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    let out = folder.path().join("window");
+    for entry in ["Export the iso-hour lines…", "Export the outlines…"] {
+        menu(&mut harness, entry);
+        answer(&mut harness, &out, "Write");
+    }
+    // beside the result there is the way to the other files
+    click(&mut harness, "Export…");
+    answer(&mut harness, &out, "Write");
+    let by_command = folder.path().join("command");
+    let options = ["--draw", "hours,outlines", "--quiet", "--out"].map(std::ffi::OsStr::new);
+    command(&[&["profile".as_ref(), site.as_os_str()], options.as_slice(), &[by_command.as_ref()]].concat());
+    for name in ["hours.png", "hours.svg", "outlines.png", "outlines.svg", "profile.png", "shadow-hours.tif"] {
+        let [ours, theirs] = [&out, &by_command].map(|folder| std::fs::read(folder.join(name)).unwrap());
+        assert!(ours == theirs, "{name} is another one");
+    }
+
+    write(&mut harness, "step", "10min");
+    settle(&mut harness);
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    menu(&mut harness, "Export the outlines…");
+    answer(&mut harness, &folder.path().join("none"), "Write");
+    let told = Command::new(env!("CARGO_BIN_EXE_gnomon"))
+        .args(["profile".as_ref(), site.as_os_str()])
+        .args(["--step", "10min", "--draw", "outlines", "--out"])
+        .arg(folder.path().join("none"))
+        .output()
+        .expect("the command");
+    let told = String::from_utf8_lossy(&told.stderr).trim().trim_start_matches("error: ").to_owned();
+    assert!(told.contains("too many to tell apart"), "{told}");
+    harness.get_by_label(&told);
+    assert!(!folder.path().join("none").exists());
+    menu(&mut harness, "Export the iso-hour lines…");
+    answer(&mut harness, &folder.path().join("none"), "Write");
+    assert!(folder.path().join("none/hours.svg").exists(), "lines of hours can be drawn");
+}
+
 #[test]
 fn click_on_the_model_finds_when_the_sun_reaches_it() {
     let (_folder, site) = small_site();
@@ -80,6 +130,39 @@ fn click_on_the_model_finds_when_the_sun_reaches_it() {
     assert_eq!(harness.state().site_file().probe.len(), 1);
     click(&mut harness, "Forget the point");
     assert!(harness.query_by_label("Sun at ground").is_none());
+}
+
+/// What was found of a point goes with the scene that it was found of.
+#[test]
+fn card_of_a_point_goes_with_its_scene() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    click(&mut harness, "Components");
+    let at = harness.get_by_label("Model").rect().left_bottom() + egui::vec2(200.0, -40.0);
+    let probe = |harness: &mut Harness<'_, App>| {
+        harness.hover_at(at);
+        harness.step();
+        harness.drag_at(at);
+        harness.step();
+        harness.drop_at(at);
+        harness.step();
+        settle(harness);
+        harness.get_by_label("Sun at ground");
+    };
+    probe(&mut harness);
+    // another study is of the same scene
+    write(&mut harness, "step", "4h");
+    settle(&mut harness);
+    harness.get_by_label("Sun at ground");
+    harness.get_by_label("Latitude").set_value_accesskit(-33.9);
+    harness.step();
+    settle(&mut harness);
+    assert!(harness.query_by_label("Sun at ground").is_none(), "the place is another");
+    probe(&mut harness);
+    let loaded = gnomon::site::Site::load(&site, &gnomon::site::Overrides::default()).unwrap();
+    click(&mut harness, &format!("{} casts", loaded.mesh.components[0].name));
+    settle(&mut harness);
+    assert!(harness.query_by_label("Sun at ground").is_none(), "the casters are others");
 }
 
 /// A saved site reopens to the same view, and the command reads it.
@@ -142,8 +225,9 @@ fn saved_site_reopens_to_the_same_side() {
     };
     assert_eq!(before.to_viewer, after.to_viewer);
     assert!(before.target.distance(after.target) < 0.001, "{before:?}, {after:?}");
-    let [high, again_high] = [before, after].map(|side| side.cell * f64::from(side.height));
-    assert!((high / again_high - 1.0).abs() < 1e-4, "{before:?}, {after:?}");
+    // a window wider than the sheet is as wide, whatever row of messages takes of its height
+    let [wide, again_wide] = [before, after].map(|side| side.cell * f64::from(side.width));
+    assert!((wide / again_wide - 1.0).abs() < 1e-4, "{before:?}, {after:?}");
     let theirs = folder.path().join("command.png");
     for view in ["camera", "west"] {
         let asked = ["--view", view, "--at", "2026-03-21T13:00", "--out"].map(std::ffi::OsStr::new);
@@ -187,6 +271,7 @@ fn hours_can_be_cancelled() {
     click(&mut harness, "Find the hours");
     assert!(!harness.state().is_settled(), "hours are on their way");
     click(&mut harness, "Cancel the hours");
+    assert!(harness.query_by_label("Cancel the hours").is_none(), "they are given up at once");
     settle(&mut harness);
     harness.get_by_label("Find the hours");
     assert!(harness.query_by_label("Show the hours").is_none(), "no hours came");

@@ -65,6 +65,17 @@ fn files_units_theme_and_scale_are_kept() {
         click(&mut harness, "View");
     }
     click(&mut harness, "Dark");
+    if harness.query_by_label("The sun's path").is_none() {
+        click(&mut harness, "View");
+    }
+    click(&mut harness, "The sun's path");
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    let left = |harness: &Harness<'_, App>| harness.get_by_label("Model").rect().left();
+    let edge = egui::pos2(left(&harness) - 2.0, 300.0);
+    drag(&mut harness, edge, egui::pos2(390.0, 300.0));
+    harness.run_steps(2);
+    assert!((left(&harness) - 390.0).abs() < 3.0, "{}", left(&harness));
     harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Plus);
     harness.step();
     harness.step();
@@ -86,6 +97,8 @@ fn files_units_theme_and_scale_are_kept() {
     harness.get_by_label("Works");
     let bar = named(&harness, "Scale bar: ").0;
     assert!(bar.ends_with(" ft"), "{bar}");
+    assert!(harness.query_by_label("The sun: drag it along its day").is_none(), "the sun's path was not shown");
+    assert!((left(&harness) - 390.0).abs() < 3.0, "the panel is as wide as it was: {}", left(&harness));
 }
 
 /// By the menu and by keys; a second menu entry brings it back.

@@ -1,8 +1,13 @@
 //! Where the eye stands and what lies over the picture; and what can be shown instead of sun and shadow.
 
+use super::handing_in::{answer, menu};
 use super::*;
 use glam::DVec3;
+use gnomon::export::figure;
+use gnomon::site::{Overrides, Site};
+use gnomon::study::{self, InstantWants};
 use gnomon::view::{Elevation, View};
+use std::ops::ControlFlow;
 
 fn view(harness: &Harness<'_, App>) -> View {
     harness.state().shown().expect("a picture").0
@@ -169,4 +174,78 @@ fn diagrams_and_the_disc_are_seen() {
     let soft = harness.state().picture().unwrap().2;
     let changed = hard.iter().zip(&soft).filter(|(a, b)| a != b).count();
     assert!(changed > 100 && changed * 4 < hard.len(), "{changed} of {} pixels, those at edges", hard.len());
+}
+
+/// A side is seen whole when one comes to it first: the models fill it, on a ground that lies low. Showing all of it leaves
+/// the other stands as they were.
+#[test]
+fn side_is_fitted_and_no_other_stand() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let mesh = Site::load(&site, &Overrides::default()).unwrap().mesh;
+    let (low, high) = mesh.bounds().unwrap();
+    let View::Camera(camera) = view(&harness) else { panic!("a camera") };
+    let stand = |harness: &mut Harness<'_, App>, key| {
+        harness.key_press(key);
+        harness.step();
+        settle(harness);
+        view(harness)
+    };
+    let plan = stand(&mut harness, Key::Num2);
+    for key in [Key::Num3, Key::Num4, Key::Num5, Key::Num6] {
+        stand(&mut harness, key);
+        let side = side(&harness);
+        let [right, _, _] = side.axes();
+        let half = side.half_size();
+        let middle = (low + high) / 2.0 - side.target;
+        let reach = (high - low).dot(right.abs()) / 2.0 / half.x + (middle.dot(right) / half.x).abs();
+        // 0 is the foot of the picture and 1 its head
+        let share = |z: f64| (z - side.target.z) / half.y * 0.5 + 0.5;
+        let (ground, roof) = (share(0.0), share(high.z));
+        assert!(reach <= 0.98 && roof <= 0.95, "{key:?}: all is seen, {reach}, {roof}");
+        assert!(reach >= 0.8 || roof >= 0.8, "{key:?}: it fills the picture, {reach}, {roof}");
+        assert!((0.1..0.25).contains(&ground), "{key:?}: the ground lies low, {ground}");
+        // moved and shown whole again it is the same
+        let at = harness.get_by_label("Model").rect().center();
+        drag(&mut harness, at, at + egui::vec2(90.0, -30.0));
+        settle(&mut harness);
+        assert!(view(&harness) != View::Elevation(side), "{key:?}: a hand moves it");
+        assert_eq!(stand(&mut harness, Key::F), View::Elevation(side), "{key:?}");
+    }
+    assert_eq!(stand(&mut harness, Key::Num1), View::Camera(camera), "the perspective has moved");
+    assert_eq!(stand(&mut harness, Key::Num2), plan, "the plan has moved");
+}
+
+/// The sheet of a side leaves nothing out that the window shows.
+#[test]
+fn exported_side_is_that_of_the_window() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    harness.key_press(Key::Num5);
+    harness.step();
+    settle(&mut harness);
+    let shown = side(&harness);
+    menu(&mut harness, "Export the drawing…");
+    let ours = folder.path().join("window.png");
+    answer(&mut harness, &ours, "Write");
+    let at = Overrides { at: Some("2026-03-21T13:00".to_owned()), ..Overrides::default() };
+    let site = Site::load(&site, &at).unwrap();
+    let (width, height) = (site.camera.width, site.camera.height);
+    let half = shown.half_size() * 2.0;
+    let cell = (half.x / f64::from(width)).max(half.y / f64::from(height));
+    let drawn = |cell: f64| {
+        let view = View::Elevation(Elevation { cell, width, height, ..shown });
+        let wants = InstantWants { surface: true, ..InstantWants::default() };
+        let outcome = study::instant(&site, view, &wants, &mut |_| ControlFlow::Continue(())).unwrap();
+        let (place, track, receivers) = (&site.place, &site.track, study::judged(&site, &view));
+        let (mesh, surface, drawn) = (&outcome.surface_mesh, outcome.surface.as_ref().unwrap(), &outcome.drawn);
+        let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
+        figure::instant(&scene, &view, &outcome.mask, &figure::Shown::default()).unwrap()
+    };
+    let [ours, right, near, far] = [std::fs::read(ours).unwrap(), drawn(cell), drawn(cell * 0.98), drawn(cell * 1.02)]
+        .map(|bytes| image::load_from_memory(&bytes).unwrap().into_rgb8());
+    // the picture in the window has whole pixels
+    let differ = |other: &image::RgbImage| ours.pixels().zip(other.pixels()).filter(|(a, b)| a != b).count();
+    let [right, near, far] = [&right, &near, &far].map(differ);
+    assert!(right * 3 < near.min(far), "{right} pixels are others, and {near} or {far} at another scale");
 }
