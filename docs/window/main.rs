@@ -23,8 +23,7 @@ fn main() -> Result<()> {
     keep(&mut window, "plan")?;
 
     let mut window = open("headquarters", Theme::Light)?;
-    // what is told of the change needs their place
-    click(&mut window, "Place")?;
+    // what is told of the change needs its place
     click(&mut window, "Shadows")?;
     press(&mut window, "Compare with")?;
     press(&mut window, "Another file…")?;
