@@ -296,10 +296,8 @@ impl Project {
 
     /// Which of its files is no more what was read.
     pub(super) fn changed_file(&self) -> Option<&Path> {
-        self.models.changed_file().or(self.path.as_deref().filter(|path| {
-            // what cannot be read is told by who asks for it
-            std::fs::read_to_string(path).is_ok_and(|text| text != self.written.text)
-        }))
+        let site_file = self.path.as_deref().filter(|path| self.written.has_changed_at(path));
+        self.models.changed_file().or(site_file)
     }
 
     /// As it is written on the disk now; the settings are those of the window where nobody has changed it there.

@@ -77,6 +77,11 @@ impl Written {
         })
     }
 
+    /// Whether the site file at a path says something else by now. One that cannot be read is told by whoever reads it.
+    pub fn has_changed_at(&self, path: &Path) -> bool {
+        std::fs::read_to_string(path).is_ok_and(|text| text != self.text)
+    }
+
     fn of_model(path: &Path, placed: bool) -> Result<Written, SiteError> {
         let file = path.display().to_string();
         // A mistyped name is a better complaint than a missing place.
