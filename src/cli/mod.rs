@@ -59,12 +59,13 @@ pub fn main(window: Option<Window>) -> ExitCode {
 }
 
 fn run(command: &Command) -> anyhow::Result<()> {
-    if let Some(threads) = command.common().and_then(|common| common.threads) {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::from(threads))
-            .build_global()
-            .map_err(|error| anyhow::anyhow!("--threads {threads}: {error}; take fewer"))?;
-    }
+    let threads = command.common().and_then(|common| common.threads);
+    // this thread is one of them: work does not go to and fro between it and others that wait meanwhile
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).use_current_thread();
+    pool.build_global().map_err(|error| match threads {
+        Some(threads) => anyhow::anyhow!("--threads {threads}: {error}; take fewer"),
+        None => anyhow::anyhow!("the threads that work could not be made: {error}; say --threads with fewer"),
+    })?;
     interrupt::listen();
     match command {
         Command::Profile(asked) => profile::profile(asked),

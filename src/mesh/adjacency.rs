@@ -3,6 +3,9 @@
 //! Parts share no vertices, so neither an edge nor an order of edges by their vertices crosses a component.
 
 use super::{Incidence, Mesh};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::Arc;
 
 /// Fills in the mesh's edges and what meets there.
 ///
@@ -28,27 +31,53 @@ pub(super) fn find(mesh: &mut Mesh) {
         }
     }
 
-    let mut edges = Vec::with_capacity(sorted.len() / 2);
-    let mut edge_first = Vec::with_capacity(sorted.len() / 2 + 1);
-    for vertex in 0..mesh.vertices.len() {
-        let (begin, end) = (first[vertex] as usize, first[vertex + 1] as usize);
-        let of_vertex = &mut sorted[begin..end];
+    let vertices = mesh.vertices.len();
+    let run = vertices.div_ceil(4 * rayon::current_num_threads()).max(LEAST_RUN);
+    let mut runs = Vec::new();
+    let mut rest = &mut sorted[..];
+    for begin in (0..vertices).step_by(run) {
+        let end = (begin + run).min(vertices);
+        let (of_run, others) = rest.split_at_mut((first[end] - first[begin]) as usize);
+        runs.push((begin..end, of_run));
+        rest = others;
+    }
+    let of_runs: Vec<_> = runs.into_par_iter().map(|(vertices, sides)| edges_of(vertices, &first, sides)).collect();
+    let count = of_runs.iter().map(|(edges, _)| edges.len()).sum();
+    let (mut edges, mut edge_first) = (Vec::with_capacity(count), Vec::with_capacity(count + 1));
+    for (edges_of_run, first) in &of_runs {
+        edges.extend_from_slice(edges_of_run);
+        edge_first.extend_from_slice(first);
+    }
+    edge_first.push(sorted.len() as u32);
+    mesh.edges = edges.into();
+    mesh.edge_first = edge_first.into();
+    mesh.incidences = Arc::new(sorted.par_iter().map(|side| Incidence(*side as u32)).collect());
+    name_runs(mesh);
+}
+
+/// Vertices that one task looks at, at the least.
+const LEAST_RUN: usize = 1 << 12;
+
+/// The edges whose lower ends are in a run of vertices, and where the sides of each begin among all. Sorts those sides.
+fn edges_of(vertices: Range<usize>, first: &[u32], sides: &mut [u64]) -> (Vec<[u32; 2]>, Vec<u32>) {
+    let mut edges = Vec::with_capacity(sides.len() / 2);
+    let mut edge_first = Vec::with_capacity(sides.len() / 2);
+    let before = first[vertices.start];
+    for vertex in vertices {
+        let (begin, end) = (first[vertex], first[vertex + 1]);
+        let of_vertex = &mut sides[(begin - before) as usize..(end - before) as usize];
         of_vertex.sort_unstable();
         let mut last = None;
-        for (at, side) in of_vertex.iter().enumerate() {
-            let higher = (side >> 32) as u32;
+        for (at, side) in (begin..).zip(of_vertex) {
+            let higher = (*side >> 32) as u32;
             if last != Some(higher) {
                 last = Some(higher);
                 edges.push([vertex as u32, higher]);
-                edge_first.push((begin + at) as u32);
+                edge_first.push(at);
             }
         }
     }
-    edge_first.push(sorted.len() as u32);
-    mesh.incidences = sorted.into_iter().map(|side| Incidence(side as u32)).collect();
-    mesh.edges = edges.into();
-    mesh.edge_first = edge_first.into();
-    name_runs(mesh);
+    (edges, edge_first)
 }
 
 /// A face's sides, from vertex to vertex as it runs.
@@ -58,14 +87,13 @@ fn sides(&[a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
 
 /// Gives each component its run of edges. Components keep the order of their vertices, as of their faces.
 fn name_runs(mesh: &mut Mesh) {
-    let mut edge = 0;
+    let mut first = 0;
     for index in 0..mesh.components.len() {
-        let faces = mesh.components[index].faces.clone();
-        let first = edge;
-        while edge < mesh.edges.len() && faces.contains(&mesh.faces_at(edge)[0].face()) {
-            edge += 1;
-        }
-        mesh.components[index].edges = first as u32..edge as u32;
+        let faces = mesh.components[index].faces.end;
+        let of_edge = |first: &u32| mesh.incidences[*first as usize].face() < faces;
+        let end = mesh.edge_first[..mesh.edges.len()].partition_point(of_edge) as u32;
+        mesh.components[index].edges = first..end;
+        first = end;
     }
 }
 

@@ -14,8 +14,10 @@ mod weld;
 pub(crate) use adjacency::lowest;
 
 use glam::{DVec3, DVec4, Vec3};
+use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
+use weld::Welded;
 
 /// One component as a model file gives it: triangles of one node and one material, before welding.
 #[derive(Clone, Debug, Default)]
@@ -71,17 +73,17 @@ pub struct Mesh {
     /// World position of the local origin, whole metres.
     pub origin: DVec3,
     /// Metres around `origin`; shared by the meshes that were taken from this one.
-    pub vertices: Arc<[Vec3]>,
+    pub vertices: Arc<Vec<Vec3>>,
     /// Three vertices a face, counter-clockwise seen from outside; grouped by component.
-    pub faces: Arc<[[u32; 3]]>,
+    pub faces: Arc<Vec<[u32; 3]>>,
     planes: Arc<OnceLock<Vec<DVec4>>>,
     /// The parts.
     pub components: Vec<Component>,
     /// Two vertices an edge, the lower first; grouped by component.
-    pub edges: Arc<[[u32; 2]]>,
+    pub edges: Arc<Vec<[u32; 2]>>,
     /// Where each edge's faces begin in `incidences`; one longer than `edges`.
-    edge_first: Arc<[u32]>,
-    incidences: Arc<[Incidence]>,
+    edge_first: Arc<Vec<u32>>,
+    incidences: Arc<Vec<Incidence>>,
 }
 
 /// Why there is no mesh.
@@ -111,27 +113,34 @@ impl Mesh {
         if triangles.max(corners / 3) > Self::MOST_FACES {
             return Err(MeshError::TooLarge(triangles));
         }
-        let points = || parts.iter().flat_map(|part| part.positions.iter().copied());
-        let low = points().fold(DVec3::INFINITY, DVec3::min);
-        let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let points = || parts.par_iter().flat_map(|part| part.positions.par_iter().copied());
+        let low = points().reduce(|| DVec3::INFINITY, DVec3::min);
+        let high = points().reduce(|| DVec3::NEG_INFINITY, DVec3::max);
         let origin = if low.x <= high.x { ((low + high) / 2.0).round() } else { DVec3::ZERO };
         let reach = (high - low).max_element() / 2.0;
         if reach > Self::FARTHEST_M {
             return Err(MeshError::TooWide(reach / 1000.0));
         }
 
-        let mut vertices = Vec::new();
-        let mut faces = Vec::with_capacity(triangles);
-        let mut components = Vec::with_capacity(parts.len());
-        for part in parts {
-            let first = faces.len() as u32;
-            let collapsed = weld::append(&part, origin, &mut vertices, &mut faces);
+        let welded: Vec<(Component, Welded)> = parts.into_par_iter().map(|part| of_part(part, origin)).collect();
+        let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+        let mut components = Vec::with_capacity(welded.len());
+        let corners: usize = welded.iter().map(|(_, welded)| welded.vertices.len()).sum();
+        for (component, welded) in welded {
+            let (vertex, face) = (vertices.len() as u32, faces.len() as u32);
+            if components.is_empty() {
+                // often there is but one
+                (vertices, faces) = (welded.vertices, welded.faces);
+                vertices.reserve_exact(corners - vertices.len());
+                faces.reserve_exact(triangles - faces.len());
+            } else {
+                vertices.extend(welded.vertices);
+                faces.extend(welded.faces.iter().map(|face| face.map(|corner| vertex + corner)));
+            }
             components.push(Component {
-                name: part.name,
-                aliases: part.aliases,
-                faces: first..faces.len() as u32,
-                edges: 0..0,
-                collapsed: collapsed.into(),
+                faces: face..faces.len() as u32,
+                collapsed: welded.collapsed.iter().map(|line| line.map(|end| vertex + end)).collect(),
+                ..component
             });
         }
         Ok(Mesh::of(origin, vertices.into(), faces, components, OnceLock::new()))
@@ -139,7 +148,7 @@ impl Mesh {
 
     fn of(
         origin: DVec3,
-        vertices: Arc<[Vec3]>,
+        vertices: Arc<Vec<Vec3>>,
         faces: Vec<[u32; 3]>,
         components: Vec<Component>,
         planes: OnceLock<Vec<DVec4>>,
@@ -150,9 +159,9 @@ impl Mesh {
             faces: faces.into(),
             planes: planes.into(),
             components,
-            edges: [].into(),
-            edge_first: [].into(),
-            incidences: [].into(),
+            edges: Arc::default(),
+            edge_first: Arc::default(),
+            incidences: Arc::default(),
         };
         adjacency::find(&mut mesh);
         mesh
@@ -242,6 +251,13 @@ impl Mesh {
     pub fn facing(&self, local_light: DVec4) -> Vec<bool> {
         self.planes().iter().map(|&plane| plane_faces(plane, local_light)).collect()
     }
+}
+
+/// A welded part, and the component that it becomes once all are welded.
+fn of_part(part: Part, origin: DVec3) -> (Component, Welded) {
+    let welded = weld::weld(&part, origin);
+    let Part { name, aliases, .. } = part;
+    (Component { name, aliases, faces: 0..0, edges: 0..0, collapsed: [].into() }, welded)
 }
 
 /// Whether a light is on the front side of a plane or in it: the one place where that is decided.

@@ -1,21 +1,29 @@
 //! Corners that lie on each other become one vertex.
 
 use super::Part;
-use glam::{DVec3, I64Vec3, Vec3};
-use rustc_hash::{FxBuildHasher, FxHashMap};
+use glam::{DVec3, UVec3, Vec3};
+use rustc_hash::FxHashMap;
 
 /// How far apart two corners may lie and still be one vertex, as a part of the component's size.
 pub(super) const TOLERANCE: f64 = 1e-6;
 
-/// Appends a part's vertices and faces to the mesh. Returns the triangles that collapsed, as two of their corners became
-/// one, each as the line that is left.
-pub(super) fn append(part: &Part, origin: DVec3, vertices: &mut Vec<Vec3>, faces: &mut Vec<[u32; 3]>) -> Vec<[u32; 2]> {
+/// A welded part; its vertices are counted from its own first one.
+pub(super) struct Welded {
+    pub(super) vertices: Vec<Vec3>,
+    pub(super) faces: Vec<[u32; 3]>,
+    /// The triangles that collapsed, as two of their corners became one, each as the line that is left.
+    pub(super) collapsed: Vec<[u32; 2]>,
+}
+
+/// A part's vertices around the origin, and its faces.
+pub(super) fn weld(part: &Part, origin: DVec3) -> Welded {
     let low = part.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = part.positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
     let size = if low.x <= high.x { (high - low).length() } else { 0.0 };
-    let mut welder = Welder::new((size * TOLERANCE) as f32, vertices, part.positions.len());
+    let mut welder = Welder::new((low - origin).as_vec3(), (size * TOLERANCE) as f32, part.positions.len());
     let vertex_of: Vec<u32> =
         part.positions.iter().map(|&position| welder.vertex((position - origin).as_vec3())).collect();
+    let mut faces = Vec::with_capacity(part.triangles.len());
     let mut collapsed = Vec::new();
     for triangle in &part.triangles {
         let face @ [a, b, c] = triangle.map(|corner| vertex_of[corner as usize]);
@@ -25,64 +33,103 @@ pub(super) fn append(part: &Part, origin: DVec3, vertices: &mut Vec<Vec3>, faces
             faces.push(face);
         }
     }
-    collapsed
+    Welded { vertices: welder.vertices, faces, collapsed }
 }
 
-/// Finds the vertex that lies on a point. Equal points are found by one look-up, which settles nearly all; the others
-/// are sought in a grid whose cells are a few tolerances wide.
-struct Welder<'a> {
+/// Finds the vertex that lies on a point, in a grid whose cells are some tolerances wide. Cells share buckets: one that
+/// is looked up in vain costs a glance at its bucket's last vertex.
+struct Welder {
     tolerance: f32,
-    vertices: &'a mut Vec<Vec3>,
-    /// The first of the part's own.
-    first: usize,
-    equal: FxHashMap<[u32; 3], u32>,
-    /// A cell's last vertex, and for each vertex the one before it in its cell.
-    near: FxHashMap<I64Vec3, u32>,
+    /// Where the grid begins, and how many cells it has a metre.
+    low: Vec3,
+    cells_a_metre: f32,
+    vertices: Vec<Vec3>,
+    /// A bucket's last vertex, and for each vertex the one before it in its bucket.
+    last: Vec<u32>,
     before: Vec<u32>,
+    /// Points that became another one's vertex; an equal point becomes the same.
+    welded: FxHashMap<[u32; 3], u32>,
 }
 
-/// Before a cell's first vertex.
+/// Before a bucket's first vertex.
 const NONE: u32 = u32::MAX;
+/// Tolerances that a cell is wide: so few that vertices which are not one do not crowd in it.
+const CELL: f32 = 16.0;
 
-impl<'a> Welder<'a> {
-    fn new(tolerance: f32, vertices: &'a mut Vec<Vec3>, corners: usize) -> Self {
+impl Welder {
+    fn new(low: Vec3, tolerance: f32, corners: usize) -> Self {
         Welder {
             tolerance,
-            first: vertices.len(),
-            vertices,
-            equal: FxHashMap::with_capacity_and_hasher(corners, FxBuildHasher),
-            near: FxHashMap::with_capacity_and_hasher(corners, FxBuildHasher),
+            low,
+            cells_a_metre: 1.0 / (tolerance * CELL).max(1e-9),
+            vertices: Vec::with_capacity(corners),
+            last: vec![NONE; (2 * corners).next_power_of_two()],
             before: Vec::with_capacity(corners),
+            welded: FxHashMap::default(),
         }
     }
 
     fn vertex(&mut self, point: Vec3) -> u32 {
+        let cells = [self.cell(point - self.tolerance), self.cell(point + self.tolerance)];
+        // most points are nowhere near their cell's border
+        let is_within = cells[0] == cells[1];
+        let bucket = self.bucket(if is_within { cells[0] } else { self.cell(point) });
+        if let Some(equal) = self.in_bucket(bucket).find(|&vertex| self.vertices[vertex as usize] == point) {
+            return equal;
+        }
         let key = (point + Vec3::ZERO).to_array().map(f32::to_bits); // + 0 makes −0 and 0 one
-        if let Some(&vertex) = self.equal.get(&key) {
+        if let Some(&vertex) = self.welded.get(&key) {
             return vertex;
         }
-        let vertex = self.nearby(point).unwrap_or_else(|| {
-            let vertex = self.vertices.len() as u32;
-            self.vertices.push(point);
-            self.before.push(self.near.insert(self.cell(point), vertex).unwrap_or(NONE));
-            vertex
-        });
-        self.equal.insert(key, vertex);
+        let near = match is_within {
+            true => self.nearby(point, bucket),
+            false => self.in_any(point, cells),
+        };
+        if let Some(vertex) = near {
+            self.welded.insert(key, vertex);
+            return vertex;
+        }
+        let vertex = self.vertices.len() as u32;
+        self.vertices.push(point);
+        self.before.push(std::mem::replace(&mut self.last[bucket], vertex));
         vertex
     }
 
-    fn nearby(&self, point: Vec3) -> Option<u32> {
-        let (low, high) = (self.cell(point - self.tolerance), self.cell(point + self.tolerance));
-        let cells = (low.x..=high.x)
-            .flat_map(|x| (low.y..=high.y).flat_map(move |y| (low.z..=high.z).map(move |z| I64Vec3::new(x, y, z))));
-        let before = |&vertex: &u32| Some(self.before[vertex as usize - self.first]).filter(|before| *before != NONE);
-        cells
-            .filter_map(|cell| self.near.get(&cell).copied())
-            .flat_map(|last| std::iter::successors(Some(last), before))
-            .find(|&vertex| self.vertices[vertex as usize].distance(point) <= self.tolerance)
+    /// A vertex near to a point in any of the cells from the low to the high one.
+    fn in_any(&self, point: Vec3, [low, high]: [UVec3; 2]) -> Option<u32> {
+        for x in low.x..=high.x {
+            for y in low.y..=high.y {
+                for z in low.z..=high.z {
+                    let near = self.nearby(point, self.bucket(UVec3::new(x, y, z)));
+                    if near.is_some() {
+                        return near;
+                    }
+                }
+            }
+        }
+        None
     }
 
-    fn cell(&self, point: Vec3) -> I64Vec3 {
-        (point.as_dvec3() / f64::from(self.tolerance * 8.0).max(1e-9)).floor().as_i64vec3()
+    /// A vertex of a bucket near to a point.
+    fn nearby(&self, point: Vec3, bucket: usize) -> Option<u32> {
+        self.in_bucket(bucket).find(|&vertex| self.vertices[vertex as usize].distance(point) <= self.tolerance)
+    }
+
+    /// The vertices of a bucket, the last one first.
+    fn in_bucket(&self, bucket: usize) -> impl Iterator<Item = u32> {
+        let is_one = |vertex: &u32| *vertex != NONE;
+        let last = Some(self.last[bucket]).filter(is_one);
+        std::iter::successors(last, move |&vertex| Some(self.before[vertex as usize]).filter(is_one))
+    }
+
+    fn cell(&self, point: Vec3) -> UVec3 {
+        ((point - self.low) * self.cells_a_metre).as_uvec3()
+    }
+
+    fn bucket(&self, cell: UVec3) -> usize {
+        // a part is some ten thousand cells wide
+        let key = u64::from(cell.x) ^ u64::from(cell.y) << 21 ^ u64::from(cell.z) << 42;
+        // D. Knuth, The Art of Computer Programming 3, 1973, section 6.4: 2⁶⁴ over the golden ratio
+        (key.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32) as usize & (self.last.len() - 1)
     }
 }

@@ -3,6 +3,7 @@
 use crate::mesh::Mesh;
 use crate::sun::SunTrack;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// An upright box, metres in the world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,12 +15,14 @@ pub(super) struct Bounds {
 impl Bounds {
     /// Around all faces; `None` where there are none.
     pub(super) fn of(mesh: &Mesh) -> Option<Bounds> {
-        let mut bounds = Bounds { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
-        for corner in corners(mesh, |_| true) {
-            bounds.low = bounds.low.min(corner);
-            bounds.high = bounds.high.max(corner);
-        }
+        let none = Bounds { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+        let bounds = around(mesh, |_| true, none, |corner| Bounds { low: corner, high: corner });
         bounds.low.is_finite().then_some(bounds)
+    }
+
+    /// Around both.
+    fn and(self, other: Bounds) -> Bounds {
+        Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
     pub(super) fn centre(&self) -> DVec3 {
@@ -47,24 +50,28 @@ pub(super) fn with_shadows(
         low_throw = low_throw.min(throw);
         high_throw = high_throw.max(throw);
     }
-    let (mut low, mut high) = (bounds.low.truncate(), bounds.high.truncate());
-    for corner in corners(mesh, |component| casts.get(component) == Some(&true)) {
+    let shadow = |corner: DVec3| {
         // What lies below the ground throws no shadow on it.
         let height = (corner.z - ground).max(0.0);
-        low = low.min(corner.truncate() + height * low_throw);
-        high = high.max(corner.truncate() + height * high_throw);
-    }
-    [low, high]
+        let [low, high] = [low_throw, high_throw].map(|throw| corner + (height * throw).extend(0.0));
+        Bounds { low, high }
+    };
+    let Bounds { low, high } = around(mesh, |component| casts.get(component) == Some(&true), bounds, shadow);
+    [low.truncate(), high.truncate()]
 }
 
-/// The corners of the faces of some components, in the world frame.
-fn corners(mesh: &Mesh, of: impl Fn(usize) -> bool) -> impl Iterator<Item = DVec3> {
-    let components = mesh.components.iter().enumerate();
-    components
-        .filter(move |(index, _)| of(*index))
-        .flat_map(|(_, component)| component.faces.clone())
-        .filter_map(|face| mesh.faces.get(face as usize))
-        .flatten()
-        .filter_map(|corner| mesh.vertices.get(*corner as usize))
-        .map(|vertex| mesh.origin + vertex.as_dvec3())
+/// A box around `first` and what `tell` makes of every corner of the faces of some components, in the world frame.
+fn around(mesh: &Mesh, of: impl Fn(usize) -> bool, first: Bounds, tell: impl Fn(DVec3) -> Bounds + Sync) -> Bounds {
+    /// Faces that one task looks at, at the least.
+    const AT_ONCE: usize = 1 << 12;
+    let components = mesh.components.iter().enumerate().filter(|(index, _)| of(*index));
+    components.fold(first, |bounds, (_, component)| {
+        let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
+        let of_face = |bounds: Bounds, face: &[u32; 3]| {
+            let corners = face.map(|corner| tell(mesh.origin + mesh.vertices[corner as usize].as_dvec3()));
+            corners.into_iter().fold(bounds, Bounds::and)
+        };
+        let parts = faces.par_iter().with_min_len(AT_ONCE).fold(|| first, of_face);
+        parts.reduce(|| bounds, Bounds::and)
+    })
 }

@@ -116,7 +116,7 @@ impl Site {
         let Models { mesh, bounds, .. } = models;
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
-        let grid = plan::grid(written, asked, shadows(SHADOW_CUT))?;
+        let grid = plan::grid(written, asked, || shadows(SHADOW_CUT))?;
         let side = camera::side(written, asked)?;
         let camera = camera::camera(written, side, bounds, shadows(VIEW_CUT), ground, &track)?;
         Ok(Site {

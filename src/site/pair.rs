@@ -92,7 +92,7 @@ impl Pair {
             let [low, high] = with_shadows(&site.mesh, bounds, &site.casts, site.ground, &site.track, SHADOW_CUT);
             (low, high)
         });
-        first.grid = plan::grid(before, asked, [low.min(other_low), high.max(other_high)])?;
+        first.grid = plan::grid(before, asked, || [low.min(other_low), high.max(other_high)])?;
         second.grid = first.grid;
 
         let names = [first.place.name.trim(), after_name.trim()];

@@ -17,7 +17,11 @@ const MOST_CELLS: f64 = 2_147_483_648.0;
 const MARGIN: f64 = 0.02;
 
 /// The grid: the asked region, or the one around `models_and_shadows` (south-west and north-east corner).
-pub(super) fn grid(written: &Written, asked: &Overrides, models_and_shadows: [DVec2; 2]) -> Result<Grid, SiteError> {
+pub(super) fn grid(
+    written: &Written,
+    asked: &Overrides,
+    models_and_shadows: impl FnOnce() -> [DVec2; 2],
+) -> Result<Grid, SiteError> {
     let [west, south, east, north] = region(written, asked, models_and_shadows)?;
     let longer = (east - west).max(north - south);
     let (cell, at) = match (asked.cell, asked.size, written.site.plan.cell) {
@@ -71,12 +75,16 @@ pub(super) fn grid(written: &Written, asked: &Overrides, models_and_shadows: [DV
     })
 }
 
-fn region(written: &Written, asked: &Overrides, models_and_shadows: [DVec2; 2]) -> Result<[f64; 4], SiteError> {
+fn region(
+    written: &Written,
+    asked: &Overrides,
+    models_and_shadows: impl FnOnce() -> [DVec2; 2],
+) -> Result<[f64; 4], SiteError> {
     const EXAMPLE: &str = "-300,-300,300,300";
     let (region, at) = match (&asked.region, written.site.plan.region) {
         (Some(text), _) => (numbers("--region", text, EXAMPLE)?, At::Option("--region")),
         (None, Some(region)) => (region, written.key("plan", "region")),
-        (None, None) => return Ok(around(models_and_shadows)),
+        (None, None) => return Ok(around(models_and_shadows())),
     };
     let [west, south, east, north] = region;
     let fault = |what: String| {

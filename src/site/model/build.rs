@@ -9,6 +9,7 @@ use super::scene::Placed;
 use super::{Fault, MAX_COMPONENTS, MAX_TRIANGLES};
 use crate::mesh::Part;
 use glam::DAffine3;
+use rayon::prelude::*;
 
 /// A vertex that the part does not have yet.
 const ABSENT: u32 = u32::MAX;
@@ -80,8 +81,12 @@ struct Builder {
     ///
     /// Many primitives may each use a few of many shared vertices: only those are read, and only those are forgotten.
     numbers: Vec<u32>,
-    used: Vec<usize>,
+    /// Vertices in the order of their numbers.
+    used: Vec<u32>,
 }
+
+/// Triangles that are read in one go.
+const AT_ONCE: usize = 1 << 14;
 
 impl Builder {
     /// All instances of a group.
@@ -102,47 +107,38 @@ impl Builder {
         if self.numbers.len() < surface.positions.count {
             self.numbers.resize(surface.positions.count, ABSENT);
         }
-        for index in 0..surface.triangles {
-            let Some([a, b, c]) = surface.triangle(index)? else {
-                continue;
-            };
-            let [first, second, third] = if mirrors { [a, c, b] } else { [a, b, c] };
-            let mut number = |vertex| self.number(part, surface, vertex, &world_from_mesh);
-            let triangle = [number(first)?, number(second)?, number(third)?];
-            part.triangles.push(triangle);
+        // Fits: no part has more than three vertices a triangle.
+        let first = part.positions.len() as u32;
+        part.triangles.reserve(surface.triangles);
+        for begin in (0..surface.triangles).step_by(AT_ONCE) {
+            for [a, b, c] in surface.corners(begin..(begin + AT_ONCE).min(surface.triangles))? {
+                let triangle = if mirrors { [a, c, b] } else { [a, b, c] };
+                part.triangles.push(triangle.map(|vertex| self.number(vertex, first)));
+            }
         }
-        for vertex in self.used.drain(..) {
-            if let Some(number) = self.numbers.get_mut(vertex) {
+        let point = |&vertex: &u32| world_from_mesh.transform_point3(surface.positions.vec3(vertex as usize));
+        part.positions.par_extend(self.used.par_iter().with_min_len(AT_ONCE).map(point));
+        for (vertex, point) in self.used.drain(..).zip(&part.positions[first as usize..]) {
+            if !point.is_finite() {
+                let problem = format!("has at vertex {vertex} a position that is not finite");
+                return Err(primitive::fault(surface.mesh, surface.primitive, problem));
+            }
+            if let Some(number) = self.numbers.get_mut(vertex as usize) {
                 *number = ABSENT;
             }
         }
         Ok(())
     }
 
-    /// A vertex's number in the part, to which it is added where it is new.
-    fn number(
-        &mut self,
-        part: &mut Part,
-        surface: &Surface,
-        vertex: usize,
-        world_from_mesh: &DAffine3,
-    ) -> Result<u32, Fault> {
-        let known = self.numbers.get(vertex).copied().unwrap_or(ABSENT);
-        if known != ABSENT {
-            return Ok(known);
-        }
-        let point = world_from_mesh.transform_point3(surface.positions.vec3(vertex));
-        if !point.is_finite() {
-            let problem = format!("has at vertex {vertex} a position that is not finite");
-            return Err(primitive::fault(surface.mesh, surface.primitive, problem));
-        }
-        // Fits: no part has more than three vertices a triangle.
-        let number = part.positions.len() as u32;
-        part.positions.push(point);
-        if let Some(slot) = self.numbers.get_mut(vertex) {
-            *slot = number;
+    /// A vertex's number in the part, to which the primitive's are added from `first` on.
+    fn number(&mut self, vertex: u32, first: u32) -> u32 {
+        let Some(number) = self.numbers.get_mut(vertex as usize) else {
+            return first; // `Surface::corners` has checked the vertex.
+        };
+        if *number == ABSENT {
+            *number = first + self.used.len() as u32;
             self.used.push(vertex);
         }
-        Ok(number)
+        *number
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
         return Err(Fault::TooLarge(metadata.len()));
     }
     let file = File::open(path).map_err(Fault::Unreadable)?;
-    let mut bytes = Vec::new();
+    let mut bytes = Vec::with_capacity(usize::try_from(metadata.len()).unwrap_or(0));
     file.take(MAX_FILE_BYTES).read_to_end(&mut bytes).map_err(Fault::Unreadable)?;
     Ok(bytes)
 }

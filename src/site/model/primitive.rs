@@ -8,6 +8,7 @@ use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 const DRACO: &str = "KHR_draco_mesh_compression";
 
@@ -138,10 +139,23 @@ fn surface<'a>(
 }
 
 impl Surface<'_> {
-    /// The vertices of triangle `index`, counter-clockwise; each is one of `positions`.
+    /// The vertices of some of its triangles, counter-clockwise; each is one of `positions`.
     ///
-    /// None for a triangle of a strip that only joins what lies before and behind it.
-    pub(super) fn triangle(&self, index: usize) -> Result<Option<[usize; 3]>, Fault> {
+    /// Triangles of a strip that only join what lies before and behind them are left out.
+    pub(super) fn corners(&self, triangles: Range<usize>) -> Result<Vec<[u32; 3]>, Fault> {
+        if let (Mode::Triangles, Some(indices)) = (self.mode, self.indices) {
+            // nearly all files, and what is asked of a triangle is asked of all at once
+            let vertices = indices.wholes(triangles.start * 3..triangles.end * 3);
+            let most = self.positions.count.min(restart(&indices) as usize);
+            if vertices.iter().all(|&vertex| (vertex as usize) < most) {
+                return Ok(vertices.as_chunks().0.to_vec());
+            }
+        }
+        triangles.filter_map(|index| self.triangle(index).transpose()).collect()
+    }
+
+    /// The vertices of triangle `index`; none where it only joins others.
+    fn triangle(&self, index: usize) -> Result<Option<[u32; 3]>, Fault> {
         let corners = match self.mode {
             Mode::TriangleStrip if index.is_multiple_of(2) => [index, index + 1, index + 2],
             Mode::TriangleStrip => [index, index + 2, index + 1],
@@ -149,25 +163,31 @@ impl Surface<'_> {
             _ => [index * 3, index * 3 + 1, index * 3 + 2],
         };
         let Some(indices) = self.indices else {
-            return Ok(Some(corners));
+            // there are no more triangles than are counted in 32 bits
+            return Ok(Some(corners.map(|corner| corner as u32)));
         };
         let vertices = corners.map(|corner| indices.whole(corner));
-        let restart = match indices.component {
-            ComponentType::U8 => u32::from(u8::MAX),
-            ComponentType::U16 => u32::from(u16::MAX),
-            _ => u32::MAX,
-        };
         for vertex in vertices {
             let count = self.positions.count;
-            if vertex == restart || vertex as usize >= count {
-                let why = if vertex == restart { "glTF forbids that number" } else { "that is out of range" };
+            let is_restart = vertex == restart(&indices);
+            if is_restart || vertex as usize >= count {
+                let why = if is_restart { "glTF forbids that number" } else { "that is out of range" };
                 let problem = format!("names vertex {vertex} of {count} in triangle {index}; {why}");
                 return Err(fault(self.mesh, self.primitive, problem));
             }
         }
-        let [a, b, c] = vertices.map(|vertex| vertex as usize);
+        let [a, b, c] = vertices;
         let joins = self.mode == Mode::TriangleStrip && (a == b || b == c || c == a);
-        Ok((!joins).then_some([a, b, c]))
+        Ok((!joins).then_some(vertices))
+    }
+}
+
+/// The largest number of the type, which names no vertex.
+fn restart(indices: &Reader) -> u32 {
+    match indices.component {
+        ComponentType::U8 => u8::MAX.into(),
+        ComponentType::U16 => u16::MAX.into(),
+        _ => u32::MAX,
     }
 }
 

@@ -7,6 +7,7 @@ use super::Fault;
 use super::accessor::fault;
 use glam::DVec3;
 use gltf::json::accessor::{ComponentType, Type};
+use std::ops::Range;
 
 /// A checked accessor: `count` elements, all of which can be read.
 #[derive(Clone, Copy)]
@@ -47,6 +48,13 @@ pub(super) struct Sparse<'a> {
 }
 
 impl Strided<'_> {
+    /// The first bytes of some elements.
+    fn each<const N: usize>(&self, elements: Range<usize>) -> impl Iterator<Item = [u8; N]> {
+        let from = elements.start.checked_mul(self.stride).and_then(|start| self.bytes.get(start..));
+        let each = from.unwrap_or_default().chunks(self.stride.max(1)).take(elements.len());
+        each.map(|element| element.first_chunk().copied().unwrap_or([0; N]))
+    }
+
     /// `bytes` of element `index`, from its `offset`.
     fn at<const N: usize>(&self, index: usize, offset: usize) -> Option<[u8; N]> {
         let start = index.checked_mul(self.stride)?.checked_add(offset)?;
@@ -68,6 +76,20 @@ impl Reader<'_> {
     pub(super) fn whole(&self, index: usize) -> u32 {
         let (source, index) = self.source(index);
         source.and_then(|source| source.whole(self.component, index)).unwrap_or(0)
+    }
+
+    /// As [`Self::whole`], of some elements.
+    pub(super) fn wholes(&self, elements: Range<usize>) -> Vec<u32> {
+        // asked once what they are, and not for every number
+        match (self.base, self.component) {
+            (Some(base), ComponentType::U32) if self.sparse.is_none() => {
+                base.each(elements).map(u32::from_le_bytes).collect()
+            }
+            (Some(base), ComponentType::U16) if self.sparse.is_none() => {
+                base.each(elements).map(|bytes| u16::from_le_bytes(bytes).into()).collect()
+            }
+            _ => elements.map(|index| self.whole(index)).collect(),
+        }
     }
 
     /// The first three numbers of element `index`.
