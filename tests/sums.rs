@@ -124,17 +124,26 @@ fn a_sum_goes_on_from_another() {
 
 #[test]
 fn bits_sum_as_their_masks_do() {
-    let mask = Mask { width: 131, height: 3, share: (0..393).map(|at: usize| 255 * u8::from(at % 7 < 3)).collect() };
-    let bits = Bits::of(&mask);
-    assert_eq!(bits.mask(), mask);
-    let sums = [DrawnMask::Memory(&mask), DrawnMask::Bits(&bits)].map(|drawn| {
-        let mut sum = Sum::new(None, 131, 3);
-        sum.add(&drawn, 1234).unwrap();
-        sum.add(&drawn, 77).unwrap();
-        sum.finish().unwrap()
+    // many of one weight, as in a year, and others between them
+    let drawn = (0..70_u32).map(|instant| {
+        let share = |at: u32| 255 * u8::from((at + instant) * (instant + 2) % 7 < 3);
+        let mask = Mask { width: 131, height: 3, share: (0..393).map(share).collect() };
+        (mask, if instant % 37 < 34 { 1234 } else { instant })
     });
+    let drawn: Vec<_> = drawn.collect();
+    let [mut of_masks, mut of_bits] = [(); 2].map(|()| Sum::new(None, 131, 3));
+    for (at, (mask, weight)) in drawn.iter().enumerate() {
+        let bits = Bits::of(mask);
+        assert_eq!(bits.mask(), *mask);
+        of_masks.add(&DrawnMask::Memory(mask), *weight).unwrap();
+        of_bits.add(&DrawnMask::Bits(&bits), *weight).unwrap();
+        if at == 20 {
+            assert_eq!(of_masks.so_far().unwrap(), of_bits.so_far().unwrap());
+        }
+    }
+    let sums = [of_masks, of_bits].map(|sum| sum.finish().unwrap());
     assert_eq!(sums[0], sums[1]);
-    assert_eq!(sums[1].iter().collect::<Vec<_>>(), plain(&vec![(mask, 1311)]));
+    assert_eq!(sums[1].iter().collect::<Vec<_>>(), plain(&drawn));
 }
 
 /// Paris in September, from the afternoon into the night, as the tower's site asks.

@@ -15,6 +15,7 @@ use crate::site::{Receivers, Site};
 use crate::study::{self, Budget, Event, Stopwatch, StudyError, Wants};
 use crate::sun::{Instant, SunTrack};
 use crate::view::Tile;
+use rayon::prelude::*;
 use rustc_hash::FxBuildHasher;
 use std::fmt::Write;
 use std::hash::BuildHasher;
@@ -366,13 +367,13 @@ fn mask_path(folder: &Path, index: usize) -> PathBuf {
 /// The range of the answer, in two lines.
 fn hours(profile: &Profile<Sums>, track: &SunTrack) -> String {
     let width = profile.grid.width as usize;
-    let (mut least, mut most) = (u64::MAX, 0);
-    for row in 0..profile.grid.height as usize {
+    let both = |[least, most]: [u64; 2], [its_least, its_most]: [u64; 2]| [least.min(its_least), most.max(its_most)];
+    let of_row = |row: usize| {
         let part = profile.shaded.part(row * width..(row + 1) * width);
-        for shaded in (0..width).map(|cell| part.of(cell)) {
-            (least, most) = (least.min(shaded), most.max(shaded));
-        }
-    }
+        (0..width).map(|cell| [part.of(cell); 2]).fold([u64::MAX, 0], both)
+    };
+    let rows = (0..profile.grid.height as usize).into_par_iter().with_min_len(64);
+    let [least, most] = rows.map(of_row).reduce(|| [u64::MAX, 0], both);
     let hours = |secs: f64| secs / 3600.0;
     let night = track.instants.iter().filter(|instant| instant.night).count();
     format!(

@@ -12,9 +12,11 @@ use wgpu::*;
 
 /// The running sum of shaded time, in 1/255 s.
 ///
-/// It runs in words of 32 bits, and is poured over into 64 before one of them could overflow.
+/// It runs in words of 32 bits, and is poured over into 64 before one of them could overflow. Masks of bits are counted
+/// first, some of one weight together, and added then.
 pub struct Sum {
     running: Running,
+    counted: Counted,
     /// How many seconds may be in the running words.
     secs: u32,
     /// What was poured over.
@@ -26,6 +28,74 @@ enum Running {
     Memory(Vec<u32>),
     /// For masks on the GPU.
     Texture(Box<GpuSum>),
+}
+
+/// How often cells were in shadow at some instants of one weight. Each word's 64 cells count in parallel: the first of its
+/// planes holds the lowest digits of their numbers.
+#[derive(Default)]
+struct Counted {
+    planes: Vec<[u64; Counted::PLANES]>,
+    width: u32,
+    /// The instants, and how many seconds each stands for.
+    instants: u32,
+    secs: u32,
+}
+
+impl Counted {
+    const PLANES: usize = 4;
+    /// So many instants can be counted.
+    const MOST: u32 = (1 << Self::PLANES) - 1;
+
+    fn count(&mut self, bits: &Bits) {
+        self.width = bits.width;
+        self.planes.resize(bits.words.len(), [0; Self::PLANES]);
+        self.planes.par_iter_mut().zip(&bits.words).with_min_len(1 << 12).for_each(|(planes, word)| {
+            planes.iter_mut().fold(*word, |carry, plane| {
+                let both = *plane & carry;
+                *plane ^= carry;
+                both
+            });
+        });
+        self.instants += 1;
+    }
+
+    /// Adds what was counted to the sum, and begins anew.
+    fn add_to(&mut self, sum: &mut [u32]) {
+        if self.instants == 0 {
+            return;
+        }
+        let width = self.width.max(1) as usize;
+        let weights: [u32; Self::PLANES] = std::array::from_fn(|plane| (255 * self.secs) << plane);
+        let rows = sum.par_chunks_mut(width).zip(self.planes.par_chunks_mut(width.div_ceil(64)));
+        rows.with_min_len(16).for_each(|(sums, of_row)| {
+            for (sums, planes) in sums.chunks_mut(64).zip(of_row) {
+                let planes = std::mem::take(planes);
+                if planes != [0; Self::PLANES] {
+                    add_planes(sums, planes.map(u64::to_le_bytes), weights);
+                }
+            }
+        });
+        self.instants = 0;
+    }
+}
+
+/// Adds to the sums of a word's cells, of which the planes count, each with its weight.
+fn add_planes<const N: usize>(sums: &mut [u32], planes: [[u8; 8]; N], weights: [u32; N]) {
+    // eight cells at once
+    let shaded = |byte: usize| {
+        let mut shaded = [0; 8];
+        for (plane, weight) in planes.iter().zip(weights) {
+            let each = &EACH[usize::from(plane[byte])];
+            shaded.iter_mut().zip(each).for_each(|(shaded, each)| *shaded += each & weight);
+        }
+        shaded
+    };
+    let add = |sums: &mut [u32], shaded: [u32; 8]| sums.iter_mut().zip(shaded).for_each(|(sum, shaded)| *sum += shaded);
+    let (eights, rest) = sums.as_chunks_mut::<8>();
+    eights.iter_mut().enumerate().for_each(|(byte, sums)| add(sums, shaded(byte)));
+    if !rest.is_empty() {
+        add(rest, shaded(eights.len()));
+    }
 }
 
 /// The longest time that 32 bits hold in 1/255 s, seconds: 194 days.
@@ -46,7 +116,7 @@ impl Sum {
             None => Running::Memory(vec![0; width as usize * height as usize]),
             Some(gpu) => Running::Texture(Box::new(GpuSum::new(gpu, width, height))),
         };
-        Sum { running, secs: 0, poured: None }
+        Sum { running, counted: Counted::default(), secs: 0, poured: None }
     }
 
     /// Goes on from a sum over so many seconds.
@@ -81,15 +151,30 @@ impl Sum {
         match (&mut self.running, mask) {
             (Running::Texture(sum), DrawnMask::Texture(_, texture)) => sum.add(texture, secs),
             (Running::Memory(sum), DrawnMask::Memory(mask)) => add(sum, &mask.share, secs),
-            (Running::Memory(sum), DrawnMask::Bits(bits)) => add_bits(sum, bits, secs),
+            (Running::Memory(sum), DrawnMask::Bits(bits)) => {
+                let counted = &mut self.counted;
+                if counted.secs != secs || counted.instants == Counted::MOST {
+                    counted.add_to(sum);
+                    counted.secs = secs;
+                }
+                counted.count(bits);
+            }
             (Running::Memory(sum), mask) => add(sum, &mask.read()?.share, secs),
             (Running::Texture(sum), mask) => sum.add(&sum.bring(&mask.read()?), secs),
         }
         Ok(())
     }
 
+    /// Adds what was only counted so far.
+    fn settle(&mut self) {
+        if let Running::Memory(sum) = &mut self.running {
+            self.counted.add_to(sum);
+        }
+    }
+
     /// Pours the running words over into the larger ones.
     fn pour(&mut self) -> Result<(), ShadowError> {
+        self.settle();
         self.poured = Some(self.larger()?);
         self.secs = 0;
         match &mut self.running {
@@ -116,7 +201,8 @@ impl Sum {
     }
 
     /// The sum so far. Slow where it is on the GPU: it is read back.
-    pub fn so_far(&self) -> Result<Shaded, ShadowError> {
+    pub fn so_far(&mut self) -> Result<Shaded, ShadowError> {
+        self.settle();
         match (&self.running, &self.poured) {
             (Running::Memory(sum), None) => Ok(sum.clone().into()),
             (Running::Texture(sum), None) => Ok(sum.read()?.into()),
@@ -125,10 +211,11 @@ impl Sum {
     }
 
     /// The sum.
-    pub fn finish(self) -> Result<Shaded, ShadowError> {
+    pub fn finish(mut self) -> Result<Shaded, ShadowError> {
+        self.settle();
         match self {
             Sum { running: Running::Memory(sum), poured: None, .. } => Ok(sum.into()),
-            sum => sum.so_far(),
+            mut sum => sum.so_far(),
         }
     }
 }
@@ -136,18 +223,6 @@ impl Sum {
 fn add(sum: &mut [u32], share: &[u8], weight_secs: u32) {
     sum.par_iter_mut().zip(share).with_min_len(1 << 14).for_each(|(sum, &share)| {
         *sum += u32::from(255 - share) * weight_secs;
-    });
-}
-
-fn add_bits(sum: &mut [u32], bits: &Bits, weight_secs: u32) {
-    let rows = sum.par_chunks_mut(bits.width.max(1) as usize).zip(bits.words.par_chunks(bits.in_row().max(1)));
-    rows.with_min_len(16).for_each(|(sums, words)| {
-        for (sums, word) in sums.chunks_mut(64).zip(words).filter(|(_, word)| **word != 0) {
-            for (sums, byte) in sums.chunks_mut(8).zip(word.to_le_bytes()) {
-                let each = &EACH[usize::from(byte)];
-                sums.iter_mut().zip(each).for_each(|(sum, each)| *sum += each & (255 * weight_secs));
-            }
-        }
     });
 }
 

@@ -32,12 +32,13 @@ impl FlatShadow {
     /// the first ones on.
     pub(super) fn new(mesh: &Mesh, raster_from_local: DAffine3, first: [u32; 2], size: [u32; 2]) -> FlatShadow {
         let casters = Casters::cut(mesh, &raster_from_local);
-        FlatShadow { raster_from_local, casters, scan: Scan::new(first, size) }
+        let scan = Scan::new(&casters, first, size);
+        FlatShadow { raster_from_local, casters, scan }
     }
 
     /// Draws another part of the same raster.
     pub(super) fn turn_to(&mut self, first: [u32; 2], size: [u32; 2]) {
-        self.scan = Scan::new(first, size);
+        self.scan = Scan::new(&self.casters, first, size);
     }
 
     /// Which cells are in shadow under a sun in front of the plane; the vector may have any length.
