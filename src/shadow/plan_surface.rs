@@ -125,8 +125,10 @@ impl Corners {
         let runs = mesh.faces.par_chunks(run).enumerate().map(|(index, faces)| {
             let mut bands = vec![Vec::new(); of.end.div_ceil(BAND)];
             for (at, face) in faces.iter().enumerate() {
-                let rows = self.of(*face).rows(of.clone());
-                if !rows.is_empty() {
+                let triangle = self.of(*face);
+                let rows = triangle.rows(of.clone());
+                // seen from its edge, as most walls are, it is nothing
+                if !rows.is_empty() && triangle.normal().z != 0.0 {
                     let bands = &mut bands[rows.start / BAND..=(rows.end - 1) / BAND];
                     bands.iter_mut().for_each(|band| band.push((index * run + at) as u32));
                 }
@@ -149,6 +151,12 @@ impl Triangle {
         Triangle { corners }
     }
 
+    /// Upright to it, of any length.
+    fn normal(&self) -> DVec3 {
+        let [top, middle, bottom] = self.corners;
+        (middle - top).cross(bottom - top)
+    }
+
     /// The rows whose centres it reaches, of some.
     fn rows(&self, of: Range<usize>) -> Range<usize> {
         let [top, _, bottom] = self.corners;
@@ -158,11 +166,7 @@ impl Triangle {
     /// Tells row, column and height of each of some centres that lies within it or on its edge.
     fn scan(&self, columns: Range<usize>, rows: Range<usize>, mut tell: impl FnMut(usize, usize, f64)) {
         let [top, middle, bottom] = self.corners;
-        let normal = (middle - top).cross(bottom - top);
-        // seen from its edge it is nothing
-        if normal.z == 0.0 {
-            return;
-        }
+        let normal = self.normal();
         let slope = -normal.xy() / normal.z;
         let (low, high) = (top.z.min(middle.z).min(bottom.z), top.z.max(middle.z).max(bottom.z));
         scan::spans(self.corners.map(|corner| corner.xy()), rows, |row, from, to| {
