@@ -163,7 +163,7 @@ impl Falling {
         let slope = Fixed::new(slope);
         let mut at = Fixed::new(column(begin)).from(left).after(start - begin, slope);
         while row < end {
-            let next = (((row - top >> rows_log) + 1) << rows_log) + top;
+            let next = ((((row - top) >> rows_log) + 1) << rows_log) + top;
             let count = next.min(end) - row;
             tell_rows(row, count, at, slope);
             (row, at) = (row + count, at.after(count, slope));
