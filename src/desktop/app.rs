@@ -438,7 +438,7 @@ impl App {
         if let Some(view) = viewer.shown().map(|shown| shown.wish.view) {
             cards::mark(ui, open, &view, rect);
         }
-        cards::show(ui, open, &mut self.settings.site, rect, Unit::of(self.kept.feet));
+        cards::show(ui, open, &mut self.settings, rect, Unit::of(self.kept.feet));
         if let Some(under) = clicked {
             open.clicked = Some(under.clone());
             let name = if under.name.is_empty() { "the point".to_owned() } else { under.name };

@@ -1,12 +1,14 @@
 //! Cards over the picture: what the colours of the hours mean, and when a point lies in the sun.
 
 use super::app::Open;
+use super::components;
 use super::hours::Laid;
 use super::look;
+use super::settings::Settings;
 use super::sky;
 use super::unit::Unit;
 use crate::profile::probe::{Blocked, Sunlight, secs};
-use crate::site::file::{ProbeTable, SiteFile};
+use crate::site::file::ProbeTable;
 use crate::view::View;
 use eframe::egui::{self, Align2, Color32, Id, Rect, Sense, Ui, Vec2, vec2};
 use std::sync::Arc;
@@ -18,7 +20,7 @@ const AROUND: f32 = 14.0;
 const WITHIN: f32 = 10.0;
 
 /// Shows the cards over a picture: beside each other, or in one where there is no room for two.
-pub(super) fn show(ui: &Ui, open: &mut Open, site: &mut SiteFile, rect: Rect, unit: Unit) {
+pub(super) fn show(ui: &Ui, open: &mut Open, settings: &mut Settings, rect: Rect, unit: Unit) {
     let laid = open.laid.clone().filter(|_| open.shows_hours);
     let is_probed = open.probing.is_some() || open.sunlight.is_some();
     let is_wide = rect.width() > 2.0 * WIDTH;
@@ -29,7 +31,7 @@ pub(super) fn show(ui: &Ui, open: &mut Open, site: &mut SiteFile, rect: Rect, un
         // below the north arrow where that leaves room
         let below = if rect.height() > 400.0 { 88.0 } else { AROUND };
         let laid = laid.as_ref().filter(|_| !is_wide);
-        card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-AROUND, below), |ui| probe(open, site, unit, laid, ui));
+        card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-AROUND, below), |ui| probe(open, settings, unit, laid, ui));
     }
 }
 
@@ -85,7 +87,7 @@ fn legend(ui: &mut Ui, laid: &Laid) {
     });
 }
 
-fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, laid: Option<&Arc<Laid>>, ui: &mut Ui) {
+fn probe(open: &mut Open, settings: &mut Settings, unit: Unit, laid: Option<&Arc<Laid>>, ui: &mut Ui) {
     if open.probing.is_some() {
         ui.horizontal(|ui| {
             ui.add(egui::Spinner::new().size(16.0));
@@ -100,6 +102,7 @@ fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, laid: Option<&Arc<Lai
     let point = probed.probe.point;
     // the buttons stay in sight
     let buttons = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
+    let mut closes = false;
     scrolled(ui, buttons, |ui| {
         let (at, name) = (point / unit.metres, unit.name);
         ui.weak(format!("{:.2} {name} east, {:.2} {name} north, {:.2} {name} up", at.x, at.y, at.z).replace('-', "−"));
@@ -116,12 +119,17 @@ fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, laid: Option<&Arc<Lai
             let (before, after) = (named(sunlight, interval.before), named(sunlight, interval.after));
             ui.weak(format!("before: {before}, after: {after}"));
         }
+        if let Some(under) = under.filter(|under| under.face.is_some())
+            && ui.button("Hide this component").clicked()
+        {
+            components::hide(settings, &under.name, true);
+            closes = true;
+        }
         if let Some(laid) = laid {
             ui.separator();
             legend(ui, laid);
         }
     });
-    let mut closes = false;
     ui.horizontal(|ui| {
         let millimetres = |value: f64| (value * 1000.0).round() / 1000.0 + 0.0;
         let table = ProbeTable {
@@ -129,12 +137,12 @@ fn probe(open: &mut Open, site: &mut SiteFile, unit: Unit, laid: Option<&Arc<Lai
             point: Some(point.to_array().map(millimetres)),
             normal: probed.probe.normal.map(|normal| normal.to_array().map(|part| (part * 1e6).round() / 1e6 + 0.0)),
         };
-        let is_kept = site.probe.iter().any(|probe| probe.point == table.point);
+        let is_kept = settings.site.probe.iter().any(|probe| probe.point == table.point);
         let keep = egui::Button::new(if is_kept { "In the site file" } else { "Keep in the site file" });
         if ui.add_enabled(!is_kept, keep).clicked() {
-            site.probe.push(table);
+            settings.site.probe.push(table);
         }
-        closes = ui.button("Forget the point").clicked();
+        closes |= ui.button("Forget the point").clicked();
     });
     if closes {
         open.sunlight = None;

@@ -114,7 +114,7 @@ fn row(ui: &mut egui::Ui, mut content: impl FnMut(&mut egui::Ui, Option<usize>))
 }
 
 /// Leaves a component out of the picture, or takes it in again.
-fn hide(settings: &mut Settings, name: &str, hides: bool) {
+pub(super) fn hide(settings: &mut Settings, name: &str, hides: bool) {
     let hidden = Arc::make_mut(&mut settings.hidden);
     if hides {
         hidden.insert(name.to_owned());

@@ -25,6 +25,14 @@ fn largest(names: &[String], of_pixels: &[Option<usize>]) -> usize {
     (0..names.len() - 1).max_by_key(pixels).expect("components")
 }
 
+/// Where a pixel of the view is in the window.
+fn place(harness: &Harness<'_, App>, view: View, pixel: usize) -> Pos2 {
+    let (width, height) = view.size();
+    let share = |at: u32, of: u32| (at as f32 + 0.5) / of as f32;
+    let at = egui::vec2(share(pixel as u32 % width, width), share(pixel as u32 / width, height));
+    harness.get_by_label("Model").rect().lerp_inside(at)
+}
+
 fn pixels(harness: &Harness<'_, App>) -> Vec<[u8; 4]> {
     harness.state().picture().unwrap().2
 }
@@ -35,7 +43,8 @@ fn pixels(harness: &Harness<'_, App>) -> Vec<[u8; 4]> {
 fn hidden_component_is_looked_through_and_casts() {
     let (_folder, site) = small_site();
     let mut harness = window(Some(&site));
-    let (names, of_pixels) = seen(&site, harness.state().shown().unwrap().0);
+    let (view, _) = harness.state().shown().unwrap();
+    let (names, of_pixels) = seen(&site, view);
     let hidden = largest(&names, &of_pixels);
     let (before, written) = (pixels(&harness), harness.state().site_file().clone());
     click(&mut harness, "Components");
@@ -66,6 +75,23 @@ fn hidden_component_is_looked_through_and_casts() {
     harness.step();
     settle(&mut harness);
     assert_eq!(differs(&without, &pixels(&harness)), 0, "it is hidden again");
+    click(&mut harness, "Show all");
+    settle(&mut harness);
+
+    // what is clicked is hidden as well
+    let own: Vec<usize> = (0..of_pixels.len()).filter(|at| of_pixels[*at] == Some(hidden)).collect();
+    let at = place(&harness, view, own[own.len() / 2]);
+    harness.hover_at(at);
+    harness.step();
+    harness.drag_at(at);
+    harness.step();
+    harness.drop_at(at);
+    harness.step();
+    settle(&mut harness);
+    click(&mut harness, "Hide this component");
+    settle(&mut harness);
+    assert_eq!(differs(&without, &pixels(&harness)), 0, "what was clicked is hidden");
+    assert!(harness.query_by_label("Forget the point").is_none(), "its point is hidden with it");
 }
 
 /// Hours on façades lie on the faces that they were found on, whichever of them are hidden; and are read there.
@@ -82,13 +108,8 @@ fn hours_stay_on_the_faces_beside_hidden_ones() {
     let before = pixels(&harness);
     // a place of what comes after the hidden one, whose faces are counted on from there
     let later: Vec<usize> = (0..of_pixels.len()).filter(|at| of_pixels[*at].is_some_and(|of| of > hidden)).collect();
-    let (width, height) = view.size();
-    let rect = harness.get_by_label("Model").rect();
-    let share = |at: u32, of: u32| (at as f32 + 0.5) / of as f32;
-    let place =
-        |at: usize| rect.lerp_inside(egui::vec2(share(at as u32 % width, width), share(at as u32 / width, height)));
     let told = |harness: &mut Harness<'_, App>, at: usize| {
-        harness.hover_at(place(at));
+        harness.hover_at(place(harness, view, at));
         harness.run_steps(3);
         let part = "down on its face";
         harness.query_by_label_contains(part).is_some().then(|| named(harness, part).0)
