@@ -50,6 +50,8 @@ pub(crate) fn site() -> TempDir {
 pub(crate) fn command(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gnomon"));
     command.current_dir(folder).args(arguments.split_whitespace());
+    // where it is not set drivers say so, and the command's own words are all that may be told
+    command.env("XDG_RUNTIME_DIR", folder);
     command
 }
 
