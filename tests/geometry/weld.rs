@@ -1,6 +1,6 @@
 //! Corners that lie on each other become one vertex, within a part and never across.
 
-use super::{part, unjoined};
+use super::{part, sphere, unjoined};
 use crate::exact::scenes::cuboid;
 use glam::{DVec3, Vec3, dvec3};
 use gnomon::mesh::{Mesh, Part, report};
@@ -33,6 +33,15 @@ fn corners_in_one_place_become_one_vertex() {
             None => assert_eq!(mesh.vertices.len(), 36, "what lies a millimetre apart stays apart"),
         }
     }
+}
+
+#[test]
+fn corners_in_one_place_become_one_vertex_anywhere() {
+    // so many that some lie on both sides of a border, however places are told apart
+    let [around, rings] = [60, 40];
+    let mesh = Mesh::build(vec![shaken(&unjoined(&sphere(10.0, around, rings)), 1e-5)]).unwrap();
+    assert_eq!(mesh.vertices.len() as u32, around * (rings - 1) + 2);
+    assert!(report::components(&mesh)[0].closed);
 }
 
 #[test]
