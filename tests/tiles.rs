@@ -2,10 +2,10 @@
 //! 64th of a cell of an edge; and what does not go together with tiles is told.
 
 use crate::command::{done, fails, gnomon, site, stderr};
-use crate::exact::scenes::small;
+use crate::exact::scenes::{sheet, small};
 use crate::exact::{day, plan, scene_of};
 use crate::year::files;
-use glam::{DVec3, dvec2};
+use glam::{DVec3, dvec2, dvec3};
 use gnomon::gpu::Gpu;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::projected::Projected;
@@ -106,6 +106,28 @@ fn on_the_processor_tiles_are_the_whole_to_the_bit() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn an_edge_over_a_million_rows_stays_where_it_is() {
+    // it goes three columns east, less a quarter of 2⁻³⁰ columns a row: what its steps are rounded by adds up
+    let [rows, cell] = [f64::from(1 << 20), 1.0 / 64.0];
+    let corner = |down: f64, z: f64| dvec3((2.5 + down * (3.0 - 1.0 / 4096.0)) * cell, (0.5 - down) * rows * cell, z);
+    let wall = sheet([corner(0.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(0.0, 1.0)]);
+    let scene = scene_of(&Mesh::build(vec![wall]).unwrap(), Receivers::Ground, 0.0);
+    let grid = Grid { west: 0.0, north: rows * cell / 2.0, cell, width: 8, height: 1 << 20 };
+    let sun = dvec3(1.0, 0.0, 1.0);
+    let mut projected = Projected::new(&scene, grid);
+    let whole = draw(&mut projected, sun);
+    let cast = draw(&mut RayCast::new(scene, View::Plan(grid), None), sun);
+    let differ = differing(&cast, &grid.into(), &whole);
+    // it meets two columns of centres, a third and a sixth of the rows after one of the wall's triangles begins: half a step
+    // for each of them is 57 rows and 28
+    assert!(differ.len() <= 86, "{} cells", differ.len());
+    for tile in tiles(grid) {
+        assert!(projected.turn_to_tile(tile).unwrap());
+        assert!(differing(&whole, &tile, &draw(&mut projected, sun)).is_empty(), "{:?}", tile.first);
     }
 }
 

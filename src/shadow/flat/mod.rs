@@ -6,7 +6,8 @@
 //! ones nothing changes: only silhouette edges do, as often as their multiplicity says. It is the rule of shadow volumes
 //! ([`crate::volume`]) in the plane, so casters need not be clean. The idea of running sums between edges is as old as
 //! scan conversion (W. Jack Bouknight, *A procedure for generation of three-dimensional half-toned computer graphics
-//! presentations*, 1970); nothing here is rounded but an edge's crossing with a row, in double precision.
+//! presentations*, 1970); nothing here is rounded but where a point falls, in double precision, and where an edge crosses
+//! a row, to steps of 2⁻³⁰ columns ([`scan`]).
 
 mod casters;
 mod scan;

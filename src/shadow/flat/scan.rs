@@ -41,7 +41,9 @@ impl Fixed {
     const FARTHEST: f64 = (1_u64 << 32) as f64;
 
     fn new(columns: f64) -> Fixed {
-        Fixed((columns * (1_u64 << Self::ONE_LOG) as f64) as i64)
+        let steps = columns * (1_u64 << Self::ONE_LOG) as f64;
+        // to the nearest one, without the library call that rounding is on some processors
+        Fixed((steps + 0.5_f64.copysign(steps)) as i64)
     }
 
     /// Counted from another column.
@@ -171,7 +173,7 @@ impl Falling {
     }
 }
 
-/// The first whole number that is not below a number, from 0 on; 0 for what is no number.
+/// The first whole number that is not below a number, from 0 to the largest one.
 fn ceil(number: f64) -> u32 {
     // a library call on processors without an instruction for it
     let number = number.min(f64::from(u32::MAX));
