@@ -205,6 +205,13 @@ pub enum Side {
     West,
 }
 
+/// What stays free on both sides of all that a side shows, below it and above it, a share of the picture.
+const BESIDE: f64 = 0.04;
+const BELOW: f64 = 0.16;
+const ABOVE: f64 = 0.10;
+/// The least that a side shows from foot to head, metres.
+const LEAST: f64 = 0.1;
+
 impl Side {
     /// The level unit vector towards the viewer.
     pub fn to_viewer(self) -> DVec3 {
@@ -214,6 +221,27 @@ impl Side {
             Side::South => DVec3::NEG_Y,
             Side::West => DVec3::NEG_X,
         }
+    }
+
+    /// The middle of the picture of that proportion that holds a box whole, and how much it shows from foot to head,
+    /// metres. The box stands low in it: below the ground's line there is only cut earth.
+    pub fn around(self, (low, high): (DVec3, DVec3), width_by_height: f64) -> (DVec3, f64) {
+        let size = high - low;
+        let width = size.dot(self.right().abs()) / (1.0 - 2.0 * BESIDE);
+        let height = (width / width_by_height).max(size.z / (1.0 - BELOW - ABOVE)).max(LEAST);
+        (((low + high) / 2.0).with_z(low.z + height * (0.5 - BELOW)), height)
+    }
+
+    /// How much a picture of that proportion about a point must show from foot to head, metres, to hold a box whole.
+    pub fn height_about(self, middle: DVec3, (low, high): (DVec3, DVec3), width_by_height: f64) -> f64 {
+        let [low, high] = [low - middle, high - middle];
+        let aside = low.dot(self.right()).abs().max(high.dot(self.right()).abs());
+        let across = aside / (0.5 - BESIDE) / width_by_height;
+        across.max(-low.z / (0.5 - BELOW)).max(high.z / (0.5 - ABOVE)).max(LEAST)
+    }
+
+    fn right(self) -> DVec3 {
+        DVec3::Z.cross(self.to_viewer())
     }
 }
 

@@ -66,17 +66,15 @@ pub(super) struct Eye {
 struct Flat {
     /// The point in its middle, metres.
     target: DVec3,
-    /// How much it shows from its foot to its head, metres; of a side the sheet, which leaves nothing out that the window shows.
+    /// How much it shows from its foot to its head, metres; of a side the sheet, which leaves nothing out that the
+    /// window shows.
     height_m: f64,
 }
 
 const LOWEST_RAD: f64 = 0.02;
 const HIGHEST_RAD: f64 = 1.55;
-/// What stays free beside all that is shown, a share of the picture; and on a side below and above it: the scale bar stands
-/// on the cut earth, and over the roofs there is the sky.
+/// What stays free on each side of all that is shown, a share of the picture.
 const BESIDE: f64 = 0.04;
-const BELOW: f64 = 0.16;
-const ABOVE: f64 = 0.10;
 
 impl Eye {
     /// The eye of a site's camera, or before the side that it shows.
@@ -103,8 +101,8 @@ impl Eye {
         eye
     }
 
-    /// The camera that a site file keeps: that of the perspective, or one that sees at its target as much as the side's sheet
-    /// shows.
+    /// The camera that a site file keeps: that of the perspective, or one that sees at its target as much as the side's
+    /// sheet shows.
     pub(super) fn kept(&self) -> Camera {
         let Flat { target, height_m } = self.framed();
         let distance = height_m / self.of_sheet_in_window() / self.height_at_one();
@@ -222,8 +220,8 @@ impl Eye {
     /// Shows a box whole in the window; a side stands on the ground, which is the box's lower end.
     pub(super) fn fit(&mut self, (low, high): (DVec3, DVec3)) {
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
-        let [right, up] = self.across();
         if self.stand == Stand::Perspective {
+            let [right, up] = self.across();
             let corner = |at: i32| DVec3::new(sign(at, 1), sign(at, 2), sign(at, 4)) * half;
             let nearer = right.cross(up);
             let needed = |corner: DVec3| {
@@ -234,11 +232,10 @@ impl Eye {
             (self.target, self.distance) = (middle, distance);
             return;
         }
-        let [width, height] = [right, up].map(|along| 2.0 * half.dot(along.abs()));
-        let [below, above] = if self.stand == Stand::Plan { [BESIDE; 2] } else { [BELOW, ABOVE] };
-        let across = width / (1.0 - 2.0 * BESIDE) / self.width_by_height;
-        let height_m = across.max(height / (1.0 - below - above)).max(0.1);
-        let target = if self.stand == Stand::Plan { middle } else { middle.with_z(low.z + height_m * (0.5 - below)) };
+        let (target, height_m) = match self.stand {
+            Stand::Side(side) => side.around((low, high), self.width_by_height),
+            _ => (middle, 2.0 * half.y.max(half.x / self.width_by_height).max(0.05) / (1.0 - 2.0 * BESIDE)),
+        };
         self.frame(target, height_m);
     }
 }

@@ -1,5 +1,5 @@
-//! The camera as asked, or a good one: from the sunlit side, three-quarter, models and shadows in view; or before a side,
-//! with the models in view.
+//! The camera as asked, or a good one: from the sunlit side, three-quarter, models and shadows in view; or before a
+//! side, with the models in view.
 
 use super::asked::{Overrides, refuse};
 use super::choice::ChoiceError;
@@ -13,6 +13,7 @@ use glam::{DVec2, DVec3};
 
 const WIDTH: u32 = 1600;
 const HEIGHT: u32 = 1000;
+const WIDTH_BY_HEIGHT: f64 = WIDTH as f64 / HEIGHT as f64;
 const FOV_DEG: f64 = 40.0;
 /// How high the default eye stands above its target, seen from there, degrees.
 const ELEVATION_DEG: f64 = 32.0;
@@ -32,7 +33,8 @@ pub(super) fn side(written: &Written, asked: &Overrides) -> Result<Option<Side>,
     }
 }
 
-/// The camera, or the one that sees as much as a side is to show; `shadows` are the south-west and north-east corner of what should be in view on the ground.
+/// The camera, or the one that sees as much as a side is to show; `shadows` are the south-west and north-east corner of
+/// what should be in view on the ground.
 pub(super) fn camera(
     written: &Written,
     side: Option<Side>,
@@ -61,19 +63,24 @@ pub(super) fn camera(
         return Err(fault("up", "it has no length".to_owned()));
     };
 
-    let target = vector("target", table.target)?;
-    let eye = vector("eye", table.eye)?;
-    let middle = (shadows[0] + shadows[1]) / 2.0;
-    // Between the models and the middle of the picture's ground, so that neither is at its edge; a side shows no ground.
-    let centre = bounds.centre();
-    let target = target.unwrap_or(match side {
-        Some(_) => centre,
-        None => ((centre.truncate() + middle) / 2.0).extend(centre.z),
+    let [target, eye] = [vector("target", table.target)?, vector("eye", table.eye)?];
+    // Before a side that only an option asks for, what is written is the perspective's.
+    let [target, eye] = if side.is_none() || table.side.is_some() { [target, eye] } else { [None, None] };
+    let back = direction_to_eye(written, track);
+    let target = target.unwrap_or_else(|| match side {
+        Some(side) => side.around(above(bounds, ground), WIDTH_BY_HEIGHT).0,
+        // Between the models and the middle of the picture's ground, so that neither is at its edge.
+        None => {
+            let (centre, middle) = (bounds.centre(), (shadows[0] + shadows[1]) / 2.0);
+            ((centre.truncate() + middle) / 2.0).extend(centre.z)
+        }
     });
     let eye = eye.unwrap_or_else(|| {
-        let back = direction_to_eye(written, track);
         let far = match side {
-            Some(side) => distance_of_side(side, target, fov_rad, bounds),
+            // From there the perspective sees as much at its target.
+            Some(side) => {
+                side.height_about(target, above(bounds, ground), WIDTH_BY_HEIGHT) / 2.0 / (fov_rad / 2.0).tan()
+            }
             None => distance(back, target, fov_rad, bounds, shadows, ground),
         };
         target + back * far
@@ -102,15 +109,9 @@ fn direction_to_eye(written: &Written, track: &SunTrack) -> DVec3 {
     (aside * cos).extend(sin)
 }
 
-/// From how far the perspective sees as much at its target as a side with all corners has.
-fn distance_of_side(side: Side, target: DVec3, fov_rad: f64, bounds: Bounds) -> f64 {
-    let right = side.to_viewer().cross(DVec3::Z);
-    let aspect = f64::from(WIDTH) / f64::from(HEIGHT);
-    let half = [bounds.low, bounds.high].map(|corner| {
-        let corner = (corner - target).abs();
-        (corner.dot(right.abs()) / aspect).max(corner.z)
-    });
-    (half[0].max(half[1]) * MARGIN / (fov_rad / 2.0).tan()).max(1.0)
+/// What of the models a side shows: from the ground upwards.
+fn above(bounds: Bounds, ground: f64) -> (DVec3, DVec3) {
+    (bounds.low.with_z(ground), bounds.high.with_z(bounds.high.z.max(ground)))
 }
 
 /// How far back the eye must stand to see all corners.
@@ -118,7 +119,7 @@ fn distance(back: DVec3, target: DVec3, fov_rad: f64, bounds: Bounds, shadows: [
     let right = DVec3::Z.cross(back).normalize_or(DVec3::X);
     let up = back.cross(right);
     let half_height = (fov_rad / 2.0).tan();
-    let half_width = half_height * f64::from(WIDTH) / f64::from(HEIGHT);
+    let half_width = half_height * WIDTH_BY_HEIGHT;
     let at = |x: [f64; 2], y: [f64; 2], z: f64| {
         x.into_iter().flat_map(move |x| y.into_iter().map(move |y| DVec3::new(x, y, z)))
     };

@@ -19,26 +19,47 @@ fn drawn(folder: &Path, options: &str) -> (Value, Vec<u8>) {
     (serde_json::from_str(&said).unwrap(), std::fs::read(folder.join("side.png")).unwrap())
 }
 
-/// Without a camera in the site file the models fill the picture; the side away from the sun is dark, cell for cell.
+/// Without a camera in the site file the models fill the picture, the ground's line low in it; the side away from the sun
+/// is dark, cell for cell.
 #[test]
 fn a_side_holds_the_models_to_scale() {
     let folder = site();
     let said = done(folder.path(), &format!("{AT} --view north --mask m.png --json"));
     let json: Value = serde_json::from_str(&said).unwrap();
-    assert_eq!((&json["target"], &json["to_viewer"]), (&json!([0.0, 0.0, 10.0]), &json!([0.0, 1.0, 0.0])));
-    // the tower is 10 m wide and 20 m high, and has 6% around it
-    let cell = json["cell"].as_f64().unwrap();
-    assert!((cell - 21.2 / 1000.0).abs() < 1e-9, "{cell}");
+    assert_eq!(json["to_viewer"], json!([0.0, 1.0, 0.0]));
+    // the tower is 10 m wide and 20 m high, and has 16% of the picture below it and 10% above
+    let [cell, middle] = [&json["cell"], &json["target"][2]].map(|number| number.as_f64().unwrap());
+    assert!((cell - 20.0 / 740.0).abs() < 1e-9, "{cell}");
+    assert!((middle - 340.0 * cell).abs() < 1e-9, "{middle}");
     let mask = image::open(folder.path().join("m.png")).unwrap().into_luma8();
     assert_eq!(mask.dimensions(), (1600, 1000));
     for (column, row, pixel) in mask.enumerate_pixels() {
-        let (x, z) = ((f64::from(column) + 0.5 - 800.0) * cell, 10.0 - (f64::from(row) + 0.5 - 500.0) * cell);
+        let (x, z) = ((f64::from(column) + 0.5 - 800.0) * cell, middle - (f64::from(row) + 0.5 - 500.0) * cell);
         let dark = x.abs() < 5.0 && z > 0.0 && z < 20.0;
         assert_eq!(pixel.0, [if dark { 0 } else { 255 }], "at {x}, {z}");
     }
 }
 
-/// A side that the site file names is the one of the option; with a camera there it shows as much at the same point.
+/// About a point that the site file names a side shows as much as holds the models.
+#[test]
+fn a_side_holds_the_models_about_a_point() {
+    let folder = site();
+    let cell = |target: &str| {
+        write(folder.path(), &format!("side = \"south\"\ntarget = {target}"));
+        drawn(folder.path(), "--view camera").0["cell"].as_f64().unwrap()
+    };
+    let held = |target: &str, metres: f64, cells: f64| {
+        let cell = cell(target);
+        assert!((cell - metres / cells).abs() < 1e-9, "{target}: {cell}");
+    };
+    // the ground 16% above the foot, the roof 10% below the head, a wall 4% beside the edge
+    held("[0, 0, 10]", 10.0, 340.0);
+    held("[0, 0, 1]", 19.0, 400.0);
+    held("[-30, 0, 5]", 35.0, 0.46 * 1600.0);
+}
+
+/// A side that the site file names is the one of the option; with a camera there it shows as much at the same point. The
+/// camera of a perspective says nothing of a side that an option alone asks for.
 #[test]
 fn the_site_file_names_a_side() {
     let folder = site();
@@ -53,8 +74,9 @@ fn the_site_file_names_a_side() {
     assert_eq!((&json["target"], &json["to_viewer"]), (&json!([0.0, 0.0, 8.0]), &json!([-1.0, 0.0, 0.0])));
     let cell = json["cell"].as_f64().unwrap();
     assert!((cell - 2.0 * 50.0 / 1000.0).abs() < 1e-9, "{cell}");
-    write(folder.path(), eye);
     assert!(drawn(folder.path(), "--view west").1 == west, "another side");
+    write(folder.path(), eye);
+    assert!(drawn(folder.path(), "--view south").1 == south, "the perspective's frame");
     let (json, perspective) = drawn(folder.path(), "--view camera");
     assert!(json["camera"].is_object() && perspective != west, "{json}");
     // frames are drawn from there, too
