@@ -23,7 +23,11 @@ const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Mod
 
 /// A menu; what is longer than the window is high is scrolled.
 fn menu(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
-    ui.menu_button(name, |ui| egui::ScrollArea::vertical().show(ui, content));
+    ui.menu_button(name, |ui| {
+        // else 400 points, however high the window
+        ui.set_max_height(ui.ctx().content_rect().bottom() - ui.next_widget_position().y - 12.0);
+        egui::ScrollArea::vertical().show(ui, content)
+    });
 }
 
 /// Larger, smaller, and as the screen has it. The keys are egui's own.

@@ -211,9 +211,11 @@ fn lists_and_menus_are_seen_whole_or_scrolled() {
             harness.run_steps(2);
         }
         for (menu, last) in [("File", "Copy the picture"), ("View", "Interface at its own size")] {
+            let before = bars(&harness);
             click(&mut harness, menu);
             harness.run_steps(2);
             assert_eq!(cut_at_a_side(&harness), None, "{menu} at {scale}");
+            assert!(scale > 1.0 || bars(&harness) == before, "{menu} is scrolled");
             let at = harness.get_by_label_contains(last).rect();
             harness.hover_at(egui::pos2(at.left() + 20.0, 60.0));
             for _ in 0..40 {
