@@ -7,6 +7,7 @@ use super::look;
 use super::settings::Settings;
 use super::sky;
 use super::unit::Unit;
+use crate::export::figure::scale::Rgb;
 use crate::profile::probe::{Blocked, Sunlight, secs};
 use crate::site::file::ProbeTable;
 use crate::view::View;
@@ -64,7 +65,7 @@ pub(super) fn mark(ui: &Ui, open: &Open, view: &View, rect: Rect) {
 }
 
 /// A colour and what it means.
-pub(super) fn swatch(ui: &mut Ui, [r, g, b]: [u8; 3], what: &str) {
+pub(super) fn swatch(ui: &mut Ui, [r, g, b]: Rgb, what: &str) {
     ui.horizontal(|ui| {
         let height = ui.spacing().interact_size.y.min(16.0) - 1.0;
         let (rect, _) = ui.allocate_exact_size(vec2(30.0, height), Sense::hover());
@@ -77,7 +78,11 @@ pub(super) fn swatch(ui: &mut Ui, [r, g, b]: [u8; 3], what: &str) {
 fn legend(ui: &mut Ui, laid: &Laid) {
     let (head, entries) = laid.legend();
     ui.label(head);
-    scrolled(ui, 0.0, |ui| {
+    scrolled(ui, 0.0, |ui| swatches(ui, &entries));
+}
+
+fn swatches(ui: &mut Ui, entries: &[(Rgb, String)]) {
+    ui.scope(|ui| {
         // a row is no taller than its letters; many have small ones, so that they hide less of the picture
         let is_long = entries.len() > 10;
         (ui.spacing_mut().item_spacing.y, ui.spacing_mut().interact_size.y) =
@@ -127,7 +132,9 @@ fn probe(open: &mut Open, settings: &mut Settings, unit: Unit, laid: Option<&Arc
         }
         if let Some(laid) = laid {
             ui.separator();
-            legend(ui, laid);
+            let (head, entries) = laid.legend();
+            ui.label(head);
+            swatches(ui, &entries);
         }
     });
     ui.horizontal(|ui| {

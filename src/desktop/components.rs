@@ -36,7 +36,8 @@ pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings
             ui.weak(what).on_hover_text(means);
         }
         None => {
-            ui.weak(format!("{} components", site.mesh.components.len()));
+            let count = site.mesh.components.len();
+            ui.weak(format!("{count} component{}", if count == 1 { "" } else { "s" }));
         }
     });
     // what is switched already and not read yet counts, too
@@ -64,7 +65,7 @@ pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings
                     let [r, g, b] = project.colours[index];
                     let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), Sense::hover());
                     ui.painter().rect_filled(rect, 3.0, Color32::from_rgb(r, g, b));
-                    ui.add(egui::Label::new(name).truncate());
+                    ui.label(cut(ui, name)).on_hover_text(name);
                     return;
                 };
                 let (mut on, what) = (states[column], SWITCHES[column].0);
@@ -86,9 +87,12 @@ pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings
             _ => hide(settings, &site.mesh.components[index].name, !on),
         }
     }
-    if !settings.hidden.is_empty() {
+    // a name of which nothing is left hides nothing
+    let roles = site.receives.iter().zip(&project.visible.receives);
+    let hidden = roles.filter(|(receives, visible)| receives != visible).count();
+    if hidden > 0 {
         ui.horizontal_wrapped(|ui| {
-            ui.weak(format!("{} hidden here, and counted all the same", settings.hidden.len()));
+            ui.weak(format!("{hidden} hidden here, and counted all the same"));
             if ui.button("Show all").clicked() {
                 settings.hidden = Hidden::default();
             }
@@ -111,6 +115,30 @@ fn row(ui: &mut egui::Ui, mut content: impl FnMut(&mut egui::Ui, Option<usize>))
             content(ui, None);
         });
     });
+}
+
+/// A name that fits into what is left of a row. It is cut nearer to its begin: parts of one thing differ at the end.
+fn cut(ui: &egui::Ui, name: &str) -> String {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let fits = |text: &str| {
+        let galley = ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER);
+        galley.size().x <= ui.available_width()
+    };
+    if fits(name) {
+        return name.to_owned();
+    }
+    let letters: Vec<char> = name.chars().collect();
+    let of_length = |length: usize| {
+        let (begin, end) = letters.split_at(length / 3);
+        let end = &end[end.len() - (length - length / 3)..];
+        begin.iter().chain(&['…']).chain(end).collect::<String>()
+    };
+    let (mut short, mut long) = (0, letters.len());
+    while long - short > 1 {
+        let length = (short + long) / 2;
+        *(if fits(&of_length(length)) { &mut short } else { &mut long }) = length;
+    }
+    of_length(short)
 }
 
 /// Leaves a component out of the picture, or takes it in again.

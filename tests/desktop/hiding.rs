@@ -127,3 +127,16 @@ fn hours_stay_on_the_faces_beside_hidden_ones() {
     assert!(changed * 50 <= later.len(), "{changed} of {} pixels have other hours", later.len());
     assert_eq!(told(&mut harness, at), said);
 }
+
+/// Parts of one thing begin alike: what their names end with is not cut off.
+#[test]
+fn names_that_are_cut_are_told_apart() {
+    let mut harness = window(Some(&sample("headquarters")));
+    click(&mut harness, "Components");
+    let labels = harness.query_all_by_label_contains("…").filter_map(|node| node.accesskit_node().value());
+    let mut cut: Vec<String> = labels.filter(|label| !label.ends_with('…')).collect();
+    let all = cut.len();
+    cut.sort();
+    cut.dedup();
+    assert!(all > 2 && cut.len() == all, "{all} names: {cut:?}");
+}
