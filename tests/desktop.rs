@@ -119,6 +119,17 @@ pub(crate) fn drop_file(harness: &mut Harness<'_, App>, path: &Path) {
     settle(harness);
 }
 
+/// A pointer that comes, presses and releases in one place; what comes of it is waited for.
+pub(crate) fn click_at(harness: &mut Harness<'_, App>, at: Pos2) {
+    harness.hover_at(at);
+    harness.step();
+    harness.drag_at(at);
+    harness.step();
+    harness.drop_at(at);
+    harness.step();
+    settle(harness);
+}
+
 /// A pointer that presses, moves and releases.
 pub(crate) fn drag(harness: &mut Harness<'_, App>, from: Pos2, to: Pos2) {
     harness.hover_at(from);

@@ -1,8 +1,9 @@
 //! Components: their colours, and what each of them does.
 
 use super::loading::Project;
+use super::look;
 use super::settings::{Hidden, Settings};
-use crate::export::figure::component_colours;
+use crate::export::figure::{component_colours, without_middle};
 use crate::mesh::Component;
 use crate::site::Site;
 use crate::site::file::{ModelTable, Names};
@@ -65,7 +66,10 @@ pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings
                     let [r, g, b] = project.colours[index];
                     let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), Sense::hover());
                     ui.painter().rect_filled(rect, 3.0, Color32::from_rgb(r, g, b));
-                    ui.label(cut(ui, name)).on_hover_text(name);
+                    // parts of one thing differ at the end
+                    let fits = |text: &str| look::width_of(ui, text) <= ui.available_width();
+                    let cut = without_middle(name, fits);
+                    ui.label(cut).on_hover_text(name);
                     return;
                 };
                 let (mut on, what) = (states[column], SWITCHES[column].0);
@@ -115,30 +119,6 @@ fn row(ui: &mut egui::Ui, mut content: impl FnMut(&mut egui::Ui, Option<usize>))
             content(ui, None);
         });
     });
-}
-
-/// A name that fits into what is left of a row. It is cut nearer to its begin: parts of one thing differ at the end.
-fn cut(ui: &egui::Ui, name: &str) -> String {
-    let font = egui::TextStyle::Body.resolve(ui.style());
-    let fits = |text: &str| {
-        let galley = ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER);
-        galley.size().x <= ui.available_width()
-    };
-    if fits(name) {
-        return name.to_owned();
-    }
-    let letters: Vec<char> = name.chars().collect();
-    let of_length = |length: usize| {
-        let (begin, end) = letters.split_at(length / 3);
-        let end = &end[end.len() - (length - length / 3)..];
-        begin.iter().chain(&['…']).chain(end).collect::<String>()
-    };
-    let (mut short, mut long) = (0, letters.len());
-    while long - short > 1 {
-        let length = (short + long) / 2;
-        *(if fits(&of_length(length)) { &mut short } else { &mut long }) = length;
-    }
-    of_length(short)
 }
 
 /// Leaves a component out of the picture, or takes it in again.

@@ -109,11 +109,7 @@ fn hours_on_facades_are_the_engines() {
     assert!(near(said[0], hours) && near(said[1], right) && near(said[2], down), "{told}: {hours}, {right}, {down}");
     // and so does the card of that point
     let pointer = rect.lerp_inside(egui::vec2(share(column, camera.width), share(row, camera.height)));
-    harness.drag_at(pointer);
-    harness.step();
-    harness.drop_at(pointer);
-    harness.step();
-    settle(&mut harness);
+    click_at(&mut harness, pointer);
     let (card, _) = named(&harness, "In the study: ");
     let of_study = card.strip_prefix("In the study: ").expect("the study");
     assert!(told.starts_with(of_study), "{card}: {told}");

@@ -62,13 +62,7 @@ fn click_the_ground(harness: &mut Harness<'_, App>) {
     let rect = harness.get_by_label("Model").rect();
     // beside the legend
     let at = rect.right_center() + egui::vec2(-60.0, rect.height() * 0.35);
-    harness.hover_at(at);
-    harness.step();
-    harness.drag_at(at);
-    harness.step();
-    harness.drop_at(at);
-    harness.step();
-    settle(harness);
+    click_at(harness, at);
     harness.hover_at(at + egui::vec2(1.0, 0.0));
     harness.run_steps(2);
 }

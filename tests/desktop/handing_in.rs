@@ -118,11 +118,7 @@ fn click_on_the_model_finds_when_the_sun_reaches_it() {
     harness.step();
     harness.step();
     harness.get_by_label_contains("ground    ");
-    harness.drag_at(at);
-    harness.step();
-    harness.drop_at(at);
-    harness.step();
-    settle(&mut harness);
+    click_at(&mut harness, at);
     harness.get_by_label("Sun at ground");
     assert!(harness.query_all_by_label_contains("of sun").count() > 0);
     click(&mut harness, "Keep in the site file");
@@ -140,13 +136,7 @@ fn card_of_a_point_goes_with_its_scene() {
     click(&mut harness, "Components");
     let at = harness.get_by_label("Model").rect().left_bottom() + egui::vec2(200.0, -40.0);
     let probe = |harness: &mut Harness<'_, App>| {
-        harness.hover_at(at);
-        harness.step();
-        harness.drag_at(at);
-        harness.step();
-        harness.drop_at(at);
-        harness.step();
-        settle(harness);
+        click_at(harness, at);
         harness.get_by_label("Sun at ground");
     };
     probe(&mut harness);
@@ -165,6 +155,16 @@ fn card_of_a_point_goes_with_its_scene() {
     assert!(harness.query_by_label("Sun at ground").is_none(), "the casters are others");
 }
 
+/// The drawing of what is shown, and the site file that is saved elsewhere.
+fn exported_and_saved(harness: &mut Harness<'_, App>, folder: &Path) -> [PathBuf; 2] {
+    let both = ["window.png", "elsewhere/site.toml"].map(|name| folder.join(name));
+    menu(harness, "Export the drawing…");
+    answer(harness, &both[0], "Write");
+    menu(harness, "Save the site file…");
+    answer(harness, &both[1], "Write");
+    both
+}
+
 /// A saved site reopens to the same view, and the command reads it.
 #[test]
 fn saved_site_reopens_to_the_same_view() {
@@ -178,12 +178,7 @@ fn saved_site_reopens_to_the_same_view() {
     write(&mut harness, "step", "4h");
     settle(&mut harness);
     // what is exported from here is what the command draws from what is saved
-    menu(&mut harness, "Export the drawing…");
-    let ours = folder.path().join("window.png");
-    answer(&mut harness, &ours, "Write");
-    menu(&mut harness, "Save the site file…");
-    let saved = folder.path().join("elsewhere/site.toml");
-    answer(&mut harness, &saved, "Write");
+    let [ours, saved] = exported_and_saved(&mut harness, folder.path());
     let before = harness.state().shown().unwrap();
     let again = window(Some(&saved));
     let after = again.state().shown().unwrap();
@@ -211,12 +206,7 @@ fn saved_site_reopens_to_the_same_side() {
     let rect = harness.get_by_label("Model").rect();
     drag(&mut harness, rect.left_bottom() + egui::vec2(80.0, -60.0), rect.left_bottom() + egui::vec2(187.0, -93.0));
     settle(&mut harness);
-    menu(&mut harness, "Export the drawing…");
-    let ours = folder.path().join("window.png");
-    answer(&mut harness, &ours, "Write");
-    menu(&mut harness, "Save the site file…");
-    let saved = folder.path().join("elsewhere/site.toml");
-    answer(&mut harness, &saved, "Write");
+    let [ours, saved] = exported_and_saved(&mut harness, folder.path());
     let before = harness.state().shown().unwrap();
     let mut again = window(Some(&saved));
     let after = again.state().shown().unwrap();

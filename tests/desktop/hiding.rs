@@ -81,13 +81,7 @@ fn hidden_component_is_looked_through_and_casts() {
     // what is clicked is hidden as well
     let own: Vec<usize> = (0..of_pixels.len()).filter(|at| of_pixels[*at] == Some(hidden)).collect();
     let at = place(&harness, view, own[own.len() / 2]);
-    harness.hover_at(at);
-    harness.step();
-    harness.drag_at(at);
-    harness.step();
-    harness.drop_at(at);
-    harness.step();
-    settle(&mut harness);
+    click_at(&mut harness, at);
     click(&mut harness, "Hide this component");
     settle(&mut harness);
     assert_eq!(differs(&without, &pixels(&harness)), 0, "what was clicked is hidden");

@@ -32,6 +32,7 @@ pub use screen::{Screen, instant_on_screen};
 pub use strips::strips;
 pub(super) use surfaces::NOT_JUDGED;
 pub use surfaces::{legend as surfaces_legend, surfaces};
+pub use text::without_middle;
 pub(super) use words::duration;
 
 use super::{ExportError, check_size};

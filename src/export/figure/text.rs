@@ -101,8 +101,8 @@ pub(super) fn told_apart(names: &[String; 2], fits: impl Fn(&str) -> bool) -> [S
     [one, other].map(|name| format!("…{}", &name[differs..]))
 }
 
-/// The name if it fits, else its beginning and its end.
-fn without_middle(name: &str, fits: impl Fn(&str) -> bool) -> String {
+/// The name if it fits, else as much of its beginning and its end as does.
+pub fn without_middle(name: &str, fits: impl Fn(&str) -> bool) -> String {
     if fits(name) {
         return name.to_owned();
     }
