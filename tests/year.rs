@@ -206,19 +206,25 @@ fn bits_are_the_masks() {
 /// Starts a study, stops it by Ctrl-C when it has told of a part of its work, and says what it told.
 #[cfg(unix)]
 pub(crate) fn stopped(folder: &Path, arguments: &str, when: &str) -> String {
-    use std::io::{BufRead, BufReader};
+    use std::io::{BufRead, BufReader, Write};
     use std::process::{Command, Stdio};
     let mut child = command(folder, arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    // it waits already: starting it takes as long as some hundred instants
+    let kill = format!("read line && kill -INT {}", child.id());
+    let mut killer = Command::new("sh").args(["-c", &kill]).stdin(Stdio::piped()).spawn().unwrap();
+    let mut ask = killer.stdin.take();
     let mut told = String::new();
-    let mut is_asked = false;
     for line in BufReader::new(child.stderr.take().unwrap()).lines() {
         let line = line.unwrap();
-        if line.trim_start().starts_with(when) && !is_asked {
-            is_asked = true;
-            assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+        if line.trim_start().starts_with(when)
+            && let Some(mut ask) = ask.take()
+        {
+            ask.write_all(b"now\n").unwrap();
         }
         told += &(line + "\n");
     }
+    drop(ask);
+    killer.wait().unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(130), "{told}");
     told
 }
@@ -261,7 +267,7 @@ fn a_stopped_study_goes_on_and_comes_to_the_same() {
     for (name, engine, step) in [
         ("cpu", "--technique ray-cast", "3min"),
         ("gpu", "--technique stencil --stats", "10min"),
-        ("ground", "--receivers ground --engine cpu", "1min"),
+        ("ground", "--receivers ground --engine cpu", "10s"),
     ] {
         let size = if name == "ground" { 150 } else { 64 };
         let asked =
