@@ -28,9 +28,9 @@ fn counts(name: &str) -> Counts {
     let asked = Overrides { size: Some(256), receivers: Some(Receivers::Top), ..Overrides::default() };
     let corners = Cell::new(0);
     let site = Site::load_with(&Path::new("sites").join(name), &asked, |path, placement| {
-        let parts = model::load(path, placement)?;
-        corners.set(corners.get() + parts.iter().map(|part| part.positions.len()).sum::<usize>());
-        Ok(parts)
+        let model = model::load(path, placement)?;
+        corners.set(corners.get() + model.parts.iter().map(|part| part.positions.len()).sum::<usize>());
+        Ok(model)
     });
     let site = site.unwrap();
     let casters = site.mesh.of_components(&site.casts);

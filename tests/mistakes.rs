@@ -3,7 +3,7 @@
 use crate::site::{SITE, folder, load, some};
 use gnomon::mesh::Part;
 use gnomon::site::file::SiteFile;
-use gnomon::site::model::Placement;
+use gnomon::site::model::{Model, Placement};
 use gnomon::site::{Overrides, Site};
 use proptest::prelude::*;
 use std::path::Path;
@@ -77,7 +77,7 @@ fn missing_tables_are_told() {
     let no_study = complaint(&SITE[..SITE.find("[study]").unwrap()], &Overrides::default());
     assert!(no_study.contains("--date 2026-03-21 --from 9:00 --to 17:00 --step 1h"), "{no_study}");
     told("step = \"30min\"", "", &["step of the study", "--step 1h"]);
-    let empty = |_: &Path, _: &Placement| Ok(vec![Part::default()]);
+    let empty = |_: &Path, _: &Placement| Ok(Model { parts: vec![Part::default()], ..Model::default() });
     let site = SITE.replace("casts = [\"iron\"]", "");
     let message = Site::load_with(folder(&site).path(), &Overrides::default(), empty).expect_err("nothing").to_string();
     assert!(message.contains("no triangles"), "{message}");

@@ -137,7 +137,7 @@ pub(crate) fn load_bytes(name: &str, bytes: &[u8]) -> Result<Vec<Part>, String> 
 }
 
 pub(crate) fn load_path(path: &Path) -> Result<Vec<Part>, String> {
-    load(path, &Placement::default()).map_err(|error| error.to_string())
+    load(path, &Placement::default()).map(|model| model.parts).map_err(|error| error.to_string())
 }
 
 /// There must be an error, and it must say all of `words`.

@@ -45,7 +45,8 @@ fn at(point: DVec3, normal: Option<DVec3>) -> Probe {
 fn probing(place: &Place, parts: Vec<Part>, probes: Vec<Probe>, days: Vec<DayWindow>) -> Probing {
     let mesh = Mesh::build(parts).unwrap();
     let casts = vec![true; mesh.components.len()];
-    Probing { place: place.clone(), mesh, casts, ground: 0.0, probes, days, step_secs: 60, refraction: true }
+    let (place, notes) = (place.clone(), Vec::new());
+    Probing { place, mesh, notes, casts, ground: 0.0, probes, days, step_secs: 60, refraction: true }
 }
 
 fn found(asked: &Probing) -> Sunlight {

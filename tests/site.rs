@@ -3,7 +3,7 @@
 use glam::DVec3;
 use gnomon::mesh::Part;
 use gnomon::site::file::SiteFile;
-use gnomon::site::model::{ModelError, Placement};
+use gnomon::site::model::{Model, ModelError, Placement};
 use gnomon::site::{Engine, Method, Models, Overrides, Receivers, Site, SiteError, Written, load_sun};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -47,12 +47,13 @@ fn block(name: &str, alias: &str, low: DVec3, high: DVec3) -> Part {
     }
 }
 
-pub(crate) fn tower(_: &Path, placement: &Placement) -> Result<Vec<Part>, ModelError> {
+pub(crate) fn tower(_: &Path, placement: &Placement) -> Result<Model, ModelError> {
     let at = |x, y, z| placement.position + DVec3::new(x, y, z) * placement.scale;
-    Ok(vec![
+    let parts = vec![
         block("tower", "iron", at(-5.0, -5.0, 0.0), at(5.0, 5.0, 40.0)),
         block("yard", "grass", at(-30.0, -30.0, 0.0), at(30.0, 30.0, 1.0)),
-    ])
+    ];
+    Ok(Model { parts, ..Model::default() })
 }
 
 pub(crate) fn load(site: &str, asked: &Overrides) -> Result<Site, SiteError> {
@@ -304,6 +305,32 @@ fn rewritten_file_keeps_its_comments() {
     assert_eq!(SiteFile::parse("site.toml", &written).unwrap(), after, "{written}");
 }
 
+/// What a reader has to say of a model comes to whoever asks the site, by the model's name; and to a study's listener.
+#[test]
+fn notes_of_models_are_told() {
+    let noted = |path: &Path, placement: &Placement| {
+        let notes = vec!["leaves something out".to_owned()];
+        Ok(Model { notes, ..tower(path, placement)? })
+    };
+    let asked = Overrides { size: Some(16), engine: Some(Engine::Cpu), ..Overrides::default() };
+    let site = Site::load_with(folder(SITE).path(), &asked, noted).unwrap();
+    assert_eq!(site.notes, ["tower.glb leaves something out"]);
+    let mut heard = Vec::new();
+    let run = gnomon::study::run(&site, &gnomon::study::Wants::default(), &mut |event| {
+        if let gnomon::study::Event::Note(note) = event {
+            heard.push(note);
+        }
+        std::ops::ControlFlow::Continue(())
+    });
+    run.unwrap();
+    assert_eq!(heard, site.notes);
+    let before = folder(SITE);
+    let [before, after] = [before.path(), before.path()].map(|path| Written::read(path, &asked).unwrap());
+    let pair = gnomon::site::Pair::of(&before, &after, &asked, noted).unwrap();
+    assert_eq!(pair.notes(), site.notes, "told once of both");
+    assert!(load(SITE, &asked).unwrap().notes.is_empty());
+}
+
 /// What was read serves as long as the same files stand in the same places, whatever else is asked of them.
 #[test]
 fn models_are_read_once_as_long_as_they_stay() {
@@ -337,9 +364,9 @@ fn models_are_read_once_as_long_as_they_stay() {
     std::fs::remove_file(&file).unwrap();
     assert_eq!(again.changed_file(), Some(file.as_path()), "the file is gone");
     let moved = |path: &Path, placement: &Placement| {
-        let mut parts = tower(path, placement)?;
-        parts[0].positions[0].x += 0.001;
-        Ok(parts)
+        let mut model = tower(path, placement)?;
+        model.parts[0].positions[0].x += 0.001;
+        Ok(model)
     };
     std::fs::write(&file, "another").unwrap();
     assert_ne!(Models::read(&written, moved).unwrap().mark(), models.mark(), "a corner is elsewhere");

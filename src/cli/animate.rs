@@ -82,7 +82,7 @@ pub(super) fn animate(asked: &AnimateArgs) -> anyhow::Result<()> {
     }
     if asked.common.json {
         let (receivers, timings) = (study::judged(&site, &view), &watch.timings());
-        let told = Told { receivers, drawn: &drawn, timings, statistics: None };
+        let told = Told { receivers, drawn: &drawn, timings, statistics: None, notes: &site.notes };
         return say(&report::shadow_json(&view, place, track, &told)?);
     }
     let [first, last] = [0, count - 1].map(|index| Frames::path(out, index).display().to_string());

@@ -9,7 +9,7 @@ use crate::export::report::Told;
 use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Statistics};
-use crate::site::{Method, Site, load_mesh, load_sun};
+use crate::site::{LoadedMesh, Method, Site, load_mesh, load_sun};
 use crate::study::{self, InstantWants, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -99,7 +99,12 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     let statistics = outcome.counted.as_ref().filter(|_| asked.stats).map(Statistics::of);
     if asked.common.json {
         let (statistics, timings) = (statistics.as_ref(), &watch.timings());
-        return say(&report::shadow_json(&view, place, track, &Told { receivers, drawn, timings, statistics })?);
+        return say(&report::shadow_json(
+            &view,
+            place,
+            track,
+            &Told { receivers, drawn, timings, statistics, notes: &site.notes },
+        )?);
     }
     let _ = writeln!(text, "{}", drawn_by(drawn));
     text.push_str(&statistics.as_ref().map(took).unwrap_or_default());
@@ -148,13 +153,13 @@ pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
 
 /// `gnomon check`
 pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
-    let (mesh, frame) = load_mesh(&asked.path)?;
+    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path)?;
     interrupt::check()?;
     let components = mesh_report::components(&mesh);
     interrupt::check()?;
     match asked.common.json {
-        true => say(&check::json(&mesh, &components, frame)?),
-        false => say(&check::table(&mesh, &components, frame)),
+        true => say(&check::json(&mesh, &components, frame, &notes)?),
+        false => say(&check::table(&mesh, &components, frame, &notes)),
     }
 }
 

@@ -69,7 +69,7 @@ pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     watch.lap("raster");
     interrupt::check()?;
     let drawn = &outcome.drawn[1];
-    let told = Told { receivers, drawn, timings: &watch.timings(), statistics: None };
+    let told = Told { receivers, drawn, timings: &watch.timings(), statistics: None, notes: &pair.notes() };
     let json = comparison::json(change, &pair.names, place, track, &told)?;
     let files = [
         ("compare.png", picture),

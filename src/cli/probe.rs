@@ -96,7 +96,7 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
         file::write(path, bytes)?;
     }
     if asked.common.json {
-        return say(&told::json(&sunlight, &probing.place)?);
+        return say(&told::json(&sunlight, &probing.place, &probing.notes)?);
     }
     let written: String = files.iter().map(|(path, _)| format!("{}\n", path.display())).collect();
     say(&(told::table(&sunlight, &probing.place) + &written))

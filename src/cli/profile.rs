@@ -123,7 +123,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         kept.check(&mut progress)?;
     }
     let (statistics, timings) = (outcome.statistics.as_ref(), &watch.timings());
-    let told = Told { receivers: site.receivers, drawn, timings, statistics };
+    let told = Told { receivers: site.receivers, drawn, timings, statistics, notes: &site.notes };
     let json = report::profile_json(&profile, &site.place, &site.track, &told)?;
     let mut text = written(&asked.out, &files)?;
     if let Some(raster) = raster {

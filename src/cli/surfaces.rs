@@ -59,7 +59,8 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
     if kinds.contains(&Written::Csv) {
         files.push(("surfaces.csv", surfaces::csv(&answer).into_bytes()));
     }
-    let told = Told { receivers: Receivers::Surfaces, drawn, timings: &watch.timings(), statistics: None };
+    let (timings, notes) = (&watch.timings(), &site.notes);
+    let told = Told { receivers: Receivers::Surfaces, drawn, timings, statistics: None, notes };
     let json = report::surfaces_json(&answer, &told)?;
     if kinds.contains(&Written::Json) {
         files.push(("profile.json", json.clone().into_bytes()));

@@ -15,7 +15,7 @@ pub(super) fn verify(asked: &VerifyArgs) -> anyhow::Result<()> {
         interrupt::flow()
     })?;
     match asked.common.json {
-        true => say(&told::json(&verification, &site.place, &site.track, site.receivers)?)?,
+        true => say(&told::json(&verification, &site)?)?,
         false => say(&told::table(&verification, &site.place, &site.track, site.receivers))?,
     }
     match told::failure(&verification) {

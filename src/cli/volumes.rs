@@ -28,7 +28,7 @@ pub(super) fn volumes(asked: &VolumesArgs) -> anyhow::Result<()> {
     }
     file::check_folder(out.parent().unwrap_or(Path::new("")))?;
     let mut progress = Progress::new(asked.common.quiet);
-    study::note_distance(&site.mesh, &mut |event| {
+    study::note_models(&site.notes, &site.mesh, &mut |event| {
         progress.hear(&event);
         interrupt::flow()
     })?;
@@ -56,6 +56,7 @@ pub(super) fn volumes(asked: &VolumesArgs) -> anyhow::Result<()> {
         mesh: &site.mesh,
         solids: &found.solids,
         left_out: found.left_out,
+        notes: &site.notes,
     };
     let bytes = volumes::glb(&written)?;
     interrupt::check()?;

@@ -181,7 +181,8 @@ impl Change {
         watch.lap("picture");
         let raster = geotiff::difference_geotiff(&outcome.comparison, place)?;
         watch.lap("raster");
-        let told = Told { receivers, drawn: &outcome.drawn[1], timings: &watch.timings(), statistics: None };
+        let (drawn, timings, notes) = (&outcome.drawn[1], &watch.timings(), &pair.notes());
+        let told = Told { receivers, drawn, timings, statistics: None, notes };
         let json = comparison::json(&outcome.comparison, &pair.names, place, track, &told)?;
         Ok(vec![("compare.png", picture), ("shadow-hours-difference.tif", raster), ("compare.json", json.into_bytes())])
     }

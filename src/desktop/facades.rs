@@ -96,7 +96,7 @@ impl Facades {
         watch.lap("picture");
         let model = surfaces::glb(&answer)?;
         watch.lap("model");
-        let told = Told { receivers, drawn, timings: &watch.timings(), statistics: None };
+        let told = Told { receivers, drawn, timings: &watch.timings(), statistics: None, notes: &site.notes };
         Ok(vec![
             ("surfaces.png", picture),
             ("surfaces.glb", model),

@@ -204,7 +204,7 @@ impl ShadowHours {
     /// The drawing, the raster and the report.
     fn files(&self, site: &Site) -> anyhow::Result<Vec<NamedFile>> {
         let Outcome { profile, drawn, timings, .. } = &self.outcome;
-        let told = report::Told { receivers: site.receivers, drawn, timings, statistics: None };
+        let told = report::Told { receivers: site.receivers, drawn, timings, statistics: None, notes: &site.notes };
         Ok(vec![
             ("profile.png", figure::profile(&self.scene(site)?, profile)?),
             ("shadow-hours.tif", raster::geotiff(profile, &site.place)?),
@@ -266,6 +266,7 @@ pub(super) fn probe(project: &Project, probe: Probe, date: NaiveDate, context: e
             ground: site.ground,
             place: site.place.clone(),
             mesh: site.mesh.clone(),
+            notes: site.notes.clone(),
             casts: site.casts.clone(),
             probes: vec![probe],
             days: vec![day],

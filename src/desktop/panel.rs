@@ -26,6 +26,10 @@ fn good_for(method: Method) -> &'static str {
 /// The whole panel.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let notes = app.open.as_ref().map_or(&[][..], |open| &open.project.site.notes);
+        if !notes.is_empty() {
+            section(ui, "Notes", true, |ui| notes.iter().for_each(|note| drop(ui.label(note))));
+        }
         section(ui, "Shadows", true, |ui| shadows(app, ui));
         section(ui, "Hours of shadow", true, |ui| study(app, ui));
         if app.open.as_ref().and_then(|open| open.laid.as_ref()).is_some_and(|laid| laid.change().is_some()) {

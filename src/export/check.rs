@@ -22,6 +22,7 @@ struct MeshReport<'a> {
     vertices: usize,
     frame: &'static str,
     components: Vec<ComponentLine<'a>>,
+    notes: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -42,7 +43,12 @@ struct ComponentLine<'a> {
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn json(mesh: &Mesh, components: &[ComponentReport], frame: Frame) -> Result<String, ExportError> {
+pub fn json(
+    mesh: &Mesh,
+    components: &[ComponentReport],
+    frame: Frame,
+    notes: &[String],
+) -> Result<String, ExportError> {
     let lines = components.iter().map(|component| ComponentLine {
         name: &component.name,
         triangles: component.triangles,
@@ -60,18 +66,23 @@ pub fn json(mesh: &Mesh, components: &[ComponentReport], frame: Frame) -> Result
         vertices: mesh.vertices.len(),
         frame: places::frame(frame),
         components: lines.collect(),
+        notes,
     })
 }
 
 /// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
-/// break.
-pub fn table(mesh: &Mesh, components: &[ComponentReport], frame: Frame) -> String {
+/// break. How the models were read stands below the totals.
+pub fn table(mesh: &Mesh, components: &[ComponentReport], frame: Frame, notes: &[String]) -> String {
     let mut table = format!(
         "{}, {}, {}\n",
         counted(components.len(), "component", "components"),
         counted(triangles(components), "triangle", "triangles"),
         counted(mesh.vertices.len(), "vertex", "vertices"),
     );
+    for note in notes {
+        // Writing to a String cannot fail.
+        let _ = writeln!(table, "note: {}", plain(note));
+    }
     let mut dirty: Vec<_> = components.iter().filter(|component| !component.clean()).collect();
     if dirty.is_empty() {
         table.push_str("nothing wrong: every component is closed and well wound\n");
@@ -82,7 +93,6 @@ pub fn table(mesh: &Mesh, components: &[ComponentReport], frame: Frame) -> Strin
     let kinds: Vec<&Kind> = places::KINDS.iter().filter(|kind| sum(kind) > 0).collect();
     rows(&mut table, &dirty, &kinds);
     let clean = components.len() - dirty.len();
-    // Writing to a String cannot fail.
     let _ = writeln!(table, "\n{} not clean, {clean} clean; where: {}", dirty.len(), places::frame(frame));
     for kind in kinds {
         let _ = writeln!(table, "{} ({}): {}", kind.head, sum(kind), kind.meaning);

@@ -18,6 +18,7 @@ struct SunlightReport<'a> {
     refraction: bool,
     probes: Vec<ProbeReport<'a>>,
     shortest_found_secs: u32,
+    notes: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -57,11 +58,12 @@ struct IntervalReport {
 ///   the end (`blocked_before`, `blocked_after`): the nearest component, `horizon` (the sun is down), `behind` (it is
 ///   behind the probe's own plane) or `window` (what is asked begins or ends there);
 /// - of each day and each probe the `seconds` in sunlight and the longest interval's (`longest_seconds`);
-/// - `shortest_found_secs`: no interval of sun or of shade that is at least so long can have been missed.
+/// - `shortest_found_secs`: no interval of sun or of shade that is at least so long can have been missed;
+/// - `notes` as in `profile.json`.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn json(sunlight: &Sunlight, place: &Place) -> Result<String, ExportError> {
+pub fn json(sunlight: &Sunlight, place: &Place, notes: &[String]) -> Result<String, ExportError> {
     let day = |(day, intervals): (&SunDay, &Vec<Interval>)| DayReport {
         date: day.window.day.date.to_string(),
         sunrise: day.window.day.sunrise.as_ref().map(stamp),
@@ -87,6 +89,7 @@ pub fn json(sunlight: &Sunlight, place: &Place) -> Result<String, ExportError> {
             })
             .collect(),
         shortest_found_secs: sunlight.step_secs,
+        notes,
     })
 }
 

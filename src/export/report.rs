@@ -36,6 +36,7 @@ pub(super) struct DrawnReport<'a> {
     delta_t_source: &'static str,
     instants: Vec<InstantReport>,
     days: Vec<DayReport>,
+    notes: &'a [String],
     #[serde(serialize_with = "in_order")]
     timings_secs: &'a Timings,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -125,6 +126,8 @@ pub struct Told<'a> {
     pub timings: &'a Timings,
     /// What counting took, where that was asked.
     pub statistics: Option<&'a Statistics>,
+    /// What the user should know of how the models were read.
+    pub notes: &'a [String],
 }
 
 /// `profile.json`, as the design's contract has it, with how refraction and ΔT were found beside them.
@@ -189,7 +192,7 @@ pub(super) fn plan_report<'a>(grid: &Grid, place: &'a Place, track: &SunTrack, t
 }
 
 fn drawn_report<'a>(view: ViewReport<'a>, place: &'a Place, track: &SunTrack, told: &Told<'a>) -> DrawnReport<'a> {
-    let Told { receivers, drawn, timings, statistics } = *told;
+    let Told { receivers, drawn, timings, statistics, notes } = *told;
     let air = Air::standard(place.elevation_m);
     let refracted = |value| track.refraction.then_some(value);
     DrawnReport {
@@ -210,6 +213,7 @@ fn drawn_report<'a>(view: ViewReport<'a>, place: &'a Place, track: &SunTrack, to
         delta_t_source: "Espenak and Meeus",
         instants: track.instants.iter().map(instant_report).collect(),
         days: track.days.iter().map(day_report).collect(),
+        notes,
         timings_secs: timings,
         statistics: statistics.map(|it| StatisticsReport {
             cells: it.cells,

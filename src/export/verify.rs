@@ -3,7 +3,7 @@
 use super::{ExportError, report};
 use crate::profile::DrawnSettings;
 use crate::profile::verify::{HoursOff, Promise, Row, Truth, Verification};
-use crate::site::Receivers;
+use crate::site::{Receivers, Site};
 use crate::sun::{Place, SunTrack};
 use serde::Serialize;
 use std::fmt::Write;
@@ -29,6 +29,7 @@ struct VerifyReport<'a> {
     edge_share_bound: f64,
     holds: bool,
     techniques: Vec<RowReport<'a>>,
+    notes: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -68,16 +69,13 @@ struct RowReport<'a> {
 ///   hybrid's map missed something (`map_missed`); how far the furthest of those that differ lies from a shadow edge
 ///   (`furthest_cells`); by how much the share of the sun, 0 to 1, and the hours of the profile are off
 ///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the technique
-///   decides nothing.
+///   decides nothing;
+/// - `notes` as in `profile.json`.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn json(
-    verification: &Verification,
-    place: &Place,
-    track: &SunTrack,
-    receivers: Receivers,
-) -> Result<String, ExportError> {
+pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportError> {
+    let Site { place, track, receivers, notes, .. } = site;
     let Verification { grid, instants, clean, edge_share, sun_samples, disc_secs, rows } = verification;
     report::json(&VerifyReport {
         gnomon: env!("CARGO_PKG_VERSION"),
@@ -96,6 +94,7 @@ pub fn json(
         edge_share_bound: *edge_share,
         holds: verification.failed().next().is_none(),
         techniques: rows.iter().map(|row| row_report(row, verification.row_holds(row))).collect(),
+        notes,
     })
 }
 

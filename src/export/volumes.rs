@@ -29,6 +29,8 @@ pub struct Volumes<'a> {
     pub solids: &'a [Solid],
     /// How many components that cast have none.
     pub left_out: usize,
+    /// What the user should know of how the models were read.
+    pub notes: &'a [String],
 }
 
 impl Volumes<'_> {
@@ -159,6 +161,7 @@ struct VolumesReport<'a> {
     sun: Value,
     volumes: Vec<VolumeLine<'a>>,
     left_out: usize,
+    notes: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -189,6 +192,7 @@ pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
         sun: volumes.sun(),
         volumes: volumes.solids.iter().map(line).collect(),
         left_out: volumes.left_out,
+        notes: volumes.notes,
     })
 }
 

@@ -3,12 +3,12 @@
 use super::asked::{Overrides, refuse};
 use super::error::{At, SiteError};
 use super::extent::with_shadows;
-use super::model::{self, ModelError, Placement};
-use super::models::{self, Models};
+use super::model::{self, Model, ModelError, Placement};
+use super::models::{self, Joined, Models};
 use super::written::Written;
 use super::{Finder, Method, Receivers, Site, camera, plan, study};
+use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
-use crate::mesh::{Mesh, Part};
 use crate::sun::{Place, SunTrack};
 use std::path::Path;
 
@@ -38,18 +38,32 @@ pub enum Frame {
     Model,
 }
 
-/// The models' mesh alone: of a model file as it is, or of a site's models where they stand. Place and study may be
-/// absent.
+/// Models alone, without place and study.
+#[derive(Clone, Debug)]
+pub struct LoadedMesh {
+    /// All of them, welded.
+    pub mesh: Mesh,
+    /// Whose coordinates that has.
+    pub frame: Frame,
+    /// What the user should know of how they were read, as [`Site::notes`].
+    pub notes: Vec<String>,
+}
+
+/// The models alone: of a model file as it is, or of a site's models where they stand. Place and study may be absent.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
-pub fn load_mesh(path: &Path) -> Result<(Mesh, Frame), SiteError> {
+pub fn load_mesh(path: &Path) -> Result<LoadedMesh, SiteError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if matches!(extension.as_str(), "glb" | "gltf") && !path.is_dir() {
-        return Ok((Mesh::build(model::load(path, &Placement::default())?)?, Frame::Model));
+        let Model { parts, notes } = model::load(path, &Placement::default())?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let notes = notes.into_iter().map(|note| format!("{name} {note}")).collect();
+        return Ok(LoadedMesh { mesh: Mesh::build(parts)?, frame: Frame::Model, notes });
     }
     let written = Written::read(path, &Overrides::default())?;
-    Ok((models::mesh(&written, model::load)?.0, Frame::Place))
+    let Joined { mesh, notes, .. } = models::join(&written, model::load)?;
+    Ok(LoadedMesh { mesh, frame: Frame::Place, notes })
 }
 
 impl Site {
@@ -69,7 +83,7 @@ impl Site {
     pub fn load_with(
         path: &Path,
         asked: &Overrides,
-        read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
+        read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
     ) -> Result<Site, SiteError> {
         Self::of(&Written::read(path, asked)?, asked, read_model)
     }
@@ -81,7 +95,7 @@ impl Site {
     pub fn of(
         written: &Written,
         asked: &Overrides,
-        read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
+        read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
     ) -> Result<Site, SiteError> {
         Self::with_models(written, asked, || Models::read(written, read_model))
     }
@@ -113,7 +127,7 @@ impl Site {
         let level = ground_level(written)?;
         let models = models()?;
         let [casts, receives] = models.roles(written)?;
-        let Models { mesh, bounds, .. } = models;
+        let Models { mesh, bounds, notes, .. } = models;
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
         let grid = plan::grid(written, asked, || shadows(SHADOW_CUT))?;
@@ -122,6 +136,7 @@ impl Site {
         Ok(Site {
             place,
             mesh,
+            notes,
             casts,
             receives,
             ground,

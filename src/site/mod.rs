@@ -23,7 +23,7 @@ mod written;
 pub use asked::Overrides;
 pub use choice::ChoiceError;
 pub use error::{At, SiteError};
-pub use load::{Frame, load_mesh, load_sun};
+pub use load::{Frame, LoadedMesh, load_mesh, load_sun};
 pub use models::Models;
 pub use pair::Pair;
 pub use probe::{Probing, load_probes};
@@ -126,6 +126,8 @@ pub struct Site {
     pub place: Place,
     /// All models, welded, in the world frame.
     pub mesh: Mesh,
+    /// What the user should know of how the models were read: each a sentence without its stop that names the model.
+    pub notes: Vec<String>,
     /// Per component: whether it casts.
     pub casts: Vec<bool>,
     /// Per component: whether it receives; what does not is looked through.

@@ -5,9 +5,9 @@ use super::error::{SiteError, nearest};
 use super::extent::Bounds;
 use super::file::Names;
 use super::keys;
-use super::model::{ModelError, Placement};
+use super::model::{Model, ModelError, Placement};
 use super::written::Written;
-use crate::mesh::{Component, Mesh, Part};
+use crate::mesh::{Component, Mesh};
 use glam::DVec3;
 use rustc_hash::FxBuildHasher;
 use std::hash::BuildHasher;
@@ -20,6 +20,8 @@ use std::time::SystemTime;
 pub struct Models {
     pub(super) mesh: Mesh,
     pub(super) bounds: Bounds,
+    /// What the user should know of how they were read, each a sentence without its stop that names the model.
+    pub(super) notes: Vec<String>,
     /// Which components are whose.
     of_model: Vec<Range<usize>>,
     sources: Vec<Source>,
@@ -42,11 +44,11 @@ impl Models {
     /// Everything that can be wrong with a site file's models.
     pub fn read(
         written: &Written,
-        read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
+        read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
     ) -> Result<Models, SiteError> {
         // a file that changes while it is read has changed since
         let sources = sources(written)?;
-        let (mesh, of_model) = mesh(written, read_model)?;
+        let Joined { mesh, of_model, notes } = join(written, read_model)?;
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
         let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
         let mark = FxBuildHasher.hash_one((
@@ -55,7 +57,7 @@ impl Models {
             mesh.origin.to_array().map(f64::to_bits),
             names.collect::<Vec<_>>(),
         ));
-        Ok(Models { mesh, bounds, of_model, sources, mark })
+        Ok(Models { mesh, bounds, notes, of_model, sources, mark })
     }
 
     /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.
@@ -94,16 +96,24 @@ impl Models {
     }
 }
 
-/// All models as one mesh, one component a part, in their order; and which are whose.
-pub(super) fn mesh(
+/// All models as one mesh, one component a part, in their order.
+pub(super) struct Joined {
+    pub(super) mesh: Mesh,
+    /// Which components are whose.
+    of_model: Vec<Range<usize>>,
+    pub(super) notes: Vec<String>,
+}
+
+/// Reads all models.
+pub(super) fn join(
     written: &Written,
-    read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
-) -> Result<(Mesh, Vec<Range<usize>>), SiteError> {
+    read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
+) -> Result<Joined, SiteError> {
     let count = written.site.model.len();
     if count == 0 {
         return Err(written.missing("[[model]]", "[[model]] with path = \"tower.glb\""));
     }
-    let (mut parts, mut of_model) = (Vec::new(), Vec::new());
+    let (mut parts, mut of_model, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for index in 0..count {
         let (file, placement) = placed(written, index)?;
         if !file.is_file() {
@@ -112,10 +122,13 @@ pub(super) fn mesh(
             return Err(refuse(written.model_key(index, "path"), what));
         }
         let first = parts.len();
-        parts.extend(read_model(&file, &placement)?);
+        let model = read_model(&file, &placement)?;
+        parts.extend(model.parts);
         of_model.push(first..parts.len());
+        let name = written.site.model[index].path.as_deref().unwrap_or_default();
+        notes.extend(model.notes.into_iter().map(|note| format!("{name} {note}")));
     }
-    Ok((Mesh::build(parts)?, of_model))
+    Ok(Joined { mesh: Mesh::build(parts)?, of_model, notes })
 }
 
 fn sources(written: &Written) -> Result<Vec<Source>, SiteError> {

@@ -4,11 +4,10 @@ use super::asked::{Overrides, refuse};
 use super::error::SiteError;
 use super::extent::{Bounds, with_shadows};
 use super::load::SHADOW_CUT;
-use super::model::{self, ModelError, Placement};
+use super::model::{self, Model, ModelError, Placement};
 use super::models::Models;
 use super::written::Written;
 use super::{Site, plan};
-use crate::mesh::Part;
 use std::path::Path;
 
 /// Places nearer to each other than this are one, metres along the ground and in height.
@@ -49,7 +48,7 @@ impl Pair {
         before: &Written,
         after: &Written,
         asked: &Overrides,
-        read_model: impl Fn(&Path, &Placement) -> Result<Vec<Part>, ModelError>,
+        read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
     ) -> Result<Pair, SiteError> {
         let read = |written: &Written| Models::read(written, &read_model);
         Self::with_models(before, after, asked, read, read)
@@ -100,6 +99,13 @@ impl Pair {
         let names = if told_apart { names.map(str::to_owned) } else { [before.file.clone(), after.file.clone()] };
         second.place.name = after_name;
         Ok(Pair { before: first, after: second, names })
+    }
+
+    /// What the user should know of how the models of both were read, each told once.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = self.before.notes.clone();
+        notes.extend(self.after.notes.iter().filter(|note| !self.before.notes.contains(note)).cloned());
+        notes
     }
 }
 

@@ -26,6 +26,8 @@ pub struct Probing {
     pub place: Place,
     /// All models, welded, in the world frame.
     pub mesh: Mesh,
+    /// What the user should know of how the models were read, as [`super::Site::notes`].
+    pub notes: Vec<String>,
     /// Per component: whether it casts.
     pub casts: Vec<bool>,
     /// Height of the ground plane, metres.
@@ -58,10 +60,11 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
     let level = ground_level(&written)?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
-    let Models { mesh, bounds, .. } = models;
+    let Models { mesh, bounds, notes, .. } = models;
     Ok(Probing {
         place,
         mesh,
+        notes,
         casts,
         ground: level.unwrap_or(bounds.low.z),
         probes,

@@ -1,7 +1,7 @@
 //! Every instant of a study as a picture: night too.
 
 use super::machine::{choose, not_surfaces};
-use super::{Event, Look, OnEvent, StudyError, judged, night, note_distance, tell, tiles};
+use super::{Event, Look, OnEvent, StudyError, judged, night, note_models, tell, tiles};
 use crate::mesh::Mesh;
 use crate::profile::Drawn;
 use crate::shadow::Technique;
@@ -38,7 +38,7 @@ pub fn frames<E: From<StudyError>>(
     on_frame: &mut dyn FnMut(&Frame<'_>) -> Result<(), E>,
 ) -> Result<Drawn, E> {
     not_surfaces(site)?;
-    note_distance(&site.mesh, on_event)?;
+    note_models(&site.notes, &site.mesh, on_event)?;
     let machine = choose(site, &view, on_event)?;
     if let View::Plan(grid) = view {
         tiles::at_once(grid, site.receivers, &machine)?;

@@ -2,7 +2,7 @@
 
 use super::machine::{choose, counting, not_surfaces, stencil_alone};
 use super::{Event, InstantOutcome, InstantWants, Look, NOTHING_COUNTED, OnEvent, Stopwatch, StudyError};
-use super::{judged, night, note_distance, tell, tiles};
+use super::{judged, night, note_models, tell, tiles};
 use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
 use crate::sun::Instant;
@@ -23,7 +23,7 @@ pub fn instant(
     not_surfaces(site)?;
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
-    note_distance(&site.mesh, on_event)?;
+    note_models(&site.notes, &site.mesh, on_event)?;
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(site, &view)?,

@@ -252,11 +252,15 @@ const NOTHING_COUNTED: &str =
 /// Beyond this distance a place's sun and its flat frame no longer hold to what the drawing says, metres.
 const FAR_M: f64 = 20_000.0;
 
-/// Says when models stand far from the place whose sun shines on them: a file in map coordinates, as a rule.
+/// Tells what the user should know of how the models were read; and when they stand far from the place whose sun shines
+/// on them: a file in map coordinates, as a rule.
 ///
 /// # Errors
 /// [`StudyError::Interrupted`] as asked by the listener.
-pub fn note_distance(mesh: &Mesh, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+pub fn note_models(notes: &[String], mesh: &Mesh, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    for note in notes {
+        tell(on_event, Event::Note(note.clone()))?;
+    }
     let distance = mesh.origin.truncate().length();
     if distance > FAR_M {
         tell(

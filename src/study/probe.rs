@@ -4,7 +4,7 @@
 //! to the sun's centre meets no caster; not below the ground. An interval of sun or of shade that is at least one step long holds an instant
 //! of the grid, and so cannot be missed; a shorter one may be. Each change that is found is exact to the second.
 
-use super::{Event, OnEvent, StudyError, note_distance, tell};
+use super::{Event, OnEvent, StudyError, note_models, tell};
 use crate::mesh::Mesh;
 use crate::profile::probe::{Blocked, Interval, Probed, SunDay, Sunlight};
 use crate::shadow::JUDGED_ABOVE_M;
@@ -22,7 +22,7 @@ use rayon::prelude::*;
 /// # Errors
 /// [`StudyError`].
 pub fn probe(asked: &Probing, on_event: &mut OnEvent<'_>) -> Result<Sunlight, StudyError> {
-    note_distance(&asked.mesh, on_event)?;
+    note_models(&asked.notes, &asked.mesh, on_event)?;
     let search = Search::new(asked);
     let empty = |probe: &Probe| Probed { probe: probe.clone(), days: Vec::new() };
     let mut sunlight = Sunlight {

@@ -2,7 +2,7 @@
 
 use super::machine::{choose, counting, not_surfaces};
 use super::{Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
-use super::{day_and_night, fingerprint, night, note_distance, tell, tiles};
+use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
 use crate::mesh::Mesh;
 use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
@@ -79,7 +79,7 @@ pub fn in_tiles(
     not_surfaces(site)?;
     let mut watch = Stopwatch::start();
     let (day_secs, night_secs) = day_and_night(&site.track);
-    note_distance(&site.mesh, on_event)?;
+    note_models(&site.notes, &site.mesh, on_event)?;
     let view = View::Plan(site.grid);
     let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
     let tiles = tiles::of(site, &machine, wants, day_secs)?;

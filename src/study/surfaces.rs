@@ -1,7 +1,7 @@
 //! The study on surfaces: hours of sun on every flat patch of what receives.
 
 use super::machine::why_none;
-use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_distance, tell};
+use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_models, tell};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::mesh::patches::{MOST_TEXELS, Patches};
@@ -48,7 +48,7 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
     if day_secs > most_secs {
         return Err(StudyError::TooLong { day_secs, most_secs });
     }
-    note_distance(&site.mesh, on_event)?;
+    note_models(&site.notes, &site.mesh, on_event)?;
     let choice = choice(site)?;
     let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
     note_patches(&patches, on_event)?;

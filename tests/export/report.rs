@@ -19,7 +19,8 @@ fn profile_json_is_the_contract() {
     let profile: Profile = Profile { grid, shaded: vec![0_u32; 32].into(), day_secs: 28_800, night_secs: 0 };
     let timings = Timings(vec![("load", 0.5), ("draw", 1.5), ("total", 2.25)]);
     let write = |town: &Town| {
-        let told = Told { receivers: Receivers::Ground, drawn: &town.drawn, timings: &timings, statistics: None };
+        let (receivers, drawn, notes) = (Receivers::Ground, &town.drawn, &["hut.glb leaves something out".to_owned()]);
+        let told = Told { receivers, drawn, timings: &timings, statistics: None, notes };
         report::profile_json(&profile, &town.place, &town.track, &told).unwrap()
     };
     let text = write(&town);
@@ -50,12 +51,14 @@ fn profile_json_is_the_contract() {
         "refraction_millibar",
         "algorithm",
         "delta_t_source",
+        "notes",
     ];
     let mut found = keys(&text, 2);
     found.retain(|key| !ours.contains(key));
     assert_eq!(found, contract);
 
     let json: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(json["notes"], serde_json::json!(["hut.glb leaves something out"]));
     assert_eq!(json["gnomon"], env!("CARGO_PKG_VERSION"));
     assert_eq!(json["place"]["time_zone"], "Europe/Vienna");
     assert_eq!(json["place"].as_object().unwrap().len(), 5);

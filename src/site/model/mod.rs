@@ -31,6 +31,15 @@ pub const MAX_TRIANGLES: u64 = 100_000_000;
 /// The most components a model may have: each costs names and adjacency of its own, whatever its size.
 pub const MAX_COMPONENTS: usize = 1_000_000;
 
+/// What a model file gives.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// In the order of the scene.
+    pub parts: Vec<Part>,
+    /// What the user should know of how it was read, each a sentence without its stop whose subject is the file.
+    pub notes: Vec<String>,
+}
+
 /// Where a model stands: it is scaled, turned, then moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
@@ -60,16 +69,16 @@ impl Placement {
 /// Reads the default scene of a `.glb` or `.gltf` file (all root nodes where it has no scenes).
 ///
 /// One part per node and material, in the order of the scene; every part has triangles, and there is at least one.
-pub fn load(path: &Path, placement: &Placement) -> Result<Vec<Part>, ModelError> {
+pub fn load(path: &Path, placement: &Placement) -> Result<Model, ModelError> {
     read(path, placement).map_err(|fault| ModelError { file: path.to_owned(), fault })
 }
 
-fn read(path: &Path, placement: &Placement) -> Result<Vec<Part>, Fault> {
+fn read(path: &Path, placement: &Placement) -> Result<Model, Fault> {
     let bytes = container::read_file(path)?;
     let container = container::open(&bytes, path)?;
     let document = document::Document::parse(container.json)?;
     let placed = scene::place(&document, placement.world_from_model())?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let buffers = buffers::Buffers::new(&document, container.binary, folder);
-    build::parts(&document, &buffers, &placed)
+    Ok(Model { parts: build::parts(&document, &buffers, &placed)?, notes: Vec::new() })
 }
