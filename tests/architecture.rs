@@ -35,7 +35,11 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
     ("clap::", &["cli"], "only faces read the command line"),
     ("toml::", &["site"], "only site reads what the user wrote"),
     ("gltf::", &["site", "export"], "only site reads what the user wrote, and only export writes"),
-    ("fs::read", &["site", "export"], "only site reads what the user wrote, and export what it wrote itself"),
+    (
+        "fs::read",
+        &["site", "export", "sun"],
+        "only site reads what the user wrote, export what it wrote itself, and sun the system's rules of clocks",
+    ),
     ("File::open", &["site"], "only site reads what the user wrote"),
     ("SystemTime::now", &[], "nothing reads the clock"),
     ("Utc::now", &[], "nothing reads the clock"),

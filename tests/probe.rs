@@ -15,7 +15,7 @@ use gnomon::shadow::ray_cast::RayCast;
 use gnomon::site::{Probing, Receivers};
 use gnomon::study::StudyError;
 use gnomon::study::probe::probe;
-use gnomon::sun::{Air, DayWindow, Instant, Place, Position, Reading, delta_t_secs, position};
+use gnomon::sun::{Air, DayWindow, Instant, Place, Position, Reading, Zone, delta_t_secs, position};
 use gnomon::view::{Probe, View};
 use std::ops::ControlFlow;
 
@@ -54,7 +54,7 @@ fn found(asked: &Probing) -> Sunlight {
 }
 
 /// The sun, asked directly and not by the search.
-fn sun(place: &Place, time: chrono::DateTime<chrono_tz::Tz>, delta_t_secs: f64) -> Position {
+fn sun(place: &Place, time: chrono::DateTime<Zone>, delta_t_secs: f64) -> Position {
     position(place, time.to_utc(), delta_t_secs, Some(Air::standard(place.elevation_m))).unwrap()
 }
 

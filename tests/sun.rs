@@ -1,7 +1,9 @@
 //! The sun against outside truth: NREL's paper, pvlib's SPA, the US Naval Observatory; then clocks and windows.
 
 use chrono::{DateTime, NaiveDate, NaiveTime, Timelike, Utc};
-use gnomon::sun::{Air, Day, Place, Reading, SunError, SunTrack, Window, delta_t_secs, parse_duration_secs, position};
+use gnomon::sun::{
+    Air, Day, Place, Reading, SunError, SunTrack, Window, Zone, delta_t_secs, parse_duration_secs, position,
+};
 use proptest::prelude::*;
 
 fn place(latitude_deg: f64, longitude_deg: f64, elevation_m: f64, zone: &str) -> Place {
@@ -143,7 +145,7 @@ fn sunrise_and_sunset_of_the_naval_observatory() {
         (svalbard, "2020-12-01", "", ""),
     ];
     // Half a minute of rounding, and 6 s where the sun grazes the horizon (Longyearbyen, 25 October).
-    let agree = |found: Option<DateTime<chrono_tz::Tz>>, printed: &str, what: &Day| {
+    let agree = |found: Option<DateTime<Zone>>, printed: &str, what: &Day| {
         let Some(found) = found else {
             return assert_eq!("", printed, "{what:?}");
         };
@@ -168,7 +170,7 @@ fn sunrise_and_sunset_of_the_naval_observatory() {
 fn the_last_night_before_polar_day() {
     let svalbard = place(78.216667, 15.633333, 0.0, "UTC");
     let day = Day::of(&svalbard, date("2020-04-16")).unwrap();
-    let hour_minute = |time: Option<DateTime<chrono_tz::Tz>>| time.map(|t| (t.hour(), t.minute()));
+    let hour_minute = |time: Option<DateTime<Zone>>| time.map(|t| (t.hour(), t.minute()));
     assert_eq!(hour_minute(day.sunrise).map(|t| t.0), Some(0));
     assert_eq!(hour_minute(day.sunset).map(|t| t.0), Some(21));
 }

@@ -1,8 +1,7 @@
 //! The instant that is shown, and what the sun does around it.
 
-use crate::sun::{Air, Day, DayWindow, Instant, Place, delta_t_secs};
+use crate::sun::{Air, Day, DayWindow, Instant, Place, Zone, delta_t_secs};
 use chrono::{DateTime, Datelike, Days, NaiveDate, NaiveTime, TimeDelta, TimeZone, Timelike};
-use chrono_tz::Tz;
 use eframe::egui;
 
 /// What plays.
@@ -22,7 +21,7 @@ pub(super) struct Clock {
     /// The instant.
     pub(super) now: Instant,
     /// The first instant of its date.
-    pub(super) midnight: DateTime<Tz>,
+    pub(super) midnight: DateTime<Zone>,
     /// How long that date is, seconds: not always 24 h.
     pub(super) length_secs: f64,
     /// Sunrise, noon, sunset.
@@ -80,13 +79,13 @@ impl Clock {
         self.place == *place && self.refraction == refraction
     }
 
-    fn instant(&self, time: DateTime<Tz>) -> Option<Instant> {
+    fn instant(&self, time: DateTime<Zone>) -> Option<Instant> {
         let air = self.refraction.then(|| Air::standard(self.place.elevation_m));
         Instant::at(&self.place, time, 0, delta_t_secs(time.to_utc()).ok()?, air).ok()
     }
 
     /// Shows another instant; one for which the sun is not known (before 1600, after 2999) is not taken.
-    pub(super) fn set(&mut self, time: DateTime<Tz>) {
+    pub(super) fn set(&mut self, time: DateTime<Zone>) {
         if let Some(instant) = self.instant(time) {
             let turns = instant.time.date_naive() != self.date();
             self.asked = instant.time.time();
@@ -152,7 +151,7 @@ impl Clock {
         }
     }
 
-    fn instants(&self, from: DateTime<Tz>, length_secs: f64) -> Vec<Instant> {
+    fn instants(&self, from: DateTime<Zone>, length_secs: f64) -> Vec<Instant> {
         (0..=length_secs as i64).step_by(300).filter_map(|secs| self.instant(from + TimeDelta::seconds(secs))).collect()
     }
 

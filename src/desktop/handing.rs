@@ -12,9 +12,9 @@ use crate::export::file;
 use crate::site::file::{CameraTable, SiteFile};
 use crate::site::{Method, Models, Overrides, Site, SiteError, Written, model};
 use crate::study::{self, Event, InstantWants, StudyError};
+use crate::sun::Zone;
 use crate::view::View;
 use chrono::DateTime;
-use chrono_tz::Tz;
 use eframe::egui;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -86,7 +86,7 @@ pub(super) fn drawing(
     project: &Project,
     settings: &Settings,
     eye: Eye,
-    time: DateTime<Tz>,
+    time: DateTime<Zone>,
     path: PathBuf,
     context: egui::Context,
 ) -> Work<PathBuf> {

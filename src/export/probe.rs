@@ -3,10 +3,9 @@
 use super::report::{PlaceReport, place_report, stamp};
 use super::{ExportError, figure, report};
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, longest, secs};
-use crate::sun::Place;
+use crate::sun::{Place, Zone};
 use crate::view::Probe;
 use chrono::DateTime;
-use chrono_tz::Tz;
 use glam::DVec3;
 use serde::Serialize;
 use std::fmt::Write;
@@ -147,7 +146,7 @@ pub fn table(sunlight: &Sunlight, place: &Place) -> String {
 
 fn day_table(table: &mut String, sunlight: &Sunlight, day: &SunDay, intervals: &[Interval], place: &Place) {
     let event =
-        |time: Option<DateTime<Tz>>| time.map_or_else(|| "-".to_owned(), |time| time.format("%H:%M:%S").to_string());
+        |time: Option<DateTime<Zone>>| time.map_or_else(|| "-".to_owned(), |time| time.format("%H:%M:%S").to_string());
     let of_day = &day.window.day;
     // Writing to a String cannot fail.
     let _ = writeln!(

@@ -7,10 +7,9 @@ use super::surfaces::Surfaces;
 use crate::profile::surfaces::Exposure;
 use crate::profile::{Drawn, DrawnSettings, Profile, Statistics, Timings};
 use crate::site::Receivers;
-use crate::sun::{Air, Day, Instant, Place, SunTrack};
+use crate::sun::{Air, Day, Instant, Place, SunTrack, Zone};
 use crate::view::{Grid, View};
-use chrono::{DateTime, SecondsFormat};
-use chrono_tz::Tz;
+use chrono::{DateTime, Offset, SecondsFormat};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use std::fmt::Write;
@@ -346,12 +345,16 @@ fn day_report(day: &Day) -> DayReport {
     }
 }
 
-/// RFC 3339 with the place's offset, whole seconds.
-pub(super) fn stamp(time: &DateTime<Tz>) -> String {
+/// RFC 3339 with the place's offset, whole seconds; those of an offset too, which clocks had before there were zones.
+pub(super) fn stamp(time: &DateTime<Zone>) -> String {
+    let offset = time.offset().fix();
+    if offset.local_minus_utc() % 60 != 0 {
+        return format!("{}{offset}", time.format("%Y-%m-%dT%H:%M:%S"));
+    }
     time.to_rfc3339_opts(SecondsFormat::Secs, false)
 }
 
-fn clock(time: Option<&DateTime<Tz>>) -> String {
+fn clock(time: Option<&DateTime<Zone>>) -> String {
     time.map_or_else(|| "-".to_owned(), |time| time.format("%H:%M:%S").to_string())
 }
 

@@ -1,9 +1,8 @@
 //! When points lie in the sun, and what keeps it from them.
 
-use crate::sun::DayWindow;
+use crate::sun::{DayWindow, Zone};
 use crate::view::Probe;
 use chrono::{DateTime, NaiveDate};
-use chrono_tz::Tz;
 
 /// What bounds an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,9 +23,9 @@ pub enum Blocked {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// The first second in sunlight.
-    pub start: DateTime<Tz>,
+    pub start: DateTime<Zone>,
     /// The first second no longer in it.
-    pub end: DateTime<Tz>,
+    pub end: DateTime<Zone>,
     /// What blocks one second before the start.
     pub before: Blocked,
     /// What blocks at the end.

@@ -33,10 +33,9 @@ use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
-use crate::sun::{SunError, SunTrack};
+use crate::sun::{SunError, SunTrack, Zone};
 use crate::view::{Bits, Camera, Counted, Mask, Overlay, Surface, Tile, View};
 use chrono::DateTime;
-use chrono_tz::Tz;
 use glam::DVec3;
 use machine::{Machine, not_surfaces};
 use std::ops::ControlFlow;
@@ -105,7 +104,7 @@ pub enum Event<'a> {
         /// Of how many.
         count: usize,
         /// Local clock time of the place.
-        time: DateTime<Tz>,
+        time: DateTime<Zone>,
         /// Its mask, where masks are wanted.
         mask: Option<&'a Mask>,
         /// Which cells are in shadow, where that is wanted and there is a sun.

@@ -10,10 +10,9 @@ use crate::profile::probe::{Blocked, Interval, Probed, SunDay, Sunlight};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::Probing;
-use crate::sun::{Air, DayWindow, Instant, Place, SunError, delta_t_secs};
+use crate::sun::{Air, DayWindow, Instant, Place, SunError, Zone, delta_t_secs};
 use crate::view::Probe;
 use chrono::{DateTime, TimeDelta};
-use chrono_tz::Tz;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -91,7 +90,7 @@ impl Search<'_> {
     fn grid(
         &self,
         window: &DayWindow,
-        sun: impl Fn(DateTime<Tz>) -> Result<Instant, SunError>,
+        sun: impl Fn(DateTime<Zone>) -> Result<Instant, SunError>,
     ) -> Result<Vec<Instant>, SunError> {
         /// The sun takes at least so long to rise by a degree, seconds: the sky turns by one in 239.
         const SECS_A_DEGREE: f64 = 230.0;
@@ -130,13 +129,13 @@ impl Search<'_> {
 /// not the one that halving finds.
 fn intervals(
     grid: &[Instant],
-    sun: impl Fn(DateTime<Tz>) -> Result<Instant, SunError>,
+    sun: impl Fn(DateTime<Zone>) -> Result<Instant, SunError>,
     blocked: impl Fn(&Instant) -> Option<Blocked>,
 ) -> Result<Vec<Interval>, SunError> {
     let mut found = Vec::new();
     // since when there is sun, and what blocked before
     let mut open = None;
-    let mut before: Option<(DateTime<Tz>, Option<Blocked>)> = None;
+    let mut before: Option<(DateTime<Zone>, Option<Blocked>)> = None;
     for instant in grid {
         let now = (instant.time, blocked(instant));
         match before {

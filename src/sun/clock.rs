@@ -1,11 +1,9 @@
 //! What people write for times and durations, and when that is at a place.
 
 use super::day::why_absent;
-use super::{Day, Place, SunError};
-use chrono::{
-    DateTime, FixedOffset, MappedLocalTime, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta, TimeZone,
-};
-use chrono_tz::Tz;
+use super::zone::Jump;
+use super::{Day, Place, SunError, Zone};
+use chrono::{DateTime, FixedOffset, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta, TimeZone};
 use std::fmt;
 use std::str::FromStr;
 
@@ -66,9 +64,9 @@ impl FromStr for Reading {
 /// When a reading is on one date: an instant, or why there is none.
 pub(super) enum When {
     /// One instant.
-    At(DateTime<Tz>),
+    At(DateTime<Zone>),
     /// None that can be taken; both instants that it could mean, and the error that says so.
-    Not([DateTime<Tz>; 2], SunError),
+    Not([DateTime<Zone>; 2], SunError),
 }
 
 impl Reading {
@@ -77,7 +75,7 @@ impl Reading {
     /// # Errors
     /// A clock time that does not exist or exists twice, an offset that fits neither,
     /// a sunrise or sunset that does not happen.
-    pub fn at(&self, place: &Place, date: NaiveDate) -> Result<DateTime<Tz>, SunError> {
+    pub fn at(&self, place: &Place, date: NaiveDate) -> Result<DateTime<Zone>, SunError> {
         match self.when(place, date)? {
             When::At(time) => Ok(time),
             When::Not(_, error) => Err(error),
@@ -105,11 +103,10 @@ impl Reading {
 }
 
 /// The instant of a local clock time in a zone.
-fn local(zone: Tz, local: NaiveDateTime, offset: Option<FixedOffset>) -> When {
-    let readings = match zone.from_local_datetime(&local) {
-        MappedLocalTime::Single(time) => [time, time],
-        MappedLocalTime::Ambiguous(a, b) => [a.min(b), a.max(b)],
-        MappedLocalTime::None => return gap(zone, local),
+fn local(zone: Zone, local: NaiveDateTime, offset: Option<FixedOffset>) -> When {
+    let readings = match zone.readings(local) {
+        Ok(readings) => readings,
+        Err(jump) => return gap(zone, local, &jump),
     };
     let [earlier, later] = readings;
     let twice = earlier != later;
@@ -145,45 +142,23 @@ fn local(zone: Tz, local: NaiveDateTime, offset: Option<FixedOffset>) -> When {
 }
 
 /// A local time that clocks jump over: both ways to read it, and the jump itself.
-fn gap(zone: Tz, local: NaiveDateTime) -> When {
-    let naive_utc = |offset: FixedOffset| local - TimeDelta::seconds(offset.local_minus_utc().into());
-    // No zone's clock jumps further than a day; two days to either side are clear of the gap.
-    let side = |days| {
-        let far = zone.from_utc_datetime(&(local + TimeDelta::days(days)));
-        far.offset().fix()
-    };
-    let (mut before, mut after) = (naive_utc(side(-2)), naive_utc(side(2)));
-    if before > after {
-        (before, after) = (after, before);
-    }
-    let meant = [before, after].map(|utc| zone.from_utc_datetime(&utc));
-    // The jump lies between the two readings; halve to the second.
-    let offset_at = |utc: NaiveDateTime| zone.from_utc_datetime(&utc).offset().fix();
-    let (mut low, mut high) = (before - TimeDelta::days(1), after + TimeDelta::days(1));
-    let old = offset_at(low);
-    while high - low > TimeDelta::seconds(1) {
-        let middle = low + TimeDelta::seconds((high - low).num_seconds() / 2);
-        if offset_at(middle) == old {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+fn gap(zone: Zone, local: NaiveDateTime, jump: &Jump) -> When {
+    let by = |offset: FixedOffset| zone.from_utc_datetime(&(local - offset));
+    let [before, after] = [jump.before, jump.after].map(|offset| jump.at + offset);
+    // where a whole day is left out, the clock alone says nothing
+    let two_dates = before.date() != after.date();
+    let [before, after] =
+        [before, after].map(|clock| if two_dates { format!("{clock:?}") } else { clock.time().to_string() });
+    // by the new clock it is before the jump, by the old one after it
+    let meant = [by(jump.after), by(jump.before)];
     When::Not(
         meant,
-        SunError::NoSuchTime {
-            local,
-            zone,
-            before: (high + old).time(),
-            after: (high + offset_at(high)).time(),
-            earlier: written(meant[0]),
-            later: written(meant[1]),
-        },
+        SunError::NoSuchTime { local, zone, before, after, earlier: written(meant[0]), later: written(meant[1]) },
     )
 }
 
 /// A time as it may be written again.
-fn written(time: DateTime<Tz>) -> String {
+fn written(time: DateTime<Zone>) -> String {
     let seconds = if chrono::Timelike::second(&time) == 0 { "%Y-%m-%dT%H:%M" } else { "%Y-%m-%dT%H:%M:%S" };
     format!("{}{}", time.format(seconds), time.offset().fix())
 }

@@ -1,9 +1,8 @@
 //! Sunrise, noon and sunset of a local calendar day.
 
 use super::position::{check_year, delta_t_secs, location};
-use super::{Day, Place, SunError};
+use super::{Day, Place, SunError, Zone};
 use chrono::{DateTime, Datelike, DurationRound, NaiveDate, NaiveTime, TimeDelta, TimeZone};
-use chrono_tz::Tz;
 use solar_positioning::{Events, Horizon, SolarEvents};
 
 /// Altitude of the sun's centre, without refraction, at which almanacs let its upper limb appear, degrees.
@@ -26,7 +25,7 @@ impl Day {
         let events = events(place, date)?;
         let rise = events.rises.first();
         let set = events.sets.iter().find(|set| rise.is_none_or(|rise| *set > rise)).or(events.sets.last());
-        let on_date = |time: Option<&DateTime<Tz>>| time.map(|time| to_second(*time));
+        let on_date = |time: Option<&DateTime<Zone>>| time.map(|time| to_second(*time));
         Ok(Day { date, sunrise: on_date(rise), noon: on_date(events.transits.first()), sunset: on_date(set) })
     }
 }
@@ -44,7 +43,7 @@ pub(super) fn why_absent(place: &Place, date: NaiveDate) -> Result<&'static str,
 }
 
 /// Everything that the sun does between one local midnight and the next.
-fn events(place: &Place, date: NaiveDate) -> Result<Events<DateTime<Tz>>, SunError> {
+fn events(place: &Place, date: NaiveDate) -> Result<Events<DateTime<Zone>>, SunError> {
     check_year(date.year())?;
     let delta_t = delta_t_secs(date.and_time(NaiveTime::MIN).and_utc())?;
     SolarEvents::new()
@@ -53,7 +52,7 @@ fn events(place: &Place, date: NaiveDate) -> Result<Events<DateTime<Tz>>, SunErr
 }
 
 /// The nearest whole second on the same local date.
-fn to_second(time: DateTime<Tz>) -> DateTime<Tz> {
+fn to_second(time: DateTime<Zone>) -> DateTime<Zone> {
     let second = TimeDelta::seconds(1);
     let near = time.duration_round(second).unwrap_or(time);
     if near.date_naive() == time.date_naive() {
@@ -65,21 +64,9 @@ fn to_second(time: DateTime<Tz>) -> DateTime<Tz> {
 }
 
 /// The first instant of a local date: its first midnight or, where clocks skip that, the instant with which they go on.
-pub(super) fn midnight(place: &Place, date: NaiveDate) -> DateTime<Tz> {
-    let (zone, midnight) = (place.time_zone, date.and_time(NaiveTime::MIN));
-    if let Some(time) = zone.from_local_datetime(&midnight).earliest() {
-        return time;
+pub(super) fn midnight(place: &Place, date: NaiveDate) -> DateTime<Zone> {
+    match place.time_zone.readings(date.and_time(NaiveTime::MIN)) {
+        Ok([first, _]) => first,
+        Err(jump) => place.time_zone.from_utc_datetime(&jump.at),
     }
-    // No zone's clock jumps further than a day, and none is further than a day from UTC.
-    let at = |secs: i64| zone.from_utc_datetime(&(midnight + TimeDelta::seconds(secs)));
-    let (mut before, mut after) = (-2 * 86_400, 2 * 86_400);
-    while after - before > 1 {
-        let middle = (before + after) / 2;
-        if at(middle).naive_local() < midnight {
-            before = middle;
-        } else {
-            after = middle;
-        }
-    }
-    at(after)
 }

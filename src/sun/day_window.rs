@@ -1,9 +1,8 @@
 //! The part of a day that is asked, for questions of single days.
 
 use super::day::midnight;
-use super::{Day, Place, Reading, SunError, TimeOfDay, Window};
+use super::{Day, Place, Reading, SunError, TimeOfDay, Window, Zone};
 use chrono::{DateTime, NaiveDate};
-use chrono_tz::Tz;
 
 /// A day, and the part of it that is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,9 +10,9 @@ pub struct DayWindow {
     /// The date, and what the sun does on it.
     pub day: Day,
     /// Its first instant.
-    pub from: DateTime<Tz>,
+    pub from: DateTime<Zone>,
     /// Its end.
-    pub to: DateTime<Tz>,
+    pub to: DateTime<Zone>,
 }
 
 impl DayWindow {

@@ -1,9 +1,8 @@
 //! The instants of a window on each of several days.
 
 use super::window::{MOST_INSTANTS, elapsed_secs, track, weights_secs};
-use super::{DayWindow, Place, Reading, SunError, SunTrack};
+use super::{DayWindow, Place, Reading, SunError, SunTrack, Zone};
 use chrono::{DateTime, NaiveDate, TimeDelta};
-use chrono_tz::Tz;
 
 /// The part of each day that a study of several days asks, as written; the whole day where nothing is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,7 +31,7 @@ impl SunTrack {
         if step_secs == 0 {
             return Err(SunError::ZeroStep);
         }
-        let mut times: Vec<DateTime<Tz>> = Vec::new();
+        let mut times: Vec<DateTime<Zone>> = Vec::new();
         let mut weights: Vec<u32> = Vec::new();
         let mut days = Vec::with_capacity(dates.len());
         let (mut asked, mut window_secs) = (0, 0);

@@ -1,7 +1,7 @@
 //! What can be wrong with a place, a clock reading or a window.
 
-use chrono::{DateTime, NaiveDate, NaiveDateTime, NaiveTime};
-use chrono_tz::Tz;
+use super::Zone;
+use chrono::{DateTime, NaiveDate, NaiveDateTime};
 
 /// Why there is no sun for what was asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -119,9 +119,9 @@ pub enum SunError {
     #[error("the window ends at {to}, before it begins at {from}; exchange them or give a later date")]
     Backwards {
         /// Start.
-        from: DateTime<Tz>,
+        from: DateTime<Zone>,
         /// End.
-        to: DateTime<Tz>,
+        to: DateTime<Zone>,
     },
     /// The reading has no date and nothing else gives one.
     #[error("{reading} needs a date; write it with one, for example 2026-09-18T15:00, or give date = 2026-09-18")]
@@ -146,11 +146,11 @@ pub enum SunError {
         /// What was asked.
         local: NaiveDateTime,
         /// Where.
-        zone: Tz,
+        zone: Zone,
         /// The clock at the jump, before it.
-        before: NaiveTime,
+        before: String,
         /// The clock at the jump, after it.
-        after: NaiveTime,
+        after: String,
         /// What the new clock's offset makes of it.
         earlier: String,
         /// What the old clock's offset makes of it.
@@ -165,7 +165,7 @@ pub enum SunError {
         /// What was asked.
         local: NaiveDateTime,
         /// Where.
-        zone: Tz,
+        zone: Zone,
         /// The first one, with its offset.
         earlier: String,
         /// The second one, with its offset.
@@ -179,7 +179,7 @@ pub enum SunError {
         /// What was asked.
         local: NaiveDateTime,
         /// Where.
-        zone: Tz,
+        zone: Zone,
         /// What was given.
         offset: String,
         /// The readings that exist, with their offsets.

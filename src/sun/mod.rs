@@ -8,7 +8,9 @@ mod disc;
 mod error;
 mod place;
 mod position;
+mod rules;
 mod window;
+mod zone;
 
 pub use clock::{Reading, TimeOfDay, parse_date, parse_duration_secs};
 pub use day_window::DayWindow;
@@ -17,10 +19,11 @@ pub use disc::{SUN_DISC_RAD, disc};
 pub use error::SunError;
 pub use place::{zone_at, zone_named};
 pub use position::{Air, Position, delta_t_secs, position};
+pub use rules::{TzVersion, ZoneRules, zone_names};
 pub use window::{MOST_DAYS, Window};
+pub use zone::{Zone, ZoneOffset};
 
 use chrono::{DateTime, NaiveDate};
-use chrono_tz::Tz;
 use glam::DVec3;
 
 /// A point on the earth and its clock.
@@ -37,14 +40,14 @@ pub struct Place {
     /// Metres above sea level.
     pub elevation_m: f64,
     /// The zone whose clock is read there.
-    pub time_zone: Tz,
+    pub time_zone: Zone,
 }
 
 /// One instant of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
     /// Local clock time of the place.
-    pub time: DateTime<Tz>,
+    pub time: DateTime<Zone>,
     /// Unit vector to the sun's centre in the world frame (refraction included where it is on).
     pub to_sun: DVec3,
     /// Clockwise from true north, radians.
@@ -63,11 +66,11 @@ pub struct Day {
     /// The local date.
     pub date: NaiveDate,
     /// Upper limb at −0.833°.
-    pub sunrise: Option<DateTime<Tz>>,
+    pub sunrise: Option<DateTime<Zone>>,
     /// The sun's transit.
-    pub noon: Option<DateTime<Tz>>,
+    pub noon: Option<DateTime<Zone>>,
     /// Upper limb at −0.833°.
-    pub sunset: Option<DateTime<Tz>>,
+    pub sunset: Option<DateTime<Zone>>,
 }
 
 /// The instants of a study, in time's order, and the days they lie on.
@@ -94,7 +97,7 @@ impl Instant {
     /// As [`position()`].
     pub fn at(
         place: &Place,
-        time: DateTime<Tz>,
+        time: DateTime<Zone>,
         weight_secs: u32,
         delta_t_secs: f64,
         air: Option<Air>,

@@ -1,7 +1,6 @@
 //! A place on earth: checked coordinates, and whose clock is read there.
 
-use super::{Place, SunError};
-use chrono_tz::{TZ_VARIANTS, Tz};
+use super::{Place, SunError, Zone, ZoneRules, zone_names};
 use std::sync::OnceLock;
 
 impl Place {
@@ -41,12 +40,11 @@ fn within(what: &'static str, value: f64, low: f64, high: f64, unit: &'static st
 ///
 /// # Errors
 /// [`SunError::UnknownZone`] with the nearest name that exists.
-pub fn zone_named(name: &str) -> Result<Tz, SunError> {
-    name.parse().map_err(|_| {
+pub fn zone_named(name: &str) -> Result<Zone, SunError> {
+    ZoneRules::newest().zone(name).ok_or_else(|| {
         let lower = name.to_lowercase();
-        let likeness = |zone: &Tz| strsim::jaro_winkler(&zone.name().to_lowercase(), &lower);
-        let nearest =
-            TZ_VARIANTS.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).map_or("UTC", |zone| zone.name());
+        let likeness = |zone: &str| strsim::jaro_winkler(&zone.to_lowercase(), &lower);
+        let nearest = zone_names().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or("UTC");
         SunError::UnknownZone { name: name.to_owned(), nearest: nearest.to_owned() }
     })
 }
@@ -55,13 +53,11 @@ pub fn zone_named(name: &str) -> Result<Tz, SunError> {
 ///
 /// # Errors
 /// [`SunError::NoZone`] where the map has none, or one that the zone database does not know.
-pub fn zone_at(latitude_deg: f64, longitude_deg: f64) -> Result<Tz, SunError> {
+pub fn zone_at(latitude_deg: f64, longitude_deg: f64) -> Result<Zone, SunError> {
     // Reading the map takes tens of milliseconds and megabytes: once, and only for those who need it.
     static FINDER: OnceLock<tzf_rs::DefaultFinder> = OnceLock::new();
     let finder = FINDER.get_or_init(tzf_rs::DefaultFinder::new);
     // Longitude first: the library's order.
-    finder
-        .get_tz_name(longitude_deg, latitude_deg)
-        .parse()
-        .map_err(|_| SunError::NoZone { latitude_deg, longitude_deg })
+    let name = finder.get_tz_name(longitude_deg, latitude_deg);
+    ZoneRules::newest().zone(name).ok_or(SunError::NoZone { latitude_deg, longitude_deg })
 }

@@ -2,9 +2,8 @@
 
 use super::clock::When;
 use super::position::{Air, check_year, delta_t_secs};
-use super::{Day, Instant, Place, Reading, SunError, SunTrack};
+use super::{Day, Instant, Place, Reading, SunError, SunTrack, Zone};
 use chrono::{DateTime, Datelike, NaiveDate, TimeDelta, Utc};
-use chrono_tz::Tz;
 use rayon::prelude::*;
 
 /// Beyond this a step is a slip of the pen.
@@ -30,7 +29,7 @@ impl Window {
     ///
     /// # Errors
     /// No date, two dates, readings that are no instants, or a window that is empty or runs backwards.
-    pub fn bounds(&self, place: &Place) -> Result<[DateTime<Tz>; 2], SunError> {
+    pub fn bounds(&self, place: &Place) -> Result<[DateTime<Zone>; 2], SunError> {
         let date = date_of(&self.from, self.date)?;
         let from = self.from.at(place, date)?;
         if self.to.date.is_some() {
@@ -147,7 +146,7 @@ pub(super) fn weights_secs(elapsed_secs: &[i64]) -> Vec<u32> {
 
 pub(super) fn track(
     place: &Place,
-    times: &[DateTime<Tz>],
+    times: &[DateTime<Zone>],
     weights: &[u32],
     step_secs: u32,
     refraction: bool,

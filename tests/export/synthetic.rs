@@ -1,13 +1,12 @@
 //! A small made-up town, its surface, sun and shadows by plain and rough means: good enough to look at drawings.
 
 use chrono::{NaiveDate, TimeDelta, TimeZone};
-use chrono_tz::Tz;
 use glam::DVec3;
 use gnomon::export::figure::Scene;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::{Drawn, DrawnSettings, Profile};
 use gnomon::site::Receivers;
-use gnomon::sun::{Day, Instant, Place, SunTrack};
+use gnomon::sun::{Day, Instant, Place, SunTrack, Zone, zone_named};
 use gnomon::view::{Grid, Mask, Surface};
 use rayon::prelude::*;
 
@@ -27,7 +26,7 @@ impl Town {
                 latitude_deg: 48.2,
                 longitude_deg: 16.38,
                 elevation_m: 171.0,
-                time_zone: Tz::Europe__Vienna,
+                time_zone: vienna(),
             },
             track: track(from, to, step),
             mesh: mesh(scale),
@@ -46,6 +45,10 @@ impl Town {
     }
 }
 
+fn vienna() -> Zone {
+    zone_named("Europe/Vienna").expect("a zone")
+}
+
 /// A grid of `width` × `height` cells around the town's middle.
 pub(super) fn grid(width: u32, height: u32, cell: f64) -> Grid {
     Grid { west: -0.5 * f64::from(width) * cell, north: 0.5 * f64::from(height) * cell, cell, width, height }
@@ -56,7 +59,7 @@ pub(super) fn track(from: u32, to: u32, step: u32) -> SunTrack {
     let date = NaiveDate::from_ymd_opt(2026, 9, 18).unwrap();
     let time = |secs: i64| {
         let local = date.and_hms_opt(0, 0, 0).unwrap() + TimeDelta::seconds(secs);
-        Tz::Europe__Vienna.from_local_datetime(&local).unwrap()
+        vienna().from_local_datetime(&local).unwrap()
     };
     let count = (to - from).checked_div(step).unwrap_or(0) + 1;
     let instants = (0..count).map(|i| {

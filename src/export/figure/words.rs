@@ -2,10 +2,9 @@
 
 use crate::profile::{Drawn, DrawnSettings};
 use crate::site::Receivers;
-use crate::sun::{Air, Day, EachDay, Instant, Place, SunTrack};
+use crate::sun::{Air, Day, EachDay, Instant, Place, SunTrack, Zone};
 use crate::view::Elevation;
 use chrono::{DateTime, NaiveDate, Offset, Timelike};
-use chrono_tz::Tz;
 
 use super::super::report::{self, Polar};
 
@@ -41,13 +40,13 @@ pub(super) fn date(date: NaiveDate) -> String {
 }
 
 /// `09:00`, with seconds only where there are any.
-pub(super) fn clock(time: &DateTime<Tz>) -> String {
+pub(super) fn clock(time: &DateTime<Zone>) -> String {
     let format = if time.second() == 0 { "%H:%M" } else { "%H:%M:%S" };
     time.format(format).to_string()
 }
 
 /// `06:35`: to the nearest minute, as almanacs print it.
-pub(super) fn almanac(time: &DateTime<Tz>) -> String {
+pub(super) fn almanac(time: &DateTime<Zone>) -> String {
     (*time + chrono::Duration::seconds(30)).format("%H:%M").to_string()
 }
 
@@ -92,7 +91,7 @@ fn each_day(each: &EachDay) -> String {
 }
 
 /// `CEST (UTC+2)`, or `UTC+3` where people have no letters for it.
-pub(super) fn zone(time: &DateTime<Tz>) -> String {
+pub(super) fn zone(time: &DateTime<Zone>) -> String {
     let secs = time.offset().fix().local_minus_utc();
     let (hours, minutes) = (secs.abs() / 3600, secs.abs() / 60 % 60);
     let mut utc = String::from("UTC");

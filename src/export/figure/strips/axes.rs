@@ -1,8 +1,8 @@
 //! The chart's axes: whole hours of the local clock across, and which days have a line and a label.
 
 use crate::profile::probe::SunDay;
+use crate::sun::Zone;
 use chrono::{DateTime, Datelike, NaiveDate, NaiveTime};
-use chrono_tz::Tz;
 
 /// The hours across, counted from the midnight with which the local date begins; beyond 24 on the next day.
 pub(super) struct Hours {
@@ -32,13 +32,13 @@ impl Hours {
     }
 
     /// Where a time of a day lies by the local clock, also where that is put forward or back in between.
-    pub(super) fn of_time(&self, day: &SunDay, time: DateTime<Tz>) -> f64 {
+    pub(super) fn of_time(&self, day: &SunDay, time: DateTime<Zone>) -> f64 {
         self.at(clock_secs(day, time))
     }
 }
 
 /// What the local clock reads, in seconds after the midnight with which the date begins.
-fn clock_secs(day: &SunDay, time: DateTime<Tz>) -> i64 {
+fn clock_secs(day: &SunDay, time: DateTime<Zone>) -> i64 {
     (time.naive_local() - day.window.day.date.and_time(NaiveTime::MIN)).num_seconds()
 }
 

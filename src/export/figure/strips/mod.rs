@@ -11,10 +11,9 @@ use super::text;
 use crate::export::ExportError;
 use crate::export::probe::{clock, counted, lies};
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight};
-use crate::sun::{Day, Place};
+use crate::sun::{Day, Place, Zone};
 use axes::{Hours, Tick, ticks};
 use chrono::{DateTime, NaiveDate};
-use chrono_tz::Tz;
 
 /// In the sun, in the shade, without a sun, and where nothing was asked.
 const SUN: Rgb = [250, 218, 128];
@@ -143,7 +142,7 @@ fn strip(sunlight: &Sunlight, probed: &Probed, hours: &Hours, ticks: &[Tick], st
 /// A day's colours, averaged over each column's time.
 fn colours(day: &SunDay, intervals: &[Interval], hours: &Hours, columns: usize) -> Vec<Rgb> {
     let mut line = vec![OUTSIDE; columns];
-    let mut paint = |from: DateTime<Tz>, to: DateTime<Tz>, colour: Rgb| {
+    let mut paint = |from: DateTime<Zone>, to: DateTime<Zone>, colour: Rgb| {
         let [from, to] =
             [from, to].map(|time| hours.of_time(day, time) * columns as f64).map(|x| x.clamp(0.0, columns as f64));
         for (column, pixel) in line.iter_mut().enumerate().take(to.ceil() as usize).skip(from as usize) {
@@ -185,7 +184,7 @@ fn curves(lines: &mut Block, sunlight: &Sunlight, hours: &Hours, strips: &Strips
     const FARTHEST: f64 = 3.0;
     let row = f64::from(strips.height) / sunlight.days.len() as f64;
     let hour = f64::from(strips.width) / (hours.last - hours.first) as f64;
-    let mut curve = |event: fn(&Day) -> Option<DateTime<Tz>>| {
+    let mut curve = |event: fn(&Day) -> Option<DateTime<Zone>>| {
         let mut points: Vec<[f64; 2]> = Vec::new();
         for (index, day) in sunlight.days.iter().enumerate() {
             let x = event(&day.window.day).map(|time| hours.of_time(day, time) * f64::from(strips.width));

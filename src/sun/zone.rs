@@ -1,0 +1,187 @@
+//! A time zone: whose clock is read, and by which rules.
+
+use super::rules::TzVersion;
+use chrono::{
+    DateTime, FixedOffset, MappedLocalTime, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta, TimeZone,
+};
+use jiff::Timestamp;
+use jiff::tz::{AmbiguousOffset, Offset as JiffOffset};
+use std::fmt;
+
+/// A zone of the IANA Time Zone Database, as [`chrono::DateTime`] takes it. Its clock goes on after the last change that
+/// is known by the last rule.
+#[derive(Clone, Copy)]
+pub struct Zone(&'static Known);
+
+/// What is known of a zone.
+pub(super) struct Known {
+    name: String,
+    version: TzVersion,
+    rules: jiff::tz::TimeZone,
+}
+
+impl Known {
+    /// The rules of a compiled file (TZif, RFC 9636); nothing where it is none.
+    pub(super) fn read(name: &str, version: TzVersion, file: &[u8]) -> Option<Known> {
+        Some(Known { name: name.to_owned(), version, rules: jiff::tz::TimeZone::tzif(name, file).ok()? })
+    }
+}
+
+impl fmt::Debug for Known {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({})", self.name, self.version)
+    }
+}
+
+/// A zone's offset from UTC at an instant.
+#[derive(Clone, Copy, PartialEq)]
+pub struct ZoneOffset {
+    zone: Zone,
+    fixed: FixedOffset,
+    /// Seconds since 1970, for the letters that the clock has there.
+    at: i64,
+}
+
+/// Where clocks jump over local times.
+pub(super) struct Jump {
+    /// The first instant after it, UTC.
+    pub(super) at: NaiveDateTime,
+    /// The offset until then.
+    pub(super) before: FixedOffset,
+    /// The offset from then on.
+    pub(super) after: FixedOffset,
+}
+
+impl Zone {
+    pub(super) fn of(known: &'static Known) -> Zone {
+        Zone(known)
+    }
+
+    /// Its name in the database: `Europe/Paris`.
+    pub fn name(self) -> &'static str {
+        &self.0.name
+    }
+
+    /// The release of the database that its rules are of.
+    pub fn version(self) -> &'static TzVersion {
+        &self.0.version
+    }
+
+    /// Whether it is an offset that no government can change, as `UTC` and `Etc/GMT+7` are.
+    pub fn is_fixed(self) -> bool {
+        self.0.rules.preceding(Timestamp::MAX).next().is_none()
+    }
+
+    /// The instants at which the clock shows a local time, the earlier first: two where it is set back, else one twice.
+    /// Or the jump that leaves it out.
+    pub(super) fn readings(self, local: NaiveDateTime) -> Result<[DateTime<Zone>; 2], Jump> {
+        let by = |offset| self.from_utc_datetime(&(local - delta(offset)));
+        match self.offsets(local) {
+            AmbiguousOffset::Unambiguous { offset } => Ok([by(offset); 2]),
+            AmbiguousOffset::Fold { before, after } => Ok([by(before), by(after)]),
+            AmbiguousOffset::Gap { before, after } => {
+                // the clock that is to come shows it before the jump
+                let mut later = self.0.rules.following(timestamp(local - delta(after)));
+                let at = later.find(|change| change.offset() == after).map(|change| change.timestamp().as_second());
+                let at = at.and_then(|secs| DateTime::from_timestamp(secs, 0)).map(|time| time.naive_utc());
+                Err(Jump { at: at.unwrap_or(local - delta(before)), before: fixed(before), after: fixed(after) })
+            }
+        }
+    }
+
+    /// What the clock is ahead of UTC when it shows a local time.
+    fn offsets(self, local: NaiveDateTime) -> AmbiguousOffset {
+        self.0.rules.to_ambiguous_timestamp(JiffOffset::UTC.to_datetime(timestamp(local))).offset()
+    }
+
+    fn offset(self, fixed: FixedOffset, utc: NaiveDateTime) -> ZoneOffset {
+        ZoneOffset { zone: self, fixed, at: utc.and_utc().timestamp() }
+    }
+}
+
+impl PartialEq for Zone {
+    fn eq(&self, other: &Zone) -> bool {
+        self.name() == other.name() && self.version() == other.version()
+    }
+}
+
+impl Eq for Zone {}
+
+impl fmt::Display for Zone {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl fmt::Debug for Zone {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl TimeZone for Zone {
+    type Offset = ZoneOffset;
+
+    fn from_offset(offset: &ZoneOffset) -> Zone {
+        offset.zone
+    }
+
+    fn offset_from_utc_datetime(&self, utc: &NaiveDateTime) -> ZoneOffset {
+        self.offset(fixed(self.0.rules.to_offset(timestamp(*utc))), *utc)
+    }
+
+    fn offset_from_utc_date(&self, utc: &NaiveDate) -> ZoneOffset {
+        self.offset_from_utc_datetime(&utc.and_time(NaiveTime::MIN))
+    }
+
+    fn offset_from_local_datetime(&self, local: &NaiveDateTime) -> MappedLocalTime<ZoneOffset> {
+        let with = |offset: JiffOffset| self.offset(fixed(offset), *local - delta(offset));
+        match self.offsets(*local) {
+            AmbiguousOffset::Unambiguous { offset } => MappedLocalTime::Single(with(offset)),
+            AmbiguousOffset::Gap { .. } => MappedLocalTime::None,
+            AmbiguousOffset::Fold { before, after } => MappedLocalTime::Ambiguous(with(before), with(after)),
+        }
+    }
+
+    fn offset_from_local_date(&self, local: &NaiveDate) -> MappedLocalTime<ZoneOffset> {
+        self.offset_from_local_datetime(&local.and_time(NaiveTime::MIN))
+    }
+}
+
+impl Offset for ZoneOffset {
+    fn fix(&self) -> FixedOffset {
+        self.fixed
+    }
+}
+
+/// The letters of the clock: `CEST`, or `+03` where people have none.
+impl fmt::Display for ZoneOffset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.zone.0.rules.to_offset_info(seconds(self.at)).abbreviation())
+    }
+}
+
+impl fmt::Debug for ZoneOffset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+fn timestamp(time: NaiveDateTime) -> Timestamp {
+    seconds(time.and_utc().timestamp())
+}
+
+/// Years beyond ±9999, which nobody computes a sun for, have the offsets of the last that jiff takes.
+fn seconds(since_1970: i64) -> Timestamp {
+    let taken = since_1970.clamp(Timestamp::MIN.as_second(), Timestamp::MAX.as_second());
+    Timestamp::from_second(taken).unwrap_or_default()
+}
+
+fn delta(offset: JiffOffset) -> TimeDelta {
+    TimeDelta::seconds(offset.seconds().into())
+}
+
+/// Both are within a day or, in jiff, little more; no zone's is.
+fn fixed(offset: JiffOffset) -> FixedOffset {
+    FixedOffset::east_opt(offset.seconds()).unwrap_or(chrono::Utc.fix())
+}
