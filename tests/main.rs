@@ -30,6 +30,7 @@ mod techniques;
 mod tiles;
 mod timers;
 mod try_models;
+mod typed;
 mod verify;
 mod volumes;
 mod year;

@@ -18,6 +18,7 @@ mod plan;
 mod probe;
 mod rewrite;
 mod study;
+pub mod typed;
 mod written;
 
 pub use asked::Overrides;

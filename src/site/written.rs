@@ -1,9 +1,10 @@
 //! From the user's path to a site file's contents: a site file, a folder, or a model with its place.
 
-use super::asked::{Overrides, numbers, refuse};
+use super::asked::{Overrides, refuse};
 use super::error::{At, SiteError};
 use super::file::{ModelTable, PlaceTable, SiteFile};
 use super::keys;
+use super::typed::{self, TypedError};
 use crate::sun::Place;
 use std::path::{Path, PathBuf};
 
@@ -34,7 +35,11 @@ impl Written {
                     format!("{} has its own [place]; leave one of the two out", written.file),
                 ));
             }
-            let [latitude, longitude] = numbers("--place", place, "48.8583,2.2945")?;
+            let read = typed::place(place).map_err(|error| match error {
+                TypedError::Sun(error) => SiteError::sun(At::Option("--place"), error),
+                error => refuse(At::Option("--place"), error.to_string()),
+            });
+            let [latitude, longitude] = read?;
             written.site.place =
                 Some(PlaceTable { latitude: Some(latitude), longitude: Some(longitude), ..PlaceTable::default() });
         }
