@@ -255,3 +255,62 @@ fn zones_are_told_by_name() {
     let paris = naive("2026-07-01T12:00:00").and_utc().with_timezone(&bundled("Europe/Paris"));
     assert_eq!(paris.format("%H:%M %Z").to_string(), "14:00 CEST");
 }
+
+/// What is said of a zone that is none, at a place in Munich.
+fn way_out(name: &str) -> String {
+    let error = Place::new("", 48.14, 11.58, 0.0, Some(name)).expect_err("no such zone").to_string();
+    let head = format!("time zone \"{name}\" is not in the IANA list; ");
+    error.strip_prefix(&head).unwrap_or_else(|| panic!("{error}")).to_owned()
+}
+
+#[test]
+fn an_offset_suggests_the_zone_that_has_it() {
+    let here = "; or leave time_zone out, and it is \"Europe/Berlin\" by the coordinates";
+    let (ahead, behind) = (
+        "2 h ahead of UTC all year is \"Etc/GMT-2\", which turns the sign round".to_owned() + here,
+        "7 h behind UTC all year is \"Etc/GMT+7\", which turns the sign round".to_owned() + here,
+    );
+    for text in ["+02:00", "+2", "+0200", "UTC+2", "GMT+2", "utc +02:00", "GMT + 2", "Z+2"] {
+        assert_eq!(way_out(text), ahead, "{text}");
+    }
+    for text in ["-07:00", "−7", "UTC-7", "gmt−0700"] {
+        assert_eq!(way_out(text), behind, "{text}");
+    }
+    for text in ["+05:30", "UTC+15", "-13"] {
+        assert!(way_out(text).starts_with("no zone has that offset all year"), "{text}");
+    }
+    assert!(way_out("+00:00").starts_with("write \"UTC\", or leave"));
+    assert!(way_out("Z").starts_with("write \"UTC\", or leave"));
+    assert!(way_out("utc").starts_with("write \"UTC\", or leave"));
+}
+
+#[test]
+fn a_city_suggests_its_zone_or_that_of_the_coordinates() {
+    let lies_in = "write \"Europe/Berlin\", or leave time_zone out: the coordinates lie in it";
+    for text in ["Berlin", "BERLIN", "berlin", "europe/berlin", "Deutschland/Berlin", "Europe/Berlim", "Berlinn"] {
+        assert_eq!(way_out(text), lies_in, "{text}");
+    }
+    for (text, zone) in [
+        ("Zürich", "Europe/Zurich"),
+        ("são paulo", "America/Sao_Paulo"),
+        ("New York", "America/New_York"),
+        ("Europe/Pariss", "Europe/Paris"),
+    ] {
+        assert!(way_out(text).starts_with(&format!("the nearest is \"{zone}\"; write that, or leave")), "{text}");
+    }
+    // no zone's city, however alike its letters are; and what says nothing of where it is
+    let alone = "leave time_zone out, and it is \"Europe/Berlin\" by the coordinates";
+    for text in [
+        "Munich",
+        "München",
+        "Muenchen",
+        "San Francisco",
+        "Europe/Munich",
+        "W. Europe Standard Time",
+        "CEST",
+        "PST",
+        "",
+    ] {
+        assert_eq!(way_out(text), alone, "{text}");
+    }
+}

@@ -21,12 +21,12 @@ pub enum SunError {
         unit: &'static str,
     },
     /// A name that the time zone database does not know.
-    #[error("time zone \"{name}\" is not in the IANA list; the nearest is \"{nearest}\"")]
+    #[error("time zone \"{name}\" is not in the IANA list; {hint}")]
     UnknownZone {
         /// What was given.
         name: String,
-        /// The nearest known name.
-        nearest: String,
+        /// What was meant, and the way out.
+        hint: String,
     },
     /// No zone could be found from the coordinates.
     #[error(

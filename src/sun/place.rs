@@ -1,6 +1,6 @@
 //! A place on earth: checked coordinates, and whose clock is read there.
 
-use super::{Place, SunError, Zone, ZoneRules, zone_names};
+use super::{Place, SunError, Zone, ZoneRules, meant};
 use std::sync::OnceLock;
 
 impl Place {
@@ -21,7 +21,10 @@ impl Place {
         within("longitude", longitude_deg, -180.0, 180.0, "degrees")?;
         within("elevation", elevation_m, -500.0, 9000.0, "metres")?;
         let time_zone = match time_zone {
-            Some(name) => zone_named(name)?,
+            Some(name) => ZoneRules::newest().zone(name).ok_or_else(|| SunError::UnknownZone {
+                name: name.to_owned(),
+                hint: meant::way_out(name, zone_at(latitude_deg, longitude_deg).ok()),
+            })?,
             None => zone_at(latitude_deg, longitude_deg)?,
         };
         Ok(Place { name: name.to_owned(), latitude_deg, longitude_deg, elevation_m, time_zone })
@@ -34,19 +37,6 @@ fn within(what: &'static str, value: f64, low: f64, high: f64, unit: &'static st
         return Ok(());
     }
     Err(SunError::OutOfRange { what, value, low, high, unit })
-}
-
-/// The zone of an IANA name.
-///
-/// # Errors
-/// [`SunError::UnknownZone`] with the nearest name that exists.
-pub fn zone_named(name: &str) -> Result<Zone, SunError> {
-    ZoneRules::newest().zone(name).ok_or_else(|| {
-        let lower = name.to_lowercase();
-        let likeness = |zone: &str| strsim::jaro_winkler(&zone.to_lowercase(), &lower);
-        let nearest = zone_names().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or("UTC");
-        SunError::UnknownZone { name: name.to_owned(), nearest: nearest.to_owned() }
-    })
 }
 
 /// The zone on land or at sea at a point of the earth.

@@ -7,7 +7,7 @@ use gnomon::export::figure::scale::{self, Bands};
 use gnomon::export::figure::{self, ScaleBar, Shown};
 use gnomon::profile::Profile;
 use gnomon::site::Receivers;
-use gnomon::sun::zone_named;
+use gnomon::sun::ZoneRules;
 use gnomon::view::{Camera, Mask, Overlay, Surface, View};
 
 fn keep(name: &str, png: &[u8]) {
@@ -62,7 +62,7 @@ fn windows_without_sun() {
     let mut nameless = Town::new(1.0, 12 * H, 13 * H, 3600);
     nameless.place.name = String::from(" \u{0} ");
     nameless.track.days.clear();
-    let kathmandu = zone_named("Asia/Kathmandu").unwrap();
+    let kathmandu = ZoneRules::newest().zone("Asia/Kathmandu").unwrap();
     nameless.place.time_zone = kathmandu;
     for instant in &mut nameless.track.instants {
         instant.time = instant.time.with_timezone(&kathmandu);

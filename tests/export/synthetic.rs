@@ -6,7 +6,7 @@ use gnomon::export::figure::Scene;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::{Drawn, DrawnSettings, Profile};
 use gnomon::site::Receivers;
-use gnomon::sun::{Day, Instant, Place, SunTrack, Zone, zone_named};
+use gnomon::sun::{Day, Instant, Place, SunTrack, Zone, ZoneRules};
 use gnomon::view::{Grid, Mask, Surface};
 use rayon::prelude::*;
 
@@ -46,7 +46,7 @@ impl Town {
 }
 
 fn vienna() -> Zone {
-    zone_named("Europe/Vienna").expect("a zone")
+    ZoneRules::newest().zone("Europe/Vienna").expect("a zone")
 }
 
 /// A grid of `width` × `height` cells around the town's middle.
