@@ -314,3 +314,17 @@ fn a_city_suggests_its_zone_or_that_of_the_coordinates() {
         assert_eq!(way_out(text), alone, "{text}");
     }
 }
+
+#[test]
+fn far_years_are_doubted() {
+    let noon = |year: i32, name: &str| {
+        let time = naive(&format!("{year}-12-31T12:00:00")).and_utc().with_timezone(&bundled(name));
+        Zone::doubt(&time)
+    };
+    let year = ZoneRules::bundled().version().year();
+    assert_eq!(noon(year + 1, "Europe/Vienna"), None);
+    let doubt = noon(year + 2, "Europe/Vienna").expect("a doubt");
+    let said = format!("{} is more than a year after tz {}", year + 2, ZoneRules::bundled().version());
+    assert!(doubt.starts_with(&said) && doubt.contains("governments may have changed it"), "{doubt}");
+    assert_eq!([noon(2999, "Etc/GMT-1"), noon(2999, "UTC"), noon(1650, "Europe/Vienna")], [None, None, None]);
+}

@@ -1,6 +1,7 @@
 //! The command, driven as its users drive it: files, streams and exit statuses.
 
 mod animate;
+mod clock;
 mod compare;
 mod draw;
 mod letters;
@@ -406,7 +407,7 @@ fn sun_is_a_table_or_json() {
     }
     let json: Value = serde_json::from_str(&done(folder.path(), "sun . --at 2026-06-21T12:00 --json")).unwrap();
     let keys: Vec<_> = json.as_object().unwrap().keys().collect();
-    assert_eq!(keys, ["days", "instants", "place"]);
+    assert_eq!(keys, ["days", "instants", "notes", "place", "tz_version"]);
     assert_eq!(json["instants"][0]["time"], "2026-06-21T12:00:00+02:00");
 }
 

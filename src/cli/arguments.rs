@@ -10,15 +10,24 @@ use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
 use crate::study::verify::SIZE;
+use crate::sun::ZoneRules;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 /// Where, when and for how long a building takes the sun away: exact shadows and shadow profiles.
 #[derive(Debug, Parser)]
-#[command(name = "gnomon", version, after_help = "Without a command the window opens.")]
+#[command(name = "gnomon", version = version(), after_help = "Without a command the window opens.")]
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Option<Command>,
+}
+
+/// The program's, and that of the rules of clocks.
+fn version() -> &'static str {
+    static VERSION: LazyLock<String> =
+        LazyLock::new(|| format!("{} (tz {})", env!("CARGO_PKG_VERSION"), ZoneRules::newest().version()));
+    &VERSION
 }
 
 #[derive(Debug, Subcommand)]

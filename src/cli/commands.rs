@@ -10,7 +10,7 @@ use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Statistics};
 use crate::site::{LoadedMesh, Method, Site, load_mesh, load_sun};
-use crate::study::{self, InstantWants, Stopwatch};
+use crate::study::{self, Event, InstantWants, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -145,6 +145,8 @@ pub(super) fn took(statistics: &Statistics) -> String {
 /// `gnomon sun`
 pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
     let (place, track) = load_sun(&asked.site.path, &asked.overrides())?;
+    let mut progress = Progress::new(asked.common.quiet);
+    track.notes().into_iter().for_each(|note| progress.hear(&Event::Note(note)));
     match asked.common.json {
         true => say(&report::sun_json(&place, &track)?),
         false => say(&report::sun_table(&place, &track)),

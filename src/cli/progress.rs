@@ -4,6 +4,7 @@ use super::words;
 use crate::export::figure;
 use crate::study::Event;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+use std::collections::HashSet;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
@@ -15,6 +16,8 @@ pub(super) struct Progress {
     bar: Option<ProgressBar>,
     /// The tenth of the work that was told last.
     told: usize,
+    /// What was noted: what holds of both states of a site is told once.
+    noted: HashSet<String>,
     /// What was done before, and since when it goes on.
     begun: (usize, Instant),
 }
@@ -26,7 +29,7 @@ impl Progress {
 
     /// Where what is drawn is counted in something else.
     pub(super) fn of(what: &'static str, quiet: bool) -> Progress {
-        Progress { quiet, what, bar: None, told: 0, begun: (0, Instant::now()) }
+        Progress { quiet, what, bar: None, told: 0, noted: HashSet::new(), begun: (0, Instant::now()) }
     }
 
     /// Shows an event.
@@ -35,7 +38,11 @@ impl Progress {
             return;
         }
         match event {
-            Event::Note(note) => self.line(&format!("note: {}", words(note))),
+            Event::Note(note) => {
+                if self.noted.insert(note.clone()) {
+                    self.line(&format!("note: {}", words(note)));
+                }
+            }
             Event::Started { instants, tiles } => {
                 if *tiles > 1 {
                     self.what = "instants of tiles";

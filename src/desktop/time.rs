@@ -2,7 +2,7 @@
 
 use super::clock::{Clock, Play};
 use super::look::{self, SUN};
-use crate::sun::{Day, Reading, SunError, parse_date};
+use crate::sun::{Day, Reading, SunError, Zone, parse_date};
 use chrono::{Datelike, NaiveDate, Offset, TimeDelta};
 use eframe::egui::{self, Align2, Color32, CornerRadius, FontId, Key, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
@@ -10,7 +10,8 @@ impl Clock {
     /// The bar below the picture.
     pub(super) fn bar(&mut self, ui: &mut Ui) {
         // at the longest: no other date is to change the rows
-        let widest = format!("{} (UTC+00:00, daylight saving)", self.place.time_zone.name());
+        let zone = self.place.time_zone;
+        let widest = format!("{zone} (UTC+00:00, daylight saving), tz {}", zone.version());
         let widest = look::width_of(ui, &(widest + "azimuth 000.0° altitude −00.0° night"));
         let is_one_row = ui.available_width() > 420.0 + widest;
         ui.horizontal(|ui| {
@@ -26,6 +27,9 @@ impl Clock {
         if !is_one_row {
             ui.horizontal(|ui| self.told(ui));
         }
+        if let Some(doubt) = Zone::doubt(&self.now.time) {
+            ui.weak(doubt);
+        }
         if let Some(fault) = &self.fault {
             ui.colored_label(ui.visuals().error_fg_color, fault);
         }
@@ -39,7 +43,8 @@ impl Clock {
         let standard = self.solstices.iter().flatten().map(|instant| instant.time.offset().fix().local_minus_utc());
         let summer = standard.min().is_some_and(|least| self.now.time.offset().fix().local_minus_utc() > least);
         let saving = if summer { ", daylight saving" } else { "" };
-        ui.weak(format!("{} (UTC{offset}{saving})", self.place.time_zone.name()));
+        let zone = self.place.time_zone;
+        ui.weak(format!("{zone} (UTC{offset}{saving}), tz {}", zone.version()));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if self.now.night {
                 ui.label(egui::RichText::new("night").font(look::bold(13.5)));

@@ -1,6 +1,6 @@
 //! What `gnomon probe` says: tables, `probe --json`, and a CSV file with a line an interval.
 
-use super::report::{PlaceReport, place_report, stamp};
+use super::report::{PlaceReport, place_report, stamp, tz_version};
 use super::{ExportError, figure, report};
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, longest, secs};
 use crate::sun::{Place, Zone};
@@ -14,6 +14,7 @@ use std::fmt::Write;
 struct SunlightReport<'a> {
     gnomon: &'static str,
     place: PlaceReport<'a>,
+    tz_version: String,
     refraction: bool,
     probes: Vec<ProbeReport<'a>>,
     shortest_found_secs: u32,
@@ -49,7 +50,7 @@ struct IntervalReport {
     blocked_after: String,
 }
 
-/// `probe --json`: `gnomon`, `place` and `refraction` as in `profile.json`, then
+/// `probe --json`: `gnomon`, `place`, `tz_version` and `refraction` as in `profile.json`, then
 ///
 /// - `probes`, each with its `name`, its `point` in metres, its `normal` (of length 1, or null) and its `days`; these with
 ///   `date`, `sunrise` and `sunset` (null where there is none), and `intervals`: the first second in sunlight (`start`),
@@ -74,6 +75,7 @@ pub fn json(sunlight: &Sunlight, place: &Place, notes: &[String]) -> Result<Stri
     report::json(&SunlightReport {
         gnomon: env!("CARGO_PKG_VERSION"),
         place: place_report(place),
+        tz_version: tz_version(place),
         refraction: sunlight.refraction,
         probes: sunlight
             .probes
@@ -138,8 +140,10 @@ pub fn table(sunlight: &Sunlight, place: &Place) -> String {
     }
     let _ = writeln!(
         table,
-        "Sun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it",
-        figure::duration(sunlight.step_secs)
+        "Sun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it; clock: {}, tz {}",
+        figure::duration(sunlight.step_secs),
+        place.time_zone,
+        place.time_zone.version()
     );
     table
 }

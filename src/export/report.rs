@@ -18,6 +18,7 @@ use std::fmt::Write;
 pub(super) struct DrawnReport<'a> {
     gnomon: &'static str,
     place: PlaceReport<'a>,
+    tz_version: String,
     #[serde(flatten)]
     view: ViewReport<'a>,
     receivers: &'static str,
@@ -84,8 +85,10 @@ struct CameraReport {
 #[derive(Serialize)]
 struct SunReport<'a> {
     place: PlaceReport<'a>,
+    tz_version: String,
     instants: Vec<InstantReport>,
     days: Vec<DayReport>,
+    notes: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -197,6 +200,7 @@ fn drawn_report<'a>(view: ViewReport<'a>, place: &'a Place, track: &SunTrack, to
     DrawnReport {
         gnomon: env!("CARGO_PKG_VERSION"),
         place: place_report(place),
+        tz_version: tz_version(place),
         view,
         receivers: receivers.word(),
         technique: drawn.technique,
@@ -247,15 +251,17 @@ fn view_report(view: &View) -> ViewReport<'static> {
     }
 }
 
-/// `sun --json`: place, instants and days as in [`profile_json`].
+/// `sun --json`: place, instants, days and notes as in [`profile_json`].
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
 pub fn sun_json(place: &Place, track: &SunTrack) -> Result<String, ExportError> {
     json(&SunReport {
         place: place_report(place),
+        tz_version: tz_version(place),
         instants: track.instants.iter().map(instant_report).collect(),
         days: track.days.iter().map(day_report).collect(),
+        notes: track.notes(),
     })
 }
 
@@ -265,11 +271,13 @@ pub fn sun_json(place: &Place, track: &SunTrack) -> Result<String, ExportError> 
 pub fn sun_table(place: &Place, track: &SunTrack) -> String {
     let mut table = String::new();
     // Writing to a String cannot fail.
-    let _ = writeln!(table, "{:<25}  {:>9}  {:>9}  {:>8}", place.time_zone.name(), "azimuth°", "altitude°", "weight s");
+    let zone = format!("{}, tz {}", place.time_zone, place.time_zone.version());
+    let width = zone.len().max(25);
+    let _ = writeln!(table, "{zone:<width$}  {:>9}  {:>9}  {:>8}", "azimuth°", "altitude°", "weight s");
     for instant in &track.instants {
         let _ = writeln!(
             table,
-            "{:<25}  {:>9.4}  {:>9.4}  {:>8}{}",
+            "{:<width$}  {:>9.4}  {:>9.4}  {:>8}{}",
             stamp(&instant.time),
             instant.azimuth_rad.to_degrees(),
             instant.altitude_rad.to_degrees(),
@@ -323,6 +331,11 @@ pub(super) fn place_report(place: &Place) -> PlaceReport<'_> {
         elevation: place.elevation_m,
         time_zone: place.time_zone.name(),
     }
+}
+
+/// Whose rules the clock goes by: `2026f`.
+pub(super) fn tz_version(place: &Place) -> String {
+    place.time_zone.version().to_string()
 }
 
 // Angles are not rounded: the sign of the altitude and `night` then always agree.

@@ -15,6 +15,7 @@ const OTHERS: u32 = 100_000;
 struct VerifyReport<'a> {
     gnomon: &'static str,
     place: report::PlaceReport<'a>,
+    tz_version: String,
     region: [f64; 4],
     cell: f64,
     width: u32,
@@ -80,6 +81,7 @@ pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportEr
     report::json(&VerifyReport {
         gnomon: env!("CARGO_PKG_VERSION"),
         place: report::place_report(place),
+        tz_version: report::tz_version(place),
         region: grid.region(),
         cell: grid.cell,
         width: grid.width,

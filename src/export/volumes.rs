@@ -1,6 +1,6 @@
 //! The shadow volumes as a model: a binary glTF 2.0 file with a node a caster, which any viewer of models opens.
 
-use super::report::{PlaceReport, place_report, stamp};
+use super::report::{PlaceReport, place_report, stamp, tz_version};
 use super::{ExportError, report};
 use crate::mesh::Mesh;
 use crate::sun::{Instant, Place};
@@ -91,6 +91,7 @@ fn document(volumes: &Volumes<'_>) -> Value {
             "name": "shadow volumes",
             "extras": {
                 "place": place_report(volumes.place),
+                "tz_version": tz_version(volumes.place),
                 "ground": volumes.ground,
                 "refraction": volumes.refraction,
                 "sun": volumes.sun(),
@@ -156,6 +157,7 @@ struct VolumesReport<'a> {
     gnomon: &'static str,
     file: String,
     place: PlaceReport<'a>,
+    tz_version: String,
     ground: f64,
     refraction: bool,
     sun: Value,
@@ -187,6 +189,7 @@ pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
         gnomon: env!("CARGO_PKG_VERSION"),
         file: file.display().to_string(),
         place: place_report(volumes.place),
+        tz_version: tz_version(volumes.place),
         ground: volumes.ground,
         refraction: volumes.refraction,
         sun: volumes.sun(),

@@ -128,6 +128,7 @@ impl Site {
         let models = models()?;
         let [casts, receives] = models.roles(written)?;
         let Models { mesh, bounds, notes, .. } = models;
+        let notes = notes.into_iter().chain(track.notes()).collect();
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
         let grid = plan::grid(written, asked, || shadows(SHADOW_CUT))?;

@@ -127,7 +127,8 @@ pub struct Site {
     pub place: Place,
     /// All models, welded, in the world frame.
     pub mesh: Mesh,
-    /// What the user should know of how the models were read: each a sentence without its stop that names the model.
+    /// What the user should know of how the models were read, each a sentence without its stop that names the model; and
+    /// of the clock.
     pub notes: Vec<String>,
     /// Per component: whether it casts.
     pub casts: Vec<bool>,

@@ -9,7 +9,7 @@ use super::models::Models;
 use super::study::{date_of, no_study};
 use super::written::Written;
 use crate::mesh::Mesh;
-use crate::sun::{DayWindow, Place, SunError, parse_duration_secs};
+use crate::sun::{DayWindow, Place, SunError, Zone, parse_duration_secs};
 use crate::view::Probe;
 use chrono::NaiveDate;
 use glam::DVec3;
@@ -60,7 +60,8 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
     let level = ground_level(&written)?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
-    let Models { mesh, bounds, notes, .. } = models;
+    let Models { mesh, bounds, mut notes, .. } = models;
+    notes.extend(days.last().and_then(|day| Zone::doubt(&day.to)));
     Ok(Probing {
         place,
         mesh,

@@ -143,6 +143,11 @@ impl SunTrack {
         })
     }
 
+    /// What the user should know of its clock, each a sentence without its stop.
+    pub fn notes(&self) -> Vec<String> {
+        self.instants.last().and_then(|instant| Zone::doubt(&instant.time)).into_iter().collect()
+    }
+
     /// How long the window is, seconds: the sum of the weights.
     pub fn window_secs(&self) -> u64 {
         self.instants.iter().map(|instant| u64::from(instant.weight_secs)).sum()

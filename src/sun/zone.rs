@@ -2,7 +2,7 @@
 
 use super::rules::TzVersion;
 use chrono::{
-    DateTime, FixedOffset, MappedLocalTime, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta, TimeZone,
+    DateTime, Datelike, FixedOffset, MappedLocalTime, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta, TimeZone,
 };
 use jiff::Timestamp;
 use jiff::tz::{AmbiguousOffset, Offset as JiffOffset};
@@ -70,6 +70,20 @@ impl Zone {
     /// Whether it is an offset that no government can change, as `UTC` and `Etc/GMT+7` are.
     pub fn is_fixed(self) -> bool {
         self.0.rules.preceding(Timestamp::MAX).next().is_none()
+    }
+
+    /// What is to be said of a time for which its clock is a guess: more than a year after the release whose rules it
+    /// goes by, counted from the end of the release's year, as a release has no other date. Nothing of one before that,
+    /// and of an offset that no government can change.
+    pub fn doubt(time: &DateTime<Zone>) -> Option<String> {
+        let (zone, year) = (time.timezone(), time.year());
+        let version = zone.version();
+        (year > version.year() + 1 && !zone.is_fixed()).then(|| {
+            format!(
+                "{year} is more than a year after tz {version}, by whose rules the clock of {zone} goes on; governments \
+                 may have changed it since"
+            )
+        })
     }
 
     /// The instants at which the clock shows a local time, the earlier first: two where it is set back, else one twice.

@@ -100,7 +100,16 @@ fn time_is_dragged_typed_and_stepped() {
     }
     write(&mut harness, "Date", "2026-06-21");
     harness.step();
-    harness.get_by_label_contains("(UTC+02:00, daylight saving)");
+    let clock = format!("(UTC+02:00, daylight saving), tz {}", gnomon::sun::ZoneRules::newest().version());
+    harness.get_by_label_contains(&clock);
+    // years for which the clock is a guess are told of
+    assert!(harness.query_by_label_contains("governments may").is_none());
+    write(&mut harness, "Date", "2100-06-21");
+    harness.step();
+    harness.get_by_label_contains("governments may have changed it since");
+    harness.get_by_label_contains(&clock);
+    write(&mut harness, "Date", "2026-06-21");
+    harness.step();
     write(&mut harness, "Clock", "23:30");
     settle(&mut harness);
     harness.get_by_label("night");

@@ -52,6 +52,7 @@ fn profile_json_is_the_contract() {
         "algorithm",
         "delta_t_source",
         "notes",
+        "tz_version",
     ];
     let mut found = keys(&text, 2);
     found.retain(|key| !ours.contains(key));
@@ -88,7 +89,7 @@ fn profile_json_is_the_contract() {
 fn sun_json_has_the_same_parts() {
     let town = Town::new(1.0, 32_400, 61_200, 3600);
     let text = report::sun_json(&town.place, &town.track).unwrap();
-    assert_eq!(keys(&text, 2), ["place", "instants", "days"]);
+    assert_eq!(keys(&text, 2), ["place", "tz_version", "instants", "days", "notes"]);
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn keys(of: &Value) -> Vec<&str> {
 fn json_has_these_keys() {
     let folder = probes();
     let json: Value = serde_json::from_str(&done(folder.path(), "probe . --json --quiet")).unwrap();
-    assert_eq!(keys(&json), ["gnomon", "notes", "place", "probes", "refraction", "shortest_found_secs"]);
+    assert_eq!(keys(&json), ["gnomon", "notes", "place", "probes", "refraction", "shortest_found_secs", "tz_version"]);
     assert_eq!((&json["shortest_found_secs"], &json["place"]["name"]), (&60.into(), &"Paris".into()));
     let [window, free] = json["probes"].as_array().unwrap().as_slice() else { panic!("{json}") };
     assert_eq!(keys(window), ["days", "longest_seconds", "name", "normal", "point", "seconds"]);

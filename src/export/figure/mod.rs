@@ -35,7 +35,7 @@ pub use surfaces::{legend as surfaces_legend, surfaces};
 pub use text::without_middle;
 pub(super) use words::duration;
 
-use super::{ExportError, check_size};
+use super::{ExportError, check_size, report};
 use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile, ShadedCells};
 use crate::site::Receivers;
@@ -298,6 +298,7 @@ fn panel<S>(scene: &Scene<S>, kicker: &str) -> Panel {
         legend_head: String::new(),
         legend: Vec::new(),
         keys: Vec::new(),
+        tz: report::tz_version(place),
         north_up: true,
     }
 }

@@ -124,7 +124,7 @@ fn stand_beside(panel: &Panel, metres_a_pixel: Option<f64>, overlay: &mut Block)
     if !panel.sun.is_empty() {
         top.push(panel::sun_table(panel));
     }
-    let mut foot = vec![panel::footer()];
+    let mut foot = vec![panel::footer(panel)];
     if let Some(metres_a_pixel) = metres_a_pixel {
         foot.insert(0, panel::scale_and_north(panel, metres_a_pixel));
     }
@@ -156,7 +156,7 @@ fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
     /// A legend that is longer stands closer.
     const LEGEND: f64 = 475.0;
     let (title, facts, sun) = (panel::title(panel), panel::facts(panel), panel::sun_table(panel));
-    let (legend, footer) = (panel::legend(panel, LEGEND), panel::footer());
+    let (legend, footer) = (panel::legend(panel, LEGEND), panel::footer(panel));
     // The scale's block is as tall at any scale.
     let scale_height = cell_m.map_or(0.0, |_| panel::scale_and_north(panel, 1.0).height + 2.0 * GAP);
     let height = [title.height + GAP + footer.height, facts.height, sun.height + scale_height, legend.height]

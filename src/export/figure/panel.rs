@@ -25,6 +25,8 @@ pub(super) struct Panel {
     pub legend: Vec<(Rgb, String)>,
     /// What lines mean, below that.
     pub keys: Vec<(Rgb, String)>,
+    /// The tz version by which the clock goes.
+    pub tz: String,
     /// Whether what is up in the picture is north.
     pub north_up: bool,
 }
@@ -251,11 +253,11 @@ fn number(value: f64) -> String {
 }
 
 /// Who computed it, and what that is worth.
-pub(super) fn footer() -> Block {
+pub(super) fn footer(panel: &Panel) -> Block {
     let mut block = Block::default();
-    let said =
-        concat!("Gnomon ", env!("CARGO_PKG_VERSION"), " — computed from the model as given; check with your authority");
-    wrapped(&mut block, 0.0, Style::FINE, said, 2);
+    let by = format!("Gnomon {}, tz {}", env!("CARGO_PKG_VERSION"), panel.tz);
+    let said = by + " — computed from the model as given; check with your authority";
+    wrapped(&mut block, 0.0, Style::FINE, &said, 2);
     block
 }
 

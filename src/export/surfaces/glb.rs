@@ -8,7 +8,7 @@ use super::{Exposure, Surfaces, pages};
 use crate::export::ExportError;
 use crate::export::figure::NOT_JUDGED;
 use crate::export::raster::png_bytes;
-use crate::export::report::{place_report, stamp};
+use crate::export::report::{place_report, stamp, tz_version};
 use crate::export::volumes::in_gltf;
 use crate::mesh::Component;
 use crate::mesh::patches::Patch;
@@ -89,6 +89,7 @@ fn extras(surfaces: &Surfaces, seconds: u32) -> Value {
     let instants = &surfaces.track.instants;
     json!({
         "place": place_report(surfaces.place),
+        "tz_version": tz_version(surfaces.place),
         "from": instants.first().map(|instant| stamp(&instant.time)),
         "to": instants.last().map(|instant| stamp(&instant.time)),
         "daylight_secs": surfaces.hours.day_secs,

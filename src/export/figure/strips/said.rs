@@ -5,6 +5,7 @@ use crate::export::figure::panel::Panel;
 use crate::export::figure::svg::{ACCENT, Anchor, Block, Style};
 use crate::export::figure::{text, words};
 use crate::export::probe::{clock, facing, triple};
+use crate::export::report;
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight};
 use crate::sun::{Air, Place, Zone, delta_t_secs, position};
 use chrono::DateTime;
@@ -42,6 +43,7 @@ pub(super) fn panel(sunlight: &Sunlight, place: &Place) -> Panel {
         legend_head: if sunlight.probes.len() > 1 { "At the probes" } else { "At the probe" }.to_owned(),
         legend,
         keys: Vec::new(),
+        tz: report::tz_version(place),
         north_up: true,
     }
 }
