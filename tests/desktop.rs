@@ -12,6 +12,7 @@ mod playing;
 mod reloading;
 mod showing;
 mod soak;
+mod typing;
 mod viewing;
 mod xvfb;
 

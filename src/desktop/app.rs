@@ -1,14 +1,16 @@
 //! The window's state, and its frame: menus above, panel beside, time below, the picture in the middle.
 
+use super::bare::Bare;
 use super::change::Known;
 use super::clock::Clock;
 use super::eye::Stand;
 use super::files::{self, Answer, Asking};
 use super::hours::{self, Laid};
-use super::loading::{Bare, Fault, Loading, Project, Wanted};
+use super::loading::{Fault, Loading, Project, Wanted};
 use super::pick::Under;
 use super::settings::{History, Settings};
 use super::stage::Stage;
+use super::typed::Typed;
 use super::unit::Unit;
 use super::view::{Asked, Viewer};
 use super::work::Work;
@@ -80,8 +82,8 @@ pub struct App {
     pub(super) bare: Option<Bare>,
     pub(super) asking: Option<Asking>,
     pub(super) writing: Option<Work<PathBuf>>,
-    /// A field that is typed into, and what is typed.
-    pub(super) typed: Option<(String, String)>,
+    /// What is typed into the panel's fields.
+    pub(super) typed: Typed,
     /// What went wrong, as the command would say it.
     pub(super) fault: Option<String>,
     /// What was done.
@@ -122,7 +124,7 @@ impl App {
             bare: None,
             asking: None,
             writing: None,
-            typed: None,
+            typed: Typed::default(),
             fault: None,
             notice: None,
             changed: None,
@@ -219,7 +221,7 @@ impl App {
             match result {
                 Ok(project) => self.take(project, opens),
                 Err(Fault::Bare(path)) => {
-                    self.bare = Some(Bare { path, place: String::new(), north: "0".to_owned() });
+                    self.bare = Some(Bare::new(path));
                 }
                 Err(Fault::Told(fault)) => {
                     self.fault = Some(fault);
@@ -310,6 +312,7 @@ impl App {
                     self.kept.recent.truncate(8);
                 }
                 self.settings = project.settings(&self.settings);
+                self.typed = Typed::default();
                 self.history.restart(&self.settings);
                 let clock = Clock::new(&project.site.place, track.refraction, middle);
                 self.open = Some(Open {

@@ -87,6 +87,8 @@ impl Clock {
     /// Shows another instant; one for which the sun is not known (before 1600, after 2999) is not taken.
     pub(super) fn set(&mut self, time: DateTime<Zone>) {
         if let Some(instant) = self.instant(time) {
+            // what could not be read is past
+            self.fault = None;
             let turns = instant.time.date_naive() != self.date();
             self.asked = instant.time.time();
             self.now = instant;

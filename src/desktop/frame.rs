@@ -317,47 +317,4 @@ impl App {
             }
         });
     }
-
-    /// A bare model is asked for its place.
-    pub(super) fn ask_place(&mut self, context: &egui::Context) {
-        let Some(bare) = &mut self.bare else { return };
-        let mut goes = false;
-        let mut closes = false;
-        let modal = look::modal(context, "place").show(context, |ui| {
-            ui.set_width(420.0);
-            ui.heading("Where does it stand?");
-            ui.label(format!("{} is a model, and says not where.", name_of(&bare.path)));
-            ui.add_space(6.0);
-            egui::Grid::new("bare").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
-                let label = ui.label("Latitude, longitude");
-                let field =
-                    egui::TextEdit::singleline(&mut bare.place).hint_text("48.2082, 16.3738").desired_width(220.0);
-                let response = ui.add(field).labelled_by(label.id);
-                // the first thing that is to be said, and the only one that must be
-                if ui.memory(|memory| memory.focused().is_none()) && bare.place.is_empty() {
-                    response.request_focus();
-                }
-                goes |= response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-                ui.end_row();
-                let label = ui.label("Model north");
-                let field = egui::TextEdit::singleline(&mut bare.north).desired_width(220.0);
-                let response = ui.add(field).labelled_by(label.id);
-                response.on_hover_text("Degrees clockwise from the model's north (−Z) to true north");
-                ui.end_row();
-            });
-            ui.weak("Degrees, north and east positive.");
-            ui.add_space(8.0);
-            ui.horizontal(|ui| {
-                let is_said = !bare.place.trim().is_empty();
-                goes |= ui.add_enabled(is_said, egui::Button::new("Open it there")).clicked();
-                closes = ui.button("Cancel").clicked();
-            });
-        });
-        if closes || modal.should_close() {
-            self.bare = None;
-        } else if goes && !bare.place.trim().is_empty() {
-            let bare = bare.clone();
-            self.load(Wanted::Placed(bare), context);
-        }
-    }
 }

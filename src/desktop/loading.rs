@@ -1,5 +1,6 @@
 //! A site is loaded beside the window, which shows how far it is and can give it up.
 
+use super::bare::Bare;
 use super::settings::{Hidden, Settings};
 use crate::cli::one_line;
 use crate::export::figure::component_colours;
@@ -31,17 +32,6 @@ pub(super) struct Project {
     pub(super) colours: Vec<[u8; 3]>,
     /// What is visible, to be asked what lies under the pointer; and whose faces those are.
     pub(super) seen: Arc<(Mesh, RayCaster)>,
-}
-
-/// A model that says not where it stands.
-#[derive(Clone, Debug)]
-pub(super) struct Bare {
-    /// The model's file.
-    pub(super) path: PathBuf,
-    /// What was answered so far, as typed.
-    pub(super) place: String,
-    /// Degrees clockwise from the model's north to true north, as typed.
-    pub(super) north: String,
 }
 
 /// What an open site is made of.
@@ -172,12 +162,8 @@ fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
             let asked = Overrides { place: Some(bare.place.clone()), ..Overrides::default() };
             let mut written = Written::read(&bare.path, &asked).map_err(told)?;
             if let Some(table) = written.site.model.first_mut() {
-                table.north = match bare.north.trim() {
-                    "" | "0" => None,
-                    text => Some(text.parse().map_err(|_| {
-                        Fault::Told(format!("north: \"{text}\" is no angle; write degrees, for example 0.0"))
-                    })?),
-                };
+                let north = bare.north().map_err(told)?;
+                table.north = Some(north).filter(|north| *north != 0.0);
             }
             (None, written)
         }

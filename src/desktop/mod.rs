@@ -5,6 +5,7 @@
 
 mod acts;
 mod app;
+mod bare;
 mod cards;
 mod change;
 mod clock;
@@ -25,6 +26,7 @@ mod settings;
 mod sky;
 mod stage;
 mod time;
+mod typed;
 mod unit;
 mod view;
 mod work;

@@ -2,12 +2,20 @@
 
 use super::app::App;
 use super::eye::Stand;
+use super::typed::Number;
 use super::unit::Unit;
 use super::{cards, components, found, look, view};
 use crate::export::figure::Diagram;
 use crate::site::Method;
 use crate::site::file::Text;
+use crate::site::typed::{Axis, TypedError, clock, date, step};
 use eframe::egui::{self, Ui, vec2};
+use std::ops::RangeInclusive;
+
+/// Degrees by which a model may be turned.
+pub(super) const NORTH: RangeInclusive<f64> = -360.0..=360.0;
+/// Metres that a unit of a model may have.
+const SCALE: RangeInclusive<f64> = 1e-6..=1e6;
 
 /// What each technique is good for, in a line.
 fn good_for(method: Method) -> &'static str {
@@ -74,49 +82,61 @@ fn then(ui: &mut Ui, name: &str) -> egui::Id {
 fn place(app: &mut App, ui: &mut Ui) {
     let unit = Unit::of(app.kept.feet);
     let Some(table) = &mut app.settings.site.place else { return };
-    let mut name = table.name.clone().unwrap_or_default();
-    row(ui, "Name", |ui, label| field(ui, &mut app.typed, ("Name", Some(label)), &mut name, f32::INFINITY));
-    // only what was said is written: an empty name is none
-    if name != table.name.as_deref().unwrap_or_default() {
-        table.name = Some(name).filter(|name| !name.trim().is_empty());
-    }
-    let coordinates = [("Latitude", &mut table.latitude, 90.0), ("Longitude", &mut table.longitude, 180.0)];
-    for (name, slot, most) in coordinates {
+    let typed = &mut app.typed;
+    let name = table.name.clone().unwrap_or_default();
+    row(ui, "Name", |ui, label| {
+        if let Some(name) = typed.text(ui, ("Name", label), &name, f32::INFINITY, |text| Ok(text.to_owned())) {
+            // an empty name is none
+            table.name = Some(name).filter(|name| !name.trim().is_empty());
+        }
+    });
+    let mut pasted = None;
+    let coordinates =
+        [("Latitude", &mut table.latitude, Axis::Latitude), ("Longitude", &mut table.longitude, Axis::Longitude)];
+    for (name, slot, axis) in coordinates {
         let mut value = slot.unwrap_or_default();
         row(ui, name, |ui, label| {
-            let drag = egui::DragValue::new(&mut value).speed(0.01).range(-most..=most);
-            let drag = drag.suffix("°").min_decimals(4).max_decimals(6);
-            if ui.add(drag).labelled_by(label).changed() {
+            let (is_changed, place) = typed.degrees(ui, (name, label), &mut value, axis);
+            if is_changed {
                 *slot = Some(value);
             }
+            pasted = pasted.or(place);
         });
+        typed.told(ui, &[name]);
+    }
+    if let Some([latitude, longitude]) = pasted {
+        (table.latitude, table.longitude) = (Some(latitude), Some(longitude));
     }
     row(ui, "Elevation", |ui, label| {
         let mut value = table.elevation.unwrap_or_default() / unit.metres;
         let range = -500.0 / unit.metres..=9000.0 / unit.metres;
-        let drag = egui::DragValue::new(&mut value).speed(1.0).range(range).max_decimals(2);
-        if ui.add(drag.suffix(format!(" {}", unit.name))).labelled_by(label).changed() {
+        let suffix = &format!(" {}", unit.name);
+        let number = Number { speed: 1.0, range, unit: unit.name, suffix, decimals: 0..=2 };
+        if typed.number(ui, ("Elevation", label), &mut value, &number).changed() {
             // to the millimetre, as feet are written in metres
             table.elevation = Some((value * unit.metres * 1000.0).round() / 1000.0);
         }
     });
+    typed.told(ui, &["Elevation"]);
     if let [model] = app.settings.site.model.as_mut_slice() {
         row(ui, "Model north", |ui, label| {
             let mut north = model.north.unwrap_or_default();
-            let drag = egui::DragValue::new(&mut north).speed(0.5).range(-360.0..=360.0).suffix("°").max_decimals(3);
-            let response = ui.add(drag).labelled_by(label);
+            let number = Number { speed: 0.5, range: NORTH, unit: "degrees", suffix: "°", decimals: 0..=3 };
+            let response = typed.number(ui, ("Model north", label), &mut north, &number);
             let response = response.on_hover_text("Degrees clockwise from the model's north to true north");
             if response.changed() {
                 model.north = Some(north).filter(|north| *north != 0.0);
             }
             let label = then(ui, "scale");
             let mut scale = model.scale.unwrap_or(1.0);
-            let drag = egui::DragValue::new(&mut scale).speed(0.01).range(1e-6..=1e6).max_decimals(6);
-            let response = ui.add(drag).labelled_by(label).on_hover_text("Metres a unit of the model");
+            let number = Number { speed: 0.01, range: SCALE, unit: "metres a unit", suffix: "", decimals: 0..=6 };
+            let response = typed.number(ui, ("scale", label), &mut scale, &number);
+            let response = response.on_hover_text("Metres a unit of the model");
             if response.changed() {
                 model.scale = Some(scale).filter(|scale| *scale != 1.0);
             }
         });
+        typed.told(ui, &["Model north", "scale"]);
     }
 }
 
@@ -180,36 +200,52 @@ fn study(app: &mut App, ui: &mut Ui) {
     let shown_date = app.open.as_ref().map(|open| open.clock.date());
     let study = &mut app.settings.site.study;
     // the loader has said what was left out; a date may stand in `from` instead
-    let text = |slot: &Option<Text>| slot.as_ref().map_or(String::new(), |text| text.0.clone());
-    let [mut date, mut from, mut to] = [&study.date, &study.from, &study.to].map(text);
-    let mut step = study.step.clone().unwrap_or_default();
+    let said = |slot: &Option<Text>| slot.as_ref().map_or(String::new(), |text| text.0.clone());
     let typed = &mut app.typed;
     row(ui, "Window", |ui, label| {
         ui.spacing_mut().item_spacing.x = 5.0;
-        field(ui, typed, ("From", Some(label)), &mut from, 70.0);
+        if let Some(from) = typed.text(ui, ("From", label), &said(&study.from), 70.0, empty_or(clock)) {
+            study.from = from.map(Text);
+        }
         let label = then(ui, "to");
-        field(ui, typed, ("To", Some(label)), &mut to, 70.0);
+        if let Some(to) = typed.text(ui, ("To", label), &said(&study.to), 70.0, empty_or(clock)) {
+            study.to = to.map(Text);
+        }
     });
+    typed.told(ui, &["From", "To"]);
+    let day = |text: &str| date(text).map(|date| date.to_string());
+    let step_said = study.step.clone().unwrap_or_default();
     if let Some([Text(first), Text(last)]) = &mut study.dates {
         row(ui, "Study days", |ui, label| {
             ui.spacing_mut().item_spacing.x = 5.0;
-            field(ui, typed, ("First day", Some(label)), first, 82.0);
+            if let Some(read) = typed.text(ui, ("First day", label), first, 82.0, day) {
+                *first = read;
+            }
             let label = then(ui, "to");
-            field(ui, typed, ("Last day", Some(label)), last, 82.0);
+            if let Some(read) = typed.text(ui, ("Last day", label), last, 82.0, day) {
+                *last = read;
+            }
         });
-        row(ui, "Step", |ui, label| field(ui, typed, ("Step", Some(label)), &mut step, 58.0));
+        typed.told(ui, &["First day", "Last day"]);
+        row(ui, "Step", |ui, label| {
+            if let Some(step) = typed.text(ui, ("Step", label), &step_said, 58.0, empty_or(step)) {
+                study.step = step;
+            }
+        });
     } else {
         row(ui, "Study date", |ui, label| {
             ui.spacing_mut().item_spacing.x = 5.0;
-            field(ui, typed, ("Study date", Some(label)), &mut date, 94.0);
+            if let Some(date) = typed.text(ui, ("Study date", label), &said(&study.date), 94.0, empty_or(day)) {
+                study.date = date.map(Text);
+            }
             let label = then(ui, "step");
-            field(ui, typed, ("Step", Some(label)), &mut step, 58.0);
+            if let Some(step) = typed.text(ui, ("Step", label), &step_said, 58.0, empty_or(step)) {
+                study.step = step;
+            }
         });
+        typed.told(ui, &["Study date"]);
     }
-    // what is empty is not said
-    let said = |text: String| Some(text).filter(|text| !text.trim().is_empty());
-    (study.from, study.to, study.date) = (said(from).map(Text), said(to).map(Text), said(date).map(Text));
-    study.step = said(step);
+    typed.told(ui, &["Step"]);
     if let (Some(date), Some(Text(text))) = (shown_date, &mut study.date)
         && date.to_string() != *text
         && ui.button(format!("Take {date} from the clock")).clicked()
@@ -219,27 +255,7 @@ fn study(app: &mut App, ui: &mut Ui) {
     found::show(app, ui);
 }
 
-/// A text that is read when it is finished.
-fn field(
-    ui: &mut Ui,
-    typed: &mut Option<(String, String)>,
-    (name, label): (&str, Option<egui::Id>),
-    text: &mut String,
-    width: f32,
-) {
-    let mut now = match typed {
-        Some((field, typed)) if field == name => typed.clone(),
-        _ => text.clone(),
-    };
-    let response = ui.add(egui::TextEdit::singleline(&mut now).desired_width(width));
-    let response = label.map_or(response.clone(), |label| response.labelled_by(label));
-    if response.changed() {
-        *typed = Some((name.to_owned(), now));
-    }
-    if response.lost_focus()
-        && typed.as_ref().is_some_and(|(field, _)| field == name)
-        && let Some((_, now)) = typed.take()
-    {
-        *text = now;
-    }
+/// What is empty is not said.
+fn empty_or<T>(read: impl FnOnce(&str) -> Result<T, TypedError>) -> impl FnOnce(&str) -> Result<Option<T>, TypedError> {
+    move |text: &str| if text.trim().is_empty() { Ok(None) } else { read(text).map(Some) }
 }

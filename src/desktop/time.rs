@@ -2,7 +2,9 @@
 
 use super::clock::{Clock, Play};
 use super::look::{self, SUN};
-use crate::sun::{Day, Reading, SunError, Zone, parse_date};
+use super::typed::refused;
+use crate::site::typed::{self, TypedError};
+use crate::sun::{Day, Reading, Zone};
 use chrono::{Datelike, NaiveDate, Offset, TimeDelta};
 use eframe::egui::{self, Align2, Color32, CornerRadius, FontId, Key, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
@@ -31,7 +33,7 @@ impl Clock {
             ui.weak(doubt);
         }
         if let Some(fault) = &self.fault {
-            ui.colored_label(ui.visuals().error_fg_color, fault);
+            refused(ui, fault);
         }
         self.day_slider(ui);
         self.year_slider(ui);
@@ -90,19 +92,19 @@ impl Clock {
         if response.lost_focus()
             && let Some(text) = self.typed[which].take()
         {
-            self.fault = self.read(which, &text).err();
+            self.fault = self.read(which, &text).err().map(|error| error.to_string());
         }
     }
 
-    fn read(&mut self, which: usize, text: &str) -> Result<(), String> {
+    fn read(&mut self, which: usize, text: &str) -> Result<(), TypedError> {
         if which == 0 {
-            let date = parse_date(text).map_err(|error| error.to_string())?;
+            let date = typed::date(text)?;
             // the year is checked with the day
-            Day::of(&self.place, date).map_err(|error| error.to_string())?;
+            Day::of(&self.place, date)?;
             self.set_date(date);
         } else {
-            let reading: Reading = text.parse().map_err(|error: SunError| error.to_string())?;
-            let time = reading.at(&self.place, self.date()).map_err(|error| error.to_string())?;
+            let reading: Reading = typed::clock(text)?.parse()?;
+            let time = reading.at(&self.place, self.date())?;
             self.set(time);
         }
         Ok(())
