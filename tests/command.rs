@@ -5,6 +5,7 @@ mod clock;
 mod compare;
 mod draw;
 mod letters;
+mod numbers;
 mod sides;
 mod surfaces;
 mod techniques;

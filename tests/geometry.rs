@@ -4,6 +4,7 @@ mod planes;
 mod rays;
 mod report;
 pub(crate) mod silhouettes;
+mod strays;
 mod volumes;
 mod weld;
 

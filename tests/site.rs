@@ -44,6 +44,7 @@ fn block(name: &str, alias: &str, low: DVec3, high: DVec3) -> Part {
         aliases: vec![name.to_owned(), alias.to_owned()],
         positions: (0..8).map(corner).collect(),
         triangles: sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect(),
+        ..Part::default()
     }
 }
 

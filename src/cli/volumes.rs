@@ -28,7 +28,7 @@ pub(super) fn volumes(asked: &VolumesArgs) -> anyhow::Result<()> {
     }
     file::check_folder(out.parent().unwrap_or(Path::new("")))?;
     let mut progress = Progress::new(asked.common.quiet);
-    study::note_models(&site.notes, &site.mesh, &mut |event| {
+    study::note_models(&site.notes, &mut |event| {
         progress.hear(&event);
         interrupt::flow()
     })?;

@@ -289,7 +289,7 @@ impl App {
                     open.clock = clock;
                 }
                 let length = |project: &Project| {
-                    project.site.mesh.bounds().map_or(1.0, |(low, high)| (high - low).length().max(1e-6))
+                    project.site.mesh.bounds_at_home().map_or(1.0, |(low, high)| (high - low).length().max(1e-6))
                 };
                 let grown = length(&project) / length(&open.project);
                 let (then, now) = (&open.project.written.site, &project.written.site);

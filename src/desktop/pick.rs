@@ -21,7 +21,7 @@ pub(super) struct Under {
 
 /// The dome around the models.
 pub(super) fn dome(project: &Project) -> Dome {
-    let (low, high) = project.site.mesh.bounds().unwrap_or((DVec3::ZERO, DVec3::ONE));
+    let (low, high) = project.site.mesh.bounds_at_home().unwrap_or((DVec3::ZERO, DVec3::ONE));
     let centre = (low + high) / 2.0;
     let radius = (high - low).truncate().length() / 2.0;
     Dome { centre: centre.truncate().extend(project.site.ground), radius: (radius * 0.9).max(high.z - low.z).max(1.0) }

@@ -311,7 +311,7 @@ impl Viewer {
 /// too.
 fn extent(project: &Project, stand: Stand) -> (DVec3, DVec3) {
     let site = &project.site;
-    let (low, high) = site.mesh.bounds().unwrap_or((DVec3::ZERO, DVec3::ONE));
+    let (low, high) = site.mesh.bounds_at_home().unwrap_or((DVec3::ZERO, DVec3::ONE));
     match stand {
         Stand::Perspective => (low, high),
         Stand::Plan => {

@@ -106,8 +106,22 @@ pub fn table(mesh: &Mesh, components: &[ComponentReport], frame: Frame, notes: &
             let _ = writeln!(table, "  {}: {words}", plain(name));
         }
     }
-    table.push_str("their shadows are right all the same: every triangle casts its own\n");
+    table.push_str(&shadows(mesh));
     table
+}
+
+/// Whether shadows suffer from all that: they do not, unless the triangles are no more what was modelled.
+fn shadows(mesh: &Mesh) -> String {
+    let flattened: usize = mesh.components.iter().map(|component| component.flattened).sum();
+    let is_coarse = mesh.components.iter().any(|component| component.coarse.is_some());
+    match (flattened, is_coarse) {
+        (0, false) => "their shadows are right all the same: every triangle casts its own\n".to_owned(),
+        (0, true) => "every triangle casts its own shadow, as it is rounded in the file\n".to_owned(),
+        (1, _) => "every triangle casts its own shadow but one, which is flat since corners that lie on each other are joined\n".to_owned(),
+        (more, _) => format!(
+            "every triangle casts its own shadow but {more}, which are flat since corners that lie on each other are joined\n"
+        ),
+    }
 }
 
 /// A line a component, the worst first.

@@ -9,6 +9,7 @@ pub mod patches;
 mod planes;
 pub mod report;
 pub mod scan;
+mod together;
 mod weld;
 
 pub(crate) use adjacency::lowest;
@@ -17,6 +18,7 @@ use glam::{DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
+use together::Together;
 use weld::Welded;
 
 /// One component as a model file gives it: triangles of one node and one material, before welding.
@@ -30,6 +32,19 @@ pub struct Part {
     pub positions: Vec<DVec3>,
     /// Counter-clockwise seen from outside (mirroring transforms already undone).
     pub triangles: Vec<[u32; 3]>,
+    /// Where the file's own numbers are coarser than a millimetre.
+    pub coarse: Vec<Coarse>,
+}
+
+/// A run of corners, and how coarse the numbers are that a file writes them with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coarse {
+    /// Of the part's positions.
+    pub corners: Range<u32>,
+    /// From one number to the next, metres in the world.
+    pub step_m: f64,
+    /// Whether that is so since single precision holds no larger numbers better; else they are whole numbers.
+    pub is_float: bool,
 }
 
 /// A named part of the mesh, a run of its faces. Adjacency never crosses it, and no vertex is shared across it.
@@ -45,6 +60,10 @@ pub struct Component {
     pub edges: Range<u32>,
     /// Triangles that the file has and the mesh has not, as welding made two of their corners one: the lines that are left.
     pub collapsed: Arc<[[u32; 2]]>,
+    /// How many of those have three corners apart in the file: welding has changed what the file says.
+    pub flattened: usize,
+    /// The coarsest of its corners, but for strays that lie far off; none where the file writes all of them finely.
+    pub coarse: Option<Coarse>,
 }
 
 /// A face at an edge: which one, and whether it runs along the edge (from its first vertex to its second) or against it.
@@ -77,6 +96,8 @@ pub struct Mesh {
     /// Three vertices a face, counter-clockwise seen from outside; grouped by component.
     pub faces: Arc<Vec<[u32; 3]>>,
     planes: Arc<OnceLock<Vec<DVec4>>>,
+    /// The lowest and highest corner of a box around what stands together, around `origin`; what lies outside is far off.
+    home: [Vec3; 2],
     /// The parts.
     pub components: Vec<Component>,
     /// Two vertices an edge, the lower first; grouped by component.
@@ -94,9 +115,15 @@ pub enum MeshError {
     TooLarge(usize),
     /// `f32` around one origin cannot hold it.
     #[error(
-        "the models reach {0:.0} km, so that a millimetre is lost; place them nearer to each other, or check their scale"
+        "'{name}' reaches {km:.0} km from the middle of the models, where half a metre is lost; place it nearer to them, \
+         leave it out of the file, or check its scale"
     )]
-    TooWide(f64),
+    TooWide {
+        /// The component that reaches farthest.
+        name: String,
+        /// How far.
+        km: f64,
+    },
 }
 
 impl Mesh {
@@ -104,7 +131,7 @@ impl Mesh {
     pub const MOST_FACES: usize = 1 << 30;
     /// The farthest a vertex may lie from the origin, metres: there `f32` still tells half a metre apart, which is
     /// coarse, but a model so large has that in its file already.
-    pub const FARTHEST_M: f64 = 4.0e6;
+    pub const FARTHEST_M: f64 = 8.0e6;
 
     /// Welds the parts, each for itself, and finds planes and adjacency.
     pub fn build(parts: Vec<Part>) -> Result<Mesh, MeshError> {
@@ -113,16 +140,22 @@ impl Mesh {
         if triangles.max(corners / 3) > Self::MOST_FACES {
             return Err(MeshError::TooLarge(triangles));
         }
-        let points = || parts.par_iter().flat_map(|part| part.positions.par_iter().copied());
-        let low = points().reduce(|| DVec3::INFINITY, DVec3::min);
-        let high = points().reduce(|| DVec3::NEG_INFINITY, DVec3::max);
-        let origin = if low.x <= high.x { ((low + high) / 2.0).round() } else { DVec3::ZERO };
-        let reach = (high - low).max_element() / 2.0;
-        if reach > Self::FARTHEST_M {
-            return Err(MeshError::TooWide(reach / 1000.0));
+        let together = Together::of(&parts);
+        let home = together.home().unwrap_or_default();
+        let origin = ((home.0 + home.1) / 2.0).round();
+        let reach = |part: &Part| {
+            let reach = |&corner: &DVec3| (corner - origin).abs().max_element();
+            part.positions.par_iter().map(reach).reduce(|| 0.0, f64::max)
+        };
+        let reaches = parts.iter().map(|part| (reach(part), &part.name));
+        if let Some((reach, name)) = reaches.max_by(|one, other| one.0.total_cmp(&other.0))
+            && reach > Self::FARTHEST_M
+        {
+            return Err(MeshError::TooWide { name: name.clone(), km: reach / 1000.0 });
         }
 
-        let welded: Vec<(Component, Welded)> = parts.into_par_iter().map(|part| of_part(part, origin)).collect();
+        let weld = |part: Part| of_part(part, origin, &together);
+        let welded: Vec<(Component, Welded)> = parts.into_par_iter().map(weld).collect();
         let (mut vertices, mut faces) = (Vec::new(), Vec::new());
         let mut components = Vec::with_capacity(welded.len());
         let corners: usize = welded.iter().map(|(_, welded)| welded.vertices.len()).sum();
@@ -143,11 +176,12 @@ impl Mesh {
                 ..component
             });
         }
-        Ok(Mesh::of(origin, vertices.into(), faces, components, OnceLock::new()))
+        let home = [home.0, home.1].map(|corner| (corner - origin).as_vec3());
+        Ok(Mesh::of((origin, home), vertices.into(), faces, components, OnceLock::new()))
     }
 
     fn of(
-        origin: DVec3,
+        (origin, home): (DVec3, [Vec3; 2]),
         vertices: Arc<Vec<Vec3>>,
         faces: Vec<[u32; 3]>,
         components: Vec<Component>,
@@ -158,6 +192,7 @@ impl Mesh {
             vertices,
             faces: faces.into(),
             planes: planes.into(),
+            home,
             components,
             edges: Arc::default(),
             edge_first: Arc::default(),
@@ -204,7 +239,7 @@ impl Mesh {
         let of_kept = |planes: &[DVec4]| kept.iter().map(|&face| planes[face as usize]).collect();
         let planes = if kept.is_empty() { Vec::new() } else { of_kept(self.planes()) };
         let faces = kept.iter().map(|&face| self.faces[face as usize]).collect();
-        Mesh::of(self.origin, Arc::clone(&self.vertices), faces, components, planes.into())
+        Mesh::of((self.origin, self.home), Arc::clone(&self.vertices), faces, components, planes.into())
     }
 
     /// One bit a face: whether its shell, the faces that hang together by edges, has an even number of faces at each of
@@ -225,13 +260,34 @@ impl Mesh {
 
     /// The same for a run of faces.
     pub fn bounds_of(&self, run: Range<u32>) -> Option<(DVec3, DVec3)> {
+        self.bounds_where(run, |_| true)
+    }
+
+    fn bounds_where(&self, run: Range<u32>, counts: impl Fn(u32) -> bool) -> Option<(DVec3, DVec3)> {
         let points = || {
-            let faces = &self.faces[run.start as usize..run.end as usize];
-            faces.iter().flatten().map(|&vertex| self.vertices[vertex as usize])
+            let vertices = self.faces[run.start as usize..run.end as usize].iter().flatten().copied();
+            vertices.filter(|&vertex| counts(vertex)).map(|vertex| self.vertices[vertex as usize])
         };
         let low = points().fold(Vec3::INFINITY, Vec3::min);
         let high = points().fold(Vec3::NEG_INFINITY, Vec3::max);
-        (!run.is_empty()).then(|| (low.as_dvec3() + self.origin, high.as_dvec3() + self.origin))
+        (low.x <= high.x).then(|| (low.as_dvec3() + self.origin, high.as_dvec3() + self.origin))
+    }
+
+    /// As [`Mesh::bounds`], of what stands together: strays that lie far off are left out.
+    pub fn bounds_at_home(&self) -> Option<(DVec3, DVec3)> {
+        self.bounds_where(0..self.faces.len() as u32, |vertex| self.is_at_home(vertex)).or_else(|| self.bounds())
+    }
+
+    /// The lowest and highest corner of a box around what stands together, metres around `origin`.
+    pub fn home(&self) -> [Vec3; 2] {
+        self.home
+    }
+
+    /// Whether a vertex is one of those that stand together, and no stray that lies far off.
+    pub fn is_at_home(&self, vertex: u32) -> bool {
+        let [low, high] = self.home;
+        let at = self.vertices[vertex as usize];
+        at.cmpge(low).all() && at.cmple(high).all()
     }
 
     /// The height of the highest vertex that a face has, metres of the world frame; −∞ without faces.
@@ -254,10 +310,17 @@ impl Mesh {
 }
 
 /// A welded part, and the component that it becomes once all are welded.
-fn of_part(part: Part, origin: DVec3) -> (Component, Welded) {
-    let welded = weld::weld(&part, origin);
-    let Part { name, aliases, .. } = part;
-    (Component { name, aliases, faces: 0..0, edges: 0..0, collapsed: [].into() }, welded)
+fn of_part(part: Part, origin: DVec3, together: &Together) -> (Component, Welded) {
+    let welded = weld::weld(&part, origin, together);
+    let Part { name, aliases, positions, coarse, .. } = part;
+    let is_at_home = |run: &Coarse| {
+        let corners = &positions[run.corners.start as usize..run.corners.end as usize];
+        corners.iter().any(|&corner| together.is_home(corner))
+    };
+    let at_home = coarse.into_iter().filter(is_at_home);
+    let coarse = at_home.max_by(|one, other| one.step_m.total_cmp(&other.step_m));
+    let flattened = welded.flattened;
+    (Component { name, aliases, faces: 0..0, edges: 0..0, collapsed: [].into(), flattened, coarse }, welded)
 }
 
 /// Whether a light is on the front side of a plane or in it: the one place where that is decided.
@@ -265,8 +328,21 @@ pub fn plane_faces(plane: DVec4, local_light: DVec4) -> bool {
     plane.dot(local_light) >= 0.0
 }
 
-/// The distance between neighbouring `f32` numbers at the size of the largest coordinate, metres.
-fn spacing(vertices: &[Vec3]) -> f64 {
-    let largest = vertices.iter().fold(0.0f32, |largest, vertex| largest.max(vertex.abs().max_element()));
-    f64::from(largest) * f64::from(f32::EPSILON)
+/// The distance between neighbouring `f32` numbers at the largest coordinate of what stands together, metres; farther off it
+/// grows with the distance of the points that are asked about.
+struct Spacing {
+    home: f32,
+}
+
+impl Spacing {
+    fn of(mesh: &Mesh) -> Spacing {
+        let at_home = (0..mesh.vertices.len() as u32).filter(|&vertex| mesh.is_at_home(vertex));
+        let largest = at_home.map(|vertex| mesh.vertices[vertex as usize].abs().max_element());
+        Spacing { home: largest.fold(0.0f32, f32::max) }
+    }
+
+    fn at(&self, points: &[Vec3]) -> f64 {
+        let largest = points.iter().fold(self.home, |largest, point| largest.max(point.abs().max_element()));
+        f64::from(largest) * f64::from(f32::EPSILON)
+    }
 }

@@ -4,24 +4,24 @@
 //! digits, so that some would face a low sun and some not. Neighbours that lie in the plane of a larger face
 //! therefore take over its plane to the bit; then all of the wall faces the light or none of it.
 
-use super::{Mesh, spacing};
+use super::{Mesh, Spacing};
 use glam::{DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 
 /// The unit plane of each face; zero where its corners lie in a line, as far as `f32` can tell.
-fn of_faces(vertices: &[Vec3], faces: &[[u32; 3]]) -> Vec<DVec4> {
-    let spacing = spacing(vertices);
+fn of_faces(mesh: &Mesh, spacing: &Spacing) -> Vec<DVec4> {
     let plane = |face: &[u32; 3]| {
-        let [a, b, c] = face.map(|vertex| vertices[vertex as usize].as_dvec3());
+        let corners = face.map(|vertex| mesh.vertices[vertex as usize]);
+        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
         let normal = (b - a).cross(c - a);
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
         // twice the area over the base is the height
-        if normal.length() <= longest * spacing {
+        if normal.length() <= longest * spacing.at(&corners) {
             return DVec4::ZERO;
         }
         through(normal.normalize(), (a + b + c) / 3.0)
     };
-    faces.par_iter().map(plane).collect()
+    mesh.faces.par_iter().map(plane).collect()
 }
 
 fn through(normal: DVec3, point: DVec3) -> DVec4 {
@@ -37,8 +37,8 @@ const FARTHEST_CARRIED: f32 = 8.0;
 /// neighbour's, so that a gentle curve is not flattened step by step); and, since a plane wavers the more the farther it
 /// is carried, within as many more as the corner is lengths of the larger face away, up to [`FARTHEST_CARRIED`].
 pub(super) fn unified(mesh: &Mesh) -> Vec<DVec4> {
-    let mut planes = of_faces(&mesh.vertices, &mesh.faces);
-    let tolerance = 2.0 * spacing(&mesh.vertices);
+    let spacing = Spacing::of(mesh);
+    let mut planes = of_faces(mesh, &spacing);
     let sides = sides(mesh);
     let size = |face: usize| {
         let [a, b, c] = mesh.corners(face).map(|corner| corner.as_dvec3());
@@ -55,7 +55,8 @@ pub(super) fn unified(mesh: &Mesh) -> Vec<DVec4> {
             continue;
         }
         let plane = planes[seed as usize];
-        let [a, b, c] = mesh.corners(seed as usize);
+        let corners @ [a, b, c] = mesh.corners(seed as usize);
+        let tolerance = 2.0 * spacing.at(&corners);
         let length = a.distance(b).max(b.distance(c)).max(c.distance(a));
         joined[seed as usize] = true;
         waiting.push(seed);

@@ -1,11 +1,20 @@
 //! Corners that lie on each other become one vertex.
 
 use super::Part;
+use super::together::{Group, Together};
 use glam::{DVec3, UVec3, Vec3};
 use rustc_hash::FxHashMap;
 
-/// How far apart two corners may lie and still be one vertex, as a part of the component's size.
-pub(super) const TOLERANCE: f64 = 1e-6;
+/// How far apart two corners may lie and still be one vertex, as a part of the size of what stands together: above the
+/// rounding of `f32`.
+const TOLERANCE: f64 = 1e-6;
+/// And never farther, metres: a receiver is judged so far above itself, and nobody models less.
+const MOST_M: f64 = 0.001;
+
+/// How far apart corners may lie and still be one vertex, where so much of a component stands together; metres.
+pub(super) fn tolerance(size: f64) -> f64 {
+    (size * TOLERANCE).min(MOST_M)
+}
 
 /// A welded part; its vertices are counted from its own first one.
 pub(super) struct Welded {
@@ -13,27 +22,49 @@ pub(super) struct Welded {
     pub(super) faces: Vec<[u32; 3]>,
     /// The triangles that collapsed, as two of their corners became one, each as the line that is left.
     pub(super) collapsed: Vec<[u32; 2]>,
+    /// How many of those have three corners apart in the file.
+    pub(super) flattened: usize,
 }
 
-/// A part's vertices around the origin, and its faces.
-pub(super) fn weld(part: &Part, origin: DVec3) -> Welded {
-    let low = part.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = part.positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-    let size = if low.x <= high.x { (high - low).length() } else { 0.0 };
-    let mut welder = Welder::new((low - origin).as_vec3(), (size * TOLERANCE) as f32, part.positions.len());
-    let vertex_of: Vec<u32> =
-        part.positions.iter().map(|&position| welder.vertex((position - origin).as_vec3())).collect();
-    let mut faces = Vec::with_capacity(part.triangles.len());
-    let mut collapsed = Vec::new();
+/// A part's vertices around the origin, and its faces. What stands far from each other is welded each for itself.
+pub(super) fn weld(part: &Part, origin: DVec3, together: &Together) -> Welded {
+    let local = |position: DVec3| (position - origin).as_vec3();
+    let welder = |group: &Group| Welder::new(local(group.low), tolerance(group.size()) as f32, group.corners);
+    let (groups, group_of) = together.in_part(part);
+    let mut welders: Vec<Welder> = groups.iter().map(welder).collect();
+    let mut vertex_of: Vec<u32> = match &group_of {
+        None => welders.first_mut().map_or(Vec::new(), |welder| {
+            part.positions.iter().map(|&position| welder.vertex(local(position))).collect()
+        }),
+        Some(group_of) => {
+            let corners = part.positions.iter().zip(group_of);
+            corners.map(|(&position, &group)| welders[group as usize].vertex(local(position))).collect()
+        }
+    };
+    let mut vertices = Vec::new();
+    if let Some(group_of) = group_of {
+        let mut first = Vec::new();
+        for welder in welders {
+            first.push(vertices.len() as u32);
+            vertices.extend(welder.vertices);
+        }
+        vertex_of.iter_mut().zip(group_of).for_each(|(vertex, group)| *vertex += first[group as usize]);
+    } else if let Some(welder) = welders.pop() {
+        vertices = welder.vertices;
+    }
+    let mut welded =
+        Welded { vertices, faces: Vec::with_capacity(part.triangles.len()), collapsed: Vec::new(), flattened: 0 };
     for triangle in &part.triangles {
         let face @ [a, b, c] = triangle.map(|corner| vertex_of[corner as usize]);
         if a == b || b == c || c == a {
-            collapsed.push([a, if b == a { c } else { b }]);
+            welded.collapsed.push([a, if b == a { c } else { b }]);
+            let [a, b, c] = triangle.map(|corner| part.positions[corner as usize]);
+            welded.flattened += usize::from(a != b && b != c && c != a);
         } else {
-            faces.push(face);
+            welded.faces.push(face);
         }
     }
-    Welded { vertices: welder.vertices, faces, collapsed }
+    welded
 }
 
 /// Finds the vertex that lies on a point, in a grid whose cells are some tolerances wide. Cells share buckets: one that

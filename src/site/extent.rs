@@ -13,11 +13,12 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Around all faces; `None` where there are none.
+    /// Around all faces but strays that lie far off; `None` where there are none.
     pub(super) fn of(mesh: &Mesh) -> Option<Bounds> {
         let none = Bounds { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
         let bounds = around(mesh, |_| true, none, |corner| Bounds { low: corner, high: corner });
-        bounds.low.is_finite().then_some(bounds)
+        let bounds = if bounds.low.is_finite() { (bounds.low, bounds.high) } else { mesh.bounds()? };
+        Some(Bounds { low: bounds.0, high: bounds.1 })
     }
 
     /// Around both.
@@ -30,8 +31,8 @@ impl Bounds {
     }
 }
 
-/// The plan's rectangle around the models and the casters' shadows on the ground at the day instants,
-/// each shadow cut at `cut` times the height above the ground. South-west and north-east corner, metres.
+/// The plan's rectangle around the models and the casters' shadows on the ground at the day instants, but for strays that lie
+/// far off; each shadow cut at `cut` times the height above the ground. South-west and north-east corner, metres.
 pub(super) fn with_shadows(
     mesh: &Mesh,
     bounds: Bounds,
@@ -60,7 +61,8 @@ pub(super) fn with_shadows(
     [low.truncate(), high.truncate()]
 }
 
-/// A box around `first` and what `tell` makes of every corner of the faces of some components, in the world frame.
+/// A box around `first` and what `tell` makes of every corner of the faces of some components, in the world frame; strays
+/// that lie far off are left out.
 fn around(mesh: &Mesh, of: impl Fn(usize) -> bool, first: Bounds, tell: impl Fn(DVec3) -> Bounds + Sync) -> Bounds {
     /// Faces that one task looks at, at the least.
     const AT_ONCE: usize = 1 << 12;
@@ -68,8 +70,9 @@ fn around(mesh: &Mesh, of: impl Fn(usize) -> bool, first: Bounds, tell: impl Fn(
     components.fold(first, |bounds, (_, component)| {
         let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
         let of_face = |bounds: Bounds, face: &[u32; 3]| {
-            let corners = face.map(|corner| tell(mesh.origin + mesh.vertices[corner as usize].as_dvec3()));
-            corners.into_iter().fold(bounds, Bounds::and)
+            let corners = face.iter().filter(|&&corner| mesh.is_at_home(corner));
+            let points = corners.map(|&corner| mesh.origin + mesh.vertices[corner as usize].as_dvec3());
+            points.map(&tell).fold(bounds, Bounds::and)
         };
         let parts = faces.par_iter().with_min_len(AT_ONCE).fold(|| first, of_face);
         parts.reduce(|| bounds, Bounds::and)

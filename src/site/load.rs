@@ -6,7 +6,7 @@ use super::extent::with_shadows;
 use super::model::{self, Model, ModelError, Placement};
 use super::models::{self, Joined, Models};
 use super::written::Written;
-use super::{Finder, Method, Receivers, Site, camera, plan, study};
+use super::{Finder, Method, Receivers, Site, camera, notes, plan, study};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::sun::{Place, SunTrack};
@@ -57,9 +57,11 @@ pub fn load_mesh(path: &Path) -> Result<LoadedMesh, SiteError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if matches!(extension.as_str(), "glb" | "gltf") && !path.is_dir() {
         let Model { parts, notes } = model::load(path, &Placement::default())?;
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let notes = notes.into_iter().map(|note| format!("{name} {note}")).collect();
-        return Ok(LoadedMesh { mesh: Mesh::build(parts)?, frame: Frame::Model, notes });
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let mut notes: Vec<String> = notes.into_iter().map(|note| format!("{name} {note}")).collect();
+        let mesh = Mesh::build(parts)?;
+        notes.extend(notes::of(&mesh, Frame::Model, &[(name, 0..mesh.components.len())]));
+        return Ok(LoadedMesh { mesh, frame: Frame::Model, notes });
     }
     let written = Written::read(path, &Overrides::default())?;
     let Joined { mesh, notes, .. } = models::join(&written, model::load)?;

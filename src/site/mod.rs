@@ -13,6 +13,7 @@ mod keys;
 mod load;
 pub mod model;
 mod models;
+mod notes;
 mod pair;
 mod plan;
 mod probe;

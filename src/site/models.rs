@@ -5,7 +5,9 @@ use super::error::{SiteError, nearest};
 use super::extent::Bounds;
 use super::file::Names;
 use super::keys;
+use super::load::Frame;
 use super::model::{Model, ModelError, Placement};
+use super::notes;
 use super::written::Written;
 use crate::mesh::{Component, Mesh};
 use glam::DVec3;
@@ -113,7 +115,7 @@ pub(super) fn join(
     if count == 0 {
         return Err(written.missing("[[model]]", "[[model]] with path = \"tower.glb\""));
     }
-    let (mut parts, mut of_model, mut notes) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut parts, mut models, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for index in 0..count {
         let (file, placement) = placed(written, index)?;
         if !file.is_file() {
@@ -124,11 +126,13 @@ pub(super) fn join(
         let first = parts.len();
         let model = read_model(&file, &placement)?;
         parts.extend(model.parts);
-        of_model.push(first..parts.len());
         let name = written.site.model[index].path.as_deref().unwrap_or_default();
         notes.extend(model.notes.into_iter().map(|note| format!("{name} {note}")));
+        models.push((name.to_owned(), first..parts.len()));
     }
-    Ok(Joined { mesh: Mesh::build(parts)?, of_model, notes })
+    let mesh = Mesh::build(parts)?;
+    notes.extend(notes::of(&mesh, Frame::Place, &models));
+    Ok(Joined { mesh, of_model: models.into_iter().map(|(_, components)| components).collect(), notes })
 }
 
 fn sources(written: &Written) -> Result<Vec<Source>, SiteError> {

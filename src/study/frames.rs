@@ -38,7 +38,7 @@ pub fn frames<E: From<StudyError>>(
     on_frame: &mut dyn FnMut(&Frame<'_>) -> Result<(), E>,
 ) -> Result<Drawn, E> {
     not_surfaces(site)?;
-    note_models(&site.notes, &site.mesh, on_event)?;
+    note_models(&site.notes, on_event)?;
     let machine = choose(site, &view, on_event)?;
     if let View::Plan(grid) = view {
         tiles::at_once(grid, site.receivers, &machine)?;

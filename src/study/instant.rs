@@ -23,7 +23,7 @@ pub fn instant(
     not_surfaces(site)?;
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
-    note_models(&site.notes, &site.mesh, on_event)?;
+    note_models(&site.notes, on_event)?;
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(site, &view)?,

@@ -248,29 +248,12 @@ impl StudyError {
 const NOTHING_COUNTED: &str =
     "without a sun nothing is counted: there are no statistics, no mask and no overdraw to show";
 
-/// Beyond this distance a place's sun and its flat frame no longer hold to what the drawing says, metres.
-const FAR_M: f64 = 20_000.0;
-
-/// Tells what the user should know of how the models were read; and when they stand far from the place whose sun shines
-/// on them: a file in map coordinates, as a rule.
+/// Tells what the user should know of the models: how they were read, how exact they are, and where they stand.
 ///
 /// # Errors
 /// [`StudyError::Interrupted`] as asked by the listener.
-pub fn note_models(notes: &[String], mesh: &Mesh, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-    for note in notes {
-        tell(on_event, Event::Note(note.clone()))?;
-    }
-    let distance = mesh.origin.truncate().length();
-    if distance > FAR_M {
-        tell(
-            on_event,
-            Event::Note(format!(
-                "the models stand {:.0} km from the place; if they are in map coordinates, bring them here with `position`",
-                distance / 1000.0
-            )),
-        )?;
-    }
-    Ok(())
+pub fn note_models(notes: &[String], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
 }
 
 /// What a view judges: the plan what was asked, a camera what it sees.

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 /// # Errors
 /// [`StudyError`].
 pub fn probe(asked: &Probing, on_event: &mut OnEvent<'_>) -> Result<Sunlight, StudyError> {
-    note_models(&asked.notes, &asked.mesh, on_event)?;
+    note_models(&asked.notes, on_event)?;
     let search = Search::new(asked);
     let empty = |probe: &Probe| Probed { probe: probe.clone(), days: Vec::new() };
     let mut sunlight = Sunlight {

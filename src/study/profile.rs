@@ -79,7 +79,7 @@ pub fn in_tiles(
     not_surfaces(site)?;
     let mut watch = Stopwatch::start();
     let (day_secs, night_secs) = day_and_night(&site.track);
-    note_models(&site.notes, &site.mesh, on_event)?;
+    note_models(&site.notes, on_event)?;
     let view = View::Plan(site.grid);
     let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
     let tiles = tiles::of(site, &machine, wants, day_secs)?;

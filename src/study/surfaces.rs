@@ -48,7 +48,7 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
     if day_secs > most_secs {
         return Err(StudyError::TooLong { day_secs, most_secs });
     }
-    note_models(&site.notes, &site.mesh, on_event)?;
+    note_models(&site.notes, on_event)?;
     let choice = choice(site)?;
     let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
     note_patches(&patches, on_event)?;

@@ -59,7 +59,7 @@ pub struct Trial {
 pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
     not_surfaces(site)?;
     by_day(site)?;
-    note_models(&site.notes, &site.mesh, on_event)?;
+    note_models(&site.notes, on_event)?;
     let gpu = Arc::new(Gpu::open().map_err(|error| StudyError::NoVerification(why_none(error)))?);
     tiles::at_once(site.grid, site.receivers, &Machine::RayCast { sun_samples: None })?;
     let mut trials = Vec::new();

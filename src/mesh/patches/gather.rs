@@ -1,7 +1,7 @@
 //! Faces that hang together in one plane.
 
 use super::{Component, FLAT_ANGLE_DEG, FLAT_M, Mesh, seen_side};
-use crate::mesh::{planes, spacing};
+use crate::mesh::{Spacing, planes};
 use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
@@ -25,12 +25,12 @@ pub(super) fn area_vector(mesh: &Mesh, face: u32) -> DVec3 {
 /// The patches of all components that receive, in the components' order and the larger ones first.
 pub(super) fn gather(mesh: &Mesh, receives: &[bool]) -> Vec<Flat> {
     let edges = planes::sides(mesh);
-    let tolerance = FLAT_M.max(2.0 * spacing(&mesh.vertices));
+    let spacing = Spacing::of(mesh);
     let receiving: Vec<(u32, &Component)> =
         (0..).zip(&mesh.components).zip(receives).filter(|(_, receives)| **receives).map(|(it, _)| it).collect();
     let of_component = |&(index, component): &(u32, &Component)| {
         let seen = seen_side::of_faces(mesh, component, &edges);
-        of_component(mesh, index, component, &edges, &seen, tolerance)
+        of_component(mesh, index, component, &edges, &seen, &spacing)
     };
     receiving.par_iter().map(of_component).collect::<Vec<_>>().into_iter().flatten().collect()
 }
@@ -43,7 +43,7 @@ fn of_component(
     component: &Component,
     edges: &[[u32; 3]],
     seen: &[seen_side::Seen],
-    tolerance: f64,
+    spacing: &Spacing,
 ) -> Vec<Flat> {
     let first = component.faces.start;
     let mut largest_first: Vec<(f64, u32)> =
@@ -63,6 +63,7 @@ fn of_component(
             continue;
         }
         joined[(seed - first) as usize] = true;
+        let tolerance = FLAT_M.max(2.0 * spacing.at(&mesh.corners(seed as usize)));
         let two_sided = seen[(seed - first) as usize].both;
         let mut flat = Flat { component: index, faces: vec![seed], plane, two_sided, area_m2: 0.0 };
         let mut at = 0;

@@ -8,7 +8,7 @@ mod places;
 
 pub use places::{EdgePlace, FacePlace, Junction, OpenKind, OpenPlace, Places};
 
-use super::{Component, Mesh};
+use super::{Component, Mesh, Spacing};
 use glam::DVec4;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
@@ -47,11 +47,11 @@ impl ComponentReport {
 
 /// Looks at every component.
 pub fn components(mesh: &Mesh) -> Vec<ComponentReport> {
-    let spacing = super::spacing(&mesh.vertices);
-    mesh.components.par_iter().map(|component| report(mesh, component, spacing)).collect()
+    let spacing = Spacing::of(mesh);
+    mesh.components.par_iter().map(|component| report(mesh, component, &spacing)).collect()
 }
 
-fn report(mesh: &Mesh, component: &Component, spacing: f64) -> ComponentReport {
+fn report(mesh: &Mesh, component: &Component, spacing: &Spacing) -> ComponentReport {
     let mut closed = true;
     let (mut open, mut crowded, mut flipped) = (Vec::new(), Vec::new(), Vec::new());
     for edge in component.edges.clone() {

@@ -1,8 +1,8 @@
 //! Open edges: what they are the border of, and which vertices stand within them.
 
 use super::places::{OpenKind, OpenPlace, edge, longest, world};
-use crate::mesh::{Component, Mesh, adjacency, weld};
-use glam::{DVec3, Vec3A};
+use crate::mesh::{Component, Mesh, Spacing, adjacency, weld};
+use glam::{DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::cwbvh::builder::build_cwbvh;
@@ -11,25 +11,35 @@ use std::time::Duration;
 
 /// Vertices of open edges that stand within another open edge, as far apart as welding would join; each with the longest
 /// such edge. One of the faces there was split and its neighbour was not.
-pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacing: f64) -> Vec<(u32, u32)> {
+pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacing: &Spacing) -> Vec<(u32, u32)> {
     let mut ends: Vec<u32> = open.iter().flat_map(|&edge| mesh.edges[edge as usize]).collect();
     ends.sort_unstable();
     ends.dedup();
-    let Some((low, high)) = mesh.bounds_of(component.faces.clone()).filter(|_| ends.len() > 2) else {
+    let at_home = |vertex| mesh.is_at_home(vertex);
+    let bounds =
+        mesh.bounds_where(component.faces.clone(), at_home).or_else(|| mesh.bounds_of(component.faces.clone()));
+    let Some((low, high)) = bounds.filter(|_| ends.len() > 2) else {
         return Vec::new();
     };
     // a vertex between two others is rounded, too
-    let tolerance = (low.distance(high) * weld::TOLERANCE).max(2.0 * spacing);
-    // what the tree's single precision may be off, several times
-    let padding = Vec3A::splat((tolerance + 8.0 * spacing) as f32);
+    let welded = weld::tolerance(low.distance(high));
+    let tolerance = |points: &[Vec3]| welded.max(2.0 * spacing.at(points));
     let point = |vertex: u32| Vec3A::from(mesh.vertices[vertex as usize]);
-    let boxes: Vec<Aabb> = ends.iter().map(|&end| Aabb::new(point(end) - padding, point(end) + padding)).collect();
+    let around = |vertex: u32| {
+        let points = [mesh.vertices[vertex as usize]];
+        // what the tree's single precision may be off, several times
+        let padding = Vec3A::splat((tolerance(&points) + 8.0 * spacing.at(&points)) as f32);
+        Aabb::new(point(vertex) - padding, point(vertex) + padding)
+    };
+    let boxes: Vec<Aabb> = ends.iter().map(|&end| around(end)).collect();
     let tree = build_cwbvh(&boxes, BvhBuildParams::fast_build(), &mut Duration::default());
 
     let mut found = Vec::new();
     for &edge in open {
         let [from, to] = mesh.edges[edge as usize];
-        let [a, b] = [from, to].map(|vertex| mesh.vertices[vertex as usize].as_dvec3());
+        let edge_ends = [from, to].map(|vertex| mesh.vertices[vertex as usize]);
+        let tolerance = tolerance(&edge_ends);
+        let [a, b] = edge_ends.map(|end| end.as_dvec3());
         let length = a.distance(b);
         let within = |vertex: u32| {
             let from_a = mesh.vertices[vertex as usize].as_dvec3() - a;

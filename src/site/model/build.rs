@@ -2,6 +2,7 @@
 
 use super::accessor::Accessors;
 use super::buffers::Buffers;
+use super::coarse;
 use super::document::Document;
 use super::instances::Instances;
 use super::primitive::{self, Group, Surface, Surfaces};
@@ -118,6 +119,8 @@ impl Builder {
         }
         let point = |&vertex: &u32| world_from_mesh.transform_point3(surface.positions.vec3(vertex as usize));
         part.positions.par_extend(self.used.par_iter().with_min_len(AT_ONCE).map(point));
+        let points = &part.positions[first as usize..];
+        part.coarse.extend(coarse::corners(&surface.positions, &self.used, &world_from_mesh, points, first));
         for (vertex, point) in self.used.drain(..).zip(&part.positions[first as usize..]) {
             if !point.is_finite() {
                 let problem = format!("has at vertex {vertex} a position that is not finite");

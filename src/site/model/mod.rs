@@ -6,7 +6,7 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
 //! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
 //! binary chunk), `document` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
-//! and `reader` (bytes → numbers), `instances`, `primitive` (which triangles a mesh has), `build` (all of it → parts).
+//! and `reader` (bytes → numbers), `coarse` (how exact those are), `instances`, `primitive` (which triangles a mesh has), `build` (all of it → parts).
 
 use crate::mesh::Part;
 use glam::{DAffine3, DMat3, DVec3};
@@ -15,6 +15,7 @@ use std::path::Path;
 mod accessor;
 mod buffers;
 mod build;
+mod coarse;
 mod container;
 mod document;
 mod error;

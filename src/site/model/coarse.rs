@@ -1,0 +1,69 @@
+//! How coarse the numbers are that a file's corners are written with, where that is more than a millimetre.
+
+use super::reader::Reader;
+use crate::mesh::Coarse;
+use glam::{DAffine3, DVec3};
+use gltf::json::accessor::ComponentType;
+
+/// Finer steps are not told, metres: a receiver is judged so far above itself.
+const TOLD_M: f64 = 0.001;
+
+/// Which of some corners are written coarsely: those of the vertices `used`, which stand at `points` and are numbered from
+/// `first` on.
+pub(super) fn corners(
+    positions: &Reader,
+    used: &[u32],
+    world_from_mesh: &DAffine3,
+    points: &[DVec3],
+    first: u32,
+) -> Vec<Coarse> {
+    let matrix = world_from_mesh.matrix3;
+    let metres = DVec3::new(matrix.x_axis.length(), matrix.y_axis.length(), matrix.z_axis.length());
+    if let Some(step) = positions.whole_step() {
+        let step_m = step * metres.max_element();
+        let all = Coarse { corners: first..first + used.len() as u32, step_m, is_float: false };
+        return if step_m > TOLD_M { vec![all] } else { Vec::new() };
+    }
+    // how large the numbers can be at most is told by where the corners stand; nearly always that is enough
+    let reach = points.iter().fold(DVec3::ZERO, |reach, point| reach.max((point - world_from_mesh.translation).abs()));
+    let mesh_from_world = matrix.inverse();
+    let largest = [mesh_from_world.x_axis, mesh_from_world.y_axis, mesh_from_world.z_axis]
+        .iter()
+        .zip(reach.to_array())
+        .fold(DVec3::ZERO, |sum, (axis, reach)| sum + axis.abs() * reach);
+    if (largest * metres).max_element() * f64::from(f32::EPSILON) <= TOLD_M && largest.is_finite() {
+        return Vec::new();
+    }
+    let mut found: Vec<Coarse> = Vec::new();
+    for (corner, &vertex) in (first..).zip(used) {
+        let steps = positions.vec3(vertex as usize).to_array().map(step);
+        let step_m = (DVec3::from_array(steps) * metres).max_element();
+        match found.last_mut() {
+            _ if step_m.is_nan() || step_m <= TOLD_M => (),
+            Some(last) if last.corners.end == corner && last.step_m == step_m => last.corners.end += 1,
+            _ => found.push(Coarse { corners: corner..corner + 1, step_m, is_float: true }),
+        }
+    }
+    found
+}
+
+/// From a single-precision number to the next larger one.
+fn step(number: f64) -> f64 {
+    let size = number.abs() as f32;
+    f64::from(size.next_up()) - f64::from(size)
+}
+
+impl Reader<'_> {
+    /// The step between neighbouring numbers where they are whole ones, or stand for parts of 1.
+    fn whole_step(&self) -> Option<f64> {
+        let most = match self.component {
+            ComponentType::F32 => return None,
+            ComponentType::I8 => f64::from(i8::MAX),
+            ComponentType::U8 => f64::from(u8::MAX),
+            ComponentType::I16 => f64::from(i16::MAX),
+            ComponentType::U16 => f64::from(u16::MAX),
+            ComponentType::U32 => f64::from(u32::MAX),
+        };
+        Some(if self.normalized { 1.0 / most } else { 1.0 })
+    }
+}

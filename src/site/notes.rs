@@ -1,0 +1,97 @@
+//! What the user should know of where models stand, and of the numbers that they are written with.
+
+use super::load::Frame;
+use crate::mesh::{Coarse, Component, Mesh};
+use std::ops::Range;
+
+/// Beyond this distance a place's sun and its flat frame no longer hold to what the drawing says, metres.
+const FAR_M: f64 = 20_000.0;
+
+/// The notes on all models: their names, and which components are whose. Each is a sentence without its stop.
+pub(super) fn of(mesh: &Mesh, frame: Frame, models: &[(String, Range<usize>)]) -> Vec<String> {
+    let mut notes = Vec::new();
+    let distance = mesh.origin.truncate().length();
+    if frame == Frame::Place && distance > FAR_M {
+        notes.push(format!(
+            "the models stand {:.0} km from the place; if they are in map coordinates, bring them here with `position`",
+            distance / 1000.0
+        ));
+    }
+    for (model, components) in models {
+        let components = &mesh.components[components.clone()];
+        notes.extend(far_off(mesh, model, components));
+        notes.extend(rounded(model, components));
+    }
+    notes
+}
+
+/// What of a model stands far from all else.
+fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<String> {
+    let strays = |component: &Component| -> Vec<f64> {
+        let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
+        let away = |face: &[u32; 3]| {
+            face.map(|vertex| if mesh.is_at_home(vertex) { 0.0 } else { away_m(mesh, vertex) })
+                .into_iter()
+                .fold(0.0, f64::max)
+        };
+        faces.iter().map(away).filter(|away| *away > 0.0).collect()
+    };
+    let of_component: Vec<(&Component, Vec<f64>)> = components
+        .iter()
+        .map(|component| (component, strays(component)))
+        .filter(|(_, found)| !found.is_empty())
+        .collect();
+    let farthest = |found: &[f64]| found.iter().copied().fold(0.0, f64::max);
+    let (worst, found) = of_component.iter().max_by(|one, other| farthest(&one.1).total_cmp(&farthest(&other.1)))?;
+    let km = farthest(found) / 1000.0;
+    let triangles: usize = of_component.iter().map(|(_, found)| found.len()).sum();
+    if triangles == components.iter().map(|component| component.faces.len()).sum::<usize>() {
+        return Some(format!(
+            "{model} stands {km:.0} km from all else, and the default region and camera leave it out; if it is in map \
+             coordinates, bring it here with `position`"
+        ));
+    }
+    let others = match of_component.len() - 1 {
+        0 => String::new(),
+        1 => " and another component".to_owned(),
+        more => format!(" and {more} other components"),
+    };
+    let those = if triangles == 1 { "1 triangle".to_owned() } else { format!("{triangles} triangles") };
+    Some(format!(
+        "{model} has {those} of '{}'{others} as far as {km:.0} km from all else; the default region and camera leave out what \
+         lies there: delete it from the model if it is a leftover",
+        worst.name
+    ))
+}
+
+/// How far a vertex lies from the box around what stands together, metres.
+fn away_m(mesh: &Mesh, vertex: u32) -> f64 {
+    let at = mesh.vertices[vertex as usize];
+    let [low, high] = mesh.home();
+    at.distance(at.clamp(low, high)).into()
+}
+
+/// How coarse the numbers are that a model is written with.
+fn rounded(model: &str, components: &[Component]) -> Option<String> {
+    let coarse = components.iter().filter_map(|component| Some((component, component.coarse.as_ref()?)));
+    let (component, Coarse { step_m, is_float, .. }) =
+        coarse.max_by(|(_, one), (_, other)| one.step_m.total_cmp(&other.step_m))?;
+    let (name, step) = (&component.name, metres(*step_m));
+    Some(match is_float {
+        true => format!(
+            "{model} has corners rounded to {step} m, as their numbers are too large for single precision ('{name}'); no shadow \
+             of them is more exact: move the origin next to the model before it is exported"
+        ),
+        false => format!(
+            "{model} has corners rounded to {step} m, as they are written in whole steps ('{name}'); no shadow of them is more \
+             exact: export it without quantisation, or with more bits"
+        ),
+    })
+}
+
+/// A length in metres with two digits.
+fn metres(length: f64) -> String {
+    let digits = (1.0 - length.log10().floor()).clamp(0.0, 6.0) as usize;
+    let text = format!("{length:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
