@@ -12,6 +12,7 @@ mod elevation;
 mod exact;
 mod export;
 mod far_wrong;
+mod folders;
 mod geometry;
 mod gpu_silhouettes;
 mod live;

@@ -287,18 +287,22 @@ fn a_study_that_was_stopped_among_its_tiles_goes_on_and_comes_to_the_same() {
         for when in ["10%", "40%", "70%"] {
             crate::year::stopped(path, &asked("stopped", memory), when);
         }
-        let left = files(&path.join(format!("{name}-stopped")));
-        let names = ["profile.sums.unfinished", "profile.unfinished", "shadow.bits.unfinished"];
-        assert_eq!(left.keys().collect::<Vec<_>>(), names);
+        let out = path.join(format!("{name}-stopped"));
+        let names = ["profile.N.unfinished", "profile.sums.N.unfinished", "shadow.bits.N.unfinished"];
+        assert_eq!(crate::year::numberless(&out), names);
+        let number = |out: &Path| {
+            let name = crate::year::left(out).file_name().unwrap().to_str().unwrap().to_owned();
+            name.split('.').nth(1).unwrap().to_owned()
+        };
+        let ours = number(&out);
         // other tiles are another study
         let other = if name == "gpu" { "--memory 2MiB" } else { "--memory 300KiB" };
-        done(path, &asked("other", other));
+        crate::year::stopped(path, &asked("other", other), "10%");
+        let theirs = number(&path.join(format!("{name}-other")));
+        assert_ne!(ours, theirs);
         for file in names {
-            std::fs::copy(
-                path.join(format!("{name}-stopped")).join(file),
-                path.join(format!("{name}-other")).join(file),
-            )
-            .unwrap();
+            let to = path.join(format!("{name}-other")).join(file.replace('N', &theirs));
+            std::fs::copy(out.join(file.replace('N', &ours)), to).unwrap();
         }
         let told = stderr(&gnomon(path, &asked("other", other)));
         assert!(told.contains("begins anew") && !told.contains("goes on"), "{told}");
@@ -310,8 +314,9 @@ fn a_study_that_was_stopped_among_its_tiles_goes_on_and_comes_to_the_same() {
             same(path, &format!("{name}-whole"), &format!("{name}-other"));
             std::fs::remove_dir_all(path.join(format!("{name}-stopped"))).unwrap();
             crate::year::stopped(path, &asked("stopped", memory), "60%");
-            std::fs::remove_file(path.join(format!("{name}-stopped")).join(names[0])).unwrap();
-            assert!(!stderr(&gnomon(path, &asked("stopped", memory))).contains("goes on"));
+            std::fs::remove_file(out.join(names[1].replace('N', &ours))).unwrap();
+            let told = stderr(&gnomon(path, &asked("stopped", memory)));
+            assert!(told.contains("begins anew") && !told.contains("goes on"), "{told}");
             same(path, &format!("{name}-whole"), &format!("{name}-stopped"));
         }
     }

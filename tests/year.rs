@@ -6,7 +6,7 @@ use gnomon::sun::{EachDay, Place, SunError, SunTrack, Window};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 fn paris() -> Place {
     Place::new("Paris", 48.8583, 2.2945, 35.0, Some("Europe/Paris")).unwrap()
@@ -108,6 +108,25 @@ pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         found.insert(name, bytes);
     }
     found
+}
+
+/// The names of a folder's files, without the numbers of studies.
+pub(crate) fn numberless(folder: &Path) -> Vec<String> {
+    let short = |name: String| match name.strip_suffix(".unfinished").and_then(|name| name.rsplit_once('.')) {
+        Some((words, number)) if number.len() == 16 => format!("{words}.N.unfinished"),
+        _ => name,
+    };
+    let mut names: Vec<String> = files(folder).into_keys().map(short).collect();
+    names.sort();
+    names
+}
+
+/// What the one study that was stopped in a folder keeps of its sums.
+pub(crate) fn left(folder: &Path) -> PathBuf {
+    let is_it = |name: &String| name.starts_with("profile.") && name.ends_with(".unfinished") && !name.contains("sums");
+    let found: Vec<String> = files(folder).into_keys().filter(is_it).collect();
+    assert_eq!(found.len(), 1, "{found:?}");
+    folder.join(&found[0])
 }
 
 const RANGE: &str = "--from-date 2026-03-28 --to-date 2026-04-02 --from 8:00 --to 18:00";
@@ -242,8 +261,15 @@ fn a_study_stopped_at_its_drawing_says_where_it_goes_on() {
         .stdout(std::process::Stdio::null())
         .spawn()
         .unwrap();
-    let kept = path.join("bits/profile.unfinished");
-    while !kept.is_file() && child.try_wait().unwrap().is_none() {
+    let kept = || {
+        path.join("bits")
+            .is_dir()
+            .then(|| numberless(&path.join("bits")))
+            .unwrap_or_default()
+            .iter()
+            .any(|name| name == "profile.N.unfinished")
+    };
+    while !kept() && child.try_wait().unwrap().is_none() {
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
     std::thread::sleep(std::time::Duration::from_millis(100));
@@ -253,10 +279,10 @@ fn a_study_stopped_at_its_drawing_says_where_it_goes_on() {
     let told = stderr(&output);
     assert_eq!(output.status.code(), Some(130), "{told}");
     assert!(told.contains("100%") && told.contains("the same command goes on from there"), "{told}");
-    assert!(kept.is_file());
+    assert!(kept());
     let told = stopped(path, &format!("{asked} --out short"), "100%");
     assert!(told.contains("is not kept; the same command begins anew"), "{told}");
-    assert!(!path.join("short/profile.unfinished").exists());
+    assert_eq!(numberless(&path.join("short")), [""; 0]);
 }
 
 #[cfg(unix)]
@@ -274,11 +300,12 @@ fn a_stopped_study_goes_on_and_comes_to_the_same() {
             |out: &str| format!("profile . {engine} --size {size} {RANGE} --step {step} --bits --out {name}-{out}");
         done(path, &asked("whole"));
         stopped(path, &asked("stopped"), "10%");
-        let left = files(&path.join(format!("{name}-stopped")));
-        assert_eq!(left.keys().collect::<Vec<_>>(), ["profile.unfinished", "shadow.bits.unfinished"]);
+        let out = path.join(format!("{name}-stopped"));
+        assert_eq!(numberless(&out), ["profile.N.unfinished", "shadow.bits.N.unfinished"]);
         // a second stop, and what lies beyond what was kept is drawn again
         stopped(path, &asked("stopped"), "50%");
-        let bits = path.join(format!("{name}-stopped/shadow.bits.unfinished"));
+        let name_of_bits = left(&out).file_name().unwrap().to_str().unwrap().replace("profile", "shadow.bits");
+        let bits = out.join(name_of_bits);
         let mut longer = fs::read(&bits).unwrap();
         longer.extend([0xA5; 777]);
         fs::write(&bits, longer).unwrap();
@@ -299,30 +326,37 @@ fn what_another_study_left_is_not_used() {
     let path = folder.path();
     let asked = format!("profile . --technique ray-cast --size 64 {RANGE} --step 3min --write tif");
     stopped(path, &asked, "10%");
-    let kept = fs::read(path.join("out/profile.unfinished")).unwrap();
+    let file = left(&path.join("out"));
+    let kept = fs::read(&file).unwrap();
     for other in ["--no-refraction", "--cell 1", "--to 18:01"] {
-        fs::write(path.join("out/profile.unfinished"), &kept).unwrap();
         let short = asked
             .replace("--step 3min", "--step 1h")
             .replace("--size 64", if other == "--cell 1" { "" } else { "--size 40" });
         let short = if other == "--to 18:01" { short.replace("--to 18:00", other) } else { format!("{short} {other}") };
         let told = stderr(&gnomon(path, &short));
-        assert!(told.contains("begins anew") && !told.contains("goes on"), "{other}: {told}");
+        assert!(
+            told.contains("keeps another study that was stopped") && !told.contains("goes on where"),
+            "{other}: {told}"
+        );
         done(path, &format!("{short} --out alone"));
         let [tif, alone] = ["out", "alone"].map(|out| fs::read(path.join(out).join("shadow-hours.tif")).unwrap());
         assert!(tif == alone, "{other}");
-        assert!(!path.join("out/profile.unfinished").exists());
+        // nor is it lost
+        assert!(fs::read(&file).unwrap() == kept, "{other}");
     }
     // half a file is none
-    fs::write(path.join("out/profile.unfinished"), &kept[..kept.len() - 1]).unwrap();
-    assert!(!stderr(&gnomon(path, &asked.replace("3min", "1h"))).contains("goes on"));
-    // and the number of the study is looked at, not its size alone
-    let mut wrong = kept.clone();
-    wrong[20] ^= 1;
-    fs::write(path.join("out/profile.unfinished"), &wrong).unwrap();
-    assert!(stderr(&gnomon(path, &asked)).contains("begins anew"));
-    fs::write(path.join("out/profile.unfinished"), &kept).unwrap();
+    fs::write(&file, &kept[..kept.len() - 1]).unwrap();
+    let told = stderr(&gnomon(path, &asked));
+    assert!(told.contains("begins anew") && !told.contains("goes on"), "{told}");
+    // and the number of the study is looked at, not the file's name alone
+    let short = asked.replace("3min", "2min");
+    stopped(path, &short, "10%");
+    fs::rename(left(&path.join("out")), &file).unwrap();
+    let told = stderr(&gnomon(path, &asked));
+    assert!(told.contains("begins anew") && !told.contains("goes on"), "{told}");
+    fs::write(&file, &kept).unwrap();
     assert!(stderr(&gnomon(path, &asked)).contains("goes on"));
+    assert_eq!(numberless(&path.join("out")), ["shadow-hours.tif"]);
 }
 
 /// Nothing keeps outlines: of a study that was stopped without them all instants are drawn anew.
@@ -333,12 +367,13 @@ fn outlines_of_a_stopped_study_are_all_there() {
     let path = folder.path();
     let asked = "profile . --technique ray-cast --size 900 --from 8:00 --to 18:00 --step 30min --write tif";
     stopped(path, asked, "14%");
-    assert!(path.join("out/profile.unfinished").exists());
+    let kept = left(&path.join("out"));
     let told = stderr(&gnomon(path, &format!("{asked} --draw outlines")));
-    assert!(!told.contains("goes on"), "{told}");
+    assert!(!told.contains("goes on where"), "{told}");
     done(path, &format!("{asked} --draw outlines --out alone"));
     let [svg, alone] = ["out", "alone"].map(|out| fs::read(path.join(out).join("outlines.svg")).unwrap());
-    assert!(svg == alone && !path.join("out/profile.unfinished").exists());
+    assert!(svg == alone && kept.is_file());
+    assert!(stderr(&gnomon(path, asked)).contains("goes on where"));
 }
 
 #[test]
@@ -384,16 +419,18 @@ fn what_another_stopped_study_wrote_is_not_taken_over() {
     stopped(path, &study("2026-06-18", "--bits --masks masks --out out"), "60%");
     stopped(path, &study("2026-09-18", "--out out"), "40%");
     let told = stderr(&gnomon(path, &study("2026-09-18", "--bits --masks masks --out out")));
-    assert!(!told.contains("goes on"), "{told}");
+    assert!(!told.contains("goes on where"), "{told}");
     // elsewhere is another study, too: what lies there already is not its own
     stopped(path, &study("2026-09-18", "--masks other --out there"), "40%");
     done(path, &study("2026-06-18", "--masks others --out another"));
     let told = stderr(&gnomon(path, &study("2026-09-18", "--masks others --out there")));
-    assert!(told.contains("begins anew"), "{told}");
-    let masks = files(&path.join("right"));
-    for (name, bytes) in files(&path.join("out")) {
-        assert!(bytes == masks[&name], "{name}");
+    assert!(told.contains("keeps another study") && !told.contains("goes on where"), "{told}");
+    let [right, out] = ["right", "out"].map(|out| files(&path.join(out)));
+    for (name, bytes) in right.iter().filter(|(name, _)| !name.starts_with("mask-")) {
+        assert!(*bytes == out[name], "{name}");
     }
+    let kept = ["profile.N.unfinished", "profile.N.unfinished", "shadow.bits.N.unfinished"];
+    assert!(kept.iter().all(|name| numberless(&path.join("out")).contains(&(*name).to_owned())));
     for folder in ["masks", "others"] {
         for index in [0, 100, 250, 360] {
             let mask = |folder: &str| fs::read(path.join(folder).join(format!("mask-{index:04}.png"))).unwrap();
@@ -401,9 +438,13 @@ fn what_another_stopped_study_wrote_is_not_taken_over() {
             assert!(mask(folder) == right, "{folder}, {index}");
         }
     }
-    // nothing of what was stopped stays behind one that is done
+    // what was stopped stays beside one that is done, and goes on
     stopped(path, &study("2026-09-18", "--bits --out left"), "40%");
     done(path, &study("2026-09-18", "--out left"));
-    let left: Vec<String> = files(&path.join("left")).into_keys().collect();
-    assert_eq!(left, ["profile.json", "shadow-hours.tif"]);
+    let kept = ["profile.N.unfinished", "profile.json", "shadow-hours.tif", "shadow.bits.N.unfinished"];
+    assert_eq!(numberless(&path.join("left")), kept);
+    let told = stderr(&gnomon(path, &study("2026-09-18", "--bits --out left")));
+    assert!(told.contains("goes on where"), "{told}");
+    assert!(files(&path.join("left"))["shadow.bits"] == right["shadow.bits"]);
+    assert_eq!(numberless(&path.join("left")), ["profile.json", "shadow-hours.tif", "shadow.bits"]);
 }

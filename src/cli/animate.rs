@@ -4,12 +4,13 @@ use super::arguments::{Common, DrawArgs, PlanArgs, SiteArgs, WindowArgs};
 use super::commands::drawn_by;
 use super::eye::Eye;
 use super::progress::Progress;
-use super::{WrongUse, interrupt, say};
+use super::{WrongUse, interrupt, say, who};
 use crate::export::animation::{Frames, MOST_FRAMES};
 use crate::export::report::{self, Told};
+use crate::export::workplace::Workplace;
 use crate::export::{figure, file};
 use crate::profile::Drawn;
-use crate::site::{Overrides, Site};
+use crate::site::{Overrides, Site, inputs};
 use crate::study::{self, Event, OnEvent, Stopwatch, StudyError};
 use crate::view::View;
 use clap::{Args, value_parser};
@@ -61,25 +62,24 @@ pub(super) fn animate(asked: &AnimateArgs) -> anyhow::Result<()> {
     let site = Site::load(&asked.site.path, &asked.overrides())?;
     let (place, track, out) = (&site.place, &site.track, &asked.out);
     let count = check(&site)?;
-    file::check_folder(out)?;
+    let outputs = Frames::outputs(out, count);
+    file::check_inputs(&inputs(&asked.site.path)?, &outputs)?;
+    let workplace = Workplace::take([out.as_path()], &outputs, &who())?;
     watch.lap("load");
 
     let view = asked.view.of(&site);
     let mut progress = Progress::new(asked.common.quiet);
+    progress.note(workplace.note());
     progress.letters([place.name.as_str()]);
     let (drawn, frames) = frames(&site, view, out, asked.width, &mut |event| {
         progress.hear(&event);
         interrupt::flow()
     })?;
     watch.lap("frames");
+    workplace.check()?;
     let path = gif(frames, count, asked.fps, &mut |_| interrupt::check())?;
     watch.lap("gif");
 
-    let beyond = Frames::path(out, count);
-    if beyond.exists() {
-        let note = format!("{} and what follows it is of another animation; remove it", beyond.display());
-        progress.hear(&Event::Note(note));
-    }
     if asked.common.json {
         let (receivers, timings) = (study::judged(&site, &view), &watch.timings());
         let told = Told { receivers, drawn: &drawn, timings, statistics: None, notes: &site.notes };
@@ -115,7 +115,11 @@ pub(crate) fn frames(
     width: u32,
     on_event: &mut OnEvent<'_>,
 ) -> anyhow::Result<(Drawn, Frames)> {
-    let mut frames = Frames::new(out, site.track.instants.len());
+    let mut frames = Frames::new(out, site.track.instants.len())?;
+    if let Some(note) = frames.note() {
+        // what is to be given up is given up at the first frame
+        let _ = on_event(Event::Note(note));
+    }
     let drawn = study::frames(site, view, on_event, &mut |frame| -> anyhow::Result<()> {
         let study::Frame { track, mask, surface, surface_mesh: mesh, receivers, drawn } = *frame;
         let scene = figure::Scene { place: &site.place, track, mesh, surface, receivers, drawn };

@@ -9,7 +9,7 @@ use crate::export::report::Told;
 use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Statistics};
-use crate::site::{LoadedMesh, Method, Site, load_mesh, load_sun};
+use crate::site::{LoadedMesh, Method, Site, inputs, load_mesh, load_sun};
 use crate::study::{self, Event, InstantWants, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,9 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         let what = "--show mask is the hybrid's; add --technique hybrid, or leave it out";
         return Err(WrongUse(what.to_owned()).into());
     }
-    for (_, path) in &written {
+    let outputs: Vec<PathBuf> = written.iter().map(|(_, path)| path.to_path_buf()).collect();
+    file::check_inputs(&inputs(&asked.site.path)?, &outputs)?;
+    for path in &outputs {
         file::check_folder(path.parent().unwrap_or(Path::new("")))?;
     }
     watch.lap("load");

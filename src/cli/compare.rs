@@ -4,14 +4,18 @@ use super::arguments::{Common, DrawArgs, PlaceArgs, PlanArgs, WindowArgs};
 use super::commands::drawn_by;
 use super::profile::written;
 use super::progress::Progress;
-use super::{interrupt, say};
+use super::{interrupt, say, who};
 use crate::export::report::Told;
+use crate::export::workplace::Workplace;
 use crate::export::{comparison, figure, file, raster};
-use crate::site::{Overrides, Pair};
+use crate::site::{Overrides, Pair, inputs};
 use crate::study::{self, Stopwatch};
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
+
+/// What it writes.
+const FILES: [&str; 3] = ["compare.png", "shadow-hours-difference.tif", "compare.json"];
 
 #[derive(Debug, Args)]
 pub(super) struct CompareArgs {
@@ -46,9 +50,12 @@ impl CompareArgs {
 pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     let mut watch = Stopwatch::start();
     let pair = Pair::load(&asked.before, &asked.after, &asked.overrides())?;
-    file::check_folder(&asked.out)?;
+    let outputs = FILES.map(|name| asked.out.join(name));
+    file::check_inputs(&[inputs(&asked.before)?, inputs(&asked.after)?].concat(), &outputs)?;
+    let workplace = Workplace::take([asked.out.as_path()], &outputs, &who())?;
     watch.lap("load");
     let mut progress = Progress::new(asked.common.quiet);
+    progress.note(workplace.note());
     progress.letters([&pair.names[0], &pair.names[1], &pair.after.place.name].map(String::as_str));
     let outcome = study::compare(&pair, &mut |event| {
         progress.hear(&event);
@@ -71,11 +78,8 @@ pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     let drawn = &outcome.drawn[1];
     let told = Told { receivers, drawn, timings: &watch.timings(), statistics: None, notes: &pair.notes() };
     let json = comparison::json(change, &pair.names, place, track, &told)?;
-    let files = [
-        ("compare.png", picture),
-        ("shadow-hours-difference.tif", raster),
-        ("compare.json", json.clone().into_bytes()),
-    ];
+    let files: Vec<_> = FILES.into_iter().zip([picture, raster, json.clone().into_bytes()]).collect();
+    workplace.check()?;
     let mut text = written(&asked.out, &files)?;
     if asked.common.json {
         return say(&json);

@@ -59,6 +59,14 @@ impl Lines {
         Ok(())
     }
 
+    /// What the files are called.
+    fn names(self) -> [&'static str; 2] {
+        match self {
+            Lines::Hours => ["hours.png", "hours.svg"],
+            Lines::Outlines => ["outlines.png", "outlines.svg"],
+        }
+    }
+
     /// The files, by their names.
     pub(crate) fn files<S: SurfaceRows>(
         self,
@@ -66,9 +74,10 @@ impl Lines {
         profile: &Profile,
         outlines: &[Outline],
     ) -> Result<[(&'static str, Vec<u8>); 2], ExportError> {
-        let ([png, svg], drawing) = match self {
-            Lines::Hours => (["hours.png", "hours.svg"], figure::iso_hours(scene, profile)?),
-            Lines::Outlines => (["outlines.png", "outlines.svg"], figure::outlines(scene, &profile.grid, outlines)?),
+        let [png, svg] = self.names();
+        let drawing = match self {
+            Lines::Hours => figure::iso_hours(scene, profile)?,
+            Lines::Outlines => figure::outlines(scene, &profile.grid, outlines)?,
         };
         Ok([(png, drawing.png()?), (svg, drawing.svg().into_bytes())])
     }
@@ -88,6 +97,11 @@ impl LinesArgs {
     /// As [`Lines::check`], for all that are asked for.
     pub(super) fn check(&self, track: &SunTrack) -> Result<(), WrongUse> {
         self.lines.iter().try_for_each(|lines| lines.check(track))
+    }
+
+    /// What the files of all of them are called.
+    pub(super) fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.lines.iter().flat_map(|lines| lines.names())
     }
 
     /// The files, by their names.

@@ -9,6 +9,7 @@ mod compare;
 pub(crate) mod draw;
 mod eye;
 mod interrupt;
+mod keeping;
 mod memory;
 mod probe;
 mod profile;
@@ -17,6 +18,7 @@ mod surfaces;
 mod verify;
 mod volumes;
 
+use crate::export::ExportError;
 use crate::site::SiteError;
 use crate::study::StudyError;
 use arguments::{Arguments, Command};
@@ -91,7 +93,8 @@ pub(crate) struct WrongUse(String);
 fn status(error: &anyhow::Error) -> u8 {
     let wrong_use = error.is::<WrongUse>()
         || error.downcast_ref().is_some_and(SiteError::is_wrong_use)
-        || error.downcast_ref().is_some_and(StudyError::is_wrong_use);
+        || error.downcast_ref().is_some_and(StudyError::is_wrong_use)
+        || error.downcast_ref().is_some_and(ExportError::is_wrong_use);
     match error.downcast_ref() {
         Some(StudyError::Interrupted) => 130,
         _ if wrong_use => 2,
@@ -144,6 +147,12 @@ fn refuse(error: &clap::Error) -> ExitCode {
 fn complain(line: &str) {
     // Nobody is left to tell that stderr is closed.
     let _ = writeln!(io::stderr(), "error: {line}");
+}
+
+/// Who works in a folder, for others who want to work there: the command line.
+fn who() -> String {
+    let words: Vec<_> = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    format!("gnomon {}", words.join(" "))
 }
 
 /// Prints a result. Who closed the pipe has read enough.

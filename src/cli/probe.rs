@@ -4,7 +4,7 @@ use super::arguments::{Common, SiteArgs};
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::{figure, file, probe as told};
-use crate::site::{Overrides, load_probes};
+use crate::site::{Overrides, inputs, load_probes};
 use crate::study;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -72,7 +72,9 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
         }
     }
     let probing = load_probes(&asked.site.path, &asked.overrides())?;
-    for path in [&asked.out, &asked.csv].into_iter().flatten() {
+    let outputs: Vec<PathBuf> = [&asked.out, &asked.csv].into_iter().flatten().cloned().collect();
+    file::check_inputs(&inputs(&asked.site.path)?, &outputs)?;
+    for path in &outputs {
         file::check_folder(path.parent().unwrap_or(Path::new("")))?;
     }
     let mut progress = Progress::of("days", asked.common.quiet);

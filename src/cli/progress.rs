@@ -80,6 +80,13 @@ impl Progress {
         }
     }
 
+    /// Tells something that the user should know, where there is anything.
+    pub(super) fn note(&mut self, note: Option<String>) {
+        if let Some(note) = note {
+            self.hear(&Event::Note(note));
+        }
+    }
+
     /// How long the rest takes, where that is seconds at least.
     fn left(&self, done: usize, count: usize) -> String {
         let (before, since) = self.begun;

@@ -4,13 +4,15 @@ use super::arguments::{ProfileArgs, Written};
 use super::commands::drawn_by;
 use super::profile::written;
 use super::progress::Progress;
-use super::{WrongUse, interrupt, say};
+use super::{WrongUse, interrupt, say, who};
 use crate::export::report::{self, Told};
 use crate::export::surfaces::{self, Surfaces};
+use crate::export::workplace::Workplace;
 use crate::export::{figure, file};
-use crate::site::{Receivers, Site};
+use crate::site::{Receivers, Site, inputs};
 use crate::study::{self, Stopwatch};
 use std::fmt::Write;
+use std::path::PathBuf;
 
 pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) -> anyhow::Result<()> {
     let of_plan = asked.plan.given().into_iter().filter(|option| *option != "--receivers");
@@ -27,10 +29,13 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
         return Err(WrongUse(what).into());
     }
     let kinds = asked.wanted(&[Written::Png, Written::Glb, Written::Csv, Written::Json])?;
-    file::check_folder(&asked.out)?;
+    let outputs: Vec<PathBuf> = kinds.iter().map(|kind| asked.out.join(kind.file(site.receivers))).collect();
+    file::check_inputs(&inputs(&asked.site.path)?, &outputs)?;
+    let workplace = Workplace::take([asked.out.as_path()], &outputs, &who())?;
     watch.lap("load");
 
     let mut progress = Progress::new(asked.common.quiet);
+    progress.note(workplace.note());
     if kinds.contains(&Written::Png) {
         progress.letters([site.place.name.as_str()]);
     }
@@ -47,24 +52,25 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
     if kinds.contains(&Written::Png) {
         let (mesh, surface) = &study::seen_receivers(site)?;
         let scene = figure::Scene { place, track, mesh, surface, receivers: Receivers::Surfaces, drawn };
-        files.push(("surfaces.png", figure::surfaces(&scene, &site.picture(), &answer)?));
+        files.push((Written::Png.file(site.receivers), figure::surfaces(&scene, &site.picture(), &answer)?));
         watch.lap("picture");
         interrupt::check()?;
     }
     if kinds.contains(&Written::Glb) {
-        files.push(("surfaces.glb", surfaces::glb(&answer)?));
+        files.push((Written::Glb.file(site.receivers), surfaces::glb(&answer)?));
         watch.lap("model");
         interrupt::check()?;
     }
     if kinds.contains(&Written::Csv) {
-        files.push(("surfaces.csv", surfaces::csv(&answer).into_bytes()));
+        files.push((Written::Csv.file(site.receivers), surfaces::csv(&answer).into_bytes()));
     }
     let (timings, notes) = (&watch.timings(), &site.notes);
     let told = Told { receivers: Receivers::Surfaces, drawn, timings, statistics: None, notes };
     let json = report::surfaces_json(&answer, &told)?;
     if kinds.contains(&Written::Json) {
-        files.push(("profile.json", json.clone().into_bytes()));
+        files.push((Written::Json.file(site.receivers), json.clone().into_bytes()));
     }
+    workplace.check()?;
     let mut text = written(&asked.out, &files)?;
     if asked.common.json {
         return say(&json);

@@ -4,10 +4,11 @@ use super::arguments::VolumesArgs;
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::{file, volumes};
-use crate::site::Site;
+use crate::site::{Site, inputs};
 use crate::study::{self, Event, StudyError};
 use crate::volume::solid;
 use std::path::Path;
+use std::slice;
 
 /// Longer volumes are noted, metres.
 const LONG_M: f64 = 10_000.0;
@@ -26,6 +27,7 @@ pub(super) fn volumes(asked: &VolumesArgs) -> anyhow::Result<()> {
             -instant.altitude_deg(),
         );
     }
+    file::check_inputs(&inputs(&asked.site.path)?, slice::from_ref(out))?;
     file::check_folder(out.parent().unwrap_or(Path::new("")))?;
     let mut progress = Progress::new(asked.common.quiet);
     study::note_models(&site.notes, &mut |event| {

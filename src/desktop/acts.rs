@@ -88,12 +88,16 @@ impl App {
             }
             Purpose::Hours => {
                 if let Some(laid) = open.laid.clone() {
-                    self.writing = Some(handing::found(move || laid.files(), path, context.clone()));
+                    let files = move || laid.files();
+                    let work = handing::found(&open.project, &self.settings, files, path, context.clone());
+                    self.writing = Some(work);
                 }
             }
             Purpose::Lines(lines) => {
                 if let Some(laid) = open.laid.clone() {
-                    self.writing = Some(handing::found(move || laid.lines(lines), path, context.clone()));
+                    let files = move || laid.lines(lines);
+                    let work = handing::found(&open.project, &self.settings, files, path, context.clone());
+                    self.writing = Some(work);
                 }
             }
         }

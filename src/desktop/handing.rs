@@ -7,8 +7,10 @@ use super::settings::Settings;
 use super::view;
 use super::work::Work;
 use crate::cli::animate;
+use crate::export::animation::Frames;
 use crate::export::figure::{self, Diagram};
 use crate::export::file;
+use crate::export::workplace::Workplace;
 use crate::site::file::{CameraTable, SiteFile};
 use crate::site::{Method, Models, Overrides, Site, SiteError, Written, model};
 use crate::study::{self, Event, InstantWants, StudyError};
@@ -18,6 +20,10 @@ use chrono::DateTime;
 use eframe::egui;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::slice;
+
+/// Who works in a folder, for others who want to.
+const WHO: &str = "the window of gnomon";
 
 /// The eye as a site file says it, to the millimetre; the plan is no camera's picture, and leaves the table as it was.
 fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {
@@ -92,8 +98,10 @@ pub(super) fn drawing(
 ) -> Work<PathBuf> {
     let written = seen_from(project, settings, &eye);
     let models = project.models_of(&written);
+    let inputs = project.inputs(settings.before.as_deref());
     let shown = settings.shown;
     Work::start(context, move |on_event| {
+        file::check_inputs(&inputs, slice::from_ref(&path))?;
         let is_perspective = eye.stand == Stand::Perspective;
         let method = match shown.method {
             // volumes and silhouette are the stencil's
@@ -145,13 +153,16 @@ pub(super) fn animation(
 ) -> Work<PathBuf> {
     let written = seen_from(project, settings, &eye);
     let models = project.models_of(&written);
+    let inputs = project.inputs(settings.before.as_deref());
     let method = settings.shown.method;
     Work::start(context, move |on_event| {
         let method = if view::draws(method, eye.stand) { method } else { Method::Auto };
         let asked = Overrides { technique: Some(method), ..Overrides::default() };
         let site = site_of(&written, &asked, models)?;
         let count = animate::check(&site)?;
-        file::check_folder(&folder)?;
+        let outputs = Frames::outputs(&folder, count);
+        file::check_inputs(&inputs, &outputs)?;
+        let _locked = Workplace::take([folder.as_path()], &outputs, WHO)?;
         // the frames, and then each once more in the GIF
         let both = 2 * count;
         let drawn = |index: usize| {
@@ -188,14 +199,19 @@ pub(super) fn progress(writing: &Work<PathBuf>, ui: &mut egui::Ui) -> bool {
 
 /// Writes files of what was found into a folder.
 pub(super) fn found(
+    project: &Project,
+    settings: &Settings,
     files: impl FnOnce() -> anyhow::Result<Vec<NamedFile>> + Send + 'static,
     folder: PathBuf,
     context: egui::Context,
 ) -> Work<PathBuf> {
+    let inputs = project.inputs(settings.before.as_deref());
     Work::start(context, move |_| {
-        for (name, bytes) in files()? {
-            file::write(&folder.join(name), &bytes)?;
-        }
+        let files = files()?;
+        let outputs: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
+        file::check_inputs(&inputs, &outputs)?;
+        let _locked = Workplace::take([folder.as_path()], &outputs, WHO)?;
+        file::write_all(&folder, &files)?;
         Ok(folder)
     })
 }

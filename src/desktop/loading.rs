@@ -280,6 +280,13 @@ impl Project {
         self.models.are_those_of(written).then(|| self.models.clone())
     }
 
+    /// The files that it is read from, and those of the state that it is compared with.
+    pub(super) fn inputs(&self, before: Option<&Written>) -> Vec<PathBuf> {
+        let of_before = before.map(|before| [vec![PathBuf::from(&before.file)], before.model_files()].concat());
+        let files = self.path.iter().cloned().chain(self.written.model_files());
+        files.chain(of_before.unwrap_or_default()).collect()
+    }
+
     /// Which of its files is no more what was read.
     pub(super) fn changed_file(&self) -> Option<&Path> {
         let site_file = self.path.as_deref().filter(|path| self.written.has_changed_at(path));

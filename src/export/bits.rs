@@ -13,14 +13,16 @@
 //!
 //! It is written instant by instant, for each tile of the plan, beside its place, and renamed when it is whole.
 
+use super::checksum::Checksum;
 use super::report::{InstantReport, instant_report};
+use super::unfinished::bits_path;
 use super::{ExportError, file};
 use crate::site::Receivers;
 use crate::sun::SunTrack;
 use crate::view::{Bits, Grid, Tile};
 use serde::Serialize;
-use std::fs::{self, File, OpenOptions};
-use std::io::{BufWriter, Seek, SeekFrom, Write};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 const MAGIC: &[u8; 8] = b"GNOMBITS";
@@ -38,18 +40,6 @@ struct Header {
     instants: Vec<InstantReport>,
 }
 
-/// Removes what a stopped study left: another one begins in its place.
-///
-/// # Errors
-/// [`ExportError::Write`] where the file system refuses.
-pub fn remove(folder: &Path) -> Result<(), ExportError> {
-    file::remove(&unfinished(&folder.join("shadow.bits")))
-}
-
-fn unfinished(path: &Path) -> PathBuf {
-    path.with_extension("bits.unfinished")
-}
-
 /// The file as it comes to be.
 pub struct BitsFile {
     path: PathBuf,
@@ -59,16 +49,24 @@ pub struct BitsFile {
     /// Instants with a sun.
     count: usize,
     file: Option<BufWriter<File>>,
+    /// Of the header, and of all that was added, in the order of the work.
+    checksum: Checksum,
     /// Where the next byte goes.
     at: u64,
 }
 
 impl BitsFile {
-    /// What is to be written to a folder; nothing is yet.
+    /// What is to be written to a folder, of which study; nothing is yet.
     ///
     /// # Errors
     /// [`ExportError::Encode`] where the encoder refuses.
-    pub fn new(folder: &Path, grid: Grid, receivers: Receivers, track: &SunTrack) -> Result<BitsFile, ExportError> {
+    pub fn new(
+        folder: &Path,
+        study: u64,
+        grid: Grid,
+        receivers: Receivers,
+        track: &SunTrack,
+    ) -> Result<BitsFile, ExportError> {
         let instants: Vec<_> = track.instants.iter().filter(|instant| !instant.night).map(instant_report).collect();
         let count = instants.len();
         let bytes_a_row = grid.width.div_ceil(8) as usize;
@@ -78,13 +76,18 @@ impl BitsFile {
         let begin = (2 * MAGIC.len() + json.len()).next_multiple_of(ALIGNED);
         let mut header = [&MAGIC[..], &(begin as u64).to_le_bytes(), &json].concat();
         header.resize(begin, b' ');
-        let path = folder.join("shadow.bits");
-        Ok(BitsFile { unfinished: unfinished(&path), path, header, grid, count, file: None, at: 0 })
+        let (path, unfinished) = (folder.join("shadow.bits"), bits_path(folder, study));
+        Ok(BitsFile { path, unfinished, header, grid, count, file: None, checksum: Checksum::default(), at: 0 })
     }
 
     /// Its place.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Its place until it is whole.
+    pub fn unfinished(&self) -> &Path {
+        &self.unfinished
     }
 
     /// How large it will be, bytes.
@@ -109,10 +112,40 @@ impl BitsFile {
         self.grid.width.div_ceil(8)
     }
 
-    /// Whether a stopped study left it with so many instants with a sun, of the whole plan, or of some tile at least.
-    pub fn has(&self, instants: usize, tiles: usize) -> bool {
-        let least = if tiles > 1 { self.size_after(instants.saturating_sub(1)) } else { self.size_after(instants) };
-        fs::metadata(&self.unfinished).is_ok_and(|found| found.len() >= least)
+    /// Looks for what a stopped study left, and goes on with it: with these tiles' cells at these of the instants with a sun,
+    /// in the order of the work. Whether it is what was written then, by its checksum.
+    pub fn go_on(&mut self, drawn: impl Iterator<Item = (usize, Tile)>, checksum: u64) -> bool {
+        let mut drawn = drawn.peekable();
+        // nights alone made no file
+        if drawn.peek().is_none() {
+            self.checksum.add(&self.header);
+            return true;
+        }
+        match self.read_back(drawn) {
+            Ok(read) if read.number() == checksum => self.checksum = read,
+            _ => return false,
+        }
+        true
+    }
+
+    fn read_back(&self, drawn: impl Iterator<Item = (usize, Tile)>) -> io::Result<Checksum> {
+        let mut file = OpenOptions::new().read(true).open(&self.unfinished)?;
+        let (mut checksum, mut bytes) = (Checksum::default(), vec![0; self.header.len()]);
+        file.read_exact(&mut bytes)?;
+        checksum.add(&bytes);
+        let row_bytes = u64::from(self.bytes_a_row());
+        for (instant, tile) in drawn {
+            let tile_bytes = tile.size[0].div_ceil(8) as usize;
+            // rows that follow each other are read at once
+            let rows = if tile_bytes as u64 == row_bytes { tile.size[1] } else { 1 };
+            bytes.resize(tile_bytes * rows as usize, 0);
+            for row in (0..tile.size[1]).step_by(rows as usize) {
+                file.seek(SeekFrom::Start(self.first_byte(instant, &tile) + u64::from(row) * row_bytes))?;
+                file.read_exact(&mut bytes)?;
+                checksum.add(&bytes);
+            }
+        }
+        Ok(checksum)
     }
 
     /// Begins, or goes on with what a stopped study left.
@@ -120,12 +153,27 @@ impl BitsFile {
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
     pub fn begin(&mut self, goes_on: bool) -> Result<(), ExportError> {
+        if !goes_on {
+            self.checksum = Checksum::default();
+            self.checksum.add(&self.header);
+        }
         let failed = |error| file::failed(&self.path, "opening a file beside it", error);
         let opened = OpenOptions::new().write(true).create(true).truncate(!goes_on).open(&self.unfinished);
         let mut file = BufWriter::with_capacity(1 << 20, opened.map_err(failed)?);
         file.write_all(&self.header).map_err(failed)?;
         (self.file, self.at) = (Some(file), self.header.len() as u64);
         Ok(())
+    }
+
+    /// The checksum of all that was added so far.
+    pub fn checksum(&self) -> u64 {
+        self.checksum.number()
+    }
+
+    /// Where a tile's first row lies at an instant.
+    fn first_byte(&self, instant: usize, tile: &Tile) -> u64 {
+        let row_bytes = u64::from(self.bytes_a_row());
+        self.size_after(instant) + u64::from(tile.first[1]) * row_bytes + u64::from(tile.first[0] / 8)
     }
 
     /// Adds a tile's cells at an instant: at which of those with a sun.
@@ -137,9 +185,10 @@ impl BitsFile {
             self.begin(false)?;
         }
         let row_bytes = u64::from(self.bytes_a_row());
-        let first = self.size_after(instant) + u64::from(tile.first[1]) * row_bytes + u64::from(tile.first[0] / 8);
+        let first = self.first_byte(instant, tile);
         let Some(file) = &mut self.file else { return Ok(()) };
         let tile_bytes = bits.width.div_ceil(8) as usize;
+        let mut bytes = Vec::with_capacity(8 * bits.in_row());
         let mut write = || {
             for (row, words) in bits.words.chunks(bits.in_row()).enumerate() {
                 let at = first + row as u64 * row_bytes;
@@ -147,9 +196,11 @@ impl BitsFile {
                 if self.at != at {
                     file.seek(SeekFrom::Start(at))?;
                 }
-                for (at, word) in words.iter().enumerate() {
-                    file.write_all(&word.to_le_bytes()[..8.min(tile_bytes - at * 8)])?;
-                }
+                bytes.clear();
+                words.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
+                bytes.truncate(tile_bytes);
+                file.write_all(&bytes)?;
+                self.checksum.add(&bytes);
                 self.at = at + tile_bytes as u64;
             }
             Ok(())
@@ -176,11 +227,14 @@ impl BitsFile {
         if self.file.is_none() {
             self.begin(false)?;
         }
-        self.sync()?;
-        // what lies beyond is of a study that was stopped, and fits no more
         let size = self.size();
-        let cut = self.file.take().map_or(Ok(()), |file| file.get_ref().set_len(size));
-        cut.map_err(|error| file::failed(&self.path, "writing the file beside it", error))?;
-        fs::rename(&self.unfinished, &self.path).map_err(|error| file::failed(&self.path, "putting it in place", error))
+        if let Some(mut file) = self.file.take() {
+            // what lies beyond is of a study that was stopped, and fits no more
+            let whole =
+                file.flush().and_then(|()| file.get_ref().set_len(size)).and_then(|()| file.get_ref().sync_all());
+            whole.map_err(|error| file::failed(&self.path, "writing the file beside it", error))?;
+        }
+        let placed = file::rename(&self.unfinished, &self.path);
+        placed.map_err(|error| file::failed(&self.path, "putting it in place", error))
     }
 }

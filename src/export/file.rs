@@ -1,7 +1,9 @@
 //! Files are written beside their place and renamed into it: a reader sees the old file or the new one, never half.
 
 use super::ExportError;
-use std::ffi::OsString;
+use same_file::Handle;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -13,10 +15,18 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// [`ExportError::NoFileName`] where the path ends in no name; [`ExportError::Write`] where the file system refuses.
 /// On an error the old file, if any, is untouched and nothing is left beside it.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    let mut beside = Beside::open(path)?;
-    let written = beside.file.write_all(bytes);
-    written.map_err(|error| failed(path, WRITING, error))?;
-    beside.put_in_place()
+    Beside::of(path, bytes)?.put_in_place()
+}
+
+/// Writes files, by their names in a folder. Where one of them cannot be written none is put in its place, so that files
+/// of two studies do not lie side by side.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_all(folder: &Path, files: &[(&str, Vec<u8>)]) -> Result<(), ExportError> {
+    let beside = files.iter().map(|(name, bytes)| Beside::of(&folder.join(name), bytes));
+    let beside = beside.collect::<Result<Vec<_>, _>>()?;
+    beside.into_iter().try_for_each(Beside::put_in_place)
 }
 
 /// What is done while bytes go out.
@@ -47,10 +57,29 @@ impl Beside {
         };
         fs::create_dir_all(folder).map_err(|error| failed("creating its folder", error))?;
 
-        let beside = folder.join(temporary_name(name));
-        let opened = OpenOptions::new().write(true).create_new(true).open(&beside);
-        let file = opened.map_err(|error| failed("opening a temporary file in its folder", error))?;
+        let opened = open_new(folder, name);
+        let (file, beside) = opened.map_err(|error| failed("opening a temporary file in its folder", error))?;
         Ok(Beside { file, beside: Cleanup(beside), target, asked: asked.to_owned() })
+    }
+
+    /// Some bytes, which are on the disk.
+    ///
+    /// # Errors
+    /// As [`write()`].
+    pub fn of(asked: &Path, bytes: &[u8]) -> Result<Beside, ExportError> {
+        let mut beside = Beside::open(asked)?;
+        let written = beside.file.write_all(bytes);
+        written.map_err(|error| failed(asked, WRITING, error))?;
+        beside.sync()?;
+        Ok(beside)
+    }
+
+    /// Sees that what was written is on the disk.
+    ///
+    /// # Errors
+    /// [`ExportError::Write`] where the file system refuses.
+    pub fn sync(&self) -> Result<(), ExportError> {
+        self.file.sync_all().map_err(|error| failed(&self.asked, WRITING, error))
     }
 
     /// Where it is to be, as asked.
@@ -58,14 +87,15 @@ impl Beside {
         &self.asked
     }
 
-    /// It is whole: it replaces what was there.
+    /// It is whole: it replaces what was there, once it is on the disk. A power cut leaves the old file or the new one.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
     pub fn put_in_place(self) -> Result<(), ExportError> {
+        self.sync()?;
         // Windows renames no open file.
         drop(self.file);
-        fs::rename(&self.beside.0, &self.target).map_err(|error| failed(&self.asked, "putting it in place", error))?;
+        rename(&self.beside.0, &self.target).map_err(|error| failed(&self.asked, "putting it in place", error))?;
         self.beside.keep();
         Ok(())
     }
@@ -79,10 +109,60 @@ pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
     let failed = |doing, source| failed(folder, doing, source);
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     fs::create_dir_all(here).map_err(|error| failed("creating the folder", error))?;
-    let beside = here.join(temporary_name("gnomon".as_ref()));
-    let file = OpenOptions::new().write(true).create_new(true).open(&beside);
-    drop(file.map_err(|error| failed("opening a temporary file in it", error))?);
+    let opened = open_new(here, "gnomon".as_ref());
+    let (file, beside) = opened.map_err(|error| failed("opening a temporary file in it", error))?;
+    drop(file);
     drop(Cleanup(beside));
+    Ok(())
+}
+
+/// Removes what was written beside the places of some files by processes that died. Whoever calls it has locked their
+/// folders, so that nobody else is writing these.
+pub(super) fn remove_leftovers(outputs: &[PathBuf]) {
+    let mut folders: BTreeMap<&Path, BTreeSet<&OsStr>> = BTreeMap::new();
+    for path in outputs {
+        if let (Some(folder), Some(name)) = (path.parent(), path.file_name()) {
+            folders.entry(folder).or_default().insert(name);
+        }
+    }
+    for (folder, names) in folders {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        // nothing is lost where they stay
+        let Ok(entries) = fs::read_dir(folder) else { continue };
+        let left = entries.flatten().map(|entry| entry.file_name());
+        for name in left.filter(|name| written_beside(name).is_some_and(|name| names.contains(OsStr::new(name)))) {
+            let _ = fs::remove_file(folder.join(name));
+        }
+    }
+}
+
+/// Renames a file that is on the disk, and sees that its new name is, too, where the system allows that.
+pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
+    fs::rename(from, to)?;
+    let folder = to.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    // Windows opens no folder, and some disks sync none: there a power cut may bring back the old file, which is whole
+    let _ = OpenOptions::new().read(true).open(folder).and_then(|folder| folder.sync_all());
+    Ok(())
+}
+
+/// Errs where a file that is to be written is one of those that were read: by file, not by name, so that links, and disks
+/// that do not tell large letters from small ones, are seen through.
+///
+/// # Errors
+/// [`ExportError::IsInput`]
+pub fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), ExportError> {
+    // what is not there is none of them; a pipe is not opened, as that waits for its writer
+    let handle = |path: &PathBuf| path.is_file().then(|| Handle::from_path(path).ok()).flatten();
+    // a handle is an open file, of which there may be no more than some hundred
+    for inputs in inputs.chunks(100) {
+        let known: Vec<(&PathBuf, Handle)> = inputs.iter().filter_map(|path| Some((path, handle(path)?))).collect();
+        for path in outputs {
+            let Some(found) = handle(path) else { continue };
+            if let Some((input, _)) = known.iter().find(|(_, handle)| *handle == found) {
+                return Err(ExportError::IsInput { path: path.clone(), input: input.to_path_buf() });
+            }
+        }
+    }
     Ok(())
 }
 
@@ -130,8 +210,20 @@ impl Drop for Cleanup {
     }
 }
 
+/// A new file for what is to have a name in a folder.
+fn open_new(folder: &Path, name: &OsStr) -> io::Result<(File, PathBuf)> {
+    loop {
+        let beside = folder.join(temporary_name(name));
+        match OpenOptions::new().write(true).create_new(true).open(&beside) {
+            // of a process that had our number before us, or has it on another machine
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            opened => return Ok((opened?, beside)),
+        }
+    }
+}
+
 /// Unique among this machine's processes and this process's threads, hidden, and seen to be ours.
-fn temporary_name(name: &std::ffi::OsStr) -> OsString {
+fn temporary_name(name: &OsStr) -> OsString {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
     let mut beside = OsString::from(".");
@@ -140,12 +232,20 @@ fn temporary_name(name: &std::ffi::OsStr) -> OsString {
     beside
 }
 
+/// What a temporary name is beside.
+fn written_beside(name: &OsStr) -> Option<&str> {
+    let (name, of_process) = name.to_str()?.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.')?;
+    let (process, count) = of_process.split_once('-')?;
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (is_number(process) && is_number(count)).then_some(name)
+}
+
 fn way_out(kind: io::ErrorKind) -> &'static str {
     match kind {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             "choose a folder you may write to with --out"
         }
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
             "free some space, or choose another disk with --out"
         }
         io::ErrorKind::IsADirectory

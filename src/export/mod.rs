@@ -5,6 +5,7 @@
 pub mod animation;
 pub mod bits;
 pub mod check;
+pub mod checksum;
 pub mod comparison;
 pub mod figure;
 pub mod file;
@@ -17,6 +18,7 @@ pub mod surfaces;
 pub mod unfinished;
 pub mod verify;
 pub mod volumes;
+pub mod workplace;
 
 use std::path::PathBuf;
 
@@ -57,6 +59,49 @@ pub enum ExportError {
         /// What there is, bytes.
         room: u64,
     },
+    /// Another study works in the folder.
+    #[error(
+        "{}: another study works there, {who}; wait until it is done, or choose another folder",
+        folder.display()
+    )]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+        /// Since when, which process on which host, and what it was asked.
+        who: String,
+    },
+    /// The folder was removed, or replaced by another one.
+    #[error(
+        "{}: the folder was removed while the study worked there, and no result was written; ask again",
+        folder.display()
+    )]
+    Lost {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A frame would be taken for one of the animation's.
+    #[error(
+        "{} would stay behind the {count} frames of this animation, and is not known to be of one that was finished there; \
+         remove it, or choose another folder",
+        path.display()
+    )]
+    OtherFrame {
+        /// The file.
+        path: PathBuf,
+        /// How many frames there are to be.
+        count: usize,
+    },
+    /// What is to be written is what was read.
+    #[error(
+        "cannot write {}: it is {}, which the site is read from and which would be lost; choose another name or folder",
+        path.display(), input.display()
+    )]
+    IsInput {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// The same file, as the site names it.
+        input: PathBuf,
+    },
     /// The path names no file: it ends in none, or a folder or a device stands there.
     #[error("cannot write {}: that is no file; give the name of a file with --out", path.display())]
     NoFileName {
@@ -86,6 +131,11 @@ pub enum ExportError {
 }
 
 impl ExportError {
+    /// Whether the command line was wrong (exit status 2).
+    pub fn is_wrong_use(&self) -> bool {
+        matches!(self, ExportError::IsInput { .. })
+    }
+
     /// An encoder's refusal, in its own words.
     fn encode(what: &'static str, why: impl ToString) -> Self {
         ExportError::Encode { what, why: why.to_string() }

@@ -24,8 +24,9 @@ use tiff::tags::{CompressionMethod, PhotometricInterpretation, SampleFormat, Tag
 /// # Errors
 /// [`ExportError::Size`] where the sums do not fill the grid; [`ExportError::Encode`] where the raster is too large.
 pub fn geotiff<S: ShadedCells>(profile: &Profile<S>, place: &Place) -> Result<Vec<u8>, ExportError> {
+    check_profile(profile)?;
     let mut bytes = Cursor::new(Vec::new());
-    write_geotiff(profile, place, &mut bytes)?;
+    write_geotiff(profile, place, &mut bytes).map_err(|error| ExportError::encode("GeoTIFF", error))?;
     Ok(bytes.into_inner())
 }
 
@@ -34,26 +35,33 @@ pub fn geotiff<S: ShadedCells>(profile: &Profile<S>, place: &Place) -> Result<Ve
 /// # Errors
 /// As [`geotiff`]; [`ExportError::Write`] where the file system refuses.
 pub fn geotiff_file<S: ShadedCells>(profile: &Profile<S>, place: &Place, path: &Path) -> Result<Beside, ExportError> {
+    check_profile(profile)?;
     let mut beside = Beside::open(path)?;
     let mut file = BufWriter::with_capacity(1 << 20, &mut beside.file);
-    write_geotiff(profile, place, &mut file)?;
-    file.flush().map_err(|error| file::failed(path, file::WRITING, error))?;
+    let written = write_geotiff(profile, place, &mut file).and_then(|()| Ok(file.flush()?));
     drop(file);
-    Ok(beside)
+    match written {
+        Ok(()) => Ok(beside),
+        Err(TiffError::IoError(error)) => Err(file::failed(path, file::WRITING, error)),
+        Err(error) => Err(ExportError::encode("GeoTIFF", error)),
+    }
+}
+
+fn check_profile<S: ShadedCells>(profile: &Profile<S>) -> Result<(), ExportError> {
+    check_size("profile", profile.shaded.cells(), profile.grid.width, profile.grid.height)
 }
 
 fn write_geotiff<S: ShadedCells>(
     profile: &Profile<S>,
     place: &Place,
     to: &mut (impl Write + Seek),
-) -> Result<(), ExportError> {
+) -> Result<(), TiffError> {
     let grid = &profile.grid;
-    check_size("profile", profile.shaded.cells(), grid.width, grid.height)?;
     let hours = |cells: Range<usize>| {
         let part = profile.shaded.part(cells);
         (0..part.len()).map(|cell| hours(part.of(cell))).collect()
     };
-    encode(grid, place, "hours of shadow", hours, to).map_err(|error| ExportError::encode("GeoTIFF", error))
+    encode(grid, place, "hours of shadow", hours, to)
 }
 
 /// `shadow-hours-difference.tif`: as [`geotiff`], the hours of shadow after minus those before; NaN where they are not

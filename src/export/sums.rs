@@ -1,14 +1,16 @@
-//! `profile.sums.unfinished`: the sums of a study in tiles, which are kept there while it goes on, and not in memory.
+//! `profile.sums.NUMBER.unfinished`: the sums of a study in tiles, which are kept there while it goes on, and not in memory.
 //!
 //! The layout: the plan's cells from the north-west, row after row, each its shaded time in 1/255 s from the lowest byte up,
 //! in 4 bytes, or in 8 where the study has more daylight than 32 bits hold. A tile is in it once all of its instants are
-//! done; what a stopped study had of the next one is in `profile.unfinished`.
+//! done; what a stopped study had of the next one is in `profile.NUMBER.unfinished`.
 
+use super::checksum::Checksum;
+use super::unfinished::sums_path;
 use super::{ExportError, file};
 use crate::profile::accumulate::MOST_SECS;
 use crate::profile::{Part, Shaded, ShadedCells};
 use crate::view::{Grid, Tile};
-use std::fs::{self, File, OpenOptions};
+use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -20,26 +22,10 @@ pub struct SumsFile {
     grid: Grid,
     cell_bytes: u64,
     file: Mutex<File>,
+    /// Of all that was put, in the order of the work.
+    checksum: Checksum,
     /// What could not be read.
     fault: Mutex<Option<io::Error>>,
-}
-
-/// Its place in a study's folder.
-pub fn path(folder: &Path) -> PathBuf {
-    folder.join("profile.sums.unfinished")
-}
-
-/// Whether a stopped study left it, for so many cells and so much daylight.
-pub fn has(folder: &Path, grid: &Grid, day_secs: u32) -> bool {
-    fs::metadata(path(folder)).is_ok_and(|found| found.len() == size(grid, day_secs))
-}
-
-/// Removes it, whichever study left it: the one that was asked is done.
-///
-/// # Errors
-/// [`ExportError::Write`] where the file system refuses.
-pub fn remove(folder: &Path) -> Result<(), ExportError> {
-    file::remove(&path(folder))
 }
 
 /// How large it is, bytes.
@@ -52,47 +38,92 @@ fn cell_bytes(day_secs: u32) -> u64 {
 }
 
 impl SumsFile {
-    /// Begins, or goes on with what a stopped study left.
+    /// Begins, of a study.
     ///
     /// # Errors
     /// [`ExportError::NoRoom`] where the disk has less room than it takes; [`ExportError::Write`] where the file system
     /// refuses.
-    pub fn open(folder: &Path, grid: Grid, day_secs: u32, goes_on: bool) -> Result<SumsFile, ExportError> {
-        let path = path(folder);
+    pub fn begin(folder: &Path, study: u64, grid: Grid, day_secs: u32) -> Result<SumsFile, ExportError> {
+        let path = sums_path(folder, study);
         let size = size(&grid, day_secs);
-        if !goes_on {
-            file::remove(&path)?;
-            file::check_room(&path, &path, size)?;
-        }
+        file::remove(&path)?;
+        file::check_room(&path, &path, size)?;
         let failed = |error| file::failed(&path, "opening it", error);
-        let file =
-            OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path).map_err(failed)?;
+        let file = OpenOptions::new().read(true).write(true).create_new(true).open(&path).map_err(failed)?;
         file.set_len(size).map_err(failed)?;
-        Ok(SumsFile { path, grid, cell_bytes: cell_bytes(day_secs), file: Mutex::new(file), fault: Mutex::new(None) })
+        Ok(SumsFile::new(path, file, grid, day_secs))
+    }
+
+    /// Looks for what a stopped study left with these tiles, and goes on with it, where it is what was written then: by its
+    /// checksum.
+    pub fn go_on(
+        folder: &Path,
+        study: u64,
+        grid: Grid,
+        day_secs: u32,
+        tiles: &[Tile],
+        checksum: u64,
+    ) -> Option<SumsFile> {
+        let path = sums_path(folder, study);
+        let file = OpenOptions::new().read(true).write(true).open(&path).ok()?;
+        let has_size = file.metadata().is_ok_and(|found| found.len() == size(&grid, day_secs));
+        let mut sums = SumsFile::new(path, file, grid, day_secs);
+        let read = sums.read_back(tiles).ok()?;
+        sums.checksum = read;
+        (has_size && sums.checksum() == checksum).then_some(sums)
+    }
+
+    fn new(path: PathBuf, file: File, grid: Grid, day_secs: u32) -> SumsFile {
+        let cell_bytes = cell_bytes(day_secs);
+        let checksum = Checksum::default();
+        SumsFile { path, grid, cell_bytes, file: Mutex::new(file), checksum, fault: Mutex::new(None) }
+    }
+
+    fn read_back(&self, tiles: &[Tile]) -> io::Result<Checksum> {
+        let (mut checksum, mut bytes) = (Checksum::default(), Vec::new());
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        for tile in tiles {
+            bytes.resize((u64::from(tile.size[0]) * self.cell_bytes) as usize, 0);
+            for row in 0..tile.size[1] {
+                file.seek(SeekFrom::Start(self.first_byte(tile, row)))?;
+                file.read_exact(&mut bytes)?;
+                checksum.add(&bytes);
+            }
+        }
+        Ok(checksum)
+    }
+
+    /// The checksum of all that was put so far.
+    pub fn checksum(&self) -> u64 {
+        self.checksum.number()
+    }
+
+    /// Where a row of a tile begins.
+    fn first_byte(&self, tile: &Tile, row: u32) -> u64 {
+        let [left, top] = tile.first.map(u64::from);
+        ((top + u64::from(row)) * u64::from(self.grid.width) + left) * self.cell_bytes
     }
 
     /// Puts a tile's sums in their place.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
-    pub fn put(&self, tile: &Tile, shaded: &Shaded) -> Result<(), ExportError> {
-        let [left, top] = tile.first.map(u64::from);
+    pub fn put(&mut self, tile: &Tile, shaded: &Shaded) -> Result<(), ExportError> {
         let width = tile.size[0] as usize;
         let mut bytes = Vec::new();
-        let mut write = || {
-            let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-            for row in 0..tile.size[1] as usize {
-                bytes.clear();
-                for cell in row * width..(row + 1) * width {
-                    bytes.extend_from_slice(&shaded.of(cell).to_le_bytes()[..self.cell_bytes as usize]);
-                }
-                let at = (top + row as u64) * u64::from(self.grid.width) + left;
-                file.seek(SeekFrom::Start(at * self.cell_bytes))?;
-                file.write_all(&bytes)?;
+        for row in 0..tile.size[1] {
+            bytes.clear();
+            let first = row as usize * width;
+            for cell in first..first + width {
+                bytes.extend_from_slice(&shaded.of(cell).to_le_bytes()[..self.cell_bytes as usize]);
             }
-            Ok(())
-        };
-        write().map_err(|error| file::failed(&self.path, "writing to it", error))
+            let at = self.first_byte(tile, row);
+            let file = self.file.get_mut().unwrap_or_else(PoisonError::into_inner);
+            let written = file.seek(SeekFrom::Start(at)).and_then(|_| file.write_all(&bytes));
+            written.map_err(|error| file::failed(&self.path, "writing to it", error))?;
+            self.checksum.add(&bytes);
+        }
+        Ok(())
     }
 
     /// Sees that what was put is on the disk.

@@ -1,53 +1,136 @@
 //! What a stopped study leaves in its folder, so that it can go on another time.
 //!
-//! The layout, all numbers from the lowest byte up: the line `gnomon unfinished 2`; in 64 bits each the study's number,
-//! how many tiles it has, how many instants are done, how many cells there are, and the bytes of a cell, 4 or 8; a byte that says what counting
-//! took follows: 0 nothing, 1 without and 2 with cells that a map left to the volumes; then in 64 bits each the four
-//! numbers of that; the cells.
+//! Its files carry the study's number in their names, so that several stopped studies lie side by side, and each goes on
+//! when the same is asked again: `profile.NUMBER.unfinished`, and where it has them `shadow.bits.NUMBER.unfinished` and
+//! `profile.sums.NUMBER.unfinished`.
+//!
+//! The layout of the first, all numbers from the lowest byte up: the line `gnomon unfinished 3`; in 64 bits each the
+//! study's number, how many tiles it has, how many instants are done, how many cells there are, and the bytes of a cell, 4
+//! or 8; a byte that says what counting took follows: 0 nothing, 1 without and 2 with cells that a map left to the
+//! volumes; then in 64 bits each the four numbers of that, the checksums of bits and sums, how many masks are written, and
+//! the checksum of each; the cells; last the checksum of all before it.
 
-use super::{ExportError, file};
+use super::checksum::checksum;
+use super::{ExportError, bytes, file};
 use crate::profile::{Shaded, Statistics, Unfinished};
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-const FIRST_LINE: &[u8] = b"gnomon unfinished 2\n";
+const FIRST_LINE: &[u8] = b"gnomon unfinished 3\n";
 
-/// Its file in a study's folder.
-pub fn path(folder: &Path) -> PathBuf {
-    folder.join("profile.unfinished")
+/// What the names of its files begin with; the first is there as soon as there is something to go on from.
+const FIRST_WORDS: [&str; 3] = ["profile", "shadow.bits", "profile.sums"];
+
+/// The checksums of what lies in other files, as far as the study is done.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Checks {
+    /// Of its bits.
+    pub bits: u64,
+    /// Of the sums of finished tiles.
+    pub sums: u64,
+    /// Of each mask.
+    pub masks: Vec<u64>,
+}
+
+/// What was found of a study.
+pub enum Kept {
+    /// Nothing.
+    Nothing,
+    /// A file that is not what was written: a byte of it is another.
+    Damaged,
+    /// All of it.
+    Whole(Box<(Unfinished, Checks)>),
+}
+
+/// The file of a study, in its folder.
+pub fn path(folder: &Path, study: u64) -> PathBuf {
+    file_of(folder, FIRST_WORDS[0], study)
+}
+
+pub(super) fn bits_path(folder: &Path, study: u64) -> PathBuf {
+    file_of(folder, FIRST_WORDS[1], study)
+}
+
+/// The file with the sums of finished tiles.
+pub fn sums_path(folder: &Path, study: u64) -> PathBuf {
+    file_of(folder, FIRST_WORDS[2], study)
+}
+
+fn file_of(folder: &Path, first_words: &str, study: u64) -> PathBuf {
+    folder.join(format!("{first_words}.{study:016x}.unfinished"))
 }
 
 /// Keeps it; an older one is replaced when the new one is whole.
 ///
 /// # Errors
 /// As [`file::write`].
-pub fn keep(folder: &Path, unfinished: &Unfinished) -> Result<(), ExportError> {
-    file::write(&path(folder), &encode(unfinished))
+pub fn keep(folder: &Path, unfinished: &Unfinished, checks: &Checks) -> Result<(), ExportError> {
+    file::write(&path(folder, unfinished.study), &encode(unfinished, checks))
 }
 
-/// What was kept, if anything, and it is whole.
+/// What was kept of a study.
 ///
 /// # Errors
 /// [`ExportError::Read`] where there is a file that cannot be read.
-pub fn kept(folder: &Path) -> Result<Option<Unfinished>, ExportError> {
-    let path = path(folder);
+pub fn kept(folder: &Path, study: u64) -> Result<Kept, ExportError> {
+    let path = path(folder, study);
     match fs::read(&path) {
-        Ok(bytes) => Ok(decode(&bytes)),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Ok(bytes) => Ok(match decode(&bytes).filter(|(unfinished, _)| unfinished.study == study) {
+            Some(whole) => Kept::Whole(Box::new(whole)),
+            None => Kept::Damaged,
+        }),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Kept::Nothing),
         Err(source) => Err(ExportError::Read { path, source }),
     }
 }
 
-/// Removes it: the study is done.
+/// Removes all that is kept of a study: it is done, or begins anew.
 ///
 /// # Errors
 /// [`ExportError::Write`] where the file system refuses.
-pub fn remove(folder: &Path) -> Result<(), ExportError> {
-    file::remove(&path(folder))
+pub fn remove(folder: &Path, study: u64) -> Result<(), ExportError> {
+    // the first goes first: without it the others are nobody's
+    FIRST_WORDS.iter().try_for_each(|words| file::remove(&file_of(folder, words, study)))
 }
 
-fn encode(unfinished: &Unfinished) -> Vec<u8> {
+/// Says which other studies were stopped in the folder and keep files there. Bits and sums that no study can go on with,
+/// as it was killed before it kept anything, are removed. Whoever calls it has locked the folder.
+pub fn tidy(folder: &Path, study: u64) -> Option<String> {
+    file::remove_leftovers(&[path(folder, study)]);
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    // what cannot be listed is not touched
+    let names = fs::read_dir(here).ok()?.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+    let found: BTreeSet<u64> = names.filter_map(|name| study_of(&name)).filter(|other| *other != study).collect();
+    let (stopped, dead): (Vec<u64>, Vec<u64>) = found.into_iter().partition(|other| path(folder, *other).is_file());
+    for other in dead {
+        // nothing is lost where they stay
+        let _ = remove(folder, other);
+    }
+    let first = path(folder, *stopped.first()?);
+    let files = stopped.iter().flat_map(|other| FIRST_WORDS.map(|words| file_of(folder, words, *other)));
+    let size = bytes(files.filter_map(|file| Some(file.metadata().ok()?.len())).sum());
+    let (others, keep) = match stopped.len() {
+        1 => (String::new(), "keeps another study that was stopped"),
+        2 => (" and another one".to_owned(), "keep other studies that were stopped"),
+        many => (format!(" and {} more", many - 1), "keep other studies that were stopped"),
+    };
+    Some(format!(
+        "{}{others} {keep}, or were asked otherwise ({size}); what was asked then goes on from there when it is asked again, \
+         and where nobody will the file can be removed",
+        first.display()
+    ))
+}
+
+/// Whose a file is, by its name.
+fn study_of(name: &str) -> Option<u64> {
+    let (words, number) = name.strip_suffix(".unfinished")?.rsplit_once('.')?;
+    let is_ours = FIRST_WORDS.contains(&words) && number.len() == 16 && !number.starts_with('+');
+    u64::from_str_radix(number, 16).ok().filter(|_| is_ours)
+}
+
+fn encode(unfinished: &Unfinished, checks: &Checks) -> Vec<u8> {
     let Unfinished { study, tiles, done, shaded, statistics } = unfinished;
     let mut bytes = FIRST_LINE.to_vec();
     let word_bytes = if shaded.in_one_word().is_some() { 4_u64 } else { 8 };
@@ -63,14 +146,22 @@ fn encode(unfinished: &Unfinished) -> Vec<u8> {
     for number in [cells, silhouette_cells.unwrap_or(0), fragments, fragments_without_mask] {
         bytes.extend(number.to_le_bytes());
     }
+    for number in [checks.bits, checks.sums, checks.masks.len() as u64].iter().chain(&checks.masks) {
+        bytes.extend(number.to_le_bytes());
+    }
     match shaded.in_one_word() {
         Some(cells) => cells.iter().for_each(|cell| bytes.extend(cell.to_le_bytes())),
         None => shaded.iter().for_each(|cell| bytes.extend(cell.to_le_bytes())),
     }
+    bytes.extend(checksum(&bytes).to_le_bytes());
     bytes
 }
 
-fn decode(bytes: &[u8]) -> Option<Unfinished> {
+fn decode(bytes: &[u8]) -> Option<(Unfinished, Checks)> {
+    let (bytes, last) = bytes.split_last_chunk()?;
+    if checksum(bytes) != u64::from_le_bytes(*last) {
+        return None;
+    }
     let mut rest = bytes.strip_prefix(FIRST_LINE)?;
     let [study, tiles, done, cells, word_bytes] = numbers(&mut rest)?;
     let (&kind, mut rest) = rest.split_first()?;
@@ -82,6 +173,9 @@ fn decode(bytes: &[u8]) -> Option<Unfinished> {
         1 | 2 => Some(counted),
         _ => return None,
     };
+    let [bits, sums, masks] = numbers(&mut rest)?;
+    let (of_masks, rest) = rest.split_at_checked(usize::try_from(masks.checked_mul(8)?).ok()?)?;
+    let masks = of_masks.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect();
     if cells.checked_mul(word_bytes) != Some(rest.len() as u64) {
         return None;
     }
@@ -91,7 +185,7 @@ fn decode(bytes: &[u8]) -> Option<Unfinished> {
         _ => return None,
     };
     let [tiles, done] = [usize::try_from(tiles).ok()?, usize::try_from(done).ok()?];
-    Some(Unfinished { study, tiles, done, shaded, statistics })
+    Some((Unfinished { study, tiles, done, shaded, statistics }, Checks { bits, sums, masks }))
 }
 
 /// The first numbers, which are taken away.

@@ -149,7 +149,7 @@ fn stamp(file: &Path) -> Option<(SystemTime, u64)> {
 }
 
 /// Where one of the models lies, and where it stands.
-fn placed(written: &Written, index: usize) -> Result<(PathBuf, Placement), SiteError> {
+pub(super) fn placed(written: &Written, index: usize) -> Result<(PathBuf, Placement), SiteError> {
     let table = &written.site.model[index];
     let at = |key: &str| written.model_key(index, key);
     let Some(path) = &table.path else {

@@ -59,7 +59,7 @@ impl Written {
     }
 
     /// A model is `placed` where somebody says its place.
-    fn read_as_it_is(path: &Path, placed: bool) -> Result<Written, SiteError> {
+    pub(super) fn read_as_it_is(path: &Path, placed: bool) -> Result<Written, SiteError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
             _ if path.is_dir() => Self::read_file(&path.join("site.toml")),

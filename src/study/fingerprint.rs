@@ -4,11 +4,12 @@ use super::Wants;
 use crate::profile::Drawn;
 use crate::site::Site;
 use crate::view::Tile;
-use std::hash::{DefaultHasher, Hash, Hasher};
+use siphasher::sip::SipHasher13;
+use std::hash::{Hash, Hasher};
 
 /// Of a study that a machine draws in tiles. The same for the same request, and for another one another.
 pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile], wants: &Wants) -> u64 {
-    let mut hasher = DefaultHasher::new();
+    let mut hasher = SipHasher13::new();
     let Site { mesh, casts, receives, ground, track, grid, receivers, settings, hextree_depth, .. } = site;
     env!("CARGO_PKG_VERSION").hash(&mut hasher);
     let numbers = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<u64>>();

@@ -21,7 +21,7 @@ pub mod verify;
 pub use compare::{CompareOutcome, compare, compare_with};
 pub use frames::{Frame, frames};
 pub use instant::instant;
-pub use profile::{Worked, in_tiles, run};
+pub use profile::{Tiled, Worked, in_tiles, run};
 pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 pub use tiles::Budget;

@@ -1,6 +1,6 @@
 //! Every instant's shadows, summed to the time in shadow: of the plan in one go, or tile by tile.
 
-use super::machine::{choose, counting, not_surfaces};
+use super::machine::{Machine, choose, counting, not_surfaces};
 use super::{Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
 use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
 use crate::mesh::Mesh;
@@ -9,7 +9,7 @@ use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::plan_surface;
 use crate::site::Site;
 use crate::view::{Surface, Tile, View};
-use std::cell::LazyCell;
+use std::cell::OnceCell;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -36,7 +36,7 @@ pub struct Worked {
 /// [`StudyError`]; choices that exclude each other before anything is drawn.
 pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
     let (mut tile, mut whole) = (Tile::from(site.grid), Arc::default());
-    let worked = in_tiles(site, wants, None, &mut |event| {
+    let worked = in_tiles(Tiled::new(site, wants, on_event)?, None, &mut |event| {
         match &event {
             Event::Tile(next) => tile = *next,
             Event::Summed(shaded) => whole = paste(&whole, &tile, shaded),
@@ -64,41 +64,80 @@ fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> 
     Arc::new(cells.into())
 }
 
-/// As [`run`], with the sums tile by tile ([`Event::Tile`], [`Event::Summed`]), so that not all of them are held; from where
-/// the same study was stopped, where that is `begun`: sums are the same to the bit. Tiles before the one that was worked on
-/// are not told again. What another study left is told of, and not used.
+/// A study that is prepared: with its sums tile by tile ([`Event::Tile`], [`Event::Summed`]), so that not all of them are held.
+pub struct Tiled<'a> {
+    site: &'a Site,
+    wants: Wants,
+    machine: Machine,
+    tiles: Vec<Tile>,
+    number: OnceCell<u64>,
+    watch: Stopwatch,
+}
+
+impl<'a> Tiled<'a> {
+    /// Chooses what draws, and the tiles.
+    ///
+    /// # Errors
+    /// [`StudyError`]; choices that exclude each other; [`StudyError::LittleMemory`].
+    pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Tiled<'a>, StudyError> {
+        not_surfaces(site)?;
+        let watch = Stopwatch::start();
+        note_models(&site.notes, on_event)?;
+        let view = View::Plan(site.grid);
+        let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
+        let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
+        check_tiles(&tiles, wants)?;
+        tiles::note(&tiles, on_event)?;
+        Ok(Tiled { site, wants: *wants, machine, tiles, number: OnceCell::new(), watch })
+    }
+
+    /// Which study it is: a number of all that its result depends on.
+    pub fn number(&self) -> u64 {
+        *self.number.get_or_init(|| fingerprint::of(self.site, &self.machine.drawn(), &self.tiles, &self.wants))
+    }
+
+    /// Its tiles, in their order.
+    pub fn tiles(&self) -> &[Tile] {
+        &self.tiles
+    }
+
+    /// Whether that was left by this study.
+    pub fn is_of(&self, begun: &Unfinished) -> bool {
+        let count = self.tiles.len() * self.site.track.instants.len();
+        let tile = self.tiles.get(self.worked_on(begun.done));
+        begun.study == self.number()
+            && begun.statistics.is_some() == self.wants.statistics
+            && begun.tiles == self.tiles.len()
+            && begun.done <= count
+            && tile.is_some_and(|tile| begun.shaded.len() == tile.cells())
+    }
+
+    /// The tile that is worked on after so many instants, those of each tile counted: the last one until all of its instants
+    /// are done and told.
+    pub fn worked_on(&self, done: usize) -> usize {
+        done.saturating_sub(1) / self.site.track.instants.len().max(1)
+    }
+}
+
+/// Every instant's shadows, summed; from where the study was stopped, where that is `begun`: sums are the same to the bit.
+/// Tiles before the one that was worked on are not told again. What another study left is not used.
 ///
 /// # Errors
-/// As [`run`]; [`StudyError::LittleMemory`].
-pub fn in_tiles(
-    site: &Site,
-    wants: &Wants,
-    begun: Option<Unfinished>,
-    on_event: &mut OnEvent<'_>,
-) -> Result<Worked, StudyError> {
-    not_surfaces(site)?;
-    let mut watch = Stopwatch::start();
+/// [`StudyError`]
+pub fn in_tiles(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>) -> Result<Worked, StudyError> {
+    let begun = begun.filter(|begun| tiled.is_of(begun));
+    let first = tiled.worked_on(begun.as_ref().map_or(0, |begun| begun.done));
+    let study = tiled.wants.keep_every.map_or(0, |_| tiled.number());
+    let Tiled { site, wants, machine, tiles, mut watch, .. } = tiled;
     let (day_secs, night_secs) = day_and_night(&site.track);
-    note_models(&site.notes, on_event)?;
-    let view = View::Plan(site.grid);
-    let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
-    let tiles = tiles::of(site, &machine, wants, day_secs)?;
-    check_tiles(&tiles, wants)?;
-    tiles::note(&tiles, on_event)?;
-    let look = Look { site, machine: &machine, view, receivers: site.receivers };
+    let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
     let instants = &site.track.instants;
     let count = tiles.len() * instants.len();
-    let study = LazyCell::new(|| fingerprint::of(site, &machine.drawn(), &tiles, wants));
     let mut statistics = wants.statistics.then(Statistics::default);
     let (mut done, mut begun_with) = (0, None);
     if let Some(begun) = begun {
-        if begun.study == *study && begun.statistics.is_some() == wants.statistics && is_whole(&begun, &tiles, count) {
-            (done, statistics, begun_with) = (begun.done, begun.statistics, Some(begun.shaded));
-        } else {
-            tell(on_event, Event::Note(ANOTHER_STUDY.to_owned()))?;
-        }
+        (done, statistics, begun_with) = (begun.done, begun.statistics, Some(begun.shaded));
     }
-    let first = worked_on(done, instants.len());
     let mut technique = look.technique_of(tiles[first])?;
     let surface = match wants.surface {
         true if tiles.len() > 1 => Some(plan_surface(&look.surface_mesh(), site.ground, &site.grid)),
@@ -146,7 +185,7 @@ pub fn in_tiles(
             let is_last = index + 1 == count && (tiles.len() > 1 || wants.bits || was_kept);
             if wants.keep_every.is_some_and(|every| told.is_err() || is_last || kept.elapsed() >= every) {
                 let shaded = sum.so_far()?;
-                let unfinished = Unfinished { study: *study, tiles: tiles.len(), done: index + 1, shaded, statistics };
+                let unfinished = Unfinished { study, tiles: tiles.len(), done: index + 1, shaded, statistics };
                 tell(on_event, Event::Kept(&unfinished))?;
                 (kept, was_kept) = (Instant::now(), true);
             }
@@ -186,18 +225,3 @@ fn check_tiles(tiles: &[Tile], wants: &Wants) -> Result<(), StudyError> {
     }
     Ok(())
 }
-
-/// The tile that is worked on after so many instants: the last one until all of its instants are done and told.
-fn worked_on(done: usize, instants: usize) -> usize {
-    done.saturating_sub(1) / instants.max(1)
-}
-
-/// Whether what was left is of these tiles, as far as its numbers say.
-fn is_whole(begun: &Unfinished, tiles: &[Tile], count: usize) -> bool {
-    let tile = tiles.get(worked_on(begun.done, count / tiles.len()));
-    begun.tiles == tiles.len() && begun.done <= count && tile.is_some_and(|tile| begun.shaded.len() == tile.cells())
-}
-
-/// What a study that finds another one's sum says.
-const ANOTHER_STUDY: &str =
-    "what was left unfinished there is another study, or was asked otherwise: this one begins anew";

@@ -141,11 +141,51 @@ fn stopped_leaves_the_old_gif_and_no_half_one() {
     assert!(names.iter().all(|name| name == "day.gif" || name.starts_with("frame-")), "{names:?}");
 }
 
+/// They go, and nothing else does.
 #[test]
-fn frames_of_a_longer_animation_are_told_of() {
+fn frames_of_a_longer_animation_do_not_stay_among_those_of_a_shorter_one() {
     let folder = site();
+    let (at, out) = (folder.path(), folder.path().join("out"));
     let asked = "animate . --engine cpu --size 64 --width 320 --step";
-    done(folder.path(), &format!("{asked} 30min"));
-    let output = super::gnomon(folder.path(), &format!("{asked} 1h"));
-    assert!(output.status.success() && stderr(&output).contains("frame-0003.png"), "{}", stderr(&output));
+    let longer = format!("{asked} 30min");
+    for name in ["frame-3.png", "frame-00003.png", "frame-0003.jpg"] {
+        std::fs::create_dir_all(&out).unwrap();
+        std::fs::write(out.join(name), "another's").unwrap();
+    }
+    done(at, &longer);
+    let [third, fourth] = [3, 4].map(|index| std::fs::read(out.join(format!("frame-{index:04}.png"))).unwrap());
+    let all = names(out.clone());
+    let told = super::gnomon(at, &format!("{asked} 1h"));
+    assert!(told.status.success(), "{}", stderr(&told));
+    assert!(
+        stderr(&told).contains("frame-0003.png to frame-0004.png are of the longer animation"),
+        "{}",
+        stderr(&told)
+    );
+    let left: Vec<String> =
+        all.iter().filter(|name| !["frame-0003.png", "frame-0004.png"].contains(&name.as_str())).cloned().collect();
+    assert_eq!(names(out.clone()), left);
+
+    // one that is drawn on is somebody's work
+    done(at, &longer);
+    let mut edited = png(&out.join("frame-0004.png"));
+    edited.put_pixel(100, 100, image::Rgb([255, 0, 0]));
+    edited.save(out.join("frame-0004.png")).unwrap();
+    let gif = std::fs::read(out.join("day.gif")).unwrap();
+    let refused =
+        |name: &str| fails(at, &format!("{asked} 1h --quiet"), 1, &[name, "3 frames", "remove it", "another folder"]);
+    refused("frame-0004.png");
+    // so is one of another size, one without a GIF, and one that the GIF has not
+    std::fs::write(out.join("frame-0004.png"), &third).unwrap();
+    refused("frame-0004.png");
+    std::fs::write(out.join("frame-0004.png"), &fourth).unwrap();
+    std::fs::write(out.join("frame-0007.png"), &fourth).unwrap();
+    refused("frame-0007.png");
+    std::fs::remove_file(out.join("frame-0007.png")).unwrap();
+    std::fs::remove_file(out.join("day.gif")).unwrap();
+    refused("frame-0003.png");
+    std::fs::write(out.join("day.gif"), gif).unwrap();
+    assert_eq!(names(out.clone()), all);
+    done(at, &format!("{asked} 1h"));
+    assert_eq!(names(out), left);
 }

@@ -252,6 +252,45 @@ fn drawing_is_that_of_the_command() {
     assert!(ours == theirs, "the drawing is another one");
 }
 
+/// A model is not replaced by what is made of it.
+#[test]
+fn nothing_is_exported_over_a_model() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let model = folder.path().join("works.glb");
+    let before = std::fs::read(&model).unwrap();
+    menu(&mut harness, "Export the drawing…");
+    answer(&mut harness, &model, "Write");
+    harness.get_by_label_contains("which the site is read from");
+    // a folder in which one of the files is the site's own
+    std::fs::rename(&model, folder.path().join("profile.png")).unwrap();
+    let text = std::fs::read_to_string(&site).unwrap().replace("works.glb", "profile.png");
+    std::fs::write(&site, text).unwrap();
+    let mut harness = window(Some(&site));
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    menu(&mut harness, "Export the hours…");
+    answer(&mut harness, folder.path(), "Write");
+    harness.get_by_label_contains("which the site is read from");
+    assert!(before == std::fs::read(folder.path().join("profile.png")).unwrap());
+    assert!(!folder.path().join("shadow-hours.tif").exists());
+
+    // nor where a study works
+    let out = folder.path().join("out");
+    let locked = gnomon::export::workplace::Workplace::take([out.as_path()], &[], "somebody's study").unwrap();
+    for entry in ["Export the hours…", "Export the animation…"] {
+        menu(&mut harness, entry);
+        answer(&mut harness, &out, "Write");
+        harness.get_by_label_contains("another study works there");
+        harness.get_by_label_contains("somebody's study");
+    }
+    assert_eq!(out.read_dir().unwrap().count(), 1, "the lock alone");
+    drop(locked);
+    menu(&mut harness, "Export the hours…");
+    answer(&mut harness, &out, "Write");
+    assert!(out.join("profile.png").exists() && !out.join(".gnomon.lock").exists());
+}
+
 #[test]
 fn hours_can_be_cancelled() {
     let (_folder, site) = small_site();

@@ -3,12 +3,14 @@
 //! Frames are written as they come. The GIF is made of them when all are there, as its colours are: one frame is held at
 //! a time. It is written beside its place, and renamed when it is whole.
 
+mod older;
 mod palette;
 
 use super::figure::Screen;
 use super::{ExportError, file};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use image::ImageFormat;
+use older::Older;
 use palette::{Counts, Palette};
 use std::borrow::Cow;
 use std::fs;
@@ -18,6 +20,8 @@ use std::path::{Path, PathBuf};
 /// How many frames there can be.
 pub const MOST_FRAMES: usize = 2000;
 
+const GIF: &str = "day.gif";
+
 /// The GIF's colours are taken from about so many of the frames, evenly spread.
 const SAMPLED: usize = 64;
 
@@ -25,19 +29,34 @@ const SAMPLED: usize = 64;
 pub struct Frames {
     folder: PathBuf,
     count: usize,
+    older: Older,
     done: usize,
     counts: Counts,
 }
 
 impl Frames {
-    /// `count` of them, none there yet.
-    pub fn new(folder: &Path, count: usize) -> Frames {
-        Frames { folder: folder.to_owned(), count, done: 0, counts: Counts::default() }
+    /// `count` of them, none there yet. Frames of an older animation that are beyond them go when all is done.
+    ///
+    /// # Errors
+    /// [`ExportError::OtherFrame`] where a file is called as such a frame is, and is not known to be one.
+    pub fn new(folder: &Path, count: usize) -> Result<Frames, ExportError> {
+        let older = Older::find(folder, count)?;
+        Ok(Frames { folder: folder.to_owned(), count, older, done: 0, counts: Counts::default() })
+    }
+
+    /// What the user should know: which frames of an older animation go.
+    pub fn note(&self) -> Option<String> {
+        self.older.note()
     }
 
     /// Where a frame is.
     pub fn path(folder: &Path, index: usize) -> PathBuf {
         folder.join(format!("frame-{index:04}.png"))
+    }
+
+    /// All that an animation of `count` frames writes into a folder.
+    pub fn outputs(folder: &Path, count: usize) -> Vec<PathBuf> {
+        (0..count).map(|index| Frames::path(folder, index)).chain([folder.join(GIF)]).collect()
     }
 
     /// Writes the next one.
@@ -58,7 +77,7 @@ impl Frames {
     /// # Errors
     /// [`ExportError::Read`] and [`ExportError::Encode`] where the first frame is not what was written; as [`file::write`].
     pub fn gif(self, delay: u16) -> Result<Gif, ExportError> {
-        let path = self.folder.join("day.gif");
+        let path = self.folder.join(GIF);
         let palette = self.counts.palette();
         let beside = file::Beside::open(&path)?;
         let file = beside.file.try_clone().map_err(|error| file::failed(&path, file::WRITING, error))?;
@@ -70,13 +89,14 @@ impl Frames {
             Ok(encoder)
         };
         let encoder = start().map_err(|error| failed(&path, error))?;
-        Ok(Gif { folder: self.folder, path, delay, size, palette, encoder, beside })
+        Ok(Gif { folder: self.folder, older: self.older, path, delay, size, palette, encoder, beside })
     }
 }
 
 /// A GIF that is being made of frames that are there. Where it is not finished, there is none.
 pub struct Gif {
     folder: PathBuf,
+    older: Older,
     path: PathBuf,
     delay: u16,
     size: (u16, u16),
@@ -104,16 +124,17 @@ impl Gif {
         self.encoder.write_frame(&frame).map_err(|error| failed(&self.path, error))
     }
 
-    /// All frames are in it: it replaces what was there. Returns its path.
+    /// All frames are in it: it replaces what was there, and what else is there of an older animation goes. Returns its path.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
     pub fn finish(self) -> Result<PathBuf, ExportError> {
-        let Gif { path, encoder, beside, .. } = self;
+        let Gif { path, older, encoder, beside, .. } = self;
         let mut file = encoder.into_inner().map_err(|error| failed(&path, error))?;
         file.flush().map_err(|error| file::failed(&path, file::WRITING, error))?;
         drop(file);
         beside.put_in_place()?;
+        older.remove()?;
         Ok(path)
     }
 }

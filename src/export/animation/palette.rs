@@ -105,7 +105,8 @@ impl Palette {
     }
 }
 
-fn nearest(colours: &[Rgb], asked: Rgb) -> u8 {
+/// Which of the colours is nearest to one.
+pub(super) fn nearest(colours: &[Rgb], asked: Rgb) -> u8 {
     let distance = |colour: &Rgb| -> i32 {
         let parts = colour.iter().zip(asked).map(|(one, other)| i32::from(*one) - i32::from(other));
         parts.map(|apart| apart * apart).sum()

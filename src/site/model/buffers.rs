@@ -146,7 +146,7 @@ fn decode(index: usize, data: &str) -> Result<Vec<u8>, Fault> {
 }
 
 /// Whether an address begins with a scheme, as in `https:`; one letter is a drive, which is refused alike.
-fn has_scheme(uri: &str) -> bool {
+pub(super) fn has_scheme(uri: &str) -> bool {
     let Some((scheme, _)) = uri.split_once(':') else {
         return false;
     };
@@ -155,7 +155,7 @@ fn has_scheme(uri: &str) -> bool {
 }
 
 /// `%20` → a blank, and so on; a `%` without two digits stands for itself.
-fn percent_decode(uri: &str) -> Option<String> {
+pub(super) fn percent_decode(uri: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
     while let Some((&first, behind)) = rest.split_first() {

@@ -37,6 +37,24 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
     Ok(bytes)
 }
 
+/// The JSON of a model's file alone, without what else a `.glb` holds; none where that cannot be read.
+pub(super) fn json_of_file(path: &Path) -> Option<Vec<u8>> {
+    if !path.is_file() {
+        return None;
+    }
+    let mut file = File::open(path).ok()?;
+    let mut bytes = Vec::new();
+    file.by_ref().take((HEADER + CHUNK_HEADER) as u64).read_to_end(&mut bytes).ok()?;
+    if bytes.starts_with(b"glTF") {
+        let length = u32_at(&bytes, HEADER)? as u64;
+        bytes.clear();
+        file.take(length).read_to_end(&mut bytes).ok()?;
+    } else {
+        file.take(MAX_FILE_BYTES).read_to_end(&mut bytes).ok()?;
+    }
+    Some(json_alone(&bytes).to_vec())
+}
+
 /// Finds the JSON and the binary chunk. `path` only helps to say how another format becomes glTF.
 pub(super) fn open<'a>(bytes: &'a [u8], path: &Path) -> Result<Container<'a>, Fault> {
     if bytes.starts_with(b"glTF") {
@@ -75,10 +93,14 @@ fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
         binary = (&chunk.kind == b"BIN\0").then_some(chunk.data);
         rest = chunk.rest;
     }
-    // Some writers pad with zeros where blanks are asked for.
-    let json = without_mark(first.data);
+    Ok(Container { json: json_alone(first.data), binary })
+}
+
+/// Without a byte order mark, and without zeros, with which some writers pad where blanks are asked for.
+fn json_alone(bytes: &[u8]) -> &[u8] {
+    let json = without_mark(bytes);
     let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
-    Ok(Container { json: json.get(..end).unwrap_or_default(), binary })
+    json.get(..end).unwrap_or_default()
 }
 
 struct Chunk<'a> {

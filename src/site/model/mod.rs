@@ -6,7 +6,8 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
 //! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
 //! binary chunk), `document` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
-//! and `reader` (bytes → numbers), `coarse` (how exact those are), `instances`, `primitive` (which triangles a mesh has), `build` (all of it → parts).
+//! and `reader` (bytes → numbers), `coarse` (how exact those are), `instances`, `primitive` (which triangles a mesh has),
+//! `build` (all of it → parts); beside it `named` (which other files are the model's).
 
 use crate::mesh::Part;
 use glam::{DAffine3, DMat3, DVec3};
@@ -20,11 +21,13 @@ mod container;
 mod document;
 mod error;
 mod instances;
+mod named;
 mod primitive;
 mod reader;
 mod scene;
 
 pub use error::{Fault, ModelError};
+pub(crate) use named::named_by;
 
 /// The most triangles a model may have, instances counted. Their vertices take at most 7.2 GB, their indices 1.2 GB.
 pub const MAX_TRIANGLES: u64 = 100_000_000;

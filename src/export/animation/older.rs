@@ -1,0 +1,106 @@
+//! What an older, longer animation left in the folder of a new one. Its frames beyond the new one's would be taken for that
+//! one's, and so they are removed; but only those that are known to be of it: they show what the GIF beside them shows, pixel
+//! for pixel, in its colours. A picture that somebody put there, or drew on, does not.
+
+use super::palette::nearest;
+use super::{Frames, GIF, read};
+use crate::export::checksum;
+use crate::export::figure::{Screen, scale::Rgb};
+use crate::export::{ExportError, file};
+use gif::{ColorOutput, DecodeOptions};
+use rustc_hash::FxHashSet;
+use std::collections::BTreeMap;
+use std::fs::{self, OpenOptions};
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+/// Frames of the older animation, and what is in them.
+pub(super) struct Older(Vec<(PathBuf, u64)>);
+
+impl Older {
+    /// The frames in a folder beyond so many, which must all be those of the GIF there.
+    ///
+    /// # Errors
+    /// [`ExportError::OtherFrame`] where one is not.
+    pub(super) fn find(folder: &Path, count: usize) -> Result<Older, ExportError> {
+        let frames = beyond(folder, count);
+        let known = if frames.is_empty() { Vec::new() } else { of_gif(folder, &frames).unwrap_or_default() };
+        let mut found = Vec::with_capacity(frames.len());
+        for (index, path) in frames {
+            match checksum::of_file(&path).filter(|_| known.contains(&index)) {
+                Some(checksum) => found.push((path, checksum)),
+                None => return Err(ExportError::OtherFrame { path, count }),
+            }
+        }
+        Ok(Older(found))
+    }
+
+    /// What the user should know.
+    pub(super) fn note(&self) -> Option<String> {
+        let (first, last) = (&self.0.first()?.0, &self.0.last()?.0);
+        let which = match self.0.len() {
+            1 => format!("{} is of the longer animation that is there, and goes", first.display()),
+            _ => format!(
+                "{} to {} are of the longer animation that is there, and go",
+                first.display(),
+                last.file_name().unwrap_or_default().to_string_lossy()
+            ),
+        };
+        Some(format!("{which} when this one is done"))
+    }
+
+    /// Removes them; one that is another by now stays.
+    ///
+    /// # Errors
+    /// [`ExportError::Write`] where the file system refuses.
+    pub(super) fn remove(self) -> Result<(), ExportError> {
+        let same = self.0.into_iter().filter(|(path, checksum)| checksum::of_file(path) == Some(*checksum));
+        same.map(|(path, _)| path).try_for_each(|path| file::remove(&path))
+    }
+}
+
+/// The files that are called as frames are, of so many on.
+fn beyond(folder: &Path, count: usize) -> BTreeMap<usize, PathBuf> {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let entries = fs::read_dir(here).into_iter().flatten().flatten();
+    let index = |name: &str| name.strip_prefix("frame-")?.strip_suffix(".png")?.parse::<usize>().ok();
+    let frames = entries.filter_map(|entry| {
+        let index = index(entry.file_name().to_str()?)?;
+        let path = Frames::path(folder, index);
+        (path.file_name() == Some(&entry.file_name())).then_some((index, path))
+    });
+    frames.filter(|(index, _)| *index >= count).collect()
+}
+
+/// Those of some frames that show what the GIF in their folder shows there; none where there is none that is ours.
+fn of_gif(folder: &Path, frames: &BTreeMap<usize, PathBuf>) -> Option<Vec<usize>> {
+    let file = OpenOptions::new().read(true).open(folder.join(GIF)).ok()?;
+    let mut options = DecodeOptions::new();
+    options.set_color_output(ColorOutput::Indexed);
+    let mut gif = options.read_info(BufReader::new(file)).ok()?;
+    // its file fills the colours up with black, and black may be the last of them
+    let mut colours: Vec<Rgb> = gif.global_palette()?.as_chunks().0.to_vec();
+    while colours.pop_if(|colour| *colour == [0; 3]).is_some() {}
+    let palettes = [colours.clone(), [colours, vec![[0; 3]]].concat()];
+    let last = *frames.last_key_value()?.0;
+    let mut known = Vec::new();
+    for index in 0..=last {
+        let Some(shown) = gif.read_next_frame().ok().flatten() else { break };
+        if !frames.contains_key(&index) {
+            continue;
+        }
+        let size = (u32::from(shown.width), u32::from(shown.height));
+        let is_it = |frame: &Screen| (frame.width, frame.height) == size && shows(&shown.buffer, frame, &palettes);
+        if read(folder, index).is_ok_and(|frame| is_it(&frame)) {
+            known.push(index);
+        }
+    }
+    Some(known)
+}
+
+/// Whether numbers of colours are what a frame comes to in one of the palettes.
+fn shows(numbers: &[u8], frame: &Screen, palettes: &[Vec<Rgb>]) -> bool {
+    let pairs: FxHashSet<(Rgb, u8)> = frame.pixels.iter().copied().zip(numbers.iter().copied()).collect();
+    let is_in = |palette: &Vec<Rgb>| pairs.iter().all(|(colour, number)| nearest(palette, *colour) == *number);
+    numbers.len() == frame.pixels.len() && palettes.iter().any(is_in)
+}

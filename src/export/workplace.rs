@@ -1,0 +1,164 @@
+//! The folders in which a study works. They are locked meanwhile, so that no two write their files there side by side.
+//!
+//! The lock is the system's own, on the open file `.gnomon.lock`: it goes with the process, however that ends, and what a
+//! crash leaves of the file bars nobody. Where a disk knows no locks the study goes on, and that is told.
+//!
+//! Who is done removes the file while the lock is still held. Another process may have opened it just before, and then
+//! gets the lock of a file that nobody finds any more, while a third makes the file anew. So a lock counts only where its
+//! path still leads to the locked file; else all begins again. Thus two never hold one folder.
+
+use super::{ExportError, file};
+use chrono::{DateTime, Local};
+use same_file::Handle;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+
+const NAME: &str = ".gnomon.lock";
+/// So often a folder may become free and be taken again while it is looked at.
+const ATTEMPTS: usize = 100;
+/// Who works in a folder says it in no more bytes.
+const MOST_BYTES: u64 = 500;
+
+/// Folders that are locked until this is dropped.
+pub struct Workplace {
+    held: Vec<Held>,
+    /// Those on disks that know no locks, and what the system said.
+    unlocked: Vec<(PathBuf, io::Error)>,
+}
+
+/// A lock. It ends with the file.
+struct Held {
+    folder: PathBuf,
+    file: File,
+}
+
+impl Workplace {
+    /// Makes the folders, sees that files can be written there, and locks them; removes what dead processes left of the
+    /// outputs there, half written. Others are told that `who` works there: a command, or a window.
+    ///
+    /// # Errors
+    /// [`ExportError::Busy`] where another study works in one of them; [`ExportError::Write`] where the file system refuses.
+    pub fn take<'a>(
+        folders: impl IntoIterator<Item = &'a Path>,
+        outputs: &[PathBuf],
+        who: &str,
+    ) -> Result<Workplace, ExportError> {
+        let mut place = Workplace { held: Vec::new(), unlocked: Vec::new() };
+        for asked in folders {
+            file::check_folder(asked)?;
+            let failed = |error| file::failed(asked, "looking for the folder", error);
+            let here = if asked.as_os_str().is_empty() { Path::new(".") } else { asked };
+            let folder = here.canonicalize().map_err(failed)?;
+            if place.held.iter().any(|held| held.folder == folder) {
+                continue;
+            }
+            match lock(&folder, asked, who)? {
+                Ok(file) => place.held.push(Held { folder, file }),
+                Err(error) => place.unlocked.push((asked.to_owned(), error)),
+            }
+        }
+        if place.unlocked.is_empty() {
+            file::remove_leftovers(outputs);
+        }
+        Ok(place)
+    }
+
+    /// What the user should know: that a folder could not be locked.
+    pub fn note(&self) -> Option<String> {
+        let (folder, error) = self.unlocked.first()?;
+        Some(format!(
+            "{}: its disk knows no locks ({error}); see to it that no other study is written there meanwhile",
+            folder.display()
+        ))
+    }
+
+    /// Errs where a folder is no longer the one that was locked.
+    ///
+    /// # Errors
+    /// [`ExportError::Lost`]
+    pub fn check(&self) -> Result<(), ExportError> {
+        match self.held.iter().find(|held| !is_at(&held.file, &held.folder.join(NAME))) {
+            Some(held) => Err(ExportError::Lost { folder: held.folder.clone() }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        let path = self.folder.join(NAME);
+        // where somebody made the folder anew the file there is another's
+        if is_at(&self.file, &path) {
+            // what stays bars nobody
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+/// The locked file; or what the system said where it knows no locks there.
+fn lock(folder: &Path, asked: &Path, who: &str) -> Result<io::Result<File>, ExportError> {
+    let path = folder.join(NAME);
+    let failed = |error| file::failed(asked, "locking the folder", error);
+    for _ in 0..ATTEMPTS {
+        let (mut file, is_ours) = open(&path).map_err(failed)?;
+        match file.try_lock() {
+            Ok(()) if !is_at(&file, &path) => continue,
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(busy(asked, &path)),
+            Err(TryLockError::Error(error)) => {
+                drop(file);
+                // it would say that somebody works there, for ever
+                let _ = fs::remove_file(&path);
+                return Ok(Err(error));
+            }
+        }
+        // another user's, left by a crash: one of our own takes its place
+        if !is_ours && fs::remove_file(&path).is_ok() {
+            continue;
+        }
+        if is_ours {
+            let host = gethostname::gethostname();
+            let text = format!("process {} on {}: {who}\n", std::process::id(), host.to_string_lossy());
+            let written = file.set_len(0).and_then(|()| file.write_all(text.as_bytes())).and_then(|()| file.flush());
+            written.map_err(failed)?;
+        }
+        return Ok(Ok(file));
+    }
+    Err(busy(asked, &path))
+}
+
+/// The file, and whether it can be written to.
+fn open(path: &Path) -> io::Result<(File, bool)> {
+    // what a link leads to is not ours to be written to
+    if path.symlink_metadata().is_ok_and(|found| !found.is_file()) {
+        return Err(io::Error::new(ErrorKind::AlreadyExists, format!("{} is no file", path.display())));
+    }
+    match OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path) {
+        Err(error) if error.kind() == ErrorKind::PermissionDenied => {
+            Ok((OpenOptions::new().read(true).open(path)?, false))
+        }
+        opened => Ok((opened?, true)),
+    }
+}
+
+/// Whether a path leads to an open file.
+fn is_at(file: &File, path: &Path) -> bool {
+    let handle = file.try_clone().and_then(Handle::from_file);
+    handle.is_ok_and(|handle| Handle::from_path(path).is_ok_and(|found| found == handle))
+}
+
+/// Who works there, as far as that can be read: Windows lets nobody read a locked file.
+fn busy(folder: &Path, path: &Path) -> ExportError {
+    let mut text = Vec::new();
+    let file = OpenOptions::new().read(true).open(path);
+    let read = file.and_then(|file| file.take(MOST_BYTES).read_to_end(&mut text));
+    let said: String = String::from_utf8_lossy(&text).chars().filter(|letter| !letter.is_control()).collect();
+    let who = if read.is_ok() && !said.is_empty() { said } else { "another study".to_owned() };
+    let since = path.metadata().and_then(|found| found.modified());
+    let since = since.map_or_else(
+        |_| String::new(),
+        |time| format!("since {}, ", DateTime::<Local>::from(time).format("%Y-%m-%d %H:%M")),
+    );
+    ExportError::Busy { folder: folder.to_owned(), who: format!("{since}{who}") }
+}

@@ -1,0 +1,26 @@
+//! Which files a request is read from, so that no answer is written over one of them.
+
+use super::models::placed;
+use super::written::Written;
+use super::{SiteError, model};
+use std::iter;
+use std::path::{Path, PathBuf};
+
+/// The files that a request is read from: the site file, its models, and what those name beside them. `path` is a site
+/// file, a folder that holds a `site.toml`, or a model.
+///
+/// # Errors
+/// What cannot be read, and what is wrong with a site file's form.
+pub fn inputs(path: &Path) -> Result<Vec<PathBuf>, SiteError> {
+    let written = Written::read_as_it_is(path, true)?;
+    let file = if path.is_dir() { path.join("site.toml") } else { path.to_owned() };
+    Ok(iter::once(file).chain(written.model_files()).collect())
+}
+
+impl Written {
+    /// Its models, and what those name beside them: buffers, and pictures, too, though they are not read.
+    pub fn model_files(&self) -> Vec<PathBuf> {
+        let models = (0..self.site.model.len()).filter_map(|index| Some(placed(self, index).ok()?.0));
+        models.flat_map(|file| model::named_by(&file).into_iter().chain([file])).collect()
+    }
+}

@@ -1,0 +1,33 @@
+//! The files that a model names: they lie beside it, and are its user's, whether they are read or not.
+
+use super::buffers::{has_scheme, percent_decode};
+use super::container;
+use serde::Deserialize;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// What names files, whatever else is said there: a picture that is described wrongly must not hide a buffer.
+#[derive(Deserialize)]
+struct Naming {
+    #[serde(default)]
+    buffers: Value,
+    #[serde(default)]
+    images: Value,
+}
+
+/// The files that a model names. One that cannot be read names none: whoever reads it says why.
+pub(crate) fn named_by(model: &Path) -> Vec<PathBuf> {
+    let Some(naming) = container::json_of_file(model).and_then(|json| serde_json::from_slice::<Naming>(&json).ok())
+    else {
+        return Vec::new();
+    };
+    let folder = model.parent().unwrap_or(Path::new(""));
+    let each = [naming.buffers, naming.images].into_iter().filter_map(|list| match list {
+        Value::Array(list) => Some(list),
+        _ => None,
+    });
+    let address =
+        |one: &Value| one.get("uri").and_then(Value::as_str).filter(|uri| !has_scheme(uri)).map(str::to_owned);
+    let addresses = each.flatten().filter_map(|one| address(&one));
+    addresses.filter_map(|uri| percent_decode(&uri)).map(|relative| folder.join(relative)).collect()
+}
