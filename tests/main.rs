@@ -16,6 +16,7 @@ mod folders;
 mod geometry;
 mod gpu_silhouettes;
 mod live;
+mod lost;
 mod mistakes;
 mod model;
 mod overdraw;

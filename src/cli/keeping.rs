@@ -206,6 +206,14 @@ impl Files<'_> {
 
     fn write(&mut self, event: &Event<'_>, site: &Site) -> Result<(), ExportError> {
         match event {
+            Event::Anew => {
+                // nothing of it is gone on with; Windows removes no open file
+                (self.is_new, self.is_first, self.is_kept) = (true, true, false);
+                (self.sums, self.begun_sums) = (Sums::Memory(Arc::default()), None);
+                (self.checks, self.outlines) = (Checks::default(), Vec::new());
+                let new = |_| BitsFile::new(self.out, self.study, site.grid, site.receivers, &site.track);
+                self.bits = self.bits.take().map(new).transpose()?;
+            }
             Event::Started { tiles, .. } => self.tile.1 = *tiles,
             Event::GoesOn { .. } => {
                 (self.is_new, self.is_kept) = (false, true);

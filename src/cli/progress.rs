@@ -61,6 +61,11 @@ impl Progress {
                     bar.reset_eta();
                 }
             }
+            Event::Anew => {
+                if let Some(bar) = self.bar.take() {
+                    bar.finish_and_clear();
+                }
+            }
             Event::Tile(_) | Event::Summed(_) | Event::Kept(_) => {}
             Event::Drawn { index, count, time, .. } => {
                 let done = index + 1;

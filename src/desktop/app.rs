@@ -8,6 +8,7 @@ use super::files::{self, Answer, Asking};
 use super::hours::{self, Laid};
 use super::loading::{Fault, Loading, Project, Wanted};
 use super::pick::Under;
+use super::reopening::devices;
 use super::settings::{History, Settings};
 use super::stage::Stage;
 use super::typed::Typed;
@@ -64,9 +65,10 @@ pub(super) struct Open {
 
 /// The window.
 pub struct App {
-    gpu: Arc<Gpu>,
-    render: RenderState,
-    stage: Stage,
+    /// The window's own device, on which nothing but its frames is drawn.
+    pub(super) gpu: Gpu,
+    pub(super) render: RenderState,
+    pub(super) stage: Stage,
     pub(super) kept: Kept,
     /// The open site.
     pub(super) open: Option<Open>,
@@ -98,16 +100,13 @@ impl App {
     /// A window on eframe's device, with a site or a model in it where one is named.
     ///
     /// # Errors
-    /// An adapter that lacks what the techniques need.
+    /// Where eframe has no device.
     pub fn new(
         cc: &eframe::CreationContext<'_>,
         path: Option<&Path>,
     ) -> Result<App, Box<dyn std::error::Error + Send + Sync>> {
         look::set(&cc.egui_ctx);
-        let render = cc.wgpu_render_state.clone().ok_or(crate::gpu::GpuError::NoAdapter)?;
-        let gpu = Arc::new(Gpu::opened(&render.adapter, render.device.clone(), render.queue.clone())?);
-        screen::set_up(&render);
-        let stage = Stage::new(Arc::clone(&gpu), cc.egui_ctx.clone());
+        let (gpu, render, stage) = devices(cc)?;
         let kept = cc.storage.and_then(|storage| eframe::get_value(storage, eframe::APP_KEY)).unwrap_or_default();
         let mut app = App {
             gpu,
@@ -136,9 +135,9 @@ impl App {
         Ok(app)
     }
 
-    /// Whether the adapter is a program on the processor.
+    /// Whether pictures are drawn by a program on the processor.
     pub(super) fn is_software(&self) -> bool {
-        self.gpu.software()
+        self.stage.is_software()
     }
 
     /// From where one looks.
@@ -158,6 +157,17 @@ impl App {
             && self.writing.is_none()
             && !self.stage.is_busy()
             && open.is_none_or(|open| open.adding.is_none() && open.probing.is_none() && open.viewer.is_settled())
+    }
+
+    /// Whether hours are being added up.
+    pub fn is_adding(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| open.adding.is_some())
+    }
+
+    /// What went wrong, and what else is told.
+    pub fn told(&self) -> [Option<&str>; 2] {
+        let of_picture = self.open.as_ref().and_then(|open| open.viewer.fault.as_deref());
+        [self.fault.as_deref().or(of_picture), self.notice.as_deref()]
     }
 
     /// Whether a picture is being drawn.
@@ -215,6 +225,9 @@ impl App {
 
     /// Takes what the work beside the window has come to.
     fn receive(&mut self) {
+        if let Some(note) = self.stage.note() {
+            self.notice = Some(note);
+        }
         if let Some(result) = self.loading.as_ref().and_then(Loading::done) {
             let opens = self.loading.take().is_none_or(|loading| loading.opens);
             self.is_reading = false;

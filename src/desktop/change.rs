@@ -117,11 +117,14 @@ pub(super) fn find(
 /// Two studies tell how far they are as one does.
 fn compare(pair: &Pair, known: Option<Outcome>, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome, StudyError> {
     let Some(known) = known else {
-        let mut done = 0;
+        let mut before = 0;
         return study::compare(pair, &mut |event| match event {
-            Event::Drawn { count, time, .. } => {
-                done += 1;
-                on_event(Event::Drawn { index: done - 1, count: 2 * count, time, mask: None, bits: None })
+            Event::Drawn { index, count, time, .. } => {
+                let both = Event::Drawn { index: before + index, count: 2 * count, time, mask: None, bits: None };
+                if index + 1 == count {
+                    before = count;
+                }
+                on_event(both)
             }
             event => on_event(event),
         });

@@ -128,6 +128,13 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
 }
 
 impl App {
+    /// Begins to find the hours of the open site, as its button does.
+    pub fn find_hours(&mut self, context: &egui::Context) {
+        if let Some(open) = &mut self.open {
+            find(open, &self.settings, context);
+        }
+    }
+
     /// Finds what changes from the site in a file to the open one.
     pub(super) fn compare_with(&mut self, path: &Path, context: &egui::Context) {
         (self.fault, self.notice) = (None, None);

@@ -272,10 +272,7 @@ impl App {
             ui.horizontal(|ui| {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     if ui.button("Close").clicked() {
-                        (self.fault, self.notice) = (None, None);
-                        if let Some(open) = &mut self.open {
-                            open.viewer.fault = None;
-                        }
+                        self.hush();
                     }
                     ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                         let colour =
@@ -284,6 +281,14 @@ impl App {
                     });
                 });
             });
+        }
+    }
+
+    /// Forgets what was told, as the button does.
+    pub fn hush(&mut self) {
+        (self.fault, self.notice) = (None, None);
+        if let Some(open) = &mut self.open {
+            open.viewer.fault = None;
         }
     }
 

@@ -19,7 +19,7 @@ use crate::site::file::SiteFile;
 use crate::site::{Method, Probing, Site};
 use crate::study::{self, Event, Outcome, StudyError, Wants};
 use crate::sun::DayWindow;
-use crate::view::{Grid, Probe, Surface};
+use crate::view::{Bits, Grid, Probe, Surface};
 use chrono::NaiveDate;
 use eframe::egui;
 use glam::DVec3;
@@ -246,8 +246,12 @@ pub(super) fn add_up(project: &Project, method: Method, number: u64, context: eg
         let wants = Wants { surface: true, bits, ..Wants::default() };
         let mut outlines = Vec::new();
         let outcome = study::run(&Site { method, ..Site::clone(&site) }, &wants, &mut |event| {
-            if let Event::Drawn { index, bits: Some(shadow), .. } = event {
-                outlines.push(Outline { index, shadow: shadow.clone() });
+            match &event {
+                Event::Drawn { index, bits: Some(shadow), .. } => {
+                    outlines.push(Outline { index: *index, shadow: Bits::clone(shadow) });
+                }
+                Event::Anew => outlines.clear(),
+                _ => {}
             }
             on_event(event)
         })?;

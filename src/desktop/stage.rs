@@ -1,15 +1,23 @@
-//! The picture is drawn by a thread of its own: it takes the newest wish, drops what was wished before, and hands over a
-//! texture that the window shows as it is.
+//! The picture is drawn by a thread of its own, on a device of its own: it takes the newest wish, drops what was wished
+//! before, and hands over a texture of the window's device, which the window shows as it is.
+//!
+//! Were both on one device, the window could not be resized while a picture is drawn: wgpu refuses to configure a surface
+//! where another thread hands in work meanwhile, and waits for all work that was handed in before.
 
+use super::easel::Easel;
 use super::hours::Laid;
+use super::plain::{self, Plain};
 use crate::export::figure::{Colours, Diagram};
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, readback};
 use crate::profile::Drawn;
-use crate::shadow::picture::{Picture, Style};
+use crate::shadow::ShadowError;
+use crate::shadow::picture::{COLOURS, Picture, Style};
 use crate::site::Site;
+use crate::study::StudyError;
 use crate::study::live::{Live, Way};
 use crate::view::{Camera, Elevation, Grid, View};
 use eframe::egui;
+use eframe::egui_wgpu::RenderState;
 use glam::DVec3;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex};
@@ -57,12 +65,14 @@ impl Wish {
 
 /// A picture, and what it shows.
 pub(super) struct Shown {
-    /// The picture.
+    /// The picture, on the window's device.
     pub(super) texture: wgpu::Texture,
     /// What was wished.
     pub(super) wish: Wish,
     /// What drew it.
     pub(super) drawn: Drawn,
+    /// It is without what lies over sun and shadow.
+    pub(super) plain: bool,
     /// How long that took until the adapter had all of it, seconds: what a size of the picture has a say in. How long the
     /// adapter takes then is a matter of the window's frames as well.
     pub(super) secs: f64,
@@ -76,7 +86,8 @@ pub(super) struct Stage {
 }
 
 struct Shared {
-    gpu: Arc<Gpu>,
+    easel: Easel,
+    render: RenderState,
     context: egui::Context,
     next: Mutex<Option<Wish>>,
     woken: Condvar,
@@ -87,9 +98,10 @@ struct Shared {
 
 impl Stage {
     /// Starts the thread.
-    pub(super) fn new(gpu: Arc<Gpu>, context: egui::Context) -> Stage {
+    pub(super) fn new(render: RenderState, context: egui::Context) -> Stage {
         let shared = Arc::new(Shared {
-            gpu,
+            easel: Easel::new(render.adapter.clone()),
+            render,
             context,
             next: Mutex::new(None),
             woken: Condvar::new(),
@@ -116,9 +128,24 @@ impl Stage {
         self.shared.done.lock().ok()?.take()
     }
 
+    /// What became of the device that pictures are drawn on, since the last time it was asked for.
+    pub(super) fn note(&self) -> Option<String> {
+        self.shared.easel.note()
+    }
+
     /// Whether it draws, or is about to.
     pub(super) fn is_busy(&self) -> bool {
         self.shared.is_busy()
+    }
+
+    /// Whether it draws by a program on the processor.
+    pub(super) fn is_software(&self) -> bool {
+        self.shared.easel.is_software()
+    }
+
+    /// For tests: takes its device away, and further ones.
+    pub(super) fn lose_devices(&self, further: u32) {
+        self.shared.easel.lose(further);
     }
 }
 
@@ -138,18 +165,17 @@ struct Kept {
     hours: Option<u64>,
     /// What was drawn last.
     wish: Option<Wish>,
-    target: Option<wgpu::Texture>,
+    /// The picture as it is drawn, and as the window has it.
+    target: Option<[wgpu::Texture; 2]>,
+    /// What draws without a device.
+    plain: Option<Plain>,
 }
 
 impl Shared {
     fn work(&self) {
         let mut kept = [Kept::default(), Kept::default()];
         while let Some(wish) = self.wait() {
-            let its = &mut kept[usize::from(wish.quick)];
-            let result = self.draw(its, wish);
-            if result.is_err() {
-                *its = Kept::default();
-            }
+            let result = self.draw_somewhere(&mut kept, &wish);
             let Ok(mut done) = self.done.lock() else { return };
             *done = Some(result);
             drop(done);
@@ -165,8 +191,8 @@ impl Shared {
 
     /// Makes what quick looks need while nothing is asked, so that the first movement does not wait for it.
     fn get_ready(&self, kept: &mut [Kept; 2]) {
-        let [best, quick] = kept;
-        let (Some(wish), false) = (&best.wish, self.is_busy()) else { return };
+        let [best, quick] = &*kept;
+        let (Some(wish), false) = (&best.wish, self.is_busy() || self.easel.is_given_up()) else { return };
         if quick.live.as_ref().is_some_and(|(number, _)| *number == wish.number) {
             return;
         }
@@ -175,12 +201,43 @@ impl Shared {
             View::Camera(camera) => View::Camera(Camera { width: 16, height: 16, ..camera }),
             View::Elevation(side) => View::Elevation(Elevation { width: 16, height: 16, ..side }),
         };
-        let way = if self.gpu.software() { Way::quickest() } else { wish.way };
+        let way = if self.easel.is_software() { Way::quickest() } else { wish.way };
         let small = Wish { view, way, overlay: [false; 2], diagram: None, quick: true, ..wish.clone() };
         // what is wrong here will be told when it is asked for
-        if self.draw(quick, small).is_err() {
-            *quick = Kept::default();
+        let _ = self.draw_somewhere(kept, &small);
+    }
+
+    /// Draws on the device at hand; where that fails on another, and where all fail on none.
+    fn draw_somewhere(&self, kept: &mut [Kept; 2], wish: &Wish) -> Result<Shown, String> {
+        let mut failures = 0;
+        let mut gpu = self.easel.gpu();
+        while let Some(device) = gpu.take() {
+            let its = &mut kept[usize::from(wish.quick)];
+            let error = match self.draw(&device, its, wish.clone()) {
+                Ok(shown) => return Ok(shown),
+                Err(error) => error,
+            };
+            *its = Kept::default();
+            let Some(lost) = error.lost_device() else { return Err(error.to_string()) };
+            // nothing of it can be used again
+            *kept = Default::default();
+            drop(device);
+            failures += 1;
+            gpu = self.easel.replace(lost, failures);
         }
+        self.draw_plain(&mut kept[usize::from(wish.quick)].plain, wish).map_err(|error| error.to_string())
+    }
+
+    fn draw_plain(&self, kept: &mut Option<Plain>, wish: &Wish) -> Result<Shown, ShadowError> {
+        let started = Instant::now();
+        let (pixels, drawn) = plain::draw(kept, wish)?;
+        let size = wish.view.size();
+        let texture = self.shown_texture(size);
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * size.0), rows_per_image: None };
+        let bytes = bytemuck::cast_slice(&pixels);
+        self.render.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
+        let secs = started.elapsed().as_secs_f64();
+        Ok(Shown { texture, wish: wish.clone(), drawn, plain: true, secs, legend: None })
     }
 
     fn is_busy(&self) -> bool {
@@ -200,8 +257,7 @@ impl Shared {
         }
     }
 
-    fn draw(&self, kept: &mut Kept, wish: Wish) -> Result<Shown, String> {
-        let told = |error: crate::study::StudyError| error.to_string();
+    fn draw(&self, gpu: &Arc<Gpu>, kept: &mut Kept, wish: Wish) -> Result<Shown, StudyError> {
         let tint = |live: &mut Live| live.picture().tint(super::components::face_colours(&wish.site));
         // one of another scene goes first, with its memory
         let at_hand = kept.live.take().and_then(|(number, mut live)| {
@@ -214,7 +270,7 @@ impl Shared {
             Some(live) => live,
             None => {
                 (kept.hours, kept.target) = (None, None);
-                let mut live = Live::new(&wish.site, Arc::clone(&self.gpu), wish.view).map_err(told)?;
+                let mut live = Live::new(&wish.site, Arc::clone(gpu), wish.view)?;
                 tint(&mut live);
                 live
             }
@@ -224,31 +280,48 @@ impl Shared {
         let laid = wish.hours.as_ref().map(|laid| laid.number);
         if laid != kept.hours {
             match &wish.hours {
-                Some(laid) => laid.lay(live.picture(), &wish.site).map_err(|error| error.to_string())?,
+                Some(laid) => laid.lay(live.picture(), &wish.site)?,
                 None => live.picture().lay_hours(None),
             }
             kept.hours = laid;
         }
         let mut legend = None;
         let [volumes, silhouette] = wish.overlay;
-        live.lay_overlay(wish.to_sun, volumes, silhouette).map_err(told)?;
+        live.lay_overlay(wish.to_sun, volumes, silhouette)?;
         if let Some(diagram) = wish.diagram
-            && let Some(counted) = live.counted(&wish.way, wish.to_sun).map_err(told)?
+            && let Some(counted) = live.counted(&wish.way, wish.to_sun)?
             && let Some(colours) = Colours::of(&counted, diagram)
         {
             live.picture().paint(wish.view.size(), &colours.of_cells);
             legend = Some(colours);
         }
         let size = wish.view.size();
-        let fits = |texture: &wgpu::Texture| (texture.width(), texture.height()) == size;
-        let target = kept.target.take().filter(fits).unwrap_or_else(|| Picture::target(&self.gpu, &wish.view));
-        let drawn = live.draw(&wish.way, wish.to_sun, &wish.style, &target).map_err(told)?;
+        let fits = |[of, _]: &[wgpu::Texture; 2]| (of.width(), of.height()) == size;
+        let target = kept.target.take().filter(fits);
+        let target = target.unwrap_or_else(|| [Picture::target(gpu, &wish.view), self.shown_texture(size)]);
+        let drawn = live.draw(&wish.way, wish.to_sun, &wish.style, &target[0])?;
         let secs = started.elapsed().as_secs_f64();
         // no wish piles up on another: this one is finished before the next is taken
-        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| error.to_string())?;
-        self.gpu.check().map_err(|error| error.to_string())?;
-        kept.target = Some(target.clone());
+        readback::hand_over(gpu, &target[0], &self.render.queue, &target[1])?;
+        let texture = target[1].clone();
+        kept.target = Some(target);
         (kept.live, kept.wish) = (Some((wish.number, live)), Some(wish.clone()));
-        Ok(Shown { texture: target, wish, drawn, secs, legend })
+        Ok(Shown { texture, wish, drawn, plain: false, secs, legend })
+    }
+
+    /// A picture of the window's device.
+    fn shown_texture(&self, (width, height): (u32, u32)) -> wgpu::Texture {
+        let usage =
+            wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::COPY_SRC;
+        self.render.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("stage.shown"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: COLOURS,
+            usage,
+            view_formats: &[],
+        })
     }
 }

@@ -91,6 +91,11 @@ impl Viewer {
         self.eye.stand = stand;
     }
 
+    /// The pictures lie on a device that is lost.
+    pub(super) fn forget_pictures(&mut self) {
+        (self.shown, self.print, self.wished) = (None, None, None);
+    }
+
     /// The newest picture.
     pub(super) fn shown(&self) -> Option<&Shown> {
         self.shown.as_ref()
@@ -286,7 +291,7 @@ impl Viewer {
     fn status(&self, ui: &Ui, rect: Rect, software: bool, asked: &Asked<'_>) {
         let Some(shown) = &self.shown else { return };
         let drawn = &shown.drawn;
-        let over = shown.wish.hours.as_ref().filter(|_| shown.wish.style.hours);
+        let over = shown.wish.hours.as_ref().filter(|_| shown.wish.style.hours && !shown.plain);
         let mut text = if let Some(laid) = over {
             laid.what().to_owned()
         } else if shown.wish.to_sun.z <= 0.0 {

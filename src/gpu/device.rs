@@ -1,9 +1,11 @@
 //! One adapter, opened with all that it can do.
 
 use super::timers::Timers;
+use std::cell::Cell;
 use std::sync::{Arc, Mutex, OnceLock};
 use wgpu::{
-    Adapter, Backends, DeviceDescriptor, Features, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions,
+    Adapter, Backends, DeviceDescriptor, Features, Instance, InstanceDescriptor, PollType, PowerPreference,
+    RequestAdapterOptions,
 };
 
 /// An open graphics adapter.
@@ -16,13 +18,13 @@ pub struct Gpu {
     pub limits: wgpu::Limits,
     name: String,
     software: bool,
-    fault: Arc<Mutex<Option<String>>>,
+    fault: Arc<Mutex<Option<Fault>>>,
     /// Where passes are timed.
     pub(super) timers: OnceLock<Timers>,
 }
 
 /// Why the GPU gives no answer.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, thiserror::Error)]
 pub enum GpuError {
     /// Nothing to draw with.
     #[error(
@@ -37,14 +39,56 @@ pub enum GpuError {
         /// What is missing, or what the driver said.
         reason: String,
     },
-    /// It failed while working.
+    /// It cannot do what is asked.
     #[error("the graphics adapter '{adapter}' failed: {reason}; try larger cells (--cell) or --engine cpu")]
     Failed {
+        /// The adapter's name.
+        adapter: String,
+        /// What it cannot.
+        reason: String,
+    },
+    /// It failed while working, so that nothing more can be done on the device; on a new one it may.
+    #[error("the graphics adapter '{adapter}' failed: {reason}; try larger cells (--cell) or --engine cpu")]
+    Lost {
         /// The adapter's name.
         adapter: String,
         /// What the driver said.
         reason: String,
     },
+}
+
+impl GpuError {
+    /// What went wrong, without a way out: in the words of whoever has another one.
+    pub fn why(&self) -> String {
+        match self {
+            GpuError::NoAdapter => "no graphics adapter was found".to_owned(),
+            GpuError::Unusable { adapter, reason } => {
+                format!("the graphics adapter '{adapter}' cannot be used ({})", plain(reason))
+            }
+            GpuError::Failed { adapter, reason } | GpuError::Lost { adapter, reason } => {
+                format!("the graphics adapter '{adapter}' failed ({})", plain(reason))
+            }
+        }
+    }
+}
+
+/// A driver's words on one line.
+fn plain(reason: &str) -> String {
+    reason.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// What a device has reported beside the calls that caused it.
+#[derive(Clone)]
+struct Fault {
+    reason: String,
+    /// The device itself is gone.
+    lost: bool,
+}
+
+impl Fault {
+    fn untold() -> Fault {
+        Fault { reason: "an error could not be told".to_owned(), lost: false }
+    }
 }
 
 /// What drawing needs beyond the least that WebGPU promises: a float depth beside the stencil.
@@ -57,22 +101,42 @@ impl Gpu {
     pub const BACKENDS: Backends = Backends::PRIMARY;
 
     /// Opens the fastest adapter of the system. The usual environment variables of wgpu choose another one.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`]; as [`Gpu::on`].
     pub fn open() -> Result<Gpu, GpuError> {
-        pollster::block_on(async {
-            let mut wanted = InstanceDescriptor::new_without_display_handle_from_env();
-            wanted.backends &= Self::BACKENDS;
-            let options = RequestAdapterOptions {
-                power_preference: PowerPreference::HighPerformance,
-                ..RequestAdapterOptions::default()
-            };
-            let adapter = Instance::new(wanted).request_adapter(&options).await.map_err(|_| GpuError::NoAdapter)?;
-            check(&adapter)?;
-            let (device, queue) = adapter
-                .request_device(&Self::description(&adapter))
-                .await
-                .map_err(|error| unusable(&adapter, error.to_string()))?;
-            Self::opened(&adapter, device, queue)
-        })
+        Self::open_as(false)
+    }
+
+    /// Opens an adapter that is a program on the processor, where the system has one.
+    ///
+    /// # Errors
+    /// As [`Gpu::open`].
+    pub fn open_software() -> Result<Gpu, GpuError> {
+        Self::open_as(true)
+    }
+
+    fn open_as(software: bool) -> Result<Gpu, GpuError> {
+        let mut wanted = InstanceDescriptor::new_without_display_handle_from_env();
+        wanted.backends &= Self::BACKENDS;
+        let options = RequestAdapterOptions {
+            power_preference: PowerPreference::HighPerformance,
+            force_fallback_adapter: software,
+            ..RequestAdapterOptions::default()
+        };
+        let adapter = pollster::block_on(Instance::new(wanted).request_adapter(&options));
+        Self::on(&adapter.map_err(|_| GpuError::NoAdapter)?)
+    }
+
+    /// Opens another device on an adapter.
+    ///
+    /// # Errors
+    /// [`GpuError::Unusable`] where the adapter lacks what is needed, or has no device any more.
+    pub fn on(adapter: &Adapter) -> Result<Gpu, GpuError> {
+        check(adapter)?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&Self::description(adapter)))
+            .map_err(|error| unusable(adapter, error.to_string()))?;
+        Ok(Self::opened(adapter, device, queue))
     }
 
     /// How a device is to be asked of an adapter, so that all techniques draw on it: for whoever opens it elsewhere.
@@ -85,22 +149,29 @@ impl Gpu {
         }
     }
 
-    /// A device that is open already, by [`Gpu::description`].
-    ///
-    /// # Errors
-    /// [`GpuError::Unusable`] where the adapter lacks what is needed.
-    pub fn opened(adapter: &Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Result<Gpu, GpuError> {
-        check(adapter)?;
-        let fault = Arc::new(Mutex::new(None));
+    /// A device that is open already: from now on what it reports is heard.
+    pub fn opened(adapter: &Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Gpu {
+        let fault = Arc::new(Mutex::new(None::<Fault>));
         let heard = Arc::clone(&fault);
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        let hear = move |reason: String, lost: bool| {
             if let Ok(mut fault) = heard.lock() {
-                fault.get_or_insert_with(|| error.to_string());
+                match &mut *fault {
+                    // what follows from the loss may be told before it
+                    Some(first) if lost && !first.lost => *first = Fault { reason, lost },
+                    Some(_) => {}
+                    none => *none = Some(Fault { reason, lost }),
+                }
             }
-        }));
+        };
+        let hear_lost = hear.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| hear(error.to_string(), false)));
+        device.set_device_lost_callback(move |_, message| {
+            let why = if message.is_empty() { String::new() } else { format!(" ({message})") };
+            hear_lost(format!("its device was lost{why}"), true);
+        });
         let info = adapter.get_info();
         let (name, software) = (info.name, info.device_type == wgpu::DeviceType::Cpu);
-        Ok(Gpu { device, queue, limits: adapter.limits(), name, software, fault, timers: OnceLock::new() })
+        Gpu { device, queue, limits: adapter.limits(), name, software, fault, timers: OnceLock::new() }
     }
 
     /// The adapter's name, as its driver says it.
@@ -126,18 +197,59 @@ impl Gpu {
 
     /// Says what went wrong since the device was opened. wgpu reports faults (memory above all) beside the calls that
     /// cause them; whoever hands on a result asks here first.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`]
     pub fn check(&self) -> Result<(), GpuError> {
-        match self.fault.lock().map(|fault| fault.clone()) {
-            Ok(None) => Ok(()),
-            Ok(Some(reason)) => Err(self.failed(reason)),
-            Err(_) => Err(self.failed("an error could not be told")),
+        if is_to_be_lost() {
+            self.device.destroy();
         }
+        let fault = || self.fault.lock().map_or_else(|_| Some(Fault::untold()), |fault| fault.clone());
+        if fault().is_none() {
+            return Ok(());
+        }
+        // a loss is told once nothing is under way any more; whatever that says is heard, too
+        let _ = self.device.poll(PollType::wait_indefinitely());
+        fault().map_or(Ok(()), |fault| Err(self.lost(fault.reason)))
     }
 
-    /// The error with the adapter's name.
+    /// What was reported since the last time it was asked for: for whoever goes on after a fault.
+    pub fn heard(&self) -> Option<GpuError> {
+        let fault = self.fault.lock().ok()?.take()?;
+        Some(self.lost(fault.reason))
+    }
+
+    /// Whether the device itself is gone, and not just some work on it.
+    pub fn is_lost(&self) -> bool {
+        self.fault.lock().map_or(true, |fault| fault.as_ref().is_some_and(|fault| fault.lost))
+    }
+
+    /// The error with the adapter's name, where something went wrong on the device.
+    pub fn lost(&self, reason: impl ToString) -> GpuError {
+        GpuError::Lost { adapter: self.name.clone(), reason: reason.to_string() }
+    }
+
+    /// The error with the adapter's name, where something is asked that the adapter cannot.
     pub fn failed(&self, reason: impl ToString) -> GpuError {
         GpuError::Failed { adapter: self.name.clone(), reason: reason.to_string() }
     }
+}
+
+thread_local! {
+    /// So many checks of a device from now on this thread a device is lost.
+    static TO_BE_LOST: Cell<Option<u32>> = const { Cell::new(None) };
+}
+
+/// For tests of what comes after: takes away the device that is checked on this thread after so many other checks, as a
+/// driver that is reset would.
+pub fn lose_after(checks: u32) {
+    TO_BE_LOST.set(Some(checks));
+}
+
+fn is_to_be_lost() -> bool {
+    let left = TO_BE_LOST.get();
+    TO_BE_LOST.set(left.and_then(|left| left.checked_sub(1)));
+    left == Some(0)
 }
 
 /// Whether an adapter has what is needed.

@@ -8,4 +8,4 @@ pub mod shaders;
 pub mod targets;
 mod timers;
 
-pub use device::{Gpu, GpuError};
+pub use device::{Gpu, GpuError, lose_after};

@@ -2,7 +2,7 @@
 
 use super::{Gpu, GpuError};
 use wgpu::{
-    Buffer, BufferDescriptor, BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, Extent3d, MapMode, Origin3d, PollType,
+    Buffer, BufferDescriptor, BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, Extent3d, MapMode, Origin3d, PollType, Queue,
     TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect,
 };
 
@@ -16,16 +16,53 @@ pub fn values<T: bytemuck::Pod>(gpu: &Gpu, buffer: &Buffer) -> Result<Vec<T>, Gp
     encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
     gpu.queue.submit([encoder.finish()]);
     copy.map_async(MapMode::Read, .., |_| ());
-    gpu.device.poll(PollType::wait_indefinitely()).map_err(|error| gpu.failed(error))?;
+    gpu.device.poll(PollType::wait_indefinitely()).map_err(|error| gpu.lost(error))?;
     gpu.check()?;
-    let mapped = copy.get_mapped_range(..).map_err(|error| gpu.failed(error))?;
+    let mapped = copy.get_mapped_range(..).map_err(|error| gpu.lost(error))?;
     Ok(bytemuck::pod_collect_to_vec(&mapped[..]))
 }
 
 /// All texels of a texture as plain values, row 0 first. `T` has the size of one texel.
+///
+/// # Errors
+/// [`GpuError::Lost`]
 pub fn texels<T: bytemuck::Pod>(gpu: &Gpu, texture: &Texture, aspect: TextureAspect) -> Result<Vec<T>, GpuError> {
+    let width = texture.width() as usize;
+    let mut values = vec![T::zeroed(); width * texture.height() as usize];
+    let mut rows = values.chunks_exact_mut(width);
+    strips(gpu, texture, aspect, (width * size_of::<T>()) as u32, &mut |_, padded, bytes| {
+        for (line, row) in bytes.chunks_exact(padded as usize).zip(rows.by_ref()) {
+            let row = bytemuck::cast_slice_mut::<T, u8>(row);
+            row.copy_from_slice(&line[..row.len()]);
+        }
+    })?;
+    Ok(values)
+}
+
+/// Copies a texture of four bytes a texel into one as large on another device, whose queue it is: there it is seen by
+/// whatever that device is given next.
+///
+/// # Errors
+/// [`GpuError::Lost`] where the first device fails; the other one hears of its own faults.
+pub fn hand_over(gpu: &Gpu, texture: &Texture, queue: &Queue, to: &Texture) -> Result<(), GpuError> {
+    let width = texture.width();
+    strips(gpu, texture, TextureAspect::All, 4 * width, &mut |first, padded, bytes| {
+        let part = TexelCopyTextureInfo { origin: Origin3d { x: 0, y: first, z: 0 }, ..to.as_image_copy() };
+        let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None };
+        let size = Extent3d { width, height: bytes.len() as u32 / padded, depth_or_array_layers: 1 };
+        queue.write_texture(part, bytes, layout, size);
+    })
+}
+
+/// A texture's rows in strips: told with the first one's number, and how many bytes lie from one row to the next.
+fn strips(
+    gpu: &Gpu,
+    texture: &Texture,
+    aspect: TextureAspect,
+    row_bytes: u32,
+    tell: &mut dyn FnMut(u32, u32, &[u8]),
+) -> Result<(), GpuError> {
     let (width, height) = (texture.width(), texture.height());
-    let row_bytes = width * size_of::<T>() as u32;
     let padded = row_bytes.next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT);
     let strip = ((STRIP / u64::from(padded)).max(1) as u32).min(height);
     let buffer = gpu.device.create_buffer(&BufferDescriptor {
@@ -34,8 +71,6 @@ pub fn texels<T: bytemuck::Pod>(gpu: &Gpu, texture: &Texture, aspect: TextureAsp
         usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
         mapped_at_creation: false,
     });
-    let mut values = vec![T::zeroed(); width as usize * height as usize];
-    let mut rows = values.chunks_exact_mut(width as usize);
     for first in (0..height).step_by(strip as usize) {
         let count = strip.min(height - first);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -49,14 +84,12 @@ pub fn texels<T: bytemuck::Pod>(gpu: &Gpu, texture: &Texture, aspect: TextureAsp
         );
         gpu.queue.submit([encoder.finish()]);
         buffer.map_async(MapMode::Read, .., |_| ());
-        gpu.device.poll(PollType::wait_indefinitely()).map_err(|error| gpu.failed(error))?;
+        gpu.device.poll(PollType::wait_indefinitely()).map_err(|error| gpu.lost(error))?;
         gpu.check()?;
-        let mapped = buffer.get_mapped_range(..).map_err(|error| gpu.failed(error))?;
-        for (line, row) in mapped.chunks_exact(padded as usize).zip(rows.by_ref().take(count as usize)) {
-            bytemuck::cast_slice_mut::<T, u8>(row).copy_from_slice(&line[..row_bytes as usize]);
-        }
+        let mapped = buffer.get_mapped_range(..).map_err(|error| gpu.lost(error))?;
+        tell(first, padded, &mapped[..padded as usize * count as usize]);
         drop(mapped);
         buffer.unmap();
     }
-    Ok(values)
+    Ok(())
 }

@@ -1,14 +1,13 @@
 //! Every instant of a study as a picture: night too.
 
+use super::again::persist;
 use super::machine::{choose, not_surfaces};
 use super::{Event, Look, OnEvent, StudyError, judged, night, note_models, tell, tiles};
 use crate::mesh::Mesh;
 use crate::profile::Drawn;
-use crate::shadow::Technique;
 use crate::site::{Receivers, Site};
 use crate::sun::SunTrack;
 use crate::view::{Mask, Surface, View};
-use glam::DVec3;
 
 /// One of them.
 #[derive(Clone, Copy, Debug)]
@@ -39,21 +38,47 @@ pub fn frames<E: From<StudyError>>(
 ) -> Result<Drawn, E> {
     not_surfaces(site)?;
     note_models(&site.notes, on_event)?;
+    // each frame says itself what drew it: those that were given out stay
+    let (mut given, mut fault) = (0, None);
+    let drawn = persist(site, true, on_event, &mut |site, on_event| {
+        let first = given;
+        from(first, site, view, on_event, &mut |frame| {
+            given += 1;
+            on_frame(frame).map_err(|error| {
+                fault = Some(error);
+                StudyError::Interrupted
+            })
+        })
+    });
+    match fault {
+        Some(fault) => Err(fault),
+        None => Ok(drawn?),
+    }
+}
+
+/// The frames from one on, by one machine.
+fn from(
+    first: usize,
+    site: &Site,
+    view: View,
+    on_event: &mut OnEvent<'_>,
+    on_frame: &mut dyn FnMut(&Frame<'_>) -> Result<(), StudyError>,
+) -> Result<Drawn, StudyError> {
     let machine = choose(site, &view, on_event)?;
     if let View::Plan(grid) = view {
         tiles::at_once(grid, site.receivers, &machine)?;
     }
     let look = Look { site, machine: &machine, view, receivers: judged(site, &view) };
-    let mut technique = look.technique().map_err(StudyError::from)?;
-    let surface = look.surface(&*technique).map_err(StudyError::from)?;
+    let mut technique = look.technique()?;
+    let surface = look.surface(&*technique)?;
     let (surface_mesh, drawn) = (look.surface_mesh(), machine.drawn());
     let dark = night(&view);
 
     let count = site.track.instants.len();
     tell(on_event, Event::Started { instants: count, tiles: 1 })?;
     let mut noted = None;
-    for (index, (instant, track)) in site.track.instants.iter().zip(site.track.each()).enumerate() {
-        let lit = if instant.night { None } else { Some(draw(&mut *technique, instant.to_sun)?) };
+    for (index, (instant, track)) in site.track.instants.iter().zip(site.track.each()).enumerate().skip(first) {
+        let lit = if instant.night { None } else { Some(technique.draw(instant.to_sun)?.read()?) };
         let mask = lit.as_ref().unwrap_or(&dark);
         // told once where the same holds again and again
         let note = technique.note().filter(|note| noted.as_ref() != Some(note));
@@ -66,8 +91,4 @@ pub fn frames<E: From<StudyError>>(
         tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None, bits: None })?;
     }
     Ok(drawn)
-}
-
-fn draw(technique: &mut dyn Technique, to_sun: DVec3) -> Result<Mask, StudyError> {
-    Ok(technique.draw(to_sun)?.read()?)
 }

@@ -1,5 +1,6 @@
 //! One instant's shadows, seen from above, from a side or by a camera.
 
+use super::again::persist;
 use super::machine::{choose, counting, not_surfaces, stencil_alone};
 use super::{Event, InstantOutcome, InstantWants, Look, NOTHING_COUNTED, OnEvent, Stopwatch, StudyError};
 use super::{judged, night, note_models, tell, tiles};
@@ -21,9 +22,21 @@ pub fn instant(
     on_event: &mut OnEvent<'_>,
 ) -> Result<InstantOutcome, StudyError> {
     not_surfaces(site)?;
+    note_models(&site.notes, on_event)?;
+    // volumes are drawn on an adapter alone, and counted there
+    let can = !wants.volumes && !wants.silhouette && wants.counted.is_none();
+    persist(site, can, on_event, &mut |site, on_event| once(site, view, wants, on_event))
+}
+
+/// As [`instant()`], on one machine.
+fn once(
+    site: &Site,
+    view: View,
+    wants: &InstantWants,
+    on_event: &mut OnEvent<'_>,
+) -> Result<InstantOutcome, StudyError> {
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
-    note_models(&site.notes, on_event)?;
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(site, &view)?,

@@ -213,8 +213,8 @@ fn made<'a>(
     Ok(&mut at_hand.insert((view, way, technique)).2)
 }
 
-/// A view of one cell from as far away as any.
-fn far_view(scene: &Scene) -> View {
+/// A view of one cell from as far away as any, for rays that are to turn to all others.
+pub fn far_view(scene: &Scene) -> View {
     let (low, high) = scene.receivers.bounds().or(scene.casters.bounds()).unwrap_or_default();
     let length = (high - low).length().max(1.0) * FARTHEST;
     let target = (low + high) / 2.0;

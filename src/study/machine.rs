@@ -374,7 +374,7 @@ pub(super) fn choose_on(
                 Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => on_processor,
                 Ok(machine) => machine,
                 Err(error) => {
-                    tell(on_event, Event::Note(format!("{}: drawing on the processor", why_none(error))))?;
+                    tell(on_event, Event::Note(format!("{}: drawing on the processor", error.why())))?;
                     on_processor
                 }
             }
@@ -415,7 +415,7 @@ pub(super) fn stencil_alone(site: &Site, view: &View) -> Result<Machine, StudyEr
         return Err(StudyError::Conflict { option: "--show", what });
     }
     unused(site, Method::Stencil)?;
-    let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(why_none(error)))?;
+    let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(error.why()))?;
     let drawing = Drawing::of(Method::Stencil, site, &gpu);
     Ok(Machine::OnGpu(Arc::new(gpu), drawing))
 }
@@ -437,14 +437,4 @@ pub(super) fn not_surfaces(site: &Site) -> Result<(), StudyError> {
         return Err(StudyError::Conflict { option: "--receivers", what });
     }
     Ok(())
-}
-
-/// Why no graphics adapter draws.
-pub(super) fn why_none(error: GpuError) -> String {
-    match error {
-        GpuError::NoAdapter => "no graphics adapter was found".to_owned(),
-        GpuError::Unusable { adapter, reason } | GpuError::Failed { adapter, reason } => {
-            format!("the graphics adapter '{adapter}' cannot be used ({reason})")
-        }
-    }
 }

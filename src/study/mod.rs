@@ -5,6 +5,7 @@
 //! every technique against ray casting; [`probe`] finds when single points lie in the sun; [`frames()`] is every instant
 //! as a picture; [`live`] draws one picture after another for whoever looks.
 
+pub mod again;
 mod compare;
 mod fingerprint;
 mod frames;
@@ -81,6 +82,8 @@ pub struct InstantWants {
 pub enum Event<'a> {
     /// Something that the user should know.
     Note(String),
+    /// A graphics adapter failed, and the work is done again: what was told of it is void, but for notes.
+    Anew,
     /// All is prepared; drawing begins.
     Started {
         /// How many instants there are, those of each tile counted.
@@ -241,6 +244,15 @@ impl StudyError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
         matches!(self, StudyError::Conflict { .. } | StudyError::LittleMemory { .. } | StudyError::TooManyCells { .. })
+    }
+
+    /// What a graphics device failed of, where it did while working: on another one the work can be done.
+    pub fn lost_device(&self) -> Option<&GpuError> {
+        match self {
+            StudyError::Gpu(error) | StudyError::Shadow(ShadowError::Gpu(error)) => Some(error),
+            _ => None,
+        }
+        .filter(|error| matches!(error, GpuError::Lost { .. }))
     }
 }
 

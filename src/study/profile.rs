@@ -1,5 +1,6 @@
 //! Every instant's shadows, summed to the time in shadow: of the plan in one go, or tile by tile.
 
+use super::again::persist;
 use super::machine::{Machine, choose, counting, not_surfaces};
 use super::{Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
 use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
@@ -38,6 +39,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     let (mut tile, mut whole) = (Tile::from(site.grid), Arc::default());
     let worked = in_tiles(Tiled::new(site, wants, on_event)?, None, &mut |event| {
         match &event {
+            Event::Anew => whole = Arc::default(),
             Event::Tile(next) => tile = *next,
             Event::Summed(shaded) => whole = paste(&whole, &tile, shaded),
             _ => {}
@@ -81,8 +83,12 @@ impl<'a> Tiled<'a> {
     /// [`StudyError`]; choices that exclude each other; [`StudyError::LittleMemory`].
     pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Tiled<'a>, StudyError> {
         not_surfaces(site)?;
-        let watch = Stopwatch::start();
         note_models(&site.notes, on_event)?;
+        Tiled::of(site, wants, on_event)
+    }
+
+    fn of(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Tiled<'a>, StudyError> {
+        let watch = Stopwatch::start();
         let view = View::Plan(site.grid);
         let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
@@ -120,11 +126,27 @@ impl<'a> Tiled<'a> {
 }
 
 /// Every instant's shadows, summed; from where the study was stopped, where that is `begun`: sums are the same to the bit.
-/// Tiles before the one that was worked on are not told again. What another study left is not used.
+/// Tiles before the one that was worked on are not told again. What another study left is not used. After [`Event::Anew`]
+/// all is told from the first instant on.
 ///
 /// # Errors
 /// [`StudyError`]
 pub fn in_tiles(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>) -> Result<Worked, StudyError> {
+    let Tiled { site, wants, .. } = tiled;
+    let mut at_hand = Some((tiled, begun));
+    // what counting takes is told of an adapter alone
+    persist(site, !wants.statistics, on_event, &mut |again, on_event| {
+        if let Some((tiled, begun)) = at_hand.take() {
+            return once(tiled, begun, on_event);
+        }
+        // what the processor takes over is no more the study that was begun, and must not be gone on with as that
+        let keep_every = wants.keep_every.filter(|_| again.engine == site.engine);
+        once(Tiled::of(again, &Wants { keep_every, ..wants }, on_event)?, None, on_event)
+    })
+}
+
+/// As [`in_tiles`], on one machine.
+fn once(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>) -> Result<Worked, StudyError> {
     let begun = begun.filter(|begun| tiled.is_of(begun));
     let first = tiled.worked_on(begun.as_ref().map_or(0, |begun| begun.done));
     let study = tiled.wants.keep_every.map_or(0, |_| tiled.number());

@@ -1,6 +1,6 @@
 //! The study on surfaces: hours of sun on every flat patch of what receives.
 
-use super::machine::why_none;
+use super::again::persist;
 use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_models, tell};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -41,9 +41,9 @@ pub struct SurfaceOutcome {
 /// # Errors
 /// [`StudyError`]; choices that do not fit and windows that are too long before anything is drawn.
 pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<SurfaceOutcome, StudyError> {
-    let mut watch = Stopwatch::start();
+    let watch = Stopwatch::start();
     let samples = site.settings.sun_samples.unwrap_or(1);
-    let (day_secs, night_secs) = day_and_night(&site.track);
+    let (day_secs, _) = day_and_night(&site.track);
     let most_secs = u32::MAX / samples;
     if day_secs > most_secs {
         return Err(StudyError::TooLong { day_secs, most_secs });
@@ -52,6 +52,18 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
     let choice = choice(site)?;
     let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
     note_patches(&patches, on_event)?;
+    persist(site, true, on_event, &mut |site, on_event| light(site, choice, &patches, watch.clone(), on_event))
+}
+
+/// Lets the sun fall on the patches, by one machine.
+fn light(
+    site: &Site,
+    choice: Choice,
+    patches: &Arc<Patches>,
+    mut watch: Stopwatch,
+    on_event: &mut OnEvent<'_>,
+) -> Result<SurfaceOutcome, StudyError> {
+    let (day_secs, night_secs) = day_and_night(&site.track);
     let painter = painter(site, choice, on_event)?;
     let drawn = Drawn {
         technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture }.word(),
@@ -64,7 +76,7 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
         settings: DrawnSettings { sun_samples: site.settings.sun_samples, ..DrawnSettings::default() },
     };
     let casters = site.mesh.of_components(&site.casts);
-    let mut texture = SoftTexture::new(casters, Arc::clone(&patches), painter, choice)?;
+    let mut texture = SoftTexture::new(casters, Arc::clone(patches), painter, choice)?;
     watch.lap("prepare");
 
     let count = site.track.instants.len();
@@ -77,11 +89,12 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
     }
     let (judged, gpu_bytes) = (texture.judged(), texture.gpu_bytes());
     let mut lit = texture.finish()?;
-    darken_underground(&patches, site.ground, &mut lit);
+    darken_underground(patches, site.ground, &mut lit);
     watch.lap("shadows");
 
+    let samples = site.settings.sun_samples.unwrap_or(1);
     let hours = SurfaceHours { lit, samples, day_secs, night_secs };
-    Ok(SurfaceOutcome { patches, hours, judged, drawn, gpu_bytes, timings: watch.stages })
+    Ok(SurfaceOutcome { patches: Arc::clone(patches), hours, judged, drawn, gpu_bytes, timings: watch.stages })
 }
 
 /// What the site's camera sees of what receives, for a drawing of the surfaces, and the mesh whose faces it counts.
@@ -146,7 +159,7 @@ fn painter(site: &Site, choice: Choice, on_event: &mut OnEvent<'_>) -> Result<Pa
             Ok(gpu) if gpu.software() => Ok(on_processor),
             Ok(gpu) => Ok(Painter::OnGpu(Arc::new(gpu))),
             Err(error) => {
-                tell(on_event, Event::Note(format!("{}: drawing on the processor", why_none(error))))?;
+                tell(on_event, Event::Note(format!("{}: drawing on the processor", error.why())))?;
                 Ok(on_processor)
             }
         },

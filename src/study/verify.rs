@@ -3,7 +3,7 @@
 //! [`verify`] makes the techniques, [`hold`] holds them against the truth, instant by instant. Ray casting is held against
 //! itself without its trees, at some cells.
 
-use super::machine::{Drawing, Machine, not_surfaces, why_none};
+use super::machine::{Drawing, Machine, not_surfaces};
 use super::{Event, Look, OnEvent, StudyError, day_and_night, note_models, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::report;
@@ -60,7 +60,7 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
     not_surfaces(site)?;
     by_day(site)?;
     note_models(&site.notes, on_event)?;
-    let gpu = Arc::new(Gpu::open().map_err(|error| StudyError::NoVerification(why_none(error)))?);
+    let gpu = Arc::new(Gpu::open().map_err(|error| StudyError::NoVerification(error.why()))?);
     tiles::at_once(site.grid, site.receivers, &Machine::RayCast { sun_samples: None })?;
     let mut trials = Vec::new();
     for (method, against, promise) in TECHNIQUES {

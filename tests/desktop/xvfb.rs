@@ -5,7 +5,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// A program that ends with the test.
-struct Running(Child);
+pub(super) struct Running(pub(super) Child);
 
 impl Drop for Running {
     fn drop(&mut self) {
@@ -15,13 +15,13 @@ impl Drop for Running {
     }
 }
 
-fn run(program: &str, arguments: &[&str], display: &str) -> std::process::Output {
+pub(super) fn run(program: &str, arguments: &[&str], display: &str) -> std::process::Output {
     let output = Command::new(program).args(arguments).env("DISPLAY", display).output();
     output.unwrap_or_else(|error| panic!("{program}: {error}; tests/run.sh installs it"))
 }
 
 /// The screen as rows of red, green and blue: an X window dump of 32 bits a pixel, blue first.
-fn screen(display: &str) -> (u32, u32, Vec<u8>) {
+pub(super) fn screen(display: &str) -> (u32, u32, Vec<u8>) {
     let dump = run("xwd", &["-root", "-silent", "-display", display], display).stdout;
     let word = |at: usize| u32::from_be_bytes(dump[at * 4..at * 4 + 4].try_into().unwrap());
     let (header, width, height, line, colours) = (word(0), word(4), word(5), word(12), word(19));
@@ -54,7 +54,7 @@ fn until(display: &str, what: &str, mut hand: impl FnMut(), is_so: impl Fn(&[u8]
 }
 
 /// The shares of the picture's middle that lie in the sun, and in a shadow by day.
-fn shades(rgb: &[u8]) -> [f64; 2] {
+pub(super) fn shades(rgb: &[u8]) -> [f64; 2] {
     let rows = (120..560).flat_map(|row| rgb[(row * 1280 + 320) * 3..(row * 1280 + 1240) * 3].chunks(3));
     let (mut sun, mut shadow, mut all) = (0.0, 0.0, 0.0);
     for pixel in rows {
@@ -68,21 +68,27 @@ fn shades(rgb: &[u8]) -> [f64; 2] {
     [sun / all, shadow / all]
 }
 
-#[test]
-fn real_window_opens_scrubs_and_closes() {
-    let number = 200 + std::process::id() % 600;
+/// An X server without a screen, and its name; each test of this process has its own number.
+pub(super) fn server(of_test: u32) -> (Running, String) {
+    let number = 200 + (std::process::id() * 4 + of_test) % 2400;
     let display = format!(":{number}");
     let server = Command::new("Xvfb")
         .args([&display, "-screen", "0", "1280x760x24", "-nolisten", "tcp"])
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn();
-    let _server = Running(server.unwrap_or_else(|error| panic!("Xvfb: {error}; tests/run.sh installs it")));
+    let server = Running(server.unwrap_or_else(|error| panic!("Xvfb: {error}; tests/run.sh installs it")));
     let begun = Instant::now();
     while !run("xdotool", &["getdisplaygeometry"], &display).status.success() {
         assert!(begun.elapsed() < Duration::from_secs(20), "Xvfb does not answer");
         std::thread::sleep(Duration::from_millis(50));
     }
+    (server, display)
+}
+
+#[test]
+fn real_window_opens_scrubs_and_closes() {
+    let (_server, display) = server(0);
     let home = tempfile::tempdir().unwrap();
     let window = Command::new(env!("CARGO_BIN_EXE_gnomon"))
         .args(["open", "sites/industry"])

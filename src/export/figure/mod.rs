@@ -28,7 +28,7 @@ pub use fonts::without_face;
 pub use lines::{LineDrawing, MOST_OUTLINES, Outline, iso_hours, outlines};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
-pub use screen::{Screen, instant_on_screen};
+pub use screen::{Screen, bare, instant_on_screen};
 pub use strips::strips;
 pub(super) use surfaces::NOT_JUDGED;
 pub use surfaces::{legend as surfaces_legend, surfaces};

@@ -1,10 +1,14 @@
 //! A drawing for a screen: the sheet as it is for paper, in fewer pixels.
 
+use super::components::Components;
 use super::page::{HEIGHT, Sheet, WIDTH};
+use super::perspective::{self, Lens, Painted};
+use super::picture::{Fit, Pixels};
 use super::scale::Rgb;
-use super::{Scene, Shown, instant_as};
+use super::{Scene, Shown, instant_as, plan};
 use crate::export::{ExportError, raster};
 use crate::view::{Mask, View};
+use glam::DVec3;
 use image::imageops::{self, FilterType};
 use image::{ImageBuffer, RgbImage};
 
@@ -57,4 +61,23 @@ fn on_screen(sheet: &Sheet, width: u32) -> Result<Screen, ExportError> {
     let small = imageops::resize(&sheet, width, height, FilterType::Triangle);
     let pixels = small.pixels().map(|pixel| pixel.0).collect();
     Ok(Screen { width, height, pixels })
+}
+
+/// What a view shows of sun and shadow without a sheet around it: a pixel a cell, row 0 first. Of what is `shown` over it
+/// there are the components' colours, in a camera's picture.
+pub fn bare(scene: &Scene, view: &View, mask: &Mask, to_sun: DVec3, shown: &Shown) -> Vec<Rgb> {
+    let size = view.size();
+    let fit = Fit { cells: size, pixels: size };
+    let lens = match view {
+        View::Plan(grid) => {
+            let mut pixels = vec![Rgb::default(); size.0 as usize * size.1 as usize];
+            plan::instant(scene, grid.cell, mask, fit).draw(0, &mut pixels);
+            return pixels;
+        }
+        View::Camera(camera) => Lens::new(camera),
+        View::Elevation(side) => Lens::of_side(side),
+    };
+    let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
+    let painted = Painted { components: components.as_ref(), of_cells: None };
+    perspective::instant(scene, &lens, mask, to_sun, painted, fit).pixels
 }

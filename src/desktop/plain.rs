@@ -1,0 +1,64 @@
+//! A picture that no graphics adapter has a hand in: sun and shadow by rays, in the colours of drawings.
+
+use super::stage::Wish;
+use crate::export::figure::{self, Shown};
+use crate::profile::{Drawn, DrawnSettings};
+use crate::shadow::ray_cast::RayCast;
+use crate::shadow::{Scene, ShadowError, Technique};
+use crate::site::{Engine, Method, Receivers};
+use crate::study::live::far_view;
+use crate::view::Mask;
+
+/// What is kept from one picture to the next.
+pub(super) struct Plain {
+    /// The site's number, and to how many points of the sun rays go.
+    of: (u64, Option<u32>),
+    scene: Scene,
+    rays: RayCast,
+}
+
+/// Draws what is wished, without what lies over sun and shadow: the pixels, row 0 first, and what drew.
+///
+/// # Errors
+/// What ray casting says.
+pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]>, Drawn), ShadowError> {
+    let sun_samples = wish.way.settings.sun_samples;
+    let site = &*wish.site;
+    let new = || {
+        let casters = site.mesh.of_components(&site.casts);
+        let receivers = site.mesh.of_components(&site.receives);
+        let scene = Scene { casters, receivers, ground: site.ground };
+        let rays = RayCast::new(scene.clone(), far_view(&scene), sun_samples);
+        Plain { of: (wish.number, sun_samples), scene, rays }
+    };
+    let at_hand = kept.take().filter(|plain| plain.of == (wish.number, sun_samples));
+    let plain = kept.insert(at_hand.unwrap_or_else(new));
+    if plain.rays.view() != wish.view {
+        plain.rays.look_at(wish.view);
+    }
+    let (width, height) = wish.view.size();
+    let mask = match wish.to_sun.z > 0.0 {
+        true => plain.rays.draw(wish.to_sun)?.read()?,
+        false => Mask { width, height, share: vec![0; width as usize * height as usize] },
+    };
+    let drawn = Drawn {
+        technique: Method::RayCast.word(),
+        silhouette: None,
+        engine: Engine::Cpu.word(),
+        adapter: None,
+        settings: DrawnSettings { sun_samples, ..DrawnSettings::default() },
+    };
+    let scene = figure::Scene {
+        place: &site.place,
+        track: &site.track,
+        mesh: &plain.scene.receivers,
+        surface: &plain.rays.surface()?,
+        receivers: Receivers::Top,
+        drawn: &drawn,
+    };
+    let casts: Vec<bool> =
+        site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect();
+    let shown = Shown { casts: wish.style.tinted.then_some(casts.as_slice()), ..Shown::default() };
+    let pixels = figure::bare(&scene, &wish.view, &mask, wish.to_sun, &shown);
+    Ok((pixels.into_iter().map(|[red, green, blue]| [red, green, blue, 255]).collect(), drawn))
+}

@@ -1,0 +1,161 @@
+//! A graphics device that is lost under the window: the picture comes again, and what was under way goes on.
+
+use super::resizing::{SAYS, Watched, on_any_thread, shows_window_of, stencil_site};
+use super::xvfb::{screen, server, shades};
+use super::*;
+
+/// The pixels of what is shown.
+fn pixels(harness: &Harness<'_, App>) -> Vec<[u8; 4]> {
+    harness.state().picture().expect("a picture").2
+}
+
+/// How many pixels of two pictures are others.
+fn differing(a: &[[u8; 4]], b: &[[u8; 4]]) -> usize {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).filter(|(a, b)| a != b).count()
+}
+
+fn later(harness: &mut Harness<'_, App>, key: Key) {
+    harness.key_press_modifiers(egui::Modifiers::SHIFT, key);
+    harness.step();
+}
+
+#[test]
+fn picture_comes_again_whose_device_is_lost() {
+    let (_folder, site) = stencil_site("2h");
+    let mut harness = window(Some(&site));
+    let first = pixels(&harness);
+    later(&mut harness, Key::ArrowRight);
+    settle(&mut harness);
+    let moved = pixels(&harness);
+    assert_ne!(first, moved, "an hour later the shadows lie elsewhere");
+    later(&mut harness, Key::ArrowLeft);
+    settle(&mut harness);
+    assert_eq!(harness.state().told(), [None, None]);
+    // while one is drawn, and before the next is asked for
+    later(&mut harness, Key::ArrowRight);
+    harness.state().lose_pictures(0);
+    settle(&mut harness);
+    let [fault, note] = harness.state().told();
+    assert_eq!(fault, None);
+    let note = note.expect("it is told");
+    assert!(note.contains("its device was lost"), "{note}");
+    assert!(note.ends_with("; the picture was drawn again on a new device"), "{note}");
+    harness.get_by_label_contains("the picture was drawn again");
+    // it takes room from the picture
+    click(&mut harness, "Close");
+    settle(&mut harness);
+    assert_eq!(differing(&pixels(&harness), &moved), 0, "the same picture on a new device");
+    later(&mut harness, Key::ArrowLeft);
+    settle(&mut harness);
+    assert_eq!(differing(&pixels(&harness), &first), 0, "and so is what follows");
+}
+
+/// The processor's picture has the adapter's colours and shadows; lines are its own.
+#[test]
+fn picture_comes_without_any_device() {
+    let mut harness = window(Some(&sample("tower")));
+    let right = pixels(&harness);
+    let about = |a: &[u8; 4], b: &[u8; 4]| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 6);
+    for (further, note) in [
+        (1, "again; pictures are drawn on the processor now, by '"),
+        (2, "; pictures are drawn on the processor now, with sun and shadow alone"),
+    ] {
+        later(&mut harness, Key::ArrowRight);
+        harness.state().lose_pictures(further);
+        later(&mut harness, Key::ArrowLeft);
+        settle(&mut harness);
+        let [fault, told] = harness.state().told();
+        assert_eq!(fault, None);
+        assert!(told.is_some_and(|told| told.contains("its device was lost") && told.contains(note)), "{told:?}");
+        click(&mut harness, "Close");
+        settle(&mut harness);
+        let drawn = pixels(&harness);
+        assert_eq!(drawn.len(), right.len());
+        let alike = drawn.iter().zip(&right).filter(|(a, b)| about(a, b)).count();
+        assert!(alike * 100 > drawn.len() * 90, "{further}: {alike} of {} pixels are alike", drawn.len());
+    }
+    // and on it goes
+    harness.key_press(Key::Num2);
+    settle(&mut harness);
+    assert_eq!(harness.state().told()[0], None);
+}
+
+const LOST: &str = "lost::window_is_opened_again_whose_device_is_lost";
+
+/// Adds up hours, with every device of the window lost on the way, and says whether all is as it was.
+fn losing_window() {
+    let (_folder, site) = stencil_site("2min");
+    let (mut step, mut frames, mut right) = (0, 0, Vec::new());
+    desktop::open_with(Some(&site), &on_any_thread, &mut |app, context| {
+        frames += 1;
+        context.request_repaint_after(Duration::from_millis(20));
+        let rests = app.is_settled() && frames > 5;
+        let picture = |app: &App| app.picture().expect("a picture").2;
+        let before = step;
+        match step {
+            0 if rests => {
+                app.find_hours(context);
+                step = 1;
+            }
+            1 if rests => {
+                right = picture(app);
+                println!("{SAYS}hours {:?}", app.told());
+                step = 2;
+            }
+            // somebody looks at the screen
+            2 if frames == 100 => app.find_hours(context),
+            2 if frames > 101 => {
+                println!("{SAYS}a study is under way: {}", app.is_adding());
+                app.lose_window();
+                step = 3;
+            }
+            // the message takes room from the picture
+            3 | 6 if rests => {
+                println!("{SAYS}again {:?}", app.told());
+                app.hush();
+                step += 1;
+            }
+            4 | 7 if rests => {
+                println!("{SAYS}the same hours: {}", picture(app) == right);
+                println!("{SAYS}look");
+                step += 1;
+            }
+            // somebody looks at the screen
+            5 if frames > 150 => {
+                app.lose_pictures(0);
+                app.lose_window();
+                step = 6;
+            }
+            8 => context.send_viewport_cmd(egui::ViewportCommand::Close),
+            _ => {}
+        }
+        if step != before {
+            frames = 0;
+        }
+    })
+    .expect("a window");
+    println!("{SAYS}closed");
+}
+
+#[test]
+fn window_is_opened_again_whose_device_is_lost() {
+    if shows_window_of(LOST) {
+        return losing_window();
+    }
+    let (_server, display) = server(2);
+    let mut window = Watched::start(LOST, &display);
+    window.until("hours [None, None]");
+    let before = shades(&screen(&display).2);
+    window.until("look");
+    std::thread::sleep(Duration::from_millis(500));
+    let after = shades(&screen(&display).2);
+    window.until("closed");
+    let said = window.said.join("\n");
+    assert!(said.contains("a study is under way: true"), "{said}");
+    assert_eq!(said.matches("the same hours: true").count(), 2, "{said}");
+    let why = "failed (its device was lost); the window was opened again on a new device";
+    assert_eq!(said.matches(why).count(), 2, "{said}");
+    assert!(before.iter().zip(&after).all(|(a, b)| (a - b).abs() < 0.02), "{before:?} {after:?}");
+    assert!(window.process.0.wait().expect("an end").success());
+}

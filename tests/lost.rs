@@ -1,0 +1,176 @@
+//! A graphics device that is lost in the midst of a study: all is done again, and comes to the same.
+
+use gnomon::gpu::{Gpu, GpuError, lose_after, readback};
+use gnomon::site::{Engine, Method, Overrides, Receivers, Site};
+use gnomon::study::again::persist;
+use gnomon::study::{self, Event, InstantWants, StudyError, Wants};
+use gnomon::view::View;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// The works at four instants, in coarse cells, on a graphics adapter.
+fn works() -> Site {
+    let asked = Overrides { size: Some(200), ..Overrides::default() };
+    let mut site = Site::load(Path::new("sites/industry"), &asked).expect("a sample");
+    site.track.instants.truncate(4);
+    (site.method, site.engine) = (Method::Stencil, Engine::Gpu);
+    site
+}
+
+/// What a study tells: its notes, how often it began anew, and the instants that were drawn.
+#[derive(Debug, Default)]
+struct Told {
+    notes: Vec<String>,
+    anew: usize,
+    drawn: Vec<usize>,
+}
+
+impl Told {
+    fn hear(&mut self, event: &Event<'_>) -> ControlFlow<()> {
+        match event {
+            Event::Note(note) => self.notes.push(note.clone()),
+            Event::Anew => self.anew += 1,
+            Event::Drawn { index, .. } => self.drawn.push(*index),
+            _ => {}
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// That it was told of one device that was lost.
+    fn is_of_one_loss(&self) {
+        assert_eq!(self.anew, 1, "{self:?}");
+        let lost = self.notes.iter().filter(|note| note.contains("its device was lost"));
+        let lost: Vec<_> = lost.collect();
+        assert!(lost.len() == 1 && lost[0].ends_with(": all is done again on a new device"), "{lost:?}");
+    }
+}
+
+#[test]
+fn study_comes_to_the_same() {
+    let site = works();
+    let wants = Wants { bits: true, surface: true, ..Wants::default() };
+    let right = study::run(&site, &wants, &mut |_| ControlFlow::Continue(())).expect("a study");
+    let mut told = Told::default();
+    let again = study::run(&site, &wants, &mut |event| {
+        if matches!(event, Event::Drawn { index: 1, .. }) && told.anew == 0 {
+            lose_after(1);
+        }
+        told.hear(&event)
+    });
+    let again = again.expect("a study");
+    told.is_of_one_loss();
+    assert!(told.drawn.starts_with(&[0, 1]) && told.drawn.ends_with(&[0, 1, 2, 3]), "{:?}", told.drawn);
+    let cells = |outcome: &study::Outcome| outcome.profile.shaded.iter().collect::<Vec<u64>>();
+    assert!(cells(&right).iter().any(|secs| *secs > 0));
+    assert!(cells(&again) == cells(&right));
+    assert_eq!(again.drawn, right.drawn);
+}
+
+#[test]
+fn instant_comes_to_the_same() {
+    let site = works();
+    let (view, wants) = (View::Camera(site.camera), InstantWants { volumes: true, ..InstantWants::default() });
+    let right = study::instant(&site, view, &wants, &mut |_| ControlFlow::Continue(())).expect("an instant");
+    let mut told = Told::default();
+    lose_after(3);
+    let again = study::instant(&site, view, &wants, &mut |event| told.hear(&event)).expect("an instant");
+    told.is_of_one_loss();
+    assert!(again.mask.share == right.mask.share);
+    assert!(again.overlay.expect("volumes").layers == right.overlay.expect("volumes").layers);
+}
+
+#[test]
+fn frames_are_given_out_once_each() {
+    let site = works();
+    let view = View::Plan(site.grid);
+    let mut masks = [Vec::new(), Vec::new()];
+    for (loses, masks) in [false, true].into_iter().zip(&mut masks) {
+        let mut told = Told::default();
+        let given = &mut *masks;
+        study::frames::<StudyError>(&site, view, &mut |event| told.hear(&event), &mut |frame| {
+            given.push(frame.mask.share.clone());
+            if loses && given.len() == 2 {
+                lose_after(0);
+            }
+            Ok(())
+        })
+        .expect("frames");
+        if loses {
+            told.is_of_one_loss();
+        }
+    }
+    assert_eq!(masks[1].len(), 4);
+    assert!(masks[0] == masks[1]);
+}
+
+#[test]
+fn surfaces_come_to_the_same() {
+    let site = Site { method: Method::SoftTexture, receivers: Receivers::Surfaces, ..works() };
+    let cell = 2.0;
+    let right = study::surfaces(&site, cell, &mut |_| ControlFlow::Continue(())).expect("surfaces");
+    let mut told = Told::default();
+    let again = study::surfaces(&site, cell, &mut |event| {
+        if matches!(event, Event::Drawn { index: 1, .. }) && told.anew == 0 {
+            lose_after(0);
+        }
+        told.hear(&event)
+    });
+    let again = again.expect("surfaces");
+    told.is_of_one_loss();
+    assert!(again.hours.lit == right.hours.lit && again.hours.lit.iter().any(|secs| *secs > 0));
+}
+
+/// A driver that fails again and again: the processor does it, where nobody asked for what draws on an adapter alone.
+#[test]
+fn processor_does_what_no_device_does() {
+    let lost = || GpuError::Lost { adapter: "some card".to_owned(), reason: "memory\nis full".to_owned() };
+    let works = works();
+    let free = Site { method: Method::Auto, engine: Engine::Auto, ..works.clone() };
+    let attempt = |site: &Site, can: bool| {
+        let (mut told, mut engines) = (Told::default(), Vec::new());
+        let done = persist(site, can, &mut |event| told.hear(&event), &mut |site, _| {
+            engines.push(site.engine);
+            if site.engine == Engine::Cpu { Ok(()) } else { Err(lost().into()) }
+        });
+        (done, told, engines)
+    };
+    let (done, told, engines) = attempt(&free, true);
+    assert!(done.is_ok());
+    assert_eq!(engines, [Engine::Auto, Engine::Auto, Engine::Cpu]);
+    let why = "the graphics adapter 'some card' failed (memory is full): all is done again";
+    assert_eq!(told.notes, [format!("{why} on a new device"), format!("{why} on the processor")]);
+    for (site, can) in [(&free, false), (&works, true)] {
+        let (done, told, engines) = attempt(site, can);
+        assert!(done.is_err_and(|error| error.lost_device().is_some()));
+        assert_eq!((told.anew, engines.len()), (1, 2));
+    }
+    // what an adapter cannot do, it cannot on a new device either
+    let mut attempts = 0;
+    let done = persist(&free, true, &mut |_| ControlFlow::Continue(()), &mut |_, _| -> Result<(), StudyError> {
+        attempts += 1;
+        Err(GpuError::Failed { adapter: "some card".to_owned(), reason: "too large".to_owned() }.into())
+    });
+    assert!(done.is_err() && attempts == 1);
+}
+
+/// A picture of the stage's device is shown by the window's.
+#[test]
+fn picture_goes_from_one_device_to_another() {
+    let devices = [Gpu::open().expect("an adapter"), Gpu::open().expect("an adapter")];
+    // rows that end beside the alignment of copies, and more than are copied in one go
+    for (width, height) in [(1, 1), (77, 5), (1920, 1080), (4096, 4100)] {
+        let usage = wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST;
+        let [from, to] =
+            [0, 1].map(|at| devices[at].texture("test", (width, height), wgpu::TextureFormat::Rgba8Unorm, usage));
+        let texels: Vec<[u8; 4]> =
+            (0..width * height).map(|at| (at.wrapping_mul(2_654_435_761)).to_le_bytes()).collect();
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
+        let bytes = texels.iter().flatten().copied().collect::<Vec<u8>>();
+        devices[0].queue.write_texture(from.as_image_copy(), &bytes, layout, from.size());
+        let begun = std::time::Instant::now();
+        readback::hand_over(&devices[0], &from, &devices[1].queue, &to).expect("a copy");
+        println!("{width} x {height}: {:.1} ms", begun.elapsed().as_secs_f64() * 1e3);
+        let there: Vec<[u8; 4]> = readback::texels(&devices[1], &to, wgpu::TextureAspect::All).expect("texels");
+        assert!(there == texels, "{width} x {height}");
+    }
+}
