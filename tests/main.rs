@@ -11,6 +11,7 @@ mod dome;
 mod elevation;
 mod exact;
 mod export;
+mod far;
 mod far_wrong;
 mod folders;
 mod geometry;

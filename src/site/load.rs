@@ -10,6 +10,7 @@ use super::{Finder, Method, Receivers, Site, camera, notes, plan, study};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::sun::{Place, SunTrack};
+use glam::DVec3;
 use std::path::Path;
 
 /// A shadow that is longer than this, in heights, does not make the default region larger:
@@ -130,12 +131,13 @@ impl Site {
         let models = models()?;
         let [casts, receives] = models.roles(written)?;
         let Models { mesh, bounds, notes, .. } = models;
-        let notes = notes.into_iter().chain(track.notes()).collect();
         let ground = level.unwrap_or(bounds.low.z);
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
         let grid = plan::grid(written, asked, || shadows(SHADOW_CUT))?;
         let side = camera::side(written, asked)?;
         let camera = camera::camera(written, side, bounds, shadows(VIEW_CUT), ground, &track)?;
+        let eye = written.site.camera.eye.map(DVec3::from_array);
+        let notes = notes.into_iter().chain(track.notes()).chain(notes::on_view(&mesh, &grid, eye)).collect();
         Ok(Site {
             place,
             mesh,

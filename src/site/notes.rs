@@ -1,11 +1,17 @@
-//! What the user should know of where models stand, and of the numbers that they are written with.
+//! What the user should know of where models stand, of what is asked far from them, and of the numbers that they are written with.
 
 use super::load::Frame;
 use crate::mesh::{Coarse, Component, Mesh};
+use crate::view::{Grid, Probe};
+use glam::{DVec2, DVec3};
 use std::ops::Range;
 
 /// Beyond this distance a place's sun and its flat frame no longer hold to what the drawing says, metres.
 const FAR_M: f64 = 20_000.0;
+
+/// A plan, an eye or a probe farther from the place than this is told, metres: a town's models reach less far, and map
+/// coordinates always more.
+const ASKED_FAR_M: f64 = 50_000.0;
 
 /// The notes on all models: their names, and which components are whose. Each is a sentence without its stop.
 pub(super) fn of(mesh: &Mesh, frame: Frame, models: &[(String, Range<usize>)]) -> Vec<String> {
@@ -23,6 +29,33 @@ pub(super) fn of(mesh: &Mesh, frame: Frame, models: &[(String, Range<usize>)]) -
         notes.extend(rounded(model, components));
     }
     notes
+}
+
+/// Whether the plan that is asked, or the eye that is written, is in map coordinates; where the models stand so far away, too,
+/// the note on them says it.
+pub(super) fn on_view(mesh: &Mesh, grid: &Grid, eye: Option<DVec3>) -> impl Iterator<Item = String> {
+    let [west, south, east, north] = grid.region();
+    let middle = DVec2::new(west + east, south + north) / 2.0;
+    let plan = asked_far("the middle of the plan lies", "region", middle);
+    let camera = eye.and_then(|eye| asked_far("the camera stands", "eye", eye.truncate()));
+    let are_near = mesh.origin.truncate().length() <= ASKED_FAR_M;
+    plan.into_iter().chain(camera).filter(move |_| are_near)
+}
+
+/// Whether a probe is in map coordinates: the first one that is.
+pub(super) fn on_probes(probes: &[Probe]) -> Option<String> {
+    let far = |probe: &Probe| asked_far(&format!("the probe '{}' lies", probe.name), "point", probe.point.truncate());
+    probes.iter().find_map(far)
+}
+
+fn asked_far(what: &str, key: &str, at: DVec2) -> Option<String> {
+    (at.length() > ASKED_FAR_M).then(|| {
+        let km = at.length() / 1000.0;
+        format!(
+            "{what} {km:.0} km from the place, maybe in another country; if `{key}` is in map coordinates, write metres east \
+             and north of the place"
+        )
+    })
 }
 
 /// What of a model stands far from all else.

@@ -6,6 +6,7 @@ use super::error::{At, SiteError};
 use super::load::ground_level;
 use super::model;
 use super::models::Models;
+use super::notes::on_probes;
 use super::study::{date_of, no_study};
 use super::written::Written;
 use crate::mesh::Mesh;
@@ -62,6 +63,7 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
     let [casts, _] = models.roles(&written)?;
     let Models { mesh, bounds, mut notes, .. } = models;
     notes.extend(days.last().and_then(|day| Zone::doubt(&day.to)));
+    notes.extend(on_probes(&probes));
     Ok(Probing {
         place,
         mesh,

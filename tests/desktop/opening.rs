@@ -98,3 +98,17 @@ fn study_of_several_days_stays_as_it_is() {
     let study = harness.state().site_file().study.clone();
     assert!(study.from.is_none() && study.to.is_none() && study.date.is_none(), "{study:?}");
 }
+
+/// What a study would say of coordinates that are not those of the place stands in the panel before any study.
+#[test]
+fn plan_in_map_coordinates_is_told_on_opening() {
+    let (folder, site) = small_site();
+    let text = std::fs::read_to_string(&site).unwrap();
+    let far = text.replace("cell = 2.0", "cell = 2.0\nregion = [625600, 483000, 625900, 483300]");
+    let far_site = folder.path().join("far.toml");
+    std::fs::write(&far_site, far).unwrap();
+    let mut harness = window(Some(&far_site));
+    harness.get_by_label_contains("the middle of the plan lies 791 km from the place");
+    drop_file(&mut harness, &site);
+    assert!(harness.query_by_label_contains("the middle of the plan").is_none());
+}
