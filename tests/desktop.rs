@@ -12,6 +12,7 @@ mod opening;
 mod playing;
 mod reloading;
 mod resizing;
+mod saving;
 mod showing;
 mod soak;
 mod typing;

@@ -60,7 +60,7 @@ impl Lines {
     }
 
     /// What the files are called.
-    fn names(self) -> [&'static str; 2] {
+    pub(crate) fn names(self) -> [&'static str; 2] {
         match self {
             Lines::Hours => ["hours.png", "hours.svg"],
             Lines::Outlines => ["outlines.png", "outlines.svg"],
@@ -74,11 +74,11 @@ impl Lines {
         profile: &Profile,
         outlines: &[Outline],
     ) -> Result<[(&'static str, Vec<u8>); 2], ExportError> {
-        let [png, svg] = self.names();
         let drawing = match self {
             Lines::Hours => figure::iso_hours(scene, profile)?,
             Lines::Outlines => figure::outlines(scene, &profile.grid, outlines)?,
         };
+        let [png, svg] = self.names();
         Ok([(png, drawing.png()?), (svg, drawing.svg().into_bytes())])
     }
 }

@@ -1,10 +1,10 @@
 //! What a person asks of the window: to open, to write, to copy, to see all.
 
 use super::app::App;
-use super::files::{Asking, Purpose};
+use super::files::{self, Asking, Purpose};
 use super::handing;
-use super::loading::{Loading, Wanted, name_of};
-use crate::export::file;
+use super::loading::{Loading, Project, Wanted, name_of};
+use super::saving::Then;
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -12,7 +12,16 @@ use std::sync::Arc;
 impl App {
     pub(super) fn ask(&mut self, purpose: Purpose, context: &egui::Context) {
         if self.asking.is_none() {
-            self.asking = Some(Asking::start(purpose, Some(self.folder()), context.clone()));
+            let proposed =
+                if purpose == Purpose::SaveSite { self.proposed_site() } else { self.folder().join(purpose.name()) };
+            let laid = self.open.as_ref().and_then(|open| open.laid.as_ref());
+            let files = match purpose {
+                Purpose::Hours => laid.map_or(Vec::new(), |laid| laid.names().to_vec()),
+                Purpose::Lines(lines) => lines.names().to_vec(),
+                Purpose::Animation => vec!["day.gif", "frame-0000.png"],
+                _ => Vec::new(),
+            };
+            self.asking = Some(Asking::start(purpose, proposed, files, context.clone()));
         }
     }
 
@@ -26,26 +35,44 @@ impl App {
         self.had_focus = has_focus;
     }
 
-    /// Reads the open site's files anew. What was set in the window stays where the site file has not changed on the disk,
-    /// and else is what undo brings back.
+    /// Reads the open site's files anew. What was set in the window stays where the site file has not changed on the disk;
+    /// else it is asked about, and is what undo brings back.
     pub(super) fn reload(&mut self, context: &egui::Context) {
+        let Some(open) = &self.open else { return };
+        if open.project.path.as_ref().is_some_and(|path| open.project.written.has_changed_at(path)) {
+            self.go_on_or_ask(Then::Reload, context);
+        } else {
+            self.reload_now(context);
+        }
+    }
+
+    pub(super) fn reload_now(&mut self, context: &egui::Context) {
         let Some(open) = self.open.as_ref().filter(|_| self.loading.is_none()) else { return };
         (self.fault, self.notice, self.changed) = (None, None, None);
         match open.project.on_disk(&self.settings.site) {
             Ok(written) => {
+                let is_of_file = written.text != open.project.written.text;
                 self.settings.site = written.site.clone();
                 let hidden = Arc::clone(&self.settings.hidden);
                 let wanted = Wanted::Again(Box::new(written), hidden, Box::new(open.project.before(true)));
                 self.loading = Some(Loading::start(wanted, context.clone()));
                 self.is_reading = true;
+                if is_of_file {
+                    let technique = self.settings.site.study.technique.as_deref();
+                    self.settings.shown.method = technique.and_then(|word| word.parse().ok()).unwrap_or_default();
+                    self.note_saved();
+                }
             }
             Err(error) => self.fault = Some(error.to_string()),
         }
     }
 
     pub(super) fn folder(&self) -> PathBuf {
-        let of_site = self.open.as_ref().map(|open| open.project.written.folder.clone());
-        let of_recent = || self.kept.recent.first().and_then(|path| path.parent()).map(Path::to_owned);
+        let is_own = |project: &Project| !project.path.as_deref().is_some_and(files::is_sample);
+        let of_site = self.open.as_ref().map(|open| &open.project).filter(|project| is_own(project));
+        let of_site = of_site.map(|project| project.written.folder.clone());
+        let recent = || self.kept.recent.iter().find(|path| !files::is_sample(path));
+        let of_recent = || recent().and_then(|path| path.parent()).map(Path::to_owned);
         let folder = of_site.or_else(of_recent).filter(|folder| folder.is_dir());
         folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default()
     }
@@ -55,29 +82,12 @@ impl App {
         match purpose {
             Purpose::Open => return self.load(Wanted::File(path), context),
             Purpose::Compare => return self.compare_with(&path, context),
+            Purpose::SaveSite => return self.write_site(path, context),
             _ => {}
         }
         let Some(open) = &mut self.open else { return };
         match purpose {
-            Purpose::Open | Purpose::Compare => {}
-            Purpose::SaveSite => {
-                let mut written = handing::written(&open.project, &self.settings, &open.viewer.eye, &path);
-                let text = written.site.to_toml_in(&written.text).map_err(anyhow::Error::from);
-                match text.and_then(|text| file::write(&path, text.as_bytes()).map(|()| text).map_err(Into::into)) {
-                    Ok(text) => {
-                        written.text = text;
-                        // what undo brings back is read from the new place, too
-                        let from = open.project.written.folder.clone();
-                        self.history.change_all(|site| handing::move_models(site, &from, &written.folder));
-                        self.notice = Some(format!("Written: {}", path.display()));
-                        open.project.path = Some(path);
-                        self.settings.site = written.site.clone();
-                        open.project.written = written;
-                        self.history.note(&self.settings);
-                    }
-                    Err(error) => self.fault = Some(error.to_string()),
-                }
-            }
+            Purpose::Open | Purpose::Compare | Purpose::SaveSite => {}
             Purpose::Drawing => {
                 let (eye, time) = (open.viewer.eye, open.clock.now.time);
                 self.writing = Some(handing::drawing(&open.project, &self.settings, eye, time, path, context.clone()));

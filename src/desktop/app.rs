@@ -9,6 +9,7 @@ use super::hours::{self, Laid};
 use super::loading::{Fault, Loading, Project, Wanted};
 use super::pick::Under;
 use super::reopening::devices;
+use super::saving::{Saving, Then};
 use super::settings::{History, Settings};
 use super::stage::Stage;
 use super::typed::Typed;
@@ -86,6 +87,8 @@ pub struct App {
     pub(super) writing: Option<Work<PathBuf>>,
     /// What is typed into the panel's fields.
     pub(super) typed: Typed,
+    /// What is saved, and what is asked about what is not.
+    pub(super) saving: Saving,
     /// What went wrong, as the command would say it.
     pub(super) fault: Option<String>,
     /// What was done.
@@ -124,6 +127,7 @@ impl App {
             asking: None,
             writing: None,
             typed: Typed::default(),
+            saving: Saving::default(),
             fault: None,
             notice: None,
             changed: None,
@@ -224,7 +228,7 @@ impl App {
     }
 
     /// Takes what the work beside the window has come to.
-    fn receive(&mut self) {
+    fn receive(&mut self, context: &egui::Context) {
         if let Some(note) = self.stage.note() {
             self.notice = Some(note);
         }
@@ -232,7 +236,8 @@ impl App {
             let opens = self.loading.take().is_none_or(|loading| loading.opens);
             self.is_reading = false;
             match result {
-                Ok(project) => self.take(project, opens),
+                Ok(project) if opens => self.go_on_or_ask(Then::Open(Box::new(project)), context),
+                Ok(project) => self.take(project, false),
                 Err(Fault::Bare(path)) => {
                     self.bare = Some(Bare::new(path));
                 }
@@ -285,7 +290,7 @@ impl App {
     }
 
     /// Shows a site that was loaded: another one, or the open one as it is written now.
-    fn take(&mut self, project: Project, opens: bool) {
+    pub(super) fn take(&mut self, project: Project, opens: bool) {
         self.loaded += 1;
         self.refused = None;
         self.changed = self.changed.take().filter(|_| project.changed_file().is_some());
@@ -342,6 +347,7 @@ impl App {
                     clicked: None,
                     project,
                 });
+                self.note_saved();
             }
         }
     }
@@ -379,9 +385,13 @@ impl App {
 }
 
 impl eframe::App for App {
+    fn logic(&mut self, context: &egui::Context, _frame: &mut eframe::Frame) {
+        self.watch_closing(context);
+    }
+
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
-        self.receive();
+        self.receive(&context);
         self.shortcuts(&context);
         let dropped = context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
         if let Some(path) = dropped {
@@ -420,12 +430,13 @@ impl eframe::App for App {
         self.ask_place(&context);
         self.look_for_changes(&context);
         if let Some(mut asking) = self.asking.take() {
-            match asking.show(&context, &self.folder()) {
+            match asking.show(&context) {
                 Answer::None => self.asking = Some(asking),
-                Answer::Nothing => {}
+                Answer::Nothing => self.give_up_saving(),
                 Answer::Path(purpose, path) => self.answer(purpose, path, &context),
             }
         }
+        self.save_and_ask(&context);
         self.follow_settings(&context);
     }
 

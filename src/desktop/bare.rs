@@ -67,7 +67,9 @@ fn field(ui: &mut Ui, name: &str, hint: &str, text: &mut String, fault: &mut Opt
 impl App {
     /// Asks where the model stands.
     pub(super) fn ask_place(&mut self, context: &egui::Context) {
-        let Some(bare) = &mut self.bare else { return };
+        // one question after the other
+        let is_questioned = self.is_questioned();
+        let Some(bare) = self.bare.as_mut().filter(|_| !is_questioned) else { return };
         let mut goes = false;
         let mut closes = false;
         let modal = look::modal(context, "place").show(context, |ui| {

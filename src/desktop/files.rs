@@ -1,9 +1,11 @@
 //! Paths that are asked for: by dialogs of the system, or one in the window where the system has none; and samples.
 
 use super::look;
+use super::question::Question;
 use crate::cli::draw::Lines;
 use crate::export::file;
 use eframe::egui;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
@@ -46,7 +48,13 @@ impl Purpose {
         matches!(self, Purpose::Open | Purpose::Compare)
     }
 
-    fn name(self) -> &'static str {
+    /// Whether a folder is asked for, and not a file.
+    fn is_folder(self) -> bool {
+        matches!(self, Purpose::Hours | Purpose::Lines(_) | Purpose::Animation)
+    }
+
+    /// What is proposed, beside what is open.
+    pub(super) fn name(self) -> &'static str {
         match self {
             Purpose::Open | Purpose::Compare => "",
             Purpose::SaveSite => "site.toml",
@@ -62,10 +70,16 @@ pub(super) struct Asking {
     purpose: Purpose,
     begun: Instant,
     answer: mpsc::Receiver<Option<PathBuf>>,
+    /// What is proposed.
+    proposed: PathBuf,
+    /// Names of the files that will be written, where a folder is asked for.
+    files: Vec<&'static str>,
     /// The dialog in the window: what is typed.
     typed: Option<String>,
     /// It has been shown, and its field had the focus.
     is_met: bool,
+    /// The path that was chosen, and the file that is there already.
+    replaces: Option<(PathBuf, PathBuf)>,
 }
 
 /// What an asking came to.
@@ -79,42 +93,58 @@ pub(super) enum Answer {
 }
 
 impl Asking {
-    /// Asks by the system's dialog, from a folder on.
-    pub(super) fn start(purpose: Purpose, folder: Option<PathBuf>, context: egui::Context) -> Asking {
+    /// Asks by the system's dialog, beginning with what is proposed; `files` are the names of what will be written into a
+    /// folder.
+    pub(super) fn start(
+        purpose: Purpose,
+        proposed: PathBuf,
+        files: Vec<&'static str>,
+        context: egui::Context,
+    ) -> Asking {
         let (tell, answer) = mpsc::channel();
+        let folder = if purpose.reads() { Some(proposed.as_path()) } else { proposed.parent() }.map(Path::to_owned);
+        let name = proposed.file_name().map(OsStr::to_owned);
         std::thread::spawn(move || {
             let mut dialog = rfd::FileDialog::new().set_title(purpose.title());
             if let Some(folder) = folder {
                 dialog = dialog.set_directory(folder);
             }
+            let name = name.unwrap_or_default().to_string_lossy().into_owned();
+            // before a file is replaced the system asks
             let path = match purpose {
                 Purpose::Open | Purpose::Compare => dialog
                     .add_filter("Sites and models", &["toml", "glb", "gltf"])
                     .add_filter("All", &["*"])
                     .pick_file(),
-                Purpose::SaveSite => dialog.add_filter("Site", &["toml"]).set_file_name(purpose.name()).save_file(),
-                Purpose::Drawing => dialog.add_filter("PNG", &["png"]).set_file_name(purpose.name()).save_file(),
+                Purpose::SaveSite => dialog.add_filter("Site", &["toml"]).set_file_name(name).save_file(),
+                Purpose::Drawing => dialog.add_filter("PNG", &["png"]).set_file_name(name).save_file(),
                 Purpose::Hours | Purpose::Lines(_) | Purpose::Animation => dialog.pick_folder(),
             };
             // who closed the window listens no more
             let _ = tell.send(path);
             context.request_repaint();
         });
-        Asking { purpose, begun: Instant::now(), answer, typed: None, is_met: false }
+        let begun = Instant::now();
+        Asking { purpose, begun, answer, proposed, files, typed: None, is_met: false, replaces: None }
     }
 
     /// Looks for the answer; shows the dialog in the window where the system showed none.
-    pub(super) fn show(&mut self, context: &egui::Context, folder: &Path) -> Answer {
+    pub(super) fn show(&mut self, context: &egui::Context) -> Answer {
         /// Nobody answers so soon: there was no dialog.
         const AT_ONCE: Duration = Duration::from_millis(400);
         match self.answer.try_recv() {
+            Ok(Some(path)) if self.purpose.is_folder() => return self.choose(path),
             Ok(Some(path)) => return Answer::Path(self.purpose, path),
             Ok(None) if self.begun.elapsed() > AT_ONCE => return Answer::Nothing,
-            Ok(None) => self.typed = Some(folder.join(self.purpose.name()).display().to_string()),
+            Ok(None) => self.typed = Some(self.proposed.display().to_string()),
             Err(_) => {}
         }
+        if self.replaces.is_some() {
+            return self.ask_replacing(context);
+        }
         let Some(typed) = &mut self.typed else { return Answer::None };
-        let mut answer = Answer::None;
+        let mut chosen = None;
+        let mut closes = false;
         let modal = look::modal(context, "path").show(context, |ui| {
             ui.set_width(520.0);
             ui.heading(self.purpose.title());
@@ -136,18 +166,54 @@ impl Asking {
                     Purpose::Compare => "Compare",
                     _ => "Write",
                 };
-                if ui.button(go).clicked() || entered {
-                    answer = Answer::Path(self.purpose, PathBuf::from(typed.trim()));
+                let is_said = !typed.trim().is_empty();
+                let goes = ui.add_enabled(is_said, egui::Button::new(go)).clicked() || entered;
+                if goes && is_said {
+                    chosen = Some(PathBuf::from(typed.trim()));
                 }
-                if ui.button("Cancel").clicked() {
-                    answer = Answer::Nothing;
-                }
+                closes = ui.button("Cancel").clicked();
             });
         });
-        if modal.should_close() {
-            answer = Answer::Nothing;
+        match chosen {
+            _ if closes || modal.should_close() => Answer::Nothing,
+            Some(path) => self.choose(path),
+            None => Answer::None,
         }
-        answer
+    }
+
+    /// A path was chosen; what is there already is not replaced without a question.
+    fn choose(&mut self, path: PathBuf) -> Answer {
+        let is_there = |file: &PathBuf| file.is_file();
+        let there = match self.purpose {
+            purpose if purpose.reads() => None,
+            purpose if purpose.is_folder() => self.files.iter().map(|name| path.join(name)).find(is_there),
+            _ => Some(path.clone()).filter(is_there),
+        };
+        let Some(there) = there else { return Answer::Path(self.purpose, path) };
+        self.replaces = Some((path, there));
+        Answer::None
+    }
+
+    fn ask_replacing(&mut self, context: &egui::Context) -> Answer {
+        let Some((path, there)) = &self.replaces else { return Answer::None };
+        let name = there.file_name().unwrap_or_default().to_string_lossy();
+        let others = if self.purpose.is_folder() { " Files of the same names are replaced." } else { "" };
+        let question = Question {
+            heading: "Replace what is there?",
+            text: &format!("{name} is there already.{others}"),
+            path: &there.display().to_string(),
+            answers: ["Replace", "Cancel"],
+            first: 1,
+        };
+        match question.show(context) {
+            None => Answer::None,
+            Some(0) => Answer::Path(self.purpose, path.clone()),
+            // back to the path, where that was typed here
+            Some(_) => {
+                (self.replaces, self.is_met) = (None, false);
+                if self.typed.is_some() { Answer::None } else { Answer::Nothing }
+            }
+        }
     }
 }
 
@@ -200,9 +266,19 @@ pub(super) fn sample(name: &str) -> anyhow::Result<PathBuf> {
             include_bytes!("../../sites/headquarters/headquarters.glb"),
         ),
     };
-    let folder = std::env::temp_dir().join(format!("gnomon-{}-samples", env!("CARGO_PKG_VERSION"))).join(name);
+    let folder = samples_folder().join(name);
     file::write(&folder.join(format!("{name}.glb")), model)?;
     let path = folder.join("site.toml");
     file::write(&path, toml.as_bytes())?;
     Ok(path)
+}
+
+/// Where the samples are written out, each time that they are opened.
+fn samples_folder() -> PathBuf {
+    std::env::temp_dir().join(format!("gnomon-{}-samples", env!("CARGO_PKG_VERSION")))
+}
+
+/// Whether a site file is a sample's, and nobody's to keep.
+pub(super) fn is_sample(path: &Path) -> bool {
+    path.starts_with(samples_folder())
 }

@@ -15,6 +15,7 @@ use eframe::egui::{self, Key, KeyboardShortcut, Modifiers, ThemePreference, Ui};
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
 const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
+const SAVE_AS: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::S);
 const RELOAD: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::R);
 const RELOAD_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::F5);
 const EXPORT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::E);
@@ -51,8 +52,11 @@ fn interface_scale(ui: &mut Ui) {
 
 impl App {
     pub(super) fn shortcuts(&mut self, context: &egui::Context) {
+        if self.is_questioned() {
+            return;
+        }
         let pressed = |shortcut| context.input_mut(|input| input.consume_shortcut(&shortcut));
-        let redo = pressed(REDO);
+        let (redo, saves_as) = (pressed(REDO), pressed(SAVE_AS));
         let (undo, opens, saves, exports) = (pressed(UNDO), pressed(OPEN), pressed(SAVE), pressed(EXPORT));
         if pressed(RELOAD) || pressed(RELOAD_TOO) {
             self.reload(context);
@@ -68,7 +72,12 @@ impl App {
         if opens {
             self.ask(Purpose::Open, context);
         }
-        if saves && self.open.is_some() {
+        if saves && self.open.is_some() && self.asking.is_none() {
+            // what is typed is taken first, in this very frame
+            context.memory_mut(|memory| memory.stop_text_input());
+            self.saving.saves = true;
+        }
+        if saves_as && self.open.is_some() {
             self.ask(Purpose::SaveSite, context);
         }
         if exports && self.open.is_some() {
@@ -130,7 +139,10 @@ impl App {
                     self.reload(&context);
                 }
                 ui.separator();
-                if ui.add_enabled(is_open, button("Save the site file…", &SAVE)).clicked() {
+                if ui.add_enabled(is_open, button("Save the site file", &SAVE)).clicked() {
+                    self.saving.saves = true;
+                }
+                if ui.add_enabled(is_open, button("Save as…", &SAVE_AS)).clicked() {
                     self.ask(Purpose::SaveSite, &context);
                 }
                 if ui.add_enabled(is_open, button("Export the drawing…", &EXPORT)).clicked() {

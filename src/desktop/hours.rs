@@ -102,6 +102,15 @@ impl Laid {
         }
     }
 
+    /// What its files are called.
+    pub(super) fn names(&self) -> &'static [&'static str] {
+        match &self.found {
+            Found::Shadow(_) => &["profile.png", "shadow-hours.tif", "profile.json"],
+            Found::Change(_) => &["compare.png", "shadow-hours-difference.tif", "compare.json"],
+            Found::Facades(_) => &["surfaces.png", "surfaces.glb", "surfaces.csv", "profile.json"],
+        }
+    }
+
     /// Its files, as the command makes them.
     ///
     /// # Errors

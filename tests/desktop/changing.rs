@@ -23,7 +23,7 @@ fn hours_are_found_by_the_technique_chosen() {
     menu(&mut harness, "Export the hours…");
     let out = folder.path().join("window");
     answer(&mut harness, &out, "Write");
-    menu(&mut harness, "Save the site file…");
+    menu(&mut harness, "Save as…");
     let saved = folder.path().join("saved.toml");
     answer(&mut harness, &saved, "Write");
     let by_command = folder.path().join("command");
@@ -41,7 +41,7 @@ fn undo_finds_the_model_of_a_site_saved_elsewhere() {
     let mut harness = window(Some(&site));
     write(&mut harness, "step", "4h");
     settle(&mut harness);
-    menu(&mut harness, "Save the site file…");
+    menu(&mut harness, "Save as…");
     answer(&mut harness, &folder.path().join("elsewhere/site.toml"), "Write");
     for _ in 0..3 {
         if harness.state().site_file().study.step.as_deref() != Some("2h") {

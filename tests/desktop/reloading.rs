@@ -16,6 +16,8 @@ fn come_back(harness: &mut Harness<'_, App>) {
 /// Exports the drawing of the plan, and returns it.
 fn plan(harness: &mut Harness<'_, App>, folder: &Path) -> Vec<u8> {
     let file = folder.join("window.png");
+    // else it is asked whether it is to be replaced
+    let _ = std::fs::remove_file(&file);
     harness.key_press(Key::Num2);
     harness.step();
     settle(harness);
@@ -105,6 +107,8 @@ fn changed_site_file_is_read_and_undone() {
     harness.get_by_label_contains("has changed on the disk.");
     harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::R);
     harness.step();
+    harness.step();
+    click(&mut harness, "Don't save");
     settle(&mut harness);
     assert_eq!(step(&harness).as_deref(), Some("4h"));
     harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
@@ -115,6 +119,8 @@ fn changed_site_file_is_read_and_undone() {
     std::fs::write(&site, "[[[").unwrap();
     harness.key_press(Key::F5);
     harness.step();
+    harness.step();
+    click(&mut harness, "Don't save");
     settle(&mut harness);
     harness.get_by_label_contains("the file must be TOML");
     assert_eq!(step(&harness).as_deref(), Some("1h"));

@@ -1,0 +1,265 @@
+//! The site file is saved, and what is not saved is asked about before it would be lost.
+
+use super::app::App;
+use super::files::{self, Purpose};
+use super::handing;
+use super::loading::{Project, name_of};
+use super::question::Question;
+use crate::export::file;
+use crate::site::Method;
+use crate::site::file::SiteFile;
+use eframe::egui::{self, ViewportCommand};
+use std::path::{Path, PathBuf};
+
+/// What is saved, and what is asked about what is not.
+#[derive(Default)]
+pub(super) struct Saving {
+    /// What the site file says, and by which technique; none yet for a bare model.
+    saved: Option<(SiteFile, Method)>,
+    question: Option<Asked>,
+    /// What goes on once it is saved.
+    then: Option<Then>,
+    /// Ctrl+S, or the window's own way to close: once the fields have what is typed.
+    pub(super) saves: bool,
+    closes: bool,
+    /// Nobody wants what is not saved.
+    is_left: bool,
+    title: String,
+}
+
+/// What is asked.
+enum Asked {
+    /// What becomes of what is not saved.
+    Unsaved(Then),
+    /// Whether the site file, which is not what was read any more, is replaced.
+    Replaced(PathBuf),
+}
+
+/// What would lose what is not saved.
+pub(super) enum Then {
+    /// The window closes.
+    Close,
+    /// Another site is open.
+    Open(Box<Project>),
+    /// The site file is read anew.
+    Reload,
+}
+
+impl App {
+    /// Whether something is set that no file has.
+    pub fn is_unsaved(&self) -> bool {
+        self.open.is_some()
+            && self
+                .saving
+                .saved
+                .as_ref()
+                .is_none_or(|(site, method)| *site != self.settings.site || *method != self.settings.shown.method)
+    }
+
+    /// What the window's bar says: the file, with a mark while it is not what is set.
+    pub fn title(&self) -> String {
+        match self.file_name() {
+            Some(name) => format!("{}{name} — Gnomon", if self.is_unsaved() { "• " } else { "" }),
+            None => "Gnomon".to_owned(),
+        }
+    }
+
+    /// What people call the open file: a `site.toml` by its folder, too.
+    fn file_name(&self) -> Option<String> {
+        let project = &self.open.as_ref()?.project;
+        let path = project.path.as_deref().unwrap_or(Path::new(&project.written.file));
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        let folder = name_of(path);
+        Some(if folder == name { name } else { format!("{folder}/{name}") })
+    }
+
+    /// The settings are those of the site file, or of a bare model.
+    pub(super) fn note_saved(&mut self) {
+        let saved = || (self.settings.site.clone(), self.settings.shown.method);
+        let has_file = self.open.as_ref().is_some_and(|open| open.project.path.is_some());
+        self.saving.saved = has_file.then(saved);
+    }
+
+    /// Writes the site file that is open; asks where, for a bare model and a sample.
+    pub(super) fn save_site(&mut self, context: &egui::Context) {
+        let Some(open) = &self.open else { return };
+        match &open.project.path {
+            Some(path) if !files::is_sample(path) => {
+                let path = path.clone();
+                if open.project.written.has_changed_at(&path) {
+                    self.saving.question = Some(Asked::Replaced(path));
+                } else {
+                    self.write_site(path, context);
+                }
+            }
+            _ => self.ask(Purpose::SaveSite, context),
+        }
+    }
+
+    /// Where a site file is proposed to be written: where it lies, or where none does.
+    pub(super) fn proposed_site(&self) -> PathBuf {
+        let open = self.open.as_ref().map(|open| (&open.project.path, &open.project.written.file));
+        let Some((path, file)) = open else { return self.folder().join("site.toml") };
+        match path.as_deref().filter(|path| !files::is_sample(path)) {
+            Some(path) => path.to_owned(),
+            None => {
+                let named = path.as_deref().unwrap_or(Path::new(file));
+                let name = Path::new(&name_of(named)).with_extension("toml");
+                let plain = self.folder().join("site.toml");
+                if plain.exists() { self.folder().join(name) } else { plain }
+            }
+        }
+    }
+
+    /// Writes the site file, which is the open one from now on.
+    pub(super) fn write_site(&mut self, path: PathBuf, context: &egui::Context) {
+        let then = self.saving.then.take();
+        self.notice = None;
+        let Some(open) = &mut self.open else { return };
+        let mut written = handing::written(&open.project, &self.settings, &open.viewer.eye, &path);
+        let text = written.site.to_toml_in(&written.text).map_err(anyhow::Error::from);
+        match text.and_then(|text| file::write(&path, text.as_bytes()).map(|()| text).map_err(Into::into)) {
+            Ok(text) => {
+                written.text = text;
+                // what undo brings back is read from the new place, too
+                let from = open.project.written.folder.clone();
+                self.history.change_all(|site| handing::move_models(site, &from, &written.folder));
+                self.notice = Some(format!("Written: {}", path.display()));
+                open.project.path = Some(path);
+                self.settings.site = written.site.clone();
+                // what is still being read would bring back the old file, and is read again
+                if let Some(loading) = self.loading.take_if(|loading| !loading.opens) {
+                    loading.cancel();
+                    self.is_reading = false;
+                    written.site.clone_from(&open.project.written.site);
+                    handing::move_models(&mut written.site, &from, &written.folder);
+                }
+                open.project.written = written;
+                self.history.note(&self.settings);
+                // a model may have
+                self.changed = open.project.changed_file().map(name_of);
+                // what is wrong with the site itself stays told
+                self.fault = self.fault.take().filter(|_| self.refused.is_some());
+                self.note_saved();
+                if let Some(then) = then {
+                    self.go_on(then, context);
+                }
+            }
+            Err(error) => self.fault = Some(error.to_string()),
+        }
+    }
+
+    /// Goes on, where that loses nothing; else asks first.
+    pub(super) fn go_on_or_ask(&mut self, then: Then, context: &egui::Context) {
+        if self.is_unsaved() {
+            self.saving.question = Some(Asked::Unsaved(then));
+        } else {
+            self.go_on(then, context);
+        }
+    }
+
+    fn go_on(&mut self, then: Then, context: &egui::Context) {
+        match then {
+            Then::Close => {
+                self.saving.is_left = true;
+                context.send_viewport_cmd(ViewportCommand::Close);
+            }
+            Then::Open(project) => self.take(*project, true),
+            Then::Reload => self.reload_now(context),
+        }
+    }
+
+    /// No path was given: what was to follow does not.
+    pub(super) fn give_up_saving(&mut self) {
+        self.saving.then = None;
+    }
+
+    /// Whether something is asked, and nothing else goes on.
+    pub(super) fn is_questioned(&self) -> bool {
+        self.saving.question.is_some()
+    }
+
+    /// Keeps the window open over what is not saved: also while it is hidden, and shown by nobody.
+    pub(super) fn watch_closing(&mut self, context: &egui::Context) {
+        let is_asked = context.input(|input| input.viewport().close_requested());
+        if !is_asked || self.saving.is_left {
+            return;
+        }
+        let is_hidden = context.input(|input| input.viewport().visible() == Some(false));
+        if !is_hidden && context.memory(|memory| memory.focused().is_some()) {
+            // what is typed is taken first, in this very frame
+            context.memory_mut(|memory| memory.stop_text_input());
+            context.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.saving.closes = true;
+        } else if self.is_unsaved() {
+            context.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.saving.question = Some(Asked::Unsaved(Then::Close));
+            if is_hidden {
+                context.send_viewport_cmd(ViewportCommand::Minimized(false));
+                context.send_viewport_cmd(ViewportCommand::Focus);
+            }
+        }
+    }
+
+    /// The end of a frame, in which the fields have taken what was typed: saves, closes, asks, and says in the title how it
+    /// stands.
+    pub(super) fn save_and_ask(&mut self, context: &egui::Context) {
+        if std::mem::take(&mut self.saving.saves) {
+            self.save_site(context);
+        }
+        if std::mem::take(&mut self.saving.closes) {
+            self.go_on_or_ask(Then::Close, context);
+        }
+        match self.saving.question.take() {
+            Some(Asked::Unsaved(then)) => self.ask_unsaved(then, context),
+            Some(Asked::Replaced(path)) => self.ask_replaced(path, context),
+            None => {}
+        }
+        let title = self.title();
+        if title != self.saving.title {
+            context.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.saving.title = title;
+        }
+    }
+
+    fn ask_unsaved(&mut self, then: Then, context: &egui::Context) {
+        let name = self.file_name().unwrap_or_default();
+        let what = match &then {
+            Then::Close => "before the window closes",
+            Then::Open(_) => "before another site takes its place",
+            Then::Reload => "before the file, which has changed on the disk, takes its place",
+        };
+        let answer = Question {
+            heading: "Save what was set?",
+            text: &format!("What was set for {name} is not saved. Save it {what}?"),
+            path: "",
+            answers: ["Save", "Don't save", "Cancel"],
+            first: 0,
+        };
+        match answer.show(context) {
+            None => self.saving.question = Some(Asked::Unsaved(then)),
+            Some(0) => {
+                self.saving.then = Some(then);
+                self.save_site(context);
+            }
+            Some(1) => self.go_on(then, context),
+            Some(_) => {}
+        }
+    }
+
+    fn ask_replaced(&mut self, path: PathBuf, context: &egui::Context) {
+        let answer = Question {
+            heading: "Replace the file?",
+            text: &format!("{} has changed on the disk since it was read here.", name_of(&path)),
+            path: &path.display().to_string(),
+            answers: ["Replace it", "Save as…", "Cancel"],
+            first: 2,
+        };
+        match answer.show(context) {
+            None => self.saving.question = Some(Asked::Replaced(path)),
+            Some(0) => self.write_site(path, context),
+            Some(1) => self.ask(Purpose::SaveSite, context),
+            Some(_) => self.give_up_saving(),
+        }
+    }
+}
