@@ -7,6 +7,7 @@ mod fitting;
 mod handing_in;
 mod hiding;
 mod keeping;
+mod killed;
 mod lost;
 mod opening;
 mod playing;

@@ -217,6 +217,7 @@ impl App {
             loading.cancel();
         }
         (self.fault, self.notice, self.bare) = (None, None, None);
+        self.saving.recovery.let_go();
         self.loading = Some(Loading::start(wanted, context.clone()));
     }
 
@@ -348,6 +349,7 @@ impl App {
                     project,
                 });
                 self.note_saved();
+                self.set_recovered();
             }
         }
     }
@@ -387,6 +389,7 @@ impl App {
 impl eframe::App for App {
     fn logic(&mut self, context: &egui::Context, _frame: &mut eframe::Frame) {
         self.watch_closing(context);
+        self.keep_unsaved(context);
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {

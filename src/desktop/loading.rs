@@ -57,6 +57,8 @@ pub(super) enum Wanted {
     File(PathBuf),
     /// A bare model, where it stands.
     Placed(Bare),
+    /// What a window that has ended had open: its site file, and what was read of it.
+    Left(Option<PathBuf>, Box<Written>),
     /// The open site, as it is written now, what of it is hidden, and what may still do.
     Again(Box<Written>, Hidden, Box<Before>),
 }
@@ -80,7 +82,7 @@ impl Loading {
         let path = match &wanted {
             Wanted::File(path) => path.clone(),
             Wanted::Placed(bare) => bare.path.clone(),
-            Wanted::Again(written, ..) => PathBuf::from(&written.file),
+            Wanted::Left(_, written) | Wanted::Again(written, ..) => PathBuf::from(&written.file),
         };
         let (tell, result) = mpsc::channel();
         let stage = Arc::new(Mutex::new((0.0, "Reading".to_owned())));
@@ -167,6 +169,7 @@ fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
             }
             (None, written)
         }
+        Wanted::Left(path, written) => (path, *written),
         // what is left out of the open site by hand is told, and not filled in
         Wanted::Again(written, hidden, before) => {
             return read(before.path.clone(), *written, hidden, Some(&before), progress);

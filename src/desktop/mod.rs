@@ -24,6 +24,7 @@ mod panel;
 mod pick;
 mod plain;
 mod question;
+mod recovery;
 mod reopening;
 mod saving;
 mod screen;

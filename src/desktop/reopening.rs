@@ -49,7 +49,7 @@ pub fn open_with(
         let create: AppCreator<'_> = Box::new(move |cc| {
             *egui = Some(cc.egui_ctx.clone());
             match slot {
-                None => *slot = Some(App::new(cc, path)?),
+                None => *slot = Some(App::new(cc, path)?.recovering()),
                 Some(app) => app.move_to(cc)?,
             }
             let app = slot.as_mut().ok_or(GpuError::NoAdapter)?;
@@ -178,6 +178,7 @@ impl App {
         if let Some(open) = &mut self.open {
             open.viewer.forget_pictures();
         }
+        self.saving.forget_title();
         Ok(())
     }
 

@@ -5,6 +5,7 @@ use super::files::{self, Purpose};
 use super::handing;
 use super::loading::{Project, name_of};
 use super::question::Question;
+use super::recovery::Recovery;
 use crate::export::file;
 use crate::site::Method;
 use crate::site::file::SiteFile;
@@ -25,6 +26,7 @@ pub(super) struct Saving {
     /// Nobody wants what is not saved.
     is_left: bool,
     title: String,
+    pub(super) recovery: Recovery,
 }
 
 /// What is asked.
@@ -43,6 +45,13 @@ pub(super) enum Then {
     Open(Box<Project>),
     /// The site file is read anew.
     Reload,
+}
+
+impl Saving {
+    /// Another window has no title yet.
+    pub(super) fn forget_title(&mut self) {
+        self.title.clear();
+    }
 }
 
 impl App {
@@ -162,6 +171,7 @@ impl App {
         match then {
             Then::Close => {
                 self.saving.is_left = true;
+                self.keep_unsaved(context);
                 context.send_viewport_cmd(ViewportCommand::Close);
             }
             Then::Open(project) => self.take(*project, true),
@@ -174,9 +184,14 @@ impl App {
         self.saving.then = None;
     }
 
+    /// Whether what is not saved is wanted by nobody.
+    pub(super) fn is_left(&self) -> bool {
+        self.saving.is_left
+    }
+
     /// Whether something is asked, and nothing else goes on.
     pub(super) fn is_questioned(&self) -> bool {
-        self.saving.question.is_some()
+        self.saving.question.is_some() || self.saving.recovery.is_offering()
     }
 
     /// Keeps the window open over what is not saved: also while it is hidden, and shown by nobody.
@@ -213,7 +228,7 @@ impl App {
         match self.saving.question.take() {
             Some(Asked::Unsaved(then)) => self.ask_unsaved(then, context),
             Some(Asked::Replaced(path)) => self.ask_replaced(path, context),
-            None => {}
+            None => self.offer_recovered(context),
         }
         let title = self.title();
         if title != self.saving.title {

@@ -12,6 +12,7 @@ pub mod file;
 mod places;
 pub mod probe;
 pub mod raster;
+pub mod recovery;
 pub mod report;
 pub mod sums;
 pub mod surfaces;

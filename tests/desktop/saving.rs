@@ -1,4 +1,4 @@
-//! What is saved, and what is asked about what is not.
+//! What is saved, what is asked about what is not, and what is offered of windows that have ended.
 
 use super::handing_in::{answer, menu, name};
 use super::*;
@@ -32,6 +32,7 @@ fn is_asked(harness: &Harness<'_, App>, heading: &str) -> bool {
 }
 
 const UNSAVED: &str = "Save what was set?";
+const OFFER: &str = "Restore what was not saved?";
 const REPLACE: &str = "Replace what is there?";
 
 /// Beside another state in the same folder, as on the samples.
@@ -282,4 +283,140 @@ fn bare_model_is_not_saved_until_it_has_a_file() {
     assert!(seen || closes(&mut harness), "what was asked for goes on");
     assert_eq!(title(&harness), format!("{}/site.toml", folder.path().file_name().unwrap().display()));
     assert!(std::fs::read_to_string(&site).unwrap().contains("latitude = 48.2"));
+}
+
+/// A window that keeps what is not saved in this folder, as the real one does in its own.
+fn keeping(path: Option<&Path>, folder: &Path) -> Harness<'static, App> {
+    let (path, folder) = (path.map(Path::to_owned), folder.to_owned());
+    let builder = Harness::<App>::builder().with_size([1280.0, 720.0]).wgpu_setup(desktop::setup());
+    let mut harness =
+        builder.build_eframe(move |cc| App::new(cc, path.as_deref()).expect("an adapter").recovering_in(&folder));
+    settle(&mut harness);
+    harness
+}
+
+fn kept(folder: &Path) -> usize {
+    let Ok(entries) = folder.read_dir() else { return 0 };
+    entries.flatten().filter(|entry| entry.path().extension().is_some_and(|is| is == "json")).count()
+}
+
+/// Waits until what is not saved is kept, and says this.
+fn until_kept(harness: &mut Harness<'_, App>, folder: &Path, text: &str) {
+    let begun = Instant::now();
+    let files = || folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
+    let has_text = |path: PathBuf| std::fs::read_to_string(path).is_ok_and(|kept| kept.contains(text));
+    while !files().any(has_text) {
+        harness.step();
+        std::thread::sleep(Duration::from_millis(50));
+        assert!(begun.elapsed() < Duration::from_secs(20), "nothing is kept");
+    }
+}
+
+/// Nothing of a window that lives is offered; of one that has ended all is, until somebody saves or discards it.
+#[test]
+fn what_was_not_saved_is_offered_again() {
+    let (folder, site) = small_site();
+    let recovery = folder.path().join("recovery");
+    let before = std::fs::read(&site).unwrap();
+    let mut first = keeping(Some(&site), &recovery);
+    assert_eq!(kept(&recovery), 0, "all is saved");
+    write(&mut first, "step", "4h");
+    settle(&mut first);
+    until_kept(&mut first, &recovery, "4h");
+    let second = keeping(None, &recovery);
+    assert!(!is_asked(&second, OFFER), "the first window lives");
+    drop(second);
+    // it ends without a word
+    drop(first);
+    let mut second = keeping(None, &recovery);
+    assert!(is_asked(&second, OFFER));
+    let third = keeping(None, &recovery);
+    assert!(!is_asked(&third, OFFER), "the second window offers it");
+    drop(third);
+    click(&mut second, "Ask me later");
+    assert_eq!(kept(&recovery), 1);
+    drop(second);
+    let mut second = keeping(None, &recovery);
+    click(&mut second, "Restore");
+    settle(&mut second);
+    assert_eq!(second.state().site_file().study.step.as_deref(), Some("4h"));
+    assert_eq!(title(&second), format!("• {}/site.toml", folder.path().file_name().unwrap().display()));
+    assert_eq!(std::fs::read(&site).unwrap(), before, "nothing is written");
+    // it is kept as long as it is not saved, and undo brings back what the file says
+    assert_eq!(kept(&recovery), 1);
+    second.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+    second.step();
+    settle(&mut second);
+    assert!(!second.state().is_unsaved());
+    second.key_press_modifiers(REDO, Key::Z);
+    second.step();
+    settle(&mut second);
+    save(&mut second);
+    assert!(std::fs::read_to_string(&site).unwrap().contains("step = \"4h\""));
+    assert_eq!(kept(&recovery), 0, "it is saved");
+    drop(second);
+    assert!(!is_asked(&keeping(None, &recovery), OFFER));
+}
+
+/// A bare model comes back where it was put, and what is discarded is gone.
+#[test]
+fn bare_model_is_offered_again() {
+    let (folder, site) = small_site();
+    std::fs::remove_file(&site).unwrap();
+    let recovery = folder.path().join("recovery");
+    let mut first = keeping(Some(&folder.path().join("works.glb")), &recovery);
+    write(&mut first, "Latitude, longitude", "48.2, 16.37");
+    settle(&mut first);
+    write(&mut first, "to", "16:00");
+    settle(&mut first);
+    until_kept(&mut first, &recovery, "16:00");
+    drop(first);
+    let mut second = keeping(None, &recovery);
+    second.get_by_label("Gnomon was ended before what was set for works.glb was saved.");
+    click(&mut second, "Restore");
+    settle(&mut second);
+    let site = second.state().site_file().clone();
+    let place = site.place.unwrap();
+    assert_eq!((place.latitude, place.longitude), (Some(48.2), Some(16.37)));
+    assert_eq!(site.study.to.unwrap().0, "16:00");
+    assert_eq!(title(&second), "• works.glb");
+    drop(second);
+    let mut third = keeping(None, &recovery);
+    click(&mut third, "Discard");
+    assert_eq!(kept(&recovery), 0);
+    drop(third);
+    assert!(!is_asked(&keeping(None, &recovery), OFFER));
+}
+
+/// Who does not want it when the window closes is not asked again.
+#[test]
+fn what_is_left_at_closing_is_not_offered() {
+    let (folder, site) = small_site();
+    let recovery = folder.path().join("recovery");
+    let mut harness = keeping(Some(&site), &recovery);
+    write(&mut harness, "step", "4h");
+    settle(&mut harness);
+    until_kept(&mut harness, &recovery, "4h");
+    assert!(!closes(&mut harness));
+    harness.step();
+    click(&mut harness, "Don't save");
+    assert_eq!(kept(&recovery), 0);
+    drop(harness);
+    assert!(!is_asked(&keeping(None, &recovery), OFFER));
+}
+
+/// Where nothing can be kept, that is told once, and all else goes on.
+#[test]
+fn what_cannot_be_kept_is_told() {
+    let (folder, site) = small_site();
+    let mut harness = keeping(Some(&site), &folder.path().join("works.glb"));
+    write(&mut harness, "step", "4h");
+    let begun = Instant::now();
+    while harness.query_by_label_contains("what is not saved cannot be kept against a crash").is_none() {
+        harness.step();
+        std::thread::sleep(Duration::from_millis(50));
+        assert!(begun.elapsed() < Duration::from_secs(20), "nothing is told");
+    }
+    save(&mut harness);
+    assert!(!harness.state().is_unsaved());
 }

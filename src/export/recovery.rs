@@ -1,0 +1,123 @@
+//! What a window has not saved, kept beside the app's own data until it is: a crash or a kill loses none of it.
+//!
+//! Each window has a slot: a file, and beside it another one that it holds locked as long as it lives, however it ends. So a
+//! window knows whether another one is still at work on what it finds.
+
+use super::{ExportError, file};
+use crate::site::Written;
+use crate::site::file::SiteFile;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File, OpenOptions};
+use std::path::{Path, PathBuf};
+
+/// A site that is not saved as it is set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unsaved {
+    /// Its site file; a bare model has none yet.
+    pub path: Option<PathBuf>,
+    /// As it is set; its text is that of the site file when it was read.
+    pub written: Written,
+}
+
+/// The same in a file.
+#[derive(Serialize, Deserialize)]
+struct Record {
+    gnomon: String,
+    path: Option<PathBuf>,
+    file: String,
+    folder: PathBuf,
+    text: String,
+    site: String,
+}
+
+/// Where one window keeps what it has not saved; nobody else does while it lives.
+#[derive(Debug)]
+pub struct Slot {
+    file: PathBuf,
+    lock: PathBuf,
+    /// Holds the lock.
+    _held: File,
+}
+
+impl Slot {
+    /// A slot of its own in a folder, which is made where it is missing.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn new(folder: &Path) -> std::io::Result<Slot> {
+        fs::create_dir_all(folder)?;
+        let mut number = 0;
+        loop {
+            let file = folder.join(format!("{}-{number}.json", std::process::id()));
+            let lock = file.with_extension("lock");
+            match OpenOptions::new().write(true).create_new(true).open(&lock) {
+                // of this process, or left by an older one of the same number
+                Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => number += 1,
+                Err(error) => return Err(error),
+                Ok(held) => {
+                    held.try_lock()?;
+                    return Ok(Slot { file, lock, _held: held });
+                }
+            }
+        }
+    }
+
+    /// The slot of a file that a window has left behind; none while that lives.
+    fn left(file: PathBuf) -> Option<Slot> {
+        let lock = file.with_extension("lock");
+        let held = OpenOptions::new().write(true).create(true).truncate(false).open(&lock).ok()?;
+        held.try_lock().ok()?;
+        let slot = Slot { file, lock, _held: held };
+        // saved between the two looks
+        if slot.file.exists() {
+            return Some(slot);
+        }
+        slot.empty();
+        None
+    }
+
+    /// Keeps what is not saved, instead of what was kept; a reader sees the one or the other, whole.
+    ///
+    /// # Errors
+    /// As [`file::write`]; what TOML and JSON cannot hold.
+    pub fn keep(&self, unsaved: &Unsaved) -> Result<(), ExportError> {
+        let what = "file of what is not saved";
+        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let Written { file, folder, site, text } = &unsaved.written;
+        let record = Record {
+            gnomon: env!("CARGO_PKG_VERSION").to_owned(),
+            path: unsaved.path.as_deref().map(absolute),
+            file: absolute(Path::new(file)).display().to_string(),
+            folder: absolute(folder),
+            text: text.clone(),
+            site: site.to_toml().map_err(|error| ExportError::encode(what, error))?,
+        };
+        let bytes = serde_json::to_vec_pretty(&record).map_err(|error| ExportError::encode(what, error))?;
+        file::write(&self.file, &bytes)
+    }
+
+    /// What is kept; none where it cannot be read, as by an older Gnomon.
+    fn kept(&self) -> Option<Unsaved> {
+        let record: Record = serde_json::from_slice(&fs::read(&self.file).ok()?).ok()?;
+        let Record { path, file, folder, text, site, .. } = record;
+        let site = SiteFile::parse(&file, &site).ok()?;
+        Some(Unsaved { path, written: Written { file, folder, site, text } })
+    }
+
+    /// All is saved, or nobody wants it: nothing is kept any more.
+    pub fn empty(self) {
+        // what stays behind is offered once more, and loses nothing
+        let _ = fs::remove_file(&self.file);
+        let _ = fs::remove_file(&self.lock);
+    }
+}
+
+/// What windows that have ended had not saved, the newest first; their slots are this window's until it drops them.
+pub fn left_behind(folder: &Path) -> Vec<(Slot, Unsaved)> {
+    let Ok(entries) = folder.read_dir() else { return Vec::new() };
+    let is_kept = |path: &PathBuf| path.extension().is_some_and(|is| is == "json");
+    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(is_kept).collect();
+    files.sort_by_key(|path| std::cmp::Reverse(path.metadata().and_then(|found| found.modified()).ok()));
+    let slots = files.into_iter().filter_map(Slot::left);
+    slots.filter_map(|slot| slot.kept().map(|unsaved| (slot, unsaved))).collect()
+}
