@@ -159,7 +159,11 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     drop(profile);
     unfinished::remove(&asked.out, number)?;
     if let Some(folder) = &asked.masks {
-        let _ = writeln!(text, "{} ({} masks)", folder.display(), site.track.instants.len());
+        let count = site.track.instants.len();
+        let _ = writeln!(text, "{} ({count} masks)", folder.display());
+        let beyond = Some(mask_path(folder, count)).filter(|path| path.exists());
+        progress
+            .note(beyond.map(|path| format!("{} and what follows it is of another study; remove it", path.display())));
     }
     if asked.common.json {
         return say(&json);

@@ -111,14 +111,14 @@ pub fn tidy(folder: &Path, study: u64) -> Option<String> {
     let first = path(folder, *stopped.first()?);
     let files = stopped.iter().flat_map(|other| FIRST_WORDS.map(|words| file_of(folder, words, *other)));
     let size = bytes(files.filter_map(|file| Some(file.metadata().ok()?.len())).sum());
-    let (others, keep) = match stopped.len() {
-        1 => (String::new(), "keeps another study that was stopped"),
-        2 => (" and another one".to_owned(), "keep other studies that were stopped"),
-        many => (format!(" and {} more", many - 1), "keep other studies that were stopped"),
+    let (others, keep, it, file) = match stopped.len() {
+        1 => (String::new(), "keeps another study that was stopped", "It", "file"),
+        2 => (" and another one".to_owned(), "keep other studies that were stopped", "Each", "files"),
+        many => (format!(" and {} more", many - 1), "keep other studies that were stopped", "Each", "files"),
     };
     Some(format!(
-        "{}{others} {keep}, or were asked otherwise ({size}); what was asked then goes on from there when it is asked again, \
-         and where nobody will the file can be removed",
+        "{}{others} {keep}, or this one as it was asked otherwise ({size}). {it} goes on from there when it is asked again; \
+         where nobody will ask, the {file} can be removed",
         first.display()
     ))
 }

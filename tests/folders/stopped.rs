@@ -109,6 +109,10 @@ fn masks_of_another_study_are_not_kept() {
     assert!(told.contains("masks/mask-0000.png is not what the study left") && told.contains("begins anew"), "{told}");
     assert!(files(&path.join("masks")) == files(&path.join("right-masks")));
     assert!(files(&path.join("out")) == files(&path.join("right")));
+    // those beyond a shorter study's are told of
+    let told = stderr(&gnomon(path, &study("2026-09-18", "short").replace("1min", "1h")));
+    assert!(told.contains("masks/mask-0007.png and what follows it is of another study"), "{told}");
+    assert!(!stderr(&gnomon(path, &study("2026-09-18", "out"))).contains("of another study"));
 }
 
 #[test]
