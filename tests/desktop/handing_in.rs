@@ -261,6 +261,8 @@ fn nothing_is_exported_over_a_model() {
     let before = std::fs::read(&model).unwrap();
     menu(&mut harness, "Export the drawing…");
     answer(&mut harness, &model, "Write");
+    click(&mut harness, "Replace");
+    settle(&mut harness);
     harness.get_by_label_contains("which the site is read from");
     // a folder in which one of the files is the site's own
     std::fs::rename(&model, folder.path().join("profile.png")).unwrap();
@@ -271,6 +273,8 @@ fn nothing_is_exported_over_a_model() {
     settle(&mut harness);
     menu(&mut harness, "Export the hours…");
     answer(&mut harness, folder.path(), "Write");
+    click(&mut harness, "Replace");
+    settle(&mut harness);
     harness.get_by_label_contains("which the site is read from");
     assert!(before == std::fs::read(folder.path().join("profile.png")).unwrap());
     assert!(!folder.path().join("shadow-hours.tif").exists());
