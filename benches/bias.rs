@@ -37,7 +37,7 @@ fn main() {
         let scene = Scene {
             casters: site.mesh.of_components(&site.casts),
             receivers: site.mesh.of_components(&site.receives),
-            ground: site.ground,
+            ground: site.ground.level,
         };
         // from 10° upwards
         let high = site.track.instants.iter().filter(|instant| instant.altitude_deg() >= 10.0);

@@ -48,7 +48,7 @@ fn ground_row(name: &str, gpu: Option<&Arc<Gpu>>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
     let site = Site::load(&folder, &Overrides::default()).expect("a sample site");
     let nothing = site.mesh.of_components(&[]);
-    let scene = Scene { casters: site.mesh.of_components(&site.casts), receivers: nothing, ground: site.ground };
+    let scene = Scene { casters: site.mesh.of_components(&site.casts), receivers: nothing, ground: site.ground.level };
     let view = View::Plan(site.grid);
     let mut ways: Vec<Option<Box<dyn Technique>>> = vec![Some(Box::new(Projected::new(&scene, site.grid)))];
     ways.push(gpu.map(|gpu| {
@@ -79,7 +79,7 @@ fn row(name: &str, gpu: Option<Arc<Gpu>>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
     let site = Site::load(&folder, &Overrides::default()).expect("a sample site");
     let casters = site.mesh.of_components(&site.casts);
-    let scene = Scene { casters, receivers: site.mesh.of_components(&site.receives), ground: site.ground };
+    let scene = Scene { casters, receivers: site.mesh.of_components(&site.receives), ground: site.ground.level };
     let view = View::Plan(site.grid);
     let (width, height) = view.size();
     let suns: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();

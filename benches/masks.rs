@@ -62,7 +62,7 @@ fn views(site: &Site) -> [(&'static str, View); 4] {
 
 fn row(gpu: &Arc<Gpu>, site: &Site, name: &str, view_name: &str, view: View) {
     let casters = site.mesh.of_components(&site.casts);
-    let scene = Scene { casters, receivers: site.mesh.of_components(&site.receives), ground: site.ground };
+    let scene = Scene { casters, receivers: site.mesh.of_components(&site.receives), ground: site.ground.level };
     let mut ways = WAYS.map(|way| Stencil::new(Arc::clone(gpu), scene.clone(), view, way).expect("a stencil"));
     let mut times: [Vec<f64>; 4] = Default::default();
     let mut bound = Vec::new();

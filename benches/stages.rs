@@ -47,6 +47,7 @@ fn row(name: &str) {
         mesh: &outcome.surface_mesh,
         surface,
         receivers: site.receivers,
+        ground: site.ground,
         drawn: &outcome.drawn,
     };
     let Grid { width, height, .. } = site.grid;

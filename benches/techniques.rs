@@ -71,7 +71,7 @@ fn cases() -> Vec<Case> {
         let scene = Scene {
             casters: site.mesh.of_components(&site.casts),
             receivers: site.mesh.of_components(&site.receives),
-            ground: site.ground,
+            ground: site.ground.level,
         };
         let suns: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).map(|it| it.to_sun).collect();
         let suns: Vec<_> = suns.iter().copied().step_by(suns.len().div_ceil(SUNS)).collect();

@@ -4,6 +4,7 @@ mod animate;
 mod clock;
 mod compare;
 mod draw;
+mod ground;
 mod letters;
 mod numbers;
 mod sides;

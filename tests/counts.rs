@@ -58,7 +58,7 @@ fn counts(name: &str) -> Counts {
     counts.push(("silhouette edges", silhouettes[0] as u64));
 
     let receivers = site.mesh.of_components(&site.receives);
-    let (scene, view) = (Scene { casters, receivers, ground: site.ground }, View::Plan(site.grid));
+    let (scene, view) = (Scene { casters, receivers, ground: site.ground.level }, View::Plan(site.grid));
     let rays = RayCast::new(scene.clone(), view, None);
     counts.push(("rays", suns.iter().map(|sun| rays.rays(*sun)).sum::<usize>() as u64));
     let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::Hierarchy).unwrap();

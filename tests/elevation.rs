@@ -120,6 +120,7 @@ fn the_sheet_of_a_side_has_no_north_arrow() {
             mesh: &outcome.surface_mesh,
             surface: outcome.surface.as_ref().unwrap(),
             receivers: study::judged(&site, &view),
+            ground: site.ground,
             drawn: &outcome.drawn,
         };
         let png = figure::instant(&scene, &view, &outcome.mask, &figure::Shown::default()).unwrap();

@@ -95,7 +95,7 @@ fn the_sites_agree_with_ray_casting() {
             let site = Site::load(std::path::Path::new(&format!("sites/{name}")), &asked).unwrap();
             let all = site.mesh.of_components(&site.receives);
             let scene =
-                Scene { casters: site.mesh.of_components(&site.casts), ..scene_of(&all, receivers, site.ground) };
+                Scene { casters: site.mesh.of_components(&site.casts), ..scene_of(&all, receivers, site.ground.level) };
             let instants = site.track.instants.iter().filter(|instant| !instant.night);
             let suns: Vec<DVec3> = instants.map(|instant| instant.to_sun).step_by(3).collect();
             let edge_share = if receivers == Receivers::Top { 0.01 } else { 0.005 };
@@ -108,7 +108,7 @@ fn the_sites_agree_with_ray_casting() {
         let site = Site::load(std::path::Path::new(&format!("sites/{name}")), &Overrides::default()).unwrap();
         let scene = Scene {
             casters: site.mesh.of_components(&site.casts),
-            ..scene_of(&site.mesh, Receivers::Top, site.ground)
+            ..scene_of(&site.mesh, Receivers::Top, site.ground.level)
         };
         let camera = Camera { width: 640, height: 400, ..site.camera };
         let suns: Vec<DVec3> = site.track.instants.iter().map(|instant| instant.to_sun).step_by(4).collect();

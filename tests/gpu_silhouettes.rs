@@ -217,7 +217,7 @@ fn all_ways_draw_the_same_plan() {
         let asked = Overrides { size: Some(401), ..Overrides::default() };
         let site = Site::load(std::path::Path::new(&format!("sites/{name}")), &asked).unwrap();
         let receivers = site.mesh.of_components(&site.receives);
-        let scene = Scene { casters: site.mesh.of_components(&site.casts), receivers, ground: site.ground };
+        let scene = Scene { casters: site.mesh.of_components(&site.casts), receivers, ground: site.ground.level };
         let suns: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).map(|it| it.to_sun).collect();
         same_masks(name, &scene, View::Plan(site.grid), &[suns[0], suns[suns.len() / 2]]);
     }
@@ -245,7 +245,7 @@ fn walls_beyond_the_borders_are_not_missed() {
     for name in ["tower", "industry"] {
         let site = Site::load(std::path::Path::new(&format!("sites/{name}")), &Overrides::default()).unwrap();
         let receivers = site.mesh.of_components(&site.receives);
-        let scene = Scene { casters: site.mesh.of_components(&site.casts), receivers, ground: site.ground };
+        let scene = Scene { casters: site.mesh.of_components(&site.casts), receivers, ground: site.ground.level };
         let (low, high) = scene.casters.bounds().unwrap();
         let suns = [site.track.instants[1].to_sun, site.track.instants[5].to_sun];
         let middle = (low + high) / 2.0;

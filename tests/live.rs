@@ -3,7 +3,7 @@
 use crate::exact::gpu;
 use gnomon::gpu::readback;
 use gnomon::shadow::picture::{Picture, Style};
-use gnomon::site::{Method, Overrides, Settings, Site};
+use gnomon::site::{Ground, Method, Overrides, Settings, Site};
 use gnomon::study::live::{Live, Way};
 use gnomon::view::{Camera, Grid, View};
 use std::path::Path;
@@ -85,7 +85,7 @@ fn casters_change_and_leave_no_trace() {
         }
         let receives = without.casts.clone();
         assert!(!changed.change_to(&Site { receives, ..site.clone() }));
-        assert!(!changed.change_to(&Site { ground: site.ground + 1.0, ..site.clone() }));
+        assert!(!changed.change_to(&Site { ground: Ground::asked(site.ground.level + 1.0), ..site.clone() }));
         assert!(!changed.change_to(&Site::load(&path, &Overrides::default()).unwrap()), "another mesh");
     }
 }

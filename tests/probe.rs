@@ -12,7 +12,7 @@ use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::probe::{Blocked, Interval, Sunlight, longest, secs};
 use gnomon::shadow::Technique;
 use gnomon::shadow::ray_cast::RayCast;
-use gnomon::site::{Probing, Receivers};
+use gnomon::site::{Ground, Probing, Receivers};
 use gnomon::study::StudyError;
 use gnomon::study::probe::probe;
 use gnomon::sun::{Air, DayWindow, Instant, Place, Position, Reading, Zone, delta_t_secs, position};
@@ -45,8 +45,8 @@ fn at(point: DVec3, normal: Option<DVec3>) -> Probe {
 fn probing(place: &Place, parts: Vec<Part>, probes: Vec<Probe>, days: Vec<DayWindow>) -> Probing {
     let mesh = Mesh::build(parts).unwrap();
     let casts = vec![true; mesh.components.len()];
-    let (place, notes) = (place.clone(), Vec::new());
-    Probing { place, mesh, notes, casts, ground: 0.0, probes, days, step_secs: 60, refraction: true }
+    let (place, notes, ground) = (place.clone(), Vec::new(), Ground::asked(0.0));
+    Probing { place, mesh, notes, casts, ground, probes, days, step_secs: 60, refraction: true }
 }
 
 fn found(asked: &Probing) -> Sunlight {
@@ -302,7 +302,7 @@ fn polar_days_and_nights() {
     assert!(night.is_empty() && sunlight.days[2].up.is_empty() && longest(night).is_none());
     let [(least_on, least), (most_on, most)] = sunlight.least_and_most(&sunlight.probes[0]).unwrap();
     assert_eq!((least_on, least, most_on, most), (date("2026-12-21"), 0, date("2026-06-20"), 86_400));
-    assert!(figure::strips(&sunlight, &place).is_ok());
+    assert!(figure::strips(&sunlight, &place, &Ground::asked(0.0)).is_ok());
     // the sun is up for less than two hours: an hour after it rises it sets within the hour
     let short = day(&place, "2026-01-16", Some(["sunrise+1h", "sunset-1h"]));
     assert_eq!(short.from, short.to);
@@ -353,6 +353,6 @@ fn below_the_ground_there_is_no_sun() {
         |asked: &Probing| found(asked).probes.iter().map(gnomon::profile::probe::Probed::secs).collect::<Vec<_>>();
     let above = secs(&asked);
     assert!(above[0] == 0 && above[1] > 20_000 && above[1] == above[2], "{above:?}");
-    asked.ground = -3.0;
+    asked.ground.level = -3.0;
     assert_eq!(secs(&asked)[0], above[1]);
 }

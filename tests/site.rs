@@ -73,7 +73,7 @@ fn a_site_file_as_meant() {
     assert_eq!(site.track.instants.len(), 9);
     assert!(site.track.refraction);
     assert_eq!((site.casts.as_slice(), site.receives.as_slice()), (&[true, false][..], &[true, true][..]));
-    assert_eq!(site.ground, 0.0);
+    assert_eq!(site.ground.level, 0.0);
     assert_eq!((site.method, site.engine, site.receivers), (Method::Auto, Engine::Auto, Receivers::Top));
     assert_eq!(site.grid.width.max(site.grid.height), 2048);
 }

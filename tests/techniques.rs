@@ -21,7 +21,7 @@ fn site(name: &str, size: u32) -> (Scene, View, Vec<DVec3>) {
     let scene = Scene {
         casters: site.mesh.of_components(&site.casts),
         receivers: site.mesh.of_components(&site.receives),
-        ground: site.ground,
+        ground: site.ground.level,
     };
     let high = site.track.instants.iter().filter(|instant| instant.altitude_deg() >= 10.0);
     (scene, View::Plan(site.grid), high.map(|instant| instant.to_sun).collect())

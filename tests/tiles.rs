@@ -66,7 +66,7 @@ fn scenes() -> Vec<(String, Scene, Grid, Vec<DVec3>)> {
     let scene = Scene {
         casters: site.mesh.of_components(&site.casts),
         receivers: site.mesh.of_components(&site.receives),
-        ground: site.ground,
+        ground: site.ground.level,
     };
     let suns = site.track.instants.iter().filter(|instant| !instant.night).map(|instant| instant.to_sun);
     scenes.push(("tower".to_owned(), scene, site.grid, suns.step_by(3).collect()));

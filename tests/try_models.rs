@@ -164,7 +164,7 @@ fn try_model(gpu: &Arc<Gpu>, program: &Program, path: &Path) -> Result<Row, Box<
         .chain(lamps.map(|lamp| lamp.extend(1.0)))
         .chain([dvec4(0.3, -0.4, -0.8, 0.0), DVec4::Z])
         .collect();
-    let scene = |receivers: Mesh| Scene { casters: mesh.clone(), receivers, ground: site.ground };
+    let scene = |receivers: Mesh| Scene { casters: mesh.clone(), receivers, ground: site.ground.level };
     let none = vec![false; mesh.components.len()];
     let view = View::Plan(site.grid);
     let ground = stencil_against_rays(gpu, scene(mesh.of_components(&none)), view, &suns)?;

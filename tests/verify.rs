@@ -138,7 +138,7 @@ fn asked() -> Overrides {
 
 fn trial(site: &Site, promise: Promise, cells: Vec<usize>, decided: Decided) -> Trial {
     let casters = site.mesh.of_components(&site.casts);
-    let scene = gnomon::shadow::Scene { receivers: casters.of_components(&[]), casters, ground: site.ground };
+    let scene = gnomon::shadow::Scene { receivers: casters.of_components(&[]), casters, ground: site.ground.level };
     let rays = RayCast::new(scene, View::Plan(site.grid), None);
     let mask = Mask { width: 0, height: 0, share: Vec::new() };
     let drawn = Drawn {
@@ -172,7 +172,7 @@ fn a_wrong_technique_does_not_hold_and_says_how_wrong() {
     assert!(off.largest == 4.0 && (off.mean - 4.0 / site.grid.cells() as f64).abs() < 1e-12, "{off:?}");
     let failure = told::failure(&wrong).unwrap();
     assert!(failure.starts_with("wrong does not hold: 0 of ") && failure.lines().count() == 1, "{failure}");
-    assert!(told::table(&wrong, &site.place, &site.track, site.receivers).contains("FAILS"));
+    assert!(told::table(&wrong, &site).contains("FAILS"));
     // what decides nothing fails nothing
     let near = held(&site, vec![trial(&site, Promise::Near, vec![0], Decided::VolumeShadow)]);
     assert_eq!((told::failure(&near), near.rows[0].difference.differ()), (None, 9));

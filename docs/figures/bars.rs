@@ -21,7 +21,7 @@ pub(crate) fn bars(gpu: &Arc<Gpu>) -> Result<Sheet> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
         let site = Site::load(&folder, &Overrides::default())?;
         let casters = site.mesh.of_components(&site.casts);
-        let scene = Scene { casters, receivers: site.mesh.of_components(&site.receives), ground: site.ground };
+        let scene = Scene { casters, receivers: site.mesh.of_components(&site.receives), ground: site.ground.level };
         let view = View::Camera(Camera { width: 1280, height: 800, ..site.camera });
         let instants: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
         stages.push((name, Stage::of(gpu, scene, view, instants[instants.len() / 2].to_sun)?));

@@ -82,13 +82,18 @@ pub(super) fn animate(asked: &AnimateArgs) -> anyhow::Result<()> {
 
     if asked.common.json {
         let (receivers, timings) = (study::judged(&site, &view), &watch.timings());
-        let told = Told { receivers, drawn: &drawn, timings, statistics: None, notes: &site.notes };
+        let notes = &site.notes;
+        let told = Told { receivers, ground: site.ground, drawn: &drawn, timings, statistics: None, notes };
         return say(&report::shadow_json(&view, place, track, &told)?);
     }
     let [first, last] = [0, count - 1].map(|index| Frames::path(out, index).display().to_string());
     let night = track.instants.iter().filter(|instant| instant.night).count();
     let of_them = if night > 0 { format!(", {night} of them at night") } else { String::new() };
-    say(&format!("{}\n{first} to {last}\n{count} frames{of_them}\n{}\n", path.display(), drawn_by(&drawn)))
+    say(&format!(
+        "{}\n{first} to {last}\n{count} frames{of_them}\n{}\n",
+        path.display(),
+        drawn_by(&drawn, &site.ground)
+    ))
 }
 
 /// How many frames a site's study has.
@@ -122,7 +127,7 @@ pub(crate) fn frames(
     }
     let drawn = study::frames(site, view, on_event, &mut |frame| -> anyhow::Result<()> {
         let study::Frame { track, mask, surface, surface_mesh: mesh, receivers, drawn } = *frame;
-        let scene = figure::Scene { place: &site.place, track, mesh, surface, receivers, drawn };
+        let scene = figure::Scene { place: &site.place, track, mesh, surface, receivers, ground: site.ground, drawn };
         let picture = figure::instant_on_screen(&scene, &view, mask, &figure::Shown::default(), width)?;
         Ok(frames.add(&picture)?)
     })?;

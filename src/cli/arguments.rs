@@ -104,6 +104,17 @@ pub(super) struct SiteArgs {
     pub(super) path: PathBuf,
     #[command(flatten)]
     place: PlaceArgs,
+    #[command(flatten)]
+    ground: GroundArgs,
+}
+
+/// How high the ground lies.
+#[derive(Debug, Args)]
+pub(super) struct GroundArgs {
+    /// The ground's height, metres above the place's point [default: 0 where the models reach through 0, else their lowest
+    /// point]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    ground: Option<f64>,
 }
 
 /// Where a model stands, and in which air.
@@ -330,8 +341,11 @@ pub(super) enum Show {
 
 #[derive(Debug, Args)]
 pub(super) struct SunArgs {
+    /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
+    #[arg(value_name = "SITE")]
+    pub(super) path: PathBuf,
     #[command(flatten)]
-    pub(super) site: SiteArgs,
+    place: PlaceArgs,
     #[command(flatten)]
     window: WindowArgs,
     /// One instant instead of the study, local clock time: 2026-09-18T15:00
@@ -391,7 +405,13 @@ pub(super) struct VerifyArgs {
 
 impl SiteArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        self.place.overrides()
+        self.ground.onto(self.place.overrides())
+    }
+}
+
+impl GroundArgs {
+    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
+        Overrides { ground: self.ground, ..asked }
     }
 }
 
@@ -464,7 +484,7 @@ impl ShadowArgs {
 
 impl SunArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        Overrides { at: self.at.clone(), ..self.window.onto(self.site.overrides()) }
+        Overrides { at: self.at.clone(), ..self.window.onto(self.place.overrides()) }
     }
 }
 

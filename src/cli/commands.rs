@@ -9,7 +9,7 @@ use crate::export::report::Told;
 use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Statistics};
-use crate::site::{LoadedMesh, Method, Site, inputs, load_mesh, load_sun};
+use crate::site::{Ground, LoadedMesh, Method, Site, inputs, load_mesh, load_sun};
 use crate::study::{self, Event, InstantWants, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -64,6 +64,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
             None => asked.stats.then_some("--stats"),
         },
     };
+    let (receivers, ground) = (study::judged(&site, &view), site.ground);
     let mut progress = Progress::new(asked.common.quiet);
     if out.is_some() {
         let parts = site.mesh.components.iter().filter(|_| shows(Show::Components)).map(|part| part.name.as_str());
@@ -76,10 +77,9 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     watch.laps(outcome.timings);
 
     let (place, track, drawn) = (&site.place, &site.track, &outcome.drawn);
-    let receivers = study::judged(&site, &view);
     let mut text = String::new();
     if let (Some(path), Some(surface)) = (&out, &outcome.surface) {
-        let scene = figure::Scene { place, track, mesh: &outcome.surface_mesh, surface, receivers, drawn };
+        let scene = figure::Scene { place, track, mesh: &outcome.surface_mesh, surface, receivers, ground, drawn };
         // the drawing's mesh holds the components that are seen
         let casts: Vec<bool> =
             site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect();
@@ -101,14 +101,10 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     let statistics = outcome.counted.as_ref().filter(|_| asked.stats).map(Statistics::of);
     if asked.common.json {
         let (statistics, timings) = (statistics.as_ref(), &watch.timings());
-        return say(&report::shadow_json(
-            &view,
-            place,
-            track,
-            &Told { receivers, drawn, timings, statistics, notes: &site.notes },
-        )?);
+        let told = Told { receivers, ground, drawn, timings, statistics, notes: &site.notes };
+        return say(&report::shadow_json(&view, place, track, &told)?);
     }
-    let _ = writeln!(text, "{}", drawn_by(drawn));
+    let _ = writeln!(text, "{}", drawn_by(drawn, &ground));
     text.push_str(&statistics.as_ref().map(took).unwrap_or_default());
     say(&text)
 }
@@ -146,7 +142,7 @@ pub(super) fn took(statistics: &Statistics) -> String {
 
 /// `gnomon sun`
 pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
-    let (place, track) = load_sun(&asked.site.path, &asked.overrides())?;
+    let (place, track) = load_sun(&asked.path, &asked.overrides())?;
     let mut progress = Progress::new(asked.common.quiet);
     track.notes().into_iter().for_each(|note| progress.hear(&Event::Note(note)));
     match asked.common.json {
@@ -167,8 +163,8 @@ pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
     }
 }
 
-/// What drew, in a line.
-pub(super) fn drawn_by(drawn: &Drawn) -> String {
+/// What drew, and on which ground: two lines, the last without its end.
+pub(super) fn drawn_by(drawn: &Drawn, ground: &Ground) -> String {
     let mut line = format!("{} on the {}", drawn.technique, drawn.engine);
     if let Some(adapter) = &drawn.adapter {
         let _ = write!(line, " ({adapter})");
@@ -176,5 +172,6 @@ pub(super) fn drawn_by(drawn: &Drawn) -> String {
     if let Some(silhouette) = drawn.silhouette {
         let _ = write!(line, ", silhouettes {silhouette}");
     }
+    let _ = write!(line, "\nground at {}", ground.said());
     line
 }

@@ -1,6 +1,6 @@
 //! `gnomon compare`: what a change of the site does to its shadow.
 
-use super::arguments::{Common, DrawArgs, PlaceArgs, PlanArgs, WindowArgs};
+use super::arguments::{Common, DrawArgs, GroundArgs, PlaceArgs, PlanArgs, WindowArgs};
 use super::commands::drawn_by;
 use super::profile::written;
 use super::progress::Progress;
@@ -8,7 +8,7 @@ use super::{interrupt, say, who};
 use crate::export::report::Told;
 use crate::export::workplace::Workplace;
 use crate::export::{comparison, figure, file, raster};
-use crate::site::{Overrides, Pair, inputs};
+use crate::site::{Overrides, Pair, Site, inputs};
 use crate::study::{self, Stopwatch};
 use clap::Args;
 use std::fmt::Write;
@@ -28,6 +28,8 @@ pub(super) struct CompareArgs {
     #[command(flatten)]
     place: PlaceArgs,
     #[command(flatten)]
+    ground: GroundArgs,
+    #[command(flatten)]
     window: WindowArgs,
     #[command(flatten)]
     draw: DrawArgs,
@@ -42,7 +44,7 @@ pub(super) struct CompareArgs {
 
 impl CompareArgs {
     fn overrides(&self) -> Overrides {
-        self.plan.onto(self.draw.onto(self.window.onto(self.place.overrides())))
+        self.plan.onto(self.draw.onto(self.window.onto(self.ground.onto(self.place.overrides()))))
     }
 }
 
@@ -63,10 +65,11 @@ pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     })?;
     watch.lap("shadows");
 
-    let (place, track, receivers) = (&pair.after.place, &pair.after.track, pair.after.receivers);
+    let Site { place, track, receivers, ground, .. } = &pair.after;
+    let (receivers, ground) = (*receivers, *ground);
     let [first, second] = [0, 1].map(|at| {
         let (mesh, surface, drawn) = (&outcome.meshes[at], &outcome.surfaces[at], &outcome.drawn[at]);
-        figure::Scene { place, track, mesh, surface, receivers, drawn }
+        figure::Scene { place, track, mesh, surface, receivers, ground, drawn }
     });
     let change = &outcome.comparison;
     let picture = figure::difference(&[first, second], &pair.names, change)?;
@@ -76,7 +79,8 @@ pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     watch.lap("raster");
     interrupt::check()?;
     let drawn = &outcome.drawn[1];
-    let told = Told { receivers, drawn, timings: &watch.timings(), statistics: None, notes: &pair.notes() };
+    let (timings, notes) = (&watch.timings(), &pair.notes());
+    let told = Told { receivers, ground, drawn, timings, statistics: None, notes };
     let json = comparison::json(change, &pair.names, place, track, &told)?;
     let files: Vec<_> = FILES.into_iter().zip([picture, raster, json.clone().into_bytes()]).collect();
     workplace.check()?;
@@ -84,7 +88,7 @@ pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     if asked.common.json {
         return say(&json);
     }
-    let _ = writeln!(text, "{}", drawn_by(drawn));
+    let _ = writeln!(text, "{}", drawn_by(drawn, &ground));
     text.push_str(&comparison::table(change, track));
     say(&text)
 }

@@ -91,15 +91,15 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
         files.push((path, told::csv(&sunlight).into_bytes()));
     }
     if let Some(path) = &asked.out {
-        files.push((path, figure::strips(&sunlight, &probing.place)?));
+        files.push((path, figure::strips(&sunlight, &probing.place, &probing.ground)?));
     }
     interrupt::check()?;
     for (path, bytes) in &files {
         file::write(path, bytes)?;
     }
     if asked.common.json {
-        return say(&told::json(&sunlight, &probing.place, &probing.notes)?);
+        return say(&told::json(&sunlight, &probing.place, &probing.ground, &probing.notes)?);
     }
     let written: String = files.iter().map(|(path, _)| format!("{}\n", path.display())).collect();
-    say(&(told::table(&sunlight, &probing.place) + &written))
+    say(&(told::table(&sunlight, &probing.place, &probing.ground) + &written))
 }

@@ -95,9 +95,10 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let profile = Profile { grid: site.grid, shaded: sums, day_secs, night_secs };
     let drawn = &outcome.drawn;
     let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
-    let (place, track, receivers, mesh) = (&site.place, &site.track, site.receivers, &outcome.surface_mesh);
-    let surface = LazyLock::new(|| PlanSurface::new(mesh, site.ground, &site.grid));
-    let scene = || figure::Scene { place, track, mesh, surface: &*surface, receivers, drawn };
+    let Site { place, track, receivers, ground, .. } = &site;
+    let (receivers, ground, mesh) = (*receivers, *ground, &outcome.surface_mesh);
+    let surface = LazyLock::new(|| PlanSurface::new(mesh, ground.level, &site.grid));
+    let scene = || figure::Scene { place, track, mesh, surface: &*surface, receivers, ground, drawn };
     let picture = || {
         let draw = || figure::profile(&scene(), &profile);
         wanted(Written::Png).then(|| (Written::Png.file(site.receivers), timed("picture", draw)))
@@ -130,7 +131,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         kept.check(&mut progress)?;
     }
     let (statistics, timings) = (outcome.statistics.as_ref(), &watch.timings());
-    let told = Told { receivers: site.receivers, drawn, timings, statistics, notes: &site.notes };
+    let told = Told { receivers, ground, drawn, timings, statistics, notes: &site.notes };
     let json = report::profile_json(&profile, &site.place, &site.track, &told)?;
     // all are there before the first is put in its place
     let beside = |(name, bytes): &(&str, Vec<u8>)| Beside::of(&asked.out.join(name), bytes);
@@ -168,7 +169,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     if asked.common.json {
         return say(&json);
     }
-    let _ = writeln!(text, "{}", drawn_by(drawn));
+    let _ = writeln!(text, "{}", drawn_by(drawn, &ground));
     text.push_str(&statistics.map(took).unwrap_or_default());
     text.push_str(&range);
     say(&text)

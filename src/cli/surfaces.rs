@@ -46,12 +46,12 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
     watch.laps(outcome.timings);
 
     let Site { place, track, mesh, receives, .. } = site;
-    let drawn = &outcome.drawn;
+    let (drawn, ground) = (&outcome.drawn, site.ground);
     let answer = Surfaces { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours };
     let mut files: Vec<(&str, Vec<u8>)> = Vec::new();
     if kinds.contains(&Written::Png) {
         let (mesh, surface) = &study::seen_receivers(site)?;
-        let scene = figure::Scene { place, track, mesh, surface, receivers: Receivers::Surfaces, drawn };
+        let scene = figure::Scene { place, track, mesh, surface, receivers: Receivers::Surfaces, ground, drawn };
         files.push((Written::Png.file(site.receivers), figure::surfaces(&scene, &site.picture(), &answer)?));
         watch.lap("picture");
         interrupt::check()?;
@@ -65,7 +65,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
         files.push((Written::Csv.file(site.receivers), surfaces::csv(&answer).into_bytes()));
     }
     let (timings, notes) = (&watch.timings(), &site.notes);
-    let told = Told { receivers: Receivers::Surfaces, drawn, timings, statistics: None, notes };
+    let told = Told { receivers: Receivers::Surfaces, ground, drawn, timings, statistics: None, notes };
     let json = report::surfaces_json(&answer, &told)?;
     if kinds.contains(&Written::Json) {
         files.push((Written::Json.file(site.receivers), json.clone().into_bytes()));
@@ -75,7 +75,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, mut watch: Stopwatch) ->
     if asked.common.json {
         return say(&json);
     }
-    let _ = writeln!(text, "{}", drawn_by(drawn));
+    let _ = writeln!(text, "{}", drawn_by(drawn, &ground));
     text.push_str(&surfaces::summary(&answer));
     say(&text)
 }

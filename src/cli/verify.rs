@@ -16,7 +16,7 @@ pub(super) fn verify(asked: &VerifyArgs) -> anyhow::Result<()> {
     })?;
     match asked.common.json {
         true => say(&told::json(&verification, &site)?)?,
-        false => say(&told::table(&verification, &site.place, &site.track, site.receivers))?,
+        false => say(&told::table(&verification, &site))?,
     }
     match told::failure(&verification) {
         Some(failure) => anyhow::bail!(failure),

@@ -35,7 +35,7 @@ pub(super) fn volumes(asked: &VolumesArgs) -> anyhow::Result<()> {
         interrupt::flow()
     })?;
 
-    let found = solid::solids(&site.mesh, &site.casts, instant.to_sun, site.ground)?;
+    let found = solid::solids(&site.mesh, &site.casts, instant.to_sun, site.ground.level)?;
     interrupt::check()?;
     let mut note = |text: String| progress.hear(&Event::Note(text));
     match found.left_out {

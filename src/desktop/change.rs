@@ -54,7 +54,7 @@ impl Known {
         let known = &laid.site;
         let same = known.track == site.track
             && known.grid == site.grid
-            && known.ground == site.ground
+            && known.ground.level == site.ground.level
             && laid.method == site.method;
         match &laid.found {
             Found::Shadow(hours) if same => Some(hours.outcome.clone()),
@@ -87,7 +87,7 @@ pub(super) fn find(
     Work::start(context, move |on_event| {
         let mut timings = Stopwatch::start();
         // the picture lies on this ground
-        after.site.ground.level = Some(site.ground);
+        after.site.ground.level = Some(site.ground.level);
         let asked = Overrides { technique: Some(method), ..Overrides::default() };
         let mut first = Written::clone(&before);
         first.site.study = after.site.study.clone();
@@ -95,7 +95,14 @@ pub(super) fn find(
         first.site.camera = after.site.camera.clone();
         let at_hand = known.as_ref().and_then(Known::models);
         let models = at_hand.map_or_else(|| Models::read(&first, model::load), Ok)?;
+        let takes_ground = first.site.ground.level.is_none() && !models.stand_on(site.ground.level);
+        if takes_ground {
+            first.site.ground.level = Some(site.ground.level);
+        }
         let mut pair = Pair::with_models(&first, &after, &asked, |_| Ok(models.clone()), |_| Ok(models_after))?;
+        if takes_ground {
+            (pair.before.ground.from, pair.after.ground.from) = (site.ground.from, site.ground.from);
+        }
         if pair.names[0] == pair.names[1] {
             pair.names = [format!("{name}, before"), format!("{name}, after")];
         }
@@ -175,17 +182,18 @@ impl Change {
     pub(super) fn files(&self) -> anyhow::Result<Vec<NamedFile>> {
         let Change { pair, outcome, .. } = self;
         let mut watch = self.timings.clone();
-        let (place, track, receivers) = (&pair.after.place, &pair.after.track, pair.after.receivers);
+        let Site { place, track, receivers, ground, .. } = &pair.after;
+        let (receivers, ground) = (*receivers, *ground);
         let [first, second] = [0, 1].map(|at| {
             let (mesh, surface, drawn) = (&outcome.meshes[at], &outcome.surfaces[at], &outcome.drawn[at]);
-            figure::Scene { place, track, mesh, surface, receivers, drawn }
+            figure::Scene { place, track, mesh, surface, receivers, ground, drawn }
         });
         let picture = figure::difference(&[first, second], &pair.names, &outcome.comparison)?;
         watch.lap("picture");
         let raster = geotiff::difference_geotiff(&outcome.comparison, place)?;
         watch.lap("raster");
         let (drawn, timings, notes) = (&outcome.drawn[1], &watch.timings(), &pair.notes());
-        let told = Told { receivers, drawn, timings, statistics: None, notes };
+        let told = Told { receivers, ground, drawn, timings, statistics: None, notes };
         let json = comparison::json(&outcome.comparison, &pair.names, place, track, &told)?;
         Ok(vec![("compare.png", picture), ("shadow-hours-difference.tif", raster), ("compare.json", json.into_bytes())])
     }

@@ -90,13 +90,14 @@ impl Facades {
         let mut watch = self.timings.clone();
         let (answer, drawn) = (answer(site, &self.outcome), &self.outcome.drawn);
         let (mesh, surface) = &study::seen_receivers(site)?;
-        let (place, track, receivers) = (&site.place, &site.track, Receivers::Surfaces);
-        let scene = figure::Scene { place, track, mesh, surface, receivers, drawn };
+        let (place, track, receivers, ground) = (&site.place, &site.track, Receivers::Surfaces, site.ground);
+        let scene = figure::Scene { place, track, mesh, surface, receivers, ground, drawn };
         let picture = figure::surfaces(&scene, &site.picture(), &answer)?;
         watch.lap("picture");
         let model = surfaces::glb(&answer)?;
         watch.lap("model");
-        let told = Told { receivers, drawn, timings: &watch.timings(), statistics: None, notes: &site.notes };
+        let (timings, notes) = (&watch.timings(), &site.notes);
+        let told = Told { receivers, ground, drawn, timings, statistics: None, notes };
         Ok(vec![
             ("surfaces.png", picture),
             ("surfaces.glb", model),

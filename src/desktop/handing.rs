@@ -131,6 +131,7 @@ pub(super) fn drawing(
             mesh: &outcome.surface_mesh,
             surface,
             receivers: study::judged(&site, &view),
+            ground: site.ground,
             drawn: &outcome.drawn,
         };
         let seen = site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen);

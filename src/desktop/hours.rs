@@ -213,7 +213,8 @@ impl ShadowHours {
     /// The drawing, the raster and the report.
     fn files(&self, site: &Site) -> anyhow::Result<Vec<NamedFile>> {
         let Outcome { profile, drawn, timings, .. } = &self.outcome;
-        let told = report::Told { receivers: site.receivers, drawn, timings, statistics: None, notes: &site.notes };
+        let Site { receivers, ground, notes, .. } = site;
+        let told = report::Told { receivers: *receivers, ground: *ground, drawn, timings, statistics: None, notes };
         Ok(vec![
             ("profile.png", figure::profile(&self.scene(site)?, profile)?),
             ("shadow-hours.tif", raster::geotiff(profile, &site.place)?),
@@ -224,8 +225,8 @@ impl ShadowHours {
     fn scene<'a>(&'a self, site: &'a Site) -> anyhow::Result<figure::Scene<'a>> {
         let Outcome { drawn, surface, surface_mesh: mesh, .. } = &self.outcome;
         let Some(surface) = surface else { anyhow::bail!("what is seen is not there") };
-        let Site { place, track, receivers, .. } = site;
-        Ok(figure::Scene { place, track, mesh, surface, receivers: *receivers, drawn })
+        let Site { place, track, receivers, ground, .. } = site;
+        Ok(figure::Scene { place, track, mesh, surface, receivers: *receivers, ground: *ground, drawn })
     }
 }
 

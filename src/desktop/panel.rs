@@ -6,9 +6,9 @@ use super::typed::Number;
 use super::unit::Unit;
 use super::{cards, components, found, look, view};
 use crate::export::figure::Diagram;
-use crate::site::Method;
 use crate::site::file::Text;
 use crate::site::typed::{Axis, TypedError, clock, date, step};
+use crate::site::{Ground, Method};
 use eframe::egui::{self, Ui, vec2};
 use std::ops::RangeInclusive;
 
@@ -118,6 +118,9 @@ fn place(app: &mut App, ui: &mut Ui) {
         }
     });
     typed.told(ui, &["Elevation"]);
+    if let Some(open) = &app.open {
+        ground(ui, &mut app.settings.site.ground.level, &open.project.site.ground, unit);
+    }
     if let [model] = app.settings.site.model.as_mut_slice() {
         row(ui, "Model north", |ui, label| {
             let mut north = model.north.unwrap_or_default();
@@ -138,6 +141,24 @@ fn place(app: &mut App, ui: &mut Ui) {
         });
         typed.told(ui, &["Model north", "scale"]);
     }
+}
+
+/// The ground's height as the site file says it, or as it was found; and what is to be known of it.
+fn ground(ui: &mut Ui, level: &mut Option<f64>, found: &Ground, unit: Unit) {
+    row(ui, "Ground", |ui, label| {
+        let mut value = level.unwrap_or(found.level) / unit.metres;
+        let drag = egui::DragValue::new(&mut value).speed(0.1).max_decimals(3).suffix(format!(" {}", unit.name));
+        let response =
+            ui.add(drag).labelled_by(label).on_hover_text("How high the ground lies above the place's point");
+        if response.changed() {
+            // to the millimetre, as feet are written in metres
+            *level = Some((value * unit.metres * 1000.0).round() / 1000.0);
+        }
+        if level.is_some() && ui.button("Find it").on_hover_text("As the models have it").clicked() {
+            *level = None;
+        }
+    });
+    ui.weak(format!("Ground at {}", found.said()).replace('-', "−"));
 }
 
 fn shadows(app: &mut App, ui: &mut Ui) {

@@ -24,7 +24,10 @@ pub(super) fn dome(project: &Project) -> Dome {
     let (low, high) = project.site.mesh.bounds_at_home().unwrap_or((DVec3::ZERO, DVec3::ONE));
     let centre = (low + high) / 2.0;
     let radius = (high - low).truncate().length() / 2.0;
-    Dome { centre: centre.truncate().extend(project.site.ground), radius: (radius * 0.9).max(high.z - low.z).max(1.0) }
+    Dome {
+        centre: centre.truncate().extend(project.site.ground.level),
+        radius: (radius * 0.9).max(high.z - low.z).max(1.0),
+    }
 }
 
 /// What lies under a place of the picture.
@@ -32,7 +35,7 @@ pub(super) fn under(project: &Project, view: &View, rect: Rect, pointer: egui::P
     let (mesh, rays) = &*project.seen;
     let at = (pointer - rect.min) / rect.size();
     let (x, y) = (f64::from(at.x), f64::from(at.y));
-    let top = mesh.top().max(project.site.ground) + 1.0;
+    let top = mesh.top().max(project.site.ground.level) + 1.0;
     let (from, along) = match view {
         View::Plan(grid) => {
             let east = grid.west + x * (grid.east() - grid.west);
@@ -55,7 +58,7 @@ pub(super) fn under(project: &Project, view: &View, rect: Rect, pointer: egui::P
         }
     };
     let hit = rays.first_hit(from - mesh.origin, along);
-    let ground = (project.site.ground - from.z) / along.z;
+    let ground = (project.site.ground.level - from.z) / along.z;
     let ground = Some(ground).filter(|distance| *distance > 0.0 && distance.is_finite());
     match hit {
         Some((face, distance)) if ground.is_none_or(|ground| distance <= ground) => {

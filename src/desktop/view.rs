@@ -321,9 +321,9 @@ fn extent(project: &Project, stand: Stand) -> (DVec3, DVec3) {
         Stand::Perspective => (low, high),
         Stand::Plan => {
             let [west, south, east, north] = site.grid.region();
-            (DVec3::new(west, south, site.ground), DVec3::new(east, north, site.ground))
+            (DVec3::new(west, south, site.ground.level), DVec3::new(east, north, site.ground.level))
         }
-        _ => (low.with_z(site.ground), high.with_z(high.z.max(site.ground))),
+        _ => (low.with_z(site.ground.level), high.with_z(high.z.max(site.ground.level))),
     }
 }
 

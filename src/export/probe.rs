@@ -1,8 +1,9 @@
 //! What `gnomon probe` says: tables, `probe --json`, and a CSV file with a line an interval.
 
-use super::report::{PlaceReport, place_report, stamp, tz_version};
+use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, figure, report};
-use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, longest, secs};
+use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, below_ground_m, longest, secs};
+use crate::site::{Ground, metres};
 use crate::sun::{Place, Zone};
 use crate::view::Probe;
 use chrono::DateTime;
@@ -15,6 +16,8 @@ struct SunlightReport<'a> {
     gnomon: &'static str,
     place: PlaceReport<'a>,
     tz_version: String,
+    #[serde(flatten)]
+    ground: GroundReport,
     refraction: bool,
     probes: Vec<ProbeReport<'a>>,
     shortest_found_secs: u32,
@@ -26,6 +29,7 @@ struct ProbeReport<'a> {
     name: &'a str,
     point: [f64; 3],
     normal: Option<[f64; 3]>,
+    below_ground_m: Option<f64>,
     days: Vec<DayReport>,
     seconds: i64,
     longest_seconds: i64,
@@ -50,9 +54,10 @@ struct IntervalReport {
     blocked_after: String,
 }
 
-/// `probe --json`: `gnomon`, `place`, `tz_version` and `refraction` as in `profile.json`, then
+/// `probe --json`: `gnomon`, `place`, `tz_version`, the ground and `refraction` as in `profile.json`, then
 ///
-/// - `probes`, each with its `name`, its `point` in metres, its `normal` (of length 1, or null) and its `days`; these with
+/// - `probes`, each with its `name`, its `point` in metres, its `normal` (of length 1, or null),
+///   how far it lies below the ground (`below_ground_m`, null where it does not) and its `days`; these with
 ///   `date`, `sunrise` and `sunset` (null where there is none), and `intervals`: the first second in sunlight (`start`),
 ///   the first no longer in it (`end`), the `seconds` between them, and what blocks one second before the start and at
 ///   the end (`blocked_before`, `blocked_after`): the nearest component, `horizon` (the sun is down), `behind` (it is
@@ -63,7 +68,7 @@ struct IntervalReport {
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn json(sunlight: &Sunlight, place: &Place, notes: &[String]) -> Result<String, ExportError> {
+pub fn json(sunlight: &Sunlight, place: &Place, ground: &Ground, notes: &[String]) -> Result<String, ExportError> {
     let day = |(day, intervals): (&SunDay, &Vec<Interval>)| DayReport {
         date: day.window.day.date.to_string(),
         sunrise: day.window.day.sunrise.as_ref().map(stamp),
@@ -76,6 +81,7 @@ pub fn json(sunlight: &Sunlight, place: &Place, notes: &[String]) -> Result<Stri
         gnomon: env!("CARGO_PKG_VERSION"),
         place: place_report(place),
         tz_version: tz_version(place),
+        ground: ground_report(ground),
         refraction: sunlight.refraction,
         probes: sunlight
             .probes
@@ -84,6 +90,7 @@ pub fn json(sunlight: &Sunlight, place: &Place, notes: &[String]) -> Result<Stri
                 name: &probed.probe.name,
                 point: probed.probe.point.to_array(),
                 normal: probed.probe.normal.map(|normal| normal.to_array()),
+                below_ground_m: below_ground_m(&probed.probe, ground.level),
                 days: sunlight.days.iter().zip(&probed.days).map(day).collect(),
                 seconds: probed.secs(),
                 longest_seconds: probed.longest().map_or(0, Interval::secs),
@@ -125,22 +132,27 @@ pub(super) fn field(text: &str) -> String {
     if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// For each probe a table, of the intervals of a single day or of several days, and a summary; then what cannot have been
-/// missed. Ends with a line break.
-pub fn table(sunlight: &Sunlight, place: &Place) -> String {
+/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and what
+/// cannot have been missed. Ends with a line break.
+pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground) -> String {
     let mut table = String::new();
     for probed in &sunlight.probes {
         // Writing to a String cannot fail.
         let _ = writeln!(table, "{}: {}", plain(&probed.probe.name), lies(&probed.probe));
+        let below = below_ground_m(&probed.probe, ground.level);
+        if let Some(below) = below {
+            let _ = writeln!(table, "{} below the ground: no sun reaches it", metres(below));
+        }
         match (sunlight.days.as_slice(), probed.days.as_slice()) {
-            ([day], [intervals]) => day_table(&mut table, sunlight, day, intervals, place),
+            ([day], [intervals]) => day_table(&mut table, sunlight, (day, intervals), below.is_some(), place),
             _ => range_table(&mut table, sunlight, probed),
         }
         table.push('\n');
     }
     let _ = writeln!(
         table,
-        "Sun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it; clock: {}, tz {}",
+        "ground at {}\nSun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it; clock: {}, tz {}",
+        ground.said(),
         figure::duration(sunlight.step_secs),
         place.time_zone,
         place.time_zone.version()
@@ -148,7 +160,13 @@ pub fn table(sunlight: &Sunlight, place: &Place) -> String {
     table
 }
 
-fn day_table(table: &mut String, sunlight: &Sunlight, day: &SunDay, intervals: &[Interval], place: &Place) {
+fn day_table(
+    table: &mut String,
+    sunlight: &Sunlight,
+    (day, intervals): (&SunDay, &[Interval]),
+    is_buried: bool,
+    place: &Place,
+) {
     let event =
         |time: Option<DateTime<Zone>>| time.map_or_else(|| "-".to_owned(), |time| time.format("%H:%M:%S").to_string());
     let of_day = &day.window.day;
@@ -185,15 +203,16 @@ fn day_table(table: &mut String, sunlight: &Sunlight, day: &SunDay, intervals: &
         let total = clock(secs(intervals));
         let _ = writeln!(table, "\n  {total} of sun in {}, the longest {}", counted(rows.len()), clock(longest.secs()));
     } else {
-        let _ = writeln!(table, "\n  no sun: {}", why_none(day));
+        let _ = writeln!(table, "\n  no sun: {}", why_none(day, is_buried));
     }
 }
 
 /// Why a day has no interval.
-fn why_none(day: &SunDay) -> &'static str {
+fn why_none(day: &SunDay, is_buried: bool) -> &'static str {
     match day.up.is_empty() {
         true if day.window.from == day.window.to => "nothing is asked of this day",
         true => "it stays below the horizon",
+        false if is_buried => "the point lies below the ground",
         false => "it stays behind what casts, or behind the probe's own plane",
     }
 }

@@ -6,7 +6,7 @@ use super::ExportError;
 use super::surfaces::Surfaces;
 use crate::profile::surfaces::Exposure;
 use crate::profile::{Drawn, DrawnSettings, Profile, Statistics, Timings};
-use crate::site::Receivers;
+use crate::site::{Ground, Receivers};
 use crate::sun::{Air, Day, Instant, Place, SunTrack, Zone};
 use crate::view::{Grid, View};
 use chrono::{DateTime, Offset, SecondsFormat};
@@ -22,6 +22,8 @@ pub(super) struct DrawnReport<'a> {
     #[serde(flatten)]
     view: ViewReport<'a>,
     receivers: &'static str,
+    #[serde(flatten)]
+    ground: GroundReport,
     technique: &'static str,
     silhouette: Option<&'static str>,
     engine: &'static str,
@@ -41,6 +43,13 @@ pub(super) struct DrawnReport<'a> {
     timings_secs: &'a Timings,
     #[serde(skip_serializing_if = "Option::is_none")]
     statistics: Option<StatisticsReport>,
+}
+
+#[derive(Serialize)]
+pub(super) struct GroundReport {
+    ground: f64,
+    ground_from: &'static str,
+    models_below_ground_m: f64,
 }
 
 #[derive(Serialize)]
@@ -122,6 +131,8 @@ struct DayReport {
 pub struct Told<'a> {
     /// Which surfaces were judged.
     pub receivers: Receivers,
+    /// The ground plane.
+    pub ground: Ground,
     /// What drew.
     pub drawn: &'a Drawn,
     /// How long that took.
@@ -194,7 +205,7 @@ pub(super) fn plan_report<'a>(grid: &Grid, place: &'a Place, track: &SunTrack, t
 }
 
 fn drawn_report<'a>(view: ViewReport<'a>, place: &'a Place, track: &SunTrack, told: &Told<'a>) -> DrawnReport<'a> {
-    let Told { receivers, drawn, timings, statistics, notes } = *told;
+    let Told { receivers, ground, drawn, timings, statistics, notes } = *told;
     let air = Air::standard(place.elevation_m);
     let refracted = |value| track.refraction.then_some(value);
     DrawnReport {
@@ -203,6 +214,7 @@ fn drawn_report<'a>(view: ViewReport<'a>, place: &'a Place, track: &SunTrack, to
         tz_version: tz_version(place),
         view,
         receivers: receivers.word(),
+        ground: ground_report(&ground),
         technique: drawn.technique,
         silhouette: drawn.silhouette,
         engine: drawn.engine,
@@ -336,6 +348,14 @@ pub(super) fn place_report(place: &Place) -> PlaceReport<'_> {
 /// Whose rules the clock goes by: `2026f`.
 pub(super) fn tz_version(place: &Place) -> String {
     place.time_zone.version().to_string()
+}
+
+pub(super) fn ground_report(ground: &Ground) -> GroundReport {
+    GroundReport {
+        ground: ground.level,
+        ground_from: ground.from.word(),
+        models_below_ground_m: ground.models_below_m(),
+    }
 }
 
 // Angles are not rounded: the sign of the altitude and `night` then always agree.

@@ -3,7 +3,7 @@
 use super::{ExportError, report};
 use crate::profile::DrawnSettings;
 use crate::profile::verify::{HoursOff, Promise, Row, Truth, Verification};
-use crate::site::{Receivers, Site};
+use crate::site::Site;
 use crate::sun::{Place, SunTrack};
 use serde::Serialize;
 use std::fmt::Write;
@@ -21,6 +21,8 @@ struct VerifyReport<'a> {
     width: u32,
     height: u32,
     receivers: &'static str,
+    #[serde(flatten)]
+    ground: report::GroundReport,
     refraction: bool,
     instants: Vec<report::InstantReport>,
     instants_compared: usize,
@@ -76,7 +78,7 @@ struct RowReport<'a> {
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
 pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportError> {
-    let Site { place, track, receivers, notes, .. } = site;
+    let Site { place, track, receivers, ground, notes, .. } = site;
     let Verification { grid, instants, clean, edge_share, sun_samples, disc_secs, rows } = verification;
     report::json(&VerifyReport {
         gnomon: env!("CARGO_PKG_VERSION"),
@@ -87,6 +89,7 @@ pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportEr
         width: grid.width,
         height: grid.height,
         receivers: receivers.word(),
+        ground: report::ground_report(ground),
         refraction: track.refraction,
         instants: track.instants.iter().map(report::instant_report).collect(),
         instants_compared: *instants,
@@ -146,7 +149,8 @@ fn maps(rows: &[Row]) -> Option<String> {
 }
 
 /// Where, when and with what, then a line a technique, then what the columns mean; ends with a line break.
-pub fn table(verification: &Verification, place: &Place, track: &SunTrack, receivers: Receivers) -> String {
+pub fn table(verification: &Verification, site: &Site) -> String {
+    let Site { place, track, receivers, ground, .. } = site;
     let Verification { grid, instants, .. } = verification;
     let mut table = String::new();
     let night = track.instants.len() - instants;
@@ -156,7 +160,7 @@ pub fn table(verification: &Verification, place: &Place, track: &SunTrack, recei
     // Writing to a String cannot fail.
     let _ = writeln!(
         table,
-        "{}: {}, {}{}\n{} × {} cells of {:.3} m, receivers {}\ndrawn on {adapter}, silhouettes {drawn_by}\n",
+        "{}: {}, {}{}\n{} × {} cells of {:.3} m, receivers {}\nground at {}\ndrawn on {adapter}, silhouettes {drawn_by}\n",
         words(place),
         window(track),
         counted(*instants, "instant"),
@@ -165,6 +169,7 @@ pub fn table(verification: &Verification, place: &Place, track: &SunTrack, recei
         grid.height,
         grid.cell,
         receivers.word(),
+        ground.said(),
     );
     let _ = writeln!(
         table,

@@ -1,8 +1,9 @@
 //! The shadow volumes as a model: a binary glTF 2.0 file with a node a caster, which any viewer of models opens.
 
-use super::report::{PlaceReport, place_report, stamp, tz_version};
+use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, report};
 use crate::mesh::Mesh;
+use crate::site::Ground;
 use crate::sun::{Instant, Place};
 use crate::volume::solid::Solid;
 use glam::Vec3;
@@ -21,8 +22,8 @@ pub struct Volumes<'a> {
     pub instant: &'a Instant,
     /// Whether the air's refraction is in the sun's direction.
     pub refraction: bool,
-    /// Height of the ground plane, metres.
-    pub ground: f64,
+    /// The ground plane.
+    pub ground: Ground,
     /// Whose components cast.
     pub mesh: &'a Mesh,
     /// One a component, at most.
@@ -92,7 +93,7 @@ fn document(volumes: &Volumes<'_>) -> Value {
             "extras": {
                 "place": place_report(volumes.place),
                 "tz_version": tz_version(volumes.place),
-                "ground": volumes.ground,
+                "ground": volumes.ground.level,
                 "refraction": volumes.refraction,
                 "sun": volumes.sun(),
             },
@@ -158,7 +159,8 @@ struct VolumesReport<'a> {
     file: String,
     place: PlaceReport<'a>,
     tz_version: String,
-    ground: f64,
+    #[serde(flatten)]
+    ground: GroundReport,
     refraction: bool,
     sun: Value,
     volumes: Vec<VolumeLine<'a>>,
@@ -190,7 +192,7 @@ pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
         file: file.display().to_string(),
         place: place_report(volumes.place),
         tz_version: tz_version(volumes.place),
-        ground: volumes.ground,
+        ground: ground_report(&volumes.ground),
         refraction: volumes.refraction,
         sun: volumes.sun(),
         volumes: volumes.solids.iter().map(line).collect(),
@@ -199,16 +201,17 @@ pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
     })
 }
 
-/// What was written, in a line without its end.
+/// What was written, and down to which ground: two lines, the last without its end.
 pub fn summary(volumes: &Volumes<'_>) -> String {
     let triangles: usize = volumes.solids.iter().map(|solid| solid.triangles.len()).sum();
     format!(
-        "{} of {triangles} triangles; the sun at azimuth {:.2}°, altitude {:.2}°",
+        "{} of {triangles} triangles; the sun at azimuth {:.2}°, altitude {:.2}°\nground at {}",
         match volumes.solids.len() {
             1 => "1 shadow volume".to_owned(),
             count => format!("{count} shadow volumes"),
         },
         volumes.instant.azimuth_rad.to_degrees(),
         volumes.instant.altitude_rad.to_degrees(),
+        volumes.ground.said(),
     )
 }

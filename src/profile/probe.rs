@@ -1,8 +1,10 @@
 //! When points lie in the sun, and what keeps it from them.
 
+use crate::shadow::JUDGED_ABOVE_M;
 use crate::sun::{DayWindow, Zone};
 use crate::view::Probe;
 use chrono::{DateTime, NaiveDate};
+use glam::DVec3;
 
 /// What bounds an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,6 +97,16 @@ impl Sunlight {
         let most = days().min_by_key(|(_, secs)| -*secs)?;
         Some([least, most])
     }
+}
+
+/// Where a probe is judged: with a normal a millimetre before its plane.
+pub fn judged(probe: &Probe) -> DVec3 {
+    probe.point + probe.normal.unwrap_or(DVec3::ZERO) * JUDGED_ABOVE_M
+}
+
+/// How far below a ground of this height a probe is judged, metres; none where it is not.
+pub fn below_ground_m(probe: &Probe, ground: f64) -> Option<f64> {
+    Some(ground - judged(probe).z).filter(|below| *below > 0.0)
 }
 
 impl Probed {

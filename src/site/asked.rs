@@ -9,6 +9,8 @@ use crate::view::Side;
 pub struct Overrides {
     /// `--place LAT,LON`, for a model file or a site file without `[place]`.
     pub place: Option<String>,
+    /// `--ground METRES`
+    pub ground: Option<f64>,
     /// `--date 2026-09-18`
     pub date: Option<String>,
     /// `--from 10:00`

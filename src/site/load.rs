@@ -6,7 +6,7 @@ use super::extent::with_shadows;
 use super::model::{self, Model, ModelError, Placement};
 use super::models::{self, Joined, Models};
 use super::written::Written;
-use super::{Finder, Method, Receivers, Site, camera, notes, plan, study};
+use super::{Finder, Ground, Method, Receivers, Site, camera, ground, notes, plan, study};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::sun::{Place, SunTrack};
@@ -127,15 +127,16 @@ impl Site {
         }
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
-        let level = ground_level(written)?;
+        let level = ground::level(written, asked)?;
         let models = models()?;
         let [casts, receives] = models.roles(written)?;
-        let Models { mesh, bounds, notes, .. } = models;
-        let ground = level.unwrap_or(bounds.low.z);
-        let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground, &track, cut);
+        let Models { mesh, bounds, mut notes, .. } = models;
+        let ground = Ground::of(&mesh, bounds, level);
+        notes.extend(ground.notes(&mesh, receivers));
+        let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground.level, &track, cut);
         let grid = plan::grid(written, asked, || shadows(SHADOW_CUT))?;
         let side = camera::side(written, asked)?;
-        let camera = camera::camera(written, side, bounds, shadows(VIEW_CUT), ground, &track)?;
+        let camera = camera::camera(written, side, bounds, shadows(VIEW_CUT), ground.level, &track)?;
         let eye = written.site.camera.eye.map(DVec3::from_array);
         let notes = notes.into_iter().chain(track.notes()).chain(notes::on_view(&mesh, &grid, eye)).collect();
         Ok(Site {
@@ -167,17 +168,6 @@ fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {
             .parse()
             .map_err(|error: super::ChoiceError| refuse(written.key("study", "technique"), error.to_string())),
         (None, None) => Ok(Method::default()),
-    }
-}
-
-/// The ground's height, where it is written.
-pub(super) fn ground_level(written: &Written) -> Result<Option<f64>, SiteError> {
-    match written.site.ground.level {
-        Some(level) if !level.is_finite() => {
-            let what = format!("{level} is no height; write metres, for example 0.0");
-            Err(refuse(written.key("ground", "level"), what))
-        }
-        level => Ok(level),
     }
 }
 

@@ -9,6 +9,7 @@ mod dates;
 mod error;
 mod extent;
 pub mod file;
+mod ground;
 mod inputs;
 mod keys;
 mod load;
@@ -20,12 +21,14 @@ mod plan;
 mod probe;
 mod rewrite;
 mod study;
+mod terrain;
 pub mod typed;
 mod written;
 
 pub use asked::Overrides;
 pub use choice::ChoiceError;
 pub use error::{At, SiteError};
+pub use ground::{Ground, GroundFrom, metres};
 pub use inputs::inputs;
 pub use load::{Frame, LoadedMesh, load_mesh, load_sun};
 pub use models::Models;
@@ -137,8 +140,8 @@ pub struct Site {
     pub casts: Vec<bool>,
     /// Per component: whether it receives; what does not is looked through.
     pub receives: Vec<bool>,
-    /// Height of the ground plane, metres.
-    pub ground: f64,
+    /// The ground plane.
+    pub ground: Ground,
     /// The instants asked.
     pub track: SunTrack,
     /// The plan.

@@ -4,6 +4,7 @@ use super::asked::refuse;
 use super::error::{SiteError, nearest};
 use super::extent::Bounds;
 use super::file::Names;
+use super::ground::Ground;
 use super::keys;
 use super::load::Frame;
 use super::model::{Model, ModelError, Placement};
@@ -79,6 +80,11 @@ impl Models {
     /// A number of all that stands there: other triangles, or other names, have another one.
     pub fn mark(&self) -> u64 {
         self.mark
+    }
+
+    /// Whether the ground that is found under them is this one, metres.
+    pub fn stand_on(&self, level: f64) -> bool {
+        Ground::of(&self.mesh, self.bounds, None).is_at(level)
     }
 
     /// How many components each model has.

@@ -7,13 +7,11 @@ use super::load::SHADOW_CUT;
 use super::model::{self, Model, ModelError, Placement};
 use super::models::Models;
 use super::written::Written;
-use super::{Site, plan};
+use super::{Ground, GroundFrom, Site, metres, plan};
 use std::path::Path;
 
 /// Places nearer to each other than this are one, metres along the ground and in height.
 const ONE_PLACE_M: f64 = 1.0;
-/// Grounds nearer to each other than this are one, metres: a receiver is judged so far above itself.
-const ONE_GROUND_M: f64 = 0.001;
 /// Metres of a degree of latitude.
 const DEGREE_M: f64 = 111_195.0;
 
@@ -75,24 +73,40 @@ impl Pair {
 
         let mut first = Site::with_models(before, asked, || models_before(before))?;
         match table.ground.level {
-            Some(level) if (level - first.ground).abs() > ONE_GROUND_M => {
+            // the command line's goes before what either says
+            Some(level) if asked.ground.is_none() && !first.ground.is_at(level) => {
                 let what = format!(
                     "{level} m is another ground than that of {}, {} m; write the same level in both",
-                    before.file, first.ground
+                    before.file, first.ground.level
                 );
                 return Err(refuse(after.key("ground", "level"), what));
             }
-            _ => table.ground.level = Some(first.ground),
+            _ => table.ground.level = Some(first.ground.level),
         }
         let mut second = Site::with_models(&second, asked, || models_after(&second))?;
         let [(low, high), (other_low, other_high)] = [&first, &second].map(|site| {
             // a site has a triangle
             let bounds = Bounds::of(&site.mesh).unwrap_or_default();
-            let [low, high] = with_shadows(&site.mesh, bounds, &site.casts, site.ground, &site.track, SHADOW_CUT);
+            let [low, high] = with_shadows(&site.mesh, bounds, &site.casts, site.ground.level, &site.track, SHADOW_CUT);
             (low, high)
         });
         first.grid = plan::grid(before, asked, || [low.min(other_low), high.max(other_high)])?;
         second.grid = first.grid;
+        // where nobody says it
+        let is_found = after.site.ground.level.is_none() && first.ground.from != GroundFrom::Site;
+        let alone = Some(Ground::found(&second.mesh).level).filter(|alone| is_found && !first.ground.is_at(*alone));
+        second.notes.extend(alone.map(|alone| {
+            format!(
+                "{} has the ground of {}, {}, since a comparison has one; alone it would have {}",
+                after.file,
+                before.file,
+                metres(first.ground.level),
+                metres(alone),
+            )
+        }));
+        let lowest = first.ground.lowest.min(second.ground.lowest);
+        (first.ground.lowest, second.ground.lowest) = (lowest, lowest);
+        second.ground.from = first.ground.from;
 
         let names = [first.place.name.trim(), after_name.trim()];
         let told_apart = names[0] != names[1] && names.iter().all(|name| !name.is_empty());

@@ -1,9 +1,10 @@
 //! What is asked of probes: which points, on which days.
 
+use super::Receivers;
 use super::asked::{Overrides, numbers, refuse};
 use super::dates::{of_each_day, own_date, several};
 use super::error::{At, SiteError};
-use super::load::ground_level;
+use super::ground::{self, Ground};
 use super::model;
 use super::models::Models;
 use super::notes::on_probes;
@@ -31,8 +32,8 @@ pub struct Probing {
     pub notes: Vec<String>,
     /// Per component: whether it casts.
     pub casts: Vec<bool>,
-    /// Height of the ground plane, metres.
-    pub ground: f64,
+    /// The ground plane.
+    pub ground: Ground,
     /// The points, at least one, each with its own name.
     pub probes: Vec<Probe>,
     /// The days in their order, at least one, and what is asked of each.
@@ -58,23 +59,17 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
         step => step,
     }
     .map_err(|error| SiteError::sun(At::Option("--step"), error))?;
-    let level = ground_level(&written)?;
+    let level = ground::level(&written, asked)?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
     let Models { mesh, bounds, mut notes, .. } = models;
+    let ground = Ground::of(&mesh, bounds, level);
+    // a probe below it says so itself
+    notes.extend(ground.notes(&mesh, Receivers::Ground));
     notes.extend(days.last().and_then(|day| Zone::doubt(&day.to)));
     notes.extend(on_probes(&probes));
-    Ok(Probing {
-        place,
-        mesh,
-        notes,
-        casts,
-        ground: level.unwrap_or(bounds.low.z),
-        probes,
-        days,
-        step_secs,
-        refraction: !asked.no_refraction,
-    })
+    let refraction = !asked.no_refraction;
+    Ok(Probing { place, mesh, notes, casts, ground, probes, days, step_secs, refraction })
 }
 
 /// The point of the command line, or else those of the file.

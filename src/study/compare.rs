@@ -43,7 +43,7 @@ pub fn compare_with(pair: &Pair, before: Outcome, on_event: &mut OnEvent<'_>) ->
     let after = study("after", &pair.after, &pair.names[1], on_event)?;
     // by the processor in both, so that no adapter's rounding passes for a change
     let [seen_before, seen_after] = [(&before, &pair.before), (&after, &pair.after)]
-        .map(|(outcome, site)| plan_surface(&outcome.surface_mesh, site.ground, &site.grid));
+        .map(|(outcome, site)| plan_surface(&outcome.surface_mesh, site.ground.level, &site.grid));
     let altered = match pair.before.receivers {
         Receivers::Ground => vec![Altered::No; pair.before.grid.cells()],
         _ => Altered::between(&seen_before, &seen_after),

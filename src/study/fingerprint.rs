@@ -18,7 +18,7 @@ pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile], wants: &Wants) -> u
     bytemuck::cast_slice::<_, u8>(&mesh.faces).hash(&mut hasher);
     mesh.components.iter().for_each(|component| component.faces.hash(&mut hasher));
     (casts, receives, receivers.word(), hextree_depth).hash(&mut hasher);
-    numbers(&[*ground, grid.west, grid.north, grid.cell]).hash(&mut hasher);
+    numbers(&[ground.level, grid.west, grid.north, grid.cell]).hash(&mut hasher);
     (grid.width, grid.height).hash(&mut hasher);
     tiles.iter().for_each(|tile| (tile.first, tile.size).hash(&mut hasher));
     for instant in &track.instants {

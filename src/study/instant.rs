@@ -59,7 +59,9 @@ fn once(
     let mut technique = first.map_or_else(|| look.technique(), |tile| look.technique_of(*tile))?;
     let surface = match (wants.surface, view) {
         (false, _) => None,
-        (true, View::Plan(grid)) if first.is_some() => Some(plan_surface(&look.surface_mesh(), site.ground, &grid)),
+        (true, View::Plan(grid)) if first.is_some() => {
+            Some(plan_surface(&look.surface_mesh(), site.ground.level, &grid))
+        }
         (true, _) => Some(look.surface(&*technique)?),
     };
     watch.lap("prepare");

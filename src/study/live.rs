@@ -63,7 +63,7 @@ impl Live {
     pub fn new(site: &Site, gpu: Arc<Gpu>, view: View) -> Result<Live, StudyError> {
         let casters = site.mesh.of_components(&site.casts);
         let receivers = site.mesh.of_components(&site.receives);
-        let scene = Scene { casters, receivers, ground: site.ground };
+        let scene = Scene { casters, receivers, ground: site.ground.level };
         let picture = Picture::new(Arc::clone(&gpu), &scene, view)?;
         Ok(Live {
             gpu,
@@ -81,7 +81,7 @@ impl Live {
     /// Takes the site as it is written now, where the same models receive in the same way, and keeps all that does not depend
     /// on the rest; no where the scene is another.
     pub fn change_to(&mut self, site: &Site) -> bool {
-        let seen = |of: &Site| (of.receives.clone(), of.ground);
+        let seen = |of: &Site| (of.receives.clone(), of.ground.level);
         let is_same_mesh = Arc::ptr_eq(&self.scene.receivers.vertices, &site.mesh.vertices);
         if !is_same_mesh || seen(&self.site) != seen(site) {
             return false;

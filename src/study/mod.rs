@@ -310,7 +310,7 @@ impl Look<'_> {
             Receivers::Ground => mesh.of_components(&[]),
         };
         let casters = mesh.of_components(&self.site.casts);
-        Scene { casters, receivers, ground: self.site.ground }
+        Scene { casters, receivers, ground: self.site.ground.level }
     }
 
     /// Volumes and silhouette before a camera's picture, in cells half as large as its pixels: a drawing on paper holds
@@ -345,10 +345,10 @@ impl Look<'_> {
         }
         let receivers = self.surface_mesh();
         match (self.machine.gpu(), self.view) {
-            (None, View::Plan(grid)) => Ok(plan_surface(&receivers, self.site.ground, &grid)),
+            (None, View::Plan(grid)) => Ok(plan_surface(&receivers, self.site.ground.level, &grid)),
             (gpu, view) => {
                 let casters = self.site.mesh.of_components(&[]);
-                let scene = Scene { casters, receivers, ground: self.site.ground };
+                let scene = Scene { casters, receivers, ground: self.site.ground.level };
                 match gpu {
                     Some(gpu) => GpuSurface::draw(gpu, &scene, view)?.read(),
                     None => RayCast::new(scene, view, None).surface(),

@@ -6,14 +6,13 @@
 
 use super::{Event, OnEvent, StudyError, note_models, tell};
 use crate::mesh::Mesh;
-use crate::profile::probe::{Blocked, Interval, Probed, SunDay, Sunlight};
+use crate::profile::probe::{Blocked, Interval, Probed, SunDay, Sunlight, below_ground_m, judged};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::Probing;
 use crate::sun::{Air, DayWindow, Instant, Place, SunError, Zone, delta_t_secs};
 use crate::view::Probe;
 use chrono::{DateTime, TimeDelta};
-use glam::DVec3;
 use rayon::prelude::*;
 
 /// The intervals in sunlight of all probes, on all days.
@@ -69,7 +68,7 @@ impl Search<'_> {
             probes: &asked.probes,
             step: TimeDelta::seconds(asked.step_secs.into()),
             air: asked.refraction.then(|| Air::standard(asked.place.elevation_m)),
-            ground: asked.ground,
+            ground: asked.ground.level,
             casters,
             rays,
         }
@@ -116,11 +115,10 @@ impl Search<'_> {
         if probe.normal.is_some_and(|normal| normal.dot(instant.to_sun) <= 0.0) {
             return Some(Blocked::Behind);
         }
-        let judged = probe.point + probe.normal.unwrap_or(DVec3::ZERO) * JUDGED_ABOVE_M;
-        if judged.z < self.ground {
+        if below_ground_m(probe, self.ground).is_some() {
             return Some(Blocked::Ground);
         }
-        let (face, _) = self.rays.first_hit(judged - self.casters.origin, instant.to_sun)?;
+        let (face, _) = self.rays.first_hit(judged(probe) - self.casters.origin, instant.to_sun)?;
         Some(Blocked::Component(self.casters.components.partition_point(|component| component.faces.end <= face)))
     }
 }

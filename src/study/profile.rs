@@ -162,7 +162,7 @@ fn once(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>)
     }
     let mut technique = look.technique_of(tiles[first])?;
     let surface = match wants.surface {
-        true if tiles.len() > 1 => Some(plan_surface(&look.surface_mesh(), site.ground, &site.grid)),
+        true if tiles.len() > 1 => Some(plan_surface(&look.surface_mesh(), site.ground.level, &site.grid)),
         true => Some(look.surface(&*technique)?),
         false => None,
     };

@@ -89,7 +89,7 @@ fn light(
     }
     let (judged, gpu_bytes) = (texture.judged(), texture.gpu_bytes());
     let mut lit = texture.finish()?;
-    darken_underground(patches, site.ground, &mut lit);
+    darken_underground(patches, site.ground.level, &mut lit);
     watch.lap("shadows");
 
     let samples = site.settings.sun_samples.unwrap_or(1);
@@ -103,7 +103,8 @@ fn light(
 /// [`StudyError`].
 pub fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError> {
     let receivers = site.mesh.of_components(&site.receives);
-    let scene = Scene { casters: site.mesh.of_components(&[]), receivers: receivers.clone(), ground: site.ground };
+    let scene =
+        Scene { casters: site.mesh.of_components(&[]), receivers: receivers.clone(), ground: site.ground.level };
     let surface = RayCast::new(scene, site.picture(), None).surface()?;
     Ok((receivers, surface))
 }

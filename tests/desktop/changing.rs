@@ -34,6 +34,38 @@ fn hours_are_found_by_the_technique_chosen() {
     assert!(report.contains("\"shadow-map\""), "{report}");
 }
 
+/// The ground that was found is shown, can be set and undone, and is saved with the site.
+#[test]
+fn the_ground_is_set_in_the_panel() {
+    let (folder, site) = small_site();
+    let text = std::fs::read_to_string(&site).unwrap().replace("[ground]\nlevel = 0.0\n", "");
+    std::fs::write(&site, text).unwrap();
+    let mut harness = window(Some(&site));
+    harness.get_by_label("Ground at 0.00 m, the models' lowest point");
+    harness.get_by_role_and_label(egui::Role::SpinButton, "Ground").focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+    harness.step();
+    harness.event(egui::Event::Text("-1.5".to_owned()));
+    harness.step();
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+    settle(&mut harness);
+    assert_eq!(harness.state().site_file().ground.level, Some(-1.5));
+    harness.get_by_label("Ground at −1.50 m; the models begin 1.50 m above it");
+    menu(&mut harness, "Save the site file…");
+    let saved = folder.path().join("saved.toml");
+    answer(&mut harness, &saved, "Write");
+    assert_eq!(Site::load(&saved, &Overrides::default()).unwrap().ground.level, -1.5);
+    click(&mut harness, "Find it");
+    settle(&mut harness);
+    assert_eq!(harness.state().site_file().ground.level, None);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+    harness.step();
+    settle(&mut harness);
+    assert_eq!(harness.state().site_file().ground.level, Some(-1.5));
+}
+
 /// After the site is saved elsewhere, what undo brings back still finds its model.
 #[test]
 fn undo_finds_the_model_of_a_site_saved_elsewhere() {

@@ -49,7 +49,7 @@ fn compare_with(harness: &mut Harness<'_, App>, path: &Path) {
 fn ground(pair: &Pair, grid: &Grid) -> Vec<bool> {
     let site = &pair.after;
     let of = |components: &[bool]| site.mesh.of_components(components);
-    let scene = Scene { casters: of(&[]), receivers: of(&site.receives), ground: site.ground };
+    let scene = Scene { casters: of(&[]), receivers: of(&site.receives), ground: site.ground.level };
     let surface = RayCast::new(scene, View::Plan(*grid), None).surface().unwrap();
     let (width, height) = (grid.width as usize, grid.height as usize);
     let is_ground = |pixel: usize| {

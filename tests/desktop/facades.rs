@@ -28,7 +28,7 @@ fn studied(path: &Path) -> (Site, SurfaceOutcome) {
 /// Every pixel that lies within a face, as the engine says it is; the others are none.
 fn seen(site: &Site, outcome: &SurfaceOutcome, camera: &Camera) -> Vec<Option<Seen>> {
     let receivers = site.mesh.of_components(&site.receives);
-    let scene = Scene { casters: site.mesh.of_components(&[]), receivers, ground: site.ground };
+    let scene = Scene { casters: site.mesh.of_components(&[]), receivers, ground: site.ground.level };
     let surface = RayCast::new(scene, View::Camera(*camera), None).surface().unwrap();
     let receivers = site.mesh.of_components(&site.receives);
     let Site { place, track, mesh, receives, .. } = site;

@@ -9,7 +9,7 @@ use gnomon::view::{Surface, View};
 /// The site's components, and per pixel of a view which of them is seen there.
 fn seen(site: &Path, view: View) -> (Vec<String>, Vec<Option<usize>>) {
     let Site { mesh, ground, .. } = Site::load(site, &Overrides::default()).unwrap();
-    let scene = Scene { casters: mesh.of_components(&[]), receivers: mesh.clone(), ground };
+    let scene = Scene { casters: mesh.of_components(&[]), receivers: mesh.clone(), ground: ground.level };
     let surface = RayCast::new(scene, view, None).surface().unwrap();
     let component = |face: &u32| {
         let of_mesh = *face != Surface::GROUND && *face != Surface::SKY;

@@ -37,7 +37,7 @@ fn picture_is_the_engines_mask() {
     let scene = Scene {
         casters: site.mesh.of_components(&site.casts),
         receivers: site.mesh.of_components(&site.receives),
-        ground: site.ground,
+        ground: site.ground.level,
     };
     let mut cast = RayCast::new(scene, view, None);
     let mut mask = cast.draw(to_sun).unwrap().read().unwrap();

@@ -3,7 +3,7 @@
 use super::synthetic::{self, Town};
 use gnomon::export::report::{self, Told};
 use gnomon::profile::{Profile, Timings};
-use gnomon::site::Receivers;
+use gnomon::site::{Ground, Receivers};
 use serde_json::Value;
 
 /// The keys of a JSON object in the order of the text.
@@ -20,7 +20,8 @@ fn profile_json_is_the_contract() {
     let timings = Timings(vec![("load", 0.5), ("draw", 1.5), ("total", 2.25)]);
     let write = |town: &Town| {
         let (receivers, drawn, notes) = (Receivers::Ground, &town.drawn, &["hut.glb leaves something out".to_owned()]);
-        let told = Told { receivers, drawn, timings: &timings, statistics: None, notes };
+        let ground = Ground::asked(0.0);
+        let told = Told { receivers, ground, drawn, timings: &timings, statistics: None, notes };
         report::profile_json(&profile, &town.place, &town.track, &told).unwrap()
     };
     let text = write(&town);
@@ -32,6 +33,9 @@ fn profile_json_is_the_contract() {
         "width",
         "height",
         "receivers",
+        "ground",
+        "ground_from",
+        "models_below_ground_m",
         "technique",
         "silhouette",
         "engine",

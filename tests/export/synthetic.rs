@@ -5,7 +5,7 @@ use glam::DVec3;
 use gnomon::export::figure::Scene;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::{Drawn, DrawnSettings, Profile};
-use gnomon::site::Receivers;
+use gnomon::site::{Ground, Receivers};
 use gnomon::sun::{Day, Instant, Place, SunTrack, Zone, ZoneRules};
 use gnomon::view::{Grid, Mask, Surface};
 use rayon::prelude::*;
@@ -41,7 +41,8 @@ impl Town {
     }
 
     pub(super) fn scene<'a>(&'a self, surface: &'a Surface, receivers: Receivers) -> Scene<'a> {
-        Scene { place: &self.place, track: &self.track, mesh: &self.mesh, surface, receivers, drawn: &self.drawn }
+        let Town { place, track, mesh, drawn, .. } = self;
+        Scene { place, track, mesh, surface, receivers, ground: Ground::asked(0.0), drawn }
     }
 }
 

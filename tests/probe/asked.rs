@@ -32,10 +32,11 @@ fn keys(of: &Value) -> Vec<&str> {
 fn json_has_these_keys() {
     let folder = probes();
     let json: Value = serde_json::from_str(&done(folder.path(), "probe . --json --quiet")).unwrap();
-    assert_eq!(keys(&json), ["gnomon", "notes", "place", "probes", "refraction", "shortest_found_secs", "tz_version"]);
+    let head = ["gnomon", "ground", "ground_from", "models_below_ground_m", "notes", "place", "probes", "refraction"];
+    assert_eq!(keys(&json), [&head[..], &["shortest_found_secs", "tz_version"]].concat());
     assert_eq!((&json["shortest_found_secs"], &json["place"]["name"]), (&60.into(), &"Paris".into()));
     let [window, free] = json["probes"].as_array().unwrap().as_slice() else { panic!("{json}") };
-    assert_eq!(keys(window), ["days", "longest_seconds", "name", "normal", "point", "seconds"]);
+    assert_eq!(keys(window), ["below_ground_m", "days", "longest_seconds", "name", "normal", "point", "seconds"]);
     assert_eq!((&window["name"], &window["normal"]), (&"window, \"north\"".into(), &json!([0.0, -1.0, 0.0])));
     assert_eq!(
         (&free["name"], &free["normal"], &free["point"]),

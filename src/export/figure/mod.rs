@@ -38,7 +38,7 @@ pub(super) use words::duration;
 use super::{ExportError, check_size, report};
 use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile, ShadedCells};
-use crate::site::Receivers;
+use crate::site::{Ground, Receivers};
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{Counted, Grid, Mask, Overlay, Surface, SurfaceRows, View};
 use components::Components;
@@ -59,6 +59,8 @@ pub struct Scene<'a, S = Surface> {
     pub surface: &'a S,
     /// Which surfaces were judged.
     pub receivers: Receivers,
+    /// The ground plane.
+    pub ground: Ground,
     /// What drew.
     pub drawn: &'a Drawn,
 }
@@ -270,6 +272,7 @@ fn panel<S>(scene: &Scene<S>, kicker: &str) -> Panel {
         facts.push(("Place", words::coordinates(place)));
     }
     facts.push(("Elevation", words::metres(place.elevation_m)));
+    facts.push(("Ground", words::ground(&scene.ground)));
     if track.instants.len() > 1 {
         let (step, count) = (words::duration(track.step_secs), track.instants.len());
         facts.push(("Step", format!("{step}, {count} instants")));

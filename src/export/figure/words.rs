@@ -1,7 +1,7 @@
 //! How a drawing says things: places, times, durations, techniques.
 
 use crate::profile::{Drawn, DrawnSettings};
-use crate::site::Receivers;
+use crate::site::{self, Ground, GroundFrom, Receivers};
 use crate::sun::{Air, Day, EachDay, Instant, Place, SunTrack, Zone};
 use crate::view::Elevation;
 use chrono::{DateTime, NaiveDate, Offset, Timelike};
@@ -23,6 +23,20 @@ pub(super) fn metres(value: f64) -> String {
     let text = format!("{value:.*}", decimals.clamp(1.0, 9.0) as usize);
     let text = text.trim_end_matches('0').trim_end_matches('.');
     format!("{} m", if text == "-0" { "0" } else { text }).replace('-', "−")
+}
+
+/// `0.00 m, models’ zero; 12.00 m below`: in one line of a panel.
+pub(super) fn ground(ground: &Ground) -> String {
+    let (below, above) = (ground.models_below_m(), ground.lowest - ground.level);
+    let [level, below_m, above_m] = [ground.level, below, above].map(site::metres);
+    let said = match ground.from {
+        GroundFrom::Zero => format!("{level}, models’ zero; {below_m} below"),
+        _ if below > 0.0 => format!("{level}; models reach {below_m} below"),
+        GroundFrom::Lowest => format!("{level}, models’ lowest point"),
+        GroundFrom::Site if above > 0.001 => format!("{level}; models {above_m} above"),
+        GroundFrom::Site => level,
+    };
+    said.replace('-', "−")
 }
 
 /// `18 September 2026`, or the first and the last day.

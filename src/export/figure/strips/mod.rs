@@ -10,7 +10,8 @@ use super::svg::{ACCENT, Anchor, Block, GRAY, INK, Style};
 use super::text;
 use crate::export::ExportError;
 use crate::export::probe::{clock, counted, lies};
-use crate::profile::probe::{Interval, Probed, SunDay, Sunlight};
+use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, below_ground_m};
+use crate::site::{Ground, metres};
 use crate::sun::{Day, Place, Zone};
 use axes::{Hours, Tick, ticks};
 use chrono::{DateTime, NaiveDate};
@@ -39,10 +40,12 @@ const HIGHEST: f64 = 300.0;
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the page cannot be drawn or encoded.
-pub fn strips(sunlight: &Sunlight, place: &Place) -> Result<Vec<u8>, ExportError> {
+pub fn strips(sunlight: &Sunlight, place: &Place, ground: &Ground) -> Result<Vec<u8>, ExportError> {
     let hours = Hours::of(&sunlight.days);
     let left = if sunlight.days.len() > 1 { LEFT } else { RIGHT };
-    page::chart(&said::panel(sunlight, place), [left, HOURS, RIGHT, HOURS], |pixels| draw(sunlight, &hours, pixels))
+    page::chart(&said::panel(sunlight, place, ground), [left, HOURS, RIGHT, HOURS], |pixels| {
+        draw(sunlight, ground, &hours, pixels)
+    })
 }
 
 /// Where the strips lie.
@@ -69,7 +72,7 @@ impl Strips {
     }
 }
 
-fn draw(sunlight: &Sunlight, hours: &Hours, pixels: (u32, u32)) -> (Picture, Block) {
+fn draw(sunlight: &Sunlight, ground: &Ground, hours: &Hours, pixels: (u32, u32)) -> (Picture, Block) {
     let strips = Strips::within(sunlight, pixels);
     let width = strips.width as usize;
     let mut picture = Picture { width: pixels.0, height: pixels.1, pixels: vec![PAPER; width * pixels.1 as usize] };
@@ -83,7 +86,7 @@ fn draw(sunlight: &Sunlight, hours: &Hours, pixels: (u32, u32)) -> (Picture, Blo
         let at = top as usize * width;
         picture.pixels[at..at + strip.len()].copy_from_slice(&strip);
         let mut lines = Block::default();
-        head(&mut lines, sunlight, probed, f64::from(strips.width));
+        head(&mut lines, sunlight, ground, probed, f64::from(strips.width));
         curves(&mut lines, sunlight, hours, &strips);
         for tick in &ticks {
             let y = if tick.within { (tick.row as f64 + 0.5) * row + 11.0 } else { tick.row as f64 * row + 30.0 };
@@ -157,10 +160,13 @@ fn colours(day: &SunDay, intervals: &[Interval], hours: &Hours, columns: usize) 
 }
 
 /// Above a strip: which probe it is, and how much sun it has.
-fn head(lines: &mut Block, sunlight: &Sunlight, probed: &Probed, width: f64) {
+fn head(lines: &mut Block, sunlight: &Sunlight, ground: &Ground, probed: &Probed, width: f64) {
     let longest = probed.longest().map_or(0, Interval::secs);
     let sums = match (probed.days.as_slice(), longest) {
-        (_, 0) => "no sun".to_owned(),
+        (_, 0) => match below_ground_m(&probed.probe, ground.level) {
+            Some(below) => format!("no sun: {} below the ground", metres(below)),
+            None => "no sun".to_owned(),
+        },
         ([day], _) => {
             format!("{} of sun in {}, the longest {}", clock(probed.secs()), counted(day.len()), clock(longest))
         }

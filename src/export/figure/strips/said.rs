@@ -7,16 +7,18 @@ use crate::export::figure::{text, words};
 use crate::export::probe::{clock, facing, triple};
 use crate::export::report;
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight};
+use crate::site::Ground;
 use crate::sun::{Air, Place, Zone, delta_t_secs, position};
 use chrono::DateTime;
 
-pub(super) fn panel(sunlight: &Sunlight, place: &Place) -> Panel {
+pub(super) fn panel(sunlight: &Sunlight, place: &Place, ground: &Ground) -> Panel {
     let name = text::clean(&place.name);
     let mut facts = Vec::new();
     if !name.is_empty() {
         facts.push(("Place", words::coordinates(place)));
     }
     facts.push(("Elevation", words::metres(place.elevation_m)));
+    facts.push(("Ground", words::ground(ground)));
     if let [Probed { probe, .. }] = sunlight.probes.as_slice() {
         facts.push(("Point", format!("{} m", triple(probe.point).replace('-', "−"))));
         facts.push(("Normal", probe.normal.map_or_else(|| "none: free on all sides".to_owned(), facing)));

@@ -1,0 +1,92 @@
+//! What a ground plane hides of the models' upper side, and whether it is terrain.
+
+use super::extent::Bounds;
+use super::ground::ON_GROUND_M;
+use crate::mesh::Mesh;
+use crate::mesh::scan::{by_rows, spans, wholes};
+use glam::{DVec2, DVec3, Vec3Swizzles as _};
+
+/// Points along the longer side of the models' plan at which is looked.
+const POINTS: f64 = 256.0;
+/// The first of them, in their distances from each other, so that none lies on an edge of a regular model.
+const FIRST: f64 = 0.381_966;
+/// Less of the plan than this hidden is told to nobody.
+const LEAST_SHARE: f64 = 0.005;
+/// Terrain is what is seen of the models from above on at least so much of their plan.
+const TERRAIN_SHARE: f64 = 0.5;
+/// And nowhere lie two of its faces above each other, but for so much of it.
+const OVERLAP_SHARE: f64 = 0.1;
+
+/// What of the models' upper side lies below a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Buried {
+    /// The component of which most does.
+    pub(super) component: usize,
+    /// Which part of all that is seen from above.
+    pub(super) of_plan: f64,
+    /// Which part of what is seen of that component.
+    pub(super) of_component: f64,
+    /// Whether that component is terrain: a sheet, and at least half of what is seen.
+    pub(super) is_terrain: bool,
+}
+
+/// What a component comes to, in points.
+#[derive(Clone, Copy, Default)]
+struct Count {
+    faces: usize,
+    covered: usize,
+    seen: usize,
+    buried: usize,
+}
+
+/// What a plane at a level hides of what is seen from above of all models; none where that is next to nothing.
+pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> {
+    let low = bounds.low.truncate();
+    let size = bounds.high.truncate() - low;
+    let apart = size.max_element() / POINTS;
+    let [columns, rows] = size.to_array().map(|side| (side / apart).ceil().max(1.0) as usize);
+    // the highest face at each point, and the component that covered it last
+    let mut highest = vec![(f64::NEG_INFINITY, 0); columns * rows];
+    let mut last = vec![usize::MAX; columns * rows];
+    let mut counts = vec![Count::default(); mesh.components.len()];
+    for (index, component) in mesh.components.iter().enumerate() {
+        for face in component.faces.clone() {
+            let corners = mesh.corners(face as usize).map(|corner| mesh.origin + corner.as_dvec3());
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+            // upright: nobody sees it from above
+            if normal.z.abs() <= 1e-9 * normal.length() {
+                continue;
+            }
+            let height = |at: DVec2| corners[0].z - normal.xy().dot(at - corners[0].xy()) / normal.z;
+            let mut in_points = corners.map(|corner: DVec3| (corner.xy() - low) / apart - FIRST);
+            in_points.sort_unstable_by(|one, other| by_rows(*one, *other));
+            spans(in_points, 0..rows, |row, from, to| {
+                for column in wholes([from, to], 0..columns) {
+                    let point = row * columns + column;
+                    let z = height(low + (DVec2::new(column as f64, row as f64) + FIRST) * apart);
+                    counts[index].faces += 1;
+                    counts[index].covered += usize::from(std::mem::replace(&mut last[point], index) != index);
+                    if z > highest[point].0 {
+                        highest[point] = (z, index);
+                    }
+                }
+            });
+        }
+    }
+    for (z, component) in highest.into_iter().filter(|(z, _)| z.is_finite()) {
+        counts[component].seen += 1;
+        counts[component].buried += usize::from(z < level - ON_GROUND_M);
+    }
+    let of_all = |of: fn(&Count) -> usize| counts.iter().map(of).sum::<usize>();
+    let (seen, hidden) = (of_all(|count| count.seen).max(1), of_all(|count| count.buried));
+    let (component, most) = counts.iter().enumerate().max_by_key(|(_, count)| count.buried)?;
+    let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
+    let of_plan = share(hidden, seen);
+    (of_plan >= LEAST_SHARE).then(|| Buried {
+        component,
+        of_plan,
+        of_component: share(most.buried, most.seen),
+        is_terrain: share(most.seen, seen) >= TERRAIN_SHARE
+            && most.faces as f64 <= (1.0 + OVERLAP_SHARE) * most.covered as f64,
+    })
+}
