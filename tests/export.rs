@@ -5,4 +5,5 @@ mod contour;
 mod figure;
 mod raster;
 mod report;
+mod runs;
 mod synthetic;

@@ -4,7 +4,7 @@ use crate::site::{SITE, folder, load, some};
 use gnomon::mesh::Part;
 use gnomon::site::file::SiteFile;
 use gnomon::site::model::{Model, Placement};
-use gnomon::site::{Overrides, Site};
+use gnomon::site::{Overrides, Site, load_sun};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -64,6 +64,51 @@ fn mistakes_in_the_site_file_are_told() {
     told("[study]", "[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n[study]", &["[camera] eye"]);
     told("[study]", "[camera]\neye = [1, 2, 30]\ntarget = [1, 2, 3]\n[study]", &["[camera] up", "upwards"]);
     told("[study]", "[[[", &["line 13"]);
+}
+
+/// TOML makes another letter of a backslash and the one behind it, or refuses both.
+#[test]
+fn backslashes_in_paths_are_told() {
+    let path = "path = \"tower.glb\"";
+    told(
+        path,
+        r#"path = "models\tower.glb""#,
+        &["[[model]] path", r"models\tower.glb", "a tab", "write /", "single quotes"],
+    );
+    told(path, r#"path = "C:\new\tower.glb""#, &["line 9", "backslash", "write /", "single quotes"]);
+    told(path, r#"path = "models\hall.glb""#, &["line 9", "backslash", "write /", "single quotes"]);
+    told(path, r#"path = "C:\Users\hall.glb""#, &["line 9", "backslash", "single quotes"]);
+    told(path, r"path = 'models\tower.glb'", &["[[model]] path", r"models\tower.glb", "write / between folders"]);
+}
+
+#[test]
+fn other_encodings_are_told() {
+    let wide = |order: fn(u16) -> [u8; 2]| SITE.encode_utf16().flat_map(order).collect::<Vec<u8>>();
+    let marked = |mark: [u8; 2], order: fn(u16) -> [u8; 2]| [&mark[..], &wide(order)].concat();
+    let latin: Vec<u8> =
+        SITE.replace("Champ de Mars, Paris", "Pré").chars().map(|letter| letter as u32 as u8).collect();
+    let of = |bytes: &[u8]| {
+        let folder = folder("");
+        std::fs::write(folder.path().join("site.toml"), bytes).unwrap();
+        let message = load_sun(folder.path(), &Overrides::default()).expect_err("a mistake").to_string();
+        assert!(message.contains("site.toml") && !message.contains('\n'), "{message}");
+        message
+    };
+    for bytes in [
+        marked([0xFF, 0xFE], u16::to_le_bytes),
+        marked([0xFE, 0xFF], u16::to_be_bytes),
+        wide(u16::to_le_bytes),
+        wide(u16::to_be_bytes),
+    ] {
+        let message = of(&bytes);
+        assert!(message.contains("UTF-16") && message.contains("save it as UTF-8"), "{message}");
+    }
+    let message = of(&latin);
+    assert!(["line 3", "Latin-1", "save it as UTF-8"].iter().all(|word| message.contains(word)), "{message}");
+    assert!(of(b"PK\x03\x04\x00\xE9\xFA\x10").contains("it is not text"));
+    // a mark before UTF-8 is none of these
+    let folder = folder(&format!("\u{feff}{SITE}"));
+    assert!(load_sun(folder.path(), &Overrides::default()).is_ok());
 }
 
 #[test]

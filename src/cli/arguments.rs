@@ -140,7 +140,7 @@ pub(super) struct WindowArgs {
     /// The last of them, at most ten years later
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     to_date: Option<String>,
-    /// Its beginning: 10:00, sunrise+1h30 [default: with several days the whole of each]
+    /// Its beginning: 10:00, sunrise+1h30 [default: the site file's; without one the whole of each, with several days]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     from: Option<String>,
     /// Its end: 14:00, sunset-1h30 [default: as --from]

@@ -56,6 +56,14 @@ pub enum SiteError {
         /// As the user named it.
         path: String,
     },
+    /// Text, but not as site files have it.
+    #[error("{file} {what}; save it as UTF-8")]
+    Encoding {
+        /// As the user named it.
+        file: String,
+        /// Subject's verb and object.
+        what: String,
+    },
     /// Not TOML.
     #[error("{file}, line {line} `{text}`: {what}; the file must be TOML")]
     Toml {

@@ -198,12 +198,15 @@ impl SiteFile {
             let start = error.span().map_or(0, |span| span.start);
             let before = text.bytes().take(start).filter(|byte| *byte == b'\n');
             let line = before.count();
-            SiteError::Toml {
-                file: file.to_owned(),
-                line: line + 1,
-                text: text.lines().nth(line).unwrap_or_default().trim().to_owned(),
-                what: error.message().to_owned(),
+            let said = text.lines().nth(line).unwrap_or_default().trim();
+            let mut what = error.message().to_owned();
+            if said.split_once('"').is_some_and(|(_, quoted)| quoted.contains('\\')) {
+                what.push_str(
+                    "; in double quotes a backslash changes what follows it: write / between folders, or put the path in \
+                     single quotes",
+                );
             }
+            SiteError::Toml { file: file.to_owned(), line: line + 1, text: said.to_owned(), what }
         })?;
         keys::check(file, &root)?;
         Ok(SiteFile {

@@ -125,9 +125,8 @@ pub(super) fn join(
     for index in 0..count {
         let (file, placement) = placed(written, index)?;
         if !file.is_file() {
-            let what =
-                format!("there is no file {}; write where the model lies, from the site file's folder", file.display());
-            return Err(refuse(written.model_key(index, "path"), what));
+            let path = written.site.model[index].path.as_deref().unwrap_or_default();
+            return Err(refuse(written.model_key(index, "path"), no_file(path, &file)));
         }
         let first = parts.len();
         let model = read_model(&file, &placement)?;
@@ -139,6 +138,25 @@ pub(super) fn join(
     let mesh = Mesh::build(parts)?;
     notes.extend(notes::of(&mesh, Frame::Place, &models));
     Ok(Joined { mesh, of_model: models.into_iter().map(|(_, components)| components).collect(), notes })
+}
+
+/// That a model's file is not there, and what may be wrong with its path.
+fn no_file(path: &str, file: &Path) -> String {
+    let control = path.chars().find(|letter| letter.is_control()).map(|letter| match letter {
+        '\t' => "a tab",
+        '\n' | '\r' => "a line break",
+        _ => "a control character",
+    });
+    match control {
+        Some(letter) => format!(
+            "{path:?} has {letter} in it, which a backslash in double quotes makes of the letter behind it; write / between \
+             folders, or put the path in single quotes"
+        ),
+        None if path.contains('\\') => {
+            format!("there is no file {}; write / between folders, which every system reads", file.display())
+        }
+        None => format!("there is no file {}; write where the model lies, from the site file's folder", file.display()),
+    }
 }
 
 fn sources(written: &Written) -> Result<Vec<Source>, SiteError> {

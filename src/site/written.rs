@@ -21,6 +21,27 @@ pub struct Written {
     pub text: String,
 }
 
+/// A site file's bytes as text.
+fn text_of(file: &str, bytes: Vec<u8>) -> Result<String, SiteError> {
+    // in UTF-16 every other byte of what is mostly ASCII is 0
+    let zeros = |parity: usize| bytes.iter().skip(parity).step_by(2).filter(|byte| **byte == 0).count();
+    let is_wide = |parity: usize| bytes.len() >= 4 && 3 * zeros(parity) > bytes.len();
+    if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) || is_wide(0) || is_wide(1) {
+        return Err(SiteError::Encoding { file: file.to_owned(), what: "is written as UTF-16".to_owned() });
+    }
+    let has_zeros = bytes.contains(&0);
+    match String::from_utf8(bytes) {
+        Ok(text) if !has_zeros => Ok(text),
+        Err(error) if !has_zeros => {
+            let good = error.utf8_error().valid_up_to();
+            let line = error.as_bytes()[..good].iter().filter(|byte| **byte == b'\n').count() + 1;
+            let what = format!("has a letter in line {line} that is not UTF-8, but Latin-1 or Windows-1252, say");
+            Err(SiteError::Encoding { file: file.to_owned(), what })
+        }
+        _ => Err(SiteError::Unreadable { path: file.to_owned(), why: "it is not text".to_owned() }),
+    }
+}
+
 impl Written {
     /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model together with `--place`.
     ///
@@ -72,8 +93,9 @@ impl Written {
 
     fn read_file(path: &Path) -> Result<Written, SiteError> {
         let file = path.display().to_string();
-        let text = std::fs::read_to_string(path)
+        let bytes = std::fs::read(path)
             .map_err(|error| SiteError::Unreadable { path: file.clone(), why: error.to_string() })?;
+        let text = text_of(&file, bytes)?;
         Ok(Written {
             site: SiteFile::parse(&file, &text)?,
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),

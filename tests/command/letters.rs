@@ -6,8 +6,8 @@ use image::RgbImage;
 /// No letter, and in no font.
 const LETTER: char = '\u{A4CF}';
 
-/// Noto Sans with a glyph for [`LETTER`], in place of some others.
-fn face() -> Vec<u8> {
+/// Noto Sans with a glyph for a letter that it lacks, in place of some others.
+pub(crate) fn face(letter: char) -> Vec<u8> {
     let mut face = notosans::REGULAR_TTF.to_vec();
     let word = |face: &[u8], at: usize| u16::from_be_bytes([face[at], face[at + 1]]);
     let long = |face: &[u8], at: usize| (usize::from(word(face, at)) << 16) + usize::from(word(face, at + 2));
@@ -19,7 +19,7 @@ fn face() -> Vec<u8> {
     // their ends, a gap, their starts, what is added to come to a glyph
     let bytes = usize::from(word(&face, map + 6));
     let [ends, starts, deltas] = [14, 16 + bytes, 16 + 2 * bytes].map(|offset| map + offset);
-    let letter = LETTER as u16;
+    let letter = letter as u16;
     let at = (0..bytes).step_by(2).find(|at| word(&face, ends + at) > letter).unwrap();
     let start = word(&face, starts + at);
     assert!(start > letter, "it lies in a gap");
@@ -30,15 +30,15 @@ fn face() -> Vec<u8> {
     face
 }
 
-/// The sheet of the site under that name, in a home with or without the face, and what is told.
-fn sheet(name: &str, face: Option<&[u8]>) -> (RgbImage, String) {
+/// The sheet of the site under that name, in a home with these faces, and what is told.
+fn sheet(name: &str, faces: &[Vec<u8>]) -> (RgbImage, String) {
     let folder = site();
     let path = folder.path();
     let text = std::fs::read_to_string(path.join("site.toml")).unwrap();
     std::fs::write(path.join("site.toml"), text.replace("name = \"Paris\"", &format!("name = \"{name}\""))).unwrap();
-    if let Some(face) = face {
-        std::fs::create_dir(path.join(".fonts")).unwrap();
-        std::fs::write(path.join(".fonts/face.ttf"), face).unwrap();
+    std::fs::create_dir(path.join(".fonts")).unwrap();
+    for (number, face) in faces.iter().enumerate() {
+        std::fs::write(path.join(format!(".fonts/face-{number}.ttf")), face).unwrap();
     }
     let asked = "profile . --engine cpu --size 60 --write png --draw hours";
     let output = command(path, asked).env("HOME", path).output().unwrap();
@@ -60,17 +60,37 @@ fn differ(one: &RgbImage, other: &RgbImage) -> Option<[u32; 4]> {
 #[cfg(target_os = "linux")]
 #[test]
 fn the_systems_faces_draw_what_noto_sans_lacks() {
-    let face = face();
+    let face = [face(LETTER)];
     let name = format!("Haus {LETTER} Nord");
-    let (boxed, told) = sheet(&name, None);
+    let (boxed, told) = sheet(&name, &[]);
     let note = format!("no font has the letters {LETTER} of \"{name}\"");
     assert!(told.contains(&note) && told.lines().filter(|line| line.contains("no font")).count() == 1, "{told}");
-    let (drawn, told) = sheet(&name, Some(&face));
+    let (drawn, told) = sheet(&name, &face);
     assert!(!told.contains("no font"), "{told}");
     // the one letter is another, what follows it makes room, and all else stands as it stood
     let [left, top, right, bottom] = differ(&boxed, &drawn).expect("the letter is drawn");
     assert!(right - left < 700 && bottom - top < 100, "{left} {top} {right} {bottom}");
     // where Noto Sans has all letters the system is not asked
-    let ((one, told), (other, _)) = (sheet("Haus Žižkov Дом", None), sheet("Haus Žižkov Дом", Some(&face)));
+    let ((one, told), (other, _)) = (sheet("Haus Žižkov Дом", &[]), sheet("Haus Žižkov Дом", &face));
     assert!(!told.contains("no font") && differ(&one, &other).is_none(), "{told}");
+}
+
+/// Another one.
+const OTHER: char = '\u{A4D0}';
+
+/// Two faces of which neither has the other's letter draw both, side by side.
+#[cfg(target_os = "linux")]
+#[test]
+fn letters_of_two_faces_stand_in_one_line() {
+    let name = format!("A{LETTER}B{OTHER}C");
+    let (boxed, told) = sheet(&name, &[]);
+    assert!(told.contains(&format!("no font has the letters {LETTER}{OTHER}")), "{told}");
+    let (one, told) = sheet(&name, &[face(LETTER)]);
+    assert!(told.contains(&format!("no font has the letters {OTHER}")), "{told}");
+    let (both, told) = sheet(&name, &[face(LETTER), face(OTHER)]);
+    assert!(!told.contains("no font"), "{told}");
+    let [left, top, right, bottom] = differ(&boxed, &both).expect("they are drawn");
+    assert!(right - left < 700 && bottom - top < 100, "{left} {top} {right} {bottom}");
+    let [second, ..] = differ(&one, &both).expect("the other one is drawn, too");
+    assert!(second > left, "{second} {left}");
 }

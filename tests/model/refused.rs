@@ -190,9 +190,11 @@ fn unknown_required_extensions_are_refused() {
 #[test]
 fn buffers_outside_the_folder_are_refused() {
     let at = |uri: &str| changed(|json| json["buffers"] = json!([{"byteLength": 36, "uri": uri}]));
-    for uri in ["../walls.bin", "data/../../walls.bin", "/etc/passwd", "%2e%2e/walls.bin", "..\\walls.bin", "%2fetc/x"]
-    {
+    for uri in ["../walls.bin", "data/../../walls.bin", "/etc/passwd", "%2e%2e/walls.bin", "%2fetc/x"] {
         at(uri).refused(&["buffer 0", "outside the model's folder"]);
+    }
+    for uri in ["data\\walls.bin", "..\\walls.bin", "data%5Cwalls.bin"] {
+        at(uri).refused(&["buffer 0", "parted by /, not by a backslash"]);
     }
     for uri in
         ["http://example.com/x.bin", "https://example.com/x.bin", "file:///etc/passwd", "//host/x.bin", "C:/x.bin"]

@@ -48,17 +48,19 @@ impl Components {
 
         let mut colours: Vec<_> = mesh.components.iter().map(|component| (component.faces.end, WHITE)).collect();
         let mut legend = Vec::new();
+        // one that is left over takes no more room than the word that it is
+        let named = if by_size.len() == NAMED.len() + 1 { by_size.len() } else { NAMED.len() };
         for (rank, &(component, _)) in by_size.iter().enumerate() {
             let casts = casts.get(component).is_none_or(|casts| *casts);
             let colour = colour(rank, casts);
             colours[component].1 = colour;
-            if rank < NAMED.len() {
+            if rank < named {
                 let name = &mesh.components[component].name;
                 legend.push((colour, if casts { name.clone() } else { format!("{name} (does not cast)") }));
             }
         }
-        if by_size.len() > NAMED.len() {
-            legend.push((WHITE, format!("and {} more", by_size.len() - NAMED.len())));
+        if by_size.len() > named {
+            legend.push((WHITE, format!("and {} more", by_size.len() - named)));
         }
         Components { colours, legend }
     }
@@ -95,7 +97,7 @@ fn area(mesh: &Mesh, component: usize) -> f64 {
     faces.map(|face| area(mesh.corners(face as usize))).sum()
 }
 
-/// Quiet tones for the components that the legend does not name: hues a golden section apart, so that any two of them
+/// Quiet tones for the components beyond those colours: hues a golden section apart, so that any two of them
 /// that follow each other differ.
 fn further(index: usize) -> Rgb {
     let hue = (0.55 + index as f64 * 0.618_034).fract() * TAU;

@@ -1,25 +1,174 @@
 //! Faces: Noto Sans for every letter that it has, so that a drawing looks the same on every machine, and the system's for
 //! all others.
+//!
+//! A line that needs several faces is set run by run, each in a face that has all of its letters: a renderer that takes
+//! the next face for the whole line gives up where a face makes another number of glyphs of it, as one of emoji does, and
+//! then letters that other faces have are boxes, too.
 
+use super::text::{escape, unescape};
 use resvg::usvg::fontdb::{Database, FaceInfo, ID, Source, Style};
-use resvg::usvg::{FontResolver, Options};
+use resvg::usvg::{FontFamily, FontResolver, Node, Options, Tree};
 use skrifa::{FontRef, MetadataProvider};
+use std::borrow::Cow;
+use std::fmt::Write as _;
 use std::sync::{Arc, OnceLock};
+use unicode_bidi::{BidiInfo, Level};
 
 /// The family's name in the drawings' SVG.
 pub(super) const FAMILY: &str = "Noto Sans";
+/// Before a face's number in the database, as the family's name of a run.
+const FACE: &str = "face-";
 
 /// How a drawing's SVG is read. The system is asked for its faces where the drawing has letters for them, and not before.
 pub(super) fn options(svg: &str) -> Options<'static> {
     let fontdb = if svg.chars().any(is_foreign) { with_system() } else { own() };
+    let numbered = |family: &FontFamily| match family {
+        FontFamily::Named(name) => name.strip_prefix(FACE)?.parse().ok(),
+        _ => None,
+    };
     let font_resolver = FontResolver {
-        // Noto Sans of the system may be another one
-        select_font: Box::new(|font, faces| {
-            faces.faces().take(2).min_by_key(|face| face.weight.0.abs_diff(font.weight())).map(|face| face.id)
+        select_font: Box::new(move |font, faces| match font.families().iter().find_map(numbered) {
+            Some(number) => faces.faces().nth(number).map(|face| face.id),
+            None => own_face(font.weight(), faces),
         }),
         select_fallback: Box::new(|letter, used, faces| fallback(letter, used, faces)),
     };
     Options { fontdb, font_family: FAMILY.to_owned(), font_resolver, ..Options::default() }
+}
+
+/// Regular or bold, whichever is nearer. Noto Sans of the system may be another one.
+fn own_face(weight: u16, faces: &Database) -> Option<ID> {
+    faces.faces().take(2).min_by_key(|face| face.weight.0.abs_diff(weight)).map(|face| face.id)
+}
+
+/// A drawing's SVG in which every line that needs several faces is set run by run. All else stays as it is.
+pub(super) fn in_runs(svg: &str) -> Cow<'_, str> {
+    if !svg.chars().any(is_foreign) {
+        return Cow::Borrowed(svg);
+    }
+    let faces = with_system();
+    let mut set = String::with_capacity(svg.len());
+    let mut rest = svg;
+    while let Some(start) = rest.find("<text ") {
+        let (before, text) = rest.split_at(start);
+        let Some(end) = text.find("</text>") else { break };
+        let (line, after) = text.split_at(end + "</text>".len());
+        set.push_str(before);
+        set.push_str(&line_in_runs(line, &faces).unwrap_or_else(|| line.to_owned()));
+        rest = after;
+    }
+    set.push_str(rest);
+    Cow::Owned(set)
+}
+
+/// One line in runs; none where it needs a single face, or is not set at an x of its own.
+fn line_in_runs(line: &str, faces: &Database) -> Option<String> {
+    let (head, said) = line.strip_suffix("</text>")?.split_once('>')?;
+    if !said.chars().any(is_foreign) {
+        return None;
+    }
+    let of = |name: &str| Some(head.split_once(&format!(" {name}=\""))?.1.split_once('"')?.0);
+    let (x, anchor, weight) = (of("x")?, of("text-anchor")?, of("font-weight")?);
+    let runs = runs(&unescape(said), weight.parse().ok()?, faces);
+    if runs.len() < 2 {
+        return None;
+    }
+    let at = |x: f64, family: &str, said: &str| {
+        let head = head.replacen(&format!(" x=\"{}\"", of("x").unwrap_or_default()), &format!(" x=\"{x:.2}\""), 1);
+        let head = head.replacen(&format!("text-anchor=\"{anchor}\""), "text-anchor=\"start\"", 1);
+        format!("{head} font-family=\"{family}\" xml:space=\"preserve\">{}</text>", escape(said))
+    };
+    let set: Vec<(f64, String, &str)> = runs
+        .iter()
+        .map(|(face, said)| {
+            let number = face.and_then(|face| faces.faces().position(|other| other.id == face));
+            let family = number.map_or_else(|| FAMILY.to_owned(), |number| format!("{FACE}{number}"));
+            (width(&at(0.0, &family, said)), family, said.as_str())
+        })
+        .collect();
+    let whole: f64 = set.iter().map(|(width, ..)| width).sum();
+    let share = match anchor {
+        "middle" => 0.5,
+        "end" => 1.0,
+        _ => 0.0,
+    };
+    let mut left = x.parse::<f64>().ok()? - share * whole;
+    let mut lines = String::new();
+    for (width, family, said) in &set {
+        // Writing to a String cannot fail.
+        let _ = write!(lines, "{}", at(left, family, said));
+        left += width;
+    }
+    Some(lines)
+}
+
+/// How far the pen goes along a line that begins at 0.
+fn width(line: &str) -> f64 {
+    let svg = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1\" height=\"1\">{line}</svg>");
+    let tree = Tree::from_str(&svg, &options(&svg));
+    let of = |node: &Node| match node {
+        Node::Text(text) => f64::from(text.bounding_box().right()),
+        _ => 0.0,
+    };
+    tree.map_or(0.0, |tree| tree.root().children().iter().map(of).fold(0.0, f64::max))
+}
+
+/// A line's runs from left to right, each with the face that has its letters: none for Noto Sans, of whose weights this is
+/// one. What no face has stays with Noto Sans, which draws a box.
+pub fn runs(line: &str, weight: u16, faces: &Database) -> Vec<(Option<ID>, String)> {
+    let bidi = BidiInfo::new(line, Some(Level::ltr()));
+    let mut runs = Vec::new();
+    // the last of the system's faces: what it has it draws, too
+    let mut last = None;
+    for paragraph in &bidi.paragraphs {
+        let (levels, parts) = bidi.visual_runs(paragraph, paragraph.range.clone());
+        for part in parts {
+            let mut of_part = split(&line[part.clone()], weight, faces, &mut last);
+            if levels[part.start].is_rtl() {
+                of_part.reverse();
+            }
+            runs.append(&mut of_part);
+        }
+    }
+    runs
+}
+
+/// Runs of a part that is read in one direction, in the order in which it is.
+fn split(part: &str, weight: u16, faces: &Database, last: &mut Option<ID>) -> Vec<(Option<ID>, String)> {
+    let base: Vec<ID> = own_face(weight, faces).into_iter().collect();
+    let in_face =
+        |face: ID, letter: char| faces.with_face_data(face, |data, index| has(data, index, letter)).unwrap_or_default();
+    let mut runs: Vec<(Option<ID>, String)> = Vec::new();
+    for letter in part.chars() {
+        let now = runs.last().and_then(|(face, _)| *face);
+        let face = match now {
+            // what joins letters, or changes how the one before looks, stays with that
+            _ if is_unseen(letter) => now,
+            Some(face) if is_attached(letter) && in_face(face, letter) => now,
+            _ if !is_foreign(letter) => None,
+            _ => last.filter(|face| in_face(*face, letter)).or_else(|| fallback(letter, &base, faces)),
+        };
+        *last = face.or(*last);
+        match runs.last_mut() {
+            Some((of, said)) if *of == face => said.push(letter),
+            _ => runs.push((face, letter.to_string())),
+        }
+    }
+    // blanks and signs between letters of one face are that face's: words stay whole, and in their order
+    let mut joined: Vec<(Option<ID>, String)> = Vec::new();
+    for (face, said) in runs {
+        if let [.., (Some(before), text), (None, between)] = joined.as_mut_slice()
+            && face == Some(*before)
+            && between.chars().all(|letter| !letter.is_alphabetic() && in_face(*before, letter))
+        {
+            text.push_str(between);
+            text.push_str(&said);
+            joined.pop();
+        } else {
+            joined.push((face, said));
+        }
+    }
+    joined
 }
 
 /// The letters of a text that no face has, each once: they are drawn as boxes.
@@ -35,8 +184,22 @@ pub fn without_face(text: &str) -> String {
 
 /// Whether Noto Sans lacks a letter; control characters are no letters, nor is what only chooses how one looks.
 fn is_foreign(letter: char) -> bool {
-    let is_unseen = letter.is_control() || matches!(letter, '\u{200B}'..='\u{200F}' | '\u{FE00}'..='\u{FE0F}');
-    !letter.is_ascii() && !is_unseen && !has(notosans::REGULAR_TTF, 0, letter)
+    !letter.is_ascii() && !is_unseen(letter) && !has(notosans::REGULAR_TTF, 0, letter)
+}
+
+/// What is not drawn itself: control characters, joiners, and selectors of how a letter looks.
+fn is_unseen(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter, '\u{200B}'..='\u{200F}' | '\u{2060}'..='\u{2064}' | '\u{FE00}'..='\u{FE0F}' | '\u{E0000}'..='\u{E0FFF}')
+}
+
+/// What is drawn on the letter before it: accents, enclosing signs, and the tones of emoji.
+fn is_attached(letter: char) -> bool {
+    matches!(
+        letter,
+        '\u{300}'..='\u{36F}' | '\u{1AB0}'..='\u{1AFF}' | '\u{1DC0}'..='\u{1DFF}' | '\u{20D0}'..='\u{20FF}'
+            | '\u{FE20}'..='\u{FE2F}' | '\u{1F3FB}'..='\u{1F3FF}'
+    )
 }
 
 fn has(face: &[u8], index: u32, letter: char) -> bool {

@@ -24,7 +24,7 @@ mod words;
 pub use components::of_all as component_colours;
 pub use counted::{Colours, Diagram};
 pub use difference::{ChangeBands, ChangeColours, difference};
-pub use fonts::without_face;
+pub use fonts::{runs, without_face};
 pub use lines::{LineDrawing, MOST_OUTLINES, Outline, iso_hours, outlines};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;

@@ -248,6 +248,7 @@ fn letter(overlay: &Block, pieces: &mut [Piece]) -> Result<(), ExportError> {
         fonts::FAMILY,
         overlay.svg
     );
+    let svg = fonts::in_runs(&svg);
     let tree = Tree::from_str(&svg, &fonts::options(&svg)).map_err(|error| failed(&error.to_string()))?;
     pieces.par_iter_mut().for_each(|piece| {
         let [west, north, ..] = piece.place;

@@ -114,6 +114,12 @@ pub fn without_middle(name: &str, fits: impl Fn(&str) -> bool) -> String {
     (0..letters.len()).rev().map(of).find(|cut| fits(cut)).unwrap_or_else(|| of(0))
 }
 
+/// What [`escape`] was given.
+pub(super) fn unescape(text: &str) -> String {
+    let signs = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")];
+    signs.into_iter().fold(text.to_owned(), |text, (written, sign)| text.replace(written, sign))
+}
+
 /// Text as XML wants it.
 pub(super) fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());

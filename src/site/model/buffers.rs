@@ -102,7 +102,13 @@ impl<'a> Buffers<'a> {
         };
         // Also on systems where it is no separator: a file means the same everywhere.
         let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
-        if !Path::new(&relative).components().all(inside) || relative.contains('\\') {
+        if relative.contains('\\') {
+            let what = format!(
+                "lies at '{address}', and folders in an address are parted by /, not by a backslash: export it again"
+            );
+            return Err(fault(index, what));
+        }
+        if !Path::new(&relative).components().all(inside) {
             return Err(fault(
                 index,
                 format!("lies at '{address}', outside the model's folder: put it beside the model, or export one .glb"),
