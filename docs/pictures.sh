@@ -29,6 +29,13 @@ profile() {
     shrink "$drawn/profile/profile.png" "$1"
 }
 
+# PICTURE SITE: a year of shadow on the ground, from sunrise to sunset.
+year() {
+    "$GNOMON" profile "sites/$2" --from-date 2026-01-01 --to-date 2026-12-31 --from sunrise --to sunset --step 30min \
+        --receivers ground --engine cpu --write png --out "$drawn/profile"
+    shrink "$drawn/profile/profile.png" "$1"
+}
+
 # PICTURE SITE: the outlines of the shadows at the site's study.
 outlines() {
     "$GNOMON" profile "sites/$2" --write json --draw outlines --out "$drawn/profile"
@@ -62,6 +69,7 @@ camera sites/headquarters/picture.png headquarters 2026-09-18T15:00
 camera docs/pictures/headquarters-parts.png headquarters/facade-and-concrete.toml 2026-09-18T15:00 --show components
 camera docs/pictures/headquarters-components.png headquarters 2026-09-18T15:00 --show components
 profile docs/pictures/headquarters-profile.png headquarters
+year docs/pictures/headquarters-year.png headquarters
 surfaces docs/pictures/headquarters-surfaces.png headquarters
 probes docs/pictures/headquarters-probes.png headquarters 2026-01-01 2026-12-31
 

@@ -4,6 +4,7 @@ mod architecture;
 mod clock;
 mod command;
 mod counts;
+mod daylight;
 mod dense;
 #[cfg(feature = "desktop")]
 mod desktop;

@@ -15,7 +15,7 @@ use gnomon::shadow::ray_cast::RayCast;
 use gnomon::site::{Ground, Probing, Receivers};
 use gnomon::study::StudyError;
 use gnomon::study::probe::probe;
-use gnomon::sun::{Air, DayWindow, Instant, Place, Position, Reading, Zone, delta_t_secs, position};
+use gnomon::sun::{Air, DayWindow, Place, Position, Reading, Sky, Zone, delta_t_secs, position};
 use gnomon::view::{Probe, View};
 use std::ops::ControlFlow;
 
@@ -197,7 +197,8 @@ fn disagreements(mesh: &Mesh, view: View, day: &DayWindow, sunlight: &Sunlight, 
     let mut count = 0;
     let mut time = day.from;
     while time < day.to {
-        let instant = Instant::at(&place, time, 0, delta_t_secs, Some(Air::standard(place.elevation_m))).unwrap();
+        let instant =
+            Sky { place: &place, delta_t_secs, air: Some(Air::standard(place.elevation_m)) }.at(time).unwrap();
         let mask = (!instant.night).then(|| rays.draw(instant.to_sun).unwrap().read().unwrap());
         for (&(column, row), probed) in cells.iter().zip(&sunlight.probes) {
             let lit = mask.as_ref().is_some_and(|mask| mask.share[(row * grid.width + column) as usize] == 255);

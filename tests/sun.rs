@@ -324,9 +324,10 @@ fn windows_that_are_none() {
 #[test]
 fn polar_day_and_night_have_no_sunrise() {
     let tromso = place(69.6492, 18.9553, 0.0, "Europe/Oslo");
-    let day = message(track(&tromso, "2026-06-21", "sunrise+1h30", "15:00", "1h"));
+    let at = |text: &str| message(SunTrack::at(&tromso, &reading(text), None, true));
+    let day = at("2026-06-21Tsunrise+1h30");
     assert!(day.contains("no sunrise") && day.contains("polar day"), "{day}");
-    let night = message(track(&tromso, "2026-12-21", "10:00", "sunset-1h", "1h"));
+    let night = at("2026-12-21Tsunset-1h");
     assert!(night.contains("no sunset") && night.contains("polar night"), "{night}");
     let around = track(&tromso, "2026-06-21", "0:00", "2026-06-22T00:00", "1h").unwrap();
     assert!(around.instants.iter().all(|i| !i.night));

@@ -1,6 +1,6 @@
 //! The instant that is shown, and what the sun does around it.
 
-use crate::sun::{Air, Day, DayWindow, Instant, Place, Zone, delta_t_secs};
+use crate::sun::{Air, Day, DayWindow, Instant, Place, Sky, Zone, delta_t_secs};
 use chrono::{DateTime, Datelike, Days, NaiveDate, NaiveTime, TimeDelta, TimeZone, Timelike};
 use eframe::egui;
 
@@ -54,7 +54,7 @@ impl Clock {
             now: at.clone(),
             midnight: at.time,
             length_secs: 86_400.0,
-            events: Day { date: at.time.date_naive(), sunrise: None, noon: None, sunset: None },
+            events: Day { date: at.time.date_naive(), sunrise: None, noon: None, sunset: None, polar: None },
             day: Vec::new(),
             hours: Vec::new(),
             solstices: [Vec::new(), Vec::new()],
@@ -81,7 +81,7 @@ impl Clock {
 
     fn instant(&self, time: DateTime<Zone>) -> Option<Instant> {
         let air = self.refraction.then(|| Air::standard(self.place.elevation_m));
-        Instant::at(&self.place, time, 0, delta_t_secs(time.to_utc()).ok()?, air).ok()
+        Sky { place: &self.place, delta_t_secs: delta_t_secs(time.to_utc()).ok()?, air }.at(time).ok()
     }
 
     /// Shows another instant; one for which the sun is not known (before 1600, after 2999) is not taken.

@@ -4,7 +4,7 @@ use super::report::{GroundReport, PlaceReport, ground_report, place_report, stam
 use super::{ExportError, figure, report};
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, below_ground_m, longest, secs};
 use crate::site::{Ground, metres};
-use crate::sun::{Place, Zone};
+use crate::sun::{Place, Polar, Zone};
 use crate::view::Probe;
 use chrono::DateTime;
 use glam::DVec3;
@@ -210,7 +210,9 @@ fn day_table(
 /// Why a day has no interval.
 fn why_none(day: &SunDay, is_buried: bool) -> &'static str {
     match day.up.is_empty() {
-        true if day.window.from == day.window.to => "nothing is asked of this day",
+        true if day.window.from == day.window.to && day.window.day.polar != Some(Polar::Night) => {
+            "nothing is asked of this day"
+        }
         true => "it stays below the horizon",
         false if is_buried => "the point lies below the ground",
         false => "it stays behind what casts, or behind the probe's own plane",

@@ -7,7 +7,7 @@ use super::surfaces::Surfaces;
 use crate::profile::surfaces::Exposure;
 use crate::profile::{Drawn, DrawnSettings, Profile, Statistics, Timings};
 use crate::site::{Ground, Receivers};
-use crate::sun::{Air, Day, Instant, Place, SunTrack, Zone};
+use crate::sun::{Air, Day, Instant, Place, Polar, SunTrack, Zone};
 use crate::view::{Grid, View};
 use chrono::{DateTime, Offset, SecondsFormat};
 use serde::Serialize;
@@ -306,7 +306,7 @@ pub fn sun_table(place: &Place, track: &SunTrack) -> String {
             clock(day.sunrise.as_ref()),
             clock(day.noon.as_ref()),
             clock(day.sunset.as_ref()),
-            match polar(day, track) {
+            match day.polar {
                 Some(Polar::Day) => "  the sun stays up",
                 Some(Polar::Night) => "  the sun stays down",
                 None => "",
@@ -314,25 +314,6 @@ pub fn sun_table(place: &Place, track: &SunTrack) -> String {
         );
     }
     table
-}
-
-/// A day without sunrise and sunset.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Polar {
-    /// The sun stays up.
-    Day,
-    /// The sun stays down.
-    Night,
-}
-
-/// Which kind of day it is, if the sun neither rises nor sets on it: any instant of it tells.
-pub(super) fn polar(day: &Day, track: &SunTrack) -> Option<Polar> {
-    if day.sunrise.is_some() || day.sunset.is_some() {
-        return None;
-    }
-    let on_it = |instant: &&Instant| instant.time.date_naive() == day.date;
-    let instant = track.instants.iter().find(on_it)?;
-    Some(if instant.night { Polar::Night } else { Polar::Day })
 }
 
 pub(super) fn place_report(place: &Place) -> PlaceReport<'_> {

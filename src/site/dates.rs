@@ -8,8 +8,8 @@ use crate::sun::{MOST_DAYS, Reading, SunError};
 use chrono::NaiveDate;
 
 /// The days of `--from-date` and `--to-date`, or else of the study's `dates` where the command line names no date of its
-/// own; none where a single day is asked.
-pub(super) fn several(written: &Written, asked: &Overrides) -> Result<Option<Vec<NaiveDate>>, SiteError> {
+/// own, and where they are asked; none where a single day is.
+pub(super) fn several(written: &Written, asked: &Overrides) -> Result<Option<(Vec<NaiveDate>, At)>, SiteError> {
     let option = |name: &'static str, text: &Option<String>| date_of(text.clone().map(|text| (text, At::Option(name))));
     match (option("--from-date", &asked.from_date)?, option("--to-date", &asked.to_date)?) {
         (Some(first), Some(last)) => {
@@ -18,7 +18,8 @@ pub(super) fn several(written: &Written, asked: &Overrides) -> Result<Option<Vec
                 return Err(refuse(At::Option("--date"), what));
             }
             let before = format!("{last} is before --from-date {first}; exchange them");
-            return between(first, last, At::Option("--to-date"), before).map(Some);
+            let dates = between(first, last, At::Option("--to-date"), before)?;
+            return Ok(Some((dates, At::Option("--from-date"))));
         }
         (Some(_), None) => return Err(refuse(At::Option("--from-date"), "needs --to-date, the last of the days")),
         (None, Some(_)) => return Err(refuse(At::Option("--to-date"), "needs --from-date, the first of the days")),
@@ -37,7 +38,8 @@ pub(super) fn several(written: &Written, asked: &Overrides) -> Result<Option<Vec
     }
     let date = |text: &str| date_of(Some((text.to_owned(), at())));
     let (Some(first), Some(last)) = (date(&first.0)?, date(&last.0)?) else { return Ok(None) };
-    between(first, last, at(), format!("{last} is before {first}; exchange them")).map(Some)
+    let dates = between(first, last, at(), format!("{last} is before {first}; exchange them"))?;
+    Ok(Some((dates, at())))
 }
 
 fn between(first: NaiveDate, last: NaiveDate, at: At, before: String) -> Result<Vec<NaiveDate>, SiteError> {

@@ -130,33 +130,38 @@ fn days(place: &Place, written: &Written, asked: &Overrides) -> Result<Vec<DayWi
         text.as_ref().map(|text| of_each_day(text, At::Option(option))).transpose()
     };
     let (from, to) = (reading("--from", &asked.from)?, reading("--to", &asked.to)?);
-    dates(written, asked)?
+    let (dates, dates_at) = dates(written, asked)?;
+    dates
         .into_par_iter()
         .map(|date| {
             DayWindow::on(place, date, from.as_ref(), to.as_ref()).map_err(|error| {
-                let from_fails = from.as_ref().is_some_and(|from| from.at(place, date).is_err());
-                let option = match (from_fails, to.is_some()) {
-                    (true, _) => "--from",
-                    (false, true) => "--to",
-                    (false, false) => "--date",
+                let fails = |from| DayWindow::on(place, date, from, None).is_err();
+                let at = match to {
+                    _ if fails(None) => dates_at.clone(),
+                    Some(_) if !fails(from.as_ref()) => At::Option("--to"),
+                    _ => At::Option("--from"),
                 };
-                SiteError::sun(At::Option(option), error)
+                SiteError::sun(at, error)
             })
         })
         .collect()
 }
 
-/// One date, of the command line or of the study, or a range of them.
-fn dates(written: &Written, asked: &Overrides) -> Result<Vec<NaiveDate>, SiteError> {
+/// One date, of the command line or of the study, or a range of them, and where they are asked.
+fn dates(written: &Written, asked: &Overrides) -> Result<(Vec<NaiveDate>, At), SiteError> {
     if let Some(dates) = several(written, asked)? {
         return Ok(dates);
     }
     let study = &written.site.study;
-    let date = match date_of(asked.date.clone().map(|text| (text, At::Option("--date"))))? {
-        Some(date) => Some(date),
-        // A study without a date has one in its beginning.
-        None => date_of(study.date.as_ref().map(|text| (text.0.clone(), written.key("study", "date"))))?
-            .or_else(|| own_date(&study.from.as_ref()?.0)),
-    };
-    Ok(vec![date.ok_or_else(|| no_study(written, [false, true, true, true]))?])
+    let at = || At::Option("--date");
+    if let Some(date) = date_of(asked.date.clone().map(|text| (text, at())))? {
+        return Ok((vec![date], at()));
+    }
+    let at = |key: &str| written.key("study", key);
+    if let Some(date) = date_of(study.date.as_ref().map(|text| (text.0.clone(), at("date"))))? {
+        return Ok((vec![date], at("date")));
+    }
+    // A study without a date has one in its beginning.
+    let own = study.from.as_ref().and_then(|from| own_date(&from.0));
+    Ok((vec![own.ok_or_else(|| no_study(written, [false, true, true, true]))?], at("from")))
 }

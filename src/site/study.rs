@@ -4,7 +4,7 @@ use super::asked::{Overrides, refuse};
 use super::dates::{of_each_day, own_date, several};
 use super::error::{At, SiteError};
 use super::written::Written;
-use crate::sun::{EachDay, Place, Reading, SunError, SunTrack, Window, parse_date, parse_duration_secs};
+use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_date, parse_duration_secs};
 use chrono::NaiveDate;
 
 /// A text and where it was written.
@@ -55,8 +55,8 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
     let from = option("--from", &asked.from).or(file("from", study.from.as_ref().map(|text| text.0.as_str())));
     let to = option("--to", &asked.to).or(file("to", study.to.as_ref().map(|text| text.0.as_str())));
     let step = option("--step", &asked.step).or(file("step", study.step.as_deref()));
-    if let Some(dates) = several(written, asked)? {
-        return each_day(place, written, &dates, [from, to, step], refraction);
+    if let Some((dates, dates_at)) = several(written, asked)? {
+        return each_day(place, written, (&dates, dates_at), [from, to, step], refraction);
     }
     let own_date = from.as_ref().and_then(|(text, _)| own_date(text));
     let dated = own_date.is_some() || date_asked.is_some() || date_written.is_some();
@@ -78,7 +78,8 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
     SunTrack::window(place, &window, refraction).map_err(|error| match error {
         SunError::ZeroStep | SunError::TooManyInstants { .. } => step.fault(error),
         SunError::EmptyWindow { .. } | SunError::Backwards { .. } | SunError::WindowTooLong { .. } => to.fault(error),
-        _ if starts(&window, place) => to.fault(error),
+        // where its beginning is sound the fault lies in its end
+        _ if window.begin(place).is_ok() => to.fault(error),
         _ => from.fault(error),
     })
 }
@@ -87,7 +88,7 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
 fn each_day(
     place: &Place,
     written: &Written,
-    dates: &[NaiveDate],
+    (dates, dates_at): (&[NaiveDate], At),
     [from, to, step]: [Option<(String, At)>; 3],
     refraction: bool,
 ) -> Result<SunTrack, SiteError> {
@@ -98,21 +99,16 @@ fn each_day(
     let reading =
         |said: &Option<(String, At)>| said.as_ref().map(|(text, at)| of_each_day(text, at.clone())).transpose();
     let each = EachDay { from: reading(&from)?, to: reading(&to)? };
-    let days_at = || At::Option("--from-date");
-    SunTrack::days(place, dates, each, step_secs, refraction).map_err(|error| match (&error, &from, &to) {
-        (SunError::ZeroStep | SunError::TooManyInstants { .. }, ..) => SiteError::sun(step_at, error),
-        (SunError::NoEvent { reading, .. }, Some((text, at)), _) if reading.trim() == text.trim() => {
-            SiteError::sun(at.clone(), error)
-        }
-        (_, _, Some((_, at))) | (_, Some((_, at)), None) => SiteError::sun(at.clone(), error),
-        (_, None, None) => SiteError::sun(days_at(), error),
+    SunTrack::days(place, dates, each.clone(), step_secs, refraction).map_err(|error| {
+        let fails = |from: Option<&Reading>| dates.iter().any(|date| DayWindow::on(place, *date, from, None).is_err());
+        let at = match (&error, from, to) {
+            (SunError::ZeroStep | SunError::TooManyInstants { .. }, ..) => step_at,
+            (_, Some((_, at)), _) if !fails(None) && fails(each.from.as_ref()) => at,
+            (_, _, Some((_, at))) | (_, Some((_, at)), None) if !fails(None) => at,
+            _ => dates_at,
+        };
+        SiteError::sun(at, error)
     })
-}
-
-/// Whether the window's beginning is sound, so that a fault must lie in its end.
-fn starts(window: &Window, place: &Place) -> bool {
-    let date = window.from.date.or(window.date);
-    date.is_some_and(|date| window.from.at(place, date).is_ok())
 }
 
 pub(super) fn date_of(said: Option<(String, At)>) -> Result<Option<NaiveDate>, SiteError> {

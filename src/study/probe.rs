@@ -10,7 +10,7 @@ use crate::profile::probe::{Blocked, Interval, Probed, SunDay, Sunlight, below_g
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::Probing;
-use crate::sun::{Air, DayWindow, Instant, Place, SunError, Zone, delta_t_secs};
+use crate::sun::{Air, DayWindow, Instant, Place, Sky, SunError, Zone, delta_t_secs};
 use crate::view::Probe;
 use chrono::{DateTime, TimeDelta};
 use rayon::prelude::*;
@@ -77,32 +77,25 @@ impl Search<'_> {
     /// When the sun is up within a window, and each probe's intervals.
     fn day(&self, window: &DayWindow) -> Result<(Vec<Interval>, Vec<Vec<Interval>>), SunError> {
         let delta_t_secs = delta_t_secs(window.from.to_utc())?;
-        let sun = |time| Instant::at(self.place, time, 0, delta_t_secs, self.air);
-        let grid = self.grid(window, sun)?;
-        let up = intervals(&grid, sun, |instant| instant.night.then_some(Blocked::Horizon))?;
-        let of_probe = |probe| intervals(&grid, sun, |instant| self.blocked(probe, instant));
+        let sky = Sky { place: self.place, delta_t_secs, air: self.air };
+        let grid = self.grid(window, &sky)?;
+        let up = intervals(&grid, &sky, |instant| instant.night.then_some(Blocked::Horizon))?;
+        let of_probe = |probe| intervals(&grid, &sky, |instant| self.blocked(probe, instant));
         Ok((up, self.probes.iter().map(of_probe).collect::<Result<_, _>>()?))
     }
 
-    /// The window's instants, a step apart, and its end; those of which it is certain that they lie deep in the night
-    /// are left out.
-    fn grid(
-        &self,
-        window: &DayWindow,
-        sun: impl Fn(DateTime<Zone>) -> Result<Instant, SunError>,
-    ) -> Result<Vec<Instant>, SunError> {
-        /// The sun takes at least so long to rise by a degree, seconds: the sky turns by one in 239.
-        const SECS_A_DEGREE: f64 = 230.0;
-        /// More than refraction lifts the sun near the horizon, degrees.
-        const LIFTED_DEG: f64 = 1.0;
-        let mut grid = vec![sun(window.from)?];
-        let mut time = window.from;
-        while time < window.to {
-            let below = -grid.last().map_or(0.0, Instant::altitude_deg);
-            let night_secs = ((below - LIFTED_DEG) * SECS_A_DEGREE).max(0.0) as i64;
+    /// The window's instants, a step apart, and its end; those deep in the night are left out. Where the sun rises and
+    /// sets between two of them there is one more, so that no sunlight and no night is missed.
+    fn grid(&self, window: &DayWindow, sky: &Sky<'_>) -> Result<Vec<Instant>, SunError> {
+        let mut last = sky.at(window.from)?;
+        let mut grid = vec![last.clone()];
+        while last.time < window.to {
+            let night_secs = if last.night { sky.least_secs_to_horizon(&last) as i64 } else { 0 };
             let steps = (night_secs / self.step.num_seconds()).max(1) as i32;
-            time = (time + self.step * steps).min(window.to);
-            grid.push(sun(time)?);
+            let next = sky.at((last.time + self.step * steps).min(window.to))?;
+            grid.extend(sky.cut(&last, &next)?.into_iter().flat_map(|cut| cut.between));
+            grid.push(next.clone());
+            last = next;
         }
         Ok(grid)
     }
@@ -127,7 +120,7 @@ impl Search<'_> {
 /// not the one that halving finds.
 fn intervals(
     grid: &[Instant],
-    sun: impl Fn(DateTime<Zone>) -> Result<Instant, SunError>,
+    sky: &Sky<'_>,
     blocked: impl Fn(&Instant) -> Option<Blocked>,
 ) -> Result<Vec<Interval>, SunError> {
     let mut found = Vec::new();
@@ -141,7 +134,7 @@ fn intervals(
             Some((time, state)) if state.is_none() != now.1.is_none() => {
                 let (mut low, mut high) = ((time, state), now);
                 while high.0 - low.0 > TimeDelta::seconds(1) {
-                    let middle = sun(low.0 + TimeDelta::seconds((high.0 - low.0).num_seconds() / 2))?;
+                    let middle = sky.at(low.0 + TimeDelta::seconds((high.0 - low.0).num_seconds() / 2))?;
                     let state = blocked(&middle);
                     let half = if state.is_none() == low.1.is_none() { &mut low } else { &mut high };
                     *half = (middle.time, state);

@@ -1,6 +1,5 @@
 //! What people write for times and durations, and when that is at a place.
 
-use super::day::why_absent;
 use super::zone::Jump;
 use super::{Day, Place, SunError, Zone};
 use chrono::{DateTime, FixedOffset, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta, TimeZone};
@@ -65,6 +64,8 @@ impl FromStr for Reading {
 pub(super) enum When {
     /// One instant.
     At(DateTime<Zone>),
+    /// A sunrise or sunset that does not happen: what stands for it in a window, and the error where nothing can.
+    Instead(DateTime<Zone>, SunError),
     /// None that can be taken; both instants that it could mean, and the error that says so.
     Not([DateTime<Zone>; 2], SunError),
 }
@@ -78,26 +79,36 @@ impl Reading {
     pub fn at(&self, place: &Place, date: NaiveDate) -> Result<DateTime<Zone>, SunError> {
         match self.when(place, date)? {
             When::At(time) => Ok(time),
+            When::Instead(_, error) | When::Not(_, error) => Err(error),
+        }
+    }
+
+    /// As [`Reading::at`], where a window begins or ends: at what stands for a sunrise or sunset that does not happen.
+    pub(super) fn bound(&self, place: &Place, date: NaiveDate) -> Result<DateTime<Zone>, SunError> {
+        match self.when(place, date)? {
+            When::At(time) | When::Instead(time, _) => Ok(time),
             When::Not(_, error) => Err(error),
         }
     }
 
-    /// As [`Reading::at`], but keeps what an impossible clock time could have meant.
+    /// As [`Reading::at`], but keeps what stands for an event, and what an impossible clock time could have meant.
     pub(super) fn when(&self, place: &Place, date: NaiveDate) -> Result<When, SunError> {
         let date = self.date.unwrap_or(date);
-        let (event, name, shift_secs) = match self.time {
-            TimeOfDay::Clock(clock, offset) => {
-                return Ok(local(place.time_zone, date.and_time(clock), offset));
-            }
-            TimeOfDay::Sunrise(shift) => (Day::of(place, date)?.sunrise, "sunrise", shift),
-            TimeOfDay::Sunset(shift) => (Day::of(place, date)?.sunset, "sunset", shift),
+        let event = |event, shift_secs, of: fn(&Day) -> Option<DateTime<Zone>>| {
+            let day = Day::of(place, date)?;
+            Ok(match of(&day) {
+                // Shifts are at most 366 days and years four digits: no overflow.
+                Some(time) => When::At(time + TimeDelta::seconds(shift_secs)),
+                None => {
+                    let (why, reading) = (day.why_absent(), self.text.clone());
+                    When::Instead(day.instead(place, self.time), SunError::NoEvent { event, date, why, reading })
+                }
+            })
         };
-        match event {
-            // Shifts are at most 366 days and years four digits: no overflow.
-            Some(event) => Ok(When::At(event + TimeDelta::seconds(shift_secs))),
-            None => {
-                Err(SunError::NoEvent { event: name, date, why: why_absent(place, date)?, reading: self.text.clone() })
-            }
+        match self.time {
+            TimeOfDay::Clock(clock, offset) => Ok(local(place.time_zone, date.and_time(clock), offset)),
+            TimeOfDay::Sunrise(shift) => event("sunrise", shift, |day| day.sunrise),
+            TimeOfDay::Sunset(shift) => event("sunset", shift, |day| day.sunset),
         }
     }
 }

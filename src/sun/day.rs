@@ -1,17 +1,12 @@
 //! Sunrise, noon and sunset of a local calendar day.
 
 use super::position::{check_year, delta_t_secs, location};
-use super::{Day, Place, SunError, Zone};
+use super::{Day, Place, Polar, SunError, TimeOfDay, Zone};
 use chrono::{DateTime, Datelike, DurationRound, NaiveDate, NaiveTime, TimeDelta, TimeZone};
 use solar_positioning::{Events, Horizon, SolarEvents};
 
 /// Altitude of the sun's centre, without refraction, at which almanacs let its upper limb appear, degrees.
 const RISE_DEG: f64 = -0.833;
-
-/// Why a sunrise or sunset may be missing.
-pub(super) const POLAR_DAY: &str = "the sun stays up all day (polar day)";
-pub(super) const POLAR_NIGHT: &str = "the sun stays down all day (polar night)";
-const BETWEEN: &str = "near polar day and night it falls on another date";
 
 impl Day {
     /// The events of one local date, to the second, at sea level's horizon.
@@ -23,23 +18,98 @@ impl Day {
     /// A year outside 1600 to 2999.
     pub fn of(place: &Place, date: NaiveDate) -> Result<Day, SunError> {
         let events = events(place, date)?;
+        let polar = match () {
+            () if events.always_above() => Some(Polar::Day),
+            () if events.always_below() => Some(Polar::Night),
+            () => None,
+        };
         let rise = events.rises.first();
         let set = events.sets.iter().find(|set| rise.is_none_or(|rise| *set > rise)).or(events.sets.last());
         let on_date = |time: Option<&DateTime<Zone>>| time.map(|time| to_second(*time));
-        Ok(Day { date, sunrise: on_date(rise), noon: on_date(events.transits.first()), sunset: on_date(set) })
+        let noon = on_date(events.transits.first());
+        Ok(Day { date, sunrise: on_date(rise), noon, sunset: on_date(set), polar })
+    }
+
+    /// Why it lacks a sunrise or sunset, in words.
+    pub(super) fn why_absent(&self) -> &'static str {
+        match self.polar {
+            Some(Polar::Day) => "the sun stays up all day (polar day)",
+            Some(Polar::Night) => "the sun stays down all day (polar night)",
+            None => "near polar day and night it falls on another date",
+        }
+    }
+
+    /// What of the day stands for a sunrise or sunset that it lacks, where a window is bound to it: where the sun is up,
+    /// its first or its last midnight; where it stays down, noon.
+    pub(super) fn instead(&self, place: &Place, of: TimeOfDay) -> DateTime<Zone> {
+        match (self.polar, of) {
+            (Some(Polar::Night), _) => self.noon.unwrap_or_else(|| midnight(place, self.date)),
+            (_, TimeOfDay::Sunset(_)) => midnight(place, self.date.succ_opt().unwrap_or(self.date)),
+            _ => midnight(place, self.date),
+        }
     }
 }
 
-/// Why the day lacks a sunrise or sunset, in words.
-pub(super) fn why_absent(place: &Place, date: NaiveDate) -> Result<&'static str, SunError> {
-    let events = events(place, date)?;
-    Ok(if events.always_above() {
-        POLAR_DAY
-    } else if events.always_below() {
-        POLAR_NIGHT
-    } else {
-        BETWEEN
-    })
+/// Where a day's light begins or ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Bound {
+    /// At a sunrise or sunset.
+    Event(DateTime<Zone>),
+    /// At the day's midnight, with the sun up before and after it.
+    Midnight(DateTime<Zone>),
+}
+
+impl Bound {
+    /// So many seconds later; midnight is where it is, as nothing happens there to count from.
+    pub(super) fn shifted(self, secs: i64) -> DateTime<Zone> {
+        match self {
+            // Shifts are at most 366 days and years four digits: no overflow.
+            Bound::Event(time) => time + TimeDelta::seconds(secs),
+            Bound::Midnight(time) => time,
+        }
+    }
+}
+
+/// From when to when the light of a date is; `None` where it has none.
+///
+/// Light from a sunrise to its sunset belongs to the date of the sunrise, though the sunset may lie on the next one. Light
+/// of more than a day, as around midsummer near the poles, is cut at each midnight. So all light is some date's, and none
+/// is of two. Where a date has two pieces the night between them is within.
+pub(super) fn light(place: &Place, date: NaiveDate) -> Result<Option<[Bound; 2]>, SunError> {
+    const LONGEST: TimeDelta = TimeDelta::hours(24);
+    let today = events(place, date)?;
+    let (first_set, last_rise) = (today.sets.first(), today.rises.last());
+    let up_at_start = match first_set {
+        Some(set) => today.rises.first().is_none_or(|rise| set < rise),
+        None => today.always_above(),
+    };
+    let up_at_end = match last_rise {
+        Some(rise) => today.sets.last().is_none_or(|set| set < rise),
+        None => today.always_above(),
+    };
+    let is_of_yesterday = match first_set {
+        Some(set) if up_at_start => {
+            let yesterday = date.pred_opt().map(|date| events(place, date)).transpose()?;
+            let rise = yesterday.and_then(|events| events.rises.last().copied());
+            rise.is_some_and(|rise| *set - rise <= LONGEST)
+        }
+        _ => false,
+    };
+    let begin = match today.rises.first() {
+        _ if up_at_start && !is_of_yesterday => Bound::Midnight(midnight(place, date)),
+        Some(rise) => Bound::Event(to_second(*rise)),
+        None => return Ok(None),
+    };
+    let next = date.succ_opt().unwrap_or(date);
+    let end = match (last_rise, today.sets.last()) {
+        (Some(rise), _) if up_at_end => {
+            let set = events(place, next)?.sets.first().copied();
+            set.filter(|set| *set - *rise <= LONGEST).map(|set| Bound::Event(to_second(set)))
+        }
+        (_, Some(set)) => Some(Bound::Event(to_second(*set))),
+        _ => None,
+    };
+    Ok(Some([begin, end.unwrap_or_else(|| Bound::Midnight(midnight(place, next)))]))
 }
 
 /// Everything that the sun does between one local midnight and the next.

@@ -1,7 +1,7 @@
 //! The part of a day that is asked, for questions of single days.
 
 use super::day::midnight;
-use super::{Day, Place, Reading, SunError, TimeOfDay, Window, Zone};
+use super::{Day, Place, Reading, SunError, Window, Zone};
 use chrono::{DateTime, NaiveDate};
 
 /// A day, and the part of it that is asked.
@@ -29,17 +29,16 @@ impl DayWindow {
     ) -> Result<DayWindow, SunError> {
         let day = Day::of(place, date)?;
         if let (Some(from), Some(to)) = (from, to) {
-            if let (TimeOfDay::Sunrise(_), TimeOfDay::Sunset(_)) = (from.time, to.time) {
-                let from = from.at(place, date)?;
-                return Ok(DayWindow { day, from, to: to.at(place, date)?.max(from) });
-            }
             let window = Window { date: Some(date), from: from.clone(), to: to.clone(), step_secs: 1 };
-            let [from, to] = window.bounds(place)?;
+            let [from, to] = match window.light(place, date)? {
+                Some([from, to]) => [from, to.max(from)],
+                None => window.bounds(place)?,
+            };
             return Ok(DayWindow { day, from, to });
         }
         let next = date.succ_opt().unwrap_or(date);
-        let from = from.map_or_else(|| Ok(midnight(place, date)), |from| from.at(place, date))?;
-        let to = to.map_or_else(|| Ok(midnight(place, next)), |to| to.at(place, date))?;
+        let from = from.map_or_else(|| Ok(midnight(place, date)), |from| from.bound(place, date))?;
+        let to = to.map_or_else(|| Ok(midnight(place, next)), |to| to.bound(place, date))?;
         Ok(DayWindow { day, from, to: to.max(from) })
     }
 }

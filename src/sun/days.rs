@@ -1,8 +1,9 @@
 //! The instants of a window on each of several days.
 
-use super::window::{MOST_INSTANTS, elapsed_secs, track, weights_secs};
-use super::{DayWindow, Place, Reading, SunError, SunTrack, Zone};
-use chrono::{DateTime, NaiveDate, TimeDelta};
+use super::window::{MOST_INSTANTS, track};
+use super::{DayWindow, Place, Polar, Reading, SunError, SunTrack, TimeOfDay, Zone};
+use chrono::{DateTime, NaiveDate};
+use rayon::prelude::*;
 
 /// The part of each day that a study of several days asks, as written; the whole day where nothing is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,7 +18,7 @@ impl SunTrack {
     /// The instants of a window on each of some dates, which follow one another: as a window's of its own, one day after
     /// the other, and with the same weights. Where a day's window ends as the next begins, the instant between them is one.
     ///
-    /// Where `sunrise+…` is later than `sunset-…` a day has none.
+    /// Where `sunrise+…` is later than `sunset-…` a day has none; bound to the sun, in polar night, its noon alone.
     ///
     /// # Errors
     /// What [`DayWindow::on`] says, a step of 0 or one that makes too many instants, dates without an instant at all.
@@ -31,37 +32,31 @@ impl SunTrack {
         if step_secs == 0 {
             return Err(SunError::ZeroStep);
         }
-        let mut times: Vec<DateTime<Zone>> = Vec::new();
-        let mut weights: Vec<u32> = Vec::new();
-        let mut days = Vec::with_capacity(dates.len());
+        // outside the light of a day there is only night, which the day before may have taken
+        let of_light = matches!(
+            [&each.from, &each.to].map(|reading| reading.as_ref().map(|reading| reading.time)),
+            [Some(TimeOfDay::Sunrise(_)), Some(TimeOfDay::Sunset(_))]
+        );
+        let found = dates.par_iter().map(|date| DayWindow::on(place, *date, each.from.as_ref(), each.to.as_ref()));
+        let found: Vec<DayWindow> = found.collect::<Result<_, _>>()?;
+        let mut windows: Vec<[DateTime<Zone>; 2]> = Vec::with_capacity(dates.len());
         let (mut asked, mut window_secs) = (0, 0);
-        for date in dates {
-            let DayWindow { day, from, to } = DayWindow::on(place, *date, each.from.as_ref(), each.to.as_ref())?;
-            days.push(day);
+        for DayWindow { day, mut from, to } in found.iter().cloned() {
+            if let Some([_, last]) = windows.last()
+                && *last > from
+            {
+                if !of_light {
+                    return Err(SunError::Overlap { date: day.date });
+                }
+                from = to.min(*last);
+            }
             let seconds = (to - from).num_seconds();
-            if seconds == 0 {
+            if seconds == 0 && day.polar != Some(Polar::Night) {
                 continue;
             }
-            if times.last().is_some_and(|last| *last > from) {
-                return Err(SunError::Overlap { date: *date });
-            }
+            windows.push([from, to]);
             window_secs += seconds;
             asked += seconds / i64::from(step_secs) + 2;
-            if asked > MOST_INSTANTS {
-                continue;
-            }
-            let elapsed = elapsed_secs(seconds, step_secs);
-            let mut of_day = weights_secs(&elapsed).into_iter();
-            if times.last() == Some(&from)
-                && let (Some(last), Some(first)) = (weights.last_mut(), of_day.next())
-            {
-                *last += first;
-            } else {
-                times.push(from);
-                weights.extend(of_day.next());
-            }
-            times.extend(elapsed[1..].iter().map(|elapsed| from + TimeDelta::seconds(*elapsed)));
-            weights.extend(of_day);
         }
         if asked > MOST_INSTANTS {
             return Err(SunError::TooManyInstants {
@@ -72,14 +67,13 @@ impl SunTrack {
                 least_secs: window_secs / (MOST_INSTANTS - 2 * dates.len() as i64).max(1) + 1,
             });
         }
-        let mut track = match (dates.first(), dates.last()) {
-            (Some(first), Some(last)) if times.is_empty() => {
+        let track = match (dates.first(), dates.last()) {
+            (Some(first), Some(last)) if windows.is_empty() => {
                 return Err(SunError::NoWindow { first: *first, last: *last });
             }
-            _ => track(place, &times, &weights, step_secs, refraction)?,
+            _ => track(place, &windows, step_secs, refraction)?,
         };
-        track.days = days;
-        track.each_day = Some(each);
-        Ok(track)
+        let days = found.into_iter().map(|window| window.day).collect();
+        Ok(SunTrack { days, each_day: Some(each), ..track })
     }
 }

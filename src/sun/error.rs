@@ -102,6 +102,18 @@ pub enum SunError {
         /// The last date.
         last: NaiveDate,
     },
+    /// On a date there is nothing between `from` and `to`, as the sun does not rise or set.
+    #[error("on {date} there is nothing from {from} to {to}: {why}; give clock times")]
+    NothingAsked {
+        /// As written.
+        from: String,
+        /// As written.
+        to: String,
+        /// The local date.
+        date: NaiveDate,
+        /// Polar day, or a day between.
+        why: &'static str,
+    },
     /// `from` and `to` are the same.
     #[error(
         "the window from {from} to {to} is empty; give a later `to`, \

@@ -10,6 +10,7 @@ mod meant;
 mod place;
 mod position;
 mod rules;
+mod sky;
 mod window;
 mod zone;
 
@@ -21,6 +22,7 @@ pub use error::SunError;
 pub use place::zone_at;
 pub use position::{Air, Position, delta_t_secs, position};
 pub use rules::{TzVersion, ZoneRules, zone_names};
+pub use sky::{Cut, Sky};
 pub use window::{MOST_DAYS, Window};
 pub use zone::{Zone, ZoneOffset};
 
@@ -72,6 +74,17 @@ pub struct Day {
     pub noon: Option<DateTime<Zone>>,
     /// Upper limb at −0.833°.
     pub sunset: Option<DateTime<Zone>>,
+    /// Whether the sun neither rises nor sets on it.
+    pub polar: Option<Polar>,
+}
+
+/// A day on which the sun neither rises nor sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Polar {
+    /// It stays up.
+    Day,
+    /// It stays down.
+    Night,
 }
 
 /// The instants of a study, in time's order, and the days they lie on.
@@ -92,30 +105,6 @@ pub struct SunTrack {
 }
 
 impl Instant {
-    /// The sun at a time, with ΔT in seconds; without `air` there is no refraction.
-    ///
-    /// # Errors
-    /// As [`position()`].
-    pub fn at(
-        place: &Place,
-        time: DateTime<Zone>,
-        weight_secs: u32,
-        delta_t_secs: f64,
-        air: Option<Air>,
-    ) -> Result<Instant, SunError> {
-        let seen = position(place, time.to_utc(), delta_t_secs, air)?;
-        let mut instant = Instant {
-            time,
-            to_sun: seen.to_sun(),
-            azimuth_rad: seen.azimuth_deg.to_radians(),
-            altitude_rad: seen.altitude_deg.to_radians(),
-            weight_secs,
-            night: false,
-        };
-        instant.night = instant.altitude_deg() < 0.0;
-        Ok(instant)
-    }
-
     /// Clockwise from true north, degrees, as it is printed: to 0.00001°.
     pub fn azimuth_deg(&self) -> f64 {
         as_printed(self.azimuth_rad.to_degrees()) % 360.0

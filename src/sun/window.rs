@@ -1,10 +1,12 @@
 //! A study's window: its instants and how many seconds each stands for.
 
 use super::clock::When;
+use super::day::{light, midnight};
 use super::position::{Air, check_year, delta_t_secs};
-use super::{Day, Instant, Place, Reading, SunError, SunTrack, Zone};
-use chrono::{DateTime, Datelike, NaiveDate, TimeDelta, Utc};
+use super::{Day, Instant, Place, Polar, Reading, Sky, SunError, SunTrack, TimeOfDay, Zone};
+use chrono::{DateTime, Datelike, NaiveDate, TimeDelta};
 use rayon::prelude::*;
+use std::cmp::Ordering;
 
 /// Beyond this a step is a slip of the pen.
 pub(super) const MOST_INSTANTS: i64 = 1_000_000;
@@ -27,29 +29,68 @@ pub struct Window {
 impl Window {
     /// Its first and last instant at a place.
     ///
+    /// From a sunrise to a sunset it is the light of the date; without light both are noon. Bound to an event that does
+    /// not happen it begins or ends with the day's light, and both may be one instant.
+    ///
     /// # Errors
     /// No date, two dates, readings that are no instants, or a window that is empty or runs backwards.
     pub fn bounds(&self, place: &Place) -> Result<[DateTime<Zone>; 2], SunError> {
         let date = date_of(&self.from, self.date)?;
-        let from = self.from.at(place, date)?;
+        if let Some([from, to]) = self.light(place, date)?
+            && (from < to || from == to && Day::of(place, date)?.sunrise.is_none())
+        {
+            return Ok([from, to]);
+        }
+        let from = self.begin(place)?;
         if self.to.date.is_some() {
-            let to = self.to.at(place, date)?;
+            let when = self.to.when(place, date)?;
+            let may_be_empty = matches!(when, When::Instead(..));
+            let to = self.to.bound(place, date)?;
             return match to.cmp(&from) {
-                std::cmp::Ordering::Less => Err(SunError::Backwards { from, to }),
-                std::cmp::Ordering::Equal => Err(self.empty(date)),
-                std::cmp::Ordering::Greater => Ok([from, to]),
+                Ordering::Less => Err(SunError::Backwards { from, to }),
+                Ordering::Equal if !may_be_empty => Err(self.empty(date)),
+                _ => Ok([from, to]),
             };
         }
         match self.to.when(place, date)? {
             When::At(to) if to > from => return Ok([from, to]),
             When::At(to) if to == from => return Err(self.empty(date)),
+            When::Instead(to, _) if to >= from => return Ok([from, to]),
             // The hour that clocks skip or repeat matters only where the window ends in it.
             When::Not(meant, error) if meant.iter().any(|to| *to >= from) => return Err(error),
-            When::At(_) | When::Not(..) => {}
+            When::At(_) | When::Instead(..) | When::Not(..) => {}
         }
         let next = date.succ_opt().unwrap_or(date);
-        let to = self.to.at(place, next)?;
-        if to > from { Ok([from, to]) } else { Err(SunError::Backwards { from, to }) }
+        match self.to.when(place, next)? {
+            When::At(to) if to > from => Ok([from, to]),
+            When::At(to) => Err(SunError::Backwards { from, to }),
+            // the next day's light is that day's
+            When::Instead(..) => Ok([from, midnight(place, next).max(from)]),
+            When::Not(_, error) => Err(error),
+        }
+    }
+
+    /// Its first instant, as [`Window::bounds`] has it where it is not the light of a date.
+    ///
+    /// # Errors
+    /// No date, two dates, a reading that is no instant.
+    pub fn begin(&self, place: &Place) -> Result<DateTime<Zone>, SunError> {
+        self.from.bound(place, date_of(&self.from, self.date)?)
+    }
+
+    /// The light of a date, from its sunrise to its sunset, each so much later as is asked, where that is what is asked.
+    /// Where the date has no light, noon twice.
+    pub(super) fn light(&self, place: &Place, date: NaiveDate) -> Result<Option<[DateTime<Zone>; 2]>, SunError> {
+        let (TimeOfDay::Sunrise(after), TimeOfDay::Sunset(later)) = (self.from.time, self.to.time) else {
+            return Ok(None);
+        };
+        if self.to.date.is_some_and(|own| own != date) {
+            return Ok(None);
+        }
+        Ok(Some(match light(place, date)? {
+            Some([begin, end]) => [begin.shifted(after), end.shifted(later)],
+            None => [Day::of(place, date)?.noon.unwrap_or_else(|| midnight(place, date)); 2],
+        }))
     }
 
     fn empty(&self, date: NaiveDate) -> SunError {
@@ -75,7 +116,11 @@ fn date_of(reading: &Reading, date: Option<NaiveDate>) -> Result<NaiveDate, SunE
 impl SunTrack {
     /// The instants of a window: from, from + step, …, to, which is added where the last step misses it.
     ///
-    /// Weights are the trapezoid rule's in whole seconds; they add up to the window.
+    /// Weights are the trapezoid rule's in whole seconds; they add up to the window. A time in which the sun rises or sets
+    /// is cut there: its part with a sun counts for the instant with one, the other for the night. Where the sun rises or
+    /// sets more than once between two instants, another one is added in each stretch between.
+    ///
+    /// Bound to the sun, on a date of polar night, the window is its noon alone.
     ///
     /// # Errors
     /// What [`Window::bounds`] says, a step of 0 or one that makes too many instants,
@@ -100,10 +145,13 @@ impl SunTrack {
                 least_secs: (seconds + MOST_INSTANTS - 2) / (MOST_INSTANTS - 1),
             });
         }
-        let elapsed = elapsed_secs(seconds, window.step_secs);
-        let times: Vec<_> = elapsed.iter().map(|elapsed| from + TimeDelta::seconds(*elapsed)).collect();
-        let weights = weights_secs(&elapsed);
-        track(place, &times, &weights, window.step_secs, refraction)
+        let date = date_of(&window.from, window.date)?;
+        let day = Day::of(place, date)?;
+        if from == to && day.polar != Some(Polar::Night) {
+            let [from, to] = [&window.from, &window.to].map(Reading::to_string);
+            return Err(SunError::NothingAsked { from, to, date, why: day.why_absent() });
+        }
+        track(place, &[[from, to]], window.step_secs, refraction)
     }
 
     /// One instant alone, of weight and step 0. A reading without a date takes `date`.
@@ -117,51 +165,72 @@ impl SunTrack {
         refraction: bool,
     ) -> Result<SunTrack, SunError> {
         let time = reading.at(place, date_of(reading, date)?)?;
-        track(place, &[time], &[0], 0, refraction)
+        track(place, &[[time; 2]], 0, refraction)
     }
 }
 
-/// 0, step, …, and the window's end.
-pub(super) fn elapsed_secs(window_secs: i64, step_secs: u32) -> Vec<i64> {
-    let step = i64::from(step_secs);
-    let mut elapsed: Vec<i64> = (0..=window_secs / step).map(|index| index * step).collect();
-    if window_secs % step != 0 {
-        elapsed.push(window_secs);
+/// From a window's first instant in steps to its last.
+fn times([from, to]: [DateTime<Zone>; 2], step_secs: u32) -> Vec<DateTime<Zone>> {
+    let (seconds, step) = ((to - from).num_seconds(), i64::from(step_secs.max(1)));
+    let mut times: Vec<_> = (0..=seconds / step).map(|index| from + TimeDelta::seconds(index * step)).collect();
+    if seconds % step != 0 {
+        times.push(to);
     }
-    elapsed
+    times
 }
 
-/// The trapezoid rule in whole seconds: each gap between instants is shared by its two ends,
-/// and a half second goes to the later one. `elapsed_secs` increases.
-pub(super) fn weights_secs(elapsed_secs: &[i64]) -> Vec<u32> {
-    let mut weights = vec![0_u32; elapsed_secs.len()];
-    for (index, pair) in elapsed_secs.windows(2).enumerate() {
-        // A window is at most ten years, 3.2e8 s.
-        let gap = u32::try_from(pair[1] - pair[0]).unwrap_or(0);
-        weights[index] += gap / 2;
-        weights[index + 1] += gap - gap / 2;
+/// A window's instants with their weights, in whole seconds. Two instants share the time between them, and a half second
+/// goes to the later one; where the sun rises or sets there, each has what is as it is: with a sun or without.
+fn instants(sky: &Sky<'_>, window: [DateTime<Zone>; 2], step_secs: u32) -> Result<Vec<Instant>, SunError> {
+    // a window is at most ten years, 3.2e8 s
+    let secs = |from: DateTime<Zone>, to: DateTime<Zone>| u32::try_from((to - from).num_seconds()).unwrap_or(0);
+    let times = times(window, step_secs);
+    let mut instants = times.par_iter().map(|time| sky.at(*time)).collect::<Result<Vec<_>, _>>()?;
+    let cuts = instants.par_windows(2).map(|pair| sky.cut(&pair[0], &pair[1])).collect::<Result<Vec<_>, _>>()?;
+    let mut added = Vec::new();
+    for (index, cut) in cuts.into_iter().enumerate() {
+        let [before, after] = [times[index], times[index + 1]];
+        let gap = secs(before, after);
+        let [of_before, of_after] = match &cut {
+            Some(cut) => [secs(before, cut.first), secs(cut.last, after)],
+            None => [gap / 2, gap - gap / 2],
+        };
+        instants[index].weight_secs += of_before;
+        instants[index + 1].weight_secs += of_after;
+        added.extend(cut.into_iter().flat_map(|cut| cut.between));
     }
-    weights
+    if !added.is_empty() {
+        instants.append(&mut added);
+        instants.sort_by_key(|instant| instant.time);
+    }
+    Ok(instants)
 }
 
+/// The instants of windows that follow one another; where one ends as the next begins, the instant between them is one.
 pub(super) fn track(
     place: &Place,
-    times: &[DateTime<Zone>],
-    weights: &[u32],
+    windows: &[[DateTime<Zone>; 2]],
     step_secs: u32,
     refraction: bool,
 ) -> Result<SunTrack, SunError> {
-    let (Some(first), Some(last)) = (times.first(), times.last()) else {
+    let (Some([first, _]), Some([_, last])) = (windows.first(), windows.last()) else {
         return Err(SunError::ZeroStep);
     };
-    let delta_t_secs = delta_t_secs(first.with_timezone(&Utc))?;
+    let delta_t_secs = delta_t_secs(first.to_utc())?;
     check_year(last.year())?;
-    let air = refraction.then(|| Air::standard(place.elevation_m));
-    let instants = times
-        .par_iter()
-        .zip(weights)
-        .map(|(time, weight_secs)| Instant::at(place, *time, *weight_secs, delta_t_secs, air))
-        .collect::<Result<Vec<_>, SunError>>()?;
+    let sky = Sky { place, delta_t_secs, air: refraction.then(|| Air::standard(place.elevation_m)) };
+    let of_windows = windows.par_iter().map(|window| instants(&sky, *window, step_secs));
+    let of_windows: Vec<_> = of_windows.collect::<Result<_, SunError>>()?;
+    let joined = of_windows.into_iter().reduce(|mut all, next| {
+        let mut next = next.into_iter().peekable();
+        if let Some(last) = all.last_mut()
+            && let Some(same) = next.next_if(|first| first.time == last.time)
+        {
+            last.weight_secs += same.weight_secs;
+        }
+        all.extend(next);
+        all
+    });
     let days = first
         .date_naive()
         .iter_days()
@@ -170,5 +239,6 @@ pub(super) fn track(
         .into_par_iter()
         .map(|date| Day::of(place, date))
         .collect::<Result<_, _>>()?;
+    let instants = joined.unwrap_or_default();
     Ok(SunTrack { instants, days, each_day: None, step_secs, refraction, delta_t_secs })
 }

@@ -82,7 +82,13 @@ pub(super) fn track(from: u32, to: u32, step: u32) -> SunTrack {
     });
     SunTrack {
         instants: instants.collect(),
-        days: vec![Day { date, sunrise: Some(time(24_000)), noon: Some(time(46_080)), sunset: Some(time(68_400)) }],
+        days: vec![Day {
+            date,
+            sunrise: Some(time(24_000)),
+            noon: Some(time(46_080)),
+            sunset: Some(time(68_400)),
+            polar: None,
+        }],
         each_day: None,
         step_secs: step,
         refraction: true,

@@ -282,7 +282,7 @@ fn panel<S>(scene: &Scene<S>, kicker: &str) -> Panel {
         let secs = day.map(|instant| instant.weight_secs).sum();
         facts.push(("Daylight", format!("{} on {} days", words::long_duration(secs), track.days.len())));
     } else if let Some(day) = track.days.first() {
-        facts.push(("Daylight", words::day(day, track)));
+        facts.push(("Daylight", words::day(day)));
     }
     facts.push((JUDGED, words::receivers(scene.receivers).to_owned()));
     facts.push(("Technique", words::technique(scene.drawn)));

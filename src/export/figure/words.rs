@@ -2,11 +2,9 @@
 
 use crate::profile::{Drawn, DrawnSettings};
 use crate::site::{self, Ground, GroundFrom, Receivers};
-use crate::sun::{Air, Day, EachDay, Instant, Place, SunTrack, Zone};
+use crate::sun::{Air, Day, EachDay, Instant, Place, Polar, SunTrack, Zone};
 use crate::view::Elevation;
 use chrono::{DateTime, NaiveDate, Offset, Timelike};
-
-use super::super::report::{self, Polar};
 
 /// `48.2000° N, 16.3800° E`.
 pub(super) fn coordinates(place: &Place) -> String {
@@ -143,9 +141,9 @@ pub(super) fn hours(secs: u32, with_secs: bool) -> String {
 }
 
 /// `sunrise 06:35, noon 12:48, sunset 19:02`, or which kind of polar day it is.
-pub(super) fn day(day: &Day, track: &SunTrack) -> String {
+pub(super) fn day(day: &Day) -> String {
     let noon = day.noon.as_ref().map(|noon| format!("noon {}", almanac(noon)));
-    let parts = match report::polar(day, track) {
+    let parts = match day.polar {
         Some(Polar::Day) => vec![Some("the sun stays up".to_owned()), noon],
         Some(Polar::Night) => vec![Some("the sun stays down".to_owned())],
         None => vec![

@@ -1,0 +1,97 @@
+//! Where the sun stands at a place, and when it rises and sets between two instants.
+
+use super::{Air, Instant, Place, SunError, Zone, position};
+use chrono::{DateTime, TimeDelta};
+
+/// With what the sun of a study is found.
+#[derive(Clone, Copy, Debug)]
+pub struct Sky<'a> {
+    /// Where.
+    pub place: &'a Place,
+    /// ΔT, seconds.
+    pub delta_t_secs: f64,
+    /// The air that bends the sun's light; without it there is no refraction.
+    pub air: Option<Air>,
+}
+
+/// Where the sun rises and sets between two instants.
+#[derive(Clone, Debug)]
+pub struct Cut {
+    /// The first second that is otherwise than at the instant before: with a sun or without.
+    pub first: DateTime<Zone>,
+    /// From here on it is as at the instant after.
+    pub last: DateTime<Zone>,
+    /// Where the sun rises or sets more than once: the middle of each stretch between two of these times, with the
+    /// stretch's seconds as its weight.
+    pub between: Vec<Instant>,
+}
+
+impl Sky<'_> {
+    /// The sun at a time, of weight 0.
+    ///
+    /// # Errors
+    /// As [`position()`].
+    pub fn at(&self, time: DateTime<Zone>) -> Result<Instant, SunError> {
+        let seen = position(self.place, time.to_utc(), self.delta_t_secs, self.air)?;
+        let mut instant = Instant {
+            time,
+            to_sun: seen.to_sun(),
+            azimuth_rad: seen.azimuth_deg.to_radians(),
+            altitude_rad: seen.altitude_deg.to_radians(),
+            weight_secs: 0,
+            night: false,
+        };
+        instant.night = instant.altitude_deg() < 0.0;
+        Ok(instant)
+    }
+
+    /// Where the sun rises and sets between two instants, whole seconds apart; `None` where it does not.
+    ///
+    /// # Errors
+    /// As [`position()`].
+    pub fn cut(&self, before: &Instant, after: &Instant) -> Result<Option<Cut>, SunError> {
+        let mut changes = Vec::new();
+        self.search(before, after, &mut changes)?;
+        let (Some(first), Some(last)) = (changes.first(), changes.last()) else { return Ok(None) };
+        let middle = |stretch: &[DateTime<Zone>]| {
+            let secs = (stretch[1] - stretch[0]).num_seconds();
+            let instant = self.at(stretch[0] + TimeDelta::seconds(secs / 2))?;
+            Ok(Instant { weight_secs: u32::try_from(secs).unwrap_or(0), ..instant })
+        };
+        let between = changes.windows(2).map(middle).collect::<Result<_, SunError>>()?;
+        Ok(Some(Cut { first: *first, last: *last, between }))
+    }
+
+    /// Finds every change between night and day, to the second, by halving. A half whose ends agree is left alone where
+    /// the sun cannot have been at the horizon between them: the way there and back would take longer.
+    fn search(&self, before: &Instant, after: &Instant, found: &mut Vec<DateTime<Zone>>) -> Result<(), SunError> {
+        let secs = (after.time - before.time).num_seconds();
+        let changes = before.night != after.night;
+        if secs <= 1 {
+            found.extend(changes.then_some(after.time));
+            return Ok(());
+        }
+        if !changes && self.least_secs_to_horizon(before) + self.least_secs_to_horizon(after) > secs as f64 {
+            return Ok(());
+        }
+        let middle = self.at(before.time + TimeDelta::seconds(secs / 2))?;
+        self.search(before, &middle, found)?;
+        self.search(&middle, after, found)
+    }
+
+    /// So many seconds the sun takes at least from an instant to the horizon, and took at least from there.
+    pub fn least_secs_to_horizon(&self, instant: &Instant) -> f64 {
+        /// More than the sky turns, degrees an hour.
+        const TURN: f64 = 15.05;
+        /// More than the sun's declination changes, degrees an hour.
+        const DECLINE: f64 = 0.02;
+        /// More than the densest air lifts a sun at the horizon, degrees. Deep below it nothing is lifted.
+        const LIFTED_DEG: f64 = 0.7;
+        const DEEP_DEG: f64 = -0.5;
+        let altitude = instant.altitude_deg();
+        let lifted = if self.air.is_some() && altitude < DEEP_DEG { LIFTED_DEG } else { 0.0 };
+        // the air makes a sun that it lifts slower, never faster
+        let degrees_an_hour = TURN * self.place.latitude_deg.to_radians().cos() + DECLINE;
+        (altitude.abs() - lifted).max(0.0) / degrees_an_hour * 3600.0
+    }
+}
