@@ -27,7 +27,7 @@ pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]
     let new = || {
         let casters = site.mesh.of_components(&site.casts);
         let receivers = site.mesh.of_components(&site.receives);
-        let scene = Scene { casters, receivers, ground: site.ground };
+        let scene = Scene { casters, receivers, ground: site.ground.level };
         let rays = RayCast::new(scene.clone(), far_view(&scene), sun_samples);
         Plain { of: (wish.number, sun_samples), scene, rays }
     };
@@ -54,6 +54,7 @@ pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]
         mesh: &plain.scene.receivers,
         surface: &plain.rays.surface()?,
         receivers: Receivers::Top,
+        ground: site.ground,
         drawn: &drawn,
     };
     let casts: Vec<bool> =

@@ -126,7 +126,9 @@ impl App {
         self.notice = None;
         let Some(open) = &mut self.open else { return };
         let mut written = handing::written(&open.project, &self.settings, &open.viewer.eye, &path);
-        let text = written.site.to_toml_in(&written.text).map_err(anyhow::Error::from);
+        // a model is no site file, whatever was answered
+        let models = file::check_inputs(&open.project.written.model_files(), std::slice::from_ref(&path));
+        let text = models.map_err(anyhow::Error::from).and_then(|()| Ok(written.site.to_toml_in(&written.text)?));
         match text.and_then(|text| file::write(&path, text.as_bytes()).map(|()| text).map_err(Into::into)) {
             Ok(text) => {
                 written.text = text;

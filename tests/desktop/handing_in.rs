@@ -264,6 +264,12 @@ fn nothing_is_exported_over_a_model() {
     click(&mut harness, "Replace");
     settle(&mut harness);
     harness.get_by_label_contains("which the site is read from");
+    menu(&mut harness, "Save as…");
+    answer(&mut harness, &model, "Write");
+    click(&mut harness, "Replace");
+    settle(&mut harness);
+    harness.get_by_label_contains("which the site is read from");
+    assert!(before == std::fs::read(&model).unwrap());
     // a folder in which one of the files is the site's own
     std::fs::rename(&model, folder.path().join("profile.png")).unwrap();
     let text = std::fs::read_to_string(&site).unwrap().replace("works.glb", "profile.png");
