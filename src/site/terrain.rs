@@ -13,7 +13,7 @@ const FIRST: f64 = 0.381_966;
 /// Less of the plan than this hidden is told to nobody.
 const LEAST_SHARE: f64 = 0.005;
 /// Terrain is what is seen of the models from above on at least so much of their plan.
-const TERRAIN_SHARE: f64 = 0.5;
+const TERRAIN_SHARE: f64 = 0.25;
 /// And nowhere lie two of its faces above each other, but for so much of it.
 const OVERLAP_SHARE: f64 = 0.1;
 
@@ -26,7 +26,7 @@ pub(super) struct Buried {
     pub(super) of_plan: f64,
     /// Which part of what is seen of that component.
     pub(super) of_component: f64,
-    /// Whether that component is terrain: a sheet, and at least half of what is seen.
+    /// Whether that component is terrain: a sheet, and at least a quarter of what is seen.
     pub(super) is_terrain: bool,
 }
 

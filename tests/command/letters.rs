@@ -76,7 +76,7 @@ fn the_systems_faces_draw_what_noto_sans_lacks() {
 }
 
 /// Another one.
-const OTHER: char = '\u{A4D0}';
+const OTHER: char = '\u{A4CE}';
 
 /// Two faces of which neither has the other's letter draw both, side by side.
 #[cfg(target_os = "linux")]

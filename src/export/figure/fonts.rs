@@ -202,8 +202,10 @@ fn is_attached(letter: char) -> bool {
     )
 }
 
+/// Whether a face draws a letter. One of pictures alone, as some of emoji are, draws none here.
 fn has(face: &[u8], index: u32, letter: char) -> bool {
-    FontRef::from_index(face, index).is_ok_and(|face| face.charmap().map(letter).is_some())
+    FontRef::from_index(face, index)
+        .is_ok_and(|face| face.outline_glyphs().format().is_some() && face.charmap().map(letter).is_some())
 }
 
 /// The face that has a letter and stands best beside the first of those in use: upright, of like weight, and not of
