@@ -2,7 +2,7 @@
 
 use super::app::App;
 use super::eye::Stand;
-use super::typed::Number;
+use super::typed::{Number, Typed};
 use super::unit::Unit;
 use super::{cards, components, found, look, view};
 use crate::export::figure::Diagram;
@@ -119,7 +119,7 @@ fn place(app: &mut App, ui: &mut Ui) {
     });
     typed.told(ui, &["Elevation"]);
     if let Some(open) = &app.open {
-        ground(ui, &mut app.settings.site.ground.level, &open.project.site.ground, unit);
+        ground(ui, typed, &mut app.settings.site.ground.level, &open.project.site.ground, unit);
     }
     if let [model] = app.settings.site.model.as_mut_slice() {
         row(ui, "Model north", |ui, label| {
@@ -144,13 +144,14 @@ fn place(app: &mut App, ui: &mut Ui) {
 }
 
 /// The ground's height as the site file says it, or as it was found; and what is to be known of it.
-fn ground(ui: &mut Ui, level: &mut Option<f64>, found: &Ground, unit: Unit) {
+fn ground(ui: &mut Ui, typed: &mut Typed, level: &mut Option<f64>, found: &Ground, unit: Unit) {
     row(ui, "Ground", |ui, label| {
         let mut value = level.unwrap_or(found.level) / unit.metres;
-        let drag = egui::DragValue::new(&mut value).speed(0.1).max_decimals(3).suffix(format!(" {}", unit.name));
-        let response =
-            ui.add(drag).labelled_by(label).on_hover_text("How high the ground lies above the place's point");
-        if response.changed() {
+        let range = -10_000.0 / unit.metres..=10_000.0 / unit.metres;
+        let suffix = &format!(" {}", unit.name);
+        let number = Number { speed: 0.1, range, unit: unit.name, suffix, decimals: 0..=3 };
+        let response = typed.number(ui, ("Ground", label), &mut value, &number);
+        if response.on_hover_text("How high the ground lies above the place's point").changed() {
             // to the millimetre, as feet are written in metres
             *level = Some((value * unit.metres * 1000.0).round() / 1000.0);
         }
@@ -158,6 +159,7 @@ fn ground(ui: &mut Ui, level: &mut Option<f64>, found: &Ground, unit: Unit) {
             *level = None;
         }
     });
+    typed.told(ui, &["Ground"]);
     ui.weak(format!("Ground at {}", found.said()).replace('-', "−"));
 }
 
