@@ -53,7 +53,7 @@ fn the_ground_is_set_in_the_panel() {
     settle(&mut harness);
     assert_eq!(harness.state().site_file().ground.level, Some(-1.5));
     harness.get_by_label("Ground at −1.50 m; the models begin 1.50 m above it");
-    menu(&mut harness, "Save the site file…");
+    menu(&mut harness, "Save as…");
     let saved = folder.path().join("saved.toml");
     answer(&mut harness, &saved, "Write");
     assert_eq!(Site::load(&saved, &Overrides::default()).unwrap().ground.level, -1.5);
