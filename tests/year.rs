@@ -261,14 +261,8 @@ fn a_study_stopped_at_its_drawing_says_where_it_goes_on() {
         .stdout(std::process::Stdio::null())
         .spawn()
         .unwrap();
-    let kept = || {
-        path.join("bits")
-            .is_dir()
-            .then(|| numberless(&path.join("bits")))
-            .unwrap_or_default()
-            .iter()
-            .any(|name| name == "profile.N.unfinished")
-    };
+    let bits = path.join("bits");
+    let kept = || bits.is_dir() && numberless(&bits).iter().any(|name| name == "profile.N.unfinished");
     while !kept() && child.try_wait().unwrap().is_none() {
         std::thread::sleep(std::time::Duration::from_millis(5));
     }

@@ -18,8 +18,11 @@ region = [-60, -20, 60, 60]
 cell = 0.5
 ";
 
-/// Named parts as a binary glTF, each its corners (east, north, up) and its triangles.
-pub(crate) fn model(parts: &[(&str, Vec<[f32; 3]>, Vec<u16>)]) -> Vec<u8> {
+/// A part's name, its corners (east, north, up) and its triangles.
+type Named<'a> = (&'a str, Vec<[f32; 3]>, Vec<u16>);
+
+/// Named parts as a binary glTF.
+pub(crate) fn model(parts: &[Named<'_>]) -> Vec<u8> {
     let mut model = Model::new();
     let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
     for (index, (name, corners, triangles)) in parts.iter().enumerate() {
