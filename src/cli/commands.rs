@@ -35,7 +35,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         }
     }
     if let [(_, out), (_, mask)] = written.as_slice()
-        && out == mask
+        && file::is_same_place(out, mask)
     {
         return Err(WrongUse("--out and --mask name the same file; name two".to_owned()).into());
     }

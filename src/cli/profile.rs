@@ -48,10 +48,12 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     watch.lap("load");
 
     let wanted = |kind| kinds.contains(&kind);
+    // by which way a folder is named makes no other study
+    let masks = asked.masks.as_ref().map(|folder| folder.canonicalize().unwrap_or_else(|_| folder.clone()));
     let wants = Wants {
         masks: asked.masks.is_some(),
         bits: asked.bits || asked.lines.outlines(),
-        written: FxBuildHasher.hash_one(&asked.masks),
+        written: FxBuildHasher.hash_one(&masks),
         surface: false,
         statistics: asked.stats,
         whole: asked.lines.given().then_some("--draw"),

@@ -85,6 +85,10 @@ impl App {
             Purpose::SaveSite => return self.write_site(path, context),
             _ => {}
         }
+        if self.writing.is_some() {
+            self.fault = Some("An export is under way: wait for it or cancel it, then export this".to_owned());
+            return;
+        }
         let Some(open) = &mut self.open else { return };
         match purpose {
             Purpose::Open | Purpose::Compare | Purpose::SaveSite => {}

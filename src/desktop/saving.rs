@@ -137,11 +137,16 @@ impl App {
                 self.history.change_all(|site| handing::move_models(site, &from, &written.folder));
                 self.notice = Some(format!("Written: {}", path.display()));
                 open.project.path = Some(path);
+                let is_read = open.project.written.site == self.settings.site;
                 self.settings.site = written.site.clone();
-                // what is still being read would bring back the old file, and is read again
-                if let Some(loading) = self.loading.take_if(|loading| !loading.opens) {
+                // what is still being read would bring back the old file
+                let loading = self.loading.take_if(|loading| !loading.opens);
+                if let Some(loading) = &loading {
                     loading.cancel();
                     self.is_reading = false;
+                }
+                // what was not read to its end, or was set in this very frame, is read from the settings
+                if loading.is_some() || !is_read {
                     written.site.clone_from(&open.project.written.site);
                     handing::move_models(&mut written.site, &from, &written.folder);
                 }

@@ -151,7 +151,10 @@ impl Stage {
 
 impl Drop for Stage {
     fn drop(&mut self) {
+        // not between a worker's look and its sleep
+        let next = self.shared.next.lock();
         self.shared.over.store(true, Ordering::Release);
+        drop(next);
         self.shared.woken.notify_one();
     }
 }

@@ -145,12 +145,24 @@ pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     Ok(())
 }
 
+/// Whether two names of files that need not be there are of one, by whichever way they go.
+pub fn is_same_place(a: &Path, b: &Path) -> bool {
+    let place = |path: &Path| {
+        let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+        (folder.canonicalize().unwrap_or_else(|_| folder.to_owned()), path.file_name().map(ToOwned::to_owned))
+    };
+    place(a) == place(b)
+}
+
 /// Errs where a file that is to be written is one of those that were read: by file, not by name, so that links, and disks
 /// that do not tell large letters from small ones, are seen through.
 ///
 /// # Errors
-/// [`ExportError::IsInput`]
+/// [`ExportError::IsInput`]; [`ExportError::NoFileName`] where a folder stands at the name of one.
 pub fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), ExportError> {
+    if let Some(path) = outputs.iter().find(|path| path.is_dir()) {
+        return Err(ExportError::NoFileName { path: path.clone() });
+    }
     // what is not there is none of them; a pipe is not opened, as that waits for its writer
     let handle = |path: &PathBuf| path.is_file().then(|| Handle::from_path(path).ok()).flatten();
     // a handle is an open file, of which there may be no more than some hundred

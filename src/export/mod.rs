@@ -73,7 +73,7 @@ pub enum ExportError {
     },
     /// The folder was removed, or replaced by another one.
     #[error(
-        "{}: the folder was removed while the study worked there, and no result was written; ask again",
+        "{}: the folder, or its .gnomon.lock, was removed while the study worked there, and no result was written; ask again",
         folder.display()
     )]
     Lost {
@@ -83,7 +83,7 @@ pub enum ExportError {
     /// A frame would be taken for one of the animation's.
     #[error(
         "{} would stay behind the {count} frames of this animation, and is not known to be of one that was finished there; \
-         remove it, or choose another folder",
+         remove it and the frames after it, or choose another folder",
         path.display()
     )]
     OtherFrame {
@@ -104,7 +104,7 @@ pub enum ExportError {
         input: PathBuf,
     },
     /// The path names no file: it ends in none, or a folder or a device stands there.
-    #[error("cannot write {}: that is no file; give the name of a file with --out", path.display())]
+    #[error("cannot write {}: that is no file; give the name of a file", path.display())]
     NoFileName {
         /// The path as given.
         path: PathBuf,

@@ -106,7 +106,7 @@ impl Written {
 
     /// Whether the site file at a path says something else by now. One that cannot be read is told by whoever reads it.
     pub fn has_changed_at(&self, path: &Path) -> bool {
-        std::fs::read_to_string(path).is_ok_and(|text| text != self.text)
+        std::fs::read(path).is_ok_and(|bytes| bytes != self.text.as_bytes())
     }
 
     fn of_model(path: &Path, placed: bool) -> Result<Written, SiteError> {

@@ -26,7 +26,7 @@ pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile], wants: &Wants) -> u
         numbers(&instant.to_sun.to_array()).hash(&mut hasher);
     }
     // what is written while it goes on is not there for instants that were drawn without it
-    (wants.masks, wants.bits, wants.written).hash(&mut hasher);
+    (wants.masks, wants.bits, wants.written, wants.statistics, wants.keep_every.is_some()).hash(&mut hasher);
     // what is asked of techniques, whatever that is
     format!("{settings:?} {drawn:?}").hash(&mut hasher);
     hasher.finish()

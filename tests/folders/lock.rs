@@ -123,7 +123,8 @@ fn a_folder_that_vanishes_is_told() {
     let last = told.last().unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(1), "{last}");
     assert!(
-        last.starts_with("error: ") && last.contains("out: the folder was removed while the study worked"),
+        last.starts_with("error: ")
+            && last.contains("out: the folder, or its .gnomon.lock, was removed while the study worked"),
         "{last}"
     );
     assert!(!path.join("out/profile.png").exists() && !path.join("out/profile.json").exists());
