@@ -230,7 +230,14 @@ impl App {
 
     /// Takes what the work beside the window has come to.
     fn receive(&mut self, context: &egui::Context) {
-        if let Some(note) = self.stage.note() {
+        let open = self.open.as_ref();
+        let notes = [
+            self.stage.note(),
+            self.writing.as_ref().and_then(Work::note),
+            open.and_then(|open| open.adding.as_ref()).and_then(Work::note),
+            open.and_then(|open| open.probing.as_ref()).and_then(Work::note),
+        ];
+        if let Some(note) = notes.into_iter().flatten().next() {
             self.notice = Some(note);
         }
         if let Some(result) = self.loading.as_ref().and_then(Loading::done) {

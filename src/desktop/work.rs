@@ -10,6 +10,8 @@ use std::sync::{Arc, Mutex, mpsc};
 /// It can be given up.
 pub(super) struct Work<T> {
     progress: Arc<Mutex<(usize, usize)>>,
+    /// Why it is done again, until that is taken.
+    note: Arc<Mutex<Option<String>>>,
     cancelled: Arc<AtomicBool>,
     result: mpsc::Receiver<Result<T, String>>,
 }
@@ -23,11 +25,25 @@ impl<T: Send + 'static> Work<T> {
         let (tell, result) = mpsc::channel();
         let progress = Arc::new(Mutex::new((0, 0)));
         let cancelled = Arc::new(AtomicBool::new(false));
-        let (told, heard) = (Arc::clone(&progress), Arc::clone(&cancelled));
+        let note = Arc::new(Mutex::new(None));
+        let (told, noted, heard) = (Arc::clone(&progress), Arc::clone(&note), Arc::clone(&cancelled));
         std::thread::spawn(move || {
+            let mut last = None;
             let answer = work(&mut |event| {
-                if let (Event::Drawn { index, count, .. }, Ok(mut told)) = (&event, told.lock()) {
-                    *told = (index + 1, *count);
+                match &event {
+                    Event::Drawn { index, count, .. } => {
+                        if let Ok(mut told) = told.lock() {
+                            *told = (index + 1, *count);
+                        }
+                    }
+                    Event::Note(note) => last = Some(note.clone()),
+                    // the note before it says why
+                    Event::Anew => {
+                        if let Ok(mut noted) = noted.lock() {
+                            *noted = last.take();
+                        }
+                    }
+                    _ => {}
                 }
                 context.request_repaint();
                 if heard.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -36,12 +52,17 @@ impl<T: Send + 'static> Work<T> {
             let _ = tell.send(answer.map_err(|error| one_line(&error)));
             context.request_repaint();
         });
-        Work { progress, cancelled, result }
+        Work { progress, note, cancelled, result }
     }
 
     /// How much is done, of how much.
     pub(super) fn progress(&self) -> (usize, usize) {
         self.progress.lock().map(|progress| *progress).unwrap_or_default()
+    }
+
+    /// Why it is done again, once where it is.
+    pub(super) fn note(&self) -> Option<String> {
+        self.note.lock().ok().and_then(|mut note| note.take())
     }
 
     /// What came of it, once it is done.
