@@ -21,6 +21,7 @@ mod live;
 mod lost;
 mod mistakes;
 mod model;
+mod names;
 mod overdraw;
 mod overlay;
 mod patches;

@@ -2,8 +2,10 @@
 
 mod hostile;
 mod names;
+pub(crate) mod poses;
 mod reading;
 mod refused;
+mod seen;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;

@@ -163,6 +163,11 @@ impl Change {
         })
     }
 
+    /// What the command would note of the models before.
+    pub(super) fn notes_before(&self) -> &[String] {
+        &self.pair.before.notes
+    }
+
     /// What people call the states.
     pub(super) fn names(&self) -> &[String; 2] {
         &self.pair.names

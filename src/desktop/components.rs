@@ -4,11 +4,9 @@ use super::loading::Project;
 use super::look;
 use super::settings::{Hidden, Settings};
 use crate::export::figure::{component_colours, without_middle};
-use crate::mesh::Component;
 use crate::site::Site;
 use crate::site::file::{ModelTable, Names};
 use eframe::egui::{self, Color32, Sense};
-use rustc_hash::FxHashSet;
 use std::sync::Arc;
 
 /// The colour of every face that is visible, as the picture takes them.
@@ -133,18 +131,12 @@ pub(super) fn hide(settings: &mut Settings, name: &str, hides: bool) {
 
 /// Per component whether it has a role, as the settings say it.
 fn roles(project: &Project, settings: &Settings, names: fn(&ModelTable) -> &Names) -> Vec<bool> {
-    let mut components = project.site.mesh.components.iter();
+    let mut components = project.site.mesh.components.as_slice();
     let counts = project.models.component_counts().into_iter().zip(&settings.site.model);
     let of_model = counts.flat_map(|(count, table)| {
-        let names = match names(table) {
-            Names::All(all) => Err(*all),
-            Names::Some(names) => Ok(names.iter().map(String::as_str).collect::<FxHashSet<_>>()),
-        };
-        let means = move |of: &Component| match &names {
-            Err(all) => *all,
-            Ok(names) => of.aliases.iter().chain([&of.name]).any(|name| names.contains(name.as_str())),
-        };
-        components.by_ref().take(count).map(means).collect::<Vec<_>>()
+        let (of_it, others) = components.split_at(count);
+        components = others;
+        names(table).chosen(of_it)
     });
     of_model.collect()
 }

@@ -34,9 +34,9 @@ fn good_for(method: Method) -> &'static str {
 /// The whole panel.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        let notes = app.open.as_ref().map_or(&[][..], |open| &open.project.site.notes);
+        let notes = notes(app);
         if !notes.is_empty() {
-            section(ui, "Notes", true, |ui| notes.iter().for_each(|note| drop(ui.label(note))));
+            section(ui, "Notes", true, |ui| notes.iter().for_each(|note| drop(ui.label(*note))));
         }
         section(ui, "Shadows", true, |ui| shadows(app, ui));
         section(ui, "Hours of shadow", true, |ui| study(app, ui));
@@ -52,6 +52,14 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         // said once, when the site was opened
         section(ui, "Place", true, |ui| place(app, ui));
     });
+}
+
+/// What the command would note of the models, of those before where two states are compared as well.
+fn notes(app: &App) -> Vec<&String> {
+    let Some(open) = &app.open else { return Vec::new() };
+    let notes = &open.project.site.notes;
+    let before = open.laid.as_ref().and_then(|laid| laid.change()).map_or(&[][..], |change| change.notes_before());
+    notes.iter().chain(before.iter().filter(|note| !notes.contains(note))).collect()
 }
 
 fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {

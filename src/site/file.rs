@@ -4,6 +4,7 @@ use super::error::{At, SiteError};
 use super::keys;
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
 use toml::{Table, Value};
 
 /// A site file as written: nothing checked but keys and types.
@@ -51,6 +52,8 @@ pub struct PlaceTable {
 pub struct ModelTable {
     /// Relative to the site file, or absolute.
     pub path: Option<String>,
+    /// The scene that is read, of a file that has several.
+    pub scene: Option<SceneName>,
     /// Degrees clockwise from the model's north to true north.
     pub north: Option<f64>,
     /// Metres east, north, up.
@@ -130,7 +133,7 @@ pub struct ProbeTable {
 pub enum Names {
     /// `true` or `false`.
     All(bool),
-    /// Names of components, nodes, meshes or materials.
+    /// Names of components, nodes, meshes or materials; with a `!` before it all but what has the name.
     Some(Vec<String>),
 }
 
@@ -154,6 +157,36 @@ impl<'de> Deserialize<'de> for Names {
                 .collect::<Result<_, _>>()
                 .map(Names::Some),
             _ => Err(wrong()),
+        }
+    }
+}
+
+/// How a scene of a model is called.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(untagged)]
+pub enum SceneName {
+    /// By its name.
+    Name(String),
+    /// By its number in the file, from 0.
+    Number(u64),
+}
+
+impl<'de> Deserialize<'de> for SceneName {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let wrong = || D::Error::custom("expected a scene's name in quotes, or its number from 0");
+        match Value::deserialize(from)? {
+            Value::String(name) => Ok(SceneName::Name(name)),
+            Value::Integer(number) => u64::try_from(number).map(SceneName::Number).map_err(|_| wrong()),
+            _ => Err(wrong()),
+        }
+    }
+}
+
+impl fmt::Display for SceneName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SceneName::Name(name) => write!(f, "\"{name}\""),
+            SceneName::Number(number) => write!(f, "{number}"),
         }
     }
 }

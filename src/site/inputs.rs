@@ -1,6 +1,7 @@
 //! Which files a request is read from, so that no answer is written over one of them.
 
 use super::models::placed;
+use super::names::on_disk;
 use super::written::Written;
 use super::{SiteError, model};
 use std::iter;
@@ -12,6 +13,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// What cannot be read, and what is wrong with a site file's form.
 pub fn inputs(path: &Path) -> Result<Vec<PathBuf>, SiteError> {
+    let path = &*on_disk(path);
     let written = Written::read_as_it_is(path, true)?;
     let file = if path.is_dir() { path.join("site.toml") } else { path.to_owned() };
     Ok(iter::once(file).chain(written.model_files()).collect())
@@ -20,7 +22,7 @@ pub fn inputs(path: &Path) -> Result<Vec<PathBuf>, SiteError> {
 impl Written {
     /// Its models, and what those name beside them: buffers, and pictures, too, though they are not read.
     pub fn model_files(&self) -> Vec<PathBuf> {
-        let models = (0..self.site.model.len()).filter_map(|index| Some(placed(self, index).ok()?.0));
+        let models = (0..self.site.model.len()).filter_map(|index| Some(on_disk(&placed(self, index).ok()?.0)));
         models.flat_map(|file| model::named_by(&file).into_iter().chain([file])).collect()
     }
 }

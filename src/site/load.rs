@@ -4,7 +4,8 @@ use super::asked::{Overrides, refuse};
 use super::error::{At, SiteError};
 use super::extent::with_shadows;
 use super::model::{self, Model, ModelError, Placement};
-use super::models::{self, Joined, Models};
+use super::models::{Models, note_see_through};
+use super::names::on_disk;
 use super::written::Written;
 use super::{Finder, Ground, Method, Receivers, Site, camera, ground, notes, plan, study};
 use crate::mesh::Mesh;
@@ -57,16 +58,20 @@ pub struct LoadedMesh {
 pub fn load_mesh(path: &Path) -> Result<LoadedMesh, SiteError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if matches!(extension.as_str(), "glb" | "gltf") && !path.is_dir() {
-        let Model { parts, notes } = model::load(path, &Placement::default())?;
+        let Model { parts, notes, see_through } = model::load(&on_disk(path), &Placement::default())?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let mut notes: Vec<String> = notes.into_iter().map(|note| format!("{name} {note}")).collect();
+        let seen_through = note_see_through(&see_through, &vec![true; parts.len()]);
+        let mut notes: Vec<String> =
+            notes.into_iter().chain(seen_through).map(|note| format!("{name} {note}")).collect();
         let mesh = Mesh::build(parts)?;
         notes.extend(notes::of(&mesh, Frame::Model, &[(name, 0..mesh.components.len())]));
         return Ok(LoadedMesh { mesh, frame: Frame::Model, notes });
     }
     let written = Written::read(path, &Overrides::default())?;
-    let Joined { mesh, notes, .. } = models::join(&written, model::load)?;
-    Ok(LoadedMesh { mesh, frame: Frame::Place, notes })
+    let models = Models::read(&written, model::load)?;
+    let [casts, _] = models.roles(&written)?;
+    let notes = models.notes(&written, &casts);
+    Ok(LoadedMesh { mesh: models.mesh, frame: Frame::Place, notes })
 }
 
 impl Site {
@@ -130,7 +135,8 @@ impl Site {
         let level = ground::level(written, asked)?;
         let models = models()?;
         let [casts, receives] = models.roles(written)?;
-        let Models { mesh, bounds, mut notes, .. } = models;
+        let mut notes = models.notes(written, &casts);
+        let Models { mesh, bounds, .. } = models;
         let ground = Ground::of(&mesh, bounds, level);
         notes.extend(ground.notes(&mesh, receivers));
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground.level, &track, cut);

@@ -15,6 +15,7 @@ mod keys;
 mod load;
 pub mod model;
 mod models;
+mod names;
 mod notes;
 mod pair;
 mod plan;

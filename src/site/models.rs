@@ -1,18 +1,20 @@
 //! The models of a site where they stand, and which of their components are chosen.
 
 use super::asked::refuse;
-use super::error::{SiteError, nearest};
+use super::error::SiteError;
 use super::extent::Bounds;
 use super::file::Names;
 use super::ground::Ground;
 use super::keys;
 use super::load::Frame;
-use super::model::{Model, ModelError, Placement};
+use super::model::{Fault, Model, ModelError, Placement, SeeThrough};
+use super::names::{few, on_disk};
 use super::notes;
 use super::written::Written;
 use crate::mesh::{Component, Mesh};
 use glam::DVec3;
 use rustc_hash::FxBuildHasher;
+use std::cmp::Reverse;
 use std::hash::BuildHasher;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -24,9 +26,11 @@ pub struct Models {
     pub(super) mesh: Mesh,
     pub(super) bounds: Bounds,
     /// What the user should know of how they were read, each a sentence without its stop that names the model.
-    pub(super) notes: Vec<String>,
+    notes: Vec<String>,
     /// Which components are whose.
     of_model: Vec<Range<usize>>,
+    /// Each model's materials that light passes; its parts are counted among its own.
+    see_through: Vec<Vec<SeeThrough>>,
     sources: Vec<Source>,
     mark: u64,
 }
@@ -49,9 +53,24 @@ impl Models {
         written: &Written,
         read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
     ) -> Result<Models, SiteError> {
+        if written.site.model.is_empty() {
+            return Err(written.missing("[[model]]", "[[model]] with path = \"tower.glb\""));
+        }
         // a file that changes while it is read has changed since
         let sources = sources(written)?;
-        let Joined { mesh, of_model, notes } = join(written, read_model)?;
+        let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for index in 0..sources.len() {
+            let model = model(written, index, &read_model)?;
+            let first = parts.len();
+            parts.extend(model.parts);
+            let name = name(written, index);
+            notes.extend(model.notes.into_iter().map(|note| format!("{name} {note}")));
+            models.push((name.to_owned(), first..parts.len()));
+            see_through.push(model.see_through);
+        }
+        let mesh = Mesh::build(parts)?;
+        notes.extend(notes::of(&mesh, Frame::Place, &models));
+        let of_model = models.into_iter().map(|(_, components)| components).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
         let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
         let mark = FxBuildHasher.hash_one((
@@ -60,7 +79,7 @@ impl Models {
             mesh.origin.to_array().map(f64::to_bits),
             names.collect::<Vec<_>>(),
         ));
-        Ok(Models { mesh, bounds, notes, of_model, sources, mark })
+        Ok(Models { mesh, bounds, notes, of_model, see_through, sources, mark })
     }
 
     /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.
@@ -102,42 +121,57 @@ impl Models {
         }
         Ok(roles)
     }
-}
 
-/// All models as one mesh, one component a part, in their order.
-pub(super) struct Joined {
-    pub(super) mesh: Mesh,
-    /// Which components are whose.
-    of_model: Vec<Range<usize>>,
-    pub(super) notes: Vec<String>,
-}
-
-/// Reads all models.
-pub(super) fn join(
-    written: &Written,
-    read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
-) -> Result<Joined, SiteError> {
-    let count = written.site.model.len();
-    if count == 0 {
-        return Err(written.missing("[[model]]", "[[model]] with path = \"tower.glb\""));
-    }
-    let (mut parts, mut models, mut notes) = (Vec::new(), Vec::new(), Vec::new());
-    for index in 0..count {
-        let (file, placement) = placed(written, index)?;
-        if !file.is_file() {
-            let path = written.site.model[index].path.as_deref().unwrap_or_default();
-            return Err(refuse(written.model_key(index, "path"), no_file(path, &file)));
+    /// What the user should know of how they were read, and of what casts; each a sentence without its stop that names the
+    /// model.
+    pub(super) fn notes(&self, written: &Written, casts: &[bool]) -> Vec<String> {
+        let mut notes = self.notes.clone();
+        for (index, (of_model, materials)) in self.of_model.iter().zip(&self.see_through).enumerate() {
+            let casts = &casts[of_model.clone()];
+            let note = note_see_through(materials, casts);
+            notes.extend(note.map(|note| format!("{} {note}", name(written, index))));
         }
-        let first = parts.len();
-        let model = read_model(&file, &placement)?;
-        parts.extend(model.parts);
-        let name = written.site.model[index].path.as_deref().unwrap_or_default();
-        notes.extend(model.notes.into_iter().map(|note| format!("{name} {note}")));
-        models.push((name.to_owned(), first..parts.len()));
+        notes
     }
-    let mesh = Mesh::build(parts)?;
-    notes.extend(notes::of(&mesh, Frame::Place, &models));
-    Ok(Joined { mesh, of_model: models.into_iter().map(|(_, components)| components).collect(), notes })
+}
+
+/// Says which materials of a model light passes that cast as solid, the most frequent first.
+pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<String> {
+    let casting = |material: &SeeThrough| material.parts.iter().filter(|&&part| casts[part]).count();
+    let mut found: Vec<_> = materials.iter().map(|it| (casting(it), it)).filter(|(count, _)| *count > 0).collect();
+    found.sort_by_key(|(count, _)| Reverse(*count));
+    let first = &found.first()?.1.material;
+    let told = found.iter().map(|(count, it)| format!("\"{}\" ({count})", it.material)).collect();
+    let count: usize = found.iter().map(|(count, _)| count).sum();
+    let (components, cast) = if count == 1 { ("component", "casts") } else { ("components", "cast") };
+    Some(format!(
+        "has {count} {components} of cut-out or translucent materials, which {cast} as if solid: {}; casts = [{}] under \
+         [[model]] leaves \"{first}\" out",
+        few(told),
+        toml::Value::String(format!("!{first}")),
+    ))
+}
+
+/// Reads one of the models.
+fn model(
+    written: &Written,
+    index: usize,
+    read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
+) -> Result<Model, SiteError> {
+    let (file, placement) = placed(written, index)?;
+    let file = on_disk(&file);
+    if !file.is_file() {
+        return Err(refuse(written.model_key(index, "path"), no_file(name(written, index), &file)));
+    }
+    read_model(&file, &placement).map_err(|error| match error.fault {
+        Fault::Scene(_) => refuse(written.model_key(index, "scene"), error.to_string()),
+        _ => error.into(),
+    })
+}
+
+/// What people call a model: as the site file does.
+fn name(written: &Written, index: usize) -> &str {
+    written.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default()
 }
 
 /// That a model's file is not there, and what may be wrong with its path.
@@ -168,7 +202,7 @@ fn sources(written: &Written) -> Result<Vec<Source>, SiteError> {
 }
 
 fn stamp(file: &Path) -> Option<(SystemTime, u64)> {
-    let told = file.metadata().ok()?;
+    let told = on_disk(file).metadata().ok()?;
     Some((told.modified().ok()?, told.len()))
 }
 
@@ -199,10 +233,11 @@ pub(super) fn placed(written: &Written, index: usize) -> Result<(PathBuf, Placem
             format!("{scale} is no scale; write metres per model unit above 0, for example 0.001 for millimetres"),
         ));
     }
-    Ok((written.folder.join(path), Placement { north_rad: north_deg.to_radians(), position, scale }))
+    let scene = table.scene.clone();
+    Ok((written.folder.join(path), Placement { scene, north_rad: north_deg.to_radians(), position, scale }))
 }
 
-/// Per component, whether a name (or all) means it.
+/// Per component, whether a list of names (or all) means it.
 fn chosen(
     written: &Written,
     index: usize,
@@ -210,20 +245,8 @@ fn chosen(
     names: &Names,
     components: &[Component],
 ) -> Result<Vec<bool>, SiteError> {
-    let names = match names {
-        Names::All(all) => return Ok(vec![*all; components.len()]),
-        Names::Some(names) => names,
-    };
-    let means = |name: &String, of: &Component| of.name == *name || of.aliases.contains(name);
-    for name in names {
-        if !components.iter().any(|component| means(name, component)) {
-            let known = components.iter().flat_map(|of| of.aliases.iter().chain([&of.name])).map(String::as_str);
-            return Err(SiteError::UnknownName {
-                at: written.model_key(index, key),
-                name: name.clone(),
-                nearest: nearest(name, known).unwrap_or_default().to_owned(),
-            });
-        }
+    match names.unknown(components) {
+        Some((name, nearest)) => Err(SiteError::UnknownName { at: written.model_key(index, key), name, nearest }),
+        None => Ok(names.chosen(components)),
     }
-    Ok(components.iter().map(|component| names.iter().any(|name| means(name, component))).collect())
 }

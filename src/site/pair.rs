@@ -6,6 +6,7 @@ use super::extent::{Bounds, with_shadows};
 use super::load::SHADOW_CUT;
 use super::model::{self, Model, ModelError, Placement};
 use super::models::Models;
+use super::names::composed;
 use super::written::Written;
 use super::{Ground, GroundFrom, Site, metres, plan};
 use std::path::Path;
@@ -109,7 +110,7 @@ impl Pair {
         second.ground.from = first.ground.from;
 
         let names = [first.place.name.trim(), after_name.trim()];
-        let told_apart = names[0] != names[1] && names.iter().all(|name| !name.is_empty());
+        let told_apart = composed(names[0]) != composed(names[1]) && names.iter().all(|name| !name.is_empty());
         let names = if told_apart { names.map(str::to_owned) } else { [before.file.clone(), after.file.clone()] };
         second.place.name = after_name;
         Ok(Pair { before: first, after: second, names })

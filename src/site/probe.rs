@@ -7,6 +7,7 @@ use super::error::{At, SiteError};
 use super::ground::{self, Ground};
 use super::model;
 use super::models::Models;
+use super::names::composed;
 use super::notes::on_probes;
 use super::study::{date_of, no_study};
 use super::written::Written;
@@ -62,7 +63,8 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
     let level = ground::level(&written, asked)?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
-    let Models { mesh, bounds, mut notes, .. } = models;
+    let mut notes = models.notes(&written, &casts);
+    let Models { mesh, bounds, .. } = models;
     let ground = Ground::of(&mesh, bounds, level);
     // a probe below it says so itself
     notes.extend(ground.notes(&mesh, Receivers::Ground));
@@ -93,7 +95,7 @@ fn probes(written: &Written, asked: &Overrides) -> Result<Vec<Probe>, SiteError>
         let at = |key: &str| written.probe_key(index, key);
         let name = table.name.clone().filter(|name| !name.trim().is_empty());
         let name = name.unwrap_or_else(|| format!("probe {}", index + 1));
-        if probes.iter().any(|other| other.name == name) {
+        if probes.iter().any(|other| composed(&other.name) == composed(&name)) {
             return Err(refuse(
                 at("name"),
                 format!("\"{name}\" is the name of another probe, too; name each otherwise"),

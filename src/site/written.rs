@@ -4,6 +4,7 @@ use super::asked::{Overrides, refuse};
 use super::error::{At, SiteError};
 use super::file::{ModelTable, PlaceTable, SiteFile};
 use super::keys;
+use super::names::on_disk;
 use super::typed::{self, TypedError};
 use crate::sun::Place;
 use std::path::{Path, PathBuf};
@@ -81,6 +82,7 @@ impl Written {
 
     /// A model is `placed` where somebody says its place.
     pub(super) fn read_as_it_is(path: &Path, placed: bool) -> Result<Written, SiteError> {
+        let path = &*on_disk(path);
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
             _ if path.is_dir() => Self::read_file(&path.join("site.toml")),

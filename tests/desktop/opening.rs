@@ -112,3 +112,20 @@ fn plan_in_map_coordinates_is_told_on_opening() {
     drop_file(&mut harness, &site);
     assert!(harness.query_by_label_contains("the middle of the plan").is_none());
 }
+
+/// What the command would note of the models stands in the panel; where there is nothing to note it has no such part.
+#[test]
+fn notes_of_models_stand_in_the_panel() {
+    let (folder, site) = small_site();
+    let harness = window(Some(&site));
+    assert!(harness.query_by_label("Notes").is_none());
+    let mut model = crate::model::poses::tower(30.0);
+    let option =
+        serde_json::json!({"mesh": 0, "name": "option B", "extensions": {"KHR_node_visibility": {"visible": false}}});
+    crate::model::push(&mut model.json["nodes"], option);
+    std::fs::write(folder.path().join("works.glb"), model.glb()).unwrap();
+    let harness = window(Some(&site));
+    harness.get_by_label("Notes");
+    harness.get_by_label_contains("works.glb has 1 node with a mesh that is hidden (KHR_node_visibility)");
+    assert_eq!(harness.state().site_file().model.len(), 1);
+}

@@ -15,10 +15,19 @@ fn rich() -> Model {
         "values": {"bufferView": values},
     });
     model.primitive()["indices"] = json!(indices);
-    model.json["scenes"] = json!([{"nodes": [1]}]);
+    let (joints, weights) = (model.accessor("VEC4", U8, 3, &[0; 12]), model.f32s("VEC4", &[0.25; 12]));
+    let bind: Vec<u8> = (0..16).flat_map(|at| f32::from(u8::from(at % 5 == 0)).to_le_bytes()).collect();
+    let bind = model.accessor("MAT4", F32, 1, &bind);
+    let attributes = json!({"POSITION": 0, "JOINTS_0": joints, "WEIGHTS_0": weights});
+    let posed = json!({"weights": [0.5], "primitives": [{"attributes": attributes, "targets": [{"POSITION": 0}]}]});
+    push(&mut model.json["meshes"], posed);
+    model.json["skins"] = json!([{"joints": [1], "inverseBindMatrices": bind}]);
+    model.json["scenes"] = json!([{"nodes": [1, 2]}]);
     model.json["nodes"] = json!([
         {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": shifts}}}},
-        {"children": [0], "rotation": [0, 0, 0, 1]},
+        {"children": [0, 3], "rotation": [0, 0, 0, 1]},
+        {"mesh": 1, "skin": 0, "weights": [1]},
+        {"mesh": 1, "skin": 0, "extensions": {"KHR_node_visibility": {"visible": false}}},
     ]);
     model
 }
@@ -62,6 +71,13 @@ proptest! {
     }
 }
 
+/// The model that is broken is read as long as it is whole.
+#[test]
+fn a_rich_model_is_read() {
+    let parts = rich().load().unwrap();
+    assert_eq!(parts.iter().map(|part| part.triangles.len()).collect::<Vec<_>>(), [2, 1]);
+}
+
 #[test]
 fn a_tree_of_100_000_levels_is_read() {
     let mut model = Model::triangle();
@@ -70,6 +86,14 @@ fn a_tree_of_100_000_levels_is_read() {
         (0..last).map(|node| json!({"children": [node + 1], "translation": [0, 1, 0]})).collect();
     nodes.push(json!({"mesh": 0}));
     model.json["nodes"] = json!(nodes);
+    assert_eq!(model.part().positions[0], DVec3::new(0.0, 0.0, f64::from(last)));
+
+    // each of them a joint
+    let (joints, weights) = (model.accessor("VEC4", U8, 3, &[0; 12]), model.f32s("VEC4", &[1.0; 12]));
+    let attributes = &mut model.primitive()["attributes"];
+    (attributes["JOINTS_0"], attributes["WEIGHTS_0"]) = (json!(joints), json!(weights));
+    model.json["skins"] = json!([{"joints": (0..last).rev().collect::<Vec<_>>()}]);
+    model.json["nodes"][last as usize]["skin"] = json!(0);
     assert_eq!(model.part().positions[0], DVec3::new(0.0, 0.0, f64::from(last)));
 }
 

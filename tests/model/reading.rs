@@ -18,7 +18,8 @@ fn a_placement_scales_then_turns_then_moves() {
     let path = folder.path().join("model.glb");
     std::fs::write(&path, Model::triangle().glb()).unwrap();
     // True north lies 90° clockwise of the model's north, so the model's north points west.
-    let placement = Placement { north_rad: FRAC_PI_2, position: DVec3::new(100.0, 200.0, 5.0), scale: 2.0 };
+    let placement =
+        Placement { scene: None, north_rad: FRAC_PI_2, position: DVec3::new(100.0, 200.0, 5.0), scale: 2.0 };
     let parts = load(&path, &placement).unwrap().parts;
     assert_eq!(corners(&parts[0]), [[[100.0, 200.0, 5.0], [100.0, 202.0, 5.0], [98.0, 200.0, 5.0]]]);
     assert!(normal(&parts[0]).z > 0.0);

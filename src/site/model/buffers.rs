@@ -6,6 +6,7 @@
 
 use super::document::Document;
 use super::{Fault, container};
+use crate::site::names::on_disk;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::DecodePaddingMode;
@@ -114,7 +115,7 @@ impl<'a> Buffers<'a> {
                 format!("lies at '{address}', outside the model's folder: put it beside the model, or export one .glb"),
             ));
         }
-        let path = self.folder.join(relative);
+        let path = on_disk(&self.folder.join(relative));
         if let Some(bytes) = self.files.borrow().get(&path) {
             return Ok(bytes.clone());
         }

@@ -1,28 +1,44 @@
-//! Placed nodes and their meshes → parts in the world.
+//! Placed nodes and their meshes → parts in the world, and which of their materials light passes.
 
 use super::accessor::Accessors;
 use super::buffers::Buffers;
 use super::coarse;
 use super::document::Document;
 use super::instances::Instances;
+use super::pose::{Pose, Skins};
 use super::primitive::{self, Group, Surface, Surfaces};
 use super::scene::Placed;
-use super::{Fault, MAX_COMPONENTS, MAX_TRIANGLES};
+use super::{Fault, MAX_COMPONENTS, MAX_MOVES, MAX_TRIANGLES, SeeThrough};
 use crate::mesh::Part;
 use glam::DAffine3;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// A vertex that the part does not have yet.
 const ABSENT: u32 = u32::MAX;
 
-/// One part per node and material, in the order of the scene.
-pub(super) fn parts(document: &Document, buffers: &Buffers, placed: &[Placed]) -> Result<Vec<Part>, Fault> {
+/// What stands there.
+pub(super) struct Built {
+    /// One part per node and material, in the order of the scene.
+    pub parts: Vec<Part>,
+    /// Each name once.
+    pub see_through: Vec<SeeThrough>,
+}
+
+/// Makes the parts of placed nodes; there may be none.
+pub(super) fn build(
+    document: &Document,
+    buffers: &Buffers,
+    placed: &[Placed],
+    world_from_model: DAffine3,
+) -> Result<Built, Fault> {
     let mut accessors = Accessors::new(document, buffers);
     // Many nodes may share a mesh; what it says is read once.
     let mut known: Vec<Option<Surfaces>> = document.meshes.iter().map(|_| None).collect();
+    let mut skins = Skins::new(document, world_from_model);
     let mut builder = Builder::default();
-    let mut triangles: u64 = 0;
-    let mut parts = Vec::new();
+    let (mut triangles, mut moves) = (0_u64, 0_u64);
+    let (mut parts, mut see_through) = (Vec::new(), BTreeMap::<String, Vec<usize>>::new());
     for place in placed {
         let Some(surfaces) = known.get_mut(place.mesh) else {
             continue; // `scene::place` has checked the index.
@@ -45,7 +61,16 @@ pub(super) fn parts(document: &Document, buffers: &Buffers, placed: &[Placed]) -
             if triangles > MAX_TRIANGLES {
                 return Err(Fault::TooManyTriangles);
             }
-            let mut part = builder.part(group, &instances, place.world_from_node)?;
+            let open = |surface| Pose::open(document, &mut accessors, &mut skins, place, surface);
+            let poses: Vec<Pose> = group.surfaces.iter().map(open).collect::<Result<_, _>>()?;
+            for (surface, pose) in group.surfaces.iter().zip(&poses) {
+                let each = (surface.triangles as u64).saturating_mul(pose.readers() as u64);
+                moves = moves.saturating_add(each.saturating_mul(instances.count as u64));
+            }
+            if moves > MAX_MOVES {
+                return Err(Fault::TooManyMoves);
+            }
+            let mut part = builder.part(group, &poses, &instances, place.world_from_node)?;
             if part.triangles.is_empty() {
                 continue;
             }
@@ -55,13 +80,17 @@ pub(super) fn parts(document: &Document, buffers: &Buffers, placed: &[Placed]) -
                 false => format!("{node}/{material}"),
             };
             part.aliases = aliases(&node, document.mesh_name(place.mesh), &material);
+            if group.material.is_some_and(|index| document.is_see_through(index, group.has_faded_vertices)) {
+                see_through.entry(material).or_default().push(parts.len());
+            }
             parts.push(part);
             if parts.len() > MAX_COMPONENTS {
                 return Err(Fault::TooManyComponents);
             }
         }
     }
-    if parts.is_empty() { Err(Fault::Empty) } else { Ok(parts) }
+    let see_through = see_through.into_iter().map(|(material, parts)| SeeThrough { material, parts }).collect();
+    Ok(Built { parts, see_through })
 }
 
 /// The names by which a part may be meant, each once.
@@ -90,21 +119,33 @@ struct Builder {
 const AT_ONCE: usize = 1 << 14;
 
 impl Builder {
-    /// All instances of a group.
-    fn part(&mut self, group: &Group, instances: &Instances, world_from_node: DAffine3) -> Result<Part, Fault> {
+    /// All instances of a group; there is a pose for each of its surfaces.
+    fn part(
+        &mut self,
+        group: &Group,
+        poses: &[Pose],
+        instances: &Instances,
+        world_from_node: DAffine3,
+    ) -> Result<Part, Fault> {
         let mut part = Part::default();
         for instance in 0..instances.count {
             let world_from_mesh = world_from_node * instances.get(instance)?;
-            for surface in &group.surfaces {
-                self.append(&mut part, surface, world_from_mesh)?;
+            for (surface, pose) in group.surfaces.iter().zip(poses) {
+                self.append(&mut part, surface, pose, world_from_mesh)?;
             }
         }
         Ok(part)
     }
 
     /// Adds a primitive's triangles, and the vertices that they use.
-    fn append(&mut self, part: &mut Part, surface: &Surface, world_from_mesh: DAffine3) -> Result<(), Fault> {
-        let mirrors = world_from_mesh.matrix3.determinant() < 0.0;
+    fn append(
+        &mut self,
+        part: &mut Part,
+        surface: &Surface,
+        pose: &Pose,
+        world_from_mesh: DAffine3,
+    ) -> Result<(), Fault> {
+        let mirrors = pose.world_from_mesh(&world_from_mesh).matrix3.determinant() < 0.0;
         if self.numbers.len() < surface.positions.count {
             self.numbers.resize(surface.positions.count, ABSENT);
         }
@@ -117,14 +158,20 @@ impl Builder {
                 part.triangles.push(triangle.map(|vertex| self.number(vertex, first)));
             }
         }
-        let point = |&vertex: &u32| world_from_mesh.transform_point3(surface.positions.vec3(vertex as usize));
-        part.positions.par_extend(self.used.par_iter().with_min_len(AT_ONCE).map(point));
+        let stored = |vertex: u32| surface.positions.vec3(vertex as usize);
+        let used = self.used.par_iter().with_min_len(AT_ONCE);
+        if pose.is_plain() {
+            part.positions.par_extend(used.map(|&vertex| world_from_mesh.transform_point3(stored(vertex))));
+        } else {
+            let point = |&vertex: &u32| pose.point(stored(vertex), vertex as usize, &world_from_mesh);
+            part.positions.par_extend(used.map(point));
+        }
         let points = &part.positions[first as usize..];
-        part.coarse.extend(coarse::corners(&surface.positions, &self.used, &world_from_mesh, points, first));
+        let world_from_mesh = pose.world_from_mesh(&world_from_mesh);
+        part.coarse.extend(coarse::corners(&surface.positions, &self.used, world_from_mesh, points, first));
         for (vertex, point) in self.used.drain(..).zip(&part.positions[first as usize..]) {
             if !point.is_finite() {
-                let problem = format!("has at vertex {vertex} a position that is not finite");
-                return Err(primitive::fault(surface.mesh, surface.primitive, problem));
+                return Err(primitive::fault(surface.mesh, surface.primitive, pose.problem(vertex as usize)));
             }
             if let Some(number) = self.numbers.get_mut(vertex as usize) {
                 *number = ABSENT;

@@ -1,19 +1,24 @@
-//! The JSON → the structure of what casts. Textures, cameras and animations are not even parsed.
+//! The JSON → the structure of what casts. Textures, images, cameras and animations are not even parsed.
 //!
 //! `gltf::json` reads meshes, accessors, views and buffers. Nodes are our own, since it keeps transforms in `f32`, which
 //! far from the origin, at map coordinates, is steps of 25 cm; scenes and materials are, since it refuses scenes
 //! without nodes and broken textures.
 
 use super::Fault;
+use super::material::Material;
+use crate::site::names::composed;
 use gltf::json::{Accessor, Buffer, Mesh, buffer::View};
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Bytes in a name; every component carries the names of its node, mesh and material.
 const MAX_NAME_BYTES: usize = 1000;
 
-/// Extensions about how surfaces look, sound or are described: whatever they say, the triangles stay the same.
-const HARMLESS: [&str; 17] = [
+/// Extensions about how surfaces look, sound, are described or answer a hand, by how their names begin: whatever they say,
+/// the triangles stay the same.
+const HARMLESS: [&str; 25] = [
     "KHR_materials_",
     "EXT_materials_",
     "ADOBE_materials_",
@@ -31,10 +36,18 @@ const HARMLESS: [&str; 17] = [
     "EXT_instance_features",
     "EXT_structural_metadata",
     "EXT_feature_metadata",
+    "NV_materials_",
+    "BENTLEY_materials_",
+    "CESIUM_primitive_outline",
+    "AGI_stk_metadata",
+    "FB_geometry_metadata",
+    "GODOT_single_root",
+    "KHR_node_selectability",
+    "KHR_node_hoverability",
 ];
 
 /// Extensions about geometry that are read.
-const READ: [&str; 2] = ["KHR_mesh_quantization", "EXT_mesh_gpu_instancing"];
+const READ: [&str; 3] = ["KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_node_visibility"];
 
 /// Extensions that compress geometry.
 const COMPRESSING: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
@@ -53,6 +66,8 @@ pub(super) struct Document {
     pub nodes: Vec<Node>,
     #[serde(default)]
     pub meshes: Vec<Mesh>,
+    #[serde(default)]
+    pub skins: Vec<Skin>,
     #[serde(default)]
     pub materials: Vec<Material>,
     #[serde(default)]
@@ -76,19 +91,28 @@ struct Asset {
 
 #[derive(Deserialize)]
 pub(super) struct Scene {
+    #[serde(default, deserialize_with = "text")]
+    name: Option<String>,
     #[serde(default)]
     pub nodes: Vec<usize>,
 }
 
+/// Which nodes move the vertices of a mesh.
 #[derive(Deserialize)]
-pub(super) struct Material {
-    name: Option<String>,
+#[serde(rename_all = "camelCase")]
+pub(super) struct Skin {
+    #[serde(default)]
+    pub joints: Vec<usize>,
+    /// An accessor.
+    pub inverse_bind_matrices: Option<usize>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Node {
     name: Option<String>,
     pub mesh: Option<usize>,
+    pub skin: Option<usize>,
+    weights: Option<Vec<f32>>,
     #[serde(default)]
     pub children: Vec<usize>,
     /// Column by column.
@@ -105,6 +129,21 @@ pub(super) struct Node {
 pub(super) struct NodeExtensions {
     #[serde(rename = "EXT_mesh_gpu_instancing")]
     pub instancing: Option<Instancing>,
+    #[serde(rename = "KHR_node_visibility")]
+    visibility: Option<Visibility>,
+}
+
+/// Whether a node is there, with all below it.
+#[derive(Deserialize)]
+struct Visibility {
+    visible: Option<bool>,
+}
+
+impl Node {
+    /// Whether it hides neither itself nor what is below it.
+    pub(super) fn is_visible(&self) -> bool {
+        self.extensions.visibility.as_ref().and_then(|visibility| visibility.visible).unwrap_or(true)
+    }
 }
 
 /// Where copies of a node's mesh stand.
@@ -122,9 +161,10 @@ impl Document {
         if version.split('.').next() != Some("2") {
             return Err(Fault::Version(version.chars().take(20).collect()));
         }
-        let document: Self = serde_json::from_slice(json).map_err(Fault::Json)?;
+        let mut document: Self = serde_json::from_slice(json).map_err(Fault::Json)?;
         document.check_extensions()?;
         document.check_names()?;
+        document.compose_names();
         Ok(document)
     }
 
@@ -133,21 +173,50 @@ impl Document {
             if let Some(extension) = COMPRESSING.iter().find(|known| *known == name) {
                 return Err(Fault::Compressed { what: "its geometry is".into(), extension: (*extension).into() });
             }
-            let harmless = HARMLESS.iter().any(|prefix| name.starts_with(prefix));
-            if !harmless && !READ.contains(&name.as_str()) {
+            if !is_harmless(name) && !READ.contains(&name.as_str()) {
                 return Err(Fault::Extension(name.clone()));
             }
         }
         Ok(())
     }
 
+    /// The extensions that the file requires and that nothing is read of.
+    pub(super) fn read_past(&self) -> impl Iterator<Item = &str> {
+        self.extensions_required.iter().map(String::as_str).filter(|name| is_harmless(name))
+    }
+
+    /// The default weights of a node's morph targets: its own, else its mesh's.
+    pub(super) fn weights(&self, node: usize, mesh: usize) -> &[f32] {
+        let own = self.nodes.get(node).and_then(|node| node.weights.as_deref());
+        own.or_else(|| self.meshes.get(mesh)?.weights.as_deref()).unwrap_or_default()
+    }
+
     fn check_names(&self) -> Result<(), Fault> {
         let nodes = self.nodes.iter().map(|node| &node.name);
         let meshes = self.meshes.iter().map(|mesh| &mesh.name);
         let materials = self.materials.iter().map(|material| &material.name);
+        check_names("scene", self.scenes.iter().map(|scene| &scene.name))?;
         check_names("node", nodes)?;
         check_names("mesh", meshes)?;
         check_names("material", materials)
+    }
+
+    /// Brings all names into one normal form, so that they are the same in each file that spells them.
+    fn compose_names(&mut self) {
+        let scenes = self.scenes.iter_mut().map(|scene| &mut scene.name);
+        let nodes = self.nodes.iter_mut().map(|node| &mut node.name);
+        let meshes = self.meshes.iter_mut().map(|mesh| &mut mesh.name);
+        let materials = self.materials.iter_mut().map(|material| &mut material.name);
+        for name in scenes.chain(nodes).chain(meshes).chain(materials).flatten() {
+            if let Cow::Owned(composed) = composed(name) {
+                *name = composed;
+            }
+        }
+    }
+
+    /// A scene's name, where it has one.
+    pub(super) fn scene_name(&self, scene: usize) -> Option<&str> {
+        given(&self.scenes.get(scene)?.name)
     }
 
     /// A node's name, else its mesh's, else its number.
@@ -162,6 +231,11 @@ impl Document {
         given(&self.meshes.get(mesh)?.name)
     }
 
+    /// Whether light passes a material; see [`Material::is_see_through`].
+    pub(super) fn is_see_through(&self, material: usize, has_faded_vertices: bool) -> bool {
+        self.materials.get(material).is_some_and(|material| material.is_see_through(has_faded_vertices))
+    }
+
     /// A material's name, else its number; `default` where a primitive names none.
     pub(super) fn material_name(&self, material: Option<usize>) -> String {
         let Some(index) = material else {
@@ -170,6 +244,18 @@ impl Document {
         let own = self.materials.get(index).and_then(|material| given(&material.name));
         own.map_or_else(|| format!("material {index}"), str::to_owned)
     }
+}
+
+/// A text, where it is one: a file is not refused for how its scenes are called.
+fn text<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
+    match Value::deserialize(from)? {
+        Value::String(text) => Ok(Some(text)),
+        _ => Ok(None),
+    }
+}
+
+fn is_harmless(extension: &str) -> bool {
+    HARMLESS.iter().any(|prefix| extension.starts_with(prefix))
 }
 
 /// An empty name is none.

@@ -112,6 +112,17 @@ pub enum Fault {
         /// Verb and object.
         problem: String,
     },
+    /// A skin without a pose.
+    #[error("skin {skin} {problem}: mend the model and export it again")]
+    Skin {
+        /// Its number.
+        skin: usize,
+        /// Verb and object.
+        problem: String,
+    },
+    /// No such scene as was asked for.
+    #[error("{0}")]
+    Scene(String),
     /// A primitive whose triangles cannot be read.
     #[error("primitive {primitive} of mesh {mesh} {problem}: mend the model and export it again")]
     Primitive {
@@ -128,7 +139,15 @@ pub enum Fault {
     /// More components than anyone can name.
     #[error("has more than {MAX_COMPONENTS} components: join its objects by material and export again")]
     TooManyComponents,
+    /// More to move than anyone has modelled.
+    #[error("morphs or skins too much, instances counted: export it as it stands, without morph targets and skins")]
+    TooManyMoves,
     /// Nothing that could cast.
-    #[error("has no triangles in its default scene, so nothing casts a shadow: export the visible faces as a mesh")]
-    Empty,
+    #[error("has no triangles in {scene}, so nothing casts a shadow: {way_out}")]
+    Empty {
+        /// Which scene is read.
+        scene: &'static str,
+        /// What to do.
+        way_out: String,
+    },
 }

@@ -2,6 +2,7 @@
 
 use super::buffers::{has_scheme, percent_decode};
 use super::container;
+use crate::site::names::on_disk;
 use serde::Deserialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -29,5 +30,5 @@ pub(crate) fn named_by(model: &Path) -> Vec<PathBuf> {
     let address =
         |one: &Value| one.get("uri").and_then(Value::as_str).filter(|uri| !has_scheme(uri)).map(str::to_owned);
     let addresses = each.flatten().filter_map(|one| address(&one));
-    addresses.filter_map(|uri| percent_decode(&uri)).map(|relative| folder.join(relative)).collect()
+    addresses.filter_map(|uri| percent_decode(&uri)).map(|relative| on_disk(&folder.join(relative))).collect()
 }

@@ -24,6 +24,8 @@ pub(super) struct Surfaces<'a> {
 pub(super) struct Group<'a> {
     /// Its number, where it has one.
     pub material: Option<usize>,
+    /// Whether the colours of its vertices have an alpha.
+    pub has_faded_vertices: bool,
     /// One or more, each with triangles.
     pub surfaces: Vec<Surface<'a>>,
 }
@@ -77,16 +79,24 @@ pub(super) fn surfaces<'a>(
             });
         }
         let group = *group_of.entry(material).or_insert_with(|| {
-            groups.push(Group { material, surfaces: Vec::new() });
+            groups.push(Group { material, has_faded_vertices: false, surfaces: Vec::new() });
             groups.len() - 1
         });
         let surface = surface(document, accessors, (index, number), primitive, mode)?;
         if let Some(group) = groups.get_mut(group).filter(|_| surface.triangles > 0) {
+            group.has_faded_vertices |= has_faded_vertices(document, primitive);
             group.surfaces.push(surface);
         }
     }
     groups.retain(|group| !group.surfaces.is_empty());
     Ok(Surfaces { groups, one_material: group_of.len() == 1 })
+}
+
+/// Whether its vertices have colours of four numbers.
+fn has_faded_vertices(document: &Document, primitive: &Primitive) -> bool {
+    let colours = primitive.attributes.get(&Checked::Valid(Semantic::Colors(0)));
+    let accessor = colours.and_then(|colours| document.accessors.get(colours.value()));
+    accessor.is_some_and(|accessor| accessor.type_ == Checked::Valid(Type::Vec4))
 }
 
 fn surface<'a>(

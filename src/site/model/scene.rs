@@ -1,7 +1,9 @@
-//! Which nodes stand in the default scene, and where. Trees may be as deep as the file likes: nothing here recurses.
+//! Which nodes stand in a scene, and where. Trees may be as deep as the file likes: nothing here recurses.
 
 use super::Fault;
 use super::document::{Document, Node};
+use crate::site::file::SceneName;
+use crate::site::names::{composed, few};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// A node with a mesh, and where it stands.
@@ -10,28 +12,46 @@ pub(super) struct Placed {
     pub node: usize,
     /// The mesh's number; there is such a mesh.
     pub mesh: usize,
+    /// The skin's number, where it has one.
+    pub skin: Option<usize>,
     /// Metres in the world from the node's own units.
     pub world_from_node: DAffine3,
 }
 
-/// The nodes with a mesh of the default scene, parents before children and siblings in the file's order.
-pub(super) fn place(document: &Document, world_from_model: DAffine3) -> Result<Vec<Placed>, Fault> {
+/// What stands in a scene, and what is hidden there (KHR_node_visibility).
+pub(super) struct Standing {
+    /// The nodes with a mesh that are seen, parents before children and siblings in the file's order.
+    pub placed: Vec<Placed>,
+    /// How many nodes with a mesh are hidden.
+    pub hidden: usize,
+    /// The nodes that say so of themselves and all below them.
+    pub hiding: Vec<usize>,
+    /// The scene's number, where the file has scenes.
+    pub scene: Option<usize>,
+}
+
+/// The nodes of the scene that is asked for, else of the file's default one.
+pub(super) fn place(
+    document: &Document,
+    world_from_model: DAffine3,
+    asked: Option<&SceneName>,
+) -> Result<Standing, Fault> {
     let parents = parents(document)?;
     check_cycles(&parents)?;
-    let mut open: Vec<(usize, DAffine3)> = Vec::new();
-    for root in roots(document, &parents)?.into_iter().rev() {
-        open.push((root, world_from_model));
+    let scene = number(document, asked)?;
+    // with the node above it that hides it, where there is one
+    let mut open: Vec<(usize, DAffine3, Option<usize>)> = Vec::new();
+    for root in roots(document, &parents, scene)?.into_iter().rev() {
+        open.push((root, world_from_model, None));
     }
-    let mut placed = Vec::new();
+    let mut standing = Standing { placed: Vec::new(), hidden: 0, hiding: Vec::new(), scene };
     // Each node has at most one parent and no tree bites its tail, so each is met once.
-    while let Some((index, world_from_parent)) = open.pop() {
+    while let Some((index, world_from_parent, hiding)) = open.pop() {
         let Some(node) = document.nodes.get(index) else {
             continue; // `parents` and `roots` have checked the index.
         };
-        let world_from_node = world_from_parent * local(node, index)?;
-        if !world_from_node.is_finite() {
-            return Err(fault(index, "lies beyond all numbers, as its parents' transforms multiply"));
-        }
+        let world_from_node = below(world_from_parent, node, index)?;
+        let hiding = hiding.or((!node.is_visible()).then_some(index));
         if let Some(mesh) = node.mesh {
             if mesh >= document.meshes.len() {
                 return Err(Fault::NoSuch {
@@ -41,11 +61,71 @@ pub(super) fn place(document: &Document, world_from_model: DAffine3) -> Result<V
                     count: document.meshes.len(),
                 });
             }
-            placed.push(Placed { node: index, mesh, world_from_node });
+            match hiding {
+                None => standing.placed.push(Placed { node: index, mesh, skin: node.skin, world_from_node }),
+                Some(hiding) => {
+                    standing.hidden += 1;
+                    // what hangs below one node comes in one run
+                    if standing.hiding.last() != Some(&hiding) {
+                        standing.hiding.push(hiding);
+                    }
+                }
+            }
         }
-        open.extend(node.children.iter().rev().map(|&child| (child, world_from_node)));
+        open.extend(node.children.iter().rev().map(|&child| (child, world_from_node, hiding)));
     }
-    Ok(placed)
+    Ok(standing)
+}
+
+/// Where single nodes stand, be they in the scene or not.
+pub(super) struct Worlds<'a> {
+    document: &'a Document,
+    parents: Vec<Option<usize>>,
+    world_from_model: DAffine3,
+    known: Vec<Option<DAffine3>>,
+}
+
+impl<'a> Worlds<'a> {
+    /// Of a document of which [`place`] has found the scene.
+    pub(super) fn new(document: &'a Document, world_from_model: DAffine3) -> Result<Self, Fault> {
+        let parents = parents(document)?;
+        let known = vec![None; parents.len()];
+        Ok(Self { document, parents, world_from_model, known })
+    }
+
+    /// World from node; `user` says who asks.
+    pub(super) fn get(&mut self, node: usize, user: impl Fn() -> String) -> Result<DAffine3, Fault> {
+        if node >= self.parents.len() {
+            return Err(no_such_node(self.document, user(), node));
+        }
+        // up to the next node that is known, and down again
+        let (mut climbed, mut next) = (Vec::new(), Some(node));
+        let mut world_from_node = self.world_from_model;
+        while let Some(index) = next {
+            if let Some(known) = self.known.get(index).copied().flatten() {
+                world_from_node = known;
+                break;
+            }
+            climbed.push(index);
+            next = self.parents.get(index).copied().flatten();
+        }
+        for index in climbed.into_iter().rev() {
+            if let (Some(node), Some(known)) = (self.document.nodes.get(index), self.known.get_mut(index)) {
+                world_from_node = below(world_from_node, node, index)?;
+                *known = Some(world_from_node);
+            }
+        }
+        Ok(world_from_node)
+    }
+}
+
+/// World from node.
+fn below(world_from_parent: DAffine3, node: &Node, index: usize) -> Result<DAffine3, Fault> {
+    let world_from_node = world_from_parent * local(node, index)?;
+    match world_from_node.is_finite() {
+        true => Ok(world_from_node),
+        false => Err(fault(index, "lies beyond all numbers, as its parents' transforms multiply")),
+    }
 }
 
 /// Per node its parent.
@@ -83,13 +163,46 @@ fn check_cycles(parents: &[Option<usize>]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The roots of the file's scene, of the first scene, or all there are.
-fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, Fault> {
-    let number = document.scene.unwrap_or(0);
-    let Some(scene) = document.scenes.get(number) else {
-        if let Some(index) = document.scene {
-            return Err(Fault::NoSuch { user: "the file".into(), what: "scene", index, count: document.scenes.len() });
+/// The scene that is asked for, else the file's default one, else its first; none where it has none.
+fn number(document: &Document, asked: Option<&SceneName>) -> Result<Option<usize>, Fault> {
+    let count = document.scenes.len();
+    let Some(asked) = asked else {
+        return match document.scene {
+            Some(index) if index >= count => {
+                Err(Fault::NoSuch { user: "the file".into(), what: "scene", index, count })
+            }
+            Some(index) => Ok(Some(index)),
+            None => Ok((count > 0).then_some(0)),
+        };
+    };
+    let is_it = |&index: &usize| match asked {
+        SceneName::Number(number) => index as u64 == *number,
+        SceneName::Name(name) => document.scene_name(index).is_some_and(|own| *own == composed(name)),
+    };
+    let found: Vec<usize> = (0..count).filter(is_it).collect();
+    match found.as_slice() {
+        [] if count == 0 => Err(Fault::Scene("has no scenes; leave `scene` out".into())),
+        [] => Err(Fault::Scene(format!("has no scene {asked}; there is {}", scenes(document, 0..count)))),
+        [index] => Ok(Some(*index)),
+        several => {
+            let several = scenes(document, several.iter().copied());
+            Err(Fault::Scene(format!("has several scenes {asked}: {several}; write the number of one")))
         }
+    }
+}
+
+/// Scenes for a message: by their names, each with its number.
+pub(super) fn scenes(document: &Document, indices: impl IntoIterator<Item = usize>) -> String {
+    let told = |index: usize| match document.scene_name(index) {
+        Some(name) => format!("\"{name}\" ({index})"),
+        None => index.to_string(),
+    };
+    few(indices.into_iter().map(told).collect())
+}
+
+/// The roots of a scene, or of the file where it has none.
+fn roots(document: &Document, parents: &[Option<usize>], scene: Option<usize>) -> Result<Vec<usize>, Fault> {
+    let Some((number, scene)) = scene.and_then(|number| Some((number, document.scenes.get(number)?))) else {
         return Ok((0..parents.len()).filter(|&node| parents.get(node) == Some(&None)).collect());
     };
     let mut listed = vec![false; parents.len()];
@@ -110,13 +223,10 @@ fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, F
 /// Parent from node. A matrix goes before translation, rotation and scale, though glTF allows only one of both.
 fn local(node: &Node, index: usize) -> Result<DAffine3, Fault> {
     let local = if let Some(matrix) = node.matrix.as_deref() {
-        let [a, b, c, a0, d, e, f, d0, g, h, i, g0, x, y, z, one] = *matrix;
-        // A matrix that was written row by row has its translation here.
-        if [a0, d0, g0, one - 1.0].iter().any(|value| value.abs() > 1e-6) {
+        let Some(matrix) = affine(*matrix, 1e-6) else {
             return Err(fault(index, "has a matrix whose last row is not 0, 0, 0, 1"));
-        }
-        let linear = DMat3::from_cols(DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i));
-        DAffine3::from_mat3_translation(linear, DVec3::new(x, y, z))
+        };
+        matrix
     } else {
         let translation = DVec3::from(node.translation.unwrap_or([0.0; 3]));
         let scale = DVec3::from(node.scale.unwrap_or([1.0; 3]));
@@ -130,6 +240,17 @@ fn local(node: &Node, index: usize) -> Result<DAffine3, Fault> {
         return Err(fault(index, "has a transform that is not finite"));
     }
     Ok(local)
+}
+
+/// A matrix that is stored column by column; none where its last row is further than `slack` from 0, 0, 0, 1.
+pub(super) fn affine(matrix: [f64; 16], slack: f64) -> Option<DAffine3> {
+    let [a, b, c, a0, d, e, f, d0, g, h, i, g0, x, y, z, one] = matrix;
+    // A matrix that was written row by row has its translation here.
+    if [a0, d0, g0, one - 1.0].iter().any(|value| value.abs() > slack) {
+        return None;
+    }
+    let linear = DMat3::from_cols(DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i));
+    Some(DAffine3::from_mat3_translation(linear, DVec3::new(x, y, z)))
 }
 
 /// The rotation that a stored quaternion means; none where it has no length or is not finite.

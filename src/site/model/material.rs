@@ -1,0 +1,37 @@
+//! Whether light passes a material; every material casts as solid all the same.
+
+use serde::Deserialize;
+use serde_json::Value;
+
+/// A material. What it looks like may be broken in any way: no shadow depends on it.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Material {
+    pub name: Option<String>,
+    #[serde(default)]
+    alpha_mode: Value,
+    #[serde(default)]
+    pbr_metallic_roughness: Value,
+    #[serde(default)]
+    extensions: Value,
+}
+
+impl Material {
+    /// Whether it is cut out (`MASK`) or translucent (`BLEND`, KHR_materials_transmission).
+    ///
+    /// Many exporters write `BLEND` for everything. Where neither a texture, nor the factor, nor the colours of vertices
+    /// (`has_faded_vertices`) can make the alpha less than 1, it is opaque.
+    pub(super) fn is_see_through(&self, has_faded_vertices: bool) -> bool {
+        let fades = |of: &Value, factor: &str, texture: &str| {
+            of[factor][3].as_f64().is_some_and(|alpha| alpha < 1.0) || of[texture].is_object()
+        };
+        let older = &self.extensions["KHR_materials_pbrSpecularGlossiness"];
+        let alpha_counts = matches!(self.alpha_mode.as_str(), Some("MASK" | "BLEND"));
+        let is_faded = alpha_counts
+            && (has_faded_vertices
+                || fades(&self.pbr_metallic_roughness, "baseColorFactor", "baseColorTexture")
+                || fades(older, "diffuseFactor", "diffuseTexture"));
+        let transmitted = &self.extensions["KHR_materials_transmission"]["transmissionFactor"];
+        is_faded || transmitted.as_f64().is_some_and(|factor| factor > 0.0)
+    }
+}

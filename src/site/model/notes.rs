@@ -1,0 +1,47 @@
+//! What the user should know of how a file was read: what was left out, and what was read past.
+
+use super::document::Document;
+use super::scene::{Standing, scenes};
+use crate::site::names::few;
+
+/// A sentence each, without its stop, whose subject is the file. `is_asked` says that the user has chosen the scene.
+pub(super) fn of(document: &Document, standing: &Standing, is_asked: bool) -> Vec<String> {
+    let mut notes = Vec::new();
+    let others = |number: usize| (0..document.scenes.len()).filter(move |&other| other != number);
+    if let Some(number) = standing.scene.filter(|&number| !is_asked && others(number).next().is_some()) {
+        notes.push(format!(
+            "has {} scenes, and {} is read; `scene` under [[model]] in a site file reads another, by name or number: {}",
+            document.scenes.len(),
+            scenes(document, [number]),
+            scenes(document, others(number)),
+        ));
+    }
+    if standing.hidden > 0 {
+        let hiding = standing.hiding.iter().map(|&node| format!("\"{}\"", document.node_name(node)));
+        let (nodes, are) = if standing.hidden == 1 { ("node", "is") } else { ("nodes", "are") };
+        notes.push(format!(
+            "has {} {nodes} with a mesh that {are} hidden (KHR_node_visibility) and left out, at {}",
+            standing.hidden,
+            few(hiding.collect()),
+        ));
+    }
+    let past: Vec<String> = document.read_past().map(str::to_owned).collect();
+    if !past.is_empty() {
+        let verb = if past.len() == 1 { "changes" } else { "change" };
+        notes.push(format!("requires {}, which {verb} no shape and so no shadow", few(past)));
+    }
+    notes
+}
+
+/// What to do where nothing stands there.
+pub(super) fn way_out(document: &Document, standing: &Standing) -> String {
+    let is_other = |&other: &usize| Some(other) != standing.scene;
+    let mut others = (0..document.scenes.len()).filter(is_other).peekable();
+    if standing.hidden > 0 {
+        "all that has a mesh is hidden (KHR_node_visibility); show what stands there, and export it again".into()
+    } else if others.peek().is_some() {
+        format!("read another scene with `scene` under [[model]] in a site file: {}", scenes(document, others))
+    } else {
+        "export the visible faces as a mesh".into()
+    }
+}
