@@ -11,6 +11,7 @@ mod numbers;
 mod sides;
 mod surfaces;
 mod techniques;
+pub(crate) mod units;
 mod volumes;
 
 use crate::model::{F32, Model, U16};

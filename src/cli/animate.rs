@@ -3,6 +3,7 @@
 use super::arguments::{Common, DrawArgs, PlanArgs, SiteArgs, WindowArgs};
 use super::commands::drawn_by;
 use super::eye::Eye;
+use super::model::ModelArgs;
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say, who};
 use crate::export::animation::{Frames, MOST_FRAMES};
@@ -25,6 +26,8 @@ pub(crate) const FPS: u16 = 4;
 pub(super) struct AnimateArgs {
     #[command(flatten)]
     site: SiteArgs,
+    #[command(flatten)]
+    model: ModelArgs,
     #[command(flatten)]
     window: WindowArgs,
     #[command(flatten)]
@@ -51,7 +54,7 @@ pub(super) struct AnimateArgs {
 
 impl AnimateArgs {
     fn overrides(&self) -> Overrides {
-        let asked = self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())));
+        let asked = self.plan.onto(self.draw.onto(self.window.onto(self.model.onto(self.site.overrides()))));
         Overrides { side: self.view.side(), ..asked }
     }
 }

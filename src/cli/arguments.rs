@@ -6,6 +6,7 @@ use super::compare::CompareArgs;
 use super::draw::LinesArgs;
 use super::eye::Eye;
 use super::memory;
+use super::model::ModelArgs;
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
@@ -235,6 +236,8 @@ pub(super) struct ProfileArgs {
     #[command(flatten)]
     pub(super) site: SiteArgs,
     #[command(flatten)]
+    model: ModelArgs,
+    #[command(flatten)]
     window: WindowArgs,
     #[command(flatten)]
     draw: DrawArgs,
@@ -297,6 +300,8 @@ impl Written {
 pub(super) struct ShadowArgs {
     #[command(flatten)]
     pub(super) site: SiteArgs,
+    #[command(flatten)]
+    model: ModelArgs,
     /// The instant, local clock time: 2026-09-18T15:00
     #[arg(long, value_name = "T", required = true, allow_hyphen_values = true)]
     at: String,
@@ -361,6 +366,8 @@ pub(super) struct CheckArgs {
     #[arg(value_name = "MODEL")]
     pub(super) path: PathBuf,
     #[command(flatten)]
+    pub(super) model: ModelArgs,
+    #[command(flatten)]
     pub(super) common: Common,
 }
 
@@ -368,6 +375,8 @@ pub(super) struct CheckArgs {
 pub(super) struct VolumesArgs {
     #[command(flatten)]
     pub(super) site: SiteArgs,
+    #[command(flatten)]
+    model: ModelArgs,
     /// The instant, local clock time: 2026-09-18T15:00
     #[arg(long, value_name = "T", required = true, allow_hyphen_values = true)]
     at: String,
@@ -385,6 +394,8 @@ pub(super) struct VolumesArgs {
 pub(super) struct VerifyArgs {
     #[command(flatten)]
     pub(super) site: SiteArgs,
+    #[command(flatten)]
+    model: ModelArgs,
     #[command(flatten)]
     window: WindowArgs,
     /// One instant instead of the study, local clock time: 2026-09-18T15:00
@@ -459,7 +470,7 @@ impl PlanArgs {
 
 impl ProfileArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        let asked = self.plan.onto(self.draw.onto(self.window.onto(self.site.overrides())));
+        let asked = self.plan.onto(self.draw.onto(self.window.onto(self.model.onto(self.site.overrides()))));
         Overrides { patch_cell: self.patch_cell, ..asked }
     }
 
@@ -477,7 +488,7 @@ impl ProfileArgs {
 
 impl ShadowArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        let asked = self.plan.onto(self.draw.onto(self.site.overrides()));
+        let asked = self.plan.onto(self.draw.onto(self.model.onto(self.site.overrides())));
         Overrides { at: Some(self.at.clone()), date: self.date.clone(), side: self.view.side(), ..asked }
     }
 }
@@ -490,13 +501,13 @@ impl SunArgs {
 
 impl VolumesArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        Overrides { at: Some(self.at.clone()), date: self.date.clone(), ..self.site.overrides() }
+        Overrides { at: Some(self.at.clone()), date: self.date.clone(), ..self.model.onto(self.site.overrides()) }
     }
 }
 
 impl VerifyArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        let asked = self.plan.onto(self.finder.onto(self.window.onto(self.site.overrides())));
+        let asked = self.plan.onto(self.finder.onto(self.window.onto(self.model.onto(self.site.overrides()))));
         let size = asked.size.or(asked.cell.is_none().then_some(SIZE));
         Overrides { at: self.at.clone(), settings: self.maps.settings(self.sun_samples), size, ..asked }
     }

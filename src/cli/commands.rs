@@ -153,7 +153,7 @@ pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
 
 /// `gnomon check`
 pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
-    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path)?;
+    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path, asked.model.up)?;
     interrupt::check()?;
     let components = mesh_report::components(&mesh);
     interrupt::check()?;

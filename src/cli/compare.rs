@@ -2,6 +2,7 @@
 
 use super::arguments::{Common, DrawArgs, GroundArgs, PlaceArgs, PlanArgs, WindowArgs};
 use super::commands::drawn_by;
+use super::model::ModelArgs;
 use super::profile::written;
 use super::progress::Progress;
 use super::{interrupt, say, who};
@@ -30,6 +31,8 @@ pub(super) struct CompareArgs {
     #[command(flatten)]
     ground: GroundArgs,
     #[command(flatten)]
+    model: ModelArgs,
+    #[command(flatten)]
     window: WindowArgs,
     #[command(flatten)]
     draw: DrawArgs,
@@ -44,7 +47,7 @@ pub(super) struct CompareArgs {
 
 impl CompareArgs {
     fn overrides(&self) -> Overrides {
-        self.plan.onto(self.draw.onto(self.window.onto(self.ground.onto(self.place.overrides()))))
+        self.plan.onto(self.draw.onto(self.window.onto(self.ground.onto(self.model.onto(self.place.overrides())))))
     }
 }
 

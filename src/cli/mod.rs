@@ -11,6 +11,7 @@ mod eye;
 mod interrupt;
 mod keeping;
 mod memory;
+mod model;
 mod probe;
 mod profile;
 mod progress;

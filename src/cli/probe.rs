@@ -1,6 +1,7 @@
 //! `gnomon probe`: when points lie in the sun.
 
 use super::arguments::{Common, SiteArgs};
+use super::model::ModelArgs;
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::{figure, file, probe as told};
@@ -13,6 +14,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct ProbeArgs {
     #[command(flatten)]
     site: SiteArgs,
+    #[command(flatten)]
+    model: ModelArgs,
     /// One point instead of the site file's [[probe]]s, metres east, north, up of the place: 12,-3,4.5
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     point: Option<String>,
@@ -53,7 +56,7 @@ impl ProbeArgs {
         let [point, normal, date, from_date, to_date, from, to, step] =
             [&self.point, &self.normal, &self.date, &self.from_date, &self.to_date, &self.from, &self.to, &self.step]
                 .map(Clone::clone);
-        Overrides { point, normal, date, from_date, to_date, from, to, step, ..self.site.overrides() }
+        Overrides { point, normal, date, from_date, to_date, from, to, step, ..self.model.onto(self.site.overrides()) }
     }
 }
 

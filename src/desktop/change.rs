@@ -68,7 +68,7 @@ impl Known {
 /// # Errors
 /// As the command reads it.
 pub(super) fn read(path: &Path, project: &Project) -> Result<Written, SiteError> {
-    Written::read_beside(path, &project.written)
+    Written::read_beside(path, &project.written, &Overrides::default())
 }
 
 /// Finds what changes from `before` to the open site: over the study and on the plan of the latter.

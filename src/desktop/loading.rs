@@ -151,7 +151,7 @@ fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
         Wanted::File(path) => match Written::read(&path, &Overrides::default()) {
             Err(SiteError::NoPlaceForModel { .. }) => {
                 // a model that cannot be read is told before its place is asked
-                crate::site::load_mesh(&path).map_err(told)?;
+                crate::site::load_mesh(&path, None).map_err(told)?;
                 return Err(Fault::Bare(path));
             }
             Ok(written) => {

@@ -8,7 +8,7 @@ use super::{cards, components, found, look, view};
 use crate::export::figure::Diagram;
 use crate::site::file::Text;
 use crate::site::typed::{Axis, TypedError, clock, date, step};
-use crate::site::{Ground, Method};
+use crate::site::{Ground, Mend, Method};
 use eframe::egui::{self, Ui, vec2};
 use std::ops::RangeInclusive;
 
@@ -34,10 +34,7 @@ fn good_for(method: Method) -> &'static str {
 /// The whole panel.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        let notes = notes(app);
-        if !notes.is_empty() {
-            section(ui, "Notes", true, |ui| notes.iter().for_each(|note| drop(ui.label(*note))));
-        }
+        section_of_notes(app, ui);
         section(ui, "Shadows", true, |ui| shadows(app, ui));
         section(ui, "Hours of shadow", true, |ui| study(app, ui));
         if app.open.as_ref().and_then(|open| open.laid.as_ref()).is_some_and(|laid| laid.change().is_some()) {
@@ -60,6 +57,35 @@ fn notes(app: &App) -> Vec<&String> {
     let notes = &open.project.site.notes;
     let before = open.laid.as_ref().and_then(|laid| laid.change()).map_or(&[][..], |change| change.notes_before());
     notes.iter().chain(before.iter().filter(|note| !notes.contains(note))).collect()
+}
+
+/// What the user should know of the models, and the keys that would mend what looks wrong.
+fn section_of_notes(app: &mut App, ui: &mut Ui) {
+    let notes: Vec<String> = notes(app).into_iter().cloned().collect();
+    let Some(open) = app.open.as_ref().filter(|_| !notes.is_empty()) else { return };
+    let models = &mut app.settings.site.model;
+    let are_several = models.len() > 1;
+    section(ui, "Notes", true, |ui| {
+        notes.iter().for_each(|note| drop(ui.label(note)));
+        for likeness in &open.project.site.likenesses {
+            let Some(model) = models.get_mut(likeness.model) else { continue };
+            ui.horizontal_wrapped(|ui| {
+                for mend in &likeness.mends {
+                    let of = model
+                        .path
+                        .as_deref()
+                        .filter(|_| are_several)
+                        .map_or(String::new(), |path| format!(" for {path}"));
+                    if ui.button(format!("Set {mend}{of}")).clicked() {
+                        match mend {
+                            Mend::Scale(scale) => model.scale = Some(*scale),
+                            Mend::Up(up) => model.up = Some(up.word().to_owned()),
+                        }
+                    }
+                }
+            });
+        }
+    });
 }
 
 fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {

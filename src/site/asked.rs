@@ -1,6 +1,7 @@
 //! What the command line asks beside the site file, and the reading of its values.
 
 use super::error::{At, SiteError};
+use super::model::Up;
 use super::{Engine, Finder, Method, Receivers, Settings};
 use crate::view::Side;
 
@@ -9,6 +10,8 @@ use crate::view::Side;
 pub struct Overrides {
     /// `--place LAT,LON`, for a model file or a site file without `[place]`.
     pub place: Option<String>,
+    /// `--up y|z`: of all models, whatever their files say.
+    pub up: Option<Up>,
     /// `--ground METRES`
     pub ground: Option<f64>,
     /// `--date 2026-09-18`

@@ -1,6 +1,7 @@
 //! The words by which people choose a technique, a finder, an engine, a side and receivers.
 
 use super::error::nearest;
+use super::model::Up;
 use super::{Engine, Finder, Method, Pcf, Receivers};
 use crate::view::Side;
 use std::fmt;
@@ -71,6 +72,7 @@ macro_rules! words {
     };
 }
 
+words!(Up, ["y" => Up::Y, "z" => Up::Z], later []);
 words!(
     Method,
     [

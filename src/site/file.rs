@@ -54,6 +54,8 @@ pub struct ModelTable {
     pub path: Option<String>,
     /// The scene that is read, of a file that has several.
     pub scene: Option<SceneName>,
+    /// The axis that is up: `y` or `z`.
+    pub up: Option<String>,
     /// Degrees clockwise from the model's north to true north.
     pub north: Option<f64>,
     /// Metres east, north, up.

@@ -12,6 +12,7 @@ const KEYS: &[(&str, &str, &str)] = &[
     ("place", "time_zone", "time_zone = \"Europe/Paris\""),
     ("model", "path", "path = \"tower.glb\""),
     ("model", "scene", "scene = \"existing\""),
+    ("model", "up", "up = \"z\""),
     ("model", "north", "north = 0.0"),
     ("model", "position", "position = [0.0, 0.0, 0.0]"),
     ("model", "scale", "scale = 1.0"),

@@ -3,11 +3,11 @@
 use super::asked::{Overrides, refuse};
 use super::error::{At, SiteError};
 use super::extent::with_shadows;
-use super::model::{self, Model, ModelError, Placement};
+use super::model::{self, Model, ModelError, Placement, Up};
 use super::models::{Models, note_see_through};
 use super::names::on_disk;
 use super::written::Written;
-use super::{Finder, Ground, Method, Receivers, Site, camera, ground, notes, plan, study};
+use super::{Finder, Ground, Method, Receivers, Site, camera, ground, likeness, notes, plan, study};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::sun::{Place, SunTrack};
@@ -51,23 +51,26 @@ pub struct LoadedMesh {
     pub notes: Vec<String>,
 }
 
-/// The models alone: of a model file as it is, or of a site's models where they stand. Place and study may be absent.
+/// The models alone: of a model file as it is, or of a site's models where they stand; `up` goes before what a site says.
+/// Place and study may be absent.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
-pub fn load_mesh(path: &Path) -> Result<LoadedMesh, SiteError> {
+pub fn load_mesh(path: &Path, up: Option<Up>) -> Result<LoadedMesh, SiteError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if matches!(extension.as_str(), "glb" | "gltf") && !path.is_dir() {
-        let Model { parts, notes, see_through } = model::load(&on_disk(path), &Placement::default())?;
+        let placement = Placement { up: up.unwrap_or_default(), ..Placement::default() };
+        let Model { parts, notes, see_through } = model::load(&on_disk(path), &placement)?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let seen_through = note_see_through(&see_through, &vec![true; parts.len()]);
         let mut notes: Vec<String> =
             notes.into_iter().chain(seen_through).map(|note| format!("{name} {note}")).collect();
         let mesh = Mesh::build(parts)?;
-        notes.extend(notes::of(&mesh, Frame::Model, &[(name, 0..mesh.components.len())]));
+        let mends = likeness::of(&mesh, &mesh.components, &placement, [false, up.is_some()]);
+        notes.extend(notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends));
         return Ok(LoadedMesh { mesh, frame: Frame::Model, notes });
     }
-    let written = Written::read(path, &Overrides::default())?;
+    let written = Written::read(path, &Overrides { up, ..Overrides::default() })?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
     let notes = models.notes(&written, &casts);
@@ -136,7 +139,7 @@ impl Site {
         let models = models()?;
         let [casts, receives] = models.roles(written)?;
         let mut notes = models.notes(written, &casts);
-        let Models { mesh, bounds, .. } = models;
+        let Models { mesh, bounds, likenesses, .. } = models;
         let ground = Ground::of(&mesh, bounds, level);
         notes.extend(ground.notes(&mesh, receivers));
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground.level, &track, cut);
@@ -149,6 +152,7 @@ impl Site {
             place,
             mesh,
             notes,
+            likenesses,
             casts,
             receives,
             ground,

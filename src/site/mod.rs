@@ -12,6 +12,7 @@ pub mod file;
 mod ground;
 mod inputs;
 mod keys;
+mod likeness;
 mod load;
 pub mod model;
 mod models;
@@ -31,6 +32,7 @@ pub use choice::ChoiceError;
 pub use error::{At, SiteError};
 pub use ground::{Ground, GroundFrom, metres};
 pub use inputs::inputs;
+pub use likeness::{Likeness, Mend};
 pub use load::{Frame, LoadedMesh, load_mesh, load_sun};
 pub use models::Models;
 pub use pair::Pair;
@@ -137,6 +139,8 @@ pub struct Site {
     /// What the user should know of how the models were read, each a sentence without its stop that names the model; and
     /// of the clock.
     pub notes: Vec<String>,
+    /// What models look like that are not as they are read, with the keys that would mend them.
+    pub likenesses: Vec<Likeness>,
     /// Per component: whether it casts.
     pub casts: Vec<bool>,
     /// Per component: whether it receives; what does not is looked through.

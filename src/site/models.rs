@@ -1,13 +1,14 @@
 //! The models of a site where they stand, and which of their components are chosen.
 
 use super::asked::refuse;
+use super::choice::ChoiceError;
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::file::Names;
 use super::ground::Ground;
 use super::keys;
-use super::load::Frame;
-use super::model::{Fault, Model, ModelError, Placement, SeeThrough};
+use super::likeness::{self, Likeness};
+use super::model::{Fault, Model, ModelError, Placement, SeeThrough, Up};
 use super::names::{few, on_disk};
 use super::notes;
 use super::written::Written;
@@ -27,6 +28,8 @@ pub struct Models {
     pub(super) bounds: Bounds,
     /// What the user should know of how they were read, each a sentence without its stop that names the model.
     notes: Vec<String>,
+    /// What they look like.
+    pub(super) likenesses: Vec<Likeness>,
     /// Which components are whose.
     of_model: Vec<Range<usize>>,
     /// Each model's materials that light passes; its parts are counted among its own.
@@ -69,7 +72,18 @@ impl Models {
             see_through.push(model.see_through);
         }
         let mesh = Mesh::build(parts)?;
-        notes.extend(notes::of(&mesh, Frame::Place, &models));
+        let looks = |(index, source): (usize, &Source)| {
+            let table = &written.site.model[index];
+            let components = &mesh.components[models[index].1.clone()];
+            let said = [table.scale.is_some(), table.up.is_some()];
+            Likeness { model: index, mends: likeness::of(&mesh, components, &source.placement, said) }
+        };
+        let likenesses: Vec<Likeness> = sources.iter().enumerate().map(looks).collect();
+        for ((model, components), likeness) in models.iter().zip(&likenesses) {
+            notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
+        }
+        notes.extend(notes::of_all(&mesh));
+        let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
         let of_model = models.into_iter().map(|(_, components)| components).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
         let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
@@ -79,7 +93,7 @@ impl Models {
             mesh.origin.to_array().map(f64::to_bits),
             names.collect::<Vec<_>>(),
         ));
-        Ok(Models { mesh, bounds, notes, of_model, see_through, sources, mark })
+        Ok(Models { mesh, bounds, notes, likenesses, of_model, see_through, sources, mark })
     }
 
     /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.
@@ -234,7 +248,11 @@ pub(super) fn placed(written: &Written, index: usize) -> Result<(PathBuf, Placem
         ));
     }
     let scene = table.scene.clone();
-    Ok((written.folder.join(path), Placement { scene, north_rad: north_deg.to_radians(), position, scale }))
+    let up = match &table.up {
+        Some(word) => word.parse().map_err(|error: ChoiceError| refuse(at("up"), error.to_string()))?,
+        None => Up::default(),
+    };
+    Ok((written.folder.join(path), Placement { scene, up, north_rad: north_deg.to_radians(), position, scale }))
 }
 
 /// Per component, whether a list of names (or all) means it.

@@ -1,6 +1,6 @@
 //! What the user should know of where models stand, of what is asked far from them, and of the numbers that they are written with.
 
-use super::load::Frame;
+use super::likeness::{self, Mend};
 use crate::mesh::{Coarse, Component, Mesh};
 use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
@@ -13,18 +13,23 @@ const FAR_M: f64 = 20_000.0;
 /// coordinates always more.
 const ASKED_FAR_M: f64 = 50_000.0;
 
-/// The notes on all models: their names, and which components are whose. Each is a sentence without its stop.
-pub(super) fn of(mesh: &Mesh, frame: Frame, models: &[(String, Range<usize>)]) -> Vec<String> {
-    let mut notes = Vec::new();
+/// The note on all models together, in the frame of a place.
+pub(super) fn of_all(mesh: &Mesh) -> Option<String> {
     let distance = mesh.origin.truncate().length();
-    if frame == Frame::Place && distance > FAR_M {
-        notes.push(format!(
+    (distance > FAR_M).then(|| {
+        format!(
             "the models stand {:.0} km from the place; if they are in map coordinates, bring them here with `position`",
             distance / 1000.0
-        ));
-    }
-    for (model, components) in models {
-        let components = &mesh.components[components.clone()];
+        )
+    })
+}
+
+/// The notes on one of the models, each a sentence without its stop that begins with its name.
+pub(super) fn of_model(mesh: &Mesh, model: &str, components: Range<usize>, mends: &[Mend]) -> Vec<String> {
+    let components = &mesh.components[components];
+    let mut notes = likeness::notes(model, mends);
+    // in the wrong unit all is far
+    if !mends.iter().any(|mend| matches!(mend, Mend::Scale(_))) {
         notes.extend(far_off(mesh, model, components));
         notes.extend(rounded(model, components));
     }

@@ -35,7 +35,7 @@ impl Pair {
     /// As [`Site::load`]; and where `after` says another place, time zone or ground.
     pub fn load(before: &Path, after: &Path, asked: &Overrides) -> Result<Pair, SiteError> {
         let before = Written::read(before, asked)?;
-        let after = Written::read_beside(after, &before)?;
+        let after = Written::read_beside(after, &before, asked)?;
         Self::of(&before, &after, asked, model::load)
     }
 

@@ -50,6 +50,7 @@ impl Written {
     /// What cannot be read, and what is wrong with a site file's form.
     pub fn read(path: &Path, asked: &Overrides) -> Result<Written, SiteError> {
         let mut written = Self::read_as_it_is(path, asked.place.is_some())?;
+        written.turn_up(asked);
         if let Some(place) = &asked.place {
             if written.site.place.is_some() {
                 return Err(refuse(
@@ -72,12 +73,20 @@ impl Written {
     ///
     /// # Errors
     /// As [`Written::read`].
-    pub fn read_beside(path: &Path, first: &Written) -> Result<Written, SiteError> {
+    pub fn read_beside(path: &Path, first: &Written, asked: &Overrides) -> Result<Written, SiteError> {
         let mut written = Self::read_as_it_is(path, true)?;
+        written.turn_up(asked);
         if written.site.place.is_none() {
             written.site.place.clone_from(&first.site.place);
         }
         Ok(written)
+    }
+
+    /// Writes for all models which axis is up, where the command line says it.
+    fn turn_up(&mut self, asked: &Overrides) {
+        if let Some(up) = asked.up {
+            self.site.model.iter_mut().for_each(|model| model.up = Some(up.word().to_owned()));
+        }
     }
 
     /// A model is `placed` where somebody says its place.

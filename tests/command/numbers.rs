@@ -23,7 +23,7 @@ to = "15:00"
 step = "5min"
 [plan]
 region = [-4, -4, 10, 10]
-cell = 0.02
+cell = 0.01
 "#;
 
 /// Forty slats of 5 cm × 4 m × 10 cm in a row, 3 m above the ground, in a file's own axes: corners and indices.
@@ -99,7 +99,7 @@ fn shadow(folder: &Path) -> (f64, f64) {
 fn a_pergola_with_a_stray_shades_as_it_does_without() {
     let right = shadow(strayed(None).path());
     assert!((right.0 - 50.0).abs() < 0.1 && (right.1 - 8.10).abs() < 0.05, "{right:?}");
-    for km in [60.0, 100.0, 200.0, 500.0, 1000.0] {
+    for km in [60.0, 1000.0] {
         assert_eq!(shadow(strayed(Some(km * 1000.0)).path()), right, "{km} km");
     }
 }

@@ -149,3 +149,37 @@ fn undo_passes_over_the_hours_that_came() {
     undo(&mut harness);
     assert!(!shown(&harness));
 }
+
+/// What looks like millimetres, and like a model on its side, is mended by a button, and undone.
+#[test]
+fn a_unit_and_an_axis_are_mended_by_a_button() {
+    let folder = tempfile::tempdir().unwrap();
+    let tower = crate::command::units::blocks(&[([-5000.0, -5000.0, 0.0], [5000.0, 5000.0, 30_000.0])]);
+    std::fs::write(folder.path().join("tower.glb"), tower.glb()).unwrap();
+    let site = folder.path().join("site.toml");
+    let text = format!(
+        "{}[[model]]\npath = \"tower.glb\"\n[study]\ndate = 2026-09-18\nfrom = \"10:00\"\nto = \"12:00\"\nstep = \"1h\"\n",
+        crate::command::PLACE
+    );
+    std::fs::write(&site, text).unwrap();
+    let mut harness = window(Some(&site));
+    harness.get_by_label_contains("looks as if it were in millimetres");
+    click(&mut harness, "Set scale = 0.001");
+    settle(&mut harness);
+    assert_eq!(harness.state().site_file().model[0].scale, Some(0.001));
+    assert!(harness.query_by_label_contains("millimetres").is_none());
+    click(&mut harness, "Set up = \"z\"");
+    settle(&mut harness);
+    assert_eq!(harness.state().site_file().model[0].up.as_deref(), Some("z"));
+    assert!(harness.query_by_label_contains("on its side").is_none());
+    for scale in [Some(0.001), None] {
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+        harness.step();
+        settle(&mut harness);
+        assert_eq!(
+            (harness.state().site_file().model[0].scale, &harness.state().site_file().model[0].up),
+            (scale, &None)
+        );
+    }
+    harness.get_by_label_contains("looks as if it were in millimetres");
+}

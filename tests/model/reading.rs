@@ -1,6 +1,7 @@
 //! What is read, and where it stands.
 
 use super::*;
+use gnomon::site::model::Up;
 use std::f64::consts::FRAC_PI_2;
 
 const FLAT: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -19,7 +20,7 @@ fn a_placement_scales_then_turns_then_moves() {
     std::fs::write(&path, Model::triangle().glb()).unwrap();
     // True north lies 90° clockwise of the model's north, so the model's north points west.
     let placement =
-        Placement { scene: None, north_rad: FRAC_PI_2, position: DVec3::new(100.0, 200.0, 5.0), scale: 2.0 };
+        Placement { north_rad: FRAC_PI_2, position: DVec3::new(100.0, 200.0, 5.0), scale: 2.0, ..Placement::default() };
     let parts = load(&path, &placement).unwrap().parts;
     assert_eq!(corners(&parts[0]), [[[100.0, 200.0, 5.0], [100.0, 202.0, 5.0], [98.0, 200.0, 5.0]]]);
     assert!(normal(&parts[0]).z > 0.0);
@@ -264,4 +265,23 @@ fn what_does_not_cast_may_be_missing_broken_or_unknown() {
     model.json["extensionsRequired"] =
         json!(["KHR_texture_basisu", "EXT_texture_webp", "KHR_materials_unlit", "KHR_lights_punctual"]);
     assert_eq!(corners(&model.part()), [FLAT]);
+}
+
+#[test]
+fn a_model_that_is_z_up_has_its_y_in_the_north() {
+    let mut model = Model::new();
+    let positions = model.f32s("VEC3", &[1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0]);
+    model.json["meshes"] = json!([{"primitives": [{"attributes": {"POSITION": positions}}]}]);
+    model.json["nodes"] = json!([{"mesh": 0}]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.glb");
+    std::fs::write(&path, model.glb()).unwrap();
+    let placed = |north_rad: f64| {
+        let placement = Placement { up: Up::Z, north_rad, scale: 10.0, ..Placement::default() };
+        load(&path, &placement).unwrap().parts[0].positions.clone()
+    };
+    assert_eq!(placed(0.0), [DVec3::X * 10.0, DVec3::Y * 20.0, DVec3::Z * 30.0]);
+    // true north lies a quarter clockwise of the model's +y: what was in its north is in the west
+    let turned = placed(FRAC_PI_2);
+    assert!(turned[1].distance(DVec3::NEG_X * 20.0) < 1e-9 && turned[2].distance(DVec3::Z * 30.0) < 1e-9, "{turned:?}");
 }

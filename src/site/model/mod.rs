@@ -65,12 +65,25 @@ pub struct SeeThrough {
     pub parts: Vec<usize>,
 }
 
+/// Which of a model's axes is up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Up {
+    /// As glTF has it: x is east, and −z north.
+    #[default]
+    Y,
+    /// As drawings and maps have it: x is east, and y north.
+    Z,
+}
+
 /// Which scene of a model is read, and where it stands: it is scaled, turned, then moved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// The scene; the file's default one where none is said.
     pub scene: Option<SceneName>,
-    /// Radians clockwise from the model's north (−Z in glTF) to true north; the model is turned by as much the other way.
+    /// Which of the model's axes is up.
+    pub up: Up,
+    /// Radians clockwise from the model's north (−Z where its y is up, +Y where its z is) to true north; the model is turned
+    /// by as much the other way.
     pub north_rad: f64,
     /// Metres east, north and up.
     pub position: DVec3,
@@ -80,14 +93,18 @@ pub struct Placement {
 
 impl Default for Placement {
     fn default() -> Self {
-        Self { scene: None, north_rad: 0.0, position: DVec3::ZERO, scale: 1.0 }
+        Self { scene: None, up: Up::Y, north_rad: 0.0, position: DVec3::ZERO, scale: 1.0 }
     }
 }
 
 impl Placement {
-    /// glTF has y up and north at −z: (x, y, z) becomes (x, −z, y), then the placement follows.
+    /// glTF has y up and north at −z: (x, y, z) becomes (x, −z, y), then the placement follows. A model that is z up has
+    /// the world's axes.
     fn world_from_model(&self) -> DAffine3 {
-        let upright = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
+        let upright = match self.up {
+            Up::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+            Up::Z => DMat3::IDENTITY,
+        };
         let turned = DMat3::from_rotation_z(self.north_rad);
         DAffine3::from_mat3_translation(turned * upright * self.scale, self.position)
     }

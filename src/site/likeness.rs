@@ -1,0 +1,233 @@
+//! What a model looks like: one in millimetres, centimetres or inches, or one that lies on its side.
+//!
+//! Files do not say it: glTF is in metres and y up, and many a program exports something else. Only keys that nobody wrote
+//! are doubted; who writes `scale` or `up` has decided.
+
+use super::model::{Placement, Up};
+use crate::mesh::{Component, Mesh};
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+/// What a model looks like, and what would mend it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Likeness {
+    /// Which of the site's models, from 0.
+    pub model: usize,
+    /// The keys of which one would mend it.
+    pub mends: Vec<Mend>,
+}
+
+/// A key under `[[model]]`, and its value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mend {
+    /// `scale`
+    Scale(f64),
+    /// `up`
+    Up(Up),
+}
+
+impl std::fmt::Display for Mend {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Mend::Scale(scale) => write!(f, "scale = {scale}"),
+            Mend::Up(up) => write!(f, "up = \"{up}\""),
+        }
+    }
+}
+
+/// No building is higher, metres (Burj Khalifa: 828).
+const HIGHEST_M: f64 = 1000.0;
+/// And no mountain.
+const MOUNTAIN_M: f64 = 9000.0;
+/// Nothing that is as wide as this has its roofs and floors so high on average, metres.
+const MASSIVE_M: f64 = 200.0;
+/// What has no such part of its area in walls is no building but terrain.
+const WALLED: f64 = 0.15;
+/// No house is lower or narrower, metres.
+const LEAST_M: f64 = 2.4;
+
+/// By which part of the area roofs and terrain must look up more than down for that to tell what is up, and how many times
+/// as clearly as the other way.
+const ROOFED: f64 = 0.05;
+const CLEARLY: f64 = 4.0;
+/// How near to 0 a model that stands on the ground begins, as a part of its height; and how near to it the middle of one is
+/// that is drawn around its axis, as a part of its depth.
+const ON_THE_GROUND: f64 = 0.02;
+const AROUND_ITS_AXIS: f64 = 0.05;
+
+/// Sine of the angle to level or plumb below which a face is it: 5°.
+const PLUMB: f64 = 0.087;
+
+/// The areas of a model's faces, square metres, and a box around them. Axes are the file's own, turned upright: east,
+/// north, up for a file that is y up, which has its z to the south.
+#[derive(Clone, Copy, Debug)]
+struct Measured {
+    low: DVec3,
+    high: DVec3,
+    area: f64,
+    walls: f64,
+    /// Of what looks up, with its height, too.
+    upwards: [f64; 2],
+    /// Of slopes that look along north and up, and against them.
+    sloped: [DVec3; 2],
+    /// The same of what is level, seen along that axis.
+    level: [DVec3; 2],
+    faces: usize,
+}
+
+impl Measured {
+    const NOTHING: Measured = Measured {
+        low: DVec3::INFINITY,
+        high: DVec3::NEG_INFINITY,
+        area: 0.0,
+        walls: 0.0,
+        upwards: [0.0; 2],
+        sloped: [DVec3::ZERO; 2],
+        level: [DVec3::ZERO; 2],
+        faces: 0,
+    };
+
+    fn add(&mut self, corners: [DVec3; 3]) {
+        let [a, b, c] = corners;
+        corners.iter().for_each(|&corner| (self.low, self.high) = (self.low.min(corner), self.high.max(corner)));
+        self.faces += 1;
+        let vector = (b - a).cross(c - a) / 2.0;
+        let area = vector.length();
+        let Some(normal) = vector.try_normalize() else { return };
+        self.area += area;
+        if normal.z.abs() < PLUMB {
+            self.walls += area;
+        }
+        if normal.z > 0.5 {
+            self.upwards[0] += area;
+            self.upwards[1] += area * (a.z + b.z + c.z) / 3.0;
+        }
+        for axis in [1, 2] {
+            let along = normal[axis];
+            let side = usize::from(along < 0.0);
+            // level to within 5°, too
+            if along.abs() > (1.0 - PLUMB * PLUMB).sqrt() {
+                self.level[side][axis] += area;
+            } else if along.abs() >= PLUMB {
+                self.sloped[side][axis] += area;
+            }
+        }
+    }
+
+    fn and(self, other: &Measured) -> Measured {
+        let sum = |one: [DVec3; 2], other: [DVec3; 2]| [one[0] + other[0], one[1] + other[1]];
+        Measured {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+            area: self.area + other.area,
+            walls: self.walls + other.walls,
+            upwards: [self.upwards[0] + other.upwards[0], self.upwards[1] + other.upwards[1]],
+            sloped: sum(self.sloped, other.sloped),
+            level: sum(self.level, other.level),
+            faces: self.faces + other.faces,
+        }
+    }
+
+    /// How many metres a unit is instead of one, if it looks so; several where they cannot be told apart.
+    fn units(&self) -> Option<&'static [f64]> {
+        let size = self.high - self.low;
+        let narrow = size.x.min(size.y);
+        let is_walled = self.walls > WALLED * self.area;
+        let mean_height = self.upwards[1] / self.upwards[0].max(f64::MIN_POSITIVE) - self.low.z;
+        let is_massive = narrow > MASSIVE_M && mean_height > MASSIVE_M;
+        if !(size.z > MOUNTAIN_M || is_walled && (size.z > HIGHEST_M || is_massive)) {
+            return None;
+        }
+        let in_millimetres = size.z.min(narrow) / 1000.0;
+        Some(if in_millimetres >= LEAST_M { &[0.001] } else { &[0.01, 0.0254] })
+    }
+
+    /// Whether it lies on its side: its z, which lies to the south, looks like up.
+    fn lies(&self) -> bool {
+        // by which part of the area more looks one way along an axis than the other
+        let looks = |axis: usize, up: usize| {
+            let more = |areas: [DVec3; 2]| (areas[up][axis] - areas[1 - up][axis]).max(0.0);
+            (more(self.sloped) + more(self.level)) / self.area
+        };
+        let (upright, lying) = (looks(2, 0), looks(1, 1));
+        let size = self.high - self.low;
+        let stands = self.high.y.abs() <= ON_THE_GROUND * size.y;
+        let is_around_axis = ((self.low.z + self.high.z) / 2.0).abs() <= AROUND_ITS_AXIS * size.z;
+        lying >= ROOFED.max(CLEARLY * upright) || stands && is_around_axis && upright < ROOFED
+    }
+}
+
+/// Faces that one task looks at.
+const AT_ONCE: usize = 1 << 14;
+
+/// Looks at a model: its components, and where it stands; only at what nobody said.
+pub(super) fn of(
+    mesh: &Mesh,
+    components: &[Component],
+    placement: &Placement,
+    [scale_is_said, up_is_said]: [bool; 2],
+) -> Vec<Mend> {
+    if scale_is_said && up_is_said {
+        return Vec::new();
+    }
+    let upright_from_world = DMat3::from_rotation_z(-placement.north_rad);
+    let corner = |vertex: u32| {
+        let world = mesh.origin + mesh.vertices[vertex as usize].as_dvec3();
+        upright_from_world * (world - placement.position)
+    };
+    let of_faces = |faces: &[[u32; 3]], only_home: bool| {
+        let mut measured = Measured::NOTHING;
+        for face in faces.iter().filter(|face| !only_home || face.iter().all(|&vertex| mesh.is_at_home(vertex))) {
+            measured.add(face.map(corner));
+        }
+        measured
+    };
+    // what is added up side by side is added in order, so that it comes out the same every time
+    let measure = |only_home: bool| {
+        components.iter().fold(Measured::NOTHING, |sum, component| {
+            let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
+            let parts: Vec<_> = faces.par_chunks(AT_ONCE).map(|faces| of_faces(faces, only_home)).collect();
+            parts.iter().fold(sum, |sum, part| sum.and(part))
+        })
+    };
+    let faces: usize = components.iter().map(|component| component.faces.len()).sum();
+    let mut measured = measure(true);
+    if measured.faces * 2 < faces {
+        // strays are few
+        measured = measure(false);
+    }
+    if measured.area <= 0.0 {
+        return Vec::new();
+    }
+    let mut mends = Vec::new();
+    if !scale_is_said && let Some(units) = measured.units() {
+        mends.extend(units.iter().map(|&unit| Mend::Scale(unit)));
+    }
+    if !up_is_said && measured.lies() {
+        mends.push(Mend::Up(Up::Z));
+    }
+    mends
+}
+
+/// The notes on what a model looks like, each a sentence without its stop.
+pub(super) fn notes(model: &str, mends: &[Mend]) -> Vec<String> {
+    let scales: Vec<f64> =
+        mends.iter().filter_map(|mend| if let Mend::Scale(scale) = mend { Some(*scale) } else { None }).collect();
+    let mut notes = Vec::new();
+    match scales[..] {
+        [] => (),
+        [scale] => notes.push(format!(
+            "{model} looks as if it were in millimetres, so large is it; if it is, write `scale = {scale}` under [[model]]"
+        )),
+        _ => notes.push(format!(
+            "{model} looks as if it were in centimetres or inches, so large is it; if it is, write `scale = 0.01` or \
+             `scale = 0.0254` under [[model]]"
+        )),
+    }
+    if mends.iter().any(|mend| matches!(mend, Mend::Up(_))) {
+        notes.push(format!(
+            "{model} looks as if it lay on its side, its z being up; if it does, write `up = \"z\"` under [[model]], or say --up z"
+        ));
+    }
+    notes
+}
