@@ -14,7 +14,8 @@ const FIRST: f64 = 0.381_966;
 const LEAST_SHARE: f64 = 0.005;
 /// Terrain is what is seen of the models from above on at least so much of their plan.
 const TERRAIN_SHARE: f64 = 0.25;
-/// And nowhere lie two of its faces above each other, but for so much of it.
+/// And nowhere lie two of its faces above each other (three, where it is a block and a part of its top is above the plane),
+/// but for so much of it.
 const OVERLAP_SHARE: f64 = 0.1;
 
 /// What of the models' upper side lies below a plane.
@@ -82,11 +83,14 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> 
     let (component, most) = counts.iter().enumerate().max_by_key(|(_, count)| count.buried)?;
     let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
     let of_plan = share(hidden, seen);
+    let layers = most.faces as f64 / most.covered.max(1) as f64;
+    // a block of earth has an underside, as a cellar has, but that lies below the plane as a whole
+    let is_in_part = share(most.buried, most.seen) <= 1.0 - OVERLAP_SHARE;
+    let is_sheet = layers <= 1.0 + OVERLAP_SHARE || is_in_part && layers <= 2.0 + OVERLAP_SHARE;
     (of_plan >= LEAST_SHARE).then(|| Buried {
         component,
         of_plan,
         of_component: share(most.buried, most.seen),
-        is_terrain: share(most.seen, seen) >= TERRAIN_SHARE
-            && most.faces as f64 <= (1.0 + OVERLAP_SHARE) * most.covered as f64,
+        is_terrain: share(most.seen, seen) >= TERRAIN_SHARE && is_sheet,
     })
 }

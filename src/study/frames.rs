@@ -2,7 +2,7 @@
 
 use super::again::persist;
 use super::machine::{choose, not_surfaces};
-use super::{Event, Look, OnEvent, StudyError, judged, night, note_dark_days, note_models, tell, tiles};
+use super::{Event, Look, OnEvent, StudyError, judged, night, note_models, tell, tiles};
 use crate::mesh::Mesh;
 use crate::profile::Drawn;
 use crate::site::{Receivers, Site};
@@ -38,7 +38,6 @@ pub fn frames<E: From<StudyError>>(
 ) -> Result<Drawn, E> {
     not_surfaces(site)?;
     note_models(&site.notes, on_event)?;
-    note_dark_days(&site.track, on_event)?;
     // each frame says itself what drew it: those that were given out stay
     let (mut given, mut fault) = (0, None);
     let drawn = persist(site, true, on_event, &mut |site, on_event| {

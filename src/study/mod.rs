@@ -34,7 +34,7 @@ use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
-use crate::sun::{Polar, SunError, SunTrack, Zone};
+use crate::sun::{SunError, SunTrack, Zone};
 use crate::view::{Bits, Camera, Counted, Mask, Overlay, Surface, Tile, View};
 use chrono::DateTime;
 use glam::DVec3;
@@ -266,19 +266,6 @@ const NOTHING_COUNTED: &str =
 /// [`StudyError::Interrupted`] as asked by the listener.
 pub fn note_models(notes: &[String], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
-}
-
-/// Says on which of a study's days the sun stays down.
-///
-/// # Errors
-/// [`StudyError::Interrupted`] as asked by the listener.
-fn note_dark_days(track: &SunTrack, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-    let dark = track.days.iter().filter(|day| day.polar == Some(Polar::Night)).count();
-    match track.days.as_slice() {
-        _ if dark == 0 => Ok(()),
-        [day] => tell(on_event, Event::Note(format!("no sun on {} (polar night)", day.date))),
-        days => tell(on_event, Event::Note(format!("no sun on {dark} of {} days (polar night)", days.len()))),
-    }
 }
 
 /// What a view judges: the plan what was asked, a camera what it sees.

@@ -3,7 +3,7 @@
 use super::again::persist;
 use super::machine::{Machine, choose, counting, not_surfaces};
 use super::{Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
-use super::{day_and_night, fingerprint, night, note_dark_days, note_models, tell, tiles};
+use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
 use crate::mesh::Mesh;
 use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
@@ -84,7 +84,6 @@ impl<'a> Tiled<'a> {
     pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Tiled<'a>, StudyError> {
         not_surfaces(site)?;
         note_models(&site.notes, on_event)?;
-        note_dark_days(&site.track, on_event)?;
         Tiled::of(site, wants, on_event)
     }
 

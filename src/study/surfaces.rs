@@ -1,7 +1,7 @@
 //! The study on surfaces: hours of sun on every flat patch of what receives.
 
 use super::again::persist;
-use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_dark_days, note_models, tell};
+use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_models, tell};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::mesh::patches::{MOST_TEXELS, Patches};
@@ -49,7 +49,6 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
         return Err(StudyError::TooLong { day_secs, most_secs });
     }
     note_models(&site.notes, on_event)?;
-    note_dark_days(&site.track, on_event)?;
     let choice = choice(site)?;
     let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
     note_patches(&patches, on_event)?;

@@ -1,5 +1,6 @@
 //! What people write for times and durations, and when that is at a place.
 
+use super::day::light;
 use super::zone::Jump;
 use super::{Day, Place, SunError, Zone};
 use chrono::{DateTime, FixedOffset, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta, TimeZone};
@@ -83,8 +84,21 @@ impl Reading {
         }
     }
 
-    /// As [`Reading::at`], where a window begins or ends: at what stands for a sunrise or sunset that does not happen.
+    /// As [`Reading::at`], where a window begins or ends: with the date's light, and where it has none at what stands for a
+    /// sunrise or sunset that does not happen.
     pub(super) fn bound(&self, place: &Place, date: NaiveDate) -> Result<DateTime<Zone>, SunError> {
+        let of_light = |end: usize, shift_secs| {
+            let light = light(place, self.date.unwrap_or(date))?;
+            Ok(light.map(|light| light[end].shifted(shift_secs)))
+        };
+        let found = match self.time {
+            TimeOfDay::Clock(..) => None,
+            TimeOfDay::Sunrise(shift_secs) => of_light(0, shift_secs)?,
+            TimeOfDay::Sunset(shift_secs) => of_light(1, shift_secs)?,
+        };
+        if let Some(time) = found {
+            return Ok(time);
+        }
         match self.when(place, date)? {
             When::At(time) | When::Instead(time, _) => Ok(time),
             When::Not(_, error) => Err(error),

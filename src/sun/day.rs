@@ -35,6 +35,7 @@ impl Day {
         match self.polar {
             Some(Polar::Day) => "the sun stays up all day (polar day)",
             Some(Polar::Night) => "the sun stays down all day (polar night)",
+            None if self.noon.is_none() => "the clock leaves that date out",
             None => "near polar day and night it falls on another date",
         }
     }

@@ -17,7 +17,8 @@ pub struct DayWindow {
 
 impl DayWindow {
     /// All of a local date, from midnight to midnight, or from and to readings without dates. As in a study's window a
-    /// `to` earlier than `from` is on the next day; but where `sunrise+…` is later than `sunset-…` nothing is asked.
+    /// `to` earlier than `from` is on the next day; but where it is bound to the sun and its end
+    /// comes before its beginning, as `sunset-…` does before `sunrise+…`, nothing is asked.
     ///
     /// # Errors
     /// Readings that are no instants on that date, or equal; a year outside 1600 to 2999.
@@ -31,10 +32,13 @@ impl DayWindow {
         if let (Some(from), Some(to)) = (from, to) {
             let window = Window { date: Some(date), from: from.clone(), to: to.clone(), step_secs: 1 };
             let [from, to] = match window.light(place, date)? {
-                Some([from, to]) => [from, to.max(from)],
-                None => window.bounds(place)?,
+                Some(light) => light,
+                None => match window.within_day(place, date)? {
+                    Some(to) => [window.begin(place)?, to],
+                    None => window.bounds(place)?,
+                },
             };
-            return Ok(DayWindow { day, from, to });
+            return Ok(DayWindow { day, from, to: to.max(from) });
         }
         let next = date.succ_opt().unwrap_or(date);
         let from = from.map_or_else(|| Ok(midnight(place, date)), |from| from.bound(place, date))?;

@@ -32,11 +32,11 @@ impl SunTrack {
         if step_secs == 0 {
             return Err(SunError::ZeroStep);
         }
-        // outside the light of a day there is only night, which the day before may have taken
-        let of_light = matches!(
-            [&each.from, &each.to].map(|reading| reading.as_ref().map(|reading| reading.time)),
-            [Some(TimeOfDay::Sunrise(_)), Some(TimeOfDay::Sunset(_))]
-        );
+        // what the day before has taken is counted with it
+        let is_bound = [&each.from, &each.to]
+            .into_iter()
+            .flatten()
+            .any(|reading| matches!(reading.time, TimeOfDay::Sunrise(_) | TimeOfDay::Sunset(_)));
         let found = dates.par_iter().map(|date| DayWindow::on(place, *date, each.from.as_ref(), each.to.as_ref()));
         let found: Vec<DayWindow> = found.collect::<Result<_, _>>()?;
         let mut windows: Vec<[DateTime<Zone>; 2]> = Vec::with_capacity(dates.len());
@@ -45,10 +45,13 @@ impl SunTrack {
             if let Some([_, last]) = windows.last()
                 && *last > from
             {
-                if !of_light {
+                if !is_bound {
                     return Err(SunError::Overlap { date: day.date });
                 }
-                from = to.min(*last);
+                if *last > to {
+                    continue;
+                }
+                from = *last;
             }
             let seconds = (to - from).num_seconds();
             if seconds == 0 && day.polar != Some(Polar::Night) {

@@ -102,8 +102,8 @@ pub enum SunError {
         /// The last date.
         last: NaiveDate,
     },
-    /// On a date there is nothing between `from` and `to`, as the sun does not rise or set.
-    #[error("on {date} there is nothing from {from} to {to}: {why}; give clock times")]
+    /// On a date there is nothing between `from` and `to`, which are bound to the sun.
+    #[error("on {date} there is nothing from {from} to {to}: {why}; give clock times, or `to` with its own date")]
     NothingAsked {
         /// As written.
         from: String,
@@ -111,7 +111,7 @@ pub enum SunError {
         to: String,
         /// The local date.
         date: NaiveDate,
-        /// Polar day, or a day between.
+        /// What the sun does then.
         why: &'static str,
     },
     /// `from` and `to` are the same.

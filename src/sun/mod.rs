@@ -132,9 +132,15 @@ impl SunTrack {
         })
     }
 
-    /// What the user should know of its clock, each a sentence without its stop.
+    /// What the user should know of its clock, and of days without a sun; each a sentence without its stop.
     pub fn notes(&self) -> Vec<String> {
-        self.instants.last().and_then(|instant| Zone::doubt(&instant.time)).into_iter().collect()
+        let dark = self.days.iter().filter(|day| day.polar == Some(Polar::Night)).count();
+        let dark = match self.days.as_slice() {
+            _ if dark == 0 => None,
+            [day] => Some(format!("no sun on {} (polar night)", day.date)),
+            days => Some(format!("no sun on {dark} of {} days (polar night)", days.len())),
+        };
+        self.instants.last().and_then(|instant| Zone::doubt(&instant.time)).into_iter().chain(dark).collect()
     }
 
     /// How long the window is, seconds: the sum of the weights.

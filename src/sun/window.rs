@@ -3,7 +3,7 @@
 use super::clock::When;
 use super::day::{light, midnight};
 use super::position::{Air, check_year, delta_t_secs};
-use super::{Day, Instant, Place, Polar, Reading, Sky, SunError, SunTrack, TimeOfDay, Zone};
+use super::{Day, Instant, Place, Reading, Sky, SunError, SunTrack, TimeOfDay, Zone};
 use chrono::{DateTime, Datelike, NaiveDate, TimeDelta};
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -30,7 +30,8 @@ impl Window {
     /// Its first and last instant at a place.
     ///
     /// From a sunrise to a sunset it is the light of the date; without light both are noon. Bound to an event that does
-    /// not happen it begins or ends with the day's light, and both may be one instant.
+    /// not happen it begins or ends with the day's light, and both may be one instant. From a clock time to the sunset, and
+    /// from the sunrise to a clock time, it does not go on to the next day.
     ///
     /// # Errors
     /// No date, two dates, readings that are no instants, or a window that is empty or runs backwards.
@@ -42,6 +43,9 @@ impl Window {
             return Ok([from, to]);
         }
         let from = self.begin(place)?;
+        if let Some(to) = self.within_day(place, date)? {
+            return Ok([from, to.max(from)]);
+        }
         if self.to.date.is_some() {
             let when = self.to.when(place, date)?;
             let may_be_empty = matches!(when, When::Instead(..));
@@ -76,6 +80,26 @@ impl Window {
     /// No date, two dates, a reading that is no instant.
     pub fn begin(&self, place: &Place) -> Result<DateTime<Zone>, SunError> {
         self.from.bound(place, date_of(&self.from, self.date)?)
+    }
+
+    /// The end of a window that never goes on to the next day's sun: from a clock time to the sunset, or from the sunrise to
+    /// a clock time. Before its beginning where there is nothing between.
+    pub(super) fn within_day(&self, place: &Place, date: NaiveDate) -> Result<Option<DateTime<Zone>>, SunError> {
+        let ends = match (self.from.time, self.to.time) {
+            (TimeOfDay::Clock(..), TimeOfDay::Sunset(_)) | (TimeOfDay::Sunrise(_), TimeOfDay::Clock(..)) => true,
+            (TimeOfDay::Clock(..) | TimeOfDay::Sunrise(_) | TimeOfDay::Sunset(_), _) => false,
+        };
+        let ends = ends && self.to.date.is_none();
+        ends.then(|| self.to.bound(place, date)).transpose()
+    }
+
+    /// Why there is nothing between its beginning and its end on a day.
+    fn why_nothing(&self, day: &Day) -> &'static str {
+        match (self.from.time, self.to.time) {
+            (TimeOfDay::Clock(..), TimeOfDay::Sunset(_)) => "the sun has set by then",
+            (TimeOfDay::Sunrise(_), TimeOfDay::Clock(..)) => "the sun rises later",
+            _ => day.why_absent(),
+        }
     }
 
     /// The light of a date, from its sunrise to its sunset, each so much later as is asked, where that is what is asked.
@@ -147,9 +171,10 @@ impl SunTrack {
         }
         let date = date_of(&window.from, window.date)?;
         let day = Day::of(place, date)?;
-        if from == to && day.polar != Some(Polar::Night) {
+        if from == to && day.polar.is_none() {
+            let why = window.why_nothing(&day);
             let [from, to] = [&window.from, &window.to].map(Reading::to_string);
-            return Err(SunError::NothingAsked { from, to, date, why: day.why_absent() });
+            return Err(SunError::NothingAsked { from, to, date, why });
         }
         track(place, &[[from, to]], window.step_secs, refraction)
     }
