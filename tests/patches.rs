@@ -239,3 +239,120 @@ fn tables_weigh_by_texels_and_area() {
     assert!((whole.area_m2 - 208.0).abs() < 1e-9 && (whole.hours_mean - 1.25 * 48.0 / 208.0).abs() < 1e-9);
     assert!(hours.of_component(&patches, 1).is_none());
 }
+
+/// The area and the mean hours of each component where all texels have an hour, once what is shared is left out.
+fn areas(parts: Vec<Part>, casts: &[bool], cell: f64) -> (Vec<f64>, Patches) {
+    let (mesh, mut patches) = patches(parts, cell);
+    let receives = vec![true; mesh.components.len()];
+    patches.leave_out_shared(&mesh, casts, &receives);
+    let hours = SurfaceHours { lit: vec![3600; patches.texels.len()], samples: 1, day_secs: 3600, night_secs: 0 };
+    let of_component = |component: usize| {
+        let exposure = hours.of_component(&patches, component as u32).expect("patches");
+        assert_eq!(exposure.hours_mean, if exposure.area_m2 > 0.0 { 1.0 } else { 0.0 });
+        exposure.area_m2
+    };
+    ((0..mesh.components.len()).map(of_component).collect(), patches)
+}
+
+fn near(area: f64, right: f64) -> bool {
+    (area - right).abs() < 1e-6 * right.max(1.0)
+}
+
+/// `shared/cases/10-doubled-faces-area`: 2000 and 400 before, 1000 and 200 are right.
+#[test]
+fn a_surface_that_is_there_twice_counts_once() {
+    let tower = || slab("tower", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 10.0, 20.0));
+    let again = |turn: fn([u32; 3]) -> [u32; 3]| {
+        let mut part = tower();
+        let twice: Vec<[u32; 3]> = part.triangles.iter().map(|&triangle| turn(triangle)).collect();
+        part.triangles.extend(twice);
+        part
+    };
+    for doubled in [again(|triangle| triangle), again(|[a, b, c]| [a, c, b])] {
+        let (areas, patches) = areas(vec![doubled], &[true], 0.25);
+        assert!(near(areas[0], 1000.0), "{areas:?}");
+        assert!(near(patches.left_out.doubled_m2, 1000.0) && patches.left_out.touching_m2 == 0.0);
+        let walls = patches.list.iter().filter(|patch| patch.normal().z.abs() < 0.5 && patch.area_m2 > 0.0);
+        let mut of_walls = [0.0; 2];
+        walls.for_each(|patch| of_walls[usize::from(patch.normal().x.abs() > 0.5)] += patch.area_m2);
+        assert!(of_walls.iter().all(|area| near(*area, 400.0)), "two walls of 200 m² each way: {of_walls:?}");
+    }
+    // in two components it counts in the first
+    let (areas, _) = areas(vec![tower(), tower()], &[true; 2], 0.25);
+    assert!(near(areas[0], 1000.0) && areas[1] == 0.0, "{areas:?}");
+}
+
+#[test]
+fn of_two_that_lie_over_each_other_in_part_that_part_counts_once() {
+    let quad = |name: &str, from: f64, to: f64, diagonal: bool| {
+        let mut part = Part { name: name.into(), ..Part::default() };
+        part.positions = vec![dvec3(from, 0.0, 0.0), dvec3(to, 0.0, 0.0), dvec3(to, 0.0, 10.0), dvec3(from, 0.0, 10.0)];
+        part.triangles = if diagonal { vec![[0, 1, 2], [0, 2, 3]] } else { vec![[0, 1, 3], [1, 2, 3]] };
+        part
+    };
+    let (areas_of, _) = areas(vec![quad("wall", 0.0, 10.0, true), quad("paint", 5.0, 15.0, true)], &[true; 2], 0.25);
+    assert!(near(areas_of[0], 100.0) && near(areas_of[1], 50.0), "{areas_of:?}");
+    // walls of a row that meet at an edge are whole
+    let (areas_of, patches) =
+        areas(vec![quad("one", 0.0, 10.1, true), quad("two", 10.1, 17.3, true)], &[true; 2], 0.25);
+    assert!(near(areas_of[0], 101.0) && near(areas_of[1], 72.0), "{areas_of:?}");
+    assert_eq!(patches.left_out, gnomon::mesh::patches::LeftOut::default());
+    assert!(patches.list.iter().all(|patch| patch.uncounted.is_empty()));
+    // the same wall again in the same component, cut along its other diagonal
+    let mut both = quad("wall", 0.0, 10.0, true);
+    both.triangles.extend(quad("wall", 0.0, 10.0, false).triangles);
+    let (areas_of, _) = areas(vec![both], &[true], 0.25);
+    assert!(near(areas_of[0], 100.0), "{areas_of:?}");
+}
+
+#[test]
+fn walls_between_parts_that_touch_are_left_out() {
+    let house = |name: &str, low: DVec3, high: DVec3| slab(name, low, high);
+    let first = || house("first", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 10.0, 20.0));
+    let second = |aside: f64| house("second", dvec3(10.0, aside, 0.0), dvec3(20.0, 10.0 + aside, 20.0));
+    let (areas_of, patches) = areas(vec![first(), second(0.0)], &[true; 2], 0.25);
+    assert!(near(areas_of[0], 800.0) && near(areas_of[1], 800.0), "{areas_of:?}");
+    assert!(near(patches.left_out.touching_m2, 400.0) && patches.left_out.doubled_m2 == 0.0);
+    // half of the wall
+    let (areas_of, _) = areas(vec![first(), second(5.0)], &[true; 2], 0.25);
+    assert!(near(areas_of[0], 900.0) && near(areas_of[1], 900.0), "{areas_of:?}");
+    // in one component, as well
+    let mut whole = first();
+    let base = whole.positions.len() as u32;
+    whole.positions.extend(second(0.0).positions);
+    whole.triangles.extend(second(0.0).triangles.iter().map(|triangle| triangle.map(|corner| corner + base)));
+    let (areas_of, _) = areas(vec![whole], &[true], 0.25);
+    assert!(near(areas_of[0], 1600.0), "{areas_of:?}");
+    // light falls through what does not cast, and onto what stands a hand's breadth off
+    let (areas_of, _) = areas(vec![first(), second(0.0)], &[true, false], 0.25);
+    assert!(near(areas_of[0], 1000.0) && near(areas_of[1], 800.0), "{areas_of:?}");
+    let off = house("second", dvec3(10.1, 0.0, 0.0), dvec3(20.0, 10.0, 20.0));
+    let (areas_of, _) = areas(vec![first(), off], &[true; 2], 0.25);
+    assert!(near(areas_of[0], 1000.0), "{areas_of:?}");
+}
+
+#[test]
+fn a_neighbour_that_only_casts_covers_the_wall_it_touches() {
+    let parts = vec![
+        slab("house", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 10.0, 20.0)),
+        slab("neighbour", dvec3(10.0, 0.0, 0.0), dvec3(20.0, 10.0, 20.0)),
+    ];
+    let mesh = Mesh::build(parts).expect("a mesh");
+    let mut patches = Patches::of(&mesh, &[true, false], 0.25, MOST_TEXELS);
+    patches.leave_out_shared(&mesh, &[true; 2], &[true, false]);
+    assert!(near(patches.list.iter().map(|patch| patch.area_m2).sum(), 800.0));
+}
+
+#[test]
+fn a_sheet_with_front_and_back_counts_once_and_sheet_metal_has_two_sides() {
+    let positions = vec![dvec3(0.0, 0.0, 0.0), dvec3(10.0, 0.0, 0.0), dvec3(10.0, 0.0, 10.0), dvec3(0.0, 0.0, 10.0)];
+    let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 2, 1], [0, 3, 2]];
+    let fence = Part { name: "fence".into(), positions, triangles, ..Part::default() };
+    let (areas_of, patches) = areas(vec![fence], &[true], 0.25);
+    assert!(near(areas_of[0], 100.0), "{areas_of:?}");
+    assert!(near(patches.left_out.doubled_m2, 100.0) && patches.left_out.touching_m2 == 0.0);
+    let metal = slab("metal", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 0.0005, 10.0));
+    let (areas_of, patches) = areas(vec![metal], &[true], 0.25);
+    assert!(near(areas_of[0], 200.02), "{areas_of:?}");
+    assert_eq!(patches.left_out, gnomon::mesh::patches::LeftOut::default());
+}

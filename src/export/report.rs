@@ -63,10 +63,32 @@ struct StatisticsReport {
 #[derive(Serialize)]
 #[serde(untagged)]
 enum ViewReport<'a> {
-    Plan { region: [f64; 4], cell: f64, width: u32, height: u32 },
-    Camera { camera: CameraReport, width: u32, height: u32 },
-    Elevation { target: [f64; 3], to_viewer: [f64; 3], cell: f64, width: u32, height: u32 },
-    Surfaces { patch_cell: f64, patch_cell_asked: f64, texels: usize, components: Vec<ExposureReport<'a>> },
+    Plan {
+        region: [f64; 4],
+        cell: f64,
+        width: u32,
+        height: u32,
+    },
+    Camera {
+        camera: CameraReport,
+        width: u32,
+        height: u32,
+    },
+    Elevation {
+        target: [f64; 3],
+        to_viewer: [f64; 3],
+        cell: f64,
+        width: u32,
+        height: u32,
+    },
+    Surfaces {
+        patch_cell: f64,
+        patch_cell_asked: f64,
+        texels: usize,
+        doubled_m2: f64,
+        touching_m2: f64,
+        components: Vec<ExposureReport<'a>>,
+    },
 }
 
 #[derive(Serialize)]
@@ -190,6 +212,8 @@ pub fn surfaces_json(surfaces: &Surfaces<'_>, told: &Told<'_>) -> Result<String,
         patch_cell: surfaces.patches.cell,
         patch_cell_asked: surfaces.patches.asked_cell,
         texels: surfaces.patches.texels.len(),
+        doubled_m2: surfaces.patches.left_out.doubled_m2,
+        touching_m2: surfaces.patches.left_out.touching_m2,
         components: surfaces.components().map(component).collect(),
     };
     drawn_json(view, surfaces.place, surfaces.track, told)

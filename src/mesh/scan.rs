@@ -62,6 +62,11 @@ impl Coverage {
         self.words[row as usize * self.in_row + column as usize / 64] >> (column % 64) & 1 == 1
     }
 
+    /// How many cells are covered.
+    pub fn count(&self) -> usize {
+        self.words.iter().map(|word| word.count_ones() as usize).sum()
+    }
+
     /// Covers all cells whose centres lie in a triangle or on its edge.
     pub fn cover(&mut self, mut corners: [DVec2; 3]) {
         corners.sort_unstable_by(|one, other| by_rows(*one, *other));

@@ -20,7 +20,7 @@ pub struct SurfaceHours {
 /// What a patch, or many together, come to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exposure {
-    /// Square metres of faces.
+    /// Square metres of faces; what is there again, or lies between parts that touch, is left out of all of these.
     pub area_m2: f64,
     /// Mean hours of sun over the area.
     pub hours_mean: f64,
@@ -38,16 +38,20 @@ impl SurfaceHours {
         f64::from(self.lit[texel]) / (f64::from(self.samples) * 3600.0)
     }
 
-    /// What a patch comes to: its texels count alike.
+    /// What a patch comes to: those of its texels that count count alike.
     pub fn of_patch(&self, patch: &Patch) -> Exposure {
-        let texels = patch.texels.start as usize..patch.texels.end as usize;
-        let count = texels.len() as f64;
+        let counts = |texel: &usize| patch.uncounted.binary_search(&(*texel as u32)).is_err();
+        let texels = || (patch.texels.start as usize..patch.texels.end as usize).filter(counts);
+        let count = (patch.texels.len() - patch.uncounted.len()) as f64;
+        if count == 0.0 {
+            return Exposure::default();
+        }
         // whole seconds, so that an hour is an hour
         let at_least = |hours: u64| {
             let least = hours * 3600 * u64::from(self.samples);
-            texels.clone().filter(|&texel| u64::from(self.lit[texel]) >= least).count() as f64 / count
+            texels().filter(|&texel| u64::from(self.lit[texel]) >= least).count() as f64 / count
         };
-        let hours = || texels.clone().map(|texel| self.hours(texel));
+        let hours = || texels().map(|texel| self.hours(texel));
         Exposure {
             area_m2: patch.area_m2,
             hours_mean: hours().sum::<f64>() / count,
@@ -59,8 +63,10 @@ impl SurfaceHours {
 
     /// What patches come to together, each weighing as much as its area; none without a patch.
     pub fn of_patches<'a>(&self, patches: impl IntoIterator<Item = &'a Patch>) -> Option<Exposure> {
+        let mut patches = patches.into_iter().peekable();
+        patches.peek()?;
         let mut whole = Exposure { hours_min: f64::INFINITY, ..Exposure::default() };
-        for of_patch in patches.into_iter().map(|patch| self.of_patch(patch)) {
+        for of_patch in patches.map(|patch| self.of_patch(patch)).filter(|of_patch| of_patch.area_m2 > 0.0) {
             whole.area_m2 += of_patch.area_m2;
             whole.hours_mean += of_patch.hours_mean * of_patch.area_m2;
             whole.hours_min = whole.hours_min.min(of_patch.hours_min);
@@ -69,7 +75,10 @@ impl SurfaceHours {
                 *whole += share * of_patch.area_m2;
             }
         }
-        (whole.area_m2 > 0.0).then(|| Exposure {
+        if whole.area_m2 <= 0.0 {
+            return Some(Exposure::default());
+        }
+        Some(Exposure {
             hours_mean: whole.hours_mean / whole.area_m2,
             shares: whole.shares.map(|share| share / whole.area_m2),
             ..whole

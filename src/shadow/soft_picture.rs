@@ -103,6 +103,7 @@ impl SoftPicture {
             plane: DVec4::new(0.0, 0.0, 1.0, -ground),
             two_sided: false,
             area_m2: 0.0,
+            uncounted: Vec::new(),
             corner: DVec3::new(low.x - cell, high.y + cell, ground),
             right: DVec3::X,
             down: DVec3::NEG_Y,

@@ -50,7 +50,9 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
     }
     note_models(&site.notes, on_event)?;
     let choice = choice(site)?;
-    let patches = Arc::new(Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS));
+    let mut patches = Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS);
+    patches.leave_out_shared(&site.mesh, &site.casts, &site.receives);
+    let patches = Arc::new(patches);
     note_patches(&patches, on_event)?;
     persist(site, true, on_event, &mut |site, on_event| light(site, choice, &patches, watch.clone(), on_event))
 }
@@ -179,6 +181,16 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
             patches.cell, patches.asked_cell
         );
         tell(on_event, Event::Note(note))?;
+    }
+    let left_out = [
+        (patches.left_out.doubled_m2, "are there twice and count once"),
+        (
+            patches.left_out.touching_m2,
+            "lie between parts that touch, where no sun comes, and are left out of areas and means",
+        ),
+    ];
+    for (area_m2, why) in left_out.into_iter().filter(|(area_m2, _)| *area_m2 > 0.0) {
+        tell(on_event, Event::Note(format!("{area_m2:.0} m² of the surfaces {why}")))?;
     }
     let two_sided = || patches.list.iter().filter(|patch| patch.two_sided);
     if two_sided().next().is_some() {

@@ -37,6 +37,26 @@ fn suns(folder: &Path, options: &str) -> Vec<(DVec3, f64)> {
     report["instants"].as_array().unwrap().iter().map(sun).collect()
 }
 
+/// A tower whose faces are all there twice: `shared/cases/10-doubled-faces-area`.
+#[test]
+fn doubled_faces_count_once_in_all_files_and_are_told() {
+    let folder = site();
+    let low = [-5.0, 0.0, -5.0];
+    let tower = super::units::blocks(&[(low, [5.0, 20.0, 5.0]), (low, [5.0, 20.0, 5.0])]);
+    std::fs::write(folder.path().join("tower.glb"), tower.glb()).unwrap();
+    let output = gnomon(folder.path(), "profile . --receivers surfaces --patch-cell 0.5");
+    assert!(stderr(&output).contains("1000 m² of the surfaces are there twice and count once"), "{}", stderr(&output));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("tower: 1000 m²"));
+    let lines = lines(folder.path());
+    assert_eq!(lines[0][1..3], ["all".to_owned(), "1000.000000".to_owned()]);
+    let sum: f64 = lines[1..].iter().map(|line| line[2].parse::<f64>().unwrap()).sum();
+    assert!((sum - 1000.0).abs() < 1e-3, "{sum}");
+    let report = json(&std::fs::read_to_string(folder.path().join("out/profile.json")).unwrap());
+    assert!((report["doubled_m2"].as_f64().unwrap() - 1000.0).abs() < 1e-6, "{report}");
+    assert_eq!(report["touching_m2"], 0.0);
+    assert!((report["components"][0]["area_m2"].as_f64().unwrap() - 1000.0).abs() < 1e-6);
+}
+
 /// On a box that stands alone each side has the hours in which it faces the sun, all over.
 #[test]
 fn each_side_of_a_box_has_the_hours_in_which_it_faces_the_sun() {

@@ -10,7 +10,10 @@ mod frame;
 mod gather;
 mod pack;
 mod seen_side;
+mod shared;
 mod texels;
+
+pub use shared::LeftOut;
 
 use super::{Component, Mesh};
 use glam::{DVec3, DVec4};
@@ -55,6 +58,8 @@ pub struct Patches {
     pub page_size: u32,
     /// How many pages the atlas has.
     pub pages: u32,
+    /// How much of their area counts in no sum, once that was asked ([`Patches::leave_out_shared`]).
+    pub left_out: LeftOut,
 }
 
 /// One flat patch. Positions are around [`Patches::origin`].
@@ -68,8 +73,10 @@ pub struct Patch {
     pub plane: DVec4,
     /// Nothing tells its outer side, so that it is judged on the side that faces the sun, whichever that is.
     pub two_sided: bool,
-    /// The area of its faces, square metres.
+    /// The area of its faces, square metres; without what counts in no sum.
     pub area_m2: f64,
+    /// Which of [`Patches::texels`] count in no sum, in their order.
+    pub uncounted: Vec<u32>,
     /// The corner where the first texel begins; like all of the frame in the patch's plane.
     pub corner: DVec3,
     /// A unit vector along its rows; level where the patch is not.
@@ -146,6 +153,7 @@ impl Patches {
             texels: Vec::new(),
             page_size,
             pages: 0,
+            left_out: LeftOut::default(),
         };
         for (flat, frame) in flats.iter().zip(&frames) {
             let first = patches.faces.len() as u32;
@@ -157,6 +165,7 @@ impl Patches {
                 plane: flat.plane,
                 two_sided: flat.two_sided,
                 area_m2: flat.area_m2,
+                uncounted: Vec::new(),
                 corner: frame.corner(fitting),
                 right: frame.right,
                 down: frame.down,

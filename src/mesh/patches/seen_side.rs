@@ -9,9 +9,10 @@
 //! - An open piece that looks upwards for the most part (roofs against soffits, of faces less steep than 60°) is judged on
 //!   the side that does: terrain, a sheet of roof with its walls. But where what looks up lies lower than the walls it may
 //!   be a basin, or a house whose roof is another component: nothing tells which.
-//! - Of those, and of any other open piece (a fence, walls without a roof, a twisted band), no outer side is known. They
-//!   are judged on the side that faces the sun. Where walls of a single sheet enclose a room, the inner side is as dark as the room; what
-//!   sun falls through windows onto it is counted too.
+//! - Of those, of a sheet that is closed as its front and back are both there, and of any other open piece (a fence, walls
+//!   without a roof, a twisted band), no outer side is known. They are judged on the side that faces the sun. Where walls of
+//!   a single sheet enclose a room, the inner side is as dark as the room; what sun falls through windows onto it is counted
+//!   too.
 
 use super::gather::area_vector;
 use super::{Component, Mesh};
@@ -32,6 +33,8 @@ const ROOF: f64 = 0.5;
 const WALLED: f64 = 0.1;
 /// Part of a piece's area that must look up or down for that to tell its side.
 const ROOFED: f64 = 0.02;
+/// What has no such part of its area times its size as its volume bounds nothing.
+const NO_VOLUME: f64 = 1e-9;
 /// By which part of that area more must look one way than the other.
 const CLEARLY: f64 = 0.5;
 
@@ -44,8 +47,16 @@ struct Piece {
     open: bool,
     /// Signed, as its faces are turned to each other; around its first vertex.
     volume: f64,
+    area: f64,
     low: Vec3,
     high: Vec3,
+}
+
+impl Piece {
+    /// Whether it is closed and flat: a sheet whose front and back are both in the file.
+    fn bounds_nothing(&self) -> bool {
+        self.volume.abs() <= NO_VOLUME * self.area * f64::from(self.low.distance(self.high))
+    }
 }
 
 /// How the faces of a component are judged, in their order; `edges` are the three of each face of the mesh.
@@ -67,7 +78,7 @@ pub(super) fn of_faces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]]) -
             && outer.high.cmpge(inner.high).all()
     };
     for piece in &pieces {
-        let (turned, both) = if piece.twisted {
+        let (turned, both) = if piece.twisted || !piece.open && piece.bounds_nothing() {
             (false, true)
         } else if piece.open {
             match upwards(mesh, piece, first, &seen) {
@@ -148,9 +159,11 @@ fn measure(mesh: &Mesh, piece: &mut Piece, first: u32, seen: &mut [Seen]) {
         let of = piece.faces.iter().filter(|face| seen[(**face - first) as usize].turned == turned);
         of.map(|&face| area_vector(mesh, face).length()).sum()
     };
-    if area(true, seen) > area(false, seen) {
+    let areas = [area(true, seen), area(false, seen)];
+    if areas[0] > areas[1] {
         piece.faces.iter().for_each(|face| seen[(face - first) as usize].turned ^= true);
     }
+    piece.area = areas[0] + areas[1];
     let corners = || piece.faces.iter().flat_map(|&face| mesh.corners(face as usize));
     piece.low = corners().fold(Vec3::INFINITY, Vec3::min);
     piece.high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);

@@ -28,7 +28,7 @@ pub(super) fn find(mesh: &Mesh, patches: &mut Patches) {
 }
 
 /// Where a point lies, in texels such that centres are whole numbers.
-fn place(patch: &Patch, point: DVec3, cell: f64) -> DVec2 {
+pub(super) fn place(patch: &Patch, point: DVec3, cell: f64) -> DVec2 {
     let from_corner = (point - patch.corner) / cell;
     DVec2::new(from_corner.dot(patch.right), from_corner.dot(patch.down)) - 0.5
 }

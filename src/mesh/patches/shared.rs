@@ -1,0 +1,238 @@
+//! What of the patches is no surface of its own: what is there twice, and what lies between parts that touch.
+//!
+//! Patches share a place where one lies in the other's plane, within the millimetre at which receivers are judged. Two
+//! outsides that look at each other there have a solid on either side, so that no sun reaches them. All else that shares a
+//! place is one surface, which counts where it stands first.
+//!
+//! Where two solids of one component share the very corners of a wall, nothing tells its outer side. Its two sides run against
+//! each other there, as the two of a sheet do whose back is in the file; but around the wall there are faces before it and
+//! behind it everywhere.
+
+use super::texels::place;
+use super::{FLAT_ANGLE_DEG, Mesh, Patch, Patches, gather};
+use crate::mesh::planes;
+use crate::mesh::scan::{self, Coverage};
+use glam::{DVec2, DVec4, Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use rayon::prelude::*;
+use rustc_hash::FxHashSet;
+use std::time::Duration;
+
+/// What lies nearer to a plane than this lies in it, metres.
+const ONE_PLANE_M: f64 = 0.001;
+/// An outside that lies before a plane may lie as much behind it, for rounding, metres; what lies deeper is the plane's own
+/// back, as that of thin sheet metal.
+const BEHIND_M: f64 = 0.0001;
+/// So far around its centre a texel's place must be shared, in texels: what meets at an edge alone shares nothing.
+const AROUND: f64 = 0.01;
+/// Where is asked how often a patch's own faces cover a texel, from its centre and in texels: on no edge, as a rule.
+const BESIDE: DVec2 = DVec2::new(0.012_345_67, 0.007_891_01);
+
+/// How much of the patches' area counts in no sum.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LeftOut {
+    /// What is there again, square metres.
+    pub doubled_m2: f64,
+    /// What lies between parts that touch, on both sides, square metres.
+    pub touching_m2: f64,
+}
+
+/// A flat surface with which a patch may share its place.
+struct Other<'a> {
+    component: u32,
+    /// Its outer side is not known, and all around it other faces stand before it and behind it.
+    between: bool,
+    plane: DVec4,
+    two_sided: bool,
+    casts: bool,
+    receives: bool,
+    faces: &'a [u32],
+}
+
+/// All of them, and where they lie.
+struct Others<'a> {
+    list: Vec<Other<'a>>,
+    boxes: Vec<Aabb>,
+    tree: Bvh2,
+}
+
+/// What of a patch counts.
+struct Counted {
+    area_m2: f64,
+    uncounted: Vec<u32>,
+    left_out: LeftOut,
+}
+
+impl Patches {
+    /// Leaves out of all sums what is no surface of its own.
+    pub fn leave_out_shared(&mut self, mesh: &Mesh, casts: &[bool], receives: &[bool]) {
+        let only_cast: Vec<bool> = casts.iter().zip(receives).map(|(casts, receives)| *casts && !receives).collect();
+        let beside = gather::gather(mesh, &only_cast);
+        let edges = planes::sides(mesh);
+        let between =
+            |faces: &[u32], plane: DVec4, two_sided: bool| two_sided && is_between(mesh, &edges, faces, plane);
+        let received = self.list.iter().map(|patch| Other {
+            component: patch.component,
+            between: between(self.faces_of(patch), patch.plane, patch.two_sided),
+            plane: patch.plane,
+            two_sided: patch.two_sided,
+            casts: casts[patch.component as usize],
+            receives: true,
+            faces: self.faces_of(patch),
+        });
+        let passed = beside.iter().map(|flat| Other {
+            component: flat.component,
+            between: between(&flat.faces, flat.plane, flat.two_sided),
+            plane: flat.plane,
+            two_sided: flat.two_sided,
+            casts: true,
+            receives: false,
+            faces: &flat.faces,
+        });
+        let list: Vec<Other> = received.chain(passed).collect();
+        let boxes: Vec<Aabb> = list.iter().map(|other| around(mesh, other.faces)).collect();
+        let tree = build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut Duration::default());
+        let others = Others { list, boxes, tree };
+        let counted: Vec<Counted> =
+            (0..self.list.len()).into_par_iter().map(|number| self.counted(mesh, &others, number)).collect();
+        for (patch, counted) in self.list.iter_mut().zip(counted) {
+            (patch.area_m2, patch.uncounted) = (counted.area_m2, counted.uncounted);
+            self.left_out.doubled_m2 += counted.left_out.doubled_m2;
+            self.left_out.touching_m2 += counted.left_out.touching_m2;
+        }
+    }
+
+    fn faces_of(&self, patch: &Patch) -> &[u32] {
+        &self.faces[patch.faces.start as usize..patch.faces.end as usize]
+    }
+
+    fn counted(&self, mesh: &Mesh, others: &Others, number: usize) -> Counted {
+        let patch = &self.list[number];
+        let once = self.covered_once(mesh, patch);
+        let mut area_m2 = if once < 1.0 { patch.area_m2 * once } else { patch.area_m2 };
+        let mut left_out = LeftOut { doubled_m2: patch.area_m2 - area_m2, touching_m2: 0.0 };
+        let mut uncounted = Vec::new();
+        let (again, touching) = others.sharing(patch, number);
+        if again.is_empty() && touching.is_empty() {
+            return Counted { area_m2, uncounted, left_out };
+        }
+        let again = self.covered_by(mesh, patch, &again, -ONE_PLANE_M);
+        let touching = self.covered_by(mesh, patch, &touching, -BEHIND_M);
+        let (mut doubled, mut touched) = (0, 0);
+        for number in patch.texels.clone() {
+            let texel = self.texels[number as usize];
+            let lies_in =
+                |covers: &[Coverage]| covers.iter().all(|cover| cover.get(texel.column.into(), texel.row.into()));
+            let (is_touching, is_again) = (lies_in(&touching), lies_in(&again));
+            touched += u32::from(is_touching);
+            doubled += u32::from(is_again && !is_touching);
+            if is_touching || is_again {
+                uncounted.push(number);
+            }
+        }
+        if !uncounted.is_empty() {
+            let of_texels = |count: u32| area_m2 * f64::from(count) / patch.texels.len() as f64;
+            left_out.doubled_m2 += of_texels(doubled);
+            left_out.touching_m2 += of_texels(touched);
+            area_m2 = of_texels(patch.texels.len() as u32 - doubled - touched);
+        }
+        Counted { area_m2, uncounted, left_out }
+    }
+
+    /// Which part of its faces' area a patch has, where they do not lie over each other: 1 as a rule.
+    fn covered_once(&self, mesh: &Mesh, patch: &Patch) -> f64 {
+        let faces = self.faces_of(patch);
+        if faces.len() < 2 {
+            return 1.0;
+        }
+        let mut bits = Coverage::empty(patch.width, patch.height);
+        let mut times = 0;
+        for &face in faces {
+            let mut corners =
+                mesh.corners(face as usize).map(|corner| place(patch, corner.as_dvec3(), self.cell) - BESIDE);
+            bits.cover(corners);
+            corners.sort_unstable_by(|one, other| scan::by_rows(*one, *other));
+            let columns = |from: f64, to: f64| scan::wholes([from, to], 0..patch.width as usize).len();
+            scan::spans(corners, 0..patch.height as usize, |_, from, to| times += columns(from, to));
+        }
+        let once = bits.count();
+        if once < times { once as f64 / times as f64 } else { 1.0 }
+    }
+
+    /// Which texels lie wholly in other surfaces, told at four places around their centres: each of these must be covered.
+    /// Of surfaces only what lies no lower than `least` above the patch's plane.
+    fn covered_by(&self, mesh: &Mesh, patch: &Patch, others: &[&Other], least: f64) -> Vec<Coverage> {
+        // where a patch is judged if no centre lies in it
+        let aside = patch.alone.map_or(DVec2::ZERO, |point| {
+            let texel = self.texels[patch.texels.start as usize];
+            place(patch, point, self.cell) - DVec2::new(texel.column.into(), texel.row.into())
+        });
+        let in_plane = |corner: &Vec3| (least..=ONE_PLANE_M).contains(&patch.plane.dot(corner.as_dvec3().extend(1.0)));
+        let around = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
+        let covers = around.map(|(right, down)| {
+            let shift = aside + DVec2::new(right, down) * AROUND;
+            let mut bits = Coverage::empty(patch.width, patch.height);
+            let faces = others.iter().flat_map(|other| other.faces).map(|&face| mesh.corners(face as usize));
+            for corners in faces.filter(|corners| corners.iter().all(in_plane)) {
+                bits.cover(corners.map(|corner| place(patch, corner.as_dvec3(), self.cell) - shift));
+            }
+            bits
+        });
+        covers.into()
+    }
+}
+
+impl Others<'_> {
+    /// What may share its place with a patch: what the patch is there again of, and what may touch it.
+    fn sharing(&self, patch: &Patch, number: usize) -> (Vec<&Other<'_>>, Vec<&Other<'_>>) {
+        let least_cosine = FLAT_ANGLE_DEG.to_radians().cos();
+        let (mut again, mut touching) = (Vec::new(), Vec::new());
+        self.tree.aabb_traverse(self.boxes[number], |tree, node| {
+            let node = &tree.nodes[node as usize];
+            let first = node.first_index as usize;
+            for &at in &tree.primitive_indices[first..first + node.prim_count as usize] {
+                let (at, other) = (at as usize, &self.list[at as usize]);
+                let cosine = other.plane.truncate().dot(patch.normal());
+                if at == number || cosine.abs() < least_cosine || !self.boxes[at].intersect_aabb(&self.boxes[number]) {
+                    continue;
+                }
+                let is_other_side = other.between && self.list[number].between && other.component == patch.component;
+                let looks_at_it = cosine < 0.0 && (!other.two_sided && !patch.two_sided || is_other_side);
+                if looks_at_it && other.casts {
+                    touching.push(other);
+                } else if !looks_at_it && other.receives && at < number {
+                    again.push(other);
+                }
+            }
+            true
+        });
+        (again, touching)
+    }
+}
+
+/// Whether at every edge around faces in a plane other faces stand before the plane and behind it.
+fn is_between(mesh: &Mesh, edges: &[[u32; 3]], faces: &[u32], plane: DVec4) -> bool {
+    let own: FxHashSet<u32> = faces.iter().copied().collect();
+    let around = faces
+        .iter()
+        .flat_map(|&face| edges[face as usize])
+        .filter(|&edge| mesh.faces_at(edge as usize).iter().filter(|at| own.contains(&at.face())).count() == 1);
+    let stands = |edge: u32, side: f64| {
+        let corners = mesh.faces_at(edge as usize).iter().flat_map(|at| mesh.corners(at.face() as usize));
+        corners.map(|corner| plane.dot(corner.as_dvec3().extend(1.0)) * side).any(|above| above > ONE_PLANE_M)
+    };
+    let mut around = around.peekable();
+    around.peek().is_some() && around.all(|edge| stands(edge, 1.0) && stands(edge, -1.0))
+}
+
+/// A box around faces, as wide as planes are apart that are one.
+fn around(mesh: &Mesh, faces: &[u32]) -> Aabb {
+    let corners = || faces.iter().flat_map(|&face| mesh.corners(face as usize)).map(Vec3A::from);
+    let low = corners().fold(Vec3A::INFINITY, Vec3A::min);
+    let high = corners().fold(Vec3A::NEG_INFINITY, Vec3A::max);
+    let wide = Vec3A::splat(ONE_PLANE_M as f32);
+    Aabb::new(low - wide, high + wide)
+}
