@@ -6,7 +6,7 @@ use super::compare::CompareArgs;
 use super::draw::LinesArgs;
 use super::eye::Eye;
 use super::memory;
-use super::model::ModelArgs;
+use super::model::{GroundArgs, ModelArgs};
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
@@ -107,15 +107,6 @@ pub(super) struct SiteArgs {
     place: PlaceArgs,
     #[command(flatten)]
     ground: GroundArgs,
-}
-
-/// How high the ground lies.
-#[derive(Debug, Args)]
-pub(super) struct GroundArgs {
-    /// The ground's height, metres above the place's point [default: 0 where the models reach through 0, else their lowest
-    /// point]
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
-    ground: Option<f64>,
 }
 
 /// Where a model stands, and in which air.
@@ -417,12 +408,6 @@ pub(super) struct VerifyArgs {
 impl SiteArgs {
     pub(super) fn overrides(&self) -> Overrides {
         self.ground.onto(self.place.overrides())
-    }
-}
-
-impl GroundArgs {
-    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
-        Overrides { ground: self.ground, ..asked }
     }
 }
 

@@ -1,8 +1,8 @@
 //! `gnomon compare`: what a change of the site does to its shadow.
 
-use super::arguments::{Common, DrawArgs, GroundArgs, PlaceArgs, PlanArgs, WindowArgs};
+use super::arguments::{Common, DrawArgs, PlaceArgs, PlanArgs, WindowArgs};
 use super::commands::drawn_by;
-use super::model::ModelArgs;
+use super::model::{GroundArgs, ModelArgs};
 use super::profile::written;
 use super::progress::Progress;
 use super::{interrupt, say, who};
