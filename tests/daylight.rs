@@ -2,7 +2,7 @@
 
 use crate::command::{PLACE, done, fails, gnomon, site, stderr};
 use chrono::{NaiveDate, TimeDelta, Timelike};
-use gnomon::sun::{EachDay, Place, SunTrack, Window};
+use gnomon::sun::{EachDay, Place, SunError, SunTrack, Window};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -148,7 +148,7 @@ fn light_and_night_between_two_instants_are_not_lost() {
     let week = |step| days(&vienna(), "2026-06-15", 7, WHOLE, step, true);
     near(&week(200 * HOUR), by_day(&week(HOUR)), 7.0, "a week in one step");
     // an instant in the middle of the light between two nights
-    let short = one(&tromso(), "2026-01-16", ["9:00", "15:00"], 3 * HOUR);
+    let short = one(&tromso(), "2026-01-16", ["10:00", "16:00"], 3 * HOUR);
     let added: Vec<_> = short.instants.iter().filter(|it| it.time.minute() != 0).collect();
     assert_eq!((added.len(), short.instants.len()), (1, 4), "{short:?}");
     assert!(!added[0].night && added[0].weight_secs.abs_diff(1581) <= 2);
@@ -188,6 +188,41 @@ fn windows_bound_to_the_sun_in_polar_day_and_night() {
     assert_eq!(ends("2026-05-18"), "2026-05-19T00:00:00+02:00");
     // two nights earlier it sets after midnight, which is that day's sunset
     assert_eq!(ends("2026-05-16"), "2026-05-17T00:02:45+02:00");
+}
+
+/// A window that is bound to the sun at one end alone has the light of its dates: as much as from sunrise to sunset, cut.
+#[test]
+fn one_end_at_the_sun_is_that_of_the_dates_light() {
+    // the sun sets after midnight, or before noon, or not at all
+    for (place, first, count) in [
+        (place(65.5, 18.0, 0.0, "Europe/Stockholm"), "2026-06-14", 4),
+        (tromso(), "2026-05-10", 90),
+        (tromso(), "2026-11-15", 80),
+        (vienna(), "2026-12-10", 4),
+    ] {
+        let sums = |[from, to]: [&str; 2]| {
+            let dates: Vec<NaiveDate> = first.parse::<NaiveDate>().unwrap().iter_days().take(count).collect();
+            let each = EachDay { from: from.parse().ok(), to: to.parse().ok() };
+            match SunTrack::days(&place, &dates, each, HOUR, true) {
+                Ok(track) => by_day(&track),
+                Err(SunError::NoWindow { .. }) => 0.0,
+                Err(error) => panic!("{first}, {from} to {to}: {error}"),
+            }
+        };
+        let whole = sums(SUN);
+        // cut anywhere in the day both parts are the whole, and at an hour when the sun is down one of them is
+        for clock in ["12:00", "15:00", "16:30", "8:00"] {
+            let parts = sums(["sunrise", clock]) + sums([clock, "sunset"]);
+            assert!((parts - whole).abs() <= 2.0 * count as f64, "{first}, {clock}: {parts} and {whole}");
+        }
+    }
+    let window = |from: &str, to: &str| {
+        let [from, to] = [from, to].map(|text| text.parse().unwrap());
+        let window = Window { date: "2026-12-10".parse().ok(), from, to, step_secs: HOUR };
+        SunTrack::window(&vienna(), &window, true).unwrap_err().to_string()
+    };
+    assert!(window("16:30", "sunset").contains("the sun has set by then"));
+    assert!(window("sunrise", "7:00").contains("the sun rises later"));
 }
 
 /// Where the clock's midnight is by day the light from a sunrise to its sunset lies on two dates, and is that of the first.
@@ -283,7 +318,7 @@ fn studies_work_through_polar_night() {
     done(path, "profile night.toml --receivers surfaces --engine cpu --patch-cell 2 --out surfaces");
     let probed = done(path, "probe night.toml --point 0,0,50 --from sunrise --to sunset --quiet");
     assert!(probed.contains("it stays below the horizon"), "{probed}");
-    fails(path, "sun night.toml --at sunrise", 1, &["--at", "no sunrise on 2026-12-21", "polar night"]);
+    fails(path, "sun night.toml --at sunrise", 2, &["--at", "no sunrise on 2026-12-21", "polar night"]);
 
     fs::write(
         path.join("far.toml"),
@@ -293,7 +328,7 @@ fn studies_work_through_polar_night() {
     fails(path, "sun far.toml", 1, &["far.toml, [study] dates", "1500"]);
     fails(path, "probe far.toml --point 0,0,1 --from 9:00", 1, &["far.toml, [study] dates", "1500"]);
     let hours = "--from-date 2026-03-28 --to-date 2026-03-30 --from 2:30 --to 12:00 --step 1h";
-    fails(path, &format!("sun . {hours}"), 1, &["--from:", "does not exist"]);
+    fails(path, &format!("sun . {hours}"), 2, &["--from:", "does not exist"]);
 }
 
 /// A light hand-made list: midnight, the day's bound, is where a window begins that the day before has not taken.

@@ -3,7 +3,7 @@
 use super::clock::When;
 use super::day::{light, midnight};
 use super::position::{Air, check_year, delta_t_secs};
-use super::{Day, Instant, Place, Reading, Sky, SunError, SunTrack, TimeOfDay, Zone};
+use super::{Day, Instant, Place, Polar, Reading, Sky, SunError, SunTrack, TimeOfDay, Zone};
 use chrono::{DateTime, Datelike, NaiveDate, TimeDelta};
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -171,7 +171,7 @@ impl SunTrack {
         }
         let date = date_of(&window.from, window.date)?;
         let day = Day::of(place, date)?;
-        if from == to && day.polar.is_none() {
+        if from == to && day.polar != Some(Polar::Night) {
             let why = window.why_nothing(&day);
             let [from, to] = [&window.from, &window.to].map(Reading::to_string);
             return Err(SunError::NothingAsked { from, to, date, why });

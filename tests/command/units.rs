@@ -176,6 +176,10 @@ fn samples_and_their_tables_say_nothing_of_units() {
     for name in ["tower", "industry", "headquarters"] {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
         let site = Site::load(&folder, &Overrides::default()).unwrap();
-        assert!(site.likenesses.is_empty() && site.notes.is_empty(), "{name}: {:?}", site.notes);
+        assert!(
+            site.likenesses.is_empty() && !site.notes.iter().any(|note| note.contains("looks")),
+            "{name}: {:?}",
+            site.notes
+        );
     }
 }
