@@ -146,6 +146,8 @@ fn window_is_opened_again_whose_device_is_lost() {
     let (_server, display) = server(2);
     let mut window = Watched::start(LOST, &display);
     window.until("hours [None, None]");
+    // the frame that shows them is painted a moment later
+    std::thread::sleep(Duration::from_millis(500));
     let before = shades(&screen(&display).2);
     window.until("look");
     std::thread::sleep(Duration::from_millis(500));

@@ -82,7 +82,7 @@ fn files_come_whole_or_not_at_all() {
     let taken = folder.path().join("taken");
     fs::create_dir_all(taken.join("inside")).unwrap();
     let error = file::write(&taken, b"bytes").unwrap_err().to_string();
-    assert!(error.contains(&taken.display().to_string()) && error.contains("--out"), "{error}");
+    assert!(error.contains(&taken.display().to_string()) && error.contains("give the name of a file"), "{error}");
     let mut left = names(folder.path());
     left.sort();
     assert_eq!(left, ["a", "taken"]);
