@@ -76,8 +76,8 @@ fn backslashes_in_paths_are_told() {
         &["[[model]] path", r"models\tower.glb", "a tab", "write /", "single quotes"],
     );
     told(path, r#"path = "C:\new\tower.glb""#, &["[[model]] path", "a line break", "write /", "single quotes"]);
-    told(path, r#"path = "models\hall.glb""#, &["line 9", "backslash", "write /", "single quotes"]);
-    told(path, r#"path = "C:\Users\hall.glb""#, &["line 9", "backslash", "single quotes"]);
+    told(path, r#"path = "models\hall.glb""#, &["line 10", "backslash", "write /", "single quotes"]);
+    told(path, r#"path = "C:\Users\hall.glb""#, &["line 10", "backslash", "single quotes"]);
     told(path, r"path = 'models\tower.glb'", &["[[model]] path", r"models\tower.glb", "write / between folders"]);
 }
 

@@ -151,9 +151,9 @@ pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground) -> String {
     }
     let _ = writeln!(
         table,
-        "ground at {}\nSun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it; clock: {}, tz {}",
-        ground.said(),
+        "Sun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it\nground at {}; clock: {}, tz {}",
         figure::duration(sunlight.step_secs),
+        ground.said(),
         place.time_zone,
         place.time_zone.version()
     );
