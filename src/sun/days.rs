@@ -33,10 +33,11 @@ impl SunTrack {
             return Err(SunError::ZeroStep);
         }
         // what the day before has taken is counted with it
-        let is_bound = [&each.from, &each.to]
-            .into_iter()
-            .flatten()
-            .any(|reading| matches!(reading.time, TimeOfDay::Sunrise(_) | TimeOfDay::Sunset(_)));
+        let is_bound = matches!(
+            [&each.from, &each.to].map(|reading| reading.as_ref().map(|reading| reading.time)),
+            [None | Some(TimeOfDay::Clock(..) | TimeOfDay::Sunrise(_)), Some(TimeOfDay::Sunset(_))]
+                | [Some(TimeOfDay::Sunset(_)), Some(TimeOfDay::Sunrise(_))]
+        );
         let found = dates.par_iter().map(|date| DayWindow::on(place, *date, each.from.as_ref(), each.to.as_ref()));
         let found: Vec<DayWindow> = found.collect::<Result<_, _>>()?;
         let mut windows: Vec<[DateTime<Zone>; 2]> = Vec::with_capacity(dates.len());
