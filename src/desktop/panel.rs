@@ -66,7 +66,10 @@ fn section_of_notes(app: &mut App, ui: &mut Ui) {
     let models = &mut app.settings.site.model;
     let are_several = models.len() > 1;
     section(ui, "Notes", true, |ui| {
-        notes.iter().for_each(|note| drop(ui.label(note)));
+        for note in &notes {
+            // a grave accent would be set above the letter behind it
+            ui.label(note.replace('`', ""));
+        }
         for likeness in &open.project.site.likenesses {
             let Some(model) = models.get_mut(likeness.model) else { continue };
             ui.horizontal_wrapped(|ui| {
