@@ -151,7 +151,7 @@ pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground) -> String {
     }
     let _ = writeln!(
         table,
-        "Sun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it\nground at {}; clock: {}, tz {}",
+        "Sun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it\nground at {}\nclock: {}, tz {}",
         figure::duration(sunlight.step_secs),
         ground.said(),
         place.time_zone,
