@@ -147,6 +147,8 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     }
     let range = hours(&profile, &site.track);
     profile.shaded.check()?;
+    // to sync large files takes long, and until here nothing is replaced
+    kept.check(&mut progress)?;
     workplace.check()?;
     let mut text = String::new();
     for file in whole {
