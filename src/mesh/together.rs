@@ -35,7 +35,6 @@ pub(super) struct Group {
     pub(super) low: DVec3,
     pub(super) high: DVec3,
     pub(super) corners: usize,
-    /// Those of which no corner lies elsewhere.
     triangles: u64,
 }
 
@@ -115,20 +114,19 @@ fn home(parts: &[Part]) -> Group {
         let mut groups: BTreeMap<u32, Group> = BTreeMap::new(); // in the file's order
         for part in parts {
             let of_corner: Vec<u32> = clusters.of_corners(part).collect();
-            for (&group, &corner) in of_corner.iter().zip(&part.positions) {
-                groups.entry(group).or_insert(Group::NONE).add(corner);
-            }
             for triangle in &part.triangles {
                 let [a, b, c] = triangle.map(|corner| of_corner[corner as usize]);
                 if a == b && b == c {
-                    groups.entry(a).or_insert(Group::NONE).triangles += 1;
+                    let group = groups.entry(a).or_insert(Group::NONE);
+                    triangle.iter().for_each(|&corner| group.add(part.positions[corner as usize]));
+                    group.triangles += 1;
                 }
             }
         }
         groups.into_values().collect()
     };
     let mut found = groups(false);
-    if found.iter().all(|group| group.triangles == 0) {
+    if found.is_empty() {
         found = groups(true);
     }
     let better = |one: &Group, other: &Group| {
