@@ -194,8 +194,12 @@ impl Files<'_> {
         Ok(())
     }
 
-    pub(super) fn hear(&mut self, event: &Event<'_>, site: &Site) -> ControlFlow<()> {
-        match self.write(event, site) {
+    pub(super) fn hear(&mut self, event: &Event<'_>, site: &Site, progress: &mut Progress) -> ControlFlow<()> {
+        let done = match event {
+            Event::Resumes { study, begun } => self.begun(study, site, progress).map(|kept| *begun.borrow_mut() = kept),
+            event => self.write(event, site),
+        };
+        match done {
             Ok(()) => ControlFlow::Continue(()),
             Err(fault) => {
                 self.fault = Some(fault);
@@ -207,7 +211,7 @@ impl Files<'_> {
     fn write(&mut self, event: &Event<'_>, site: &Site) -> Result<(), ExportError> {
         match event {
             Event::Anew => {
-                // nothing of it is gone on with; Windows removes no open file
+                // Windows removes no open file
                 (self.is_new, self.is_first, self.is_kept) = (true, true, false);
                 (self.sums, self.begun_sums) = (Sums::Memory(Arc::default()), None);
                 (self.checks, self.outlines) = (Checks::default(), Vec::new());

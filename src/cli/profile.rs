@@ -78,7 +78,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let begun = kept.begun(&tiled, &site, &mut progress)?;
     let outcome = study::in_tiles(tiled, begun, &mut |event| {
         progress.hear(&event);
-        match (kept.hear(&event, &site), &event) {
+        match (kept.hear(&event, &site, &mut progress), &event) {
             // once an instant is drawn, what is done can be kept
             (ControlFlow::Continue(()), Event::Tile(_) | Event::Summed(_)) => ControlFlow::Continue(()),
             (ControlFlow::Continue(()), _) => interrupt::flow(),

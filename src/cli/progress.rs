@@ -66,7 +66,7 @@ impl Progress {
                     bar.finish_and_clear();
                 }
             }
-            Event::Tile(_) | Event::Summed(_) | Event::Kept(_) => {}
+            Event::Resumes { .. } | Event::Tile(_) | Event::Summed(_) | Event::Kept(_) => {}
             Event::Drawn { index, count, time, .. } => {
                 let done = index + 1;
                 let time = time.format("%Y-%m-%d %H:%M");

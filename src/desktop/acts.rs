@@ -18,7 +18,6 @@ impl App {
             let files = match purpose {
                 Purpose::Hours => laid.map_or(Vec::new(), |laid| laid.names().to_vec()),
                 Purpose::Lines(lines) => lines.names().to_vec(),
-                Purpose::Animation => vec!["day.gif", "frame-0000.png"],
                 _ => Vec::new(),
             };
             self.asking = Some(Asking::start(purpose, proposed, files, context.clone()));

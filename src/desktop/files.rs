@@ -3,6 +3,7 @@
 use super::look;
 use super::question::Question;
 use crate::cli::draw::Lines;
+use crate::export::animation::Frames;
 use crate::export::file;
 use eframe::egui;
 use std::ffi::OsStr;
@@ -72,7 +73,7 @@ pub(super) struct Asking {
     answer: mpsc::Receiver<Option<PathBuf>>,
     /// What is proposed.
     proposed: PathBuf,
-    /// Names of the files that will be written, where a folder is asked for.
+    /// Names of the files that will be written, where a folder is asked for; an animation has its own.
     files: Vec<&'static str>,
     /// The dialog in the window: what is typed.
     typed: Option<String>,
@@ -126,6 +127,11 @@ impl Asking {
         });
         let begun = Instant::now();
         Asking { purpose, begun, answer, proposed, files, typed: None, is_met: false, replaces: None }
+    }
+
+    /// For what it is.
+    pub(super) fn purpose(&self) -> Purpose {
+        self.purpose
     }
 
     /// Looks for the answer; shows the dialog in the window where the system showed none.
@@ -186,6 +192,7 @@ impl Asking {
         let is_there = |file: &PathBuf| file.is_file();
         let there = match self.purpose {
             purpose if purpose.reads() => None,
+            Purpose::Animation => Frames::there(&path),
             purpose if purpose.is_folder() => self.files.iter().map(|name| path.join(name)).find(is_there),
             _ => Some(path.clone()).filter(is_there),
         };

@@ -11,6 +11,7 @@ mod change;
 mod clock;
 mod components;
 mod easel;
+mod event_loop;
 mod eye;
 mod facades;
 mod files;

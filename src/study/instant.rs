@@ -4,10 +4,12 @@ use super::again::persist;
 use super::machine::{choose, counting, not_surfaces, stencil_alone};
 use super::{Event, InstantOutcome, InstantWants, Look, NOTHING_COUNTED, OnEvent, Stopwatch, StudyError};
 use super::{judged, night, note_models, tell, tiles};
+use crate::gpu::Gpu;
 use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
 use crate::sun::Instant;
 use crate::view::{Mask, Overlay, Tile, View};
+use std::sync::Arc;
 
 /// The first instant alone; at night nothing sees the sun, and a note says so.
 ///
@@ -25,11 +27,12 @@ pub fn instant(
     note_models(&site.notes, on_event)?;
     // volumes are drawn on an adapter alone, and counted there
     let can = !wants.volumes && !wants.silhouette && wants.counted.is_none();
-    persist(site, can, on_event, &mut |site, on_event| once(site, view, wants, on_event))
+    persist(site, can, on_event, &mut |site, gpu, on_event| once(gpu, site, view, wants, on_event))
 }
 
 /// As [`instant()`], on one machine.
 fn once(
+    gpu: Option<&Arc<Gpu>>,
     site: &Site,
     view: View,
     wants: &InstantWants,
@@ -39,9 +42,9 @@ fn once(
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
-        (true, _) => stencil_alone(site, &view)?,
-        (false, Some(option)) => counting(site, &view, option)?,
-        (false, None) => choose(site, &view, on_event)?,
+        (true, _) => stencil_alone(gpu, site, &view)?,
+        (false, Some(option)) => counting(gpu, site, &view, option)?,
+        (false, None) => choose(gpu, site, &view, on_event)?,
     };
     let receivers = judged(site, &view);
     let look = Look { site, machine: &machine, view, receivers };

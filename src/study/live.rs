@@ -2,7 +2,7 @@
 //!
 //! The same techniques draw as in [`super::instant`]; what is kept between two pictures is the only difference.
 
-use super::machine::{Machine, choose_on};
+use super::machine::{Machine, choose};
 use super::{StudyError, night};
 use crate::gpu::Gpu;
 use crate::profile::Drawn;
@@ -186,7 +186,7 @@ impl Live {
     /// Who draws, as the command chooses.
     fn machine(&mut self, way: &Way) -> Result<Machine, StudyError> {
         (self.site.method, self.site.settings) = (way.method, way.settings);
-        choose_on(Some(&self.gpu), &self.site, &self.view, &mut |_| ControlFlow::Continue(()))
+        choose(Some(&self.gpu), &self.site, &self.view, &mut |_| ControlFlow::Continue(()))
     }
 }
 

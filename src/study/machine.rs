@@ -185,7 +185,7 @@ impl Machine {
 }
 
 /// The adapter that is open already, else one that is opened.
-fn opened(gpu: Option<&Arc<Gpu>>) -> Result<Arc<Gpu>, GpuError> {
+pub(super) fn opened(gpu: Option<&Arc<Gpu>>) -> Result<Arc<Gpu>, GpuError> {
     gpu.map_or_else(|| Gpu::open().map(Arc::new), |gpu| Ok(Arc::clone(gpu)))
 }
 
@@ -276,13 +276,8 @@ fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
 /// the stencil, unless it is the ground alone that is judged.
 ///
 /// A projected instant on the ground takes less time than opening an adapter does, so none is opened for it
-/// (docs/benchmarks/peers.md).
-pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
-    choose_on(None, site, view, on_event)
-}
-
-/// The same on an adapter that is open already, where there is one.
-pub(super) fn choose_on(
+/// (docs/benchmarks/peers.md). What draws on an adapter does so on the one that is open already, where there is one.
+pub(super) fn choose(
     gpu: Option<&Arc<Gpu>>,
     site: &Site,
     view: &View,
@@ -391,7 +386,12 @@ pub(super) fn choose_on(
 }
 
 /// A technique that counts, as something asks what that took: as asked, else the stencil.
-pub(super) fn counting(site: &Site, view: &View, option: &'static str) -> Result<Machine, StudyError> {
+pub(super) fn counting(
+    gpu: Option<&Arc<Gpu>>,
+    site: &Site,
+    view: &View,
+    option: &'static str,
+) -> Result<Machine, StudyError> {
     not_side(view, option)?;
     let method = match site.method {
         Method::Auto => Method::Stencil,
@@ -403,11 +403,11 @@ pub(super) fn counting(site: &Site, view: &View, option: &'static str) -> Result
         return Err(StudyError::Conflict { option, what });
     }
     unused(site, method)?;
-    Ok(Machine::open(site, None)?)
+    Ok(Machine::open(site, gpu)?)
 }
 
 /// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.
-pub(super) fn stencil_alone(site: &Site, view: &View) -> Result<Machine, StudyError> {
+pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) -> Result<Machine, StudyError> {
     not_side(view, "--show")?;
     if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {
         let what = "volumes and silhouette are drawn by the technique stencil on the gpu alone; \
@@ -415,9 +415,9 @@ pub(super) fn stencil_alone(site: &Site, view: &View) -> Result<Machine, StudyEr
         return Err(StudyError::Conflict { option: "--show", what });
     }
     unused(site, Method::Stencil)?;
-    let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(error.why()))?;
+    let gpu = opened(gpu).map_err(|error| StudyError::NoVolumes(error.why()))?;
     let drawing = Drawing::of(Method::Stencil, site, &gpu);
-    Ok(Machine::OnGpu(Arc::new(gpu), drawing))
+    Ok(Machine::OnGpu(gpu, drawing))
 }
 
 /// Volumes are drawn and counted in the plan and in perspective.

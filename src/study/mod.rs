@@ -39,6 +39,7 @@ use crate::view::{Bits, Camera, Counted, Mask, Overlay, Surface, Tile, View};
 use chrono::DateTime;
 use glam::DVec3;
 use machine::{Machine, not_surfaces};
+use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Duration;
@@ -84,6 +85,14 @@ pub enum Event<'a> {
     Note(String),
     /// A graphics adapter failed, and the work is done again: what was told of it is void, but for notes.
     Anew,
+    /// The same study is done again: whoever keeps what was done so far ([`Event::Kept`]) can put it here, and the study
+    /// goes on from there.
+    Resumes {
+        /// The study.
+        study: &'a Tiled<'a>,
+        /// What is to be gone on from.
+        begun: &'a RefCell<Option<Unfinished>>,
+    },
     /// All is prepared; drawing begins.
     Started {
         /// How many instants there are, those of each tile counted.
@@ -224,6 +233,13 @@ pub enum StudyError {
          (on Linux mesa-vulkan-drivers draws in software)"
     )]
     NoVerification(String),
+    /// Every device failed on which what is asked was tried, and nothing else can do it.
+    #[error(
+        "{0}, after another device had failed, and what is asked is drawn on a graphics adapter alone; update its driver, \
+         close what else draws on it, take larger cells, or install a driver that draws in software \
+         (on Linux mesa-vulkan-drivers)"
+    )]
+    NoDevice(String),
     /// All instants are at night.
     #[error(
         "there is no sun at any of the study's instants, and nothing to compare; take a window by day with --from and --to"

@@ -1,6 +1,7 @@
 //! The study on surfaces: hours of sun on every flat patch of what receives.
 
 use super::again::persist;
+use super::machine::opened;
 use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_models, tell};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -54,7 +55,10 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
     patches.leave_out_shared(&site.mesh, &site.casts, &site.receives);
     let patches = Arc::new(patches);
     note_patches(&patches, on_event)?;
-    persist(site, true, on_event, &mut |site, on_event| light(site, choice, &patches, watch.clone(), on_event))
+    persist(site, true, on_event, &mut |site, gpu, on_event| {
+        let painter = painter(gpu, site, choice, on_event)?;
+        light(site, choice, &patches, painter, watch.clone(), on_event)
+    })
 }
 
 /// Lets the sun fall on the patches, by one machine.
@@ -62,11 +66,11 @@ fn light(
     site: &Site,
     choice: Choice,
     patches: &Arc<Patches>,
+    painter: Painter,
     mut watch: Stopwatch,
     on_event: &mut OnEvent<'_>,
 ) -> Result<SurfaceOutcome, StudyError> {
     let (day_secs, night_secs) = day_and_night(&site.track);
-    let painter = painter(site, choice, on_event)?;
     let drawn = Drawn {
         technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture }.word(),
         silhouette: None,
@@ -152,12 +156,17 @@ fn choice(site: &Site) -> Result<Choice, StudyError> {
 /// Who fills textures, as asked; else a real graphics adapter, and the processor where the adapter is a program on it.
 ///
 /// Measured (docs/benchmarks/receivers.md).
-fn painter(site: &Site, choice: Choice, on_event: &mut OnEvent<'_>) -> Result<Painter, StudyError> {
+fn painter(
+    gpu: Option<&Arc<Gpu>>,
+    site: &Site,
+    choice: Choice,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Painter, StudyError> {
     let on_processor = Painter::OnProcessor(Fill::Silhouettes);
     match site.engine {
         _ if choice == Choice::Rays => Ok(on_processor),
         Engine::Cpu => Ok(on_processor),
-        Engine::Gpu => Ok(Painter::OnGpu(Arc::new(Gpu::open()?))),
+        Engine::Gpu => Ok(Painter::OnGpu(opened(gpu)?)),
         Engine::Auto => match Gpu::open() {
             Ok(gpu) if gpu.software() => Ok(on_processor),
             Ok(gpu) => Ok(Painter::OnGpu(Arc::new(gpu))),

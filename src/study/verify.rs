@@ -3,7 +3,8 @@
 //! [`verify`] makes the techniques, [`hold`] holds them against the truth, instant by instant. Ray casting is held against
 //! itself without its trees, at some cells.
 
-use super::machine::{Drawing, Machine, not_surfaces};
+use super::again::persist;
+use super::machine::{Drawing, Machine, not_surfaces, opened};
 use super::{Event, Look, OnEvent, StudyError, day_and_night, note_models, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::report;
@@ -60,7 +61,16 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
     not_surfaces(site)?;
     by_day(site)?;
     note_models(&site.notes, on_event)?;
-    let gpu = Arc::new(Gpu::open().map_err(|error| StudyError::NoVerification(error.why()))?);
+    // whoever asks wants every technique: none takes another's place
+    persist(site, false, on_event, &mut |site, gpu, on_event| {
+        let gpu = opened(gpu).map_err(|error| StudyError::NoVerification(error.why()))?;
+        let trials = trials(&gpu, site, on_event)?;
+        hold(site, trials, on_event)
+    })
+}
+
+/// The techniques that draw, made for a site's plan on an adapter.
+fn trials(gpu: &Arc<Gpu>, site: &Site, on_event: &mut OnEvent<'_>) -> Result<Vec<Trial>, StudyError> {
     tiles::at_once(site.grid, site.receivers, &Machine::RayCast { sun_samples: None })?;
     let mut trials = Vec::new();
     for (method, against, promise) in TECHNIQUES {
@@ -71,18 +81,18 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
         }
         let machine = match method {
             Method::Projected => Machine::Projected(site.grid),
-            _ => Machine::OnGpu(Arc::clone(&gpu), Drawing::of(method, site, &gpu)),
+            _ => Machine::OnGpu(Arc::clone(gpu), Drawing::of(method, site, gpu)),
         };
         tiles::at_once(site.grid, site.receivers, &machine)?;
         let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
         trials.push(Trial { drawn: machine.drawn(), against, promise, technique: look.technique()? });
         if method == Method::Projected && site.receivers == Receivers::Ground {
-            let machine = Machine::OnGpu(Arc::clone(&gpu), Drawing::Projected(site.grid));
+            let machine = Machine::OnGpu(Arc::clone(gpu), Drawing::Projected(site.grid));
             let technique = Look { machine: &machine, ..look }.technique()?;
             trials.push(Trial { drawn: machine.drawn(), against, promise, technique });
         }
     }
-    hold(site, trials, on_event)
+    Ok(trials)
 }
 
 /// Holds techniques, and ray casting itself, against the truth.
