@@ -76,7 +76,7 @@ pub fn open_with(
             (Ok(Err(eframe::Error::Wgpu(_))), None) => return Err(anyhow!("{}", GpuError::NoAdapter)),
             (Ok(Err(error)), None) => {
                 return Err(anyhow!(
-                    "the window cannot be opened: {error}; without a display use the commands (gnomon --help)"
+                    "the window cannot be opened: {error}; without a display use the commands (gnomon help)"
                 ));
             }
         }

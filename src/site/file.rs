@@ -2,6 +2,7 @@
 
 use super::error::{At, SiteError};
 use super::keys;
+use crate::message::message;
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -281,7 +282,7 @@ fn typed<T: DeserializeOwned>(file: &str, name: &str, brackets: &str, value: &Va
         let what = error.message().replace("f64", "a number");
         SiteError::Value {
             at: At::Key { file: file.to_owned(), table: brackets.to_owned(), key: key.to_owned() },
-            what: format!("{what}; write for example {}", keys::example(name, key)),
+            message: message![what; format!("write for example {}", keys::example(name, key))],
         }
     })
 }

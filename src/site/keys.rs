@@ -70,7 +70,8 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
                 let brackets = bracketed(name);
                 return Err(SiteError::Value {
                     at: At::Key { file: file.to_owned(), table: brackets.clone(), key: String::new() },
-                    what: format!("write {brackets} on a line of its own, and its keys on the lines below it"),
+                    message: format!("write {brackets} on a line of its own, and its keys on the lines below it")
+                        .into(),
                 });
             }
             _ => {

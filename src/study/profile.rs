@@ -2,9 +2,10 @@
 
 use super::again::persist;
 use super::machine::{Machine, choose, counting, not_surfaces};
-use super::{Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
+use super::{Counting, Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
 use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
 use crate::mesh::Mesh;
+use crate::message::{Field, aside, message};
 use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::plan_surface;
@@ -90,7 +91,11 @@ impl<'a> Tiled<'a> {
     fn of(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Tiled<'a>, StudyError> {
         let watch = Stopwatch::start();
         let view = View::Plan(site.grid);
-        let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
+        let machine = if wants.statistics {
+            counting(site, &view, Counting::Statistics.field())?
+        } else {
+            choose(site, &view, on_event)?
+        };
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
         check_tiles(&tiles, wants)?;
         tiles::note(&tiles, on_event)?;
@@ -236,14 +241,18 @@ fn check_tiles(tiles: &[Tile], wants: &Wants) -> Result<(), StudyError> {
         return Ok(());
     }
     if wants.masks {
-        let what = "the plan is done in tiles, and masks are written whole; take --bits, which holds the same, or larger \
-                    cells (--cell)";
-        return Err(StudyError::Conflict { option: "--masks", what });
+        let message = message![
+            "the plan is done in tiles, and masks are written whole";
+            "take ", Field::Bits, ", which holds the same, or larger cells", aside(Field::Cell)
+        ];
+        return Err(StudyError::Conflict { field: Field::Masks, message });
     }
-    if let Some(option) = wants.whole {
-        let what = "the plan is done in tiles, and lines are drawn of the whole; take larger cells (--cell), leave \
-                    --memory out, or leave this out";
-        return Err(StudyError::Conflict { option, what });
+    if wants.lines {
+        let message = message![
+            "the plan is done in tiles, and lines are drawn of the whole";
+            "take larger cells", aside(Field::Cell), ", leave ", Field::Memory, " out, or leave this out"
+        ];
+        return Err(StudyError::Conflict { field: Field::Lines, message });
     }
     Ok(())
 }
