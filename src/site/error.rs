@@ -204,7 +204,10 @@ fn no_study(file: &str, missing: &[(Field, &'static str)]) -> Message {
     let (keys, settings) = (between(", ", |(field, _)| Piece::Key(*field)), between(" ", |missing| (*missing).into()));
     Message {
         what: [pieces![format!("{file} does not say ")], keys, pieces![" of the study"]].concat(),
-        hint: [pieces!["add "], settings, pieces![", or [study] to the site file"]].concat(),
+        hint: vec![Piece::Where(
+            Field::From,
+            [pieces!["add "], settings, pieces![", or [study] to the site file"]].concat(),
+        )],
     }
 }
 
