@@ -76,5 +76,5 @@ pub(super) fn numbers<const N: usize>(field: Field, text: &str, example: &'stati
 
 /// A value that cannot be taken.
 pub(super) fn refuse(at: At, message: impl Into<Message>) -> SiteError {
-    SiteError::Value { at, message: message.into() }
+    SiteError::Value { at, message: Box::new(message.into()) }
 }

@@ -102,7 +102,7 @@ pub enum SiteError {
         /// Where it was asked.
         at: At,
         /// What is wrong, and the way out.
-        message: Message,
+        message: Box<Message>,
     },
     /// A place, reading or window that cannot be taken.
     Sun {
@@ -174,7 +174,7 @@ impl Worded for SiteError {
             SiteError::Missing { file, what, example } => {
                 message![format!("{file} has no {what}"); format!("add for example {example}")]
             }
-            SiteError::Value { at, message } => at.tells(message.clone()),
+            SiteError::Value { at, message } => at.tells(Message::clone(message)),
             SiteError::Sun { at, error } => at.tells(error.message()),
             SiteError::NoStudy { file, missing } => no_study(file, missing),
             SiteError::NoProbe { file } => message![
