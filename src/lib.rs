@@ -11,6 +11,8 @@
 //! World frame: x east, y north, z up, metres, right-handed. Geometry is `f32` around [`mesh::Mesh::origin`];
 //! time, sun and map coordinates are `f64`.
 
+pub mod message;
+
 pub mod mesh;
 pub mod sun;
 pub mod view;
@@ -27,6 +29,8 @@ pub mod profile;
 pub mod study;
 
 pub mod export;
+
+pub mod fault;
 
 pub mod cli;
 

@@ -19,6 +19,7 @@ mod geometry;
 mod gpu_silhouettes;
 mod live;
 mod lost;
+mod message;
 mod mistakes;
 mod model;
 mod names;

@@ -7,6 +7,7 @@ use super::draw::LinesArgs;
 use super::eye::Eye;
 use super::memory;
 use super::model::{GroundArgs, ModelArgs};
+use super::options::nothing_asked;
 use super::probe::ProbeArgs;
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
@@ -413,7 +414,7 @@ impl SiteArgs {
 
 impl PlaceArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..Overrides::default() }
+        Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..nothing_asked() }
     }
 }
 

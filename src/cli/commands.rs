@@ -2,6 +2,7 @@
 
 use super::arguments::{CheckArgs, ShadowArgs, Show, SunArgs};
 use super::eye::Eye;
+use super::options::{Options, nothing_asked};
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::figure::Diagram;
@@ -10,7 +11,7 @@ use crate::export::{check, figure, file, raster, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Statistics};
 use crate::site::{Ground, LoadedMesh, Method, Site, inputs, load_mesh, load_sun};
-use crate::study::{self, Event, InstantWants, Stopwatch};
+use crate::study::{self, Counting, Event, InstantWants, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -59,9 +60,9 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         volumes: shows(Show::Volumes),
         silhouette: shows(Show::Silhouette),
         counted: match diagram {
-            Some(Diagram::Mask) => Some("--show mask"),
-            Some(Diagram::Overdraw) => Some("--show overdraw"),
-            None => asked.stats.then_some("--stats"),
+            Some(Diagram::Mask) => Some(Counting::Mask),
+            Some(Diagram::Overdraw) => Some(Counting::Overdraw),
+            None => asked.stats.then_some(Counting::Statistics),
         },
     };
     let (receivers, ground) = (study::judged(&site, &view), site.ground);
@@ -153,13 +154,13 @@ pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
 
 /// `gnomon check`
 pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
-    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path, asked.model.up)?;
+    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path, &asked.model.onto(nothing_asked()))?;
     interrupt::check()?;
     let components = mesh_report::components(&mesh);
     interrupt::check()?;
     match asked.common.json {
         true => say(&check::json(&mesh, &components, frame, &notes)?),
-        false => say(&check::table(&mesh, &components, frame, &notes)),
+        false => say(&check::table(&mesh, &components, frame, &notes, &Options)),
     }
 }
 

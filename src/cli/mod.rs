@@ -12,6 +12,7 @@ mod interrupt;
 mod keeping;
 mod memory;
 mod model;
+mod options;
 mod probe;
 mod profile;
 mod progress;
@@ -20,6 +21,7 @@ mod verify;
 mod volumes;
 
 use crate::export::ExportError;
+use crate::fault;
 use crate::site::SiteError;
 use crate::study::StudyError;
 use arguments::{Arguments, Command};
@@ -28,6 +30,8 @@ use clap::{CommandFactory, Parser};
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
+
+pub use options::Options;
 
 /// What opens the window, with a site or a model in it where one is named.
 pub type Window = fn(Option<&Path>) -> anyhow::Result<()>;
@@ -55,7 +59,7 @@ pub fn main(window: Option<Window>) -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            complain(&one_line(&error));
+            complain(&fault::line(error.as_ref(), &Options));
             ExitCode::from(status(&error))
         }
     }
@@ -101,19 +105,6 @@ fn status(error: &anyhow::Error) -> u8 {
         _ if wrong_use => 2,
         _ => 1,
     }
-}
-
-/// The error and its causes in one line; causes that the message already tells are not told again.
-pub(crate) fn one_line(error: &anyhow::Error) -> String {
-    let mut line = String::new();
-    for cause in error.chain().map(|cause| words(&cause.to_string())) {
-        if line.is_empty() {
-            line = cause;
-        } else if !line.contains(&cause) {
-            line = format!("{line}: {cause}");
-        }
-    }
-    line
 }
 
 /// Without line breaks.

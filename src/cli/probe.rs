@@ -2,6 +2,7 @@
 
 use super::arguments::{Common, SiteArgs};
 use super::model::ModelArgs;
+use super::options::Options;
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::export::{figure, file, probe as told};
@@ -94,7 +95,7 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
         files.push((path, told::csv(&sunlight).into_bytes()));
     }
     if let Some(path) = &asked.out {
-        files.push((path, figure::strips(&sunlight, &probing.place, &probing.ground)?));
+        files.push((path, figure::strips(&sunlight, &probing.place, &probing.ground, &Options)?));
     }
     interrupt::check()?;
     for (path, bytes) in &files {
@@ -104,5 +105,5 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
         return say(&told::json(&sunlight, &probing.place, &probing.ground, &probing.notes)?);
     }
     let written: String = files.iter().map(|(path, _)| format!("{}\n", path.display())).collect();
-    say(&(told::table(&sunlight, &probing.place, &probing.ground) + &written))
+    say(&(told::table(&sunlight, &probing.place, &probing.ground, &Options) + &written))
 }

@@ -56,7 +56,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         written: FxBuildHasher.hash_one(&masks),
         surface: false,
         statistics: asked.stats,
-        whole: asked.lines.given().then_some("--draw"),
+        lines: asked.lines.given(),
         // outlines are not kept
         keep_every: (!asked.lines.outlines()).then_some(KEEP_EVERY),
         budget: asked.memory.map(|bytes| Budget {

@@ -280,7 +280,8 @@ impl App {
         }
         let of_view = self.open.as_ref().and_then(|open| open.viewer.fault.clone());
         let (fault, notice) = (self.fault.clone().or(of_view), self.notice.clone());
-        if let Some(text) = fault.as_ref().or(notice.as_ref()) {
+        // a grave accent would be set above the letter behind it
+        if let Some(text) = fault.as_ref().or(notice.as_ref()).map(|text| text.replace('`', "")) {
             ui.horizontal(|ui| {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     if ui.button("Close").clicked() {

@@ -13,7 +13,7 @@ use crate::export::file;
 use crate::export::workplace::Workplace;
 use crate::site::file::{CameraTable, SiteFile};
 use crate::site::{Method, Models, Overrides, Site, SiteError, Written, model};
-use crate::study::{self, Event, InstantWants, StudyError};
+use crate::study::{self, Counting, Event, InstantWants, StudyError};
 use crate::sun::Zone;
 use crate::view::View;
 use chrono::DateTime;
@@ -119,8 +119,8 @@ pub(super) fn drawing(
             volumes: shown.volumes && is_perspective,
             silhouette: shown.silhouette && is_perspective,
             counted: shown.diagram.filter(|_| view::counts(method)).map(|diagram| match diagram {
-                Diagram::Mask => "--show mask",
-                Diagram::Overdraw => "--show overdraw",
+                Diagram::Mask => Counting::Mask,
+                Diagram::Overdraw => Counting::Overdraw,
             }),
         };
         let outcome = study::instant(&site, view, &wants, on_event)?;

@@ -36,6 +36,7 @@ mod time;
 mod typed;
 mod unit;
 mod view;
+mod words;
 mod work;
 
 pub use app::App;

@@ -126,7 +126,7 @@ fn given_up(why: &str) -> anyhow::Error {
 }
 
 fn unopened(error: impl std::fmt::Display) -> anyhow::Error {
-    anyhow!("the window cannot be opened: {error}; without a display use the commands (gnomon --help)")
+    anyhow!("the window cannot be opened: {error}; without a display use the commands (gnomon help)")
 }
 
 /// How the window is to be opened.

@@ -1,6 +1,7 @@
 //! Files are written beside their place and renamed into it: a reader sees the old file or the new one, never half.
 
 use super::ExportError;
+use crate::message::{Field, Piece, pieces};
 use same_file::Handle;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
@@ -201,7 +202,7 @@ pub(super) fn remove(path: &Path) -> Result<(), ExportError> {
 
 /// What the file system refused, with the way out.
 pub(super) fn failed(path: &Path, doing: &'static str, source: io::Error) -> ExportError {
-    ExportError::Write { path: path.to_owned(), doing, way_out: way_out(source.kind()), source }
+    ExportError::Write { path: path.to_owned(), doing, source }
 }
 
 /// Removes the temporary file unless it has been renamed away.
@@ -252,21 +253,21 @@ fn written_beside(name: &OsStr) -> Option<&str> {
     (is_number(process) && is_number(count)).then_some(name)
 }
 
-fn way_out(kind: io::ErrorKind) -> &'static str {
-    match kind {
-        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-            "choose a folder you may write to with --out"
-        }
+/// What can be done where the file system refuses.
+pub(super) fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
+    let way_out = match kind {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
-            "free some space, or choose another disk with --out"
+            "free some space, or choose another disk"
         }
         io::ErrorKind::IsADirectory
         | io::ErrorKind::NotADirectory
         | io::ErrorKind::AlreadyExists
         | io::ErrorKind::DirectoryNotEmpty => {
-            "a folder stands where a file should be, or the other way round; choose another name with --out"
+            "a folder stands where a file should be, or the other way round; choose another name"
         }
-        io::ErrorKind::InvalidFilename => "choose a shorter or simpler name with --out",
-        _ => "choose another place with --out",
-    }
+        io::ErrorKind::InvalidFilename => "choose a shorter or simpler name",
+        _ => "choose another place",
+    };
+    pieces![way_out, Piece::Where(Field::Out, pieces![" with ", Field::Out])]
 }

@@ -1,5 +1,6 @@
 //! The keys that a site file may have, and what to say about one that it may not.
 
+use super::asked::refuse;
 use super::error::{At, SiteError};
 use toml::{Table, Value};
 
@@ -68,10 +69,9 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
             }
             _ if known => {
                 let brackets = bracketed(name);
-                return Err(SiteError::Value {
-                    at: At::Key { file: file.to_owned(), table: brackets.clone(), key: String::new() },
-                    what: format!("write {brackets} on a line of its own, and its keys on the lines below it"),
-                });
+                let at = At::Key { file: file.to_owned(), table: brackets.clone(), key: String::new() };
+                let what = format!("write {brackets} on a line of its own, and its keys on the lines below it");
+                return Err(refuse(at, what));
             }
             _ => {
                 let is_table =

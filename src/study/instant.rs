@@ -5,6 +5,7 @@ use super::machine::{choose, counting, not_surfaces, stencil_alone};
 use super::{Event, InstantOutcome, InstantWants, Look, NOTHING_COUNTED, OnEvent, Stopwatch, StudyError};
 use super::{judged, night, note_models, tell, tiles};
 use crate::gpu::Gpu;
+use crate::message::{Field, aside, message};
 use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
 use crate::sun::Instant;
@@ -43,7 +44,7 @@ fn once(
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(gpu, site, &view)?,
-        (false, Some(option)) => counting(gpu, site, &view, option)?,
+        (false, Some(counted)) => counting(gpu, site, &view, counted.field())?,
         (false, None) => choose(gpu, site, &view, on_event)?,
     };
     let receivers = judged(site, &view);
@@ -53,10 +54,12 @@ fn once(
         View::Camera(_) | View::Elevation(_) => Vec::new(),
     };
     let first = tiles.first().filter(|tile| !tile.is_whole());
-    if let (Some(_), Some(option)) = (first, wants.counted) {
-        let what = "the plan is done in tiles, and what counting took is told of the whole; take larger cells (--cell), \
-                    or leave it out";
-        return Err(StudyError::Conflict { option, what });
+    if let (Some(_), Some(counted)) = (first, wants.counted) {
+        let message = message![
+            "the plan is done in tiles, and what counting took is told of the whole";
+            "take larger cells", aside(Field::Cell), ", or leave it out"
+        ];
+        return Err(StudyError::Conflict { field: counted.field(), message });
     }
     tiles::note(&tiles, on_event)?;
     let mut technique = first.map_or_else(|| look.technique(), |tile| look.technique_of(*tile))?;

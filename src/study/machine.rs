@@ -2,6 +2,7 @@
 
 use super::{Event, OnEvent, StudyError, Wants, tell};
 use crate::gpu::{Gpu, GpuError};
+use crate::message::{Field, Message, message};
 use crate::profile::{Drawn, DrawnSettings};
 use crate::shadow::hybrid::Hybrid;
 use crate::shadow::map;
@@ -226,47 +227,62 @@ fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
     use Method::{Hybrid, RayCast, ShadowMap, Smoothie, SoftTexture, Stencil};
     let Settings { map_size, pcf, smoothie_width_m, sun_samples } = site.settings;
     let finder = site.finder;
-    let rules: [(bool, &[Method], &str, &str); 6] = [
+    let rules: [(bool, &[Method], Field, Message); 6] = [
         (
             map_size.is_some(),
             &[ShadowMap, Hybrid, Smoothie],
-            "--map-size",
-            "only the techniques shadow-map, hybrid and smoothie draw a map; say --technique with one of them, or leave it out",
+            Field::MapSize,
+            message![
+                "only the techniques shadow-map, hybrid and smoothie draw a map";
+                "say ", Field::Technique, " with one of them, or leave it out"
+            ],
         ),
         (
             pcf.is_some(),
             &[ShadowMap],
-            "--pcf",
-            "only the technique shadow-map filters so; say --technique shadow-map, or leave it out",
+            Field::Pcf,
+            message![
+                "only the technique shadow-map filters so";
+                "say ", (Field::Technique, "shadow-map"), ", or leave it out"
+            ],
         ),
         (
             smoothie_width_m.is_some(),
             &[Smoothie],
-            "--smoothie-width",
-            "only the technique smoothie has smoothies; say --technique smoothie, or leave it out",
+            Field::SmoothieWidth,
+            message![
+                "only the technique smoothie has smoothies";
+                "say ", (Field::Technique, "smoothie"), ", or leave it out"
+            ],
         ),
         (
             sun_samples.is_some(),
             &[RayCast, SoftTexture],
-            "--sun-samples",
-            "only ray casting and soft-texture take points of the sun's disc; say --technique ray-cast, or leave it out",
+            Field::SunSamples,
+            message![
+                "only ray casting and soft-texture take points of the sun's disc";
+                "say ", (Field::Technique, "ray-cast"), ", or leave it out"
+            ],
         ),
         (
             finder != Finder::Auto,
             &[Stencil, Hybrid, Smoothie],
-            "--silhouette",
-            "only the techniques stencil, hybrid and smoothie use silhouettes; leave the option out",
+            Field::Silhouette,
+            message!["only the techniques stencil, hybrid and smoothie use silhouettes"; "leave the option out"],
         ),
         (
             finder == Finder::Gpu,
             &[Stencil, Hybrid],
-            "--silhouette",
-            "smoothies take their silhouettes from the processor; say brute or hextree, or leave the option out",
+            Field::Silhouette,
+            message![
+                "smoothies take their silhouettes from the processor";
+                "say brute or hextree, or leave the option out"
+            ],
         ),
     ];
-    for (given, users, option, what) in rules {
+    for (given, users, field, message) in rules {
         if given && !users.contains(&method) {
-            return Err(StudyError::Conflict { option, what });
+            return Err(StudyError::Conflict { field, message });
         }
     }
     Ok(())
@@ -283,7 +299,8 @@ pub(super) fn choose(
     view: &View,
     on_event: &mut OnEvent<'_>,
 ) -> Result<Machine, StudyError> {
-    let conflict = |what| Err(StudyError::Conflict { option: "--engine", what });
+    let conflict = |message| Err(StudyError::Conflict { field: Field::Engine, message });
+    let other_technique = |message| Err(StudyError::Conflict { field: Field::Technique, message });
     let cast = Machine::RayCast { sun_samples: site.settings.sun_samples };
     let plan = match view {
         View::Plan(grid) => Some(*grid),
@@ -291,11 +308,13 @@ pub(super) fn choose(
     };
     if matches!(view, View::Elevation(_)) {
         if !matches!(site.method, Method::Auto | Method::RayCast) {
-            let what = "rays alone draw a side; take --technique ray-cast, or leave it out";
-            return Err(StudyError::Conflict { option: "--technique", what });
+            return other_technique(message![
+                "rays alone draw a side";
+                "take ", (Field::Technique, "ray-cast"), ", or leave it out"
+            ]);
         }
         if site.engine == Engine::Gpu {
-            return conflict("rays alone draw a side, on the cpu; leave the option out");
+            return conflict(message!["rays alone draw a side, on the cpu"; "leave the option out"]);
         }
         unused(site, Method::RayCast)?;
         return Ok(cast);
@@ -315,15 +334,17 @@ pub(super) fn choose(
         (Method::Projected, engine) => {
             unused(site, Method::Projected)?;
             let Some(grid) = plan else {
-                let what = "projected draws the plan alone; leave --view camera out, or take another technique";
-                return Err(StudyError::Conflict { option: "--technique", what });
+                return other_technique(message![
+                    "projected draws the plan alone";
+                    "leave ", (Field::View, "camera"), " out, or take another technique"
+                ]);
             };
             match engine {
                 Engine::Gpu if !ground_alone => {
-                    return conflict(
-                        "on the gpu projected draws on the ground alone; \
-                         add --receivers ground, or take --technique stencil",
-                    );
+                    return conflict(message![
+                        "on the gpu projected draws on the ground alone";
+                        "add ", (Field::Receivers, "ground"), ", or take ", (Field::Technique, "stencil")
+                    ]);
                 }
                 Engine::Gpu => Machine::OnGpu(opened(gpu)?, Drawing::Projected(grid)),
                 Engine::Auto | Engine::Cpu => Machine::Projected(grid),
@@ -331,18 +352,26 @@ pub(super) fn choose(
         }
         (Method::SoftTexture, engine) => {
             let View::Camera(camera) = view else {
-                let what = "soft-texture is for flat patches; add --receivers surfaces, or take another technique";
-                return Err(StudyError::Conflict { option: "--technique", what });
+                return other_technique(message![
+                    "soft-texture is for flat patches";
+                    "add ", (Field::Receivers, "surfaces"), ", or take another technique"
+                ]);
             };
             if engine == Engine::Gpu {
-                return conflict("a camera's picture by soft-texture is drawn on the cpu; leave the option out");
+                return conflict(message![
+                    "a camera's picture by soft-texture is drawn on the cpu";
+                    "leave the option out"
+                ]);
             }
             unused(site, Method::SoftTexture)?;
             let sun_samples = site.settings.sun_samples.unwrap_or(soft_picture::DEFAULT_SUN_SAMPLES);
             Machine::SoftPicture { camera: *camera, sun_samples }
         }
         (Method::RayCast, Engine::Gpu) => {
-            return conflict("the technique ray-cast works on the cpu; take --technique stencil with gpu");
+            return conflict(message![
+                "the technique ray-cast works on the cpu";
+                "take ", (Field::Technique, "stencil"), " with gpu"
+            ]);
         }
         (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => {
             unused(site, Method::RayCast)?;
@@ -375,7 +404,10 @@ pub(super) fn choose(
             }
         }
         (_, Engine::Cpu) => {
-            return conflict("that technique draws on the gpu; take --technique ray-cast with cpu");
+            return conflict(message![
+                "that technique draws on the gpu";
+                "take ", (Field::Technique, "ray-cast"), " with cpu"
+            ]);
         }
         (method, _) => {
             unused(site, method)?;
@@ -386,21 +418,18 @@ pub(super) fn choose(
 }
 
 /// A technique that counts, as something asks what that took: as asked, else the stencil.
-pub(super) fn counting(
-    gpu: Option<&Arc<Gpu>>,
-    site: &Site,
-    view: &View,
-    option: &'static str,
-) -> Result<Machine, StudyError> {
-    not_side(view, option)?;
+pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: Field) -> Result<Machine, StudyError> {
+    not_side(view, field)?;
     let method = match site.method {
         Method::Auto => Method::Stencil,
         method => method,
     };
     if !matches!(method, Method::Stencil | Method::Hybrid) || site.engine == Engine::Cpu {
-        let what = "only the techniques stencil and hybrid count, on the gpu; \
-                    take --technique hybrid without --engine cpu, or leave it out";
-        return Err(StudyError::Conflict { option, what });
+        let message = message![
+            "only the techniques stencil and hybrid count, on the gpu";
+            "take ", (Field::Technique, "hybrid"), " without ", (Field::Engine, "cpu"), ", or leave it out"
+        ];
+        return Err(StudyError::Conflict { field, message });
     }
     unused(site, method)?;
     Ok(Machine::open(site, gpu)?)
@@ -408,11 +437,13 @@ pub(super) fn counting(
 
 /// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.
 pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) -> Result<Machine, StudyError> {
-    not_side(view, "--show")?;
+    not_side(view, Field::Volumes)?;
     if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {
-        let what = "volumes and silhouette are drawn by the technique stencil on the gpu alone; \
-                    take --technique stencil without --engine cpu, or leave them out";
-        return Err(StudyError::Conflict { option: "--show", what });
+        let message = message![
+            "volumes and silhouette are drawn by the technique stencil on the gpu alone";
+            "take ", (Field::Technique, "stencil"), " without ", (Field::Engine, "cpu"), ", or leave them out"
+        ];
+        return Err(StudyError::Conflict { field: Field::Volumes, message });
     }
     unused(site, Method::Stencil)?;
     let gpu = opened(gpu).map_err(|error| StudyError::NoVolumes(error.why()))?;
@@ -421,11 +452,13 @@ pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) ->
 }
 
 /// Volumes are drawn and counted in the plan and in perspective.
-fn not_side(view: &View, option: &'static str) -> Result<(), StudyError> {
+fn not_side(view: &View, field: Field) -> Result<(), StudyError> {
     if matches!(view, View::Elevation(_)) {
-        let what =
-            "rays alone draw a side, and there are no shadow volumes in it; look from elsewhere, or leave it out";
-        return Err(StudyError::Conflict { option, what });
+        let message = message![
+            "rays alone draw a side, and there are no shadow volumes in it";
+            "look from elsewhere, or leave it out"
+        ];
+        return Err(StudyError::Conflict { field, message });
     }
     Ok(())
 }
@@ -433,8 +466,11 @@ fn not_side(view: &View, option: &'static str) -> Result<(), StudyError> {
 /// Masks are of a plan or of a camera's picture.
 pub(super) fn not_surfaces(site: &Site) -> Result<(), StudyError> {
     if site.receivers == Receivers::Surfaces {
-        let what = "surfaces are judged by gnomon profile alone; take top or ground, or leave it out";
-        return Err(StudyError::Conflict { option: "--receivers", what });
+        let message = message![
+            "surfaces are judged by gnomon profile alone";
+            "take top or ground, or leave it out"
+        ];
+        return Err(StudyError::Conflict { field: Field::Receivers, message });
     }
     Ok(())
 }

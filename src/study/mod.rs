@@ -29,6 +29,7 @@ pub use tiles::Budget;
 
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
+use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
@@ -51,8 +52,8 @@ pub struct Wants {
     pub masks: bool,
     /// Of every instant with a sun which cells are in shadow, in [`Event::Drawn`].
     pub bits: bool,
-    /// Whether drawings are made of all cells at once, so that tiles will not do: the option that asks for them.
-    pub whole: Option<&'static str>,
+    /// Whether lines are drawn, which are made of all cells at once: tiles will not do.
+    pub lines: bool,
     /// Where whoever asks writes them, as a number: what is written elsewhere is another study.
     pub written: u64,
     /// What the cells see, for a drawing.
@@ -74,8 +75,30 @@ pub struct InstantWants {
     pub volumes: bool,
     /// The silhouette's lines over a camera's picture.
     pub silhouette: bool,
-    /// What counting took, cell by cell: the option that asks for it.
-    pub counted: Option<&'static str>,
+    /// What counting took, cell by cell, and what it is for.
+    pub counted: Option<Counting>,
+}
+
+/// What counting shadow volumes is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counting {
+    /// Numbers of the whole.
+    Statistics,
+    /// A diagram of what a map decided and what the volumes did.
+    Mask,
+    /// A diagram of how many fragments were counted.
+    Overdraw,
+}
+
+impl Counting {
+    /// The field that asks for it.
+    fn field(self) -> Field {
+        match self {
+            Counting::Statistics => Field::Statistics,
+            Counting::Mask => Field::MaskDiagram,
+            Counting::Overdraw => Field::OverdrawDiagram,
+        }
+    }
 }
 
 /// What happens on the way.
@@ -169,19 +192,13 @@ pub struct InstantOutcome {
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// Two choices that exclude each other.
-    #[error("{option}: {what}")]
     Conflict {
-        /// The option that does not fit.
-        option: &'static str,
+        /// What does not fit.
+        field: Field,
         /// Why, and the way out.
-        what: &'static str,
+        message: Message,
     },
     /// The plan does not fit the memory that there is for it.
-    #[error(
-        "--memory: {} is too little for rows of {width} cells; take at least {}, or larger cells (--cell)",
-        tiles::amount(*asked),
-        tiles::amount(*least)
-    )]
     LittleMemory {
         /// What there is, bytes.
         asked: u64,
@@ -191,9 +208,6 @@ pub enum StudyError {
         width: u32,
     },
     /// The plan is drawn at once, and has too many cells for that.
-    #[error(
-        "{width} × {height} cells are more than can be drawn at once; choose larger cells (--cell) or fewer (--size)"
-    )]
     TooManyCells {
         /// Columns of the plan.
         width: u32,
@@ -201,11 +215,6 @@ pub enum StudyError {
         height: u32,
     },
     /// Time on surfaces is summed in 32 bits.
-    #[error(
-        "the study has {} hours of daylight, and surfaces sum at most {}; ask for fewer days or a shorter window",
-        day_secs / 3600,
-        most_secs / 3600
-    )]
     TooLong {
         /// Seconds of the window with the sun above the horizon.
         day_secs: u32,
@@ -213,47 +222,81 @@ pub enum StudyError {
         most_secs: u32,
     },
     /// Nothing that receives has an area.
-    #[error("no component that receives has a surface; see `receives` in the site file")]
     NoSurface,
     /// The track has no instant.
-    #[error("there is no instant to draw")]
     NoInstant,
     /// No adapter, or not a good one.
-    #[error(transparent)]
     Gpu(#[from] GpuError),
     /// Volumes and silhouettes are the stencil's alone.
-    #[error(
-        "--show: volumes and silhouette are drawn on a graphics adapter, and {0}; install a driver \
-         (on Linux mesa-vulkan-drivers draws in software) or leave them out"
-    )]
     NoVolumes(String),
     /// Techniques are held against ray casting where they draw.
-    #[error(
-        "verify draws with every technique on a graphics adapter, and {0}; install a driver \
-         (on Linux mesa-vulkan-drivers draws in software)"
-    )]
     NoVerification(String),
     /// Every device failed on which what is asked was tried, and nothing else can do it.
-    #[error(
-        "{0}, after another device had failed, and what is asked is drawn on a graphics adapter alone; update its driver, \
-         close what else draws on it, take larger cells, or install a driver that draws in software \
-         (on Linux mesa-vulkan-drivers)"
-    )]
     NoDevice(String),
     /// All instants are at night.
-    #[error(
-        "there is no sun at any of the study's instants, and nothing to compare; take a window by day with --from and --to"
-    )]
     NoDay,
     /// The sun's position at a time cannot be found.
-    #[error(transparent)]
     Sun(#[from] SunError),
     /// Drawing failed.
-    #[error(transparent)]
     Shadow(#[from] ShadowError),
     /// As asked by the listener.
-    #[error("interrupted")]
     Interrupted,
+}
+
+plain_display!(StudyError);
+
+impl Worded for StudyError {
+    fn message(&self) -> Message {
+        const DRIVER: &str = "install a driver (on Linux mesa-vulkan-drivers draws in software)";
+        match self {
+            StudyError::Conflict { field, message } => message.clone().of((*field).into()),
+            StudyError::LittleMemory { asked, least, width } => message![
+                Field::Memory,
+                format!(": {} is too little for rows of {width} cells", tiles::amount(*asked));
+                format!("take at least {}, or larger cells", tiles::amount(*least)), aside(Field::Cell)
+            ],
+            StudyError::TooManyCells { width, height } => message![
+                format!("{width} × {height} cells are more than can be drawn at once");
+                "choose larger cells",
+                aside(Field::Cell),
+                Piece::Where(Field::Size, pieces![" or fewer", aside(Field::Size)])
+            ],
+            StudyError::TooLong { day_secs, most_secs } => message![
+                format!(
+                    "the study has {} hours of daylight, and surfaces sum at most {}",
+                    day_secs / 3600,
+                    most_secs / 3600
+                );
+                "ask for fewer days or a shorter window"
+            ],
+            StudyError::NoSurface => {
+                message!["no component that receives has a surface"; "see `receives` in the site file"]
+            }
+            StudyError::NoInstant => message!["there is no instant to draw"],
+            StudyError::Gpu(error) => error.message(),
+            StudyError::NoVolumes(why) => message![
+                Field::Volumes,
+                format!(": volumes and silhouette are drawn on a graphics adapter, and {why}");
+                DRIVER, " or leave them out"
+            ],
+            StudyError::NoVerification(why) => message![
+                format!("verify draws with every technique on a graphics adapter, and {why}");
+                DRIVER
+            ],
+            StudyError::NoDevice(why) => message![
+                why.clone(), ", after another device had failed, and what is asked is drawn on a graphics adapter alone";
+                "update its driver, close what else draws on it, take larger cells, or install a driver that draws in \
+                 software (on Linux mesa-vulkan-drivers)"
+            ],
+            StudyError::NoDay => message![
+                "there is no sun at any of the study's instants, and nothing to compare";
+                "take a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
+            ],
+            StudyError::Sun(error) => error.message(),
+            StudyError::Shadow(error) => error.message(),
+            StudyError::Interrupted => message!["interrupted"],
+        }
+    }
 }
 
 impl StudyError {

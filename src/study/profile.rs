@@ -2,10 +2,11 @@
 
 use super::again::persist;
 use super::machine::{Machine, choose, counting, not_surfaces};
-use super::{Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
+use super::{Counting, Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
 use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
+use crate::message::{Field, aside, message};
 use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::plan_surface;
@@ -101,7 +102,7 @@ impl<'a> Tiled<'a> {
         let watch = Stopwatch::start();
         let view = View::Plan(site.grid);
         let machine = match wants.statistics {
-            true => counting(gpu, site, &view, "--stats")?,
+            true => counting(gpu, site, &view, Counting::Statistics.field())?,
             false => choose(gpu, site, &view, on_event)?,
         };
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
@@ -263,14 +264,18 @@ fn check_tiles(tiles: &[Tile], wants: &Wants) -> Result<(), StudyError> {
         return Ok(());
     }
     if wants.masks {
-        let what = "the plan is done in tiles, and masks are written whole; take --bits, which holds the same, or larger \
-                    cells (--cell)";
-        return Err(StudyError::Conflict { option: "--masks", what });
+        let message = message![
+            "the plan is done in tiles, and masks are written whole";
+            "take ", Field::Bits, ", which holds the same, or larger cells", aside(Field::Cell)
+        ];
+        return Err(StudyError::Conflict { field: Field::Masks, message });
     }
-    if let Some(option) = wants.whole {
-        let what = "the plan is done in tiles, and lines are drawn of the whole; take larger cells (--cell), leave \
-                    --memory out, or leave this out";
-        return Err(StudyError::Conflict { option, what });
+    if wants.lines {
+        let message = message![
+            "the plan is done in tiles, and lines are drawn of the whole";
+            "take larger cells", aside(Field::Cell), ", leave ", Field::Memory, " out, or leave this out"
+        ];
+        return Err(StudyError::Conflict { field: Field::Lines, message });
     }
     Ok(())
 }

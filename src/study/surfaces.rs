@@ -6,6 +6,7 @@ use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_models, t
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::mesh::patches::{MOST_TEXELS, Patches};
+use crate::message::{Field, message};
 use crate::profile::surfaces::SurfaceHours;
 use crate::profile::{Drawn, DrawnSettings, Timings};
 use crate::shadow::ray_cast::RayCast;
@@ -126,29 +127,38 @@ fn samples_of(instant: &Instant, sun_samples: Option<u32>) -> Vec<Sample> {
 
 /// How patches are judged, as asked.
 fn choice(site: &Site) -> Result<Choice, StudyError> {
-    let conflict = |option, what| Err(StudyError::Conflict { option, what });
+    let conflict = |field, message| Err(StudyError::Conflict { field, message });
     let settings = &site.settings;
     if site.finder != Finder::Auto {
-        return conflict("--silhouette", "on surfaces nothing asks a finder; leave the option out");
+        return conflict(Field::Silhouette, message!["on surfaces nothing asks a finder"; "leave the option out"]);
     }
     let of_others = [
-        (settings.map_size.is_some(), "--map-size"),
-        (settings.pcf.is_some(), "--pcf"),
-        (settings.smoothie_width_m.is_some(), "--smoothie-width"),
+        (settings.map_size.is_some(), Field::MapSize),
+        (settings.pcf.is_some(), Field::Pcf),
+        (settings.smoothie_width_m.is_some(), Field::SmoothieWidth),
     ];
-    if let Some((_, option)) = of_others.into_iter().find(|(given, _)| *given) {
-        return conflict(option, "surfaces are judged without a map and without smoothies; leave the option out");
+    if let Some((_, field)) = of_others.into_iter().find(|(given, _)| *given) {
+        return conflict(
+            field,
+            message!["surfaces are judged without a map and without smoothies"; "leave the option out"],
+        );
     }
     match site.method {
         Method::Auto => Ok(Choice::Auto),
         Method::SoftTexture => Ok(Choice::Texture),
-        Method::RayCast if site.engine == Engine::Gpu => {
-            conflict("--engine", "the technique ray-cast works on the cpu; take --technique soft-texture with gpu")
-        }
+        Method::RayCast if site.engine == Engine::Gpu => conflict(
+            Field::Engine,
+            message![
+                "the technique ray-cast works on the cpu";
+                "take ", (Field::Technique, "soft-texture"), " with gpu"
+            ],
+        ),
         Method::RayCast => Ok(Choice::Rays),
         _ => conflict(
-            "--technique",
-            "surfaces are judged by soft-texture or ray-cast, or by auto, which takes for each what costs less",
+            Field::Technique,
+            message![
+                "surfaces are judged by soft-texture or ray-cast, or by auto, which takes for each what costs less"
+            ],
         ),
     }
 }

@@ -2,7 +2,9 @@
 
 use crate::dense::slab;
 use glam::{DVec3, dvec3};
+use gnomon::cli::Options;
 use gnomon::mesh::Mesh;
+use gnomon::message::Worded;
 use gnomon::site::{Engine, Finder, Method, Overrides, Site};
 use gnomon::study::{Event, StudyError, SurfaceOutcome, surfaces};
 use std::ops::ControlFlow;
@@ -102,7 +104,7 @@ fn what_does_not_fit_is_told_and_listeners_may_stop() {
         let mut site = house();
         change(&mut site);
         let error = surfaces(&site, 0.5, &mut |_| ControlFlow::Continue(())).expect_err("a conflict");
-        assert!(error.to_string().contains(word), "{error}");
+        assert!(error.in_words(&Options).contains(word), "{error}");
         error
     };
     assert!(refused(|site| site.method = Method::Stencil, "soft-texture or ray-cast").is_wrong_use());

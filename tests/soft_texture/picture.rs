@@ -2,7 +2,9 @@
 
 use crate::dense::{prism, slab, to_sun};
 use glam::{DVec3, dvec3};
+use gnomon::cli::Options;
 use gnomon::mesh::{Mesh, Part};
+use gnomon::message::Worded;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::soft_picture::SoftPicture;
 use gnomon::shadow::{Scene, Technique};
@@ -99,7 +101,7 @@ fn the_command_draws_it_for_a_camera_on_the_processor() {
         [(View::Plan(site.grid), Engine::Auto, "--receivers surfaces"), (view, Engine::Gpu, "on the cpu")]
     {
         let error = asked(&Site { engine, ..site.clone() }, view).expect_err("a conflict");
-        assert!(error.is_wrong_use() && error.to_string().contains(word), "{error}");
+        assert!(error.is_wrong_use() && error.in_words(&Options).contains(word), "{error}");
     }
 }
 

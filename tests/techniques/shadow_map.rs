@@ -5,7 +5,9 @@ use crate::exact::scenes::{cuboid, sheet};
 use crate::exact::{gpu, plan, scene_of, to_sun};
 use crate::far_wrong::far_wrong;
 use glam::{DVec3, dvec3};
+use gnomon::cli::Options;
 use gnomon::mesh::Mesh;
+use gnomon::message::Worded;
 use gnomon::shadow::map::DEFAULT_SIZE;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
@@ -117,7 +119,7 @@ fn a_map_that_no_adapter_draws_is_refused() {
     let scene = scene_of(&Mesh::build(vec![]).unwrap(), Receivers::Top, 0.0);
     let refused = ShadowMap::new(gpu(), &scene, plan(5.0, 20), 1 << 20, Filter::None).err();
     let Some(error @ ShadowError::MapTooLarge { .. }) = refused else { panic!("not refused") };
-    assert!(error.to_string().contains("--map-size"), "{error}");
+    assert!(error.in_words(&Options).contains("--map-size"), "{error}");
 }
 
 #[test]

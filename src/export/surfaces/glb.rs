@@ -240,10 +240,7 @@ impl File {
         let document = serde_json::to_vec(&document).map_err(refused)?;
         let total = 12 + 8 + document.len().next_multiple_of(4) as u64 + 8 + self.data.len() as u64;
         let Ok(length) = u32::try_from(total) else {
-            let gib = total as f64 / f64::from(1 << 30);
-            return Err(refused(format!(
-                "the file would be {gib:.1} GiB, and GLB ends at 4; take a larger --patch-cell"
-            )));
+            return Err(ExportError::LargeGlb { size: total });
         };
         let header = Header { magic: *b"glTF", version: 2, length };
         Glb { header, json: Cow::Owned(document), bin: Some(Cow::Owned(self.data)) }.to_vec().map_err(refused)
