@@ -11,6 +11,7 @@
 //! World frame: x east, y north, z up, metres, right-handed. Geometry is `f32` around [`mesh::Mesh::origin`];
 //! time, sun and map coordinates are `f64`.
 
+pub mod choice;
 pub mod mesh;
 pub mod sun;
 pub mod view;

@@ -5,21 +5,52 @@ use std::path::{Path, PathBuf};
 
 /// The modules in reading order, and whom each may know. Everybody may know themselves.
 const MAY_KNOW: &[(&str, &[&str])] = &[
+    ("choice", &[]),
     ("mesh", &[]),
     ("sun", &[]),
     ("view", &[]),
-    ("site", &["mesh", "sun", "view"]),
+    ("site", &["choice", "mesh", "sun", "view"]),
     ("silhouette", &["mesh"]),
     ("volume", &["mesh", "silhouette"]),
     ("gpu", &[]),
-    ("shadow", &["mesh", "sun", "view", "silhouette", "volume", "gpu"]),
-    ("profile", &["mesh", "sun", "view", "gpu", "shadow"]),
-    ("study", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
-    ("export", &["mesh", "sun", "view", "site", "volume", "profile"]),
-    ("cli", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export"]),
+    ("shadow", &["choice", "mesh", "sun", "view", "silhouette", "volume", "gpu"]),
+    ("profile", &["choice", "mesh", "sun", "view", "gpu", "shadow"]),
+    ("study", &["choice", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
+    ("export", &["choice", "mesh", "sun", "view", "site", "volume", "profile"]),
+    (
+        "cli",
+        &[
+            "choice",
+            "mesh",
+            "sun",
+            "view",
+            "site",
+            "silhouette",
+            "volume",
+            "gpu",
+            "shadow",
+            "profile",
+            "study",
+            "export",
+        ],
+    ),
     (
         "desktop",
-        &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export", "cli"],
+        &[
+            "choice",
+            "mesh",
+            "sun",
+            "view",
+            "site",
+            "silhouette",
+            "volume",
+            "gpu",
+            "shadow",
+            "profile",
+            "study",
+            "export",
+            "cli",
+        ],
     ),
 ];
 
@@ -41,6 +72,9 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
         "only site reads what the user wrote, export what it wrote itself, and sun the system's rules of clocks",
     ),
     ("File::open", &["site"], "only site reads what the user wrote"),
+    ("\"ray-cast\"", &["choice"], "techniques are types until they are printed"),
+    ("\"shadow-map\"", &["choice"], "techniques are types until they are printed"),
+    ("\"soft-texture\"", &["choice"], "techniques are types until they are printed"),
     ("SystemTime::now", &[], "nothing reads the clock"),
     ("Utc::now", &[], "nothing reads the clock"),
     ("Local::now", &[], "nothing reads the clock"),
@@ -193,6 +227,7 @@ fn checker_finds_each_kind_of_fault() {
         ("profile/mod.rs", "let text = std::fs::read_to_string(path)?;"),
         ("sun/clock.rs", "let now = chrono::Utc::now();"),
         ("cli.rs", "let now = std::time::SystemTime::now();"),
+        ("desktop/view.rs", "let casts = drawn.technique == \"ray-cast\";"),
     ];
     for (path, source) in bad {
         assert_eq!(faults(Path::new(path), source).len(), 1, "{path}: {source}");

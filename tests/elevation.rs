@@ -94,12 +94,12 @@ fn no_other_technique_draws_a_side() {
     for method in [Method::Stencil, Method::Projected, Method::ShadowMap, Method::Hybrid, Method::SoftTexture] {
         let way = Way { method, settings: Settings::default() };
         let fault = live.draw(&way, to_sun(180.0, 40.0), &style, &target).expect_err("a fault").to_string();
-        assert!(fault.contains("--technique") && fault.contains("ray-cast"), "{method}: {fault}");
+        assert!(fault.contains("technique: ") && fault.contains("ray-cast"), "{method}: {fault}");
     }
     for method in [Method::Auto, Method::RayCast] {
         let way = Way { method, settings: Settings::default() };
         let drawn = live.draw(&way, to_sun(180.0, 40.0), &style, &target).unwrap();
-        assert_eq!(drawn.technique, "ray-cast", "{method}");
+        assert_eq!(drawn.technique, Method::RayCast, "{method}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! All tests in one binary, which links once.
 
 mod architecture;
+mod choice;
 mod clock;
 mod command;
 mod counts;

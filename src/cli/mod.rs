@@ -16,6 +16,7 @@ mod probe;
 mod profile;
 mod progress;
 mod surfaces;
+mod technique;
 mod verify;
 mod volumes;
 
@@ -55,7 +56,10 @@ pub fn main(window: Option<Window>) -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            complain(&one_line(&error));
+            complain(&match error.downcast_ref() {
+                Some(StudyError::Misfit(misfit)) => technique::told(misfit),
+                _ => one_line(&error),
+            });
             ExitCode::from(status(&error))
         }
     }

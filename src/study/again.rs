@@ -1,7 +1,8 @@
 //! Work that is done again where the graphics device fails that it is done on.
 
 use super::{Event, OnEvent, StudyError, tell};
-use crate::site::{Engine, Finder, Method, Site};
+use crate::choice::{Engine, Finder};
+use crate::site::Site;
 
 /// Does what is asked of a site. Where the device fails on the way it is done once more on a new one, and where that fails
 /// too on the processor: if that `can` do it, and nobody asked for what draws on an adapter alone. Notes say so.
@@ -17,9 +18,8 @@ pub fn persist<T>(
     let mut done = work(site, on_event);
     if begins_anew(&done, "on a new device", on_event)? {
         done = work(site, on_event);
-        let is_free = site.engine == Engine::Auto
-            && site.finder == Finder::Auto
-            && matches!(site.method, Method::Auto | Method::SoftTexture);
+        let is_free =
+            site.engine == Engine::Auto && site.finder == Finder::Auto && !site.method.row().on_cpu.is_empty();
         if can && is_free && begins_anew(&done, "on the processor", on_event)? {
             done = work(&Site { engine: Engine::Cpu, ..site.clone() }, on_event);
         }

@@ -4,13 +4,14 @@
 
 use super::machine::{Machine, choose_on};
 use super::{StudyError, night};
+use crate::choice::{Method, Receivers, Settings};
 use crate::gpu::Gpu;
 use crate::profile::Drawn;
 use crate::shadow::overlay::VolumePicture;
 use crate::shadow::picture::{Picture, Style};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{DrawnMask, Scene, Technique};
-use crate::site::{Method, Receivers, Settings, Site};
+use crate::site::Site;
 use crate::view::{Camera, Counted, Mask, View};
 use glam::DVec3;
 use std::ops::ControlFlow;
@@ -111,7 +112,7 @@ impl Live {
     /// night.
     ///
     /// # Errors
-    /// [`StudyError::Conflict`] where the way does not go with the view; else what drawing says.
+    /// [`StudyError::Misfit`] where the way does not go with the view; else what drawing says.
     pub fn draw(
         &mut self,
         way: &Way,
@@ -122,9 +123,10 @@ impl Live {
         let machine = self.machine(way)?;
         let drawn = machine.drawn();
         let is_night = to_sun.z <= 0.0;
-        if let Machine::RayCast { sun_samples } = &machine {
-            let rays = self.rays.take().filter(|(_, samples)| samples == sun_samples);
-            let new = || (RayCast::new(self.scene.clone(), far_view(&self.scene), *sun_samples), *sun_samples);
+        if machine.method() == Method::RayCast {
+            let sun_samples = machine.settings().sun_samples;
+            let rays = self.rays.take().filter(|(_, samples)| *samples == sun_samples);
+            let new = || (RayCast::new(self.scene.clone(), far_view(&self.scene), sun_samples), sun_samples);
             let (rays, _) = self.rays.insert(rays.unwrap_or_else(new));
             if rays.view() != self.view {
                 rays.look_at(self.view);
@@ -156,7 +158,7 @@ impl Live {
     /// As [`Live::draw`].
     pub fn counted(&mut self, way: &Way, to_sun: DVec3) -> Result<Option<Counted>, StudyError> {
         let machine = self.machine(way)?;
-        if to_sun.z <= 0.0 || !matches!(machine, Machine::OnGpu(..)) {
+        if to_sun.z <= 0.0 || machine.gpu().is_none() {
             return Ok(None);
         }
         let technique = made(&mut self.made, machine, (self.view, *way), &self.scene)?;

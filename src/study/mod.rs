@@ -27,6 +27,7 @@ pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 pub use tiles::Budget;
 
+use crate::choice::{Misfit, Subject};
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
@@ -167,6 +168,9 @@ pub enum StudyError {
         /// Why, and the way out.
         what: &'static str,
     },
+    /// Technique, engine and settings that do not go together, or not with what is drawn.
+    #[error(transparent)]
+    Misfit(#[from] Misfit),
     /// The plan does not fit the memory that there is for it.
     #[error(
         "--memory: {} is too little for rows of {width} cells; take at least {}, or larger cells (--cell)",
@@ -243,7 +247,8 @@ pub enum StudyError {
 impl StudyError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
-        matches!(self, StudyError::Conflict { .. } | StudyError::LittleMemory { .. } | StudyError::TooManyCells { .. })
+        use StudyError::{Conflict, LittleMemory, Misfit, TooManyCells};
+        matches!(self, Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. })
     }
 
     /// What a graphics device failed of, where it did while working: on another one the work can be done.
@@ -276,6 +281,17 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
     }
 }
 
+/// What a technique draws of a view.
+fn subject(view: &View, receivers: Receivers) -> Subject {
+    match (view, receivers) {
+        (View::Camera(_), _) => Subject::Camera,
+        (View::Elevation(_), _) => Subject::Side,
+        (View::Plan(_), Receivers::Top) => Subject::Top,
+        (View::Plan(_), Receivers::Ground) => Subject::Ground,
+        (View::Plan(_), Receivers::Surfaces) => Subject::Surfaces,
+    }
+}
+
 /// The seconds of the window with the sun above the horizon, and without.
 pub fn day_and_night(track: &SunTrack) -> (u32, u32) {
     // both fit: a window is at most ten years, 3.2e8 s
@@ -295,11 +311,11 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn technique(&self) -> Result<Box<dyn Technique>, ShadowError> {
+    fn technique(&self) -> Result<Box<dyn Technique>, StudyError> {
         self.machine.technique(self.scene(), self.view)
     }
 
-    fn technique_of(&self, tile: Tile) -> Result<Box<dyn Technique>, ShadowError> {
+    fn technique_of(&self, tile: Tile) -> Result<Box<dyn Technique>, StudyError> {
         self.machine.technique_of(self.scene(), tile)
     }
 

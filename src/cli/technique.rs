@@ -1,0 +1,107 @@
+//! The options that say how shadows are found; what each is for is read from the table of techniques.
+
+use crate::choice::{Engine, Filter, Finder, MAP_SIZE, Method, Misfit, Setting, Settings, Subject, TABLE, listed};
+use crate::silhouette::hextree::DEEPEST;
+use crate::site::Overrides;
+use clap::{Args, value_parser};
+
+/// How shadows are found.
+#[derive(Debug, Args)]
+pub(super) struct DrawArgs {
+    #[arg(long, value_name = "NAME", help = techniques())]
+    technique: Option<Method>,
+    #[command(flatten)]
+    finder: FinderArgs,
+    #[arg(long, value_name = "NAME", help = one_of(Engine::WORDS))]
+    engine: Option<Engine>,
+    #[command(flatten)]
+    maps: MapArgs,
+    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024; with soft-texture in a camera's picture
+    /// [default: 64]; on surfaces with either [default: its centre]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
+    sun_samples: Option<u32>,
+}
+
+/// Who finds silhouettes.
+#[derive(Debug, Args)]
+pub(super) struct FinderArgs {
+    #[arg(long, value_name = "NAME", help = with(Setting::Finder, &one_of(Finder::WORDS)))]
+    silhouette: Option<Finder>,
+    /// With --silhouette hextree: the tree of the paper, so many levels deep (its own: 4), instead of its successor
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=i64::from(DEEPEST)),
+          allow_negative_numbers = true)]
+    hextree_depth: Option<u32>,
+}
+
+/// What techniques with a map can be told.
+#[derive(Debug, Args)]
+pub(super) struct MapArgs {
+    #[arg(long, value_name = "TEXELS", value_parser = value_parser!(u32).range(256..=8192),
+          allow_negative_numbers = true,
+          help = with(Setting::MapSize, &format!("texels along the map's side, 256 to 8192 [default: {MAP_SIZE}]")))]
+    map_size: Option<u32>,
+    #[arg(long, value_name = "NAME", help = with(Setting::Filter, &filters()))]
+    pcf: Option<Filter>,
+    #[arg(long, value_name = "M", allow_negative_numbers = true,
+          help = with(Setting::SmoothieWidth, "how wide the soft edge is at most, metres across the sun's rays \
+                      [default: as wide as the sun's disc makes it on the lowest receiver]"))]
+    smoothie_width: Option<f64>,
+}
+
+/// Each technique with what it is good for.
+fn techniques() -> String {
+    let told: Vec<_> = TABLE.iter().map(|row| format!("{}: {}", row.word, row.good_for)).collect();
+    format!("{}. What each draws and how wrong it can be: docs/techniques.md", told.join(". "))
+}
+
+/// `a, b or c`
+fn one_of<T>(words: &[(&'static str, T)]) -> String {
+    listed(&words.iter().map(|(word, _)| *word).collect::<Vec<_>>(), "or")
+}
+
+/// What an option says to the techniques that use it.
+fn with(setting: Setting, what: &str) -> String {
+    format!("With {}: {what}", listed(&setting.users(), "and"))
+}
+
+fn filters() -> String {
+    let default = Method::ShadowMap.row().defaults.filter.map_or("", Filter::word);
+    format!("how comparisons are filtered: {} [default: {default}]", one_of(Filter::WORDS))
+}
+
+impl DrawArgs {
+    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
+        let DrawArgs { technique, ref finder, engine, ref maps, sun_samples } = *self;
+        let settings = maps.settings(sun_samples);
+        finder.onto(Overrides { technique, engine, settings, ..asked })
+    }
+}
+
+impl FinderArgs {
+    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
+        Overrides { silhouette: self.silhouette, hextree_depth: self.hextree_depth, ..asked }
+    }
+}
+
+impl MapArgs {
+    pub(super) fn settings(&self, sun_samples: Option<u32>) -> Settings {
+        let MapArgs { map_size, pcf, smoothie_width } = *self;
+        Settings { map_size, filter: pcf, smoothie_width_m: smoothie_width, sun_samples }
+    }
+}
+
+/// Choices that do not go together, as options, with those by which the technique would draw.
+pub(super) fn told(misfit: &Misfit) -> String {
+    let option = |subject: &Subject| match subject {
+        Subject::Top => "--receivers top",
+        Subject::Ground => "--receivers ground",
+        Subject::Camera => "--view camera",
+        Subject::Side => "--view north, east, south or west",
+        Subject::Surfaces => "--receivers surfaces",
+    };
+    let instead = misfit.draws_instead().map(|(method, subjects)| {
+        let options: Vec<_> = subjects.iter().map(option).collect();
+        format!("; {method} goes with {}", listed(&options, "or"))
+    });
+    format!("--{misfit}{}", instead.unwrap_or_default())
+}
