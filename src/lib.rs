@@ -12,6 +12,7 @@
 //! time, sun and map coordinates are `f64`.
 
 pub mod choice;
+pub mod look;
 pub mod mesh;
 pub mod sun;
 pub mod view;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 /// The modules in reading order, and whom each may know. Everybody may know themselves.
 const MAY_KNOW: &[(&str, &[&str])] = &[
     ("choice", &[]),
+    ("look", &[]),
     ("mesh", &[]),
     ("sun", &[]),
     ("view", &[]),
@@ -13,10 +14,10 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("silhouette", &["mesh"]),
     ("volume", &["mesh", "silhouette"]),
     ("gpu", &[]),
-    ("shadow", &["choice", "mesh", "sun", "view", "silhouette", "volume", "gpu"]),
+    ("shadow", &["choice", "look", "mesh", "sun", "view", "silhouette", "volume", "gpu"]),
     ("profile", &["choice", "mesh", "sun", "view", "gpu", "shadow"]),
-    ("study", &["choice", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
-    ("export", &["choice", "mesh", "sun", "view", "site", "volume", "profile"]),
+    ("study", &["choice", "look", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
+    ("export", &["choice", "look", "mesh", "sun", "view", "site", "volume", "profile"]),
     (
         "cli",
         &[

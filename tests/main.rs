@@ -19,6 +19,7 @@ mod folders;
 mod geometry;
 mod gpu_silhouettes;
 mod live;
+mod look;
 mod lost;
 mod mistakes;
 mod model;
