@@ -275,3 +275,18 @@ fn without_casters_nothing_is_drawn() {
     assert!(picture.layers().unwrap().iter().all(|layers| *layers == 0));
     assert!(picture.silhouette().unwrap().iter().all(|cover| *cover == 0));
 }
+
+#[test]
+fn turning_to_another_camera_and_sun_leaves_no_trace() {
+    let scene = scene(&[(LOW, HIGH), (LOW_2, HIGH_2)], true);
+    let small = Camera { width: SIZE.0 / 2, height: SIZE.1 / 3, ..camera(eyes()[1]) };
+    let mut turned = VolumePicture::new(gpu(), &scene, small, suns()[0]).unwrap();
+    let first = turned.layers().unwrap();
+    for (eye, sun) in eyes().into_iter().zip(suns()) {
+        turned.turn_to(camera(eye), sun).unwrap();
+        let fresh = VolumePicture::new(gpu(), &scene, camera(eye), sun).unwrap();
+        assert!(turned.layers().unwrap() == fresh.layers().unwrap(), "layers from {eye}");
+        assert!(turned.silhouette().unwrap() == fresh.silhouette().unwrap(), "silhouette from {eye}");
+        assert!(first.len() != fresh.layers().unwrap().len());
+    }
+}

@@ -53,6 +53,8 @@ pub struct Live {
     made: Option<(View, Way, Box<dyn Technique>)>,
     /// Rays turn to another view at once; they go to so many points of the sun.
     rays: Option<(RayCast, Option<u32>)>,
+    /// Volumes and silhouette, before the camera that they were shown to last.
+    volumes: Option<VolumePicture>,
     night: Mask,
 }
 
@@ -75,6 +77,7 @@ impl Live {
             looks_at: (view, false),
             made: None,
             rays: None,
+            volumes: None,
             night: night(&view),
         })
     }
@@ -89,7 +92,7 @@ impl Live {
         }
         if self.site.casts != site.casts {
             self.scene.casters = site.mesh.of_components(&site.casts);
-            (self.made, self.rays) = (None, None);
+            (self.made, self.rays, self.volumes) = (None, None, None);
         }
         self.site = without_models(site);
         true
@@ -178,7 +181,14 @@ impl Live {
         let most = self.gpu.limits.max_texture_dimension_2d;
         let times = if camera.width.max(camera.height) * 2 <= most { 2 } else { 1 };
         let fine = Camera { width: camera.width * times, height: camera.height * times, ..camera };
-        let seen = VolumePicture::new(Arc::clone(&self.gpu), &self.scene, fine, to_sun)?;
+        let seen = match self.volumes.take() {
+            Some(mut kept) => {
+                kept.turn_to(fine, to_sun)?;
+                kept
+            }
+            None => VolumePicture::new(Arc::clone(&self.gpu), &self.scene, fine, to_sun)?,
+        };
+        let seen = self.volumes.insert(seen);
         let layers = volumes.then(|| seen.layers()).transpose()?;
         let ink = silhouette.then(|| seen.silhouette()).transpose()?;
         self.picture.lay_overlay((fine.width, fine.height), layers.as_deref(), ink.as_deref());
