@@ -25,6 +25,8 @@ pub mod volume;
 pub mod gpu;
 pub mod shadow;
 
+pub mod picture;
+
 pub mod profile;
 pub mod study;
 

@@ -14,9 +14,13 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("silhouette", &["mesh"]),
     ("volume", &["mesh", "silhouette"]),
     ("gpu", &[]),
-    ("shadow", &["choice", "look", "mesh", "sun", "view", "silhouette", "volume", "gpu"]),
+    ("shadow", &["choice", "mesh", "sun", "view", "silhouette", "volume", "gpu"]),
+    ("picture", &["look", "mesh", "view", "silhouette", "volume", "gpu", "shadow"]),
     ("profile", &["choice", "mesh", "sun", "view", "gpu", "shadow"]),
-    ("study", &["choice", "look", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
+    (
+        "study",
+        &["choice", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "picture", "profile"],
+    ),
     ("export", &["choice", "look", "mesh", "sun", "view", "site", "volume", "profile"]),
     (
         "cli",
@@ -47,6 +51,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "volume",
             "gpu",
             "shadow",
+            "picture",
             "profile",
             "study",
             "export",

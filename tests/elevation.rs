@@ -88,9 +88,8 @@ fn no_other_technique_draws_a_side() {
     let site = Site::load(&site, &Overrides::default()).unwrap();
     let view = View::Elevation(scene().1);
     let mut live = Live::new(&site, gpu(), view).unwrap();
-    let target = gnomon::shadow::picture::Picture::target(&gpu(), &view);
-    let style =
-        gnomon::shadow::picture::Style { focus_m: 1.0, lines: 1.0, wide_lines: false, tinted: false, hours: false };
+    let target = gnomon::picture::Picture::target(&gpu(), &view);
+    let style = gnomon::picture::Style { focus_m: 1.0, lines: 1.0, wide_lines: false, tinted: false, hours: false };
     for method in [Method::Stencil, Method::Projected, Method::ShadowMap, Method::Hybrid, Method::SoftTexture] {
         let way = Way { method, settings: Settings::default() };
         let fault = live.draw(&way, to_sun(180.0, 40.0), &style, &target).expect_err("a fault").to_string();

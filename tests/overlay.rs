@@ -5,8 +5,8 @@ use crate::exact::gpu;
 use crate::exact::scenes::cuboid;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use gnomon::mesh::Mesh;
+use gnomon::picture::overlay::VolumePicture;
 use gnomon::shadow::Scene;
-use gnomon::shadow::overlay::VolumePicture;
 use gnomon::view::Camera;
 
 const LOW: DVec3 = dvec3(-6.3, -4.2, 0.0);

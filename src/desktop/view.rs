@@ -10,7 +10,7 @@ use super::settings::Shown as Choice;
 use super::sky;
 use super::stage::{Shown, Stage, Wish};
 use crate::choice::{Engine, Method, Settings, Subject};
-use crate::shadow::picture::Style;
+use crate::picture::Style;
 use crate::study::live::{FARTHEST, Way};
 use crate::view::View;
 use eframe::egui::{self, Align2, PointerButton, Rect, Sense, Ui};

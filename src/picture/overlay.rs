@@ -1,14 +1,14 @@
 //! Shadow volumes and silhouette for the eye, over a camera's picture: the figures 5 and 6 of seed 004.
 //!
-//! The volumes are those of [`super::stencil`]: the same vertex stages, and the same stencil, in which fronts and
+//! The volumes are those of [`crate::shadow::stencil`]: the same vertex stages, and the same stencil, in which fronts and
 //! backs both count upwards here. So the picture shows what the technique counts, in layers.
 //!
 //! Deviations from what the technique counts: each wall once, whatever its multiplicity, so that clean solids are not
 //! twice as dark; and a count stays at 255 when it gets there.
 
-use super::{GpuSurface, Scene, ShadowError};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
+use crate::shadow::{GpuSurface, Scene, ShadowError};
 use crate::silhouette::Kind;
 use crate::view::{Camera, View};
 use crate::volume::Volume;

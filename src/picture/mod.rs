@@ -3,16 +3,20 @@
 //!
 //! [`crate::export`] draws sheets on the processor, cell by cell; a test holds the two against each other.
 
-pub use super::patch_textures::PatchColours;
-use super::patch_textures::textures;
-use super::surface::{PLANES_WIDTH, UNIFORM, bind_group_layout, texture_binding};
-use super::{DrawnMask, GpuSurface, Scene, ShadowError};
+pub mod overlay;
+mod patch_textures;
+
+pub use patch_textures::PatchColours;
+
 use crate::gpu::layout::{self, Shown};
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
 use crate::look::{LOOK, Look};
+use crate::shadow::surface::{PLANES_WIDTH, UNIFORM, bind_group_layout, texture_binding};
+use crate::shadow::{DrawnMask, GpuSurface, Scene, ShadowError};
 use crate::view::{Mask, View};
 use glam::DVec3;
+use patch_textures::textures;
 use std::sync::Arc;
 use wgpu::*;
 
@@ -282,7 +286,7 @@ impl Picture {
 }
 
 /// Fills a texture with its texels, row 0 first.
-pub(super) fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
+fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
     let bytes_per_row = Some((bytes.len() / texture.height() as usize) as u32);
     let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
     gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
