@@ -70,13 +70,13 @@ impl fmt::Display for Misfit {
         write!(f, "{}: ", self.choice())?;
         match *self {
             Misfit::Technique { method, subject } => {
-                let others = listed(&that_draw(Engine::Auto, subject), "or");
+                let others = listed(&subject.drawn_by(Engine::Auto), "or");
                 write!(f, "{method} does not draw {}; take {others}", subject.name())
             }
             Misfit::Engine { method, engine, subject } => {
                 let other = if engine == Engine::Gpu { Engine::Cpu } else { Engine::Gpu };
                 write!(f, "{method} draws {} on the {other} alone; ", subject.name())?;
-                match that_draw(engine, subject).as_slice() {
+                match subject.drawn_by(engine).as_slice() {
                     [] => f.write_str("leave it out, as nothing else draws that on the other machine"),
                     others => write!(f, "leave it out, or take {} with {engine}", listed(others, "or")),
                 }
@@ -98,12 +98,6 @@ impl fmt::Display for Misfit {
 }
 
 impl std::error::Error for Misfit {}
-
-/// The words of the techniques that draw something, but for the program's own choice.
-fn that_draw(engine: Engine, subject: Subject) -> Vec<&'static str> {
-    let rows = TABLE.iter().filter(|row| row.method != Method::Auto && row.draws(engine, subject));
-    rows.map(|row| row.word).collect()
-}
 
 impl MethodRow {
     /// The machine that draws, where nothing but technique and machine are asked: the processor where it can.

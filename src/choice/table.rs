@@ -31,6 +31,12 @@ impl Subject {
             Subject::Surfaces => "façades and roofs",
         }
     }
+
+    /// The words of the techniques that draw it on a machine, but for the program's own choice.
+    pub fn drawn_by(self, engine: Engine) -> Vec<&'static str> {
+        let rows = TABLE.iter().filter(|row| row.method != Method::Auto && row.draws(engine, self));
+        rows.map(|row| row.word).collect()
+    }
 }
 
 /// An option that some techniques use, and others not.

@@ -9,7 +9,7 @@ use super::memory;
 use super::model::{GroundArgs, ModelArgs};
 use super::probe::ProbeArgs;
 pub(super) use super::technique::DrawArgs;
-use super::technique::{FinderArgs, MapArgs};
+use super::technique::{self, FinderArgs, MapArgs};
 use crate::choice::Receivers;
 use crate::site::Overrides;
 use crate::study::verify::SIZE;
@@ -203,9 +203,7 @@ pub(super) struct ProfileArgs {
     /// with the same results. Models, the program and the adapter's driver come on top [default: as much as it takes]
     #[arg(long, value_name = "SIZE", value_parser = memory::parse, allow_hyphen_values = true)]
     pub(super) memory: Option<u64>,
-    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
-    /// cells, those of the sky too)
-    #[arg(long)]
+    #[arg(long, help = technique::stats())]
     pub(super) stats: bool,
     /// Which files [default: png,tif,json; with --receivers surfaces png,glb,csv,json]
     #[arg(long, value_name = "png,tif,glb,csv,json", value_delimiter = ',')]
@@ -256,17 +254,13 @@ pub(super) struct ShadowArgs {
     draw: DrawArgs,
     #[command(flatten)]
     pub(super) plan: PlanArgs,
-    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
-    /// cells, those of the sky too)
-    #[arg(long)]
+    #[arg(long, help = technique::stats())]
     pub(super) stats: bool,
     /// From where
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
     pub(super) view: Eye,
-    /// Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours.
-    /// Or instead of sun and shadow, on the plan too: mask (with hybrid: what the map decided and what the volumes did),
-    /// overdraw (with stencil or hybrid: fragments that were counted, as brightness)
-    #[arg(long, value_name = "volumes,silhouette,components|mask|overdraw", value_delimiter = ',')]
+    #[arg(long, value_name = "volumes,silhouette,components|mask|overdraw", value_delimiter = ',',
+          help = technique::show())]
     pub(super) show: Vec<Show>,
     /// The drawing [default: shadow.png, or none with --mask]
     #[arg(long, value_name = "FILE.png")]

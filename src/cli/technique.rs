@@ -1,6 +1,8 @@
 //! The options that say how shadows are found; what each is for is read from the table of techniques.
 
-use crate::choice::{Engine, Filter, Finder, MAP_SIZE, Method, Misfit, Setting, Settings, Subject, TABLE, listed};
+use crate::choice::{
+    Engine, Filter, Finder, MAP_SIZE, Method, MethodRow, Misfit, Promise, Setting, Settings, Subject, TABLE, listed,
+};
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::Overrides;
 use clap::{Args, value_parser};
@@ -16,9 +18,8 @@ pub(super) struct DrawArgs {
     engine: Option<Engine>,
     #[command(flatten)]
     maps: MapArgs,
-    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024; with soft-texture in a camera's picture
-    /// [default: 64]; on surfaces with either [default: its centre]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true,
+          help = with(Setting::SunSamples, &samples()))]
     sun_samples: Option<u32>,
 }
 
@@ -67,6 +68,40 @@ fn with(setting: Setting, what: &str) -> String {
 fn filters() -> String {
     let default = Method::ShadowMap.row().defaults.filter.map_or("", Filter::word);
     format!("how comparisons are filtered: {} [default: {default}]", one_of(Filter::WORDS))
+}
+
+fn samples() -> String {
+    let MethodRow { word, defaults, .. } = Method::SoftTexture.row();
+    let points = defaults.sun_samples.unwrap_or_default();
+    format!(
+        "so many points of the sun's disc, 1 to 1024 [default: its centre; with {word} in a camera's picture {points}]"
+    )
+}
+
+/// What `--stats` tells.
+pub(super) fn stats() -> String {
+    let counting = listed(&counting(), "and");
+    format!(
+        "Also what counting the shadow volumes took, with {counting}: overdraw, and the share of silhouette cells (of all \
+         cells, those of the sky too)"
+    )
+}
+
+/// What `--show` shows.
+pub(super) fn show() -> String {
+    let by_map = TABLE.iter().filter(|row| row.promise == Promise::ExactButForMap).map(|row| row.word);
+    let by_map = listed(&by_map.collect::<Vec<_>>(), "and");
+    let counting = listed(&counting(), "or");
+    format!(
+        "Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours. Or \
+         instead of sun and shadow, on the plan too: mask (with {by_map}: what the map decided and what the volumes did), \
+         overdraw (with {counting}: fragments that were counted, as brightness)"
+    )
+}
+
+/// The words of the techniques that count volumes.
+fn counting() -> Vec<&'static str> {
+    TABLE.iter().filter(|row| row.counts).map(|row| row.word).collect()
 }
 
 impl DrawArgs {

@@ -142,8 +142,11 @@ fn silhouettes(rows: &[Row]) -> String {
 /// How large maps were, how the shadow map was filtered, and how wide smoothies were where that was set by hand.
 fn maps(rows: &[Row]) -> Option<String> {
     let size = rows.iter().find_map(|row| row.drawn.settings.map_size)?;
-    let pcf =
-        rows.iter().find_map(|row| row.drawn.settings.filter).map(|filter| format!(", shadow-map filtered {filter}"));
+    let filtered = |row: &Row| {
+        let filter = row.drawn.settings.filter?;
+        Some(format!(", {} filtered {filter}", row.drawn.technique))
+    };
+    let pcf = rows.iter().find_map(filtered);
     let width = rows.iter().find_map(|row| row.drawn.settings.smoothie_width_m);
     let width = width.map(|width| format!(", smoothies of at most {width} m"));
     Some(format!("maps of {size} × {size} texels{}{}", pcf.unwrap_or_default(), width.unwrap_or_default()))
