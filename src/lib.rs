@@ -13,6 +13,8 @@
 
 pub mod message;
 
+pub mod choice;
+pub mod look;
 pub mod mesh;
 pub mod sun;
 pub mod view;
@@ -24,6 +26,8 @@ pub mod volume;
 
 pub mod gpu;
 pub mod shadow;
+
+pub mod picture;
 
 pub mod profile;
 pub mod study;

@@ -6,21 +6,28 @@ use std::path::{Path, PathBuf};
 /// The modules in reading order, and whom each may know. Everybody may know themselves.
 const MAY_KNOW: &[(&str, &[&str])] = &[
     ("message", &[]),
+    ("choice", &[]),
+    ("look", &[]),
     ("mesh", &[]),
     ("sun", &[]),
     ("view", &[]),
-    ("site", &["mesh", "sun", "view"]),
+    ("site", &["choice", "mesh", "sun", "view"]),
     ("silhouette", &["mesh"]),
     ("volume", &["mesh", "silhouette"]),
     ("gpu", &[]),
-    ("shadow", &["mesh", "sun", "view", "silhouette", "volume", "gpu"]),
-    ("profile", &["mesh", "sun", "view", "gpu", "shadow"]),
-    ("study", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
-    ("export", &["mesh", "sun", "view", "site", "volume", "profile"]),
+    ("shadow", &["choice", "mesh", "sun", "view", "silhouette", "volume", "gpu"]),
+    ("picture", &["look", "mesh", "view", "silhouette", "volume", "gpu", "shadow"]),
+    ("profile", &["choice", "mesh", "sun", "view", "gpu", "shadow"]),
+    (
+        "study",
+        &["choice", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "picture", "profile"],
+    ),
+    ("export", &["choice", "look", "mesh", "sun", "view", "site", "volume", "profile"]),
     ("fault", &["sun", "site", "gpu", "shadow", "study", "export"]),
     (
         "cli",
         &[
+            "choice",
             "mesh",
             "sun",
             "view",
@@ -38,6 +45,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     (
         "desktop",
         &[
+            "choice",
             "mesh",
             "sun",
             "view",
@@ -46,6 +54,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "volume",
             "gpu",
             "shadow",
+            "picture",
             "profile",
             "study",
             "export",
@@ -79,6 +88,9 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
         "only site reads what the user wrote, export what it wrote itself, and sun the system's rules of clocks",
     ),
     ("File::open", &["site"], "only site reads what the user wrote"),
+    ("\"ray-cast\"", &["choice"], "techniques are types until they are printed"),
+    ("\"shadow-map\"", &["choice"], "techniques are types until they are printed"),
+    ("\"soft-texture\"", &["choice"], "techniques are types until they are printed"),
     ("SystemTime::now", &[], "nothing reads the clock"),
     ("Utc::now", &[], "nothing reads the clock"),
     ("Local::now", &[], "nothing reads the clock"),
@@ -282,6 +294,7 @@ fn checker_finds_each_kind_of_fault() {
         ("cli.rs", "let now = std::time::SystemTime::now();"),
         ("study/machine.rs", "let what = \"take a longer --step\";"),
         ("desktop/panel.rs", "ui.label(\"--technique: rays alone\");"),
+        ("desktop/view.rs", "let casts = drawn.technique == \"ray-cast\";"),
     ];
     for (path, source) in bad {
         assert_eq!(faults(Path::new(path), source).len(), 1, "{path}: {source}");

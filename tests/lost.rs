@@ -190,7 +190,7 @@ fn software_adapter_does_what_the_processor_cannot() {
     let mut told = Told::default();
     let again = study::instant(&free, view, &volumes, &mut told.losing(1, 3)).expect("an instant");
     told.is_of_software();
-    assert_eq!(again.drawn.technique, "stencil");
+    assert_eq!(again.drawn.technique, Method::Stencil);
     assert!(again.overlay.expect("volumes").layers == right.overlay.expect("volumes").layers);
 
     let statistics = Wants { statistics: true, ..Wants::default() };

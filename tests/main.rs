@@ -1,6 +1,7 @@
 //! All tests in one binary, which links once.
 
 mod architecture;
+mod choice;
 mod clock;
 mod command;
 mod counts;
@@ -18,6 +19,7 @@ mod folders;
 mod geometry;
 mod gpu_silhouettes;
 mod live;
+mod look;
 mod lost;
 mod message;
 mod mistakes;

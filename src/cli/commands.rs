@@ -170,7 +170,7 @@ pub(super) fn drawn_by(drawn: &Drawn, ground: &Ground) -> String {
     if let Some(adapter) = &drawn.adapter {
         let _ = write!(line, " ({adapter})");
     }
-    if let Some(silhouette) = drawn.silhouette {
+    if let Some(silhouette) = drawn.finder {
         let _ = write!(line, ", silhouettes {silhouette}");
     }
     let _ = write!(line, "\nground at {}", ground.said());

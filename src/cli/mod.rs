@@ -17,6 +17,7 @@ mod probe;
 mod profile;
 mod progress;
 mod surfaces;
+mod technique;
 mod verify;
 mod volumes;
 

@@ -6,12 +6,13 @@ use super::pick::Under;
 use super::settings::Settings;
 use super::unit::Unit;
 use super::work::Work;
+use crate::choice::{Engine, Method, Receivers, Subject};
 use crate::export::figure::{self, scale::Rgb};
 use crate::export::report::{self, Told};
 use crate::export::surfaces::{self, Atlas, Surfaces};
+use crate::picture::{PatchColours, Picture};
 use crate::shadow::ShadowError;
-use crate::shadow::picture::{PatchColours, Picture};
-use crate::site::{Method, Receivers, Site};
+use crate::site::Site;
 use crate::study::{self, Stopwatch, SurfaceOutcome};
 use eframe::egui;
 use std::sync::Arc;
@@ -29,10 +30,8 @@ pub(super) struct Facades {
 
 /// By what surfaces are judged, where the window draws by some technique: by that, or by the faster of the two that can.
 pub(super) fn method(settings: &Settings) -> Method {
-    match settings.shown.method {
-        method @ (Method::RayCast | Method::SoftTexture) => method,
-        _ => Method::Auto,
-    }
+    let method = settings.shown.method;
+    if method.row().draws(Engine::Auto, Subject::Surfaces) { method } else { Method::Auto }
 }
 
 /// Finds the hours of sun on the surfaces of a site.

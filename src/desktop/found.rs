@@ -8,6 +8,7 @@ use super::hours::{self, Found};
 use super::loading::name_of;
 use super::look;
 use super::settings::Settings;
+use crate::choice::{Engine, Subject, listed};
 use eframe::egui::{self, Ui};
 use std::path::Path;
 use std::sync::Arc;
@@ -39,7 +40,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             response.on_disabled_hover_text("Two states are compared on ground and roofs");
         });
         if app.settings.shown.facades && !compares && facades::method(&app.settings) != app.settings.shown.method {
-            ui.weak("On façades auto chooses: soft-texture or ray-cast.");
+            let techniques = listed(&Subject::Surfaces.drawn_by(Engine::Auto), "or");
+            ui.weak(format!("On façades auto chooses: {techniques}."));
         }
         if goes {
             find(open, &app.settings, &context);

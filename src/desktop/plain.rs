@@ -1,11 +1,11 @@
 //! A picture that no graphics adapter has a hand in: sun and shadow by rays, in the colours of drawings.
 
 use super::stage::Wish;
+use crate::choice::{Engine, Method, Receivers, Settings};
 use crate::export::figure::{self, Shown};
-use crate::profile::{Drawn, DrawnSettings};
+use crate::profile::Drawn;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{Scene, ShadowError, Technique};
-use crate::site::{Engine, Method, Receivers};
 use crate::study::live::far_view;
 use crate::view::Mask;
 
@@ -42,11 +42,11 @@ pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]
         false => Mask { width, height, share: vec![0; width as usize * height as usize] },
     };
     let drawn = Drawn {
-        technique: Method::RayCast.word(),
-        silhouette: None,
-        engine: Engine::Cpu.word(),
+        technique: Method::RayCast,
+        finder: None,
+        engine: Engine::Cpu,
         adapter: None,
-        settings: DrawnSettings { sun_samples, ..DrawnSettings::default() },
+        settings: Settings { sun_samples, ..Settings::NONE },
     };
     let scene = figure::Scene {
         place: &site.place,

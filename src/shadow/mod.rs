@@ -11,9 +11,6 @@ pub mod hybrid;
 mod light_view;
 pub mod map;
 pub mod near_clip;
-pub mod overlay;
-mod patch_textures;
-pub mod picture;
 mod plan_surface;
 pub mod projected;
 mod raised;
@@ -24,7 +21,7 @@ pub mod smoothie;
 pub mod soft_picture;
 pub mod soft_texture;
 pub mod stencil;
-mod surface;
+pub(crate) mod surface;
 pub mod walls;
 
 use crate::gpu::{Gpu, GpuError, readback};

@@ -2,11 +2,11 @@
 //! side, with the models in view.
 
 use super::asked::{Overrides, refuse};
-use super::choice::ChoiceError;
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::keys;
 use super::written::Written;
+use crate::choice::ChoiceError;
 use crate::message::message;
 use crate::sun::SunTrack;
 use crate::view::{Camera, Side};

@@ -226,18 +226,3 @@ impl SiteError {
         }
     }
 }
-
-/// The candidate most like a word.
-pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let lower = word.to_lowercase();
-    let likeness = |candidate: &str| strsim::jaro_winkler(&candidate.to_lowercase(), &lower);
-    let mut best = None;
-    for candidate in candidates {
-        let score = likeness(candidate);
-        // The first of equals stays.
-        if best.is_none_or(|(most, _)| score > most) {
-            best = Some((score, candidate));
-        }
-    }
-    best.map(|(_, candidate)| candidate)
-}

@@ -106,7 +106,7 @@ fn unknown_name(file: &str, name: &str, is_table: bool) -> SiteError {
     let at = |table: String, key: &str| At::Key { file: file.to_owned(), table, key: key.to_owned() };
     if is_table {
         let tables = KEYS.iter().map(|known| known.0);
-        let nearest = super::error::nearest(name, tables).unwrap_or("place");
+        let nearest = crate::choice::nearest(name, tables).unwrap_or("place");
         return SiteError::Unknown { at: at(format!("[{name}]"), ""), nearest: bracketed(nearest) };
     }
     SiteError::Unknown { at: at("before any table:".to_owned(), name), nearest: nearest_key(name, "") }

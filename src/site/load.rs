@@ -8,6 +8,7 @@ use super::models::{Models, note_see_through};
 use super::names::on_disk;
 use super::written::Written;
 use super::{Finder, Ground, Method, Receivers, Site, camera, ground, likeness, notes, plan, study};
+use crate::choice::ChoiceError;
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::message::{Field, message};
@@ -183,9 +184,9 @@ impl Site {
 fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {
     match (asked.technique, &written.site.study.technique) {
         (Some(method), _) => Ok(method),
-        (None, Some(word)) => word
-            .parse()
-            .map_err(|error: super::ChoiceError| refuse(written.key("study", "technique"), error.to_string())),
+        (None, Some(word)) => {
+            word.parse().map_err(|error: ChoiceError| refuse(written.key("study", "technique"), error.to_string()))
+        }
         (None, None) => Ok(Method::default()),
     }
 }

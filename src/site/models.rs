@@ -1,7 +1,6 @@
 //! The models of a site where they stand, and which of their components are chosen.
 
 use super::asked::refuse;
-use super::choice::ChoiceError;
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::file::Names;
@@ -12,6 +11,7 @@ use super::model::{Fault, Model, ModelError, Placement, SeeThrough, Up};
 use super::names::{few, on_disk};
 use super::notes;
 use super::written::Written;
+use crate::choice::ChoiceError;
 use crate::mesh::{Component, Mesh};
 use crate::message::{Message, Words, message};
 use glam::DVec3;

@@ -1,9 +1,10 @@
 //! Work that is done again where the graphics device fails that it is done on.
 
 use super::{Event, OnEvent, StudyError, tell};
+use crate::choice::{Engine, Finder};
 use crate::gpu::{Gpu, GpuError};
 use crate::shadow::ShadowError;
-use crate::site::{Engine, Finder, Method, Site};
+use crate::site::Site;
 use std::sync::Arc;
 
 /// Work on a site, on this adapter where there is one, else on whatever adapter it opens.
@@ -26,9 +27,7 @@ pub fn persist<T>(
     begin_again(&lost.why(), "on a new device", on_event)?;
     let second = attempt(site, None, on_event);
     let Some(why) = failed_device(&second) else { return second };
-    let is_free = site.engine == Engine::Auto
-        && site.finder == Finder::Auto
-        && matches!(site.method, Method::Auto | Method::SoftTexture);
+    let is_free = site.engine == Engine::Auto && site.finder == Finder::Auto && !site.method.row().on_cpu.is_empty();
     if can && is_free {
         begin_again(&why, "on the processor", on_event)?;
         return attempt(&Site { engine: Engine::Cpu, ..site.clone() }, None, on_event);

@@ -1,6 +1,7 @@
 //! Which study it is: a number of all that its result depends on, so that another one does not go on from its sum.
 
 use super::Wants;
+use crate::choice::{Filter, Finder, Settings};
 use crate::profile::Drawn;
 use crate::site::Site;
 use crate::view::Tile;
@@ -27,7 +28,11 @@ pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile], wants: &Wants) -> u
     }
     // what is written while it goes on is not there for instants that were drawn without it
     (wants.masks, wants.bits, wants.written, wants.statistics, wants.keep_every.is_some()).hash(&mut hasher);
-    // what is asked of techniques, whatever that is
-    format!("{settings:?} {drawn:?}").hash(&mut hasher);
+    // what is asked of techniques, and what that came to
+    for Settings { map_size, filter, smoothie_width_m, sun_samples } in [settings, &drawn.settings] {
+        (map_size, filter.map(Filter::word), smoothie_width_m.map(f64::to_bits), sun_samples).hash(&mut hasher);
+    }
+    let Drawn { technique, finder, engine, adapter, .. } = drawn;
+    (technique.word(), finder.map(Finder::word), engine.word(), adapter).hash(&mut hasher);
     hasher.finish()
 }

@@ -27,11 +27,12 @@ pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 pub use tiles::Budget;
 
+use crate::choice::{Misfit, Subject};
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
+use crate::picture::overlay::VolumePicture;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
-use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
@@ -198,6 +199,8 @@ pub enum StudyError {
         /// Why, and the way out.
         message: Message,
     },
+    /// Technique, engine and settings that do not go together, or not with what is drawn.
+    Misfit(#[from] Misfit),
     /// The plan does not fit the memory that there is for it.
     LittleMemory {
         /// What there is, bytes.
@@ -250,6 +253,7 @@ impl Worded for StudyError {
         const DRIVER: &str = "install a driver (on Linux mesa-vulkan-drivers draws in software)";
         match self {
             StudyError::Conflict { field, message } => message.clone().of((*field).into()),
+            StudyError::Misfit(misfit) => misfit.message(),
             StudyError::LittleMemory { asked, least, width } => message![
                 Field::Memory,
                 format!(": {} is too little for rows of {width} cells", tiles::amount(*asked));
@@ -302,7 +306,8 @@ impl Worded for StudyError {
 impl StudyError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
-        matches!(self, StudyError::Conflict { .. } | StudyError::LittleMemory { .. } | StudyError::TooManyCells { .. })
+        use StudyError::{Conflict, LittleMemory, Misfit, TooManyCells};
+        matches!(self, Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. })
     }
 
     /// What a graphics device failed of, where it did while working: on another one the work can be done.
@@ -335,6 +340,17 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
     }
 }
 
+/// What a technique draws of a view.
+fn subject(view: &View, receivers: Receivers) -> Subject {
+    match (view, receivers) {
+        (View::Camera(_), _) => Subject::Camera,
+        (View::Elevation(_), _) => Subject::Side,
+        (View::Plan(_), Receivers::Top) => Subject::Top,
+        (View::Plan(_), Receivers::Ground) => Subject::Ground,
+        (View::Plan(_), Receivers::Surfaces) => Subject::Surfaces,
+    }
+}
+
 /// The seconds of the window with the sun above the horizon, and without.
 pub fn day_and_night(track: &SunTrack) -> (u32, u32) {
     // both fit: a window is at most ten years, 3.2e8 s
@@ -354,11 +370,11 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn technique(&self) -> Result<Box<dyn Technique>, ShadowError> {
+    fn technique(&self) -> Result<Box<dyn Technique>, StudyError> {
         self.machine.technique(self.scene(), self.view)
     }
 
-    fn technique_of(&self, tile: Tile) -> Result<Box<dyn Technique>, ShadowError> {
+    fn technique_of(&self, tile: Tile) -> Result<Box<dyn Technique>, StudyError> {
         self.machine.technique_of(self.scene(), tile)
     }
 

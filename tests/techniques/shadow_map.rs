@@ -5,10 +5,10 @@ use crate::exact::scenes::{cuboid, sheet};
 use crate::exact::{gpu, plan, scene_of, to_sun};
 use crate::far_wrong::far_wrong;
 use glam::{DVec3, dvec3};
+use gnomon::choice::MAP_SIZE;
 use gnomon::cli::Options;
 use gnomon::mesh::Mesh;
 use gnomon::message::Worded;
-use gnomon::shadow::map::DEFAULT_SIZE;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::{Scene, ShadowError};
@@ -44,7 +44,7 @@ fn the_default_bias_leaves_neither_acne_nor_detached_shadows_on_the_sites() {
         let ground = Scene { receivers: top.receivers.of_components(&[]), ..top.clone() };
         for (judged, scene) in [("top", top), ("ground", ground)] {
             for (filter, _) in FILTERS {
-                let of = (DEFAULT_SIZE, filter);
+                let of = (MAP_SIZE, filter);
                 let wrong = far_wrong(&gpu(), &scene, view, &suns(&of_day), of, None).unwrap();
                 println!("{name}, {judged}, {filter:?}: {:.3}% far wrong, {wrong:?}", 100.0 * wrong.share());
                 assert!(wrong.share() <= 0.005, "{name}, {judged}, {filter:?}: {wrong:?}");

@@ -6,10 +6,10 @@
 
 use super::{Exposure, Surfaces, pages};
 use crate::export::ExportError;
-use crate::export::figure::NOT_JUDGED;
 use crate::export::raster::png_bytes;
 use crate::export::report::{place_report, stamp, tz_version};
 use crate::export::volumes::in_gltf;
+use crate::look::LOOK;
 use crate::mesh::Component;
 use crate::mesh::patches::Patch;
 use glam::Vec3;
@@ -114,7 +114,7 @@ fn material(page: usize) -> Value {
 /// The material of what does not receive: the drawing's colour of what is not judged.
 fn not_judged() -> Value {
     // to linear light, as the format asks for
-    let [red, green, blue] = NOT_JUDGED.map(|value| (f64::from(value) / 255.0).powf(2.2));
+    let [red, green, blue] = LOOK.not_judged.map(|value| (f64::from(value) / 255.0).powf(2.2));
     json!({
         "name": "not judged",
         "pbrMetallicRoughness": {

@@ -19,7 +19,7 @@ use chrono::{DateTime, NaiveDate};
 
 /// In the sun, in the shade, without a sun, and where nothing was asked.
 const SUN: Rgb = [250, 218, 128];
-const SHADE: Rgb = super::plan::GROUND_SHADE;
+const SHADE: Rgb = crate::look::LOOK.plan_ground_shade;
 const NIGHT: Rgb = [62, 70, 88];
 const OUTSIDE: Rgb = [226, 224, 217];
 
