@@ -168,7 +168,7 @@ fn what_is_wrong_with_a_study_is_told_by_the_labels() {
     let wanted = "Window, to: the window from 9:00 to 9:00 is empty; give a later `\"to\"`";
     assert!(told.starts_with(wanted), "{told}");
     assert!(says(&harness, "give a later \"to\", or for a whole day"), "no accents stand in the window");
-    let told = set(&mut harness, "to", "").expect("no end");
+    let told = set(&mut harness, "to", " ").expect("no end");
     assert!(told.ends_with("site.toml does not say \"to\" of the study"), "{told}");
     assert_eq!(set(&mut harness, "to", "17:00"), None);
 }
