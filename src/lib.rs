@@ -28,6 +28,8 @@ pub mod study;
 
 pub mod export;
 
+pub mod deliver;
+
 pub mod cli;
 
 #[cfg(feature = "desktop")]

@@ -16,10 +16,41 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("profile", &["mesh", "sun", "view", "gpu", "shadow"]),
     ("study", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
     ("export", &["mesh", "sun", "view", "site", "volume", "profile"]),
-    ("cli", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export"]),
+    ("deliver", &["mesh", "sun", "view", "site", "volume", "shadow", "profile", "study", "export"]),
+    (
+        "cli",
+        &[
+            "mesh",
+            "sun",
+            "view",
+            "site",
+            "silhouette",
+            "volume",
+            "gpu",
+            "shadow",
+            "profile",
+            "study",
+            "export",
+            "deliver",
+        ],
+    ),
+    // the faces do not know each other
     (
         "desktop",
-        &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export", "cli"],
+        &[
+            "mesh",
+            "sun",
+            "view",
+            "site",
+            "silhouette",
+            "volume",
+            "gpu",
+            "shadow",
+            "profile",
+            "study",
+            "export",
+            "deliver",
+        ],
     ),
 ];
 
@@ -193,6 +224,9 @@ fn checker_finds_each_kind_of_fault() {
         ("profile/mod.rs", "let text = std::fs::read_to_string(path)?;"),
         ("sun/clock.rs", "let now = chrono::Utc::now();"),
         ("cli.rs", "let now = std::time::SystemTime::now();"),
+        ("desktop/work.rs", "use crate::cli::one_line;"),
+        ("cli/mod.rs", "use crate::desktop::open;"),
+        ("export/report.rs", "use crate::deliver::Sink;"),
     ];
     for (path, source) in bad {
         assert_eq!(faults(Path::new(path), source).len(), 1, "{path}: {source}");
@@ -208,6 +242,26 @@ fn checker_finds_each_kind_of_fault() {
     }
     let two_lines_down = faults(Path::new("gpu/mod.rs"), "//! Text.\n\nuse crate::sun::Place;");
     assert_eq!(two_lines_down, ["src/gpu/mod.rs:3: gpu may not know sun"]);
+}
+
+/// Which files put together what drawings and reports are told, but for those that take it, and those that change one.
+fn put_together(sources: &[(PathBuf, String)]) -> Vec<String> {
+    let mut files = Vec::new();
+    for (path, source) in sources.iter().filter(|(path, _)| module_of(path)[0] != "export") {
+        let code = without_comments(source);
+        let found = ["figure::Scene {", "Told {"].into_iter().flat_map(|word| code.match_indices(word));
+        let fields = found.map(|(at, _)| code[at..].split('}').next().unwrap_or_default());
+        let whole = fields.filter(|fields| !fields.contains("..scene(") && !fields.contains("..told("));
+        files.extend(whole.map(|_| path.display().to_string()));
+    }
+    files
+}
+
+#[test]
+fn drawings_and_reports_are_put_together_in_one_place() {
+    assert_eq!(put_together(&files("src", "rs")), ["deliver/parts.rs"; 2], "what a drawing is told, and a report");
+    let twin = (PathBuf::from("desktop/hours.rs"), "let scene = figure::Scene { place, track };".to_owned());
+    assert_eq!(put_together(&[twin]), ["desktop/hours.rs"]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::bare::Bare;
 use super::settings::{Hidden, Settings};
-use crate::cli::one_line;
+use crate::deliver::one_line;
 use crate::export::figure::component_colours;
 use crate::mesh::Mesh;
 use crate::shadow::ray_cast::RayCaster;
@@ -263,8 +263,8 @@ fn complete(site: &mut SiteFile) {
     study.to.get_or_insert_with(|| Text("17:00".to_owned()));
 }
 
-fn told(error: impl Into<anyhow::Error>) -> Fault {
-    Fault::Told(one_line(&error.into()))
+fn told(error: impl std::error::Error + 'static) -> Fault {
+    Fault::Told(one_line(&error))
 }
 
 impl Project {

@@ -40,7 +40,7 @@ fn once(
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
         (true, _) => stencil_alone(site, &view)?,
-        (false, Some(option)) => counting(site, &view, option)?,
+        (false, Some(counted)) => counting(site, &view, counted.option())?,
         (false, None) => choose(site, &view, on_event)?,
     };
     let receivers = judged(site, &view);
@@ -50,10 +50,10 @@ fn once(
         View::Camera(_) | View::Elevation(_) => Vec::new(),
     };
     let first = tiles.first().filter(|tile| !tile.is_whole());
-    if let (Some(_), Some(option)) = (first, wants.counted) {
+    if let (Some(_), Some(counted)) = (first, wants.counted) {
         let what = "the plan is done in tiles, and what counting took is told of the whole; take larger cells (--cell), \
                     or leave it out";
-        return Err(StudyError::Conflict { option, what });
+        return Err(StudyError::Conflict { option: counted.option(), what });
     }
     tiles::note(&tiles, on_event)?;
     let mut technique = first.map_or_else(|| look.technique(), |tile| look.technique_of(*tile))?;

@@ -2,7 +2,7 @@
 
 use super::again::persist;
 use super::machine::{Machine, choose, counting, not_surfaces};
-use super::{Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
+use super::{Counting, Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
 use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
 use crate::mesh::Mesh;
 use crate::profile::accumulate::Sum;
@@ -52,8 +52,8 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, timings })
 }
 
-/// The whole with a tile in its place.
-fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
+/// The whole of a plan's sums, with a tile's in their place; an empty whole has none yet.
+pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
     if tile.is_whole() {
         return Arc::clone(shaded);
     }
@@ -90,11 +90,15 @@ impl<'a> Tiled<'a> {
     fn of(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Tiled<'a>, StudyError> {
         let watch = Stopwatch::start();
         let view = View::Plan(site.grid);
-        let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
+        let machine = if wants.statistics {
+            counting(site, &view, Counting::Statistics.option())?
+        } else {
+            choose(site, &view, on_event)?
+        };
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
         check_tiles(&tiles, wants)?;
         tiles::note(&tiles, on_event)?;
-        Ok(Tiled { site, wants: *wants, machine, tiles, number: OnceCell::new(), watch })
+        Ok(Tiled { site, wants: wants.clone(), machine, tiles, number: OnceCell::new(), watch })
     }
 
     /// Which study it is: a number of all that its result depends on.
@@ -132,7 +136,7 @@ impl<'a> Tiled<'a> {
 /// # Errors
 /// [`StudyError`]
 pub fn in_tiles(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>) -> Result<Worked, StudyError> {
-    let Tiled { site, wants, .. } = tiled;
+    let (site, wants) = (tiled.site, tiled.wants.clone());
     let mut at_hand = Some((tiled, begun));
     // what counting takes is told of an adapter alone
     persist(site, !wants.statistics, on_event, &mut |again, on_event| {
@@ -141,7 +145,7 @@ pub fn in_tiles(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEv
         }
         // what the processor takes over is no more the study that was begun, and must not be gone on with as that
         let keep_every = wants.keep_every.filter(|_| again.engine == site.engine);
-        once(Tiled::of(again, &Wants { keep_every, ..wants }, on_event)?, None, on_event)
+        once(Tiled::of(again, &Wants { keep_every, ..wants.clone() }, on_event)?, None, on_event)
     })
 }
 
@@ -240,10 +244,10 @@ fn check_tiles(tiles: &[Tile], wants: &Wants) -> Result<(), StudyError> {
                     cells (--cell)";
         return Err(StudyError::Conflict { option: "--masks", what });
     }
-    if let Some(option) = wants.whole {
+    if wants.lines {
         let what = "the plan is done in tiles, and lines are drawn of the whole; take larger cells (--cell), leave \
                     --memory out, or leave this out";
-        return Err(StudyError::Conflict { option, what });
+        return Err(StudyError::Conflict { option: "--draw", what });
     }
     Ok(())
 }
