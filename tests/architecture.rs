@@ -68,8 +68,8 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
     ("gltf::", &["site", "export"], "only site reads what the user wrote, and only export writes"),
     (
         "fs::read",
-        &["site", "export", "sun"],
-        "only site reads what the user wrote, export what it wrote itself, and sun the system's rules of clocks",
+        &["site", "export", "deliver", "sun"],
+        "only site reads what the user wrote, export and deliver what they wrote themselves, and sun the system's rules of clocks",
     ),
     ("File::open", &["site"], "only site reads what the user wrote"),
     ("SystemTime::now", &[], "nothing reads the clock"),

@@ -5,6 +5,7 @@
 
 pub mod animation;
 pub mod comparison;
+pub mod disk;
 mod error;
 pub mod instant;
 pub mod lines;

@@ -1,8 +1,8 @@
 //! Where the files of a deliverable go: into a folder, each to a place of its own, or into memory.
 
+use super::disk::workplace::Workplace;
 use crate::export::ExportError;
 use crate::export::file::{self, Beside};
-use crate::export::workplace::Workplace;
 use std::path::{Path, PathBuf};
 
 /// A file's name, and what is in it.

@@ -9,6 +9,7 @@ use super::settings::Settings;
 use super::unit::Unit;
 use super::work::Work;
 use crate::deliver::lines::Lines;
+use crate::deliver::probe::{self, ProbeRequest};
 use crate::deliver::profile::{Hours, ProfileRequest, find_hours, write_hours};
 use crate::deliver::{Sink, comparison};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
@@ -18,7 +19,7 @@ use crate::shadow::picture::{Hours as HoursRaster, Picture};
 use crate::shadow::{ShadowError, plan_surface};
 use crate::site::file::SiteFile;
 use crate::site::{Method, Probing, Site};
-use crate::study::{self, OnEvent, Outcome, Stopwatch, StudyError};
+use crate::study::{OnEvent, Outcome, Stopwatch, StudyError};
 use crate::sun::DayWindow;
 use crate::view::{Grid, Probe, Surface};
 use chrono::NaiveDate;
@@ -287,6 +288,6 @@ pub(super) fn probe(project: &Project, probe: Probe, date: NaiveDate, context: e
             step_secs: STEP_SECS,
             refraction: site.track.refraction,
         };
-        Ok(study::probe::probe(&probing, on_event)?)
+        Ok(probe::probe(&probing, &ProbeRequest::default(), Sink::Memory, on_event)?.sunlight)
     })
 }

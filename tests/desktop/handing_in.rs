@@ -280,7 +280,7 @@ fn nothing_is_exported_over_a_model() {
 
     // nor where a study works
     let out = folder.path().join("out");
-    let locked = gnomon::export::workplace::Workplace::take([out.as_path()], &[], "somebody's study").unwrap();
+    let locked = gnomon::deliver::disk::workplace::Workplace::take([out.as_path()], &[], "somebody's study").unwrap();
     for entry in ["Export the hours…", "Export the animation…"] {
         menu(&mut harness, entry);
         answer(&mut harness, &out, "Write");

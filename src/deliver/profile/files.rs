@@ -3,9 +3,10 @@
 use super::hours::{Hours, Range};
 use super::{DRAWING, ProfileRequest, RASTER, REPORT};
 use crate::deliver::DeliverError;
+use crate::deliver::disk::bits;
 use crate::deliver::parts::{Seen, scene, told};
 use crate::deliver::sink::{OpenSink, Ready};
-use crate::export::{ExportError, bits, figure, raster, report};
+use crate::export::{ExportError, figure, raster, report};
 use crate::profile::{Profile, Shaded, Timings};
 use crate::shadow::PlanSurface;
 use crate::site::Site;

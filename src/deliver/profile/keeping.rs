@@ -1,14 +1,14 @@
 //! What a study writes while it goes on, and what it goes on from where it was stopped.
 
-use super::super::parts::note;
-use super::super::{DeliverError, NamedFile};
 use super::ProfileRequest;
 use super::sums::Sums;
-use crate::export::bits::BitsFile;
+use crate::deliver::disk::bits::BitsFile;
+use crate::deliver::disk::sums::SumsFile;
+use crate::deliver::disk::unfinished::{self, Checks, Kept};
+use crate::deliver::parts::note;
+use crate::deliver::{DeliverError, NamedFile};
 use crate::export::figure::Outline;
-use crate::export::sums::SumsFile;
-use crate::export::unfinished::{Checks, Kept};
-use crate::export::{ExportError, bytes, checksum, file, raster, unfinished};
+use crate::export::{ExportError, bytes, checksum, file, raster};
 use crate::profile::Unfinished;
 use crate::site::Site;
 use crate::study::{self, Event, OnEvent, StudyError, Tiled, tell};

@@ -11,11 +11,12 @@ mod sums;
 pub use hours::{Hours, Range};
 pub use sums::Sums;
 
+use super::disk::bits;
 use super::lines::Lines;
 use super::parts::{note, note_letters};
 use super::sink::Also;
 use super::{DeliverError, Sink, Written};
-use crate::export::{bits, figure};
+use crate::export::figure;
 use crate::profile::{Drawn, Statistics};
 use crate::site::Site;
 use crate::study::{Budget, Event, OnEvent, Stopwatch, Wants, tell};

@@ -1,7 +1,7 @@
 //! The sums of a study: in memory, or in a file where the plan is done in tiles.
 
+use crate::deliver::disk::sums::SumsFile;
 use crate::export::ExportError;
-use crate::export::sums::SumsFile;
 use crate::profile::{Part, Shaded, ShadedCells};
 use std::ops::Range;
 use std::sync::Arc;

@@ -10,8 +10,8 @@
 //! volumes; then in 64 bits each the four numbers of that, the checksums of bits and sums, how many masks are written, and
 //! the checksum of each; the cells; last the checksum of all before it.
 
-use super::checksum::checksum;
-use super::{ExportError, bytes, file};
+use crate::export::checksum::checksum;
+use crate::export::{ExportError, bytes, file};
 use crate::profile::{Shaded, Statistics, Unfinished};
 use std::collections::BTreeSet;
 use std::fs;
