@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Who works in a folder, for others who want to.
-const WHO: &str = "the window of gnomon";
+pub(super) const WHO: &str = "the window of gnomon";
 
 /// The eye as a site file says it, to the millimetre; the plan is no camera's picture, and leaves the table as it was.
 fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {

@@ -3,6 +3,7 @@
 
 use super::change::Change;
 use super::facades::{self, Facades};
+use super::handing::WHO;
 use super::loading::Project;
 use super::pick::Under;
 use super::settings::Settings;
@@ -11,7 +12,7 @@ use super::work::Work;
 use crate::deliver::lines::Lines;
 use crate::deliver::probe::{self, ProbeRequest};
 use crate::deliver::profile::{Hours, ProfileRequest, find_hours, write_hours};
-use crate::deliver::{Sink, comparison};
+use crate::deliver::{Folder, Sink, comparison};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
 use crate::profile::probe::Sunlight;
 use crate::profile::{Profile, Shaded, hours as hours_of};
@@ -224,9 +225,15 @@ impl ShadowHours {
         ProfileRequest::of(Stopwatch::after(self.hours.timings.clone()))
     }
 
-    /// The drawing, the raster and the report.
+    /// The drawing, the raster and the report; bits where each instant's shadow is at hand.
     fn all(&self) -> ProfileRequest<'_> {
-        ProfileRequest { drawing: true, raster: true, report: true, ..self.nothing() }
+        ProfileRequest {
+            drawing: true,
+            raster: true,
+            report: true,
+            bits: !self.hours.outlines.is_empty(),
+            ..self.nothing()
+        }
     }
 
     fn write(
@@ -257,15 +264,22 @@ pub(super) fn cell_at(grid: &Grid, surface: &Surface, point: DVec3) -> Option<us
     ((height - point.z).abs() < grid.cell.max(0.05)).then_some(cell)
 }
 
-/// Adds up the hours of a site's study.
-pub(super) fn add_up(project: &Project, method: Method, number: u64, context: egui::Context) -> Work<Laid> {
+/// Adds up the hours of a site's study, which is kept among `studies` where it is stopped.
+pub(super) fn add_up(
+    project: &Project,
+    method: Method,
+    number: u64,
+    studies: Option<PathBuf>,
+    context: egui::Context,
+) -> Work<Laid> {
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
     let mark = project.models.mark();
     Work::start(context, move |on_event| {
         // they are few where they can be drawn
         let bits = Lines::Outlines.check(&site.track).is_ok();
         let asked = ProfileRequest { bits, ..ProfileRequest::of(Stopwatch::start()) };
-        let hours = find_hours(&Site { method, ..Site::clone(&site) }, &asked, None, on_event)?;
+        let shelf = studies.as_deref().map(|path| Folder { path, who: WHO, inputs: &[] });
+        let hours = find_hours(&Site { method, ..Site::clone(&site) }, &asked, shelf, on_event)?;
         let found = Found::Shadow(Box::new(ShadowHours::new(&site, hours)));
         Ok(Laid { number, site, method, written, mark, found })
     })

@@ -80,9 +80,10 @@ fn lines_are_those_of_the_command() {
     click(&mut harness, "Export…");
     answer(&mut harness, &out, "Write");
     let by_command = folder.path().join("command");
-    let options = ["--draw", "hours,outlines", "--quiet", "--out"].map(std::ffi::OsStr::new);
+    let options = ["--draw", "hours,outlines", "--bits", "--quiet", "--out"].map(std::ffi::OsStr::new);
     command(&[&["profile".as_ref(), site.as_os_str()], options.as_slice(), &[by_command.as_ref()]].concat());
-    for name in ["hours.png", "hours.svg", "outlines.png", "outlines.svg", "profile.png", "shadow-hours.tif"] {
+    let names = ["hours.png", "hours.svg", "outlines.png", "outlines.svg", "profile.png", "shadow-hours.tif"];
+    for name in names.into_iter().chain(["shadow.bits"]) {
         let [ours, theirs] = [&out, &by_command].map(|folder| std::fs::read(folder.join(name)).unwrap());
         assert!(ours == theirs, "{name} is another one");
     }
@@ -292,6 +293,37 @@ fn nothing_is_exported_over_a_model() {
     menu(&mut harness, "Export the hours…");
     answer(&mut harness, &out, "Write");
     assert!(out.join("profile.png").exists() && !out.join(".gnomon.lock").exists());
+}
+
+/// Hours that are cancelled are kept: the same study goes on from there another time.
+#[test]
+fn hours_that_are_cancelled_are_kept() {
+    let (folder, site) = small_site();
+    let studies = folder.path().join("studies");
+    let there = studies.clone();
+    let mut harness = Harness::<App>::builder()
+        .with_size(egui::vec2(1280.0, 720.0))
+        .wgpu_setup(gnomon::desktop::setup())
+        .build_eframe(move |cc| App::new(cc, Some(&site)).expect("an adapter").keeping_studies_in(&there));
+    settle(&mut harness);
+    write(&mut harness, "step", "1s");
+    settle(&mut harness);
+    click(&mut harness, "Find the hours");
+    let begun = Instant::now();
+    while harness.query_by_label_contains(" of 28801 instants").is_none() {
+        harness.step();
+        assert!(begun.elapsed() < Duration::from_secs(20), "no instant was drawn");
+    }
+    click(&mut harness, "Cancel the hours");
+    let is_kept = || {
+        let entries = studies.read_dir().into_iter().flatten().flatten();
+        let names: Vec<_> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.iter().any(|name| name.starts_with("profile.")) && !names.iter().any(|name| name == ".gnomon.lock")
+    };
+    while !is_kept() {
+        std::thread::sleep(Duration::from_millis(10));
+        assert!(begun.elapsed() < Duration::from_secs(40), "nothing was kept");
+    }
 }
 
 #[test]

@@ -11,11 +11,11 @@ mod sums;
 pub use hours::{Hours, Range};
 pub use sums::Sums;
 
-use super::disk::bits;
+use super::disk::{bits, unfinished};
 use super::lines::Lines;
 use super::parts::{note, note_letters};
 use super::sink::Also;
-use super::{DeliverError, Sink, Written};
+use super::{DeliverError, Folder, Sink, Written};
 use crate::export::figure;
 use crate::profile::{Drawn, Statistics};
 use crate::site::Site;
@@ -27,6 +27,9 @@ use std::time::Duration;
 
 /// How long work may be lost where a machine fails.
 const KEEP_EVERY: Duration = Duration::from_secs(60);
+
+/// So many stopped studies are kept of hours that are to be shown.
+const MOST_KEPT: usize = 4;
 
 const DRAWING: &str = "profile.png";
 const RASTER: &str = "shadow-hours.tif";
@@ -118,20 +121,37 @@ pub fn profile(
     Ok(ProfileAnswer { written, masks, report, drawn, statistics, range })
 }
 
-/// Finds hours that are to be shown, all of them in memory. A study that was stopped goes on where a `folder` keeps it.
+/// Finds hours that are to be shown, all of them in memory; with bits, each instant's shadow too.
+///
+/// A study that is stopped is kept in `shelf`, of the newest ones, and goes on when the same is asked again. One with bits
+/// is not kept, and none is while another one works there.
 ///
 /// # Errors
 /// As [`profile()`].
 pub fn find_hours(
     site: &Site,
     asked: &ProfileRequest<'_>,
-    folder: Option<&Path>,
+    shelf: Option<Folder<'_>>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<Hours, DeliverError> {
-    let (hours, keeping) = hours::find(site, asked, folder, on_event)?;
-    let hours = hours.in_memory()?;
-    keeping.finish()?;
-    Ok(hours)
+    let shelf = shelf.filter(|_| !asked.bits);
+    let open = match shelf.map(|folder| Sink::Folder(folder).open(&[], None)).transpose() {
+        Ok(open) => open,
+        Err(error) => {
+            note(Some(format!("{error}; until then what is done is not kept")), on_event)?;
+            None
+        }
+    };
+    let folder = open.as_ref().and(shelf).map(|folder| folder.path);
+    let found = hours::find(site, asked, folder, on_event).and_then(|(hours, keeping)| {
+        let hours = hours.in_memory()?;
+        keeping.finish()?;
+        Ok(hours)
+    });
+    if let Some(folder) = folder {
+        unfinished::keep_newest(folder, MOST_KEPT);
+    }
+    found
 }
 
 /// Writes hours that were found, as far as is asked. The request's stopwatch runs on from [`Hours::timings`].
