@@ -113,7 +113,7 @@ fn draw(
 }
 
 /// Of the components that are seen, which a drawing's mesh holds, whether each casts.
-pub(crate) fn seen_casts(site: &Site) -> Vec<bool> {
+pub fn seen_casts(site: &Site) -> Vec<bool> {
     site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect()
 }
 

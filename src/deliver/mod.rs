@@ -18,5 +18,5 @@ pub mod verification;
 pub mod volumes;
 
 pub use error::{DeliverError, one_line};
-pub(crate) use parts::{Seen, scene};
+pub use parts::{Seen, scene};
 pub use sink::{Folder, NamedFile, Sink, Written};

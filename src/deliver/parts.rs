@@ -9,19 +9,19 @@ use crate::study::{Event, OnEvent, StudyError, tell};
 
 /// What of a site was drawn, and by what.
 #[derive(Clone, Copy)]
-pub(crate) struct Seen<'a, S> {
+pub struct Seen<'a, S> {
     /// Which surfaces were judged.
-    pub(crate) receivers: Receivers,
+    pub receivers: Receivers,
     /// What each cell sees.
-    pub(crate) surface: &'a S,
+    pub surface: &'a S,
     /// Whose faces those are.
-    pub(crate) mesh: &'a Mesh,
+    pub mesh: &'a Mesh,
     /// What drew.
-    pub(crate) drawn: &'a Drawn,
+    pub drawn: &'a Drawn,
 }
 
 /// What a drawing of a site needs beside the answer.
-pub(crate) fn scene<'a, S>(site: &'a Site, seen: Seen<'a, S>) -> figure::Scene<'a, S> {
+pub fn scene<'a, S>(site: &'a Site, seen: Seen<'a, S>) -> figure::Scene<'a, S> {
     let Seen { receivers, surface, mesh, drawn } = seen;
     figure::Scene { place: &site.place, track: &site.track, mesh, surface, receivers, ground: site.ground, drawn }
 }
