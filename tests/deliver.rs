@@ -1,12 +1,18 @@
 //! Deliverables as a program takes them that uses the library: in memory as in a folder, and from where they were stopped.
 
 use crate::command::site;
+use gnomon::deliver::comparison::comparison;
 use gnomon::deliver::disk::workplace::Workplace;
+use gnomon::deliver::instant::{InstantRequest, Show, instant};
 use gnomon::deliver::lines::Lines;
+use gnomon::deliver::probe::{ProbeRequest, probe};
 use gnomon::deliver::profile::{ProfileAnswer, ProfileRequest, find_hours, profile};
-use gnomon::deliver::{Folder, NamedFile, Sink};
-use gnomon::site::{Engine, Overrides, Site};
+use gnomon::deliver::surfaces::{SurfacesRequest, surfaces};
+use gnomon::deliver::volumes::volumes;
+use gnomon::deliver::{Folder, NamedFile, Sink, Written};
+use gnomon::site::{Engine, Overrides, Pair, Receivers, Site, load_probes};
 use gnomon::study::{Event, Stopwatch};
+use gnomon::view::View;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::path::{Path, PathBuf};
@@ -127,4 +133,65 @@ fn shelf_holds_so_many_studies() {
         });
     }
     assert_eq!(read(&shelf).count(), 4);
+}
+
+/// So it is with all other deliverables but the animation, whose GIF is made of files.
+#[test]
+fn every_deliverable_goes_into_memory() {
+    let folder = site();
+    let path = folder.path();
+    let site = loaded(path, "1h");
+    let watch = Stopwatch::start();
+    let camera = Site { receivers: Receivers::Surfaces, ..site.clone() };
+    let pair = Pair::load(path, path, &Overrides { engine: Some(Engine::Cpu), size: Some(60), ..Overrides::default() });
+    let pair = pair.unwrap();
+    let point = Overrides { point: Some("12,-3,4.5".to_owned()), ..Overrides::default() };
+    let probing = load_probes(path, &point).unwrap();
+    let [one, other, of_volumes] = ["one.png", "other.png", "volumes.glb"].map(|name| path.join(name));
+    let of_instant = InstantRequest {
+        view: View::Plan(site.grid),
+        drawing: Some(one.clone()),
+        mask: Some(other.clone()),
+        show: Show::default(),
+        statistics: false,
+        watch: watch.clone(),
+    };
+    let of_probe = ProbeRequest { drawing: Some(one), table: Some(other) };
+    let all = SurfacesRequest::all(watch.clone());
+    let on_event = |_: Event<'_>| Continue(());
+    let of_one = |sink: Sink<'_>| instant(&site, &of_instant, sink, &mut on_event.clone()).unwrap().written;
+    let of_points = |sink: Sink<'_>| probe(&probing, &of_probe, sink, &mut on_event.clone()).unwrap().written;
+    let of_solids = |sink: Sink<'_>| volumes(&site, &of_volumes, sink, &mut on_event.clone()).unwrap().written;
+    let of_walls = |sink: Sink<'_>| surfaces(&camera, &all, sink, &mut on_event.clone()).unwrap().written;
+    let of_both = |sink: Sink<'_>| comparison(&pair, watch.clone(), sink, &mut on_event.clone()).unwrap().written;
+    let out = path.join("out");
+    let (files, folder) = (Sink::Paths { inputs: &[] }, Sink::Folder(inside(&out)));
+    let deliverables: [(&dyn Fn(Sink<'_>) -> Written, Sink<'_>, usize); 5] = [
+        (&of_one, files, 2),
+        (&of_points, files, 2),
+        (&of_solids, files, 1),
+        (&of_walls, folder, 4),
+        (&of_both, folder, 3),
+    ];
+    for (write, sink, count) in deliverables {
+        let paths = write(sink).paths;
+        let written = comparable(paths.into_iter().map(|path| (path.clone(), std::fs::read(path).unwrap())));
+        let held = comparable(write(Sink::Memory).files.into_iter());
+        assert_eq!(held.keys().collect::<Vec<_>>(), written.keys().collect::<Vec<_>>());
+        assert!(held == written && held.len() == count, "{:?}", held.keys());
+    }
+}
+
+/// A time that is known is the one that is written, where clocks show it twice too.
+#[test]
+fn known_time_is_the_one_that_is_written() {
+    let folder = site();
+    for at in ["2026-06-21T13:00", "2026-10-25T02:30+01:00", "2026-10-25T02:30+02:00"] {
+        let written = Overrides { at: Some(at.to_owned()), ..Overrides::default() };
+        let written = Site::load(folder.path(), &written).unwrap();
+        let instant = Some(written.track.instants[0].time);
+        let known = Site::load(folder.path(), &Overrides { instant, ..Overrides::default() }).unwrap();
+        assert_eq!(known.track, written.track, "{at}");
+        assert_eq!(known.grid, written.grid, "{at}");
+    }
 }
