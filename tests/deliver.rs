@@ -135,6 +135,9 @@ fn shelf_holds_so_many_studies() {
     assert_eq!(read(&shelf).count(), 4);
 }
 
+/// Makes a deliverable.
+type Write<'a> = &'a dyn Fn(Sink<'_>) -> Written;
+
 /// So it is with all other deliverables but the animation, whose GIF is made of files.
 #[test]
 fn every_deliverable_goes_into_memory() {
@@ -166,7 +169,7 @@ fn every_deliverable_goes_into_memory() {
     let of_both = |sink: Sink<'_>| comparison(&pair, watch.clone(), sink, &mut on_event.clone()).unwrap().written;
     let out = path.join("out");
     let (files, folder) = (Sink::Paths { inputs: &[] }, Sink::Folder(inside(&out)));
-    let deliverables: [(&dyn Fn(Sink<'_>) -> Written, Sink<'_>, usize); 5] = [
+    let deliverables: [(Write<'_>, Sink<'_>, usize); 5] = [
         (&of_one, files, 2),
         (&of_points, files, 2),
         (&of_solids, files, 1),
