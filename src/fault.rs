@@ -1,5 +1,7 @@
 //! What went wrong, in the words of a face.
 
+use crate::deliver::DeliverError;
+use crate::deliver::lines::LinesError;
 use crate::export::ExportError;
 use crate::gpu::GpuError;
 use crate::message::{Worded, Words};
@@ -22,6 +24,8 @@ const WORDED: &[AsWorded] = &[
     worded::<ShadowError>,
     worded::<StudyError>,
     worded::<ExportError>,
+    worded::<DeliverError>,
+    worded::<LinesError>,
 ];
 
 fn worded<'a, E: Worded + Error + 'static>(error: &'a (dyn Error + 'static)) -> Option<&'a dyn Worded> {

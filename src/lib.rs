@@ -34,6 +34,7 @@ pub mod study;
 
 pub mod export;
 
+pub mod deliver;
 pub mod fault;
 
 pub mod cli;

@@ -87,6 +87,8 @@ fields! {
     Statistics => "statistics",
     /// Drawings of lines.
     Lines => "drawings of lines",
+    /// A drawing of each instant's outlines.
+    Outlines => "a drawing of outlines",
     /// Every instant's mask.
     Masks => "masks",
     /// Every instant's mask, a bit a cell.

@@ -23,7 +23,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         &["choice", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "picture", "profile"],
     ),
     ("export", &["choice", "look", "mesh", "sun", "view", "site", "volume", "profile"]),
-    ("fault", &["sun", "site", "gpu", "shadow", "study", "export"]),
+    ("deliver", &["choice", "mesh", "sun", "view", "site", "volume", "shadow", "profile", "study", "export"]),
+    ("fault", &["sun", "site", "gpu", "shadow", "study", "export", "deliver"]),
     (
         "cli",
         &[
@@ -40,8 +41,10 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "study",
             "export",
             "fault",
+            "deliver",
         ],
     ),
+    // the faces do not know each other
     (
         "desktop",
         &[
@@ -59,7 +62,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "study",
             "export",
             "fault",
-            "cli",
+            "deliver",
         ],
     ),
 ];
@@ -84,8 +87,8 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
     ("gltf::", &["site", "export"], "only site reads what the user wrote, and only export writes"),
     (
         "fs::read",
-        &["site", "export", "sun"],
-        "only site reads what the user wrote, export what it wrote itself, and sun the system's rules of clocks",
+        &["site", "export", "deliver", "sun"],
+        "only site reads what the user wrote, export and deliver what they wrote themselves, and sun the system's rules of clocks",
     ),
     ("File::open", &["site"], "only site reads what the user wrote"),
     ("\"ray-cast\"", &["choice"], "techniques are types until they are printed"),
@@ -295,6 +298,9 @@ fn checker_finds_each_kind_of_fault() {
         ("study/machine.rs", "let what = \"take a longer --step\";"),
         ("desktop/panel.rs", "ui.label(\"--technique: rays alone\");"),
         ("desktop/view.rs", "let casts = drawn.technique == \"ray-cast\";"),
+        ("desktop/work.rs", "use crate::cli::one_line;"),
+        ("cli/mod.rs", "use crate::desktop::open;"),
+        ("export/report.rs", "use crate::deliver::Sink;"),
     ];
     for (path, source) in bad {
         assert_eq!(faults(Path::new(path), source).len(), 1, "{path}: {source}");
@@ -312,6 +318,26 @@ fn checker_finds_each_kind_of_fault() {
     }
     let two_lines_down = faults(Path::new("gpu/mod.rs"), "//! Text.\n\nuse crate::sun::Place;");
     assert_eq!(two_lines_down, ["src/gpu/mod.rs:3: gpu may not know sun"]);
+}
+
+/// Which files put together what drawings and reports are told, but for those that take it, and those that change one.
+fn put_together(sources: &[(PathBuf, String)]) -> Vec<String> {
+    let mut files = Vec::new();
+    for (path, source) in sources.iter().filter(|(path, _)| module_of(path)[0] != "export") {
+        let code = without_comments(source);
+        let found = ["figure::Scene {", "Told {"].into_iter().flat_map(|word| code.match_indices(word));
+        let fields = found.map(|(at, _)| code[at..].split('}').next().unwrap_or_default());
+        let whole = fields.filter(|fields| !fields.contains("..scene(") && !fields.contains("..told("));
+        files.extend(whole.map(|_| path.display().to_string()));
+    }
+    files
+}
+
+#[test]
+fn drawings_and_reports_are_put_together_in_one_place() {
+    assert_eq!(put_together(&files("src", "rs")), ["deliver/parts.rs"; 2], "what a drawing is told, and a report");
+    let twin = (PathBuf::from("desktop/hours.rs"), "let scene = figure::Scene { place, track };".to_owned());
+    assert_eq!(put_together(&[twin]), ["desktop/hours.rs"]);
 }
 
 #[test]

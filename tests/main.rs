@@ -6,6 +6,7 @@ mod clock;
 mod command;
 mod counts;
 mod daylight;
+mod deliver;
 mod dense;
 #[cfg(feature = "desktop")]
 mod desktop;

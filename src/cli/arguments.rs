@@ -225,20 +225,6 @@ pub(super) enum Written {
     Json,
 }
 
-impl Written {
-    /// What it is called, of the plan and of surfaces.
-    pub(super) fn file(self, receivers: Receivers) -> &'static str {
-        match self {
-            Written::Png if receivers == Receivers::Surfaces => "surfaces.png",
-            Written::Png => "profile.png",
-            Written::Tif => "shadow-hours.tif",
-            Written::Glb => "surfaces.glb",
-            Written::Csv => "surfaces.csv",
-            Written::Json => "profile.json",
-        }
-    }
-}
-
 #[derive(Debug, Args)]
 pub(super) struct ShadowArgs {
     #[command(flatten)]

@@ -2,14 +2,13 @@
 //!
 //! Results go to stdout, progress and notes to stderr. Exit status: 0 done, 1 failed, 2 wrong use, 130 interrupted.
 
-pub(crate) mod animate;
+mod animate;
 mod arguments;
 mod commands;
 mod compare;
-pub(crate) mod draw;
+mod draw;
 mod eye;
 mod interrupt;
-mod keeping;
 mod memory;
 mod model;
 mod options;
@@ -21,6 +20,7 @@ mod technique;
 mod verify;
 mod volumes;
 
+use crate::deliver::DeliverError;
 use crate::export::ExportError;
 use crate::fault;
 use crate::site::SiteError;
@@ -100,10 +100,13 @@ fn status(error: &anyhow::Error) -> u8 {
     let wrong_use = error.is::<WrongUse>()
         || error.downcast_ref().is_some_and(SiteError::is_wrong_use)
         || error.downcast_ref().is_some_and(StudyError::is_wrong_use)
-        || error.downcast_ref().is_some_and(ExportError::is_wrong_use);
-    match error.downcast_ref() {
-        Some(StudyError::Interrupted) => 130,
-        _ if wrong_use => 2,
+        || error.downcast_ref().is_some_and(ExportError::is_wrong_use)
+        || error.downcast_ref().is_some_and(DeliverError::is_wrong_use);
+    let interrupted = matches!(error.downcast_ref(), Some(StudyError::Interrupted))
+        || error.downcast_ref().is_some_and(DeliverError::is_interrupted);
+    match (interrupted, wrong_use) {
+        (true, _) => 130,
+        (_, true) => 2,
         _ => 1,
     }
 }

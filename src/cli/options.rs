@@ -46,6 +46,7 @@ impl Words for Options {
             Field::OverdrawDiagram => "--show overdraw",
             Field::Statistics => "--stats",
             Field::Lines => "--draw",
+            Field::Outlines => "--draw outlines",
             Field::Masks => "--masks",
             Field::Bits => "--bits",
             Field::Memory => "--memory",

@@ -2,7 +2,7 @@
 
 use super::look;
 use super::question::Question;
-use crate::cli::draw::Lines;
+use crate::deliver::lines::Lines;
 use crate::export::animation::Frames;
 use crate::export::file;
 use eframe::egui;
@@ -74,7 +74,7 @@ pub(super) struct Asking {
     /// What is proposed.
     proposed: PathBuf,
     /// Names of the files that will be written, where a folder is asked for; an animation has its own.
-    files: Vec<&'static str>,
+    files: Vec<PathBuf>,
     /// The dialog in the window: what is typed.
     typed: Option<String>,
     /// It has been shown, and its field had the focus.
@@ -96,12 +96,7 @@ pub(super) enum Answer {
 impl Asking {
     /// Asks by the system's dialog, beginning with what is proposed; `files` are the names of what will be written into a
     /// folder.
-    pub(super) fn start(
-        purpose: Purpose,
-        proposed: PathBuf,
-        files: Vec<&'static str>,
-        context: egui::Context,
-    ) -> Asking {
+    pub(super) fn start(purpose: Purpose, proposed: PathBuf, files: Vec<PathBuf>, context: egui::Context) -> Asking {
         let (tell, answer) = mpsc::channel();
         let folder = if purpose.reads() { Some(proposed.as_path()) } else { proposed.parent() }.map(Path::to_owned);
         let name = proposed.file_name().map(OsStr::to_owned);

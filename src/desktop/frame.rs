@@ -10,7 +10,7 @@ use super::loading::{Wanted, name_of};
 use super::look;
 use super::time::steps;
 use super::unit::Unit;
-use crate::cli::draw::Lines;
+use crate::deliver::lines::Lines;
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers, ThemePreference, Ui};
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);

@@ -2,6 +2,8 @@
 
 use super::stage::Wish;
 use crate::choice::{Engine, Method, Receivers, Settings};
+use crate::deliver::instant::seen_casts;
+use crate::deliver::{Seen, scene};
 use crate::export::figure::{self, Shown};
 use crate::profile::Drawn;
 use crate::shadow::ray_cast::RayCast;
@@ -48,17 +50,9 @@ pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]
         adapter: None,
         settings: Settings { sun_samples, ..Settings::NONE },
     };
-    let scene = figure::Scene {
-        place: &site.place,
-        track: &site.track,
-        mesh: &plain.scene.receivers,
-        surface: &plain.rays.surface()?,
-        receivers: Receivers::Top,
-        ground: site.ground,
-        drawn: &drawn,
-    };
-    let casts: Vec<bool> =
-        site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect();
+    let (mesh, surface) = (&plain.scene.receivers, &plain.rays.surface()?);
+    let scene = scene(site, Seen { receivers: Receivers::Top, surface, mesh, drawn: &drawn });
+    let casts = seen_casts(site);
     let shown = Shown { casts: wish.style.tinted.then_some(casts.as_slice()), ..Shown::default() };
     let pixels = figure::bare(&scene, &wish.view, &mask, wish.to_sun, &shown);
     Ok((pixels.into_iter().map(|[red, green, blue]| [red, green, blue, 255]).collect(), drawn))

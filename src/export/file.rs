@@ -119,7 +119,7 @@ pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
 
 /// Removes what was written beside the places of some files by processes that died. Whoever calls it has locked their
 /// folders, so that nobody else is writing these.
-pub(super) fn remove_leftovers(outputs: &[PathBuf]) {
+pub(crate) fn remove_leftovers(outputs: &[PathBuf]) {
     let mut folders: BTreeMap<&Path, BTreeSet<&OsStr>> = BTreeMap::new();
     for path in outputs {
         if let (Some(folder), Some(name)) = (path.parent(), path.file_name()) {
@@ -138,7 +138,7 @@ pub(super) fn remove_leftovers(outputs: &[PathBuf]) {
 }
 
 /// Renames a file that is on the disk, and sees that its new name is, too, where the system allows that.
-pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
+pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)?;
     let folder = to.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     // Windows opens no folder, and some disks sync none: there a power cut may bring back the old file, which is whole
@@ -180,7 +180,7 @@ pub fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Expor
 }
 
 /// Errs where the disk has less room than a file takes; what lies at `there` already is a part of it.
-pub(super) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), ExportError> {
+pub(crate) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), ExportError> {
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let room = fs4::available_space(folder).map_err(|error| failed(folder, "asking for its room", error))?;
     // a file that was begun may have gaps, which take no room yet
@@ -193,7 +193,7 @@ pub(super) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), Exp
 }
 
 /// Removes a file; that there is none is no error.
-pub(super) fn remove(path: &Path) -> Result<(), ExportError> {
+pub(crate) fn remove(path: &Path) -> Result<(), ExportError> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(failed(path, "removing it", error)),
         _ => Ok(()),
@@ -201,7 +201,7 @@ pub(super) fn remove(path: &Path) -> Result<(), ExportError> {
 }
 
 /// What the file system refused, with the way out.
-pub(super) fn failed(path: &Path, doing: &'static str, source: io::Error) -> ExportError {
+pub(crate) fn failed(path: &Path, doing: &'static str, source: io::Error) -> ExportError {
     ExportError::Write { path: path.to_owned(), doing, source }
 }
 

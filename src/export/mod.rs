@@ -3,7 +3,6 @@
 //! Every encoder returns bytes and touches no disk; [`file::write`] puts them there, whole or not at all.
 
 pub mod animation;
-pub mod bits;
 pub mod check;
 pub mod checksum;
 pub mod comparison;
@@ -14,12 +13,9 @@ pub mod probe;
 pub mod raster;
 pub mod recovery;
 pub mod report;
-pub mod sums;
 pub mod surfaces;
-pub mod unfinished;
 pub mod verify;
 pub mod volumes;
-pub mod workplace;
 
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use std::path::PathBuf;
@@ -188,7 +184,7 @@ impl ExportError {
     }
 
     /// An encoder's refusal, in its own words.
-    fn encode(what: &'static str, why: impl ToString) -> Self {
+    pub(crate) fn encode(what: &'static str, why: impl ToString) -> Self {
         ExportError::Encode { what, why: why.to_string() }
     }
 }

@@ -142,7 +142,7 @@ pub(super) struct PlaceReport<'a> {
 }
 
 #[derive(Serialize)]
-pub(super) struct InstantReport {
+pub(crate) struct InstantReport {
     time: String,
     azimuth_deg: f64,
     altitude_deg: f64,
@@ -379,7 +379,7 @@ pub(super) fn ground_report(ground: &Ground) -> GroundReport {
 }
 
 // Angles are not rounded: the sign of the altitude and `night` then always agree.
-pub(super) fn instant_report(instant: &Instant) -> InstantReport {
+pub(crate) fn instant_report(instant: &Instant) -> InstantReport {
     InstantReport {
         time: stamp(&instant.time),
         azimuth_deg: instant.azimuth_rad.to_degrees(),

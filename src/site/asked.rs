@@ -4,7 +4,9 @@ use super::error::{At, SiteError};
 use super::model::Up;
 use super::{Engine, Finder, Method, Receivers, Settings};
 use crate::message::{Field, Message, Words, message};
+use crate::sun::Zone;
 use crate::view::Side;
+use chrono::DateTime;
 
 /// Options of the command line; each, where given, goes before the site file.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +31,8 @@ pub struct Overrides {
     pub to_date: Option<String>,
     /// `--at 2026-09-18T15:00`: this instant alone, instead of the study.
     pub at: Option<String>,
+    /// The same of a time that is known already; it goes before all else that says when.
+    pub instant: Option<DateTime<Zone>>,
     /// `--point X,Y,Z`, metres: this probe alone, instead of the file's.
     pub point: Option<String>,
     /// `--normal X,Y,Z`, with `--point`.

@@ -27,6 +27,11 @@ impl Said<'_> {
 /// The instants asked: `--at` alone, or the study's window with the command line before the file.
 pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
+    if let Some(time) = asked.instant {
+        let time = time.with_timezone(&place.time_zone);
+        let track = SunTrack::of_instant(place, time, refraction);
+        return track.map_err(|error| SiteError::sun(written.key("study", ""), error));
+    }
     let study = &written.site.study;
     let file = |key: &str, text: Option<&'_ str>| text.map(|text| (text.to_owned(), written.key("study", key)));
     let said = |field, text: &Option<String>| text.clone().map(|text| (text, At::Field(field)));

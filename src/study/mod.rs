@@ -22,7 +22,7 @@ pub mod verify;
 pub use compare::{CompareOutcome, compare, compare_with};
 pub use frames::{Frame, frames};
 pub use instant::instant;
-pub use profile::{Tiled, Worked, in_tiles, run};
+pub use profile::{Tiled, Worked, in_tiles, paste, run};
 pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 pub use tiles::Budget;
@@ -43,20 +43,22 @@ use glam::DVec3;
 use machine::{Machine, not_surfaces};
 use std::cell::RefCell;
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// What is made beside the profile.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wants {
     /// Every instant's mask, in [`Event::Drawn`].
     pub masks: bool,
     /// Of every instant with a sun which cells are in shadow, in [`Event::Drawn`].
     pub bits: bool,
+    /// The folder to which whoever asks writes the masks, by its canonical name: a study that writes them elsewhere is
+    /// another study.
+    pub masks_in: Option<PathBuf>,
     /// Whether lines are drawn, which are made of all cells at once: tiles will not do.
     pub lines: bool,
-    /// Where whoever asks writes them, as a number: what is written elsewhere is another study.
-    pub written: u64,
     /// What the cells see, for a drawing.
     pub surface: bool,
     /// What counting took.
@@ -148,6 +150,8 @@ pub enum Event<'a> {
     },
     /// What is done so far, to be kept: with it the study can go on another time.
     Kept(&'a Unfinished),
+    /// The study is done, and of what is made of it another stage is.
+    Stage(&'static str),
 }
 
 /// Hears what happens; [`ControlFlow::Break`] ends the work with [`StudyError::Interrupted`].
@@ -439,7 +443,11 @@ fn night(view: &View) -> Mask {
     Mask { width, height, share: vec![0; width as usize * height as usize] }
 }
 
-fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> {
+/// Tells what happens.
+///
+/// # Errors
+/// [`StudyError::Interrupted`] as asked by the listener.
+pub fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> {
     match on_event(event) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(StudyError::Interrupted),

@@ -58,8 +58,8 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, timings })
 }
 
-/// The whole with a tile in its place.
-fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
+/// The whole of a plan's sums, with a tile's in their place; an empty whole has none yet.
+pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
     if tile.is_whole() {
         return Arc::clone(shaded);
     }
@@ -108,7 +108,7 @@ impl<'a> Tiled<'a> {
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
         check_tiles(&tiles, wants)?;
         tiles::note(&tiles, on_event)?;
-        Ok(Tiled { site, wants: *wants, machine, tiles, number: OnceCell::new(), watch })
+        Ok(Tiled { site, wants: wants.clone(), machine, tiles, number: OnceCell::new(), watch })
     }
 
     /// Which study it is: a number of all that its result depends on.
@@ -152,7 +152,7 @@ impl fmt::Debug for Tiled<'_> {
 /// # Errors
 /// [`StudyError`]
 pub fn in_tiles(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>) -> Result<Worked, StudyError> {
-    let Tiled { site, wants, .. } = tiled;
+    let (site, wants) = (tiled.site, tiled.wants.clone());
     // which study it is, where what is done of it is kept
     let number = wants.keep_every.map(|_| tiled.number());
     let mut at_hand = Some((tiled, begun));

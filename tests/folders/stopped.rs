@@ -3,7 +3,7 @@
 use super::bytes;
 use crate::command::{command, done, gnomon, site, stderr};
 use crate::year::{files, left, numberless, stopped};
-use gnomon::export::unfinished::{self, Checks, Kept};
+use gnomon::deliver::disk::unfinished::{self, Checks, Kept};
 use gnomon::profile::{Statistics, Unfinished};
 use std::fs;
 use std::path::Path;
