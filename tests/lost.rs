@@ -1,9 +1,11 @@
 //! A graphics device that is lost in the midst of a study: all is done again, and comes to the same.
 
+use gnomon::deliver::profile::{ProfileRequest, profile};
+use gnomon::deliver::{Folder, Sink};
 use gnomon::gpu::{Gpu, GpuError, lose_after, readback};
 use gnomon::site::{Engine, Method, Overrides, Receivers, Site};
 use gnomon::study::again::persist;
-use gnomon::study::{self, Event, InstantWants, StudyError, Tiled, Wants};
+use gnomon::study::{self, Event, InstantWants, Stopwatch, StudyError, Tiled, Wants};
 use gnomon::view::View;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -263,6 +265,39 @@ fn study_goes_on_from_what_was_kept() {
         assert_eq!(gone_on, if keeps { vec![2] } else { Vec::new() });
         assert_eq!(told.drawn, if keeps { vec![0, 1, 2, 2, 3] } else { vec![0, 1, 2, 0, 1, 2, 3] });
         assert!(*sums.expect("sums") == right.profile.shaded);
+    }
+}
+
+/// What a stopped study keeps in its folder is what it goes on from, also where a device is lost after that.
+#[test]
+fn stopped_study_goes_on_from_its_folder_on_a_new_device() {
+    let site = works();
+    let folder = tempfile::tempdir().expect("a folder");
+    let [right, out] = ["right", "out"].map(|name| folder.path().join(name));
+    let asked = ProfileRequest { raster: true, bits: true, ..ProfileRequest::of(Stopwatch::start()) };
+    let sink = |path| Sink::Folder(Folder { path, who: "a test", inputs: &[] });
+    profile(&site, &asked, sink(&right), &mut |_| ControlFlow::Continue(())).expect("a study");
+
+    let stopped = profile(&site, &asked, sink(&out), &mut |event| match event {
+        Event::Drawn { index: 1, .. } => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    });
+    assert!(stopped.is_err_and(|error| error.is_interrupted()));
+    let (mut told, mut gone_on) = (Told::default(), Vec::new());
+    profile(&site, &asked, sink(&out), &mut |event| {
+        match event {
+            Event::GoesOn { done } => gone_on.push(done),
+            Event::Drawn { index: 2, .. } if told.anew == 0 => lose_after(0),
+            _ => {}
+        }
+        told.hear(&event)
+    })
+    .expect("a study");
+    told.is_of_one_loss();
+    assert_eq!(gone_on, [2, 2]);
+    for name in ["shadow-hours.tif", "shadow.bits"] {
+        let [right, found] = [&right, &out].map(|folder| std::fs::read(folder.join(name)).expect("a file"));
+        assert!(right == found, "{name} is another");
     }
 }
 
