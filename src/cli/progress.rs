@@ -85,7 +85,7 @@ impl Progress {
         }
     }
 
-    /// Shows an event, and ends the work after Ctrl-C.
+    /// Shows an event, and says whether the work goes on: not after Ctrl-C.
     pub(super) fn heard(&mut self, event: &Event<'_>) -> ControlFlow<()> {
         self.hear(event);
         interrupt::flow()

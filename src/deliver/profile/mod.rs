@@ -176,7 +176,7 @@ pub fn write_hours(
 }
 
 impl<'a> ProfileRequest<'a> {
-    /// Nothing yet, since a stopwatch runs.
+    /// Asks for no file yet. The stopwatch runs since before the site was read.
     pub fn of(watch: Stopwatch) -> ProfileRequest<'a> {
         ProfileRequest {
             drawing: false,
