@@ -1,5 +1,6 @@
 //! What went wrong, in the words of a face.
 
+use crate::choice::Misfit;
 use crate::deliver::DeliverError;
 use crate::deliver::lines::LinesError;
 use crate::export::ExportError;
@@ -17,6 +18,7 @@ type AsWorded = for<'a> fn(&'a (dyn Error + 'static)) -> Option<&'a dyn Worded>;
 
 /// Every error that speaks of fields.
 const WORDED: &[AsWorded] = &[
+    worded::<Misfit>,
     worded::<SunError>,
     worded::<TypedError>,
     worded::<SiteError>,

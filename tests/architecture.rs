@@ -24,7 +24,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     ("export", &["choice", "look", "mesh", "sun", "view", "site", "volume", "profile"]),
     ("deliver", &["choice", "mesh", "sun", "view", "site", "volume", "shadow", "profile", "study", "export"]),
-    ("fault", &["sun", "site", "gpu", "shadow", "study", "export", "deliver"]),
+    ("fault", &["choice", "sun", "site", "gpu", "shadow", "study", "export", "deliver"]),
     (
         "cli",
         &[
