@@ -23,6 +23,7 @@ mod overdraw;
 mod overlay;
 mod patches;
 mod probe;
+mod references;
 mod shaders;
 mod shared;
 mod site;
