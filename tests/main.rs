@@ -7,6 +7,7 @@ mod counts;
 mod daylight;
 #[cfg(feature = "desktop")]
 mod desktop;
+mod documents;
 mod elevation;
 mod exact;
 mod export;
