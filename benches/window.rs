@@ -10,7 +10,7 @@ use egui_kittest::kittest::Queryable;
 use glam::DVec3;
 use gnomon::desktop::App;
 use gnomon::gpu::Gpu;
-use gnomon::shadow::picture::{Picture, Style};
+use gnomon::picture::{Picture, Style};
 use gnomon::site::{Method, Overrides, Settings, Site};
 use gnomon::study::live::{Live, Way};
 use gnomon::view::{Camera, View};

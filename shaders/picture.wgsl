@@ -24,6 +24,52 @@ struct Shown {
     unused: f32,
 }
 
+// The look that drawings have (src/look.rs), field for field.
+struct Look {
+    building: vec3f,
+    cut_earth: f32,
+    ground: vec3f,
+    sky: f32,
+    sky_light: vec3f,
+    sky_slope: f32,
+    sun_light: vec3f,
+    exposure: f32,
+    horizon: vec3f,
+    least_height: f32,
+    zenith: vec3f,
+    least_sun: f32,
+    night: vec3f,
+    pressed_above: f32,
+    not_judged: vec3f,
+    pressed_room: f32,
+    plan_ground_sun: vec3f,
+    sky_rise: f32,
+    plan_ground_shade: vec3f,
+    sky_most: f32,
+    plan_roof_sun: vec3f,
+    haze_begins: f32,
+    plan_roof_shade: vec3f,
+    haze_length: f32,
+    line: vec3f,
+    relief: f32,
+    volume: vec3f,
+    relief_of_hours: f32,
+    silhouette: vec3f,
+    relief_darkest: f32,
+    relief_lightest: f32,
+    outline: f32,
+    step: f32,
+    foot: f32,
+    crease: f32,
+    crease_cos: f32,
+    plan_crease_cos: f32,
+    step_share: f32,
+    side_step_pixels: f32,
+    tinted_lines: f32,
+    layer: f32,
+    most_layers: f32,
+}
+
 @group(2) @binding(0) var<uniform> shown: Shown;
 @group(2) @binding(1) var share_of_sun: texture_2d<f32>;
 // Colours of the hours' cells, and the height of the surface that they were counted on, around the scene's origin.
@@ -40,6 +86,7 @@ struct Shown {
 @group(2) @binding(8) var patch_of: texture_2d<u32>;
 @group(2) @binding(9) var patch_frames: texture_2d<f32>;
 @group(2) @binding(10) var atlas: texture_2d_array<f32>;
+@group(2) @binding(11) var<uniform> look: Look;
 
 // What a pixel sees, from its face's plane: depths are not needed, which rays do not tell.
 fn point_on(face: u32, pixel: vec2f) -> vec3f {
@@ -57,52 +104,33 @@ fn point_on(face: u32, pixel: vec2f) -> vec3f {
     return start.xyz - along * (dot(plane, start) / select(1e-6, away, abs(away) > 1e-6));
 }
 
-// Reflectance of card and ground, and the light of sky and sun (src/export/figure/perspective.rs).
-const BUILDING = vec3f(0.995, 0.975, 0.935);
-const GROUND_CARD = vec3f(0.965, 0.945, 0.895);
-const SKY_LIGHT = vec3f(0.90, 0.97, 1.12);
-const SUN_LIGHT = vec3f(1.10, 1.00, 0.84);
-const HORIZON = vec3f(0.945, 0.942, 0.925);
-const ZENITH = vec3f(0.640, 0.745, 0.850);
-const NIGHT = vec3f(0.62, 0.66, 0.76);
-// Earth that a side cuts, against the ground's card.
-const CUT_EARTH = 0.90;
-const LINE = vec3f(24.0, 27.0, 34.0) / 255.0;
-const VOLUME = vec3f(250.0, 205.0, 40.0) / 255.0;
-const SILHOUETTE = vec3f(10.0, 10.0, 12.0) / 255.0;
-
-// The plan's colours (src/export/figure/plan.rs).
-const PLAN_GROUND_SUN = vec3f(246.0, 240.0, 226.0) / 255.0;
-const PLAN_GROUND_SHADE = vec3f(140.0, 152.0, 173.0) / 255.0;
-const PLAN_ROOF_SUN = vec3f(255.0, 255.0, 253.0) / 255.0;
-const PLAN_ROOF_SHADE = vec3f(174.0, 183.0, 198.0) / 255.0;
-
 // What falls on a surface: sky from above, the sun where it is seen.
 fn light_on(normal: vec3f, share: f32) -> vec3f {
-    let exposed = (0.98 - 0.50 - 0.09) / max(light.towards.z, 0.32);
+    let exposed = (look.exposure - look.sky - look.sky_slope) / max(light.towards.z, look.least_height);
     let across = dot(normal, light.towards.xyz);
-    let sun = select(0.0, max(exposed * across, 0.26), across > 0.0);
-    return SKY_LIGHT * (0.50 + 0.09 * normal.z) + SUN_LIGHT * (sun * share);
+    let sun = select(0.0, max(exposed * across, look.least_sun), across > 0.0);
+    return look.sky_light * (look.sky + look.sky_slope * normal.z) + look.sun_light * (sun * share);
 }
 
 fn sky(along: vec3f) -> vec3f {
     let height = clamp(along.z / length(along), 0.0, 1.0);
-    return mix(HORIZON, ZENITH, sqrt(min(height * 1.6, 1.0)) * 0.85);
+    return mix(look.horizon, look.zenith, sqrt(min(height * look.sky_rise, 1.0)) * look.sky_most);
 }
 
 // The brightest tenth is pressed together instead of cut off.
 fn display(colour: vec3f) -> vec3f {
-    let over = colour - 0.9;
-    return select(max(colour, vec3f(0.0)), 0.9 + 0.1 * (1.0 - exp(-over / 0.1)), over > vec3f(0.0));
+    let over = colour - look.pressed_above;
+    let pressed = look.pressed_above + look.pressed_room * (1.0 - exp(-over / look.pressed_room));
+    return select(max(colour, vec3f(0.0)), pressed, over > vec3f(0.0));
 }
 
 fn at_night(colour: vec3f) -> vec3f {
-    return display(select(colour, colour * NIGHT, shown.night == 1.0));
+    return display(select(colour, colour * look.night, shown.night == 1.0));
 }
 
 fn tint_of(face: u32) -> vec3f {
     if shown.tinted == 0.0 {
-        return BUILDING;
+        return look.building;
     }
     return textureLoad(tints, vec2u(face % PLANES_WIDTH, face / PLANES_WIDTH), 0).rgb;
 }
@@ -121,14 +149,12 @@ fn hours_at(point: vec3f, normal: vec3f) -> vec4f {
 }
 
 const NO_PATCH: u32 = 0xffffffffu;
-// The colour of what is not judged (src/export/figure/surfaces.rs).
-const NOT_JUDGED = vec3f(200.0, 191.0, 182.0) / 255.0;
 
 // A patch's colour at a seen point.
 fn on_patch(face: u32, point: vec3f, normal: vec3f) -> vec3f {
     let number = textureLoad(patch_of, vec2u(face % PLANES_WIDTH, face / PLANES_WIDTH), 0).x;
     if number == NO_PATCH {
-        return NOT_JUDGED;
+        return look.not_judged;
     }
     let first = vec2u(number * 4u % PLANES_WIDTH, number * 4u / PLANES_WIDTH);
     let corner = textureLoad(patch_frames, first, 0);
@@ -136,7 +162,7 @@ fn on_patch(face: u32, point: vec3f, normal: vec3f) -> vec3f {
     let down = textureLoad(patch_frames, first + vec2u(2u, 0u), 0);
     let size = textureLoad(patch_frames, first + vec2u(3u, 0u), 0).xyz;
     if size.z < 2.0 && dot(cross(down.xyz, right.xyz), normal) <= 0.0 {
-        return NOT_JUDGED;
+        return look.not_judged;
     }
     let from_corner = point - corner.xyz;
     let place = vec2f(dot(from_corner, right.xyz), dot(from_corner, down.xyz));
@@ -152,17 +178,18 @@ fn before_camera(pixel: vec2f, face: u32) -> vec3f {
     let normal = seen_normal(face);
     let point = point_on(face, pixel);
     let share = textureLoad(share_of_sun, vec2u(pixel), 0).x;
-    var card = GROUND_CARD;
+    var card = look.ground;
     var haze = 0.0;
     if face == GROUND && is_elevation() {
-        card *= CUT_EARTH;
+        card *= look.cut_earth;
     } else if face == GROUND {
-        haze = 1.0 - exp(-max(distance(point, view.viewer.xyz) / shown.focus - 1.3, 0.0) / 3.5);
+        let behind = distance(point, view.viewer.xyz) / shown.focus - look.haze_begins;
+        haze = 1.0 - exp(-max(behind, 0.0) / look.haze_length);
     } else {
         card = tint_of(face);
     }
     if shown.hours == 0.0 {
-        return at_night(mix(card * light_on(normal, share), HORIZON, haze));
+        return at_night(mix(card * light_on(normal, share), look.horizon, haze));
     }
     if shown.hours == 2.0 && face != GROUND {
         return on_patch(face, point, normal);
@@ -172,17 +199,17 @@ fn before_camera(pixel: vec2f, face: u32) -> vec3f {
     if shown.hours == 1.0 {
         hours = hours_at(point, normal);
     }
-    let plain = mix(card * (0.74 + 0.18 * normal.z + 0.05 * normal.x - 0.03 * normal.y), HORIZON, haze);
+    let plain = mix(card * (0.74 + 0.18 * normal.z + 0.05 * normal.x - 0.03 * normal.y), look.horizon, haze);
     return mix(plain, hours.rgb * (0.90 + 0.10 * normal.z), hours.a);
 }
 
 // Slopes away from the light are a little darker.
 fn relief(normal: vec3f, strength: f32) -> f32 {
-    if normal.z > 0.9999 || shown.night == 1.0 {
+    if normal.z > 0.9999 {
         return 1.0;
     }
     let across = vec3f(normalize(light.towards.xy + vec2f(1e-6, 0.0)), 1.0) * 0.70710678;
-    return clamp(1.0 + strength * (dot(normal, across) / across.z - 1.0), 0.70, 1.04);
+    return clamp(1.0 + strength * (dot(normal, across) / across.z - 1.0), look.relief_darkest, look.relief_lightest);
 }
 
 fn from_above(pixel: vec2f, face: u32) -> vec3f {
@@ -194,16 +221,16 @@ fn from_above(pixel: vec2f, face: u32) -> vec3f {
     }
     let hours = hours_at(point, normal);
     if shown.hours == 1.0 && hours.a == 1.0 {
-        return hours.rgb * relief(normal, 0.10);
+        return hours.rgb * relief(normal, look.relief_of_hours);
     }
     if face == GROUND {
-        return mix(PLAN_GROUND_SHADE, PLAN_GROUND_SUN, select(share, 1.0, shown.hours > 0.0));
+        return mix(look.plan_ground_shade, look.plan_ground_sun, select(share, 1.0, shown.hours > 0.0));
     }
-    var roof = mix(PLAN_ROOF_SHADE, PLAN_ROOF_SUN, share);
+    var roof = mix(look.plan_roof_shade, look.plan_roof_sun, share);
     if shown.tinted == 1.0 {
         roof = tint_of(face) * mix(0.78, 1.0, share);
     }
-    return roof * relief(normal, 0.26);
+    return roof * relief(normal, look.relief);
 }
 
 // Distance along the ray, in metres of depth, at which a face's plane is met.
@@ -221,29 +248,29 @@ fn line_between(a: vec2f, b: vec2f) -> f32 {
     }
     if from_face >= GROUND && to_face >= GROUND {
         // the ground's line
-        return select(0.0, 0.9, is_elevation());
+        return select(0.0, look.step, is_elevation());
     }
     if is_plan() {
         return line_in_plan(a, b, from_face, to_face);
     }
     if from_face == SKY || to_face == SKY {
-        return 0.75;
+        return look.step;
     }
     if from_face == GROUND || to_face == GROUND {
-        return 0.6;
+        return look.foot;
     }
     let here = depth_on_plane(from_face, a) - depth_on_plane(to_face, a);
     let there = depth_on_plane(from_face, b) - depth_on_plane(to_face, b);
-    var least = 0.004 * abs(depth_on_plane(from_face, a));
+    var least = look.step_share * abs(depth_on_plane(from_face, a));
     if is_elevation() {
-        least = 4.0 * length(view.up.xyz) / view.size.y;
+        least = look.side_step_pixels * 2.0 * length(view.up.xyz) / view.size.y;
     }
     // planes that cross between the two pixels adjoin, however steep; else there is air between them
     if here * there > 0.0 && min(abs(here), abs(there)) > least {
-        return 0.75;
+        return look.step;
     }
-    let crease = dot(seen_normal(from_face), seen_normal(to_face)) < 0.985;
-    return select(0.0, 0.45, crease);
+    let crease = dot(seen_normal(from_face), seen_normal(to_face)) < look.crease_cos;
+    return select(0.0, look.crease, crease);
 }
 
 fn line_in_plan(a: vec2f, b: vec2f, from_face: u32, to_face: u32) -> f32 {
@@ -257,10 +284,10 @@ fn line_in_plan(a: vec2f, b: vec2f, from_face: u32, to_face: u32) -> f32 {
     let jump = abs(from_point.z + from_rise - to_point.z - to_rise);
     let step = clamp(length(half), 0.02, 0.5) + abs(from_rise) + abs(to_rise);
     if from_face == GROUND || to_face == GROUND {
-        return select(0.45, 0.9, jump > step);
+        return select(look.crease, look.outline, jump > step);
     }
-    let crease = select(0.0, 0.45, dot(from_normal, to_normal) < 0.990);
-    return select(crease, 0.75, jump > step);
+    let crease = select(0.0, look.crease, dot(from_normal, to_normal) < look.plan_crease_cos);
+    return select(crease, look.step, jump > step);
 }
 
 fn lines_at(pixel: vec2f) -> f32 {
@@ -280,7 +307,8 @@ fn lines_at(pixel: vec2f) -> f32 {
             ink = max(ink, line_between(pixel - vec2f(0.0, 1.0), pixel));
         }
     }
-    return ink * shown.lines;
+    // colours tell parts from each other, and lines upon lines would hide the colours of fine parts
+    return ink * shown.lines * select(1.0, look.tinted_lines, shown.tinted == 1.0 && !is_plan());
 }
 
 // The overlay's value at a pixel: of its texels there the mean.
@@ -292,7 +320,7 @@ fn overlay_at(texture: texture_2d<f32>, pixel: vec2f, layers: bool) -> f32 {
         for (var column = 0u; column < scale.x; column++) {
             let value = textureLoad(texture, first + vec2u(column, row), 0).x;
             // so much of what lies behind it one layer hides, and all together at most
-            sum += select(value, min(1.0 - pow(1.0 - 0.27, value * 255.0), 0.62), layers);
+            sum += select(value, min(1.0 - pow(1.0 - look.layer, value * 255.0), look.most_layers), layers);
         }
     }
     return sum / f32(max(scale.x * scale.y, 1u));
@@ -310,10 +338,10 @@ fn picture(@builtin(position) position: vec4f) -> @location(0) vec4f {
     } else {
         colour = before_camera(pixel, face);
     }
-    colour = mix(colour, LINE, lines_at(pixel));
+    colour = mix(colour, look.line, lines_at(pixel));
     if shown.overlay == 1.0 {
-        colour = mix(colour, VOLUME, overlay_at(volumes, pixel, true));
-        colour = mix(colour, SILHOUETTE, overlay_at(silhouette, pixel, false));
+        colour = mix(colour, look.volume, overlay_at(volumes, pixel, true));
+        colour = mix(colour, look.silhouette, overlay_at(silhouette, pixel, false));
     }
     return vec4f(colour, 1.0);
 }

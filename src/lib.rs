@@ -11,6 +11,10 @@
 //! World frame: x east, y north, z up, metres, right-handed. Geometry is `f32` around [`mesh::Mesh::origin`];
 //! time, sun and map coordinates are `f64`.
 
+pub mod message;
+
+pub mod choice;
+pub mod look;
 pub mod mesh;
 pub mod sun;
 pub mod view;
@@ -23,10 +27,15 @@ pub mod volume;
 pub mod gpu;
 pub mod shadow;
 
+pub mod picture;
+
 pub mod profile;
 pub mod study;
 
 pub mod export;
+
+pub mod deliver;
+pub mod fault;
 
 pub mod cli;
 

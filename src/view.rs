@@ -405,6 +405,16 @@ impl Bits {
         bits
     }
 
+    /// Puts a tile's cells in their place on the plan. A tile's first column is a multiple of 64.
+    pub fn paste(&mut self, tile: &Tile, part: &Bits) {
+        let [left, top] = tile.first.map(|first| first as usize);
+        let in_row = self.in_row();
+        for (row, words) in part.words.chunks(part.in_row()).enumerate() {
+            let first = (top + row) * in_row + left / 64;
+            self.words[first..first + words.len()].copy_from_slice(words);
+        }
+    }
+
     /// Whether a cell, counted along the rows, is in shadow.
     pub fn contains(&self, cell: usize) -> bool {
         let (row, column) = (cell / self.width as usize, cell % self.width as usize);

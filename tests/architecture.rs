@@ -5,23 +5,73 @@ use std::path::{Path, PathBuf};
 
 /// The modules in reading order, and whom each may know. Everybody may know themselves.
 const MAY_KNOW: &[(&str, &[&str])] = &[
+    ("message", &[]),
+    ("choice", &[]),
+    ("look", &[]),
     ("mesh", &[]),
     ("sun", &[]),
     ("view", &[]),
-    ("site", &["mesh", "sun", "view"]),
+    ("site", &["choice", "mesh", "sun", "view"]),
     ("silhouette", &["mesh"]),
     ("volume", &["mesh", "silhouette"]),
     ("gpu", &[]),
-    ("shadow", &["mesh", "sun", "view", "silhouette", "volume", "gpu"]),
-    ("profile", &["mesh", "sun", "view", "gpu", "shadow"]),
-    ("study", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile"]),
-    ("export", &["mesh", "sun", "view", "site", "volume", "profile"]),
-    ("cli", &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export"]),
+    ("shadow", &["choice", "mesh", "sun", "view", "silhouette", "volume", "gpu"]),
+    ("picture", &["look", "mesh", "view", "silhouette", "volume", "gpu", "shadow"]),
+    ("profile", &["choice", "mesh", "sun", "view", "gpu", "shadow"]),
+    (
+        "study",
+        &["choice", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "picture", "profile"],
+    ),
+    ("export", &["choice", "look", "mesh", "sun", "view", "site", "volume", "profile"]),
+    ("deliver", &["choice", "mesh", "sun", "view", "site", "volume", "shadow", "profile", "study", "export"]),
+    ("fault", &["sun", "site", "gpu", "shadow", "study", "export", "deliver"]),
+    (
+        "cli",
+        &[
+            "choice",
+            "mesh",
+            "sun",
+            "view",
+            "site",
+            "silhouette",
+            "volume",
+            "gpu",
+            "shadow",
+            "profile",
+            "study",
+            "export",
+            "fault",
+            "deliver",
+        ],
+    ),
+    // the faces do not know each other
     (
         "desktop",
-        &["mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "profile", "study", "export", "cli"],
+        &[
+            "choice",
+            "mesh",
+            "sun",
+            "view",
+            "site",
+            "silhouette",
+            "volume",
+            "gpu",
+            "shadow",
+            "picture",
+            "profile",
+            "study",
+            "export",
+            "fault",
+            "deliver",
+        ],
     ),
 ];
+
+/// Whom everybody may know: what is said to people is said everywhere.
+const KNOWN_TO_ALL: &str = "message";
+
+/// Who may write an option of the command: all others name a field of the request, which each face has its own word for.
+const WRITES_OPTIONS: &[&str] = &["cli", "main"];
 
 /// Words that only some modules may write, and why. `main` is the binary's own file.
 const RESERVED: &[(&str, &[&str], &str)] = &[
@@ -37,10 +87,13 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
     ("gltf::", &["site", "export"], "only site reads what the user wrote, and only export writes"),
     (
         "fs::read",
-        &["site", "export", "sun"],
-        "only site reads what the user wrote, export what it wrote itself, and sun the system's rules of clocks",
+        &["site", "export", "deliver", "sun"],
+        "only site reads what the user wrote, export and deliver what they wrote themselves, and sun the system's rules of clocks",
     ),
     ("File::open", &["site"], "only site reads what the user wrote"),
+    ("\"ray-cast\"", &["choice"], "techniques are types until they are printed"),
+    ("\"shadow-map\"", &["choice"], "techniques are types until they are printed"),
+    ("\"soft-texture\"", &["choice"], "techniques are types until they are printed"),
     ("SystemTime::now", &[], "nothing reads the clock"),
     ("Utc::now", &[], "nothing reads the clock"),
     ("Local::now", &[], "nothing reads the clock"),
@@ -62,7 +115,7 @@ fn faults(path: &Path, source: &str) -> Vec<String> {
             "main" => &["cli", "desktop"],
             _ => MAY_KNOW.iter().find(|(name, _)| *name == module).map_or(&[][..], |(_, may)| may),
         };
-        if known != module && !may.contains(&known) {
+        if known != module && known != KNOWN_TO_ALL && !may.contains(&known) {
             faults.push(format!("{}: {module} may not know {known}", at(offset)));
         }
     }
@@ -73,7 +126,16 @@ fn faults(path: &Path, source: &str) -> Vec<String> {
             }
         }
     }
+    if !WRITES_OPTIONS.contains(&module) {
+        let options = code.match_indices("--").filter(|(offset, _)| is_option(&code[*offset..]));
+        faults.extend(options.map(|(offset, _)| format!("{}: an option in {module}: name a field", at(offset))));
+    }
     faults
+}
+
+/// Whether a text that begins with two dashes begins with an option.
+fn is_option(text: &str) -> bool {
+    text.trim_start_matches('-').starts_with(|next: char| next.is_ascii_lowercase()) && !text.starts_with("---")
 }
 
 /// The modules around a file's content, the outermost first: `shadow/stencil.rs` is shadow, stencil.
@@ -165,6 +227,46 @@ fn arrows_point_one_way_and_only_faces_print() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// What an error says of fields is lost where it is wrapped in one that does not pass it on, or that the faces do not ask.
+fn unworded(sources: &[(PathBuf, String)]) -> Vec<String> {
+    let named = |text: &str, before: &str, after: char| {
+        let names = text.split(before).skip(1).filter_map(|rest| Some(rest.split_once(after)?.0.trim().to_owned()));
+        names.collect::<Vec<String>>()
+    };
+    let code = sources.iter().map(|(path, source)| (path, without_comments(source))).collect::<Vec<_>>();
+    let worded = code.iter().flat_map(|(_, code)| named(code, "plain_display!(", ')')).collect::<Vec<_>>();
+    let asked = code.iter().flat_map(|(_, code)| named(code, "worded::<", '>')).collect::<Vec<_>>();
+    let mut faults: Vec<_> = worded
+        .iter()
+        // the macro's own
+        .filter(|name| !name.starts_with('$') && !asked.contains(name))
+        .map(|name| format!("{name} speaks of fields, and src/fault.rs does not ask it"))
+        .collect();
+    for (path, code) in &code {
+        for (name, body) in code.split("pub enum ").skip(1).filter_map(|rest| rest.split_once(" {")) {
+            let body = body.split("\n}").next().unwrap_or_default();
+            let words = || body.split(|c: char| !c.is_alphanumeric() && c != '_');
+            let wrapped = worded.iter().find(|worded| words().any(|word| word == *worded));
+            if let (true, false, Some(wrapped)) = (name.ends_with("Error"), worded.iter().any(|it| it == name), wrapped)
+            {
+                faults.push(format!("src/{}: {name} holds {wrapped} and is not Worded", path.display()));
+            }
+        }
+    }
+    faults
+}
+
+#[test]
+fn errors_that_speak_of_fields_reach_the_faces() {
+    let faults = unworded(&files("src", "rs"));
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    let file = |text: &str| (PathBuf::from("study/mod.rs"), text.to_owned());
+    let known = || file("plain_display!(StudyError);\nconst KNOWN = [worded::<StudyError>];");
+    assert_eq!(unworded(&[file("plain_display!(StudyError);")]).len(), 1);
+    assert_eq!(unworded(&[known(), file("pub enum OtherError {\n    Study(#[from] StudyError),\n}\n")]).len(), 1);
+    assert_eq!(unworded(&[known(), file("pub enum OtherError {\n    Night,\n}\n")]), Vec::<String>::new());
+}
+
 #[test]
 fn table_is_the_reading_order_of_lib() {
     let lib = files("src", "rs").into_iter().find(|(path, _)| path == Path::new("lib.rs")).expect("lib.rs").1;
@@ -193,6 +295,12 @@ fn checker_finds_each_kind_of_fault() {
         ("profile/mod.rs", "let text = std::fs::read_to_string(path)?;"),
         ("sun/clock.rs", "let now = chrono::Utc::now();"),
         ("cli.rs", "let now = std::time::SystemTime::now();"),
+        ("study/machine.rs", "let what = \"take a longer --step\";"),
+        ("desktop/panel.rs", "ui.label(\"--technique: rays alone\");"),
+        ("desktop/view.rs", "let casts = drawn.technique == \"ray-cast\";"),
+        ("desktop/work.rs", "use crate::cli::one_line;"),
+        ("cli/mod.rs", "use crate::desktop::open;"),
+        ("export/report.rs", "use crate::deliver::Sink;"),
     ];
     for (path, source) in bad {
         assert_eq!(faults(Path::new(path), source).len(), 1, "{path}: {source}");
@@ -202,12 +310,34 @@ fn checker_finds_each_kind_of_fault() {
         ("export/figure/words.rs", "use super::super::report;\nuse crate::{site::Receivers, sun::Place};"),
         ("cli.rs", "eprintln!(\"{}\", crate::study::run());"),
         ("study.rs", "let started = std::time::Instant::now();"),
+        ("cli.rs", "let what = \"take a longer --step\";"),
+        ("site/asked.rs", "/// `--step 30min`\nlet step = \"----- -->\";"),
     ];
     for (path, source) in good {
         assert_eq!(faults(Path::new(path), source), Vec::<String>::new(), "{path}");
     }
     let two_lines_down = faults(Path::new("gpu/mod.rs"), "//! Text.\n\nuse crate::sun::Place;");
     assert_eq!(two_lines_down, ["src/gpu/mod.rs:3: gpu may not know sun"]);
+}
+
+/// Which files put together what drawings and reports are told, but for those that take it, and those that change one.
+fn put_together(sources: &[(PathBuf, String)]) -> Vec<String> {
+    let mut files = Vec::new();
+    for (path, source) in sources.iter().filter(|(path, _)| module_of(path)[0] != "export") {
+        let code = without_comments(source);
+        let found = ["figure::Scene {", "Told {"].into_iter().flat_map(|word| code.match_indices(word));
+        let fields = found.map(|(at, _)| code[at..].split('}').next().unwrap_or_default());
+        let whole = fields.filter(|fields| !fields.contains("..scene(") && !fields.contains("..told("));
+        files.extend(whole.map(|_| path.display().to_string()));
+    }
+    files
+}
+
+#[test]
+fn drawings_and_reports_are_put_together_in_one_place() {
+    assert_eq!(put_together(&files("src", "rs")), ["deliver/parts.rs"; 2], "what a drawing is told, and a report");
+    let twin = (PathBuf::from("desktop/hours.rs"), "let scene = figure::Scene { place, track };".to_owned());
+    assert_eq!(put_together(&[twin]), ["desktop/hours.rs"]);
 }
 
 #[test]

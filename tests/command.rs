@@ -155,7 +155,7 @@ fn every_finder_draws_the_same_mask_and_is_named() {
     }
     assert!(masks.iter().all(|mask| *mask == masks[0]));
     let rays = "profile . --technique ray-cast --silhouette gpu --size 64";
-    fails(folder.path(), rays, 2, &["--silhouette", "leave the option out"]);
+    fails(folder.path(), rays, 2, &["--silhouette", "leave it out"]);
 }
 
 /// A system whose only backend is one that it has not.

@@ -2,8 +2,8 @@
 //! comes to look at twice as much is found out on a machine that is busy with something else.
 
 use crate::shared::drawing::gpu;
+use gnomon::choice::MAP_SIZE;
 use gnomon::shadow::hybrid::Hybrid;
-use gnomon::shadow::map::DEFAULT_SIZE;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
@@ -62,7 +62,7 @@ fn counts(name: &str) -> Counts {
     let rays = RayCast::new(scene.clone(), view, None);
     counts.push(("rays", suns.iter().map(|sun| rays.rays(*sun)).sum::<usize>() as u64));
     let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::Hierarchy).unwrap();
-    let mut hybrid = Hybrid::new(gpu(), scene, view, Kind::Hierarchy, DEFAULT_SIZE).unwrap();
+    let mut hybrid = Hybrid::new(gpu(), scene, view, Kind::Hierarchy, MAP_SIZE).unwrap();
     let [mut all, mut reached] = [0; 2];
     for sun in suns {
         all += stencil.counted(sun).unwrap().unwrap().all;

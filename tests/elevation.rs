@@ -88,18 +88,17 @@ fn no_other_technique_draws_a_side() {
     let site = Site::load(&site, &Overrides::default()).unwrap();
     let view = View::Elevation(scene().1);
     let mut live = Live::new(&site, gpu(), view).unwrap();
-    let target = gnomon::shadow::picture::Picture::target(&gpu(), &view);
-    let style =
-        gnomon::shadow::picture::Style { focus_m: 1.0, lines: 1.0, wide_lines: false, tinted: false, hours: false };
+    let target = gnomon::picture::Picture::target(&gpu(), &view);
+    let style = gnomon::picture::Style { focus_m: 1.0, lines: 1.0, wide_lines: false, tinted: false, hours: false };
     for method in [Method::Stencil, Method::Projected, Method::ShadowMap, Method::Hybrid, Method::SoftTexture] {
         let way = Way { method, settings: Settings::default() };
         let fault = live.draw(&way, to_sun(180.0, 40.0), &style, &target).expect_err("a fault").to_string();
-        assert!(fault.contains("--technique") && fault.contains("ray-cast"), "{method}: {fault}");
+        assert!(fault.contains("technique: ") && fault.contains("ray-cast"), "{method}: {fault}");
     }
     for method in [Method::Auto, Method::RayCast] {
         let way = Way { method, settings: Settings::default() };
         let drawn = live.draw(&way, to_sun(180.0, 40.0), &style, &target).unwrap();
-        assert_eq!(drawn.technique, "ray-cast", "{method}");
+        assert_eq!(drawn.technique, Method::RayCast, "{method}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::shared::drawing::gpu;
 use gnomon::gpu::readback;
-use gnomon::shadow::picture::{Picture, Style};
+use gnomon::picture::{Picture, Style};
 use gnomon::site::{Ground, Method, Overrides, Settings, Site};
 use gnomon::study::live::{Live, Way};
 use gnomon::view::{Camera, Grid, View};

@@ -1,12 +1,15 @@
 //! A graphics device that is lost in the midst of a study: all is done again, and comes to the same.
 
+use gnomon::deliver::profile::{ProfileRequest, profile};
+use gnomon::deliver::{Folder, Sink};
 use gnomon::gpu::{Gpu, GpuError, lose_after, readback};
 use gnomon::site::{Engine, Method, Overrides, Receivers, Site};
 use gnomon::study::again::persist;
-use gnomon::study::{self, Event, InstantWants, StudyError, Wants};
+use gnomon::study::{self, Event, InstantWants, Stopwatch, StudyError, Tiled, Wants};
 use gnomon::view::View;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::time::Duration;
 
 /// The works at four instants, in coarse cells, on a graphics adapter.
 fn works() -> Site {
@@ -41,7 +44,27 @@ impl Told {
         assert_eq!(self.anew, 1, "{self:?}");
         let lost = self.notes.iter().filter(|note| note.contains("its device was lost"));
         let lost: Vec<_> = lost.collect();
-        assert!(lost.len() == 1 && lost[0].ends_with(": all is done again on a new device"), "{lost:?}");
+        assert!(lost.len() == 1 && lost[0].ends_with(": the work is done again on a new device"), "{lost:?}");
+    }
+
+    /// That it was told of two, after which an adapter that is a program took over.
+    fn is_of_software(&self) {
+        assert_eq!(self.anew, 2, "{self:?}");
+        let last = self.notes.iter().rfind(|note| note.contains("its device was lost"));
+        let last = last.expect("a note");
+        assert!(last.contains(": the work is done again on the processor, by '") && last.ends_with('\''), "{last}");
+    }
+
+    /// Hears, and takes the next device away as soon as the work begins again: as often as that is left.
+    fn losing<'a>(&'a mut self, mut more: usize, checks: u32) -> impl FnMut(Event<'_>) -> ControlFlow<()> + 'a {
+        lose_after(checks);
+        move |event| {
+            if matches!(event, Event::Anew) && more > 0 {
+                more -= 1;
+                lose_after(checks);
+            }
+            self.hear(&event)
+        }
     }
 }
 
@@ -128,7 +151,7 @@ fn processor_does_what_no_device_does() {
     let free = Site { method: Method::Auto, engine: Engine::Auto, ..works.clone() };
     let attempt = |site: &Site, can: bool| {
         let (mut told, mut engines) = (Told::default(), Vec::new());
-        let done = persist(site, can, &mut |event| told.hear(&event), &mut |site, _| {
+        let done = persist(site, can, &mut |event| told.hear(&event), &mut |site, _, _| {
             engines.push(site.engine);
             if site.engine == Engine::Cpu { Ok(()) } else { Err(lost().into()) }
         });
@@ -137,20 +160,145 @@ fn processor_does_what_no_device_does() {
     let (done, told, engines) = attempt(&free, true);
     assert!(done.is_ok());
     assert_eq!(engines, [Engine::Auto, Engine::Auto, Engine::Cpu]);
-    let why = "the graphics adapter 'some card' failed (memory is full): all is done again";
+    let why = "the graphics adapter 'some card' failed (memory is full): the work is done again";
     assert_eq!(told.notes, [format!("{why} on a new device"), format!("{why} on the processor")]);
     for (site, can) in [(&free, false), (&works, true)] {
         let (done, told, engines) = attempt(site, can);
-        assert!(done.is_err_and(|error| error.lost_device().is_some()));
-        assert_eq!((told.anew, engines.len()), (1, 2));
+        let error = done.expect_err("every device fails").to_string();
+        let begins = "the graphics adapter 'some card' failed (memory is full), after another device had failed";
+        assert!(error.starts_with(begins) && error.contains("update its driver"), "{error}");
+        // on what asks for an adapter the processor itself takes nothing over
+        assert_eq!((told.anew, engines), (2, vec![site.engine; 3]));
+        let by = format!("{why} on the processor, by '");
+        assert!(told.notes.iter().any(|note| note.starts_with(&by)), "{:?}", told.notes);
     }
     // what an adapter cannot do, it cannot on a new device either
     let mut attempts = 0;
-    let done = persist(&free, true, &mut |_| ControlFlow::Continue(()), &mut |_, _| -> Result<(), StudyError> {
+    let done = persist(&free, true, &mut |_| ControlFlow::Continue(()), &mut |_, _, _| -> Result<(), StudyError> {
         attempts += 1;
         Err(GpuError::Failed { adapter: "some card".to_owned(), reason: "too large".to_owned() }.into())
     });
     assert!(done.is_err() && attempts == 1);
+}
+
+/// What an adapter alone can do is done by one that is a program, where real ones fail: and by the same technique.
+#[test]
+fn software_adapter_does_what_the_processor_cannot() {
+    let site = works();
+    let free = Site { method: Method::Auto, engine: Engine::Auto, ..works() };
+    let view = View::Camera(site.camera);
+    let volumes = InstantWants { volumes: true, silhouette: true, ..InstantWants::default() };
+    let right = study::instant(&free, view, &volumes, &mut |_| ControlFlow::Continue(())).expect("an instant");
+    let mut told = Told::default();
+    let again = study::instant(&free, view, &volumes, &mut told.losing(1, 3)).expect("an instant");
+    told.is_of_software();
+    assert_eq!(again.drawn.technique, Method::Stencil);
+    assert!(again.overlay.expect("volumes").layers == right.overlay.expect("volumes").layers);
+
+    let statistics = Wants { statistics: true, ..Wants::default() };
+    for site in [&free, &site] {
+        let right = study::run(site, &statistics, &mut |_| ControlFlow::Continue(())).expect("a study");
+        let mut told = Told::default();
+        let again = study::run(site, &statistics, &mut told.losing(1, 2)).expect("a study");
+        told.is_of_software();
+        assert!(again.statistics.is_some() && again.statistics == right.statistics);
+        assert_eq!(again.drawn.technique, right.drawn.technique);
+    }
+}
+
+#[test]
+fn verification_comes_to_the_same() {
+    let asked = Overrides { size: Some(64), ..Overrides::default() };
+    let mut site = Site::load(Path::new("sites/industry"), &asked).expect("a sample");
+    site.track.instants.retain(|instant| !instant.night);
+    site.track.instants.truncate(2);
+    let found = |told: &mut Told, losses: usize| {
+        let done = match losses {
+            0 => study::verify::verify(&site, &mut |event| told.hear(&event)),
+            _ => study::verify::verify(&site, &mut told.losing(losses - 1, 5)),
+        };
+        done.map(|found| found.rows.into_iter().map(|row| (row.drawn, row.difference, row.missed)).collect::<Vec<_>>())
+    };
+    let right = found(&mut Told::default(), 0).expect("a verification");
+    assert!(right.len() >= 6);
+    let (mut once, mut twice, mut thrice) = (Told::default(), Told::default(), Told::default());
+    assert_eq!(found(&mut once, 1).expect("a verification"), right);
+    once.is_of_one_loss();
+    assert_eq!(found(&mut twice, 2).expect("a verification"), right);
+    twice.is_of_software();
+    let error = found(&mut thrice, 3).expect_err("every device is lost").to_string();
+    assert!(error.contains("(its device was lost), after another device had failed"), "{error}");
+    assert!(error.contains("drawn on a graphics adapter alone") && !error.contains('\n'), "{error}");
+}
+
+/// A study whose progress is kept goes on from there on a new device: what was done is not done again.
+#[test]
+fn study_goes_on_from_what_was_kept() {
+    let site = works();
+    let wants = Wants { keep_every: Some(Duration::ZERO), bits: true, ..Wants::default() };
+    let right = study::run(&site, &wants, &mut |_| ControlFlow::Continue(())).expect("a study");
+    let nothing = &mut |_: Event<'_>| ControlFlow::Continue(());
+    for keeps in [true, false] {
+        let (mut told, mut kept, mut sums, mut gone_on) = (Told::default(), None, None, Vec::new());
+        let tiled = Tiled::new(&site, &wants, nothing).expect("a study");
+        study::in_tiles(tiled, None, &mut |event| {
+            match &event {
+                Event::Kept(unfinished) => {
+                    kept = Some((*unfinished).clone());
+                    if unfinished.done == 2 && told.anew == 0 {
+                        lose_after(0);
+                    }
+                }
+                Event::Resumes { study, begun } => {
+                    assert!(kept.as_ref().is_some_and(|kept| study.is_of(kept)));
+                    *begun.borrow_mut() = kept.clone().filter(|_| keeps);
+                }
+                Event::GoesOn { done } => gone_on.push(*done),
+                Event::Summed(shaded) => sums = Some(std::sync::Arc::clone(shaded)),
+                _ => {}
+            }
+            told.hear(&event)
+        })
+        .expect("a study");
+        told.is_of_one_loss();
+        // the third was drawn before the loss was noticed
+        assert_eq!(gone_on, if keeps { vec![2] } else { Vec::new() });
+        assert_eq!(told.drawn, if keeps { vec![0, 1, 2, 2, 3] } else { vec![0, 1, 2, 0, 1, 2, 3] });
+        assert!(*sums.expect("sums") == right.profile.shaded);
+    }
+}
+
+/// What a stopped study keeps in its folder is what it goes on from, also where a device is lost after that.
+#[test]
+fn stopped_study_goes_on_from_its_folder_on_a_new_device() {
+    let site = works();
+    let folder = tempfile::tempdir().expect("a folder");
+    let [right, out] = ["right", "out"].map(|name| folder.path().join(name));
+    let asked = ProfileRequest { raster: true, bits: true, ..ProfileRequest::of(Stopwatch::start()) };
+    let sink = |path| Sink::Folder(Folder { path, who: "a test", inputs: &[] });
+    profile(&site, &asked, sink(&right), &mut |_| ControlFlow::Continue(())).expect("a study");
+
+    let stopped = profile(&site, &asked, sink(&out), &mut |event| match event {
+        Event::Drawn { index: 1, .. } => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    });
+    assert!(stopped.is_err_and(|error| error.is_interrupted()));
+    let (mut told, mut gone_on) = (Told::default(), Vec::new());
+    profile(&site, &asked, sink(&out), &mut |event| {
+        match event {
+            Event::GoesOn { done } => gone_on.push(done),
+            Event::Drawn { index: 2, .. } if told.anew == 0 => lose_after(0),
+            _ => {}
+        }
+        told.hear(&event)
+    })
+    .expect("a study");
+    told.is_of_one_loss();
+    assert_eq!(gone_on, [2, 2]);
+    for name in ["shadow-hours.tif", "shadow.bits"] {
+        let [right, found] = [&right, &out].map(|folder| std::fs::read(folder.join(name)).expect("a file"));
+        assert!(right == found, "{name} is another");
+    }
 }
 
 /// A picture of the stage's device is shown by the window's.

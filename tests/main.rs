@@ -1,10 +1,12 @@
 //! All tests in one binary, which links once.
 
 mod architecture;
+mod choice;
 mod clock;
 mod command;
 mod counts;
 mod daylight;
+mod deliver;
 #[cfg(feature = "desktop")]
 mod desktop;
 mod documents;
@@ -16,7 +18,9 @@ mod folders;
 mod geometry;
 mod gpu_silhouettes;
 mod live;
+mod look;
 mod lost;
+mod message;
 mod mistakes;
 mod model;
 mod names;

@@ -1,7 +1,9 @@
 //! What every mistake in a site file or an option is told: one line, the file, the key and the way out.
 
 use crate::site::{SITE, folder, load, some};
+use gnomon::cli::Options;
 use gnomon::mesh::Part;
+use gnomon::message::Worded;
 use gnomon::site::file::SiteFile;
 use gnomon::site::model::{Model, Placement};
 use gnomon::site::{Overrides, Site, load_sun};
@@ -19,7 +21,7 @@ fn told(from: &str, to: &str, words: &[&str]) {
 
 /// The message of what must fail, in one line.
 fn complaint(site: &str, asked: &Overrides) -> String {
-    let message = load(site, asked).expect_err("a mistake").to_string();
+    let message = load(site, asked).expect_err("a mistake").in_words(&Options);
     assert!(!message.contains('\n'), "{message}");
     message
 }
@@ -133,7 +135,7 @@ fn wrong_options_are_wrong_use() {
     let wrong = |asked: Overrides, word: &str| {
         let error = load(SITE, &asked).expect_err("a mistake");
         assert!(error.is_wrong_use(), "{error}");
-        assert!(error.to_string().contains(word), "{error}");
+        assert!(error.in_words(&Options).contains(word), "{error}");
     };
     let none = Overrides::default;
     wrong(Overrides { place: some("48,2"), ..none() }, "--place");

@@ -165,7 +165,11 @@ fn see_through_materials_that_cast_are_told() {
         let folder = folder(&SITE.replace("casts = [\"iron\"]", key));
         std::fs::write(folder.path().join("tower.glb"), model.glb()).unwrap();
         let notes = Site::load(folder.path(), &Overrides::default()).unwrap().notes;
-        assert_eq!(gnomon::site::load_mesh(folder.path(), None).unwrap().notes, notes, "check says the same");
+        assert_eq!(
+            gnomon::site::load_mesh(folder.path(), &Overrides::default()).unwrap().notes,
+            notes,
+            "check says the same"
+        );
         notes
     };
     let of_three = "tower.glb has 3 components of cut-out or translucent materials, which cast as if solid: \"leaves\" (2) \
@@ -179,7 +183,7 @@ fn see_through_materials_that_cast_are_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("tower.glb");
     std::fs::write(&path, model.glb()).unwrap();
-    assert_eq!(gnomon::site::load_mesh(&path, None).unwrap().notes, [of_three], "a bare model");
+    assert_eq!(gnomon::site::load_mesh(&path, &Overrides::default()).unwrap().notes, [of_three], "a bare model");
 }
 
 /// The sum of a study's shadow on the ground, m²·h.

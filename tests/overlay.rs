@@ -5,8 +5,8 @@ use crate::shared::drawing::gpu;
 use crate::shared::scenes::cuboid;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use gnomon::mesh::Mesh;
+use gnomon::picture::overlay::VolumePicture;
 use gnomon::shadow::Scene;
-use gnomon::shadow::overlay::VolumePicture;
 use gnomon::view::Camera;
 
 const LOW: DVec3 = dvec3(-6.3, -4.2, 0.0);
@@ -274,4 +274,19 @@ fn without_casters_nothing_is_drawn() {
     let picture = VolumePicture::new(gpu(), &nothing, camera(eyes()[0]), suns()[0]).unwrap();
     assert!(picture.layers().unwrap().iter().all(|layers| *layers == 0));
     assert!(picture.silhouette().unwrap().iter().all(|cover| *cover == 0));
+}
+
+#[test]
+fn turning_to_another_camera_and_sun_leaves_no_trace() {
+    let scene = scene(&[(LOW, HIGH), (LOW_2, HIGH_2)], true);
+    let small = Camera { width: SIZE.0 / 2, height: SIZE.1 / 3, ..camera(eyes()[1]) };
+    let mut turned = VolumePicture::new(gpu(), &scene, small, suns()[0]).unwrap();
+    let first = turned.layers().unwrap();
+    for (eye, sun) in eyes().into_iter().zip(suns()) {
+        turned.turn_to(camera(eye), sun).unwrap();
+        let fresh = VolumePicture::new(gpu(), &scene, camera(eye), sun).unwrap();
+        assert!(turned.layers().unwrap() == fresh.layers().unwrap(), "layers from {eye}");
+        assert!(turned.silhouette().unwrap() == fresh.silhouette().unwrap(), "silhouette from {eye}");
+        assert!(first.len() != fresh.layers().unwrap().len());
+    }
 }

@@ -7,6 +7,7 @@ use crate::shared::drawing::{plan, scene_of};
 use crate::shared::scenes::{cuboid, sheet, small};
 use chrono::{NaiveDate, TimeDelta};
 use glam::{DVec2, DVec3, dvec3};
+use gnomon::cli::Options;
 use gnomon::export::figure;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::probe::{Blocked, Interval, Sunlight, longest, secs};
@@ -303,7 +304,7 @@ fn polar_days_and_nights() {
     assert!(night.is_empty() && sunlight.days[2].up.is_empty() && longest(night).is_none());
     let [(least_on, least), (most_on, most)] = sunlight.least_and_most(&sunlight.probes[0]).unwrap();
     assert_eq!((least_on, least, most_on, most), (date("2026-12-21"), 0, date("2026-06-20"), 86_400));
-    assert!(figure::strips(&sunlight, &place, &Ground::asked(0.0)).is_ok());
+    assert!(figure::strips(&sunlight, &place, &Ground::asked(0.0), &Options).is_ok());
     // the sun is up for less than two hours: an hour after it rises it sets within the hour
     let short = day(&place, "2026-01-16", Some(["sunrise+1h", "sunset-1h"]));
     assert_eq!(short.from, short.to);

@@ -1,7 +1,9 @@
 //! Site files and options → the checked request: what is meant, and what every mistake is told.
 
 use glam::DVec3;
+use gnomon::cli::Options;
 use gnomon::mesh::Part;
+use gnomon::message::Worded;
 use gnomon::site::file::SiteFile;
 use gnomon::site::model::{Model, ModelError, Placement};
 use gnomon::site::{Engine, Method, Models, Overrides, Receivers, Site, SiteError, Written, load_sun};
@@ -179,7 +181,7 @@ fn a_site_is_a_file_a_folder_or_a_model_with_its_place() {
     assert_eq!(sun(folder.path(), &none).unwrap(), sun(&file, &none).unwrap());
     let model = folder.path().join("tower.glb");
     let error = sun(&model, &none).expect_err("no place");
-    assert!(error.is_wrong_use() && error.to_string().contains("--place"), "{error}");
+    assert!(error.is_wrong_use() && error.in_words(&Options).contains("--place"), "{error}");
     let asked = Overrides { place: some("-33.8568, 151.2153"), at: some("2026-09-18T15:00"), ..none.clone() };
     let (place, track) = sun(&model, &asked).unwrap();
     assert_eq!((place.latitude_deg, place.time_zone.name()), (-33.8568, "Australia/Sydney"));
@@ -187,7 +189,7 @@ fn a_site_is_a_file_a_folder_or_a_model_with_its_place() {
     assert_eq!(Site::load_with(&model, &asked, tower).unwrap().casts, [true, true]);
     let bare = Overrides { place: some("95,0"), ..asked.clone() };
     let error = sun(&model, &bare).expect_err("beyond the pole");
-    assert!(error.is_wrong_use() && error.to_string().contains("--place"), "{error}");
+    assert!(error.is_wrong_use() && error.in_words(&Options).contains("--place"), "{error}");
     for (path, word) in [("nothing.toml", "cannot be read"), ("tower.obj", ".glb"), ("nothing.glb", "cannot be read")] {
         let error = sun(&folder.path().join(path), &none).expect_err("nothing there").to_string();
         assert!(error.contains(word), "{error}");

@@ -1,5 +1,7 @@
 //! What people type: each way of writing reads as what is meant, and what can be meant otherwise is refused.
 
+use gnomon::cli::Options;
+use gnomon::message::Worded;
 use gnomon::site::typed::{Axis, Degrees, TypedError, clock, date, degrees, number, place, step, within};
 use gnomon::site::{Overrides, Written};
 use gnomon::sun::SunError;
@@ -194,8 +196,8 @@ fn place_of_the_command_is_read_alike() {
         assert_eq!(read(text).unwrap(), Some((48.2082, 16.3738)), "{text}");
     }
     let told = read("Vienna").unwrap_err();
-    assert!(told.is_wrong_use() && told.to_string().starts_with("--place: \"Vienna\" is no place;"), "{told}");
-    let told = read("98,16").unwrap_err().to_string();
+    assert!(told.is_wrong_use() && told.in_words(&Options).starts_with("--place: \"Vienna\" is no place;"), "{told}");
+    let told = read("98,16").unwrap_err().in_words(&Options);
     assert_eq!(told, "--place: latitude 98 is not between -90 and 90 degrees");
 }
 

@@ -4,14 +4,15 @@ use crate::shared::drawing::{plan, scene_of, to_sun};
 use crate::shared::program::{PLACE, command, done, fails, site, stderr};
 use crate::site::{SITE, load};
 use glam::{DVec3, dvec3};
+use gnomon::choice::{Engine, Method, Promise, Receivers, Settings, Truth};
 use gnomon::export::verify as told;
 use gnomon::mesh::Mesh;
+use gnomon::profile::Drawn;
 use gnomon::profile::compare::{Difference, Edges, is_edge_cell};
-use gnomon::profile::verify::{HoursOff, Promise, Truth, Verification};
-use gnomon::profile::{Drawn, DrawnSettings};
+use gnomon::profile::verify::{HoursOff, Verification};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{DrawnMask, ShadowError, Technique};
-use gnomon::site::{Overrides, Receivers, Settings, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::verify::{Trial, hold, spread};
 use gnomon::study::{Event, StudyError};
 use gnomon::view::{Counted, Decided, Mask, Surface, View};
@@ -142,11 +143,11 @@ fn trial(site: &Site, promise: Promise, cells: Vec<usize>, decided: Decided) -> 
     let rays = RayCast::new(scene, View::Plan(site.grid), None);
     let mask = Mask { width: 0, height: 0, share: Vec::new() };
     let drawn = Drawn {
-        technique: "wrong",
-        silhouette: None,
-        engine: "cpu",
+        technique: Method::Stencil,
+        finder: None,
+        engine: Engine::Cpu,
         adapter: None,
-        settings: DrawnSettings::default(),
+        settings: Settings::NONE,
     };
     Trial { drawn, against: Truth::Centre, promise, technique: Box::new(Wrong { rays, mask, cells, decided }) }
 }
@@ -171,7 +172,7 @@ fn a_wrong_technique_does_not_hold_and_says_how_wrong() {
     let off = row.hours_off.unwrap();
     assert!(off.largest == 4.0 && (off.mean - 4.0 / site.grid.cells() as f64).abs() < 1e-12, "{off:?}");
     let failure = told::failure(&wrong).unwrap();
-    assert!(failure.starts_with("wrong does not hold: 0 of ") && failure.lines().count() == 1, "{failure}");
+    assert!(failure.starts_with("stencil does not hold: 0 of ") && failure.lines().count() == 1, "{failure}");
     assert!(told::table(&wrong, &site).contains("FAILS"));
     // what decides nothing fails nothing
     let near = held(&site, vec![trial(&site, Promise::Near, vec![0], Decided::VolumeShadow)]);

@@ -5,6 +5,8 @@ use chrono::{Datelike, NaiveDate, TimeDelta, Timelike};
 use gnomon::sun::{EachDay, Place, SunError, SunTrack, Window};
 use serde_json::Value;
 use std::fs;
+#[cfg(unix)]
+use std::process::{Command, Stdio};
 
 fn paris() -> Place {
     Place::new("Paris", 48.8583, 2.2945, 35.0, Some("Europe/Paris")).unwrap()
@@ -187,25 +189,22 @@ fn a_study_stopped_at_its_drawing_says_where_it_goes_on() {
     let folder = site();
     let path = folder.path();
     let asked = "profile . --engine cpu --receivers ground --size 6000 --from 8:00 --to 18:00 --step 1h";
-    // all is kept before the drawing is made
-    let mut child = command(path, &format!("{asked} --bits --out bits"))
-        .stderr(std::process::Stdio::piped())
-        .stdout(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
+    // all is kept before the drawing is made; who waits for it waits already, as a process takes its time to begin
     let bits = path.join("bits");
-    let kept = || bits.is_dir() && numberless(&bits).iter().any(|name| name == "profile.N.unfinished");
-    while !kept() && child.try_wait().unwrap().is_none() {
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
-    std::thread::sleep(std::time::Duration::from_millis(100));
-    let kill = ["-INT", &child.id().to_string()].map(str::to_owned);
-    assert!(std::process::Command::new("kill").args(kill).status().unwrap().success());
+    let mut child = command(path, &format!("{asked} --bits --out bits"));
+    let child = child.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    let kill =
+        format!("until ls {}/profile.*.unfinished; do sleep 0.02; done && kill -INT {}", bits.display(), child.id());
+    let mut killer =
+        Command::new("sh").args(["-c", &kill]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let output = child.wait_with_output().unwrap();
     let told = stderr(&output);
+    // a study that ended by itself leaves nothing to wait for
+    killer.kill().unwrap();
+    killer.wait().unwrap();
     assert_eq!(output.status.code(), Some(130), "{told}");
     assert!(told.contains("100%") && told.contains("the same command goes on from there"), "{told}");
-    assert!(kept());
+    assert!(numberless(&bits).iter().any(|name| name == "profile.N.unfinished"));
     let told = stopped(path, &format!("{asked} --out short"), "100%");
     assert!(told.contains("is not kept; the same command begins anew"), "{told}");
     assert_eq!(numberless(&path.join("short")), [""; 0]);

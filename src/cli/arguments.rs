@@ -7,9 +7,12 @@ use super::draw::LinesArgs;
 use super::eye::Eye;
 use super::memory;
 use super::model::{GroundArgs, ModelArgs};
+use super::options::nothing_asked;
 use super::probe::ProbeArgs;
-use crate::silhouette::hextree::DEEPEST;
-use crate::site::{Engine, Finder, Method, Overrides, Pcf, Receivers, Settings};
+pub(super) use super::technique::DrawArgs;
+use super::technique::{self, FinderArgs, MapArgs};
+use crate::choice::Receivers;
+use crate::site::Overrides;
 use crate::study::verify::SIZE;
 use crate::sun::ZoneRules;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
@@ -143,55 +146,6 @@ pub(super) struct WindowArgs {
     step: Option<String>,
 }
 
-/// How shadows are found.
-#[derive(Debug, Args)]
-pub(super) struct DrawArgs {
-    /// auto, stencil or ray-cast (exact), projected (exact, for the plan), hybrid (exact but for casters thinner than a map's texel), shadow-map (quick),
-    /// smoothie (the soft edge of a real sun, drawn outside of the hard edge alone: shadows come out too large by half of
-    /// the width of their edge), soft-texture (for profile --receivers surfaces, and with --view camera: the sun's disc on what is flat)
-    #[arg(long, value_name = "NAME")]
-    technique: Option<Method>,
-    #[command(flatten)]
-    finder: FinderArgs,
-    /// auto, gpu or cpu
-    #[arg(long, value_name = "NAME")]
-    engine: Option<Engine>,
-    #[command(flatten)]
-    maps: MapArgs,
-    /// With ray-cast: so many points of the sun's disc instead of its centre, 1 to 1024; with soft-texture in a camera's picture
-    /// [default: 64]; on surfaces with either [default: its centre]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
-    sun_samples: Option<u32>,
-}
-
-/// Who finds silhouettes.
-#[derive(Debug, Args)]
-struct FinderArgs {
-    /// auto, brute, hextree or gpu
-    #[arg(long, value_name = "NAME")]
-    silhouette: Option<Finder>,
-    /// With --silhouette hextree: the tree of the paper, so many levels deep (its own: 4), instead of its successor
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=i64::from(DEEPEST)),
-          allow_negative_numbers = true)]
-    hextree_depth: Option<u32>,
-}
-
-/// What techniques with a map can be told.
-#[derive(Debug, Args)]
-struct MapArgs {
-    /// With shadow-map, hybrid and smoothie: texels along the map's side, 256 to 8192 [default: 2048]
-    #[arg(long, value_name = "TEXELS", value_parser = value_parser!(u32).range(256..=8192),
-          allow_negative_numbers = true)]
-    map_size: Option<u32>,
-    /// With shadow-map: how comparisons are filtered: none, 2x2, fast-2x2 or fast-4x4 [default: fast-2x2]
-    #[arg(long, value_name = "NAME")]
-    pcf: Option<Pcf>,
-    /// With smoothie: how wide the soft edge is at most, metres across the sun's rays [default: as wide as the sun's
-    /// disc makes it on the lowest receiver]
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
-    smoothie_width: Option<f64>,
-}
-
 /// The plan.
 #[derive(Debug, Args)]
 pub(super) struct PlanArgs {
@@ -250,9 +204,7 @@ pub(super) struct ProfileArgs {
     /// with the same results. Models, the program and the adapter's driver come on top [default: as much as it takes]
     #[arg(long, value_name = "SIZE", value_parser = memory::parse, allow_hyphen_values = true)]
     pub(super) memory: Option<u64>,
-    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
-    /// cells, those of the sky too)
-    #[arg(long)]
+    #[arg(long, help = technique::stats())]
     pub(super) stats: bool,
     /// Which files [default: png,tif,json; with --receivers surfaces png,glb,csv,json]
     #[arg(long, value_name = "png,tif,glb,csv,json", value_delimiter = ',')]
@@ -273,20 +225,6 @@ pub(super) enum Written {
     Json,
 }
 
-impl Written {
-    /// What it is called, of the plan and of surfaces.
-    pub(super) fn file(self, receivers: Receivers) -> &'static str {
-        match self {
-            Written::Png if receivers == Receivers::Surfaces => "surfaces.png",
-            Written::Png => "profile.png",
-            Written::Tif => "shadow-hours.tif",
-            Written::Glb => "surfaces.glb",
-            Written::Csv => "surfaces.csv",
-            Written::Json => "profile.json",
-        }
-    }
-}
-
 #[derive(Debug, Args)]
 pub(super) struct ShadowArgs {
     #[command(flatten)]
@@ -303,17 +241,13 @@ pub(super) struct ShadowArgs {
     draw: DrawArgs,
     #[command(flatten)]
     pub(super) plan: PlanArgs,
-    /// Also what counting the shadow volumes took (stencil, hybrid): overdraw, and the share of silhouette cells (of all
-    /// cells, those of the sky too)
-    #[arg(long)]
+    #[arg(long, help = technique::stats())]
     pub(super) stats: bool,
     /// From where
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
     pub(super) view: Eye,
-    /// Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours.
-    /// Or instead of sun and shadow, on the plan too: mask (with hybrid: what the map decided and what the volumes did),
-    /// overdraw (with stencil or hybrid: fragments that were counted, as brightness)
-    #[arg(long, value_name = "volumes,silhouette,components|mask|overdraw", value_delimiter = ',')]
+    #[arg(long, value_name = "volumes,silhouette,components|mask|overdraw", value_delimiter = ',',
+          help = technique::show())]
     pub(super) show: Vec<Show>,
     /// The drawing [default: shadow.png, or none with --mask]
     #[arg(long, value_name = "FILE.png")]
@@ -413,7 +347,7 @@ impl SiteArgs {
 
 impl PlaceArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..Overrides::default() }
+        Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..nothing_asked() }
     }
 }
 
@@ -422,27 +356,6 @@ impl WindowArgs {
         let [date, from_date, to_date, from, to, step] =
             [&self.date, &self.from_date, &self.to_date, &self.from, &self.to, &self.step].map(Clone::clone);
         Overrides { date, from_date, to_date, from, to, step, ..asked }
-    }
-}
-
-impl DrawArgs {
-    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
-        let DrawArgs { technique, ref finder, engine, ref maps, sun_samples } = *self;
-        let settings = maps.settings(sun_samples);
-        finder.onto(Overrides { technique, engine, settings, ..asked })
-    }
-}
-
-impl FinderArgs {
-    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
-        Overrides { silhouette: self.silhouette, hextree_depth: self.hextree_depth, ..asked }
-    }
-}
-
-impl MapArgs {
-    fn settings(&self, sun_samples: Option<u32>) -> Settings {
-        let MapArgs { map_size, pcf, smoothie_width } = *self;
-        Settings { map_size, pcf, smoothie_width_m: smoothie_width, sun_samples }
     }
 }
 

@@ -2,21 +2,23 @@
 
 use super::arguments::{CheckArgs, ShadowArgs, Show, SunArgs};
 use super::eye::Eye;
+use super::options::{Options, nothing_asked};
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
+use crate::deliver::instant::{self, InstantRequest};
+use crate::deliver::{Sink, Written};
 use crate::export::figure::Diagram;
-use crate::export::report::Told;
-use crate::export::{check, figure, file, raster, report};
+use crate::export::{check, file, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Drawn, Statistics};
 use crate::site::{Ground, LoadedMesh, Method, Site, inputs, load_mesh, load_sun};
-use crate::study::{self, Event, InstantWants, Stopwatch};
+use crate::study::{Event, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// `gnomon shadow`
 pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
-    let mut watch = Stopwatch::start();
+    let watch = Stopwatch::start();
     asked.view.check(&asked.plan)?;
     let out = match (&asked.out, &asked.mask) {
         (Some(out), _) => Some(out.clone()),
@@ -46,66 +48,30 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         let what = "--show mask is the hybrid's; add --technique hybrid, or leave it out";
         return Err(WrongUse(what.to_owned()).into());
     }
-    let outputs: Vec<PathBuf> = written.iter().map(|(_, path)| path.to_path_buf()).collect();
-    file::check_inputs(&inputs(&asked.site.path)?, &outputs)?;
-    for path in &outputs {
-        file::check_folder(path.parent().unwrap_or(Path::new("")))?;
-    }
-    watch.lap("load");
-    let view = asked.view.of(&site);
     let shows = |what| asked.show.contains(&what);
-    let wants = InstantWants {
-        surface: out.is_some(),
-        volumes: shows(Show::Volumes),
-        silhouette: shows(Show::Silhouette),
-        counted: match diagram {
-            Some(Diagram::Mask) => Some("--show mask"),
-            Some(Diagram::Overdraw) => Some("--show overdraw"),
-            None => asked.stats.then_some("--stats"),
+    let request = InstantRequest {
+        view: asked.view.of(&site),
+        drawing: out,
+        mask: asked.mask.clone(),
+        show: instant::Show {
+            volumes: shows(Show::Volumes),
+            silhouette: shows(Show::Silhouette),
+            components: shows(Show::Components),
+            diagram,
         },
+        statistics: asked.stats,
+        watch,
     };
-    let (receivers, ground) = (study::judged(&site, &view), site.ground);
     let mut progress = Progress::new(asked.common.quiet);
-    if out.is_some() {
-        let parts = site.mesh.components.iter().filter(|_| shows(Show::Components)).map(|part| part.name.as_str());
-        progress.letters([site.place.name.as_str()].into_iter().chain(parts));
-    }
-    let outcome = study::instant(&site, view, &wants, &mut |event| {
-        progress.hear(&event);
-        interrupt::flow()
-    })?;
-    watch.laps(outcome.timings);
-
-    let (place, track, drawn) = (&site.place, &site.track, &outcome.drawn);
-    let mut text = String::new();
-    if let (Some(path), Some(surface)) = (&out, &outcome.surface) {
-        let scene = figure::Scene { place, track, mesh: &outcome.surface_mesh, surface, receivers, ground, drawn };
-        // the drawing's mesh holds the components that are seen
-        let casts: Vec<bool> =
-            site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect();
-        let casts = shows(Show::Components).then_some(casts.as_slice());
-        let counted = outcome.counted.as_ref().zip(diagram);
-        let shown = figure::Shown { overlay: outcome.overlay.as_ref(), casts, counted };
-        let bytes = figure::instant(&scene, &view, &outcome.mask, &shown)?;
-        interrupt::check()?;
-        file::write(path, &bytes)?;
-        watch.lap("picture");
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{}", path.display());
-    }
-    if let Some(path) = &asked.mask {
-        file::write(path, &raster::mask_png(&outcome.mask)?)?;
-        watch.lap("mask");
-        let _ = writeln!(text, "{}", path.display());
-    }
-    let statistics = outcome.counted.as_ref().filter(|_| asked.stats).map(Statistics::of);
+    let sink = Sink::Paths { inputs: &inputs(&asked.site.path)? };
+    let answer = instant::instant(&site, &request, sink, &mut |event| progress.heard(&event))?;
     if asked.common.json {
-        let (statistics, timings) = (statistics.as_ref(), &watch.timings());
-        let told = Told { receivers, ground, drawn, timings, statistics, notes: &site.notes };
-        return say(&report::shadow_json(&view, place, track, &told)?);
+        return say(&answer.report);
     }
-    let _ = writeln!(text, "{}", drawn_by(drawn, &ground));
-    text.push_str(&statistics.as_ref().map(took).unwrap_or_default());
+    let mut text = lines(&answer.written);
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &site.ground));
+    text.push_str(&answer.statistics.as_ref().map(took).unwrap_or_default());
     say(&text)
 }
 
@@ -125,6 +91,11 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
         }
         _ => Ok(diagram),
     }
+}
+
+/// The paths of files, each in a line.
+pub(super) fn lines(written: &Written) -> String {
+    written.paths.iter().map(|path| format!("{}\n", path.display())).collect()
 }
 
 /// What counting took, in a line; cells are all of the picture's, those of the sky too.
@@ -153,13 +124,13 @@ pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
 
 /// `gnomon check`
 pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
-    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path, asked.model.up)?;
+    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path, &asked.model.onto(nothing_asked()))?;
     interrupt::check()?;
     let components = mesh_report::components(&mesh);
     interrupt::check()?;
     match asked.common.json {
         true => say(&check::json(&mesh, &components, frame, &notes)?),
-        false => say(&check::table(&mesh, &components, frame, &notes)),
+        false => say(&check::table(&mesh, &components, frame, &notes, &Options)),
     }
 }
 
@@ -169,7 +140,7 @@ pub(super) fn drawn_by(drawn: &Drawn, ground: &Ground) -> String {
     if let Some(adapter) = &drawn.adapter {
         let _ = write!(line, " ({adapter})");
     }
-    if let Some(silhouette) = drawn.silhouette {
+    if let Some(silhouette) = drawn.finder {
         let _ = write!(line, ", silhouettes {silhouette}");
     }
     let _ = write!(line, "\nground at {}", ground.said());

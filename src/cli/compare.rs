@@ -1,22 +1,17 @@
 //! `gnomon compare`: what a change of the site does to its shadow.
 
 use super::arguments::{Common, DrawArgs, PlaceArgs, PlanArgs, WindowArgs};
-use super::commands::drawn_by;
+use super::commands::{drawn_by, lines};
 use super::model::{GroundArgs, ModelArgs};
-use super::profile::written;
 use super::progress::Progress;
-use super::{interrupt, say, who};
-use crate::export::report::Told;
-use crate::export::workplace::Workplace;
-use crate::export::{comparison, figure, file, raster};
-use crate::site::{Overrides, Pair, Site, inputs};
-use crate::study::{self, Stopwatch};
+use super::{say, who};
+use crate::deliver::comparison::comparison;
+use crate::deliver::{Folder, Sink};
+use crate::site::{Overrides, Pair, inputs};
+use crate::study::Stopwatch;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
-
-/// What it writes.
-const FILES: [&str; 3] = ["compare.png", "shadow-hours-difference.tif", "compare.json"];
 
 #[derive(Debug, Args)]
 pub(super) struct CompareArgs {
@@ -53,45 +48,18 @@ impl CompareArgs {
 
 /// `gnomon compare`
 pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
-    let mut watch = Stopwatch::start();
+    let watch = Stopwatch::start();
     let pair = Pair::load(&asked.before, &asked.after, &asked.overrides())?;
-    let outputs = FILES.map(|name| asked.out.join(name));
-    file::check_inputs(&[inputs(&asked.before)?, inputs(&asked.after)?].concat(), &outputs)?;
-    let workplace = Workplace::take([asked.out.as_path()], &outputs, &who())?;
-    watch.lap("load");
+    let inputs = [inputs(&asked.before)?, inputs(&asked.after)?].concat();
     let mut progress = Progress::new(asked.common.quiet);
-    progress.note(workplace.note());
-    progress.letters([&pair.names[0], &pair.names[1], &pair.after.place.name].map(String::as_str));
-    let outcome = study::compare(&pair, &mut |event| {
-        progress.hear(&event);
-        interrupt::flow()
-    })?;
-    watch.lap("shadows");
-
-    let Site { place, track, receivers, ground, .. } = &pair.after;
-    let (receivers, ground) = (*receivers, *ground);
-    let [first, second] = [0, 1].map(|at| {
-        let (mesh, surface, drawn) = (&outcome.meshes[at], &outcome.surfaces[at], &outcome.drawn[at]);
-        figure::Scene { place, track, mesh, surface, receivers, ground, drawn }
-    });
-    let change = &outcome.comparison;
-    let picture = figure::difference(&[first, second], &pair.names, change)?;
-    watch.lap("picture");
-    interrupt::check()?;
-    let raster = raster::difference_geotiff(change, place)?;
-    watch.lap("raster");
-    interrupt::check()?;
-    let drawn = &outcome.drawn[1];
-    let (timings, notes) = (&watch.timings(), &pair.notes());
-    let told = Told { receivers, ground, drawn, timings, statistics: None, notes };
-    let json = comparison::json(change, &pair.names, place, track, &told)?;
-    let files: Vec<_> = FILES.into_iter().zip([picture, raster, json.clone().into_bytes()]).collect();
-    workplace.check()?;
-    let mut text = written(&asked.out, &files)?;
+    let sink = Sink::Folder(Folder { path: &asked.out, who: &who(), inputs: &inputs });
+    let answer = comparison(&pair, watch, sink, &mut |event| progress.heard(&event))?;
     if asked.common.json {
-        return say(&json);
+        return say(&answer.report);
     }
-    let _ = writeln!(text, "{}", drawn_by(drawn, &ground));
-    text.push_str(&comparison::table(change, track));
+    let mut text = lines(&answer.written);
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &pair.after.ground));
+    text.push_str(&answer.table);
     say(&text)
 }

@@ -2,24 +2,27 @@
 //!
 //! Results go to stdout, progress and notes to stderr. Exit status: 0 done, 1 failed, 2 wrong use, 130 interrupted.
 
-pub(crate) mod animate;
+mod animate;
 mod arguments;
 mod commands;
 mod compare;
-pub(crate) mod draw;
+mod draw;
 mod eye;
 mod interrupt;
-mod keeping;
 mod memory;
 mod model;
+mod options;
 mod probe;
 mod profile;
 mod progress;
 mod surfaces;
+mod technique;
 mod verify;
 mod volumes;
 
+use crate::deliver::DeliverError;
 use crate::export::ExportError;
+use crate::fault;
 use crate::site::SiteError;
 use crate::study::StudyError;
 use arguments::{Arguments, Command};
@@ -28,6 +31,8 @@ use clap::{CommandFactory, Parser};
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
+
+pub use options::Options;
 
 /// What opens the window, with a site or a model in it where one is named.
 pub type Window = fn(Option<&Path>) -> anyhow::Result<()>;
@@ -60,7 +65,7 @@ pub fn main(window: Option<Window>) -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            complain(&one_line(&error));
+            complain(&fault::line(error.as_ref(), &Options));
             ExitCode::from(status(&error))
         }
     }
@@ -100,25 +105,15 @@ fn status(error: &anyhow::Error) -> u8 {
     let wrong_use = error.is::<WrongUse>()
         || error.downcast_ref().is_some_and(SiteError::is_wrong_use)
         || error.downcast_ref().is_some_and(StudyError::is_wrong_use)
-        || error.downcast_ref().is_some_and(ExportError::is_wrong_use);
-    match error.downcast_ref() {
-        Some(StudyError::Interrupted) => 130,
-        _ if wrong_use => 2,
+        || error.downcast_ref().is_some_and(ExportError::is_wrong_use)
+        || error.downcast_ref().is_some_and(DeliverError::is_wrong_use);
+    let interrupted = matches!(error.downcast_ref(), Some(StudyError::Interrupted))
+        || error.downcast_ref().is_some_and(DeliverError::is_interrupted);
+    match (interrupted, wrong_use) {
+        (true, _) => 130,
+        (_, true) => 2,
         _ => 1,
     }
-}
-
-/// The error and its causes in one line; causes that the message already tells are not told again.
-pub(crate) fn one_line(error: &anyhow::Error) -> String {
-    let mut line = String::new();
-    for cause in error.chain().map(|cause| words(&cause.to_string())) {
-        if line.is_empty() {
-            line = cause;
-        } else if !line.contains(&cause) {
-            line = format!("{line}: {cause}");
-        }
-    }
-    line
 }
 
 /// Without line breaks.

@@ -1,14 +1,17 @@
 //! `gnomon probe`: when points lie in the sun.
 
 use super::arguments::{Common, SiteArgs};
+use super::commands::lines;
 use super::model::ModelArgs;
+use super::options::Options;
 use super::progress::Progress;
-use super::{WrongUse, interrupt, say};
-use crate::export::{figure, file, probe as told};
+use super::{WrongUse, say};
+use crate::deliver::Sink;
+use crate::deliver::probe::{ProbeAnswer, ProbeRequest, probe as deliver};
+use crate::export::probe as told;
 use crate::site::{Overrides, inputs, load_probes};
-use crate::study;
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(super) struct ProbeArgs {
@@ -75,34 +78,12 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
         }
     }
     let probing = load_probes(&asked.site.path, &asked.overrides())?;
-    let outputs: Vec<PathBuf> = [&asked.out, &asked.csv].into_iter().flatten().cloned().collect();
-    file::check_inputs(&inputs(&asked.site.path)?, &outputs)?;
-    for path in &outputs {
-        file::check_folder(path.parent().unwrap_or(Path::new("")))?;
-    }
+    let request = ProbeRequest { drawing: asked.out.clone(), table: asked.csv.clone(), words: &Options };
     let mut progress = Progress::of("days", asked.common.quiet);
-    if asked.out.is_some() {
-        let probes = probing.probes.iter().map(|probe| probe.name.as_str());
-        progress.letters([probing.place.name.as_str()].into_iter().chain(probes));
+    let sink = Sink::Paths { inputs: &inputs(&asked.site.path)? };
+    let ProbeAnswer { sunlight, written } = deliver(&probing, &request, sink, &mut |event| progress.heard(&event))?;
+    match asked.common.json {
+        true => say(&told::json(&sunlight, &probing.place, &probing.ground, &probing.notes)?),
+        false => say(&(told::table(&sunlight, &probing.place, &probing.ground, &Options) + &lines(&written))),
     }
-    let sunlight = study::probe::probe(&probing, &mut |event| {
-        progress.hear(&event);
-        interrupt::flow()
-    })?;
-    let mut files = Vec::new();
-    if let Some(path) = &asked.csv {
-        files.push((path, told::csv(&sunlight).into_bytes()));
-    }
-    if let Some(path) = &asked.out {
-        files.push((path, figure::strips(&sunlight, &probing.place, &probing.ground)?));
-    }
-    interrupt::check()?;
-    for (path, bytes) in &files {
-        file::write(path, bytes)?;
-    }
-    if asked.common.json {
-        return say(&told::json(&sunlight, &probing.place, &probing.ground, &probing.notes)?);
-    }
-    let written: String = files.iter().map(|(path, _)| format!("{}\n", path.display())).collect();
-    say(&(told::table(&sunlight, &probing.place, &probing.ground) + &written))
 }

@@ -1,11 +1,11 @@
 //! Progress and notes on stderr: a bar on a terminal, plain lines otherwise, nothing with `--quiet`.
 
-use super::words;
-use crate::export::figure;
+use super::{interrupt, words};
 use crate::study::Event;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::collections::HashSet;
 use std::io::{self, IsTerminal, Write};
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 /// What is shown while work goes on.
@@ -66,7 +66,7 @@ impl Progress {
                     bar.finish_and_clear();
                 }
             }
-            Event::Tile(_) | Event::Summed(_) | Event::Kept(_) => {}
+            Event::Resumes { .. } | Event::Tile(_) | Event::Summed(_) | Event::Kept(_) | Event::Stage(_) => {}
             Event::Drawn { index, count, time, .. } => {
                 let done = index + 1;
                 let time = time.format("%Y-%m-%d %H:%M");
@@ -85,11 +85,10 @@ impl Progress {
         }
     }
 
-    /// Tells something that the user should know, where there is anything.
-    pub(super) fn note(&mut self, note: Option<String>) {
-        if let Some(note) = note {
-            self.hear(&Event::Note(note));
-        }
+    /// Shows an event, and says whether the work goes on: not after Ctrl-C.
+    pub(super) fn heard(&mut self, event: &Event<'_>) -> ControlFlow<()> {
+        self.hear(event);
+        interrupt::flow()
     }
 
     /// How long the rest takes, where that is seconds at least.
@@ -98,18 +97,6 @@ impl Progress {
         let each = since.elapsed().as_secs_f64() / (done.saturating_sub(before)).max(1) as f64;
         let secs = (each * (count - done) as f64).round();
         if secs < 2.0 { String::new() } else { format!(", {} left", HumanDuration(Duration::from_secs_f64(secs))) }
-    }
-
-    /// Tells of letters that no font has, of texts that are drawn.
-    pub(super) fn letters<'a>(&mut self, texts: impl IntoIterator<Item = &'a str>) {
-        let missing = texts.into_iter().map(|text| (text, figure::without_face(text)));
-        if let Some((text, letters)) = missing.into_iter().find(|(_, letters)| !letters.is_empty()) {
-            let note = format!(
-                "no font has the letters {letters} of \"{text}\", and boxes are drawn for them; install one that has, or \
-                 write other letters"
-            );
-            self.hear(&Event::Note(note));
-        }
     }
 
     fn line(&self, line: &str) {

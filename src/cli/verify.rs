@@ -2,23 +2,16 @@
 
 use super::arguments::VerifyArgs;
 use super::progress::Progress;
-use super::{interrupt, say};
-use crate::export::verify as told;
+use super::say;
+use crate::deliver::verification::verification;
 use crate::site::Site;
-use crate::study;
 
 pub(super) fn verify(asked: &VerifyArgs) -> anyhow::Result<()> {
     let site = Site::load(&asked.site.path, &asked.overrides())?;
     let mut progress = Progress::new(asked.common.quiet);
-    let verification = study::verify::verify(&site, &mut |event| {
-        progress.hear(&event);
-        interrupt::flow()
-    })?;
-    match asked.common.json {
-        true => say(&told::json(&verification, &site)?)?,
-        false => say(&told::table(&verification, &site))?,
-    }
-    match told::failure(&verification) {
+    let answer = verification(&site, &mut |event| progress.heard(&event))?;
+    say(if asked.common.json { &answer.report } else { &answer.table })?;
+    match answer.failure {
         Some(failure) => anyhow::bail!(failure),
         None => Ok(()),
     }

@@ -16,9 +16,8 @@ impl App {
                 if purpose == Purpose::SaveSite { self.proposed_site() } else { self.folder().join(purpose.name()) };
             let laid = self.open.as_ref().and_then(|open| open.laid.as_ref());
             let files = match purpose {
-                Purpose::Hours => laid.map_or(Vec::new(), |laid| laid.names().to_vec()),
-                Purpose::Lines(lines) => lines.names().to_vec(),
-                Purpose::Animation => vec!["day.gif", "frame-0000.png"],
+                Purpose::Hours => laid.map_or(Vec::new(), |laid| laid.names()),
+                Purpose::Lines(lines) => lines.names().map(PathBuf::from).to_vec(),
                 _ => Vec::new(),
             };
             self.asking = Some(Asking::start(purpose, proposed, files, context.clone()));
@@ -102,15 +101,13 @@ impl App {
             }
             Purpose::Hours => {
                 if let Some(laid) = open.laid.clone() {
-                    let files = move || laid.files();
-                    let work = handing::found(&open.project, &self.settings, files, path, context.clone());
+                    let work = handing::found(&open.project, &self.settings, laid, None, path, context.clone());
                     self.writing = Some(work);
                 }
             }
             Purpose::Lines(lines) => {
                 if let Some(laid) = open.laid.clone() {
-                    let files = move || laid.lines(lines);
-                    let work = handing::found(&open.project, &self.settings, files, path, context.clone());
+                    let work = handing::found(&open.project, &self.settings, laid, Some(lines), path, context.clone());
                     self.writing = Some(work);
                 }
             }

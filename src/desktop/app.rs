@@ -93,6 +93,8 @@ pub struct App {
     pub(super) fault: Option<String>,
     /// What was done.
     pub(super) notice: Option<String>,
+    /// Where studies are kept that are stopped; nowhere without one.
+    pub(super) studies: Option<PathBuf>,
     /// A file of the open site that is no more what was read.
     pub(super) changed: Option<String>,
     /// Whether the window had the focus at the last frame.
@@ -130,6 +132,7 @@ impl App {
             saving: Saving::default(),
             fault: None,
             notice: None,
+            studies: None,
             changed: None,
             had_focus: true,
         };

@@ -1,13 +1,15 @@
 //! What a change does to the sun: another state of the site, before, and the open one, after.
 
-use super::hours::{Found, Laid, NamedFile, cell_at, raster};
+use super::hours::{Found, Laid, cell_at, raster};
 use super::loading::Project;
 use super::work::Work;
+use crate::deliver::Sink;
+use crate::deliver::comparison::write_comparison;
+use crate::export::comparison;
 use crate::export::figure::ChangeColours;
-use crate::export::report::Told;
-use crate::export::{comparison, figure, raster as geotiff};
+use crate::picture::Hours;
+use crate::profile::Timings;
 use crate::profile::comparison::Altered;
-use crate::shadow::picture::Hours;
 use crate::site::{Method, Models, Overrides, Pair, Site, SiteError, Written, model};
 use crate::study::{self, CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
 use eframe::egui;
@@ -24,7 +26,7 @@ pub(super) struct Change {
     /// Both states, without their models.
     pair: Pair,
     outcome: CompareOutcome,
-    timings: Stopwatch,
+    timings: Timings,
     /// As the drawing has them.
     pub(super) colours: ChangeColours,
 }
@@ -57,7 +59,7 @@ impl Known {
             && known.ground.level == site.ground.level
             && laid.method == site.method;
         match &laid.found {
-            Found::Shadow(hours) if same => Some(hours.outcome.clone()),
+            Found::Shadow(hours) if same => Some(hours.outcome()),
             _ => None,
         }
     }
@@ -85,7 +87,7 @@ pub(super) fn find(
     let (models_after, mark) = (project.models.clone(), project.models.mark());
     let name = project.name();
     Work::start(context, move |on_event| {
-        let mut timings = Stopwatch::start();
+        let mut watch = Stopwatch::start();
         // the picture lies on this ground
         after.site.ground.level = Some(site.ground.level);
         let asked = Overrides { technique: Some(method), ..Overrides::default() };
@@ -106,10 +108,11 @@ pub(super) fn find(
         if pair.names[0] == pair.names[1] {
             pair.names = [format!("{name}, before"), format!("{name}, after")];
         }
-        timings.lap("load");
+        watch.lap("load");
         let known = known.and_then(|known| known.outcome(&pair.before));
         let outcome = compare(&pair, known, on_event)?;
-        timings.lap("shadows");
+        watch.lap("shadows");
+        let timings = watch.stages();
         let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
         let (receivers, step_secs) = (pair.after.receivers, pair.after.track.step_secs);
         let colours = ChangeColours::of(&outcome.comparison, surfaces, receivers, step_secs);
@@ -183,24 +186,11 @@ impl Change {
         comparison::extent(&self.outcome.comparison)
     }
 
-    /// The drawing, the raster and the report.
-    pub(super) fn files(&self) -> anyhow::Result<Vec<NamedFile>> {
-        let Change { pair, outcome, .. } = self;
-        let mut watch = self.timings.clone();
-        let Site { place, track, receivers, ground, .. } = &pair.after;
-        let (receivers, ground) = (*receivers, *ground);
-        let [first, second] = [0, 1].map(|at| {
-            let (mesh, surface, drawn) = (&outcome.meshes[at], &outcome.surfaces[at], &outcome.drawn[at]);
-            figure::Scene { place, track, mesh, surface, receivers, ground, drawn }
-        });
-        let picture = figure::difference(&[first, second], &pair.names, &outcome.comparison)?;
-        watch.lap("picture");
-        let raster = geotiff::difference_geotiff(&outcome.comparison, place)?;
-        watch.lap("raster");
-        let (drawn, timings, notes) = (&outcome.drawn[1], &watch.timings(), &pair.notes());
-        let told = Told { receivers, ground, drawn, timings, statistics: None, notes };
-        let json = comparison::json(&outcome.comparison, &pair.names, place, track, &told)?;
-        Ok(vec![("compare.png", picture), ("shadow-hours-difference.tif", raster), ("compare.json", json.into_bytes())])
+    /// Writes the drawing, the raster and the report.
+    pub(super) fn write(&self, sink: Sink<'_>, on_event: &mut OnEvent<'_>) -> anyhow::Result<()> {
+        let watch = Stopwatch::after(self.timings.clone());
+        write_comparison(&self.pair, &self.outcome, watch, sink, on_event)?;
+        Ok(())
     }
 }
 

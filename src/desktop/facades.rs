@@ -1,18 +1,20 @@
 //! Hours of sun on the model itself: façades, roofs and undersides, texel by texel.
 
-use super::hours::{Found, Laid, NamedFile};
+use super::hours::{Found, Laid};
 use super::loading::Project;
 use super::pick::Under;
 use super::settings::Settings;
 use super::unit::Unit;
 use super::work::Work;
+use crate::choice::{Engine, Method, Receivers, Subject};
+use crate::deliver::Sink;
+use crate::deliver::surfaces::{SurfacesRequest, answer, write_surfaces};
 use crate::export::figure::{self, scale::Rgb};
-use crate::export::report::{self, Told};
-use crate::export::surfaces::{self, Atlas, Surfaces};
+use crate::export::surfaces::Atlas;
+use crate::picture::{PatchColours, Picture};
 use crate::shadow::ShadowError;
-use crate::shadow::picture::{PatchColours, Picture};
-use crate::site::{Method, Receivers, Site};
-use crate::study::{self, Stopwatch, SurfaceOutcome};
+use crate::site::Site;
+use crate::study::{self, OnEvent, Stopwatch, SurfaceOutcome};
 use eframe::egui;
 use std::sync::Arc;
 
@@ -24,15 +26,12 @@ pub(super) struct Facades {
     pages: Vec<Vec<Rgb>>,
     /// What the colours mean.
     pub(super) legend: (String, Vec<(Rgb, String)>),
-    timings: Stopwatch,
 }
 
 /// By what surfaces are judged, where the window draws by some technique: by that, or by the faster of the two that can.
 pub(super) fn method(settings: &Settings) -> Method {
-    match settings.shown.method {
-        method @ (Method::RayCast | Method::SoftTexture) => method,
-        _ => Method::Auto,
-    }
+    let method = settings.shown.method;
+    if method.row().draws(Engine::Auto, Subject::Surfaces) { method } else { Method::Auto }
 }
 
 /// Finds the hours of sun on the surfaces of a site.
@@ -40,22 +39,15 @@ pub(super) fn find(project: &Project, method: Method, number: u64, context: egui
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
     let mark = project.models.mark();
     Work::start(context, move |on_event| {
-        let mut timings = Stopwatch::start();
         let asked = Site { receivers: Receivers::Surfaces, method, ..Site::clone(&site) };
         let outcome = study::surfaces(&asked, asked.patch_cell, on_event)?;
-        timings.laps(outcome.timings.clone());
         let answer = answer(&site, &outcome);
         let atlas = Atlas::of(&answer);
         let pages = atlas.colours(&answer.bands(), outcome.hours.samples);
         let legend = figure::surfaces_legend(&answer);
-        let found = Found::Facades(Box::new(Facades { outcome, atlas, pages, legend, timings }));
+        let found = Found::Facades(Box::new(Facades { outcome, atlas, pages, legend }));
         Ok(Laid { number, site, method, written, mark, found })
     })
-}
-
-fn answer<'a>(site: &'a Site, outcome: &'a SurfaceOutcome) -> Surfaces<'a> {
-    let Site { place, track, mesh, receives, .. } = site;
-    Surfaces { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours }
 }
 
 impl Facades {
@@ -86,23 +78,13 @@ impl Facades {
     }
 
     /// The drawing, the model, the table and the report.
-    pub(super) fn files(&self, site: &Site) -> anyhow::Result<Vec<NamedFile>> {
-        let mut watch = self.timings.clone();
-        let (answer, drawn) = (answer(site, &self.outcome), &self.outcome.drawn);
-        let (mesh, surface) = &study::seen_receivers(site)?;
-        let (place, track, receivers, ground) = (&site.place, &site.track, Receivers::Surfaces, site.ground);
-        let scene = figure::Scene { place, track, mesh, surface, receivers, ground, drawn };
-        let picture = figure::surfaces(&scene, &site.picture(), &answer)?;
-        watch.lap("picture");
-        let model = surfaces::glb(&answer)?;
-        watch.lap("model");
-        let (timings, notes) = (&watch.timings(), &site.notes);
-        let told = Told { receivers, ground, drawn, timings, statistics: None, notes };
-        Ok(vec![
-            ("surfaces.png", picture),
-            ("surfaces.glb", model),
-            ("surfaces.csv", surfaces::csv(&answer).into_bytes()),
-            ("profile.json", report::surfaces_json(&answer, &told)?.into_bytes()),
-        ])
+    pub(super) fn all(&self) -> SurfacesRequest {
+        SurfacesRequest::all(Stopwatch::after(self.outcome.timings.clone()))
+    }
+
+    /// Writes them.
+    pub(super) fn write(&self, site: &Site, sink: Sink<'_>, on_event: &mut OnEvent<'_>) -> anyhow::Result<()> {
+        write_surfaces(site, &self.outcome, &self.all(), sink, on_event)?;
+        Ok(())
     }
 }

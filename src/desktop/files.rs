@@ -2,7 +2,8 @@
 
 use super::look;
 use super::question::Question;
-use crate::cli::draw::Lines;
+use crate::deliver::lines::Lines;
+use crate::export::animation::Frames;
 use crate::export::file;
 use eframe::egui;
 use std::ffi::OsStr;
@@ -72,8 +73,8 @@ pub(super) struct Asking {
     answer: mpsc::Receiver<Option<PathBuf>>,
     /// What is proposed.
     proposed: PathBuf,
-    /// Names of the files that will be written, where a folder is asked for.
-    files: Vec<&'static str>,
+    /// Names of the files that will be written, where a folder is asked for; an animation has its own.
+    files: Vec<PathBuf>,
     /// The dialog in the window: what is typed.
     typed: Option<String>,
     /// It has been shown, and its field had the focus.
@@ -95,12 +96,7 @@ pub(super) enum Answer {
 impl Asking {
     /// Asks by the system's dialog, beginning with what is proposed; `files` are the names of what will be written into a
     /// folder.
-    pub(super) fn start(
-        purpose: Purpose,
-        proposed: PathBuf,
-        files: Vec<&'static str>,
-        context: egui::Context,
-    ) -> Asking {
+    pub(super) fn start(purpose: Purpose, proposed: PathBuf, files: Vec<PathBuf>, context: egui::Context) -> Asking {
         let (tell, answer) = mpsc::channel();
         let folder = if purpose.reads() { Some(proposed.as_path()) } else { proposed.parent() }.map(Path::to_owned);
         let name = proposed.file_name().map(OsStr::to_owned);
@@ -126,6 +122,11 @@ impl Asking {
         });
         let begun = Instant::now();
         Asking { purpose, begun, answer, proposed, files, typed: None, is_met: false, replaces: None }
+    }
+
+    /// For what it is.
+    pub(super) fn purpose(&self) -> Purpose {
+        self.purpose
     }
 
     /// Looks for the answer; shows the dialog in the window where the system showed none.
@@ -186,6 +187,7 @@ impl Asking {
         let is_there = |file: &PathBuf| file.is_file();
         let there = match self.purpose {
             purpose if purpose.reads() => None,
+            Purpose::Animation => Frames::there(&path),
             purpose if purpose.is_folder() => self.files.iter().map(|name| path.join(name)).find(is_there),
             _ => Some(path.clone()).filter(is_there),
         };

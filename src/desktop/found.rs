@@ -8,13 +8,14 @@ use super::hours::{self, Found};
 use super::loading::name_of;
 use super::look;
 use super::settings::Settings;
+use crate::choice::{Engine, Subject, listed};
 use eframe::egui::{self, Ui};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The buttons below the study's fields.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let context = ui.ctx().clone();
+    let (context, studies) = (ui.ctx().clone(), app.studies.clone());
     let is_reading = app.is_reading;
     let Some(open) = &mut app.open else { return };
     if let Some(adding) = &open.adding {
@@ -39,10 +40,11 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             response.on_disabled_hover_text("Two states are compared on ground and roofs");
         });
         if app.settings.shown.facades && !compares && facades::method(&app.settings) != app.settings.shown.method {
-            ui.weak("On façades auto chooses: soft-texture or ray-cast.");
+            let techniques = listed(&Subject::Surfaces.drawn_by(Engine::Auto), "or");
+            ui.weak(format!("On façades auto chooses: {techniques}."));
         }
         if goes {
-            find(open, &app.settings, &context);
+            find(open, &app.settings, studies, &context);
         }
     }
     let mut exports = false;
@@ -66,7 +68,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 }
 
 /// Begins to find what is asked.
-fn find(open: &mut Open, settings: &Settings, context: &egui::Context) {
+fn find(open: &mut Open, settings: &Settings, studies: Option<PathBuf>, context: &egui::Context) {
     open.answers += 1;
     let (method, number, context) = (settings.shown.method, open.answers, context.clone());
     open.adding = Some(match &settings.before {
@@ -75,7 +77,7 @@ fn find(open: &mut Open, settings: &Settings, context: &egui::Context) {
             change::find(&open.project, Arc::clone(before), known, method, number, context)
         }
         None if settings.shown.facades => facades::find(&open.project, facades::method(settings), number, context),
-        None => hours::add_up(&open.project, method, number, context),
+        None => hours::add_up(&open.project, method, number, studies, context),
     });
 }
 
@@ -131,8 +133,14 @@ impl App {
     /// Begins to find the hours of the open site, as its button does.
     pub fn find_hours(&mut self, context: &egui::Context) {
         if let Some(open) = &mut self.open {
-            find(open, &self.settings, context);
+            find(open, &self.settings, self.studies.clone(), context);
         }
+    }
+
+    /// The same window, which keeps studies in a folder that are stopped: they go on when the same is asked again.
+    pub fn keeping_studies_in(mut self, folder: &Path) -> App {
+        self.studies = Some(folder.to_owned());
+        self
     }
 
     /// Finds what changes from the site in a file to the open one.

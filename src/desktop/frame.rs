@@ -10,7 +10,7 @@ use super::loading::{Wanted, name_of};
 use super::look;
 use super::time::steps;
 use super::unit::Unit;
-use crate::cli::draw::Lines;
+use crate::deliver::lines::Lines;
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers, ThemePreference, Ui};
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
@@ -280,7 +280,8 @@ impl App {
         }
         let of_view = self.open.as_ref().and_then(|open| open.viewer.fault.clone());
         let (fault, notice) = (self.fault.clone().or(of_view), self.notice.clone());
-        if let Some(text) = fault.as_ref().or(notice.as_ref()) {
+        // a grave accent would be set above the letter behind it
+        if let Some(text) = fault.as_ref().or(notice.as_ref()).map(|text| text.replace('`', "")) {
             ui.horizontal(|ui| {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     if ui.button("Close").clicked() {

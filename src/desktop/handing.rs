@@ -1,29 +1,27 @@
 //! What is handed in, as the command makes it: the site file, drawings, hours and animations.
 
 use super::eye::{Eye, Stand};
-use super::hours::NamedFile;
+use super::hours::Laid;
 use super::loading::Project;
 use super::settings::Settings;
 use super::view;
 use super::work::Work;
-use crate::cli::animate;
-use crate::export::animation::Frames;
-use crate::export::figure::{self, Diagram};
-use crate::export::file;
-use crate::export::workplace::Workplace;
+use crate::deliver::animation::{self, AnimationRequest, FPS, WIDTH};
+use crate::deliver::instant::{InstantRequest, Show, instant};
+use crate::deliver::lines::Lines;
+use crate::deliver::{Folder, Sink};
 use crate::site::file::{CameraTable, SiteFile};
 use crate::site::{Method, Models, Overrides, Site, SiteError, Written, model};
-use crate::study::{self, Event, InstantWants, StudyError};
+use crate::study::{Event, Stopwatch};
 use crate::sun::Zone;
 use crate::view::View;
 use chrono::DateTime;
 use eframe::egui;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::slice;
+use std::sync::Arc;
 
 /// Who works in a folder, for others who want to.
-const WHO: &str = "the window of gnomon";
+pub(super) const WHO: &str = "the window of gnomon";
 
 /// The eye as a site file says it, to the millimetre; the plan is no camera's picture, and leaves the table as it was.
 fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {
@@ -101,7 +99,6 @@ pub(super) fn drawing(
     let inputs = project.inputs(settings.before.as_deref());
     let shown = settings.shown;
     Work::start(context, move |on_event| {
-        file::check_inputs(&inputs, slice::from_ref(&path))?;
         let is_perspective = eye.stand == Stand::Perspective;
         let method = match shown.method {
             // volumes and silhouette are the stencil's
@@ -109,37 +106,23 @@ pub(super) fn drawing(
             method if view::draws(method, eye.stand) => method,
             _ => Method::Auto,
         };
-        // as the command reads it, for the region of this instant's shadows
-        let at = Some(time.format("%Y-%m-%dT%H:%M:%S%:z").to_string());
-        let asked = Overrides { at, technique: Some(method), ..Overrides::default() };
+        // for the region of this instant's shadows
+        let asked = Overrides { instant: Some(time), technique: Some(method), ..Overrides::default() };
         let site = site_of(&written, &asked, models)?;
-        let view = view_from(&site, &eye);
-        let wants = InstantWants {
-            surface: true,
-            volumes: shown.volumes && is_perspective,
-            silhouette: shown.silhouette && is_perspective,
-            counted: shown.diagram.filter(|_| view::counts(method)).map(|diagram| match diagram {
-                Diagram::Mask => "--show mask",
-                Diagram::Overdraw => "--show overdraw",
-            }),
+        let request = InstantRequest {
+            view: view_from(&site, &eye),
+            drawing: Some(path.clone()),
+            mask: None,
+            show: Show {
+                volumes: shown.volumes && is_perspective,
+                silhouette: shown.silhouette && is_perspective,
+                components: shown.tinted && eye.stand != Stand::Plan,
+                diagram: shown.diagram.filter(|_| view::counts(method)),
+            },
+            statistics: false,
+            watch: Stopwatch::start(),
         };
-        let outcome = study::instant(&site, view, &wants, on_event)?;
-        let Some(surface) = &outcome.surface else { anyhow::bail!("what is seen is not there") };
-        let scene = figure::Scene {
-            place: &site.place,
-            track: &site.track,
-            mesh: &outcome.surface_mesh,
-            surface,
-            receivers: study::judged(&site, &view),
-            ground: site.ground,
-            drawn: &outcome.drawn,
-        };
-        let seen = site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen);
-        let casts: Vec<bool> = seen.map(|(casts, _)| *casts).collect();
-        let components = (shown.tinted && eye.stand != Stand::Plan).then_some(casts.as_slice());
-        let counted = outcome.counted.as_ref().zip(shown.diagram);
-        let shown = figure::Shown { overlay: outcome.overlay.as_ref(), casts: components, counted };
-        file::write(&path, &figure::instant(&scene, &view, &outcome.mask, &shown)?)?;
+        instant(&site, &request, Sink::Paths { inputs: &inputs }, on_event)?;
         Ok(path)
     })
 }
@@ -160,25 +143,25 @@ pub(super) fn animation(
         let method = if view::draws(method, eye.stand) { method } else { Method::Auto };
         let asked = Overrides { technique: Some(method), ..Overrides::default() };
         let site = site_of(&written, &asked, models)?;
-        let count = animate::check(&site)?;
-        let outputs = Frames::outputs(&folder, count);
-        file::check_inputs(&inputs, &outputs)?;
-        let _locked = Workplace::take([folder.as_path()], &outputs, WHO)?;
         // the frames, and then each once more in the GIF
-        let both = 2 * count;
+        let count = site.track.instants.len();
         let drawn = |index: usize| {
             let time = site.track.instants[index % count].time;
-            Event::Drawn { index, count: both, time, mask: None, bits: None }
+            Event::Drawn { index, count: 2 * count, time, mask: None, bits: None }
         };
         let view = view_from(&site, &eye);
-        let (_, frames) = animate::frames(&site, view, &folder, animate::WIDTH, &mut |event| match event {
+        let asked = AnimationRequest { view, width: WIDTH, fps: FPS, watch: Stopwatch::start() };
+        let inside = Folder { path: &folder, who: WHO, inputs: &inputs };
+        let mut in_gif = 0;
+        let answer = animation::animation(&site, &asked, inside, &mut |event| match event {
             Event::Drawn { index, .. } => on_event(drawn(index)),
+            Event::Stage(_) => {
+                in_gif += 1;
+                on_event(drawn(count + in_gif - 1))
+            }
             event => on_event(event),
         })?;
-        animate::gif(frames, count, animate::FPS, &mut |index| match on_event(drawn(count + index)) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(StudyError::Interrupted),
-        })
+        Ok(answer.gif)
     })
 }
 
@@ -198,21 +181,18 @@ pub(super) fn progress(writing: &Work<PathBuf>, ui: &mut egui::Ui) -> bool {
     .inner
 }
 
-/// Writes files of what was found into a folder.
+/// Writes files of what was found into a folder: all of them, or a drawing of its lines.
 pub(super) fn found(
     project: &Project,
     settings: &Settings,
-    files: impl FnOnce() -> anyhow::Result<Vec<NamedFile>> + Send + 'static,
+    laid: Arc<Laid>,
+    lines: Option<Lines>,
     folder: PathBuf,
     context: egui::Context,
 ) -> Work<PathBuf> {
     let inputs = project.inputs(settings.before.as_deref());
-    Work::start(context, move |_| {
-        let files = files()?;
-        let outputs: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
-        file::check_inputs(&inputs, &outputs)?;
-        let _locked = Workplace::take([folder.as_path()], &outputs, WHO)?;
-        file::write_all(&folder, &files)?;
+    Work::start(context, move |on_event| {
+        laid.write(lines, Sink::Folder(Folder { path: &folder, who: WHO, inputs: &inputs }), on_event)?;
         Ok(folder)
     })
 }

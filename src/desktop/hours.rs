@@ -3,30 +3,31 @@
 
 use super::change::Change;
 use super::facades::{self, Facades};
+use super::handing::WHO;
 use super::loading::Project;
 use super::pick::Under;
 use super::settings::Settings;
 use super::unit::Unit;
 use super::work::Work;
-use crate::cli::draw::Lines;
-use crate::export::figure::Outline;
+use crate::deliver::lines::Lines;
+use crate::deliver::probe::{self, ProbeRequest};
+use crate::deliver::profile::{Hours, ProfileRequest, find_hours, write_hours};
+use crate::deliver::{Folder, Sink, comparison};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
-use crate::export::{figure, raster, report};
+use crate::picture::{Hours as HoursRaster, Picture};
 use crate::profile::probe::Sunlight;
-use crate::shadow::ShadowError;
-use crate::shadow::picture::{Hours, Picture};
+use crate::profile::{Profile, Shaded, hours as hours_of};
+use crate::shadow::{ShadowError, plan_surface};
 use crate::site::file::SiteFile;
 use crate::site::{Method, Probing, Site};
-use crate::study::{self, Event, Outcome, StudyError, Wants};
+use crate::study::{OnEvent, Outcome, Stopwatch, StudyError};
 use crate::sun::DayWindow;
-use crate::view::{Bits, Grid, Probe, Surface};
+use crate::view::{Grid, Probe, Surface};
 use chrono::NaiveDate;
 use eframe::egui;
 use glam::DVec3;
+use std::path::PathBuf;
 use std::sync::Arc;
-
-/// A file's name, and what is in it.
-pub(super) type NamedFile = (&'static str, Vec<u8>);
 
 /// What was found, ready to be laid over the scene.
 pub(super) struct Laid {
@@ -103,37 +104,29 @@ impl Laid {
     }
 
     /// What its files are called.
-    pub(super) fn names(&self) -> &'static [&'static str] {
+    pub(super) fn names(&self) -> Vec<PathBuf> {
         match &self.found {
-            Found::Shadow(_) => &["profile.png", "shadow-hours.tif", "profile.json"],
-            Found::Change(_) => &["compare.png", "shadow-hours-difference.tif", "compare.json"],
-            Found::Facades(_) => &["surfaces.png", "surfaces.glb", "surfaces.csv", "profile.json"],
+            Found::Shadow(hours) => hours.all().names(),
+            Found::Change(_) => comparison::names().to_vec(),
+            Found::Facades(facades) => facades.all().names(),
         }
     }
 
-    /// Its files, as the command makes them.
+    /// Writes its files, or a drawing of its lines, as the command does.
     ///
     /// # Errors
-    /// What the encoders say.
-    pub(super) fn files(&self) -> anyhow::Result<Vec<NamedFile>> {
-        match &self.found {
-            Found::Shadow(hours) => hours.files(&self.site),
-            Found::Change(change) => change.files(),
-            Found::Facades(facades) => facades.files(&self.site),
+    /// Where the study has no such lines, or the files cannot be written.
+    pub(super) fn write(&self, lines: Option<Lines>, sink: Sink<'_>, on_event: &mut OnEvent<'_>) -> anyhow::Result<()> {
+        match (&self.found, lines) {
+            (Found::Shadow(hours), None) => hours.write(&self.site, &hours.all(), sink, on_event),
+            (Found::Shadow(hours), Some(lines)) => {
+                let lines = ProfileRequest { lines: &[lines], ..hours.nothing() };
+                hours.write(&self.site, &lines, sink, on_event)
+            }
+            (_, Some(_)) => anyhow::bail!("lines are drawn of the hours of shadow on the plan; find those first"),
+            (Found::Change(change), None) => change.write(sink, on_event),
+            (Found::Facades(facades), None) => facades.write(&self.site, sink, on_event),
         }
-    }
-
-    /// A drawing of its lines, as the command makes it.
-    ///
-    /// # Errors
-    /// Where the study has no such lines, in the command's words; what the encoders say.
-    pub(super) fn lines(&self, lines: Lines) -> anyhow::Result<Vec<NamedFile>> {
-        let Found::Shadow(hours) = &self.found else {
-            anyhow::bail!("lines are drawn of the hours of shadow on the plan; find those first");
-        };
-        lines.check(&self.site.track)?;
-        let files = lines.files(&hours.scene(&self.site)?, &hours.outcome.profile, &hours.outlines)?;
-        Ok(files.into())
     }
 
     /// Whether it is what the settings ask of the site.
@@ -167,29 +160,46 @@ impl Laid {
 
 /// The hours of shadow on ground and roofs.
 pub(super) struct ShadowHours {
-    /// The answer.
-    pub(super) outcome: Outcome,
-    /// Each instant's shadow, where outlines can be drawn of the study.
-    outlines: Vec<Outline>,
+    /// The answer, with each instant's shadow where outlines can be drawn of the study.
+    hours: Hours,
+    /// Its sums.
+    shaded: Arc<Shaded>,
+    /// What the cells see.
+    surface: Surface,
     bands: Bands,
     colours: Vec<Rgb>,
 }
 
 impl ShadowHours {
-    fn new(site: &Site, outcome: Outcome, outlines: Vec<Outline>) -> ShadowHours {
-        let bands = Bands::new(site.track.step_secs, outcome.profile.day_secs);
-        let colours = outcome.profile.shaded.iter().map(|shaded| bands.colour(shaded)).collect();
-        ShadowHours { outcome, outlines, bands, colours }
+    fn new(site: &Site, hours: Hours) -> ShadowHours {
+        let shaded = hours.shaded().cloned().unwrap_or_default();
+        let surface = plan_surface(&hours.surface_mesh, site.ground.level, &site.grid);
+        let bands = Bands::new(site.track.step_secs, hours.profile.day_secs);
+        let colours = shaded.iter().map(|shaded| bands.colour(shaded)).collect();
+        ShadowHours { hours, shaded, surface, bands, colours }
     }
 
-    fn raster(&self) -> Hours<'_> {
-        let height_m = self.outcome.surface.as_ref().map_or([].as_slice(), |surface| &surface.height_m);
-        raster(&self.outcome.profile.grid, &self.colours, height_m)
+    fn raster(&self) -> HoursRaster<'_> {
+        raster(&self.hours.profile.grid, &self.colours, &self.surface.height_m)
+    }
+
+    /// As a study of the plan answers.
+    pub(super) fn outcome(&self) -> Outcome {
+        let Hours { profile: Profile { grid, day_secs, night_secs, .. }, .. } = self.hours;
+        let Hours { drawn, surface_mesh, statistics, timings, .. } = &self.hours;
+        Outcome {
+            profile: Profile { grid, shaded: Shaded::clone(&self.shaded), day_secs, night_secs },
+            drawn: drawn.clone(),
+            surface: None,
+            surface_mesh: surface_mesh.clone(),
+            statistics: *statistics,
+            timings: timings.clone(),
+        }
     }
 
     fn said(&self, point: DVec3) -> Option<String> {
-        let cell = cell_at(&self.outcome.profile.grid, self.outcome.surface.as_ref()?, point)?;
-        Some(format!("{:.2} h of shadow", self.outcome.profile.hours(cell)))
+        let cell = cell_at(&self.hours.profile.grid, &self.surface, point)?;
+        Some(format!("{:.2} h of shadow", hours_of(self.shaded.of(cell))))
     }
 
     fn legend(&self) -> (String, Vec<(Rgb, String)>) {
@@ -210,30 +220,38 @@ impl ShadowHours {
         (format!("Hours of shadow out of {}", hours(bands.day_secs)), entries)
     }
 
-    /// The drawing, the raster and the report.
-    fn files(&self, site: &Site) -> anyhow::Result<Vec<NamedFile>> {
-        let Outcome { profile, drawn, timings, .. } = &self.outcome;
-        let Site { receivers, ground, notes, .. } = site;
-        let told = report::Told { receivers: *receivers, ground: *ground, drawn, timings, statistics: None, notes };
-        Ok(vec![
-            ("profile.png", figure::profile(&self.scene(site)?, profile)?),
-            ("shadow-hours.tif", raster::geotiff(profile, &site.place)?),
-            ("profile.json", report::profile_json(profile, &site.place, &site.track, &told)?.into_bytes()),
-        ])
+    /// No file yet.
+    fn nothing(&self) -> ProfileRequest<'_> {
+        ProfileRequest::of(Stopwatch::after(self.hours.timings.clone()))
     }
 
-    fn scene<'a>(&'a self, site: &'a Site) -> anyhow::Result<figure::Scene<'a>> {
-        let Outcome { drawn, surface, surface_mesh: mesh, .. } = &self.outcome;
-        let Some(surface) = surface else { anyhow::bail!("what is seen is not there") };
-        let Site { place, track, receivers, ground, .. } = site;
-        Ok(figure::Scene { place, track, mesh, surface, receivers: *receivers, ground: *ground, drawn })
+    /// The drawing, the raster and the report; bits where each instant's shadow is at hand.
+    fn all(&self) -> ProfileRequest<'_> {
+        ProfileRequest {
+            drawing: true,
+            raster: true,
+            report: true,
+            bits: !self.hours.outlines.is_empty(),
+            ..self.nothing()
+        }
+    }
+
+    fn write(
+        &self,
+        site: &Site,
+        asked: &ProfileRequest<'_>,
+        sink: Sink<'_>,
+        on_event: &mut OnEvent<'_>,
+    ) -> anyhow::Result<()> {
+        write_hours(site, &self.hours, asked, sink, on_event)?;
+        Ok(())
     }
 }
 
 /// Colours of a plan's cells, as the picture takes them.
-pub(super) fn raster<'a>(grid: &Grid, colours: &'a [Rgb], height_m: &'a [f32]) -> Hours<'a> {
+pub(super) fn raster<'a>(grid: &Grid, colours: &'a [Rgb], height_m: &'a [f32]) -> HoursRaster<'a> {
     let size = (grid.width, grid.height);
-    Hours { corner: [grid.west, grid.north], cell: grid.cell, size, colours, height_m }
+    HoursRaster { corner: [grid.west, grid.north], cell: grid.cell, size, colours, height_m }
 }
 
 /// The cell in which a point lies, where it lies on the surface that the cell sees.
@@ -246,26 +264,23 @@ pub(super) fn cell_at(grid: &Grid, surface: &Surface, point: DVec3) -> Option<us
     ((height - point.z).abs() < grid.cell.max(0.05)).then_some(cell)
 }
 
-/// Adds up the hours of a site's study.
-pub(super) fn add_up(project: &Project, method: Method, number: u64, context: egui::Context) -> Work<Laid> {
+/// Adds up the hours of a site's study, which is kept among `studies` where it is stopped.
+pub(super) fn add_up(
+    project: &Project,
+    method: Method,
+    number: u64,
+    studies: Option<PathBuf>,
+    context: egui::Context,
+) -> Work<Laid> {
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
     let mark = project.models.mark();
     Work::start(context, move |on_event| {
         // they are few where they can be drawn
         let bits = Lines::Outlines.check(&site.track).is_ok();
-        let wants = Wants { surface: true, bits, ..Wants::default() };
-        let mut outlines = Vec::new();
-        let outcome = study::run(&Site { method, ..Site::clone(&site) }, &wants, &mut |event| {
-            match &event {
-                Event::Drawn { index, bits: Some(shadow), .. } => {
-                    outlines.push(Outline { index: *index, shadow: Bits::clone(shadow) });
-                }
-                Event::Anew => outlines.clear(),
-                _ => {}
-            }
-            on_event(event)
-        })?;
-        let found = Found::Shadow(Box::new(ShadowHours::new(&site, outcome, outlines)));
+        let asked = ProfileRequest { bits, ..ProfileRequest::of(Stopwatch::start()) };
+        let shelf = studies.as_deref().map(|path| Folder { path, who: WHO, inputs: &[] });
+        let hours = find_hours(&Site { method, ..Site::clone(&site) }, &asked, shelf, on_event)?;
+        let found = Found::Shadow(Box::new(ShadowHours::new(&site, hours)));
         Ok(Laid { number, site, method, written, mark, found })
     })
 }
@@ -287,6 +302,6 @@ pub(super) fn probe(project: &Project, probe: Probe, date: NaiveDate, context: e
             step_secs: STEP_SECS,
             refraction: site.track.refraction,
         };
-        Ok(study::probe::probe(&probing, on_event)?)
+        Ok(probe::probe(&probing, &ProbeRequest::default(), Sink::Memory, on_event)?.sunlight)
     })
 }

@@ -2,9 +2,11 @@
 
 use super::bare::Bare;
 use super::settings::{Hidden, Settings};
-use crate::cli::one_line;
+use super::words::{Keys, Labels};
 use crate::export::figure::component_colours;
+use crate::fault;
 use crate::mesh::Mesh;
+use crate::message::Words;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::file::{PlaceTable, SiteFile, Text};
 use crate::site::{Models, Overrides, Site, SiteError, Written, model};
@@ -151,20 +153,20 @@ fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
         Wanted::File(path) => match Written::read(&path, &Overrides::default()) {
             Err(SiteError::NoPlaceForModel { .. }) => {
                 // a model that cannot be read is told before its place is asked
-                crate::site::load_mesh(&path, None).map_err(told)?;
+                crate::site::load_mesh(&path, &Overrides::default()).map_err(|error| told(&error, &Keys))?;
                 return Err(Fault::Bare(path));
             }
             Ok(written) => {
                 let path = if path.is_dir() { path.join("site.toml") } else { path };
                 (Some(path), written)
             }
-            Err(error) => return Err(told(error)),
+            Err(error) => return Err(told(&error, &Keys)),
         },
         Wanted::Placed(bare) => {
             let asked = Overrides { place: Some(bare.place.clone()), ..Overrides::default() };
-            let mut written = Written::read(&bare.path, &asked).map_err(told)?;
+            let mut written = Written::read(&bare.path, &asked).map_err(|error| told(&error, &Keys))?;
             if let Some(table) = written.site.model.first_mut() {
-                let north = bare.north().map_err(told)?;
+                let north = bare.north().map_err(|error| told(&error, &Keys))?;
                 table.north = Some(north).filter(|north| *north != 0.0);
             }
             (None, written)
@@ -189,12 +191,14 @@ fn read(
     progress: &Progress,
 ) -> Result<Project, Fault> {
     let known = before.and_then(|before| before.models.as_ref()).filter(|models| models.are_those_of(&written));
+    // what is set in the panel has its labels, and what a file says its keys
+    let words: &dyn Words = if before.is_some() { &Labels } else { &Keys };
     let mut models = None;
     let site = Site::with_models(&written, &Overrides::default(), || {
         let read = known.map_or_else(|| read_models(&written, progress), |models| Ok(models.clone()))?;
         Ok(models.insert(read).clone())
     })
-    .map_err(told)?;
+    .map_err(|error| told(&error, words))?;
     if progress.cancelled.load(Ordering::Relaxed) {
         return Err(Fault::Told("given up".to_owned()));
     }
@@ -263,8 +267,8 @@ fn complete(site: &mut SiteFile) {
     study.to.get_or_insert_with(|| Text("17:00".to_owned()));
 }
 
-fn told(error: impl Into<anyhow::Error>) -> Fault {
-    Fault::Told(one_line(&error.into()))
+fn told(error: &(dyn std::error::Error + 'static), words: &dyn Words) -> Fault {
+    Fault::Told(fault::line(error, words))
 }
 
 impl Project {

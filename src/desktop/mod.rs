@@ -11,6 +11,7 @@ mod change;
 mod clock;
 mod components;
 mod easel;
+mod event_loop;
 mod eye;
 mod facades;
 mod files;
@@ -35,6 +36,7 @@ mod time;
 mod typed;
 mod unit;
 mod view;
+mod words;
 mod work;
 
 pub use app::App;

@@ -5,10 +5,11 @@ use super::eye::Stand;
 use super::typed::{Number, Typed};
 use super::unit::Unit;
 use super::{cards, components, found, look, view};
+use crate::choice::{Method, Promise, TABLE};
 use crate::export::figure::Diagram;
 use crate::site::file::Text;
 use crate::site::typed::{Axis, TypedError, clock, date, step};
-use crate::site::{Ground, Mend, Method};
+use crate::site::{Ground, Mend};
 use eframe::egui::{self, Ui, vec2};
 use std::ops::RangeInclusive;
 
@@ -17,18 +18,11 @@ pub(super) const NORTH: RangeInclusive<f64> = -360.0..=360.0;
 /// Metres that a unit of a model may have.
 const SCALE: RangeInclusive<f64> = 1e-6..=1e6;
 
-/// What each technique is good for, in a line.
-fn good_for(method: Method) -> &'static str {
-    match method {
-        Method::Auto => "The fastest exact one for this machine.",
-        Method::Stencil => "Exact, on the graphics adapter: shadow volumes are counted.",
-        Method::Projected => "Exact, for the plan, on the processor: faces are projected along the sun.",
-        Method::ShadowMap => "A quick look: edges as coarse as a texel of its map.",
-        Method::Hybrid => "Exact but for parts thinner than a texel; quick where many thin parts cast.",
-        Method::Smoothie => "The soft edge of a real sun; shadows are a little too large.",
-        Method::SoftTexture => "The sun as a disc on what is flat, before a camera.",
-        Method::RayCast => "Exact, on the processor; also with the sun as a disc.",
-    }
+/// What a technique is good for, as a sentence.
+fn good_for(method: Method) -> String {
+    let text = method.row().good_for;
+    let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
+    format!("{}{rest}.", first.to_uppercase())
 }
 
 /// The whole panel.
@@ -207,9 +201,9 @@ fn shadows(app: &mut App, ui: &mut Ui) {
     row(ui, "Technique", |ui, label| {
         let list = egui::ComboBox::from_id_salt("technique").selected_text(shown.method.word());
         let response = list.width(ui.available_width()).show_ui(ui, |ui| {
-            for (word, method) in Method::WORDS {
-                let entry = ui.selectable_value(&mut shown.method, *method, *word);
-                entry.on_hover_text(good_for(*method));
+            for row in TABLE {
+                let entry = ui.selectable_value(&mut shown.method, row.method, row.word);
+                entry.on_hover_text(good_for(row.method));
             }
         });
         response.response.labelled_by(label);
@@ -231,7 +225,7 @@ fn shadows(app: &mut App, ui: &mut Ui) {
             let list = egui::ComboBox::from_id_salt("diagram").selected_text(name(shown.diagram));
             let response = list.width(ui.available_width()).show_ui(ui, |ui| {
                 let mut choices = vec![None, Some(Diagram::Overdraw)];
-                if shown.method == Method::Hybrid {
+                if shown.method.row().promise == Promise::ExactButForMap {
                     choices.push(Some(Diagram::Mask));
                 }
                 for choice in choices {

@@ -1,11 +1,13 @@
 //! A picture that no graphics adapter has a hand in: sun and shadow by rays, in the colours of drawings.
 
 use super::stage::Wish;
+use crate::choice::{Engine, Method, Receivers, Settings};
+use crate::deliver::instant::seen_casts;
+use crate::deliver::{Seen, scene};
 use crate::export::figure::{self, Shown};
-use crate::profile::{Drawn, DrawnSettings};
+use crate::profile::Drawn;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{Scene, ShadowError, Technique};
-use crate::site::{Engine, Method, Receivers};
 use crate::study::live::far_view;
 use crate::view::Mask;
 
@@ -42,23 +44,15 @@ pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]
         false => Mask { width, height, share: vec![0; width as usize * height as usize] },
     };
     let drawn = Drawn {
-        technique: Method::RayCast.word(),
-        silhouette: None,
-        engine: Engine::Cpu.word(),
+        technique: Method::RayCast,
+        finder: None,
+        engine: Engine::Cpu,
         adapter: None,
-        settings: DrawnSettings { sun_samples, ..DrawnSettings::default() },
+        settings: Settings { sun_samples, ..Settings::NONE },
     };
-    let scene = figure::Scene {
-        place: &site.place,
-        track: &site.track,
-        mesh: &plain.scene.receivers,
-        surface: &plain.rays.surface()?,
-        receivers: Receivers::Top,
-        ground: site.ground,
-        drawn: &drawn,
-    };
-    let casts: Vec<bool> =
-        site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect();
+    let (mesh, surface) = (&plain.scene.receivers, &plain.rays.surface()?);
+    let scene = scene(site, Seen { receivers: Receivers::Top, surface, mesh, drawn: &drawn });
+    let casts = seen_casts(site);
     let shown = Shown { casts: wish.style.tinted.then_some(casts.as_slice()), ..Shown::default() };
     let pixels = figure::bare(&scene, &wish.view, &mask, wish.to_sun, &shown);
     Ok((pixels.into_iter().map(|[red, green, blue]| [red, green, blue, 255]).collect(), drawn))

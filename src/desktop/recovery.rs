@@ -52,7 +52,7 @@ impl App {
     /// The same window, which keeps what is not saved beside what eframe keeps of it.
     pub(super) fn recovering(self) -> App {
         match eframe::storage_dir("gnomon") {
-            Some(folder) => self.recovering_in(&folder.join("recovery")),
+            Some(folder) => self.recovering_in(&folder.join("recovery")).keeping_studies_in(&folder.join("studies")),
             None => self,
         }
     }

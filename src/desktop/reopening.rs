@@ -1,24 +1,27 @@
 //! The window on the screen, and what becomes of it where its graphics device is lost (the driver was reset, the adapter is
-//! gone): it is opened again on a new one, with all that was open and all that was under way.
+//! gone): it is opened again on a new one, with all that was open and all that was under way. Where devices are lost time
+//! and again it is opened on the processor.
 //!
-//! eframe cannot change the device of a window; so the window is closed and another one opened, with the same [`App`] and the
-//! same context of egui, which work that goes on beside the window wakes.
+//! eframe cannot change the device of a window; so the window is closed and another one opened, with the same [`App`], and
+//! with what egui remembers.
 
 use super::app::App;
-use super::screen;
+use super::event_loop::{self, Panic};
 use super::stage::Stage;
+use super::{look, screen};
 use crate::gpu::{Gpu, GpuError};
 use anyhow::anyhow;
 use eframe::egui::layers::GraphicLayers;
 use eframe::egui_wgpu::{RenderState, SurfaceErrorAction, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use eframe::{AppCreator, CreationContext, Frame, NativeOptions, Storage, egui};
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::panic::resume_unwind;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use wgpu::{Adapter, CurrentSurfaceTexture, DeviceType, PollType};
 
-/// A window whose device is lost more often within [`MOMENT`] is given up.
+/// A window whose device is lost more often within [`MOMENT`] is opened on the processor; and given up where that is lost
+/// as often.
 const MOST_LOSSES: usize = 3;
 const MOMENT: Duration = Duration::from_secs(60);
 
@@ -39,48 +42,91 @@ pub fn open_with(
     set: &dyn Fn(&mut NativeOptions),
     on_frame: &mut dyn FnMut(&mut App, &egui::Context),
 ) -> anyhow::Result<()> {
-    let (mut app, mut context) = (None, None);
-    let (mut losses, mut software) = (Vec::new(), false);
-    loop {
+    let options = |software| {
         let mut options = options(software);
         set(&mut options);
-        let at_hand = context.clone();
-        let (slot, egui, on_frame) = (&mut app, &mut context, &mut *on_frame);
+        options
+    };
+    let mut event_loop = event_loop::new(&mut options(false)).map_err(unopened)?;
+    let (mut app, mut context) = (None, None);
+    let mut ways = Ways::default();
+    loop {
+        let mut is_open = false;
+        let (is_there, slot, egui, on_frame) = (&mut is_open, &mut app, &mut context, &mut *on_frame);
+        let note = ways.note.take();
         let create: AppCreator<'_> = Box::new(move |cc| {
-            *egui = Some(cc.egui_ctx.clone());
             match slot {
                 None => *slot = Some(App::new(cc, path)?.recovering()),
-                Some(app) => app.move_to(cc)?,
+                Some(app) => app.move_to(cc, egui.as_ref())?,
             }
+            *egui = Some(cc.egui_ctx.clone());
             let app = slot.as_mut().ok_or(GpuError::NoAdapter)?;
-            if software {
-                app.notice = Some("No graphics adapter opens: the window is drawn on the processor".to_owned());
+            if note.is_some() {
+                app.notice = note;
             }
+            *is_there = true;
             Ok(Box::new(Held { app, on_frame }))
         });
-        let run = || eframe::run_native_ext("gnomon", options, at_hand, create);
-        let ended = catch_unwind(AssertUnwindSafe(run));
-        match (ended, app.as_mut().and_then(App::lost)) {
-            // it was lost in the midst of egui's frame, and winit's loop is one that a panic leaves for good
-            (Err(_), Some(why)) => return Err(anyhow!("{why}, and the window with it; start gnomon again")),
-            (_, Some(why)) => {
-                losses.retain(|at: &Instant| at.elapsed() < MOMENT);
-                losses.push(Instant::now());
-                if losses.len() > MOST_LOSSES {
-                    return Err(anyhow!("{why} time and again, and no window can be shown; look after its driver"));
-                }
-            }
-            (Err(panic), None) => resume_unwind(panic),
-            (Ok(Ok(())), None) => return Ok(()),
-            (Ok(Err(eframe::Error::Wgpu(_))), None) if !software => software = true,
-            (Ok(Err(eframe::Error::Wgpu(_))), None) => return Err(anyhow!("{}", GpuError::NoAdapter)),
-            (Ok(Err(error)), None) => {
-                return Err(anyhow!(
-                    "the window cannot be opened: {error}; without a display use the commands (gnomon --help)"
-                ));
-            }
+        let window = eframe::create_native("gnomon", options(ways.software), create, &event_loop);
+        let panic = event_loop::show(&mut event_loop, window).map_err(unopened)?;
+        match app.as_mut().filter(|_| is_open).and_then(|app| app.lost(panic.is_some())) {
+            Some(why) => ways.note_loss(why)?,
+            None if !is_open => ways.note_unopened(panic)?,
+            None => return panic.map_or(Ok(()), |panic| resume_unwind(panic)),
         }
     }
+}
+
+/// On what the window is opened next.
+#[derive(Default)]
+struct Ways {
+    /// On the processor.
+    software: bool,
+    /// When devices were lost.
+    losses: Vec<Instant>,
+    /// Why it is on the processor, where devices were lost.
+    lost: Option<String>,
+    /// What the next window says.
+    note: Option<String>,
+}
+
+impl Ways {
+    /// A device was lost.
+    fn note_loss(&mut self, why: String) -> anyhow::Result<()> {
+        self.losses.retain(|at| at.elapsed() < MOMENT);
+        self.losses.push(Instant::now());
+        if self.losses.len() <= MOST_LOSSES {
+            return Ok(());
+        }
+        if self.software {
+            return Err(given_up(&why));
+        }
+        self.note = Some(format!("{why} time and again; the window is drawn on the processor now"));
+        (self.software, self.losses, self.lost) = (true, Vec::new(), Some(why));
+        Ok(())
+    }
+
+    /// No window came.
+    fn note_unopened(&mut self, panic: Option<Panic>) -> anyhow::Result<()> {
+        if !self.software {
+            self.note = Some("No graphics adapter opens: the window is drawn on the processor".to_owned());
+            self.software = true;
+            return Ok(());
+        }
+        match (panic, &self.lost) {
+            (_, Some(why)) => Err(given_up(why)),
+            (Some(panic), None) => resume_unwind(panic),
+            (None, None) => Err(anyhow!("{}", GpuError::NoAdapter)),
+        }
+    }
+}
+
+fn given_up(why: &str) -> anyhow::Error {
+    anyhow!("{why} time and again, and no window can be shown; look after its driver")
+}
+
+fn unopened(error: impl std::fmt::Display) -> anyhow::Error {
+    anyhow!("the window cannot be opened: {error}; without a display use the commands (gnomon help)")
 }
 
 /// How the window is to be opened.
@@ -160,6 +206,16 @@ impl eframe::App for Held<'_> {
     }
 }
 
+/// What egui remembers goes on in another context; whoever still asks the last one for a frame, as work that goes on beside
+/// the window does, asks the new one.
+fn take_over(last: &egui::Context, new: &egui::Context) {
+    let memory = last.memory(Clone::clone);
+    new.memory_mut(|its| *its = memory);
+    look::set(new);
+    let asked = new.clone();
+    last.set_repaint_observer(move |info| asked.request_repaint_after(info.delay));
+}
+
 /// The window's device, and the stage beside it.
 pub(super) fn devices(cc: &CreationContext<'_>) -> Result<(Gpu, RenderState, Stage), GpuError> {
     let render = cc.wgpu_render_state.clone().ok_or(GpuError::NoAdapter)?;
@@ -170,11 +226,12 @@ pub(super) fn devices(cc: &CreationContext<'_>) -> Result<(Gpu, RenderState, Sta
 }
 
 impl App {
-    /// Goes on in another window, on its device.
-    fn move_to(&mut self, cc: &CreationContext<'_>) -> Result<(), GpuError> {
+    /// Goes on in another window, on its device, with what egui knew in the last one.
+    fn move_to(&mut self, cc: &CreationContext<'_>, last: Option<&egui::Context>) -> Result<(), GpuError> {
+        if let Some(last) = last {
+            take_over(last, &cc.egui_ctx);
+        }
         (self.gpu, self.render, self.stage) = devices(cc)?;
-        // the letters lie on the device that was lost
-        cc.egui_ctx.set_glyph_rasterizers(Vec::new());
         if let Some(open) = &mut self.open {
             open.viewer.forget_pictures();
         }
@@ -197,10 +254,12 @@ impl App {
         is_lost
     }
 
-    /// Why the window's device is lost, where it is; what the next window says of it.
-    fn lost(&mut self) -> Option<String> {
+    /// Why the window's device is lost, where it is, and what the next window says of it. After a panic any fault that the
+    /// device has reported is why: egui's renderer can do without none.
+    fn lost(&mut self, has_panicked: bool) -> Option<String> {
         let _ = self.gpu.device.poll(PollType::wait_indefinitely());
-        let why = self.gpu.is_lost().then(|| self.gpu.heard())?.map(|error| error.why())?;
+        let is_lost = self.gpu.is_lost() || has_panicked;
+        let why = is_lost.then(|| self.gpu.heard())?.map(|error| error.why())?;
         self.notice = Some(format!("{why}; the window was opened again on a new device"));
         Some(why)
     }
@@ -208,6 +267,12 @@ impl App {
     /// For tests: takes the window's device away, as a driver that is reset would.
     pub fn lose_window(&self) {
         self.gpu.device.destroy();
+    }
+
+    /// For tests: takes it away while this frame is painted.
+    pub fn lose_window_in_painting(&self, context: &egui::Context) {
+        let device = self.gpu.device.clone();
+        context.on_end_pass("lose", Arc::new(move |_: &mut egui::Ui| device.destroy()));
     }
 
     /// For tests: takes the device away that pictures are drawn on, and further ones as soon as they are opened.

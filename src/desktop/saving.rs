@@ -101,7 +101,15 @@ impl App {
                     self.write_site(path, context);
                 }
             }
-            _ => self.ask(Purpose::SaveSite, context),
+            _ => self.ask_where(context),
+        }
+    }
+
+    /// Asks for the path of the site file; where another path is being asked for nothing is saved.
+    fn ask_where(&mut self, context: &egui::Context) {
+        self.ask(Purpose::SaveSite, context);
+        if !self.asking.as_ref().is_some_and(|asking| asking.purpose() == Purpose::SaveSite) {
+            self.give_up_saving();
         }
     }
 
@@ -168,10 +176,16 @@ impl App {
     /// Goes on, where that loses nothing; else asks first.
     pub(super) fn go_on_or_ask(&mut self, then: Then, context: &egui::Context) {
         if self.is_unsaved() {
-            self.saving.question = Some(Asked::Unsaved(then));
+            self.question_unsaved(then);
         } else {
             self.go_on(then, context);
         }
+    }
+
+    /// Asks what becomes of what is not saved; what was to follow an earlier question does not any more.
+    fn question_unsaved(&mut self, then: Then) {
+        self.give_up_saving();
+        self.saving.question = Some(Asked::Unsaved(then));
     }
 
     fn go_on(&mut self, then: Then, context: &egui::Context) {
@@ -186,7 +200,7 @@ impl App {
         }
     }
 
-    /// No path was given: what was to follow does not.
+    /// Nothing is saved, or nothing waits for it: what was to follow does not.
     pub(super) fn give_up_saving(&mut self) {
         self.saving.then = None;
     }
@@ -215,7 +229,7 @@ impl App {
             self.saving.closes = true;
         } else if self.is_unsaved() {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.saving.question = Some(Asked::Unsaved(Then::Close));
+            self.question_unsaved(Then::Close);
             if is_hidden {
                 context.send_viewport_cmd(ViewportCommand::Minimized(false));
                 context.send_viewport_cmd(ViewportCommand::Focus);
@@ -227,6 +241,8 @@ impl App {
     /// stands.
     pub(super) fn save_and_ask(&mut self, context: &egui::Context) {
         if std::mem::take(&mut self.saving.saves) {
+            // nothing follows it but what its own question says
+            self.give_up_saving();
             self.save_site(context);
         }
         if std::mem::take(&mut self.saving.closes) {
@@ -280,7 +296,7 @@ impl App {
         match answer.show(context) {
             None => self.saving.question = Some(Asked::Replaced(path)),
             Some(0) => self.write_site(path, context),
-            Some(1) => self.ask(Purpose::SaveSite, context),
+            Some(1) => self.ask_where(context),
             Some(_) => self.give_up_saving(),
         }
     }

@@ -7,11 +7,13 @@
 use super::easel::Easel;
 use super::hours::Laid;
 use super::plain::{self, Plain};
+use super::words::Labels;
 use crate::export::figure::{Colours, Diagram};
 use crate::gpu::{Gpu, readback};
+use crate::message::Worded;
+use crate::picture::{COLOURS, Picture, Style};
 use crate::profile::Drawn;
 use crate::shadow::ShadowError;
-use crate::shadow::picture::{COLOURS, Picture, Style};
 use crate::site::Site;
 use crate::study::StudyError;
 use crate::study::live::{Live, Way};
@@ -221,14 +223,14 @@ impl Shared {
                 Err(error) => error,
             };
             *its = Kept::default();
-            let Some(lost) = error.lost_device() else { return Err(error.to_string()) };
+            let Some(lost) = error.lost_device() else { return Err(error.in_words(&Labels)) };
             // nothing of it can be used again
             *kept = Default::default();
             drop(device);
             failures += 1;
             gpu = self.easel.replace(lost, failures);
         }
-        self.draw_plain(&mut kept[usize::from(wish.quick)].plain, wish).map_err(|error| error.to_string())
+        self.draw_plain(&mut kept[usize::from(wish.quick)].plain, wish).map_err(|error| error.in_words(&Labels))
     }
 
     fn draw_plain(&self, kept: &mut Option<Plain>, wish: &Wish) -> Result<Shown, ShadowError> {

@@ -1,6 +1,8 @@
 //! Fields that are typed into: what stands in one is read when it is finished, as people write it. What cannot be read
 //! changes nothing, and is told under its field.
 
+use super::words::Labels;
+use crate::message::Worded;
 use crate::site::typed::{self, Axis, Degrees, TypedError};
 use eframe::egui::{self, DragValue, Id, Response, Ui, emath};
 use std::cell::{Cell, RefCell};
@@ -131,7 +133,7 @@ impl Typed {
 
     fn keep(&mut self, name: &str, said: &str, fault: Option<&TypedError>) {
         match fault {
-            Some(fault) => self.faults.insert(name.to_owned(), (said.to_owned(), fault.to_string())),
+            Some(fault) => self.faults.insert(name.to_owned(), (said.to_owned(), fault.in_words(&Labels))),
             None => self.faults.remove(name),
         };
     }
@@ -146,6 +148,6 @@ impl Typed {
 
 /// Why what was typed is not taken, below it.
 pub(super) fn refused(ui: &mut Ui, fault: &str) {
-    let text = egui::RichText::new(fault.replace(" -", " −")).color(ui.visuals().error_fg_color);
+    let text = egui::RichText::new(fault.replace('`', "").replace(" -", " −")).color(ui.visuals().error_fg_color);
     ui.add(egui::Label::new(text).wrap());
 }

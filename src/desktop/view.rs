@@ -9,8 +9,8 @@ use super::screen::Print;
 use super::settings::Shown as Choice;
 use super::sky;
 use super::stage::{Shown, Stage, Wish};
-use crate::shadow::picture::Style;
-use crate::site::{Method, Settings};
+use crate::choice::{Engine, Method, Settings, Subject};
+use crate::picture::Style;
 use crate::study::live::{FARTHEST, Way};
 use crate::view::View;
 use eframe::egui::{self, Align2, PointerButton, Rect, Sense, Ui};
@@ -134,7 +134,7 @@ impl Viewer {
     fn adapt(&mut self, shown: &Shown) {
         const SIZES: [f64; 8] = [0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
         let Some(best) = &self.best else { return };
-        let by_quickest = shown.drawn.technique == Way::quickest().method.word();
+        let by_quickest = shown.drawn.technique == Way::quickest().method;
         if !by_quickest || shown.wish.way.settings != Way::quickest().settings {
             return;
         }
@@ -329,12 +329,12 @@ fn extent(project: &Project, stand: Stand) -> (DVec3, DVec3) {
 
 /// Whether a technique draws such a view.
 pub(super) fn draws(method: Method, stand: Stand) -> bool {
-    match method {
-        Method::Auto | Method::RayCast => true,
-        Method::Projected => stand == Stand::Plan,
-        Method::SoftTexture => stand == Stand::Perspective,
-        _ => matches!(stand, Stand::Plan | Stand::Perspective),
-    }
+    let subject = match stand {
+        Stand::Perspective => Subject::Camera,
+        Stand::Plan => Subject::Top,
+        Stand::Side(_) => Subject::Side,
+    };
+    method.row().draws(Engine::Auto, subject)
 }
 
 /// Whether rays are cast, so that the sun's disc can be asked for.
@@ -344,5 +344,5 @@ pub(super) fn casts_rays(method: Method, software: bool) -> bool {
 
 /// Whether a technique counts volumes.
 pub(super) fn counts(method: Method) -> bool {
-    matches!(method, Method::Stencil | Method::Hybrid)
+    method.row().counts
 }

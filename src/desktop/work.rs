@@ -1,6 +1,7 @@
 //! Work that goes on beside the window.
 
-use crate::cli::one_line;
+use super::words::Keys;
+use crate::fault;
 use crate::study::{Event, OnEvent};
 use eframe::egui;
 use std::ops::ControlFlow;
@@ -49,7 +50,7 @@ impl<T: Send + 'static> Work<T> {
                 if heard.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             // who gave it up listens no more
-            let _ = tell.send(answer.map_err(|error| one_line(&error)));
+            let _ = tell.send(answer.map_err(|error| fault::line(error.as_ref(), &Keys)));
             context.request_repaint();
         });
         Work { progress, note, cancelled, result }

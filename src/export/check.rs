@@ -5,6 +5,7 @@ use super::places::{self, Kind};
 use super::{ExportError, report};
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
+use crate::message::{Field, Words, message};
 use crate::site::Frame;
 use serde::Serialize;
 use serde_json::Value;
@@ -72,7 +73,7 @@ pub fn json(
 
 /// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
 /// break. How the models were read stands below the totals.
-pub fn table(mesh: &Mesh, components: &[ComponentReport], frame: Frame, notes: &[String]) -> String {
+pub fn table(mesh: &Mesh, components: &[ComponentReport], frame: Frame, notes: &[String], words: &dyn Words) -> String {
     let mut table = format!(
         "{}, {}, {}\n",
         counted(components.len(), "component", "components"),
@@ -91,7 +92,7 @@ pub fn table(mesh: &Mesh, components: &[ComponentReport], frame: Frame, notes: &
     dirty.sort_by(|one, other| faulty_m(other).total_cmp(&faulty_m(one)));
     let sum = |kind: &Kind| dirty.iter().map(|component| (kind.count)(component)).sum::<usize>();
     let kinds: Vec<&Kind> = places::KINDS.iter().filter(|kind| sum(kind) > 0).collect();
-    rows(&mut table, &dirty, &kinds);
+    rows(&mut table, &dirty, &kinds, words);
     let clean = components.len() - dirty.len();
     let _ = writeln!(table, "\n{} not clean, {clean} clean; where: {}", dirty.len(), places::frame(frame));
     for kind in kinds {
@@ -125,7 +126,7 @@ fn shadows(mesh: &Mesh) -> String {
 }
 
 /// A line a component, the worst first.
-fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&Kind]) {
+fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&Kind], words: &dyn Words) {
     let most = MOST_ROWS.saturating_sub(FIXED_ROWS + kinds.len() * (1 + PLACES_A_KIND));
     let shown = &dirty[..dirty.len().min(most)];
     let width = shown.iter().map(|component| plain(&component.name).chars().count()).max().unwrap_or(0).max(9);
@@ -143,7 +144,8 @@ fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&Kind]) {
         table.push('\n');
     }
     if dirty.len() > shown.len() {
-        let _ = writeln!(table, "… and {} more; --json has all", dirty.len() - shown.len());
+        let more = message![format!("… and {} more", dirty.len() - shown.len()); Field::Json, " has all"];
+        let _ = writeln!(table, "{}", more.in_words(words));
     }
 }
 

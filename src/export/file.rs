@@ -1,6 +1,7 @@
 //! Files are written beside their place and renamed into it: a reader sees the old file or the new one, never half.
 
 use super::ExportError;
+use crate::message::{Field, Piece, pieces};
 use same_file::Handle;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
@@ -118,7 +119,7 @@ pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
 
 /// Removes what was written beside the places of some files by processes that died. Whoever calls it has locked their
 /// folders, so that nobody else is writing these.
-pub(super) fn remove_leftovers(outputs: &[PathBuf]) {
+pub(crate) fn remove_leftovers(outputs: &[PathBuf]) {
     let mut folders: BTreeMap<&Path, BTreeSet<&OsStr>> = BTreeMap::new();
     for path in outputs {
         if let (Some(folder), Some(name)) = (path.parent(), path.file_name()) {
@@ -137,7 +138,7 @@ pub(super) fn remove_leftovers(outputs: &[PathBuf]) {
 }
 
 /// Renames a file that is on the disk, and sees that its new name is, too, where the system allows that.
-pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
+pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)?;
     let folder = to.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     // Windows opens no folder, and some disks sync none: there a power cut may bring back the old file, which is whole
@@ -179,7 +180,7 @@ pub fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Expor
 }
 
 /// Errs where the disk has less room than a file takes; what lies at `there` already is a part of it.
-pub(super) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), ExportError> {
+pub(crate) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), ExportError> {
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let room = fs4::available_space(folder).map_err(|error| failed(folder, "asking for its room", error))?;
     // a file that was begun may have gaps, which take no room yet
@@ -192,7 +193,7 @@ pub(super) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), Exp
 }
 
 /// Removes a file; that there is none is no error.
-pub(super) fn remove(path: &Path) -> Result<(), ExportError> {
+pub(crate) fn remove(path: &Path) -> Result<(), ExportError> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(failed(path, "removing it", error)),
         _ => Ok(()),
@@ -200,8 +201,8 @@ pub(super) fn remove(path: &Path) -> Result<(), ExportError> {
 }
 
 /// What the file system refused, with the way out.
-pub(super) fn failed(path: &Path, doing: &'static str, source: io::Error) -> ExportError {
-    ExportError::Write { path: path.to_owned(), doing, way_out: way_out(source.kind()), source }
+pub(crate) fn failed(path: &Path, doing: &'static str, source: io::Error) -> ExportError {
+    ExportError::Write { path: path.to_owned(), doing, source }
 }
 
 /// Removes the temporary file unless it has been renamed away.
@@ -252,21 +253,21 @@ fn written_beside(name: &OsStr) -> Option<&str> {
     (is_number(process) && is_number(count)).then_some(name)
 }
 
-fn way_out(kind: io::ErrorKind) -> &'static str {
-    match kind {
-        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-            "choose a folder you may write to with --out"
-        }
+/// What can be done where the file system refuses.
+pub(super) fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
+    let way_out = match kind {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
-            "free some space, or choose another disk with --out"
+            "free some space, or choose another disk"
         }
         io::ErrorKind::IsADirectory
         | io::ErrorKind::NotADirectory
         | io::ErrorKind::AlreadyExists
         | io::ErrorKind::DirectoryNotEmpty => {
-            "a folder stands where a file should be, or the other way round; choose another name with --out"
+            "a folder stands where a file should be, or the other way round; choose another name"
         }
-        io::ErrorKind::InvalidFilename => "choose a shorter or simpler name with --out",
-        _ => "choose another place with --out",
-    }
+        io::ErrorKind::InvalidFilename => "choose a shorter or simpler name",
+        _ => "choose another place",
+    };
+    pieces![way_out, Piece::Where(Field::Out, pieces![" with ", Field::Out])]
 }

@@ -3,7 +3,6 @@
 //! Every encoder returns bytes and touches no disk; [`file::write`] puts them there, whole or not at all.
 
 pub mod animation;
-pub mod bits;
 pub mod check;
 pub mod checksum;
 pub mod comparison;
@@ -14,20 +13,17 @@ pub mod probe;
 pub mod raster;
 pub mod recovery;
 pub mod report;
-pub mod sums;
 pub mod surfaces;
-pub mod unfinished;
 pub mod verify;
 pub mod volumes;
-pub mod workplace;
 
+use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use std::path::PathBuf;
 
 /// Why an answer did not become a file.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The file system refused.
-    #[error("cannot write {}: {doing}: {source}; {way_out}", path.display())]
     Write {
         /// The file that was to be written.
         path: PathBuf,
@@ -35,11 +31,8 @@ pub enum ExportError {
         doing: &'static str,
         /// What the system said.
         source: std::io::Error,
-        /// What the user can do.
-        way_out: &'static str,
     },
     /// What a stopped study left cannot be read.
-    #[error("cannot read {}, which a stopped study left: {source}; remove it, and the study begins anew", path.display())]
     Read {
         /// The file.
         path: PathBuf,
@@ -47,11 +40,6 @@ pub enum ExportError {
         source: std::io::Error,
     },
     /// The disk is too full.
-    #[error(
-        "{} takes {}, and its disk has room for {}; take larger cells (--cell), fewer (--size), a longer --step, or \
-         another disk with --out",
-        path.display(), bytes(*size), bytes(*room)
-    )]
     NoRoom {
         /// The file that was to be written.
         path: PathBuf,
@@ -61,10 +49,6 @@ pub enum ExportError {
         room: u64,
     },
     /// Another study works in the folder.
-    #[error(
-        "{}: another study works there, {who}; wait until it is done, or choose another folder",
-        folder.display()
-    )]
     Busy {
         /// The folder.
         folder: PathBuf,
@@ -72,20 +56,11 @@ pub enum ExportError {
         who: String,
     },
     /// The folder was removed, or replaced by another one.
-    #[error(
-        "{}: the folder, or its .gnomon.lock, was removed while the study worked there, and no result was written; ask again",
-        folder.display()
-    )]
     Lost {
         /// The folder.
         folder: PathBuf,
     },
     /// A frame would be taken for one of the animation's.
-    #[error(
-        "{} would stay behind the {count} frames of this animation, and is not known to be of one that was finished there; \
-         remove it and the frames after it, or choose another folder",
-        path.display()
-    )]
     OtherFrame {
         /// The file.
         path: PathBuf,
@@ -93,10 +68,6 @@ pub enum ExportError {
         count: usize,
     },
     /// What is to be written is what was read.
-    #[error(
-        "cannot write {}: it is {}, which the site is read from and which would be lost; choose another name or folder",
-        path.display(), input.display()
-    )]
     IsInput {
         /// The file that was to be written.
         path: PathBuf,
@@ -104,13 +75,16 @@ pub enum ExportError {
         input: PathBuf,
     },
     /// The path names no file: it ends in none, or a folder or a device stands there.
-    #[error("cannot write {}: that is no file; give the name of a file", path.display())]
     NoFileName {
         /// The path as given.
         path: PathBuf,
     },
+    /// The model with the hours on its surfaces is larger than GLB can be.
+    LargeGlb {
+        /// What it would take, bytes.
+        size: u64,
+    },
     /// The answer does not fit the format.
-    #[error("cannot write the {what}: {why}")]
     Encode {
         /// What was being made.
         what: &'static str,
@@ -118,7 +92,6 @@ pub enum ExportError {
         why: String,
     },
     /// Two rasters that belong together differ in size: a bug upstream, told rather than drawn askew.
-    #[error("the {what} has {have} cells where the view has {width} × {height}; please report this as a bug")]
     Size {
         /// Which raster.
         what: &'static str,
@@ -131,6 +104,79 @@ pub enum ExportError {
     },
 }
 
+plain_display!(ExportError);
+
+impl Worded for ExportError {
+    fn message(&self) -> Message {
+        match self {
+            ExportError::Write { path, doing, source } => Message {
+                what: pieces![format!("cannot write {}: {doing}: {source}", path.display())],
+                hint: file::way_out(source.kind()),
+            },
+            ExportError::Read { path, source } => message![
+                format!("cannot read {}, which a stopped study left: {source}", path.display());
+                "remove it, and the study begins anew"
+            ],
+            ExportError::NoRoom { path, size, room } => message![
+                format!("{} takes {}, and its disk has room for {}", path.display(), bytes(*size), bytes(*room));
+                "take larger cells",
+                aside(Field::Cell),
+                ", ",
+                Piece::Where(Field::Size, pieces!["fewer", aside(Field::Size), ", "]),
+                "a longer ",
+                Field::Step,
+                ", or another disk",
+                Piece::Where(Field::Out, pieces![" with ", Field::Out])
+            ],
+            ExportError::Busy { folder, who } => message![
+                format!("{}: another study works there, {who}", folder.display());
+                "wait until it is done, or choose another folder"
+            ],
+            ExportError::Lost { folder } => message![
+                format!(
+                    "{}: the folder, or its .gnomon.lock, was removed while the study worked there, and no result was \
+                     written",
+                    folder.display()
+                );
+                "ask again"
+            ],
+            ExportError::OtherFrame { path, count } => message![
+                format!(
+                    "{} would stay behind the {count} frames of this animation, and is not known to be of one that was \
+                     finished there",
+                    path.display()
+                );
+                "remove it and the frames after it, or choose another folder"
+            ],
+            ExportError::IsInput { path, input } => message![
+                format!(
+                    "cannot write {}: it is {}, which the site is read from and which would be lost",
+                    path.display(),
+                    input.display()
+                );
+                "choose another name or folder"
+            ],
+            ExportError::NoFileName { path } => message![
+                format!("cannot write {}: that is no file", path.display());
+                "give the name of a file"
+            ],
+            ExportError::LargeGlb { size } => message![
+                format!(
+                    "cannot write the surfaces: the file would be {:.1} GiB, and GLB ends at 4",
+                    *size as f64 / f64::from(1 << 30)
+                );
+                "take a larger ",
+                Field::PatchCell
+            ],
+            ExportError::Encode { what, why } => format!("cannot write the {what}: {why}").into(),
+            ExportError::Size { what, have, width, height } => message![
+                format!("the {what} has {have} cells where the view has {width} × {height}");
+                "please report this as a bug"
+            ],
+        }
+    }
+}
+
 impl ExportError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
@@ -138,7 +184,7 @@ impl ExportError {
     }
 
     /// An encoder's refusal, in its own words.
-    fn encode(what: &'static str, why: impl ToString) -> Self {
+    pub(crate) fn encode(what: &'static str, why: impl ToString) -> Self {
         ExportError::Encode { what, why: why.to_string() }
     }
 }

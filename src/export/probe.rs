@@ -2,6 +2,7 @@
 
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, figure, report};
+use crate::message::{Field, Words, aside, message};
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, below_ground_m, longest, secs};
 use crate::site::{Ground, metres};
 use crate::sun::{Place, Polar, Zone};
@@ -134,7 +135,7 @@ pub(super) fn field(text: &str) -> String {
 
 /// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and what
 /// cannot have been missed. Ends with a line break.
-pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground) -> String {
+pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> String {
     let mut table = String::new();
     for probed in &sunlight.probes {
         // Writing to a String cannot fail.
@@ -149,10 +150,16 @@ pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground) -> String {
         }
         table.push('\n');
     }
+    let shortest = figure::duration(sunlight.step_secs);
+    let missed = message![
+        format!("Sun or shade of {shortest} or more cannot have been missed"),
+        aside(Field::Step);
+        "start: the first second in sunlight, end: the first not in it"
+    ];
     let _ = writeln!(
         table,
-        "Sun or shade of {} or more cannot have been missed (--step); start: the first second in sunlight, end: the first not in it\nground at {}\nclock: {}, tz {}",
-        figure::duration(sunlight.step_secs),
+        "{}\nground at {}\nclock: {}, tz {}",
+        missed.in_words(words),
         ground.said(),
         place.time_zone,
         place.time_zone.version()

@@ -54,10 +54,9 @@ impl Slot {
                 // of this process, or left by an older one of the same number
                 Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => number += 1,
                 Err(error) => return Err(error),
-                Ok(held) => {
-                    held.try_lock()?;
-                    return Ok(Slot { file, lock, _held: held });
-                }
+                // another window that clears the folder may be quicker
+                Ok(held) if held.try_lock().is_err() => number += 1,
+                Ok(held) => return Ok(Slot { file, lock, _held: held }),
             }
         }
     }
@@ -112,8 +111,23 @@ impl Slot {
     }
 }
 
+/// Removes the locks of windows that were ended before they kept anything, or after all was saved.
+fn clear(folder: &Path) {
+    let Ok(entries) = folder.read_dir() else { return };
+    for lock in entries.flatten().map(|entry| entry.path()) {
+        let is_alone = lock.extension().is_some_and(|is| is == "lock") && !lock.with_extension("json").exists();
+        let held = is_alone.then(|| OpenOptions::new().write(true).open(&lock)).and_then(Result::ok);
+        // a window that lives holds it
+        if held.is_some_and(|held| held.try_lock().is_ok() && !lock.with_extension("json").exists()) {
+            // what stays is cleared another time
+            let _ = fs::remove_file(&lock);
+        }
+    }
+}
+
 /// What windows that have ended had not saved, the newest first; their slots are this window's until it drops them.
 pub fn left_behind(folder: &Path) -> Vec<(Slot, Unsaved)> {
+    clear(folder);
     let Ok(entries) = folder.read_dir() else { return Vec::new() };
     let is_kept = |path: &PathBuf| path.extension().is_some_and(|is| is == "json");
     let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(is_kept).collect();

@@ -4,9 +4,10 @@
 
 use super::ExportError;
 use super::surfaces::Surfaces;
+use crate::choice::{Filter, Finder, Receivers, Settings};
 use crate::profile::surfaces::Exposure;
-use crate::profile::{Drawn, DrawnSettings, Profile, Statistics, Timings};
-use crate::site::{Ground, Receivers};
+use crate::profile::{Drawn, Profile, Statistics, Timings};
+use crate::site::Ground;
 use crate::sun::{Air, Day, Instant, Place, Polar, SunTrack, Zone};
 use crate::view::{Grid, View};
 use chrono::{DateTime, Offset, SecondsFormat};
@@ -29,7 +30,7 @@ pub(super) struct DrawnReport<'a> {
     engine: &'static str,
     adapter: Option<&'a str>,
     #[serde(flatten)]
-    settings: DrawnSettings,
+    settings: SettingsReport,
     refraction: bool,
     refraction_celsius: Option<f64>,
     refraction_millibar: Option<f64>,
@@ -43,6 +44,15 @@ pub(super) struct DrawnReport<'a> {
     timings_secs: &'a Timings,
     #[serde(skip_serializing_if = "Option::is_none")]
     statistics: Option<StatisticsReport>,
+}
+
+/// The settings of what drew, by the command's names for them.
+#[derive(Serialize)]
+pub(super) struct SettingsReport {
+    map_size: Option<u32>,
+    pcf: Option<&'static str>,
+    smoothie_width: Option<f64>,
+    sun_samples: Option<u32>,
 }
 
 #[derive(Serialize)]
@@ -132,7 +142,7 @@ pub(super) struct PlaceReport<'a> {
 }
 
 #[derive(Serialize)]
-pub(super) struct InstantReport {
+pub(crate) struct InstantReport {
     time: String,
     azimuth_deg: f64,
     altitude_deg: f64,
@@ -228,6 +238,11 @@ pub(super) fn plan_report<'a>(grid: &Grid, place: &'a Place, track: &SunTrack, t
     drawn_report(view_report(&View::Plan(*grid)), place, track, told)
 }
 
+pub(super) fn settings_report(settings: &Settings) -> SettingsReport {
+    let Settings { map_size, filter, smoothie_width_m, sun_samples } = *settings;
+    SettingsReport { map_size, pcf: filter.map(Filter::word), smoothie_width: smoothie_width_m, sun_samples }
+}
+
 fn drawn_report<'a>(view: ViewReport<'a>, place: &'a Place, track: &SunTrack, told: &Told<'a>) -> DrawnReport<'a> {
     let Told { receivers, ground, drawn, timings, statistics, notes } = *told;
     let air = Air::standard(place.elevation_m);
@@ -239,11 +254,11 @@ fn drawn_report<'a>(view: ViewReport<'a>, place: &'a Place, track: &SunTrack, to
         view,
         receivers: receivers.word(),
         ground: ground_report(&ground),
-        technique: drawn.technique,
-        silhouette: drawn.silhouette,
-        engine: drawn.engine,
+        technique: drawn.technique.word(),
+        silhouette: drawn.finder.map(Finder::word),
+        engine: drawn.engine.word(),
         adapter: drawn.adapter.as_deref(),
-        settings: drawn.settings,
+        settings: settings_report(&drawn.settings),
         refraction: track.refraction,
         refraction_celsius: refracted(air.temperature_c),
         refraction_millibar: refracted(air.pressure_hpa),
@@ -364,7 +379,7 @@ pub(super) fn ground_report(ground: &Ground) -> GroundReport {
 }
 
 // Angles are not rounded: the sign of the altitude and `night` then always agree.
-pub(super) fn instant_report(instant: &Instant) -> InstantReport {
+pub(crate) fn instant_report(instant: &Instant) -> InstantReport {
     InstantReport {
         time: stamp(&instant.time),
         azimuth_deg: instant.azimuth_rad.to_degrees(),

@@ -1,8 +1,8 @@
 //! What `gnomon verify` says: `verify --json`, and a table with a legend.
 
 use super::{ExportError, report};
-use crate::profile::DrawnSettings;
-use crate::profile::verify::{HoursOff, Promise, Row, Truth, Verification};
+use crate::choice::{Engine, Finder, Promise, Truth};
+use crate::profile::verify::{HoursOff, Row, Verification};
 use crate::site::Site;
 use crate::sun::{Place, SunTrack};
 use serde::Serialize;
@@ -42,7 +42,7 @@ struct RowReport<'a> {
     engine: &'static str,
     adapter: Option<&'a str>,
     #[serde(flatten)]
-    settings: DrawnSettings,
+    settings: report::SettingsReport,
     against: &'static str,
     cells: u64,
     edge_cells: u64,
@@ -105,11 +105,11 @@ pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportEr
 
 fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
     RowReport {
-        technique: row.drawn.technique,
-        silhouette: row.drawn.silhouette,
-        engine: row.drawn.engine,
+        technique: row.drawn.technique.word(),
+        silhouette: row.drawn.finder.map(Finder::word),
+        engine: row.drawn.engine.word(),
         adapter: row.drawn.adapter.as_deref(),
-        settings: row.drawn.settings,
+        settings: report::settings_report(&row.drawn.settings),
         against: match row.against {
             Truth::Centre => "centre",
             Truth::Disc => "disc",
@@ -132,7 +132,7 @@ fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
 
 /// The finder that drew, and the techniques for which it was another.
 fn silhouettes(rows: &[Row]) -> String {
-    let mut found = rows.iter().filter_map(|row| Some((row.drawn.silhouette?, row.drawn.technique)));
+    let mut found = rows.iter().filter_map(|row| Some((row.drawn.finder?, row.drawn.technique)));
     let Some((first, _)) = found.next() else { return "none".to_owned() };
     let others = found.filter(|(finder, _)| *finder != first);
     let others: Vec<_> = others.map(|(finder, technique)| format!("; {technique} {finder}")).collect();
@@ -142,8 +142,12 @@ fn silhouettes(rows: &[Row]) -> String {
 /// How large maps were, how the shadow map was filtered, and how wide smoothies were where that was set by hand.
 fn maps(rows: &[Row]) -> Option<String> {
     let size = rows.iter().find_map(|row| row.drawn.settings.map_size)?;
-    let pcf = rows.iter().find_map(|row| row.drawn.settings.pcf).map(|pcf| format!(", shadow-map filtered {pcf}"));
-    let width = rows.iter().find_map(|row| row.drawn.settings.smoothie_width);
+    let filtered = |row: &Row| {
+        let filter = row.drawn.settings.filter?;
+        Some(format!(", {} filtered {filter}", row.drawn.technique))
+    };
+    let pcf = rows.iter().find_map(filtered);
+    let width = rows.iter().find_map(|row| row.drawn.settings.smoothie_width_m);
     let width = width.map(|width| format!(", smoothies of at most {width} m"));
     Some(format!("maps of {size} × {size} texels{}{}", pcf.unwrap_or_default(), width.unwrap_or_default()))
 }
@@ -222,7 +226,7 @@ fn line(table: &mut String, row: &Row, holds: Option<bool>) {
     let _ = writeln!(
         table,
         "{:<10} {:<7} {:>9} {:>9} {:>7} {:>8.3} {:>6} {:>6} {:>8} {:>7.3} {:>6} {:>7} {:>9.4}{}",
-        if is_projected_on_gpu(row) { "  on gpu" } else { row.drawn.technique },
+        if is_on_gpu_too(row) { "  on gpu" } else { row.drawn.technique.word() },
         match row.against {
             Truth::Centre => "centre",
             Truth::Disc => "disc",
@@ -283,9 +287,9 @@ fn bound(verification: &Verification) -> String {
     )
 }
 
-/// The one technique that draws on both machines; on the processor it has the line before.
-fn is_projected_on_gpu(row: &Row) -> bool {
-    row.drawn.technique == "projected" && row.drawn.engine == "gpu"
+/// Whether it is a technique that draws on both machines, of which the processor's row stands before.
+fn is_on_gpu_too(row: &Row) -> bool {
+    row.drawn.engine == Engine::Gpu && !row.drawn.technique.row().on_cpu.is_empty()
 }
 
 /// Which techniques do not hold, in one line; none where all do.
@@ -295,7 +299,7 @@ pub fn failure(verification: &Verification) -> Option<String> {
             Promise::Same => "none may".to_owned(),
             _ => format!("at most {}% of the former may, and one in {OTHERS} others", 100.0 * verification.edge_share),
         };
-        let machine = if is_projected_on_gpu(row) { " on the gpu" } else { "" };
+        let machine = if is_on_gpu_too(row) { " on the gpu" } else { "" };
         format!("{}{machine} does not hold: {}; {most}", row.drawn.technique, row.difference)
     };
     let failed: Vec<String> = verification.failed().map(told).collect();

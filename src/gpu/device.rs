@@ -1,6 +1,7 @@
 //! One adapter, opened with all that it can do.
 
 use super::timers::Timers;
+use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use std::cell::Cell;
 use std::sync::{Arc, Mutex, OnceLock};
 use wgpu::{
@@ -27,12 +28,8 @@ pub struct Gpu {
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum GpuError {
     /// Nothing to draw with.
-    #[error(
-        "no graphics adapter was found; install a driver (on Linux mesa-vulkan-drivers draws in software) or draw on the processor with --engine cpu, without --silhouette"
-    )]
     NoAdapter,
     /// There is one, but too little of one.
-    #[error("the graphics adapter '{adapter}' cannot be used: {reason}; update its driver or use --engine cpu")]
     Unusable {
         /// The adapter's name.
         adapter: String,
@@ -40,7 +37,6 @@ pub enum GpuError {
         reason: String,
     },
     /// It cannot do what is asked.
-    #[error("the graphics adapter '{adapter}' failed: {reason}; try larger cells (--cell) or --engine cpu")]
     Failed {
         /// The adapter's name.
         adapter: String,
@@ -48,13 +44,40 @@ pub enum GpuError {
         reason: String,
     },
     /// It failed while working, so that nothing more can be done on the device; on a new one it may.
-    #[error("the graphics adapter '{adapter}' failed: {reason}; try larger cells (--cell) or --engine cpu")]
     Lost {
         /// The adapter's name.
         adapter: String,
         /// What the driver said.
         reason: String,
     },
+}
+
+plain_display!(GpuError);
+
+impl Worded for GpuError {
+    fn message(&self) -> Message {
+        let on_processor = (Field::Engine, "cpu");
+        match self {
+            GpuError::NoAdapter => message![
+                "no graphics adapter was found";
+                "install a driver (on Linux mesa-vulkan-drivers draws in software)",
+                Piece::Where(Field::Engine, pieces![
+                    " or draw on the processor with ", on_processor, ", without ", Field::Silhouette
+                ])
+            ],
+            GpuError::Unusable { adapter, reason } => message![
+                format!("the graphics adapter '{adapter}' cannot be used: {reason}");
+                "update its driver",
+                Piece::Where(Field::Engine, pieces![" or use ", on_processor])
+            ],
+            GpuError::Failed { adapter, reason } | GpuError::Lost { adapter, reason } => message![
+                format!("the graphics adapter '{adapter}' failed: {reason}");
+                "try larger cells",
+                aside(Field::Cell),
+                Piece::Where(Field::Engine, pieces![" or ", on_processor])
+            ],
+        }
+    }
 }
 
 impl GpuError {

@@ -104,6 +104,55 @@ pub struct Shown {
     pub unused: f32,
 }
 
+/// `Look` of `shaders/picture.wgsl`: what `crate::look::Look` says of each, colours as display values from 0 to 1.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[expect(missing_docs, reason = "each field is told where the look is")]
+pub struct Look {
+    pub building: [f32; 3],
+    pub cut_earth: f32,
+    pub ground: [f32; 3],
+    pub sky: f32,
+    pub sky_light: [f32; 3],
+    pub sky_slope: f32,
+    pub sun_light: [f32; 3],
+    pub exposure: f32,
+    pub horizon: [f32; 3],
+    pub least_height: f32,
+    pub zenith: [f32; 3],
+    pub least_sun: f32,
+    pub night: [f32; 3],
+    pub pressed_above: f32,
+    pub not_judged: [f32; 3],
+    pub pressed_room: f32,
+    pub plan_ground_sun: [f32; 3],
+    pub sky_rise: f32,
+    pub plan_ground_shade: [f32; 3],
+    pub sky_most: f32,
+    pub plan_roof_sun: [f32; 3],
+    pub haze_begins: f32,
+    pub plan_roof_shade: [f32; 3],
+    pub haze_length: f32,
+    pub line: [f32; 3],
+    pub relief: f32,
+    pub volume: [f32; 3],
+    pub relief_of_hours: f32,
+    pub silhouette: [f32; 3],
+    pub relief_darkest: f32,
+    pub relief_lightest: f32,
+    pub outline: f32,
+    pub step: f32,
+    pub foot: f32,
+    pub crease: f32,
+    pub crease_cos: f32,
+    pub plan_crease_cos: f32,
+    pub step_share: f32,
+    pub side_step_pixels: f32,
+    pub tinted_lines: f32,
+    pub layer: f32,
+    pub most_layers: f32,
+}
+
 /// `Weight` of `shaders/accumulate.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -233,6 +282,7 @@ pub const ALL: &[Layout] = &[
     layout!(Arguments: index_count, instance_count, first_index, base_vertex, first_instance),
     layout!(Quadrilateral: first, a, second, b),
     layout!(Shown: hours_corner, hours_cell, hours, focus, night, lines, both_sides, tinted, overlay, painted, unused),
+    layout!(Look: building, cut_earth, ground, sky, sky_light, sky_slope, sun_light, exposure, horizon, least_height, zenith, least_sun, night, pressed_above, not_judged, pressed_room, plan_ground_sun, sky_rise, plan_ground_shade, sky_most, plan_roof_sun, haze_begins, plan_roof_shade, haze_length, line, relief, volume, relief_of_hours, silhouette, relief_darkest, relief_lightest, outline, step, foot, crease, crease_cos, plan_crease_cos, step_share, side_step_pixels, tinted_lines, layer, most_layers),
     layout!(Weight: secs),
     layout!(Fall: a_metre, size),
     layout!(Run: first, count),

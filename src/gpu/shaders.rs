@@ -3,66 +3,51 @@
 use super::Gpu;
 use wgpu::{ShaderModule, ShaderModuleDescriptor, ShaderSource};
 
-macro_rules! joined {
-    ($($part:literal),+) => {
-        concat!($(include_str!(concat!("../../shaders/", $part, ".wgsl")), "\n"),+)
+/// A constant for each shader, and all of them by name.
+macro_rules! shaders {
+    ($($(#[$doc:meta])+ $constant:ident $name:literal: $($part:literal),+;)+) => {
+        $($(#[$doc])+
+        pub const $constant: &str = concat!($(include_str!(concat!("../../shaders/", $part, ".wgsl")), "\n"),+);)+
+
+        /// All shaders, by name.
+        pub const ALL: &[(&str, &str)] = &[$(($name, $constant)),+];
     };
 }
 
-/// What a view sees.
-pub const SURFACE: &str = joined!("common/view", "surface");
-/// Where it is judged.
-pub const JUDGED: &str = joined!("common/view", "common/seen", "judged");
-/// Stencil shadow volumes.
-pub const STENCIL: &str = joined!("common/view", "common/seen", "stencil");
-/// Depth as a light sees it.
-pub const MAP: &str = joined!("common/map", "map");
-/// Faces that fall onto a plan's raster.
-pub const PROJECTED: &str = joined!("projected");
-/// Shadow maps.
-pub const SHADOW_MAP: &str = joined!("common/view", "common/seen", "common/map", "common/compared", "shadow_map");
-/// Which cells a map decides.
-pub const HYBRID: &str = joined!("common/view", "common/seen", "common/map", "common/compared", "hybrid");
-/// Soft edges beside a map.
-pub const SMOOTHIE: &str = joined!("common/view", "common/seen", "common/map", "common/compared", "smoothie");
-/// Silhouettes as lines.
-pub const OVERLAY: &str = joined!("common/view", "common/seen", "overlay");
-/// Which faces a light shines on, and the light cap.
-pub const FACES: &str = joined!("common/search", "faces");
-/// Silhouettes as a list of walls.
-pub const EXTRACTION: &str = joined!("common/search", "common/edge", "extraction");
-/// Shadow volumes whose silhouettes the vertex shader decides.
-pub const QUADRILATERALS: &str =
-    joined!("common/view", "common/seen", "common/search", "common/edge", "stencil", "quadrilaterals");
-/// Sun and shadow for the eye.
-pub const PICTURE: &str = joined!("common/view", "common/seen", "picture");
-/// A picture in a window's frame.
-pub const SCREEN: &str = joined!("screen");
-/// Masks times weights.
-pub const ACCUMULATE: &str = joined!("accumulate");
-
-/// Hard shadows on patches, added up.
-pub const SOFT_TEXTURE: &str = joined!("soft_texture");
-
-/// All shaders, by name.
-pub const ALL: &[(&str, &str)] = &[
-    ("surface", SURFACE),
-    ("judged", JUDGED),
-    ("stencil", STENCIL),
-    ("projected", PROJECTED),
-    ("map", MAP),
-    ("shadow_map", SHADOW_MAP),
-    ("hybrid", HYBRID),
-    ("smoothie", SMOOTHIE),
-    ("overlay", OVERLAY),
-    ("faces", FACES),
-    ("extraction", EXTRACTION),
-    ("quadrilaterals", QUADRILATERALS),
-    ("picture", PICTURE),
-    ("screen", SCREEN),
-    ("accumulate", ACCUMULATE),
-    ("soft_texture", SOFT_TEXTURE),
-];
+shaders! {
+    /// What a view sees.
+    SURFACE "surface": "common/view", "surface";
+    /// Where it is judged.
+    JUDGED "judged": "common/view", "common/seen", "judged";
+    /// Stencil shadow volumes.
+    STENCIL "stencil": "common/view", "common/seen", "stencil";
+    /// Faces that fall onto a plan's raster.
+    PROJECTED "projected": "projected";
+    /// Depth as a light sees it.
+    MAP "map": "common/map", "map";
+    /// Shadow maps.
+    SHADOW_MAP "shadow_map": "common/view", "common/seen", "common/map", "common/compared", "shadow_map";
+    /// Which cells a map decides.
+    HYBRID "hybrid": "common/view", "common/seen", "common/map", "common/compared", "hybrid";
+    /// Soft edges beside a map.
+    SMOOTHIE "smoothie": "common/view", "common/seen", "common/map", "common/compared", "smoothie";
+    /// Silhouettes as lines.
+    OVERLAY "overlay": "common/view", "common/seen", "overlay";
+    /// Which faces a light shines on, and the light cap.
+    FACES "faces": "common/search", "faces";
+    /// Silhouettes as a list of walls.
+    EXTRACTION "extraction": "common/search", "common/edge", "extraction";
+    /// Shadow volumes whose silhouettes the vertex shader decides.
+    QUADRILATERALS "quadrilaterals": "common/view", "common/seen", "common/search", "common/edge", "stencil", "quadrilaterals";
+    /// Sun and shadow for the eye.
+    PICTURE "picture": "common/view", "common/seen", "picture";
+    /// A picture in a window's frame.
+    SCREEN "screen": "screen";
+    /// Masks times weights.
+    ACCUMULATE "accumulate": "accumulate";
+    /// Hard shadows on patches, added up.
+    SOFT_TEXTURE "soft_texture": "soft_texture";
+}
 
 impl Gpu {
     /// Compiles a shader.

@@ -1,18 +1,21 @@
 //! What stands together. Drawings have leftovers, often a thousand kilometres from what was meant: how exact the models
 //! are must not be up to them.
 //!
-//! Places belong together where a triangle joins them, or where they lie in neighbouring cells of a grid; so what is 20 km
-//! from all else is always told apart, and what is 10 km from something never is. What is farther from a place than that
-//! has another sun.
+//! Corners stand together where they lie in neighbouring cells of a grid. One grid is fine: what a cell or more parts in
+//! it is welded each for itself. The other is coarse: what two cells, 20 km, or more part in it from all else has another
+//! sun, and does not belong to the study.
 
 use super::Part;
 use super::adjacency::lowest;
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
-/// A cell of the grid, metres.
-const CELL_M: f64 = 10_000.0;
+/// A cell of the grid in which corners are welded, metres: a millionth of it is far below what anyone models.
+const WELD_CELL_M: f64 = 250.0;
+/// A cell of the grid by which strays are told from what stands at home, metres.
+const HOME_CELL_M: f64 = 10_000.0;
 /// Models nearer to the place than this are those that a study is about, metres.
 const NEAR_M: f64 = 20_000.0;
 /// One triangle near the place counts as many far ones, when it comes to which group is at home.
@@ -20,8 +23,8 @@ const NEAR_COUNTS: u64 = 1000;
 
 /// The parts' corners in groups that stand together.
 pub(super) struct Together {
-    /// Per occupied cell its group; empty where all is one.
-    group_of: FxHashMap<[i64; 3], u32>,
+    /// What is welded each for itself; none where all is one.
+    welded: Option<Clusters>,
     /// The group that is meant: most of the triangles, above all of those near the place.
     home: Group,
 }
@@ -62,59 +65,11 @@ impl Together {
         let points = || parts.par_iter().flat_map(|part| part.positions.par_iter().copied());
         let low = points().reduce(|| DVec3::INFINITY, DVec3::min);
         let high = points().reduce(|| DVec3::NEG_INFINITY, DVec3::max);
-        if (high - low).max_element() <= CELL_M {
-            // neighbouring cells at most
-            return Together { group_of: FxHashMap::default(), home: Group { low, high, ..Group::NONE } };
-        }
-
-        // cells by the order in which they appear, and a forest of those that belong together
-        let mut cells: Vec<[i64; 3]> = Vec::new();
-        let mut number: FxHashMap<[i64; 3], u32> = FxHashMap::default();
-        let mut above: Vec<u32> = Vec::new();
-        for part in parts {
-            let of_corner: Vec<u32> = part
-                .positions
-                .iter()
-                .map(|&corner| {
-                    *number.entry(cell(corner)).or_insert_with_key(|&cell| {
-                        cells.push(cell);
-                        above.push(above.len() as u32);
-                        above.len() as u32 - 1
-                    })
-                })
-                .collect();
-            for &[a, b, c] in &part.triangles {
-                let [a, b, c] = [a, b, c].map(|corner| of_corner[corner as usize]);
-                join(&mut above, a, b);
-                join(&mut above, b, c);
-            }
-        }
-        for (at, &[x, y, z]) in cells.iter().enumerate() {
-            let near = |of: i64| [of.saturating_sub(1), of, of.saturating_add(1)];
-            for neighbour in near(x).into_iter().flat_map(|x| near(y).map(|y| (x, y))) {
-                for z in near(z) {
-                    if let Some(&other) = number.get(&[neighbour.0, neighbour.1, z]) {
-                        join(&mut above, at as u32, other);
-                    }
-                }
-            }
-        }
-        let group_of: FxHashMap<[i64; 3], u32> =
-            number.into_iter().map(|(cell, number)| (cell, lowest(&mut above, number))).collect();
-
-        let mut groups = vec![Group::NONE; cells.len()];
-        let group = |corner: DVec3| group_of[&cell(corner)] as usize;
-        for part in parts {
-            part.positions.iter().for_each(|&corner| groups[group(corner)].add(corner));
-            for triangle in &part.triangles {
-                groups[group(part.positions[triangle[0] as usize])].triangles += 1;
-            }
-        }
-        let better = |one: &Group, other: &Group| {
-            one.weight().cmp(&other.weight()).then(other.distance().total_cmp(&one.distance())).is_gt()
-        };
-        let home = groups.into_iter().reduce(|best, group| if better(&group, &best) { group } else { best });
-        Together { group_of, home: home.unwrap_or(Group::NONE) }
+        // neighbouring cells at most
+        let are_one = |cell_m: f64| (high - low).max_element() <= cell_m;
+        let home = if are_one(HOME_CELL_M) { Group { low, high, ..Group::NONE } } else { home(parts) };
+        let clusters = (!are_one(WELD_CELL_M)).then(|| Clusters::of(parts, WELD_CELL_M, false));
+        Together { welded: clusters.filter(|clusters| !clusters.is_one()), home }
     }
 
     /// A box around what stands at home; none where there are no corners.
@@ -127,19 +82,19 @@ impl Together {
         corner.cmpge(self.home.low).all() && corner.cmple(self.home.high).all()
     }
 
-    /// The groups in which a part has corners; and per corner which of them it is in, where there are several.
+    /// The groups in which a part has corners that are welded; and per corner which of them it is in, where there are several.
     pub(super) fn in_part(&self, part: &Part) -> (Vec<Group>, Option<Vec<u32>>) {
         let mut groups: Vec<Group> = Vec::new();
-        if self.group_of.is_empty() {
+        let Some(clusters) = &self.welded else {
             let mut group = Group::NONE;
             part.positions.iter().for_each(|&corner| group.add(corner));
             groups.push(group);
             return (groups, None);
-        }
+        };
         let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
         let mut of_corner = Vec::with_capacity(part.positions.len());
-        for &corner in &part.positions {
-            let number = *numbers.entry(self.group_of[&cell(corner)]).or_insert_with(|| {
+        for (group, &corner) in clusters.of_corners(part).zip(&part.positions) {
+            let number = *numbers.entry(group).or_insert_with(|| {
                 groups.push(Group::NONE);
                 groups.len() as u32 - 1
             });
@@ -151,8 +106,107 @@ impl Together {
     }
 }
 
-fn cell(corner: DVec3) -> [i64; 3] {
-    (corner / CELL_M).floor().to_array().map(|at| at as i64)
+/// The group that is at home. One triangle may reach from it to a stray: a group's triangles are those of which no corner
+/// lies elsewhere, and only where no group has one do triangles join what they reach.
+fn home(parts: &[Part]) -> Group {
+    let groups = |joined: bool| -> Vec<Group> {
+        let clusters = Clusters::of(parts, HOME_CELL_M, joined);
+        let mut groups: BTreeMap<u32, Group> = BTreeMap::new(); // in the file's order
+        for part in parts {
+            let of_corner: Vec<u32> = clusters.of_corners(part).collect();
+            for triangle in &part.triangles {
+                let [a, b, c] = triangle.map(|corner| of_corner[corner as usize]);
+                if a == b && b == c {
+                    let group = groups.entry(a).or_insert(Group::NONE);
+                    triangle.iter().for_each(|&corner| group.add(part.positions[corner as usize]));
+                    group.triangles += 1;
+                }
+            }
+        }
+        groups.into_values().collect()
+    };
+    let mut found = groups(false);
+    if found.is_empty() {
+        found = groups(true);
+    }
+    let better = |one: &Group, other: &Group| {
+        one.weight().cmp(&other.weight()).then(other.distance().total_cmp(&one.distance())).is_gt()
+    };
+    found.into_iter().reduce(|best, group| if better(&group, &best) { group } else { best }).unwrap_or(Group::NONE)
+}
+
+/// Per occupied cell of a grid its group: cells that are neighbours, and on.
+struct Clusters {
+    cell_m: f64,
+    group_of: FxHashMap<[i64; 3], u32>,
+}
+
+impl Clusters {
+    /// Triangles join the cells of their corners, too, where they are said to.
+    fn of(parts: &[Part], cell_m: f64, joined_by_triangles: bool) -> Clusters {
+        // cells by the order in which they appear, and a forest of those that belong together
+        let mut cells: Vec<[i64; 3]> = Vec::new();
+        let mut number: FxHashMap<[i64; 3], u32> = FxHashMap::default();
+        let mut above: Vec<u32> = Vec::new();
+        for part in parts {
+            let of_corner: Vec<u32> = {
+                let mut number_of = remembering(|cell| {
+                    *number.entry(cell).or_insert_with(|| {
+                        cells.push(cell);
+                        above.push(above.len() as u32);
+                        above.len() as u32 - 1
+                    })
+                });
+                part.positions.iter().map(|&corner| number_of(cell(corner, cell_m))).collect()
+            };
+            for triangle in part.triangles.iter().filter(|_| joined_by_triangles) {
+                let [a, b, c] = triangle.map(|corner| of_corner[corner as usize]);
+                join(&mut above, a, b);
+                join(&mut above, b, c);
+            }
+        }
+        for (at, &[x, y, z]) in cells.iter().enumerate() {
+            let near = |of: i64| [of.saturating_sub(1), of, of.saturating_add(1)];
+            for (x, y) in near(x).into_iter().flat_map(|x| near(y).map(|y| (x, y))) {
+                for z in near(z) {
+                    if let Some(&other) = number.get(&[x, y, z]) {
+                        join(&mut above, at as u32, other);
+                    }
+                }
+            }
+        }
+        let group_of = number.into_iter().map(|(cell, number)| (cell, lowest(&mut above, number))).collect();
+        Clusters { cell_m, group_of }
+    }
+
+    fn is_one(&self) -> bool {
+        let mut groups = self.group_of.values();
+        let first = groups.next();
+        groups.all(|group| Some(group) == first)
+    }
+
+    /// The group of each of a part's corners.
+    fn of_corners<'a>(&'a self, part: &'a Part) -> impl Iterator<Item = u32> + 'a {
+        let mut group_of = remembering(|cell| self.group_of[&cell]);
+        part.positions.iter().map(move |&corner| group_of(cell(corner, self.cell_m)))
+    }
+}
+
+/// Remembers the last answer: a corner lies in the cell of the one before it, as a rule.
+fn remembering(mut find: impl FnMut([i64; 3]) -> u32) -> impl FnMut([i64; 3]) -> u32 {
+    let mut last = None;
+    move |cell| match last {
+        Some((asked, found)) if asked == cell => found,
+        _ => {
+            let found = find(cell);
+            last = Some((cell, found));
+            found
+        }
+    }
+}
+
+fn cell(corner: DVec3, cell_m: f64) -> [i64; 3] {
+    (corner / cell_m).floor().to_array().map(|at| at as i64)
 }
 
 fn join(above: &mut [u32], one: u32, other: u32) {

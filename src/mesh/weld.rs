@@ -5,8 +5,8 @@ use super::together::{Group, Together};
 use glam::{DVec3, UVec3, Vec3};
 use rustc_hash::FxHashMap;
 
-/// How far apart two corners may lie and still be one vertex, as a part of the size of what stands together: above the
-/// rounding of `f32`.
+/// How far apart two corners may lie and still be one vertex, as a part of the size of what stands together: eight to
+/// sixteen steps of `f32` at its ends.
 const TOLERANCE: f64 = 1e-6;
 /// And never farther, metres: a receiver is judged so far above itself, and nobody models less.
 const MOST_M: f64 = 0.001;

@@ -11,8 +11,8 @@ pub mod verify;
 
 pub use shaded::{Part, Shaded, ShadedCells};
 
+use crate::choice::{Engine, Finder, Method, Settings};
 use crate::view::{Counted, Decided, Grid};
-use serde::Serialize;
 
 /// The raster of shaded time.
 ///
@@ -56,32 +56,20 @@ pub struct Unfinished {
     pub statistics: Option<Statistics>,
 }
 
-/// What drew an answer: never `auto`, always the choice that was made.
+/// What drew an answer: never [`Method::Auto`], [`Finder::Auto`] or [`Engine::Auto`], always the choice that was made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
-    /// The technique's name as the command takes it: `stencil`, `ray-cast`, …
-    pub technique: &'static str,
-    /// The silhouette finder's name as the command takes it; absent where none was used.
-    pub silhouette: Option<&'static str>,
-    /// `gpu` or `cpu`.
-    pub engine: &'static str,
+    /// The technique.
+    pub technique: Method,
+    /// Who found silhouettes; absent where nobody did.
+    pub finder: Option<Finder>,
+    /// The machine.
+    pub engine: Engine,
     /// The graphics adapter's own name; absent where none was used.
     pub adapter: Option<String>,
-    /// How it was set.
-    pub settings: DrawnSettings,
-}
-
-/// The settings of what drew, by the command's names for them; each absent where the technique has none.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct DrawnSettings {
-    /// Texels along a map's side.
-    pub map_size: Option<u32>,
-    /// How a shadow map was filtered.
-    pub pcf: Option<&'static str>,
-    /// How wide smoothies were at most, metres across the sun's rays, where that was set by hand.
-    pub smoothie_width: Option<f64>,
-    /// Points of the sun's disc; absent where the sun was its centre.
-    pub sun_samples: Option<u32>,
+    /// How it was set, each absent where the technique does not use it. Without [`Settings::sun_samples`] the sun was its
+    /// centre; [`Settings::smoothie_width_m`] is there where it was set by hand.
+    pub settings: Settings,
 }
 
 /// What counting shadow volumes took, over all cells and instants.

@@ -3,32 +3,9 @@
 use super::accumulate::Sum;
 use super::compare::{Difference, Edges};
 use super::{Drawn, Shaded};
+use crate::choice::{Promise, Truth};
 use crate::shadow::{DrawnMask, ShadowError};
 use crate::view::{Grid, Mask};
-
-/// What a technique is held against.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Truth {
-    /// Ray casting to the sun's centre.
-    Centre,
-    /// Ray casting to points of the sun's disc.
-    Disc,
-    /// Rays to the sun's centre for which every face is asked, without the trees.
-    EveryFace,
-}
-
-/// What a technique promises.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Promise {
-    /// The truth, but for the rounding of corners at a shadow's edge. It decides whether the verification holds.
-    Exact,
-    /// The truth itself. It decides, too.
-    Same,
-    /// As exact, but where its map missed a caster or a gap; those cells are counted apart.
-    ExactButForMap,
-    /// Something near the truth.
-    Near,
-}
 
 /// All techniques on one site.
 #[derive(Clone, Debug)]

@@ -16,9 +16,6 @@ use glam::{DVec3, DVec4};
 use std::sync::Arc;
 use wgpu::*;
 
-/// Texels a side where nobody asks.
-pub const DEFAULT_SIZE: u32 = 2048;
-
 /// How many texels of its slope deeper a face is drawn. Measured: of 0 to 4, the one that leaves the fewest wrong cells
 /// (docs/benchmarks/techniques.md).
 pub const SLOPE_BIAS_TEXELS: f32 = 0.5;

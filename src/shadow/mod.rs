@@ -11,9 +11,6 @@ pub mod hybrid;
 mod light_view;
 pub mod map;
 pub mod near_clip;
-pub mod overlay;
-mod patch_textures;
-pub mod picture;
 mod plan_surface;
 pub mod projected;
 mod raised;
@@ -24,11 +21,12 @@ pub mod smoothie;
 pub mod soft_picture;
 pub mod soft_texture;
 pub mod stencil;
-mod surface;
+pub(crate) mod surface;
 pub mod walls;
 
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
+use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use crate::view::{Bits, Counted, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
 
@@ -128,10 +126,6 @@ pub trait Technique {
 #[derive(Debug, thiserror::Error)]
 pub enum ShadowError {
     /// The raster does not fit the adapter.
-    #[error(
-        "a raster of {width} × {height} cells is larger than the {largest} that '{adapter}' draws; \
-         choose larger cells (--cell) or fewer (--size)"
-    )]
     TooLarge {
         /// Columns asked.
         width: u32,
@@ -143,9 +137,6 @@ pub enum ShadowError {
         adapter: String,
     },
     /// The map does not fit the adapter.
-    #[error(
-        "a shadow map of {size} texels a side is larger than the {largest} that '{adapter}' draws; take a smaller --map-size"
-    )]
     MapTooLarge {
         /// Texels asked.
         size: u32,
@@ -155,8 +146,27 @@ pub enum ShadowError {
         adapter: String,
     },
     /// The machine failed.
-    #[error(transparent)]
     Gpu(#[from] GpuError),
+}
+
+plain_display!(ShadowError);
+
+impl Worded for ShadowError {
+    fn message(&self) -> Message {
+        match self {
+            ShadowError::TooLarge { width, height, largest, adapter } => message![
+                format!("a raster of {width} × {height} cells is larger than the {largest} that '{adapter}' draws");
+                "choose larger cells",
+                aside(Field::Cell),
+                Piece::Where(Field::Size, pieces![" or fewer", aside(Field::Size)])
+            ],
+            ShadowError::MapTooLarge { size, largest, adapter } => message![
+                format!("a shadow map of {size} texels a side is larger than the {largest} that '{adapter}' draws");
+                "take a smaller ", Field::MapSize
+            ],
+            ShadowError::Gpu(error) => error.message(),
+        }
+    }
 }
 
 /// The unit normal of the side that is seen, zero where a face has no area; `plane` and `viewer` around one origin.

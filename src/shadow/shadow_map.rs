@@ -14,18 +14,7 @@ use glam::DVec3;
 use std::sync::Arc;
 use wgpu::*;
 
-/// How comparisons are filtered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Filter {
-    /// The nearest texel alone: 2 levels.
-    None,
-    /// Four maps, each a quarter of a texel aside, in four channels: 5 levels.
-    TwoByTwo,
-    /// The four nearest texels of one map: 5 levels.
-    FastTwoByTwo,
-    /// The sixteen nearest texels of one map: 17 levels.
-    FastFourByFour,
-}
+pub use crate::choice::Filter;
 
 /// The technique, made for one scene and one view.
 pub struct ShadowMap {

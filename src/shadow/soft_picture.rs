@@ -20,9 +20,6 @@ use glam::{BVec3, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Points of the sun's disc where nobody says otherwise.
-pub const DEFAULT_SUN_SAMPLES: u32 = 64;
-
 /// The technique, made for one scene and one camera.
 pub struct SoftPicture {
     scene: Scene,

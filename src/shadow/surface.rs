@@ -14,7 +14,7 @@ use std::sync::Arc;
 use wgpu::*;
 
 /// Receivers' planes lie in rows of this many texels (`PLANES_WIDTH` of `shaders/common/seen.wgsl`).
-pub(super) const PLANES_WIDTH: usize = 4096;
+pub(crate) const PLANES_WIDTH: usize = 4096;
 /// Faces that are uploaded at once: a receiver is drawn once, so no buffer of all of them is kept.
 const FACES_AT_ONCE: usize = 1 << 18;
 
@@ -23,12 +23,12 @@ const TILES: u32 = 24;
 
 /// Depth and face of what each cell sees, and the uniforms of the view.
 pub struct GpuSurface {
-    pub(super) gpu: Arc<Gpu>,
-    pub(super) view: View,
+    pub(crate) gpu: Arc<Gpu>,
+    pub(crate) view: View,
     origin: DVec3,
-    pub(super) clip_from_local: DMat4,
+    pub(crate) clip_from_local: DMat4,
     /// The lowest point that is judged, metres above the origin.
-    pub(super) lowest_z: f64,
+    pub(crate) lowest_z: f64,
     depth: Texture,
     faces: Texture,
     planes: Texture,
@@ -37,9 +37,9 @@ pub struct GpuSurface {
     view_buffer: Buffer,
     light: Buffer,
     /// View and light.
-    pub(super) frame: BindGroup,
+    pub(crate) frame: BindGroup,
     /// What is seen.
-    pub(super) seen: BindGroup,
+    pub(crate) seen: BindGroup,
     frame_layout: BindGroupLayout,
     seen_layout: BindGroupLayout,
 }
@@ -96,13 +96,13 @@ impl GpuSurface {
     }
 
     /// Turns to another view of the same scene.
-    pub(super) fn look_at(&mut self, scene: &Scene, view: View) -> Result<(), ShadowError> {
+    pub(crate) fn look_at(&mut self, scene: &Scene, view: View) -> Result<(), ShadowError> {
         self.turn(scene, view)?;
         self.draw_receivers(&scene.receivers)
     }
 
     /// Turns to another view whose faces are known, one a cell. Depths are not.
-    pub(super) fn see(&mut self, scene: &Scene, view: View, faces: &[u32]) -> Result<(), ShadowError> {
+    pub(crate) fn see(&mut self, scene: &Scene, view: View, faces: &[u32]) -> Result<(), ShadowError> {
         self.turn(scene, view)?;
         let bytes_per_row = Some(view.size().0 * size_of::<u32>() as u32);
         let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
@@ -186,13 +186,13 @@ impl GpuSurface {
     }
 
     /// An empty mask of the view.
-    pub(super) fn mask(&self, label: &str) -> Texture {
+    pub(crate) fn mask(&self, label: &str) -> Texture {
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
         self.gpu.texture(label, self.view.size(), SHARE, usage)
     }
 
     /// A pass over all of a mask, without depth.
-    pub(super) fn draw_mask(
+    pub(crate) fn draw_mask(
         &self,
         encoder: &mut CommandEncoder,
         label: &str,
@@ -216,7 +216,7 @@ impl GpuSurface {
     }
 
     /// Boxes around what is seen, metres around the scene's origin: one a tile of the picture, the sky left out.
-    pub(super) fn boxes_of_seen(&self) -> Result<Vec<(DVec3, DVec3)>, ShadowError> {
+    pub(crate) fn boxes_of_seen(&self) -> Result<Vec<(DVec3, DVec3)>, ShadowError> {
         let face: Vec<u32> = readback::texels(&self.gpu, &self.faces, TextureAspect::All)?;
         let depth: Vec<f32> = readback::texels(&self.gpu, &self.depth, TextureAspect::DepthOnly)?;
         let (width, height) = self.view.size();
@@ -247,19 +247,19 @@ impl GpuSurface {
     }
 
     /// Takes the commands of an instant.
-    pub(super) fn encoder(&self) -> CommandEncoder {
+    pub(crate) fn encoder(&self) -> CommandEncoder {
         self.gpu.device.create_command_encoder(&CommandEncoderDescriptor::default())
     }
 
     /// The layout of pipelines that read the view, what is seen, and what else they may need.
-    pub(super) fn seeing_layout(&self, further: &[&BindGroupLayout]) -> PipelineLayout {
+    pub(crate) fn seeing_layout(&self, further: &[&BindGroupLayout]) -> PipelineLayout {
         let groups: Vec<_> =
             [&self.frame_layout, &self.seen_layout].into_iter().chain(further.iter().copied()).collect();
         pipeline_layout(&self.gpu, &groups)
     }
 
     /// What draws the depth at which each cell is judged.
-    pub(super) fn judging(&self) -> RenderPipeline {
+    pub(crate) fn judging(&self) -> RenderPipeline {
         let always = DepthStencilState {
             format: COUNTED,
             depth_write_enabled: Some(true),
@@ -279,7 +279,7 @@ impl GpuSurface {
     }
 
     /// The depth at which each cell is judged, in a texture with a stencil.
-    pub(super) fn judged(&self, judging: &RenderPipeline) -> Texture {
+    pub(crate) fn judged(&self, judging: &RenderPipeline) -> Texture {
         let gpu = &self.gpu;
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
         let judged = gpu.texture("surface.judged", self.view.size(), COUNTED, usage);
@@ -303,12 +303,12 @@ impl GpuSurface {
     }
 
     /// Sets the sun for what is drawn next.
-    pub(super) fn set_sun(&self, to_sun: DVec3) {
+    pub(crate) fn set_sun(&self, to_sun: DVec3) {
         self.set_light(to_sun.extend(0.0));
     }
 
     /// Sets a light around the scene's origin (sun: w = 0, lamp: w = 1).
-    pub(super) fn set_light(&self, local_light: DVec4) {
+    pub(crate) fn set_light(&self, local_light: DVec4) {
         let light = Light { towards: local_light.as_vec4().to_array() };
         self.gpu.queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
     }
@@ -400,7 +400,7 @@ fn seen_edge_on(mesh: &Mesh, face: usize, view: &View) -> bool {
 }
 
 /// The planes of faces as a texture, which no adapter limits to the size of a binding.
-pub(super) fn planes(gpu: &Gpu, mesh: &Mesh) -> Result<Texture, GpuError> {
+pub(crate) fn planes(gpu: &Gpu, mesh: &Mesh) -> Result<Texture, GpuError> {
     let rows = mesh.planes().len().div_ceil(PLANES_WIDTH).max(1);
     let most = gpu.limits.max_texture_dimension_2d as usize;
     if rows > most {
@@ -420,14 +420,14 @@ pub(super) fn planes(gpu: &Gpu, mesh: &Mesh) -> Result<Texture, GpuError> {
     Ok(texture)
 }
 
-pub(super) const UNIFORM: BindingType =
+pub(crate) const UNIFORM: BindingType =
     BindingType::Buffer { ty: BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
 
-pub(super) fn texture_binding(sample_type: TextureSampleType) -> BindingType {
+pub(crate) fn texture_binding(sample_type: TextureSampleType) -> BindingType {
     BindingType::Texture { sample_type, view_dimension: TextureViewDimension::D2, multisampled: false }
 }
 
-pub(super) fn bind_group_layout(gpu: &Gpu, label: &str, types: &[BindingType]) -> BindGroupLayout {
+pub(crate) fn bind_group_layout(gpu: &Gpu, label: &str, types: &[BindingType]) -> BindGroupLayout {
     let entry = |(binding, ty): (usize, &BindingType)| BindGroupLayoutEntry {
         binding: binding as u32,
         visibility: ShaderStages::VERTEX_FRAGMENT,

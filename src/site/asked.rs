@@ -1,12 +1,15 @@
-//! What the command line asks beside the site file, and the reading of its values.
+//! What a face asks beside the site file, and the reading of its values.
 
 use super::error::{At, SiteError};
 use super::model::Up;
 use super::{Engine, Finder, Method, Receivers, Settings};
+use crate::message::{Field, Message, Words, message};
+use crate::sun::Zone;
 use crate::view::Side;
+use chrono::DateTime;
 
 /// Options of the command line; each, where given, goes before the site file.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Overrides {
     /// `--place LAT,LON`, for a model file or a site file without `[place]`.
     pub place: Option<String>,
@@ -28,6 +31,8 @@ pub struct Overrides {
     pub to_date: Option<String>,
     /// `--at 2026-09-18T15:00`: this instant alone, instead of the study.
     pub at: Option<String>,
+    /// The same of a time that is known already; it goes before all else that says when.
+    pub instant: Option<DateTime<Zone>>,
     /// `--point X,Y,Z`, metres: this probe alone, instead of the file's.
     pub point: Option<String>,
     /// `--normal X,Y,Z`, with `--point`.
@@ -56,24 +61,24 @@ pub struct Overrides {
     pub settings: Settings,
     /// `--no-refraction`
     pub no_refraction: bool,
+    /// What whoever asks calls all this, for the notes on the site: they go into files as well as to people.
+    pub words: &'static dyn Words,
 }
 
 /// Reads `N` finite numbers with commas between them.
 ///
 /// # Errors
 /// [`SiteError::Value`] with the example.
-pub(super) fn numbers<const N: usize>(option: &'static str, text: &str, example: &str) -> Result<[f64; N], SiteError> {
+pub(super) fn numbers<const N: usize>(field: Field, text: &str, example: &'static str) -> Result<[f64; N], SiteError> {
     let read: Option<Vec<f64>> =
         text.split(',').map(|number| number.trim().parse().ok().filter(|number: &f64| number.is_finite())).collect();
     read.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| {
-        refuse(
-            At::Option(option),
-            format!("\"{text}\" is not {N} numbers with commas between them; write for example {option} {example}"),
-        )
+        let what = format!("\"{text}\" is not {N} numbers with commas between them");
+        refuse(At::Field(field), message![what; "write for example ", (field, example)])
     })
 }
 
-/// A value that cannot be taken; `what` ends with the way out.
-pub(super) fn refuse(at: At, what: impl Into<String>) -> SiteError {
-    SiteError::Value { at, what: what.into() }
+/// A value that cannot be taken.
+pub(super) fn refuse(at: At, message: impl Into<Message>) -> SiteError {
+    SiteError::Value { at, message: Box::new(message.into()) }
 }

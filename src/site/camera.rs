@@ -2,11 +2,12 @@
 //! side, with the models in view.
 
 use super::asked::{Overrides, refuse};
-use super::choice::ChoiceError;
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::keys;
 use super::written::Written;
+use crate::choice::ChoiceError;
+use crate::message::message;
 use crate::sun::SunTrack;
 use crate::view::{Camera, Side};
 use glam::{DVec2, DVec3};
@@ -46,7 +47,7 @@ pub(super) fn camera(
     let table = &written.site.camera;
     let fault = |key: &str, what: String| {
         let example = keys::example("camera", key);
-        refuse(written.key("camera", key), format!("{what}; write for example {example}"))
+        refuse(written.key("camera", key), message![what; format!("write for example {example}")])
     };
     let vector = |key: &str, value: Option<[f64; 3]>| match value.map(DVec3::from_array) {
         Some(vector) if !vector.is_finite() => Err(fault(key, format!("{vector} is not a point"))),

@@ -2,8 +2,8 @@
 
 use super::model::ModelError;
 use crate::mesh::MeshError;
+use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
 use crate::sun::SunError;
-use std::fmt;
 
 /// Where something was asked.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,16 +17,23 @@ pub enum At {
         /// The key in it; empty for the table itself.
         key: String,
     },
-    /// On the command line: an option's name with its dashes.
-    Option(&'static str),
+    /// Beside it: a field of what a face asks.
+    Field(Field),
 }
 
-impl fmt::Display for At {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl At {
+    fn piece(&self) -> Piece {
+        match self.clone() {
+            At::Key { file, table, key } => Piece::At { file, table, key },
+            At::Field(field) => field.into(),
+        }
+    }
+
+    /// What is said of it: of a site file its fields are keys.
+    fn tells(&self, message: Message) -> Message {
         match self {
-            At::Key { file, table, key } if key.is_empty() => write!(f, "{file}, {table}"),
-            At::Key { file, table, key } => write!(f, "{file}, {table} {key}"),
-            At::Option(name) => f.write_str(name),
+            At::Key { .. } => message.of_keys().of(self.piece()),
+            At::Field(_) => message.of(self.piece()),
         }
     }
 }
@@ -35,9 +42,6 @@ impl fmt::Display for At {
 #[derive(Debug, thiserror::Error)]
 pub enum SiteError {
     /// The path is nothing that can be read.
-    #[error(
-        "{path} cannot be read: {why}; give a site file, a folder with a site.toml, or a model with --place LAT,LON"
-    )]
     Unreadable {
         /// As the user named it.
         path: String,
@@ -45,19 +49,16 @@ pub enum SiteError {
         why: String,
     },
     /// A model file, and nobody says where it stands.
-    #[error("{path} is a model: say where it stands with --place LAT,LON, for example --place 48.8583,2.2945")]
     NoPlaceForModel {
         /// As the user named it.
         path: String,
     },
     /// A model in a format that is not read.
-    #[error("{path} is neither a site file nor a glTF model; export the model as .glb or .gltf")]
     UnknownFormat {
         /// As the user named it.
         path: String,
     },
     /// Text, but not as site files have it.
-    #[error("{file} {what}; save it as UTF-8")]
     Encoding {
         /// As the user named it.
         file: String,
@@ -65,7 +66,6 @@ pub enum SiteError {
         what: String,
     },
     /// Not TOML.
-    #[error("{file}, line {line} `{text}`: {what}; the file must be TOML")]
     Toml {
         /// As the user named it.
         file: String,
@@ -77,13 +77,11 @@ pub enum SiteError {
         what: String,
     },
     /// Nothing that TOML can hold.
-    #[error("the site cannot be written: {what}")]
     Unwritable {
         /// What the writer says.
         what: String,
     },
     /// A table or key that does not exist.
-    #[error("{at} is not known; the nearest is {nearest}")]
     Unknown {
         /// The table or key.
         at: At,
@@ -91,7 +89,6 @@ pub enum SiteError {
         nearest: String,
     },
     /// A table or key that must be there.
-    #[error("{file} has no {what}; add for example {example}")]
     Missing {
         /// As the user named it.
         file: String,
@@ -101,15 +98,13 @@ pub enum SiteError {
         example: String,
     },
     /// A value that cannot be taken.
-    #[error("{at}: {what}")]
     Value {
         /// Where it was asked.
         at: At,
         /// What is wrong, and the way out.
-        what: String,
+        message: Box<Message>,
     },
     /// A place, reading or window that cannot be taken.
-    #[error("{at}: {error}")]
     Sun {
         /// Where it was asked.
         at: At,
@@ -117,25 +112,18 @@ pub enum SiteError {
         error: Box<SunError>,
     },
     /// The command needs a study.
-    #[error("{file} does not say {missing} of the study; add {options}, or [study] to the site file")]
     NoStudy {
         /// As the user named it.
         file: String,
-        /// The keys that are missing.
-        missing: String,
-        /// The options that would say it.
-        options: String,
+        /// What is missing, each with an example.
+        missing: Vec<(Field, &'static str)>,
     },
     /// The command needs a probe.
-    #[error(
-        "{file} has no [[probe]]; add one with point = [12.0, -3.0, 4.5] to the site file, or ask for one point with --point 12,-3,4.5"
-    )]
     NoProbe {
         /// As the user named it.
         file: String,
     },
     /// A name in `casts` or `receives` that no component has.
-    #[error("{at}: no component, node, mesh or material is named \"{name}\"; the nearest is \"{nearest}\"")]
     UnknownName {
         /// Where it was asked.
         at: At,
@@ -145,17 +133,82 @@ pub enum SiteError {
         nearest: String,
     },
     /// The models hold nothing.
-    #[error("{file}: the models hold no triangles, so nothing casts a shadow; check what was exported")]
     NoTriangles {
         /// As the user named it.
         file: String,
     },
     /// A model file cannot be read.
-    #[error(transparent)]
     Model(#[from] ModelError),
     /// The parts make no mesh.
-    #[error(transparent)]
     Mesh(#[from] MeshError),
+}
+
+plain_display!(SiteError);
+
+impl Worded for SiteError {
+    fn message(&self) -> Message {
+        match self {
+            SiteError::Unreadable { path, why } => message![
+                format!("{path} cannot be read: {why}");
+                "give a site file, a folder with a site.toml, or a model",
+                Piece::Where(Field::Place, pieces![" with ", (Field::Place, "LAT,LON")])
+            ],
+            SiteError::NoPlaceForModel { path } => message![
+                format!("{path} is a model: say where it stands with "),
+                (Field::Place, "LAT,LON"),
+                ", for example ",
+                (Field::Place, "48.8583,2.2945")
+            ],
+            SiteError::UnknownFormat { path } => message![
+                format!("{path} is neither a site file nor a glTF model");
+                "export the model as .glb or .gltf"
+            ],
+            SiteError::Encoding { file, what } => message![format!("{file} {what}"); "save it as UTF-8"],
+            SiteError::Toml { file, line, text, what } => {
+                message![format!("{file}, line {line} `{text}`: {what}"); "the file must be TOML"]
+            }
+            SiteError::Unwritable { what } => format!("the site cannot be written: {what}").into(),
+            SiteError::Unknown { at, nearest } => {
+                message![at.piece(), " is not known"; format!("the nearest is {nearest}")]
+            }
+            SiteError::Missing { file, what, example } => {
+                message![format!("{file} has no {what}"); format!("add for example {example}")]
+            }
+            SiteError::Value { at, message } => at.tells(Message::clone(message)),
+            SiteError::Sun { at, error } => at.tells(error.message()),
+            SiteError::NoStudy { file, missing } => no_study(file, missing),
+            SiteError::NoProbe { file } => message![
+                format!("{file} has no [[probe]]");
+                "add one with point = [12.0, -3.0, 4.5] to the site file",
+                Piece::Where(Field::Point, pieces![", or ask for one point with ", (Field::Point, "12,-3,4.5")])
+            ],
+            SiteError::UnknownName { at, name, nearest } => {
+                let what = format!("no component, node, mesh or material is named \"{name}\"");
+                at.tells(message![what; format!("the nearest is \"{nearest}\"")])
+            }
+            SiteError::NoTriangles { file } => message![
+                format!("{file}: the models hold no triangles, so nothing casts a shadow");
+                "check what was exported"
+            ],
+            SiteError::Model(error) => error.to_string().into(),
+            SiteError::Mesh(error) => error.to_string().into(),
+        }
+    }
+}
+
+fn no_study(file: &str, missing: &[(Field, &'static str)]) -> Message {
+    let between = |text: &'static str, piece: fn(&(Field, &'static str)) -> Piece| {
+        let pieces = missing.iter().map(|missing| [piece(missing), text.into()]);
+        pieces.flatten().take((2 * missing.len()).saturating_sub(1)).collect::<Vec<_>>()
+    };
+    let (keys, settings) = (between(", ", |(field, _)| Piece::Key(*field)), between(" ", |missing| (*missing).into()));
+    Message {
+        what: [pieces![format!("{file} does not say ")], keys, pieces![" of the study"]].concat(),
+        hint: vec![Piece::Where(
+            Field::From,
+            [pieces!["add "], settings, pieces![", or [study] to the site file"]].concat(),
+        )],
+    }
 }
 
 impl SiteError {
@@ -168,23 +221,8 @@ impl SiteError {
     pub fn is_wrong_use(&self) -> bool {
         match self {
             SiteError::NoPlaceForModel { .. } | SiteError::NoStudy { .. } | SiteError::NoProbe { .. } => true,
-            SiteError::Value { at, .. } | SiteError::Sun { at, .. } => matches!(at, At::Option(_)),
+            SiteError::Value { at, .. } | SiteError::Sun { at, .. } => matches!(at, At::Field(_)),
             _ => false,
         }
     }
-}
-
-/// The candidate most like a word.
-pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let lower = word.to_lowercase();
-    let likeness = |candidate: &str| strsim::jaro_winkler(&candidate.to_lowercase(), &lower);
-    let mut best = None;
-    for candidate in candidates {
-        let score = likeness(candidate);
-        // The first of equals stays.
-        if best.is_none_or(|(most, _)| score > most) {
-            best = Some((score, candidate));
-        }
-    }
-    best.map(|(_, candidate)| candidate)
 }

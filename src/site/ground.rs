@@ -7,6 +7,7 @@ use super::extent::Bounds;
 use super::terrain::{self, Buried};
 use super::written::Written;
 use crate::mesh::Mesh;
+use crate::message::{Field, message};
 
 /// What lies no farther below the ground than this lies on it, metres: a receiver is judged so far above itself.
 pub(super) const ON_GROUND_M: f64 = 0.001;
@@ -158,7 +159,7 @@ fn percent(share: f64) -> String {
 /// [`SiteError::Value`] where it is no height.
 pub(super) fn level(written: &Written, asked: &Overrides) -> Result<Option<f64>, SiteError> {
     let (level, at) = match (asked.ground, written.site.ground.level) {
-        (Some(level), _) => (level, At::Option("--ground")),
+        (Some(level), _) => (level, At::Field(Field::Ground)),
         (None, Some(level)) => (level, written.key("ground", "level")),
         (None, None) => return Ok(None),
     };
@@ -167,5 +168,6 @@ pub(super) fn level(written: &Written, asked: &Overrides) -> Result<Option<f64>,
         // −0 is 0
         return Ok(Some(level + 0.0));
     }
-    Err(refuse(at, format!("{level} is no height of a ground; write metres above the place's point, for example 0.0")))
+    let what = format!("{level} is no height of a ground");
+    Err(refuse(at, message![what; "write metres above the place's point, for example 0.0"]))
 }

@@ -1,5 +1,6 @@
 //! Holds a site file to the keys that there are, and says what to do about one that is not among them.
 
+use super::asked::refuse;
 use super::error::{At, SiteError};
 use super::key_table::{SITE_KEYS, SITE_TABLES, SiteKey};
 use toml::{Table, Value};
@@ -35,10 +36,9 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
             }
             _ if known => {
                 let brackets = bracketed(name);
-                return Err(SiteError::Value {
-                    at: At::Key { file: file.to_owned(), table: brackets.clone(), key: String::new() },
-                    what: format!("write {brackets} on a line of its own, and its keys on the lines below it"),
-                });
+                let at = At::Key { file: file.to_owned(), table: brackets.clone(), key: String::new() };
+                let what = format!("write {brackets} on a line of its own, and its keys on the lines below it");
+                return Err(refuse(at, what));
             }
             _ => {
                 let is_table =
@@ -73,7 +73,7 @@ fn unknown_name(file: &str, name: &str, is_table: bool) -> SiteError {
     let at = |table: String, key: &str| At::Key { file: file.to_owned(), table, key: key.to_owned() };
     if is_table {
         let tables = SITE_TABLES.iter().map(|(table, ..)| *table);
-        let nearest = super::error::nearest(name, tables).unwrap_or("place");
+        let nearest = crate::choice::nearest(name, tables).unwrap_or("place");
         return SiteError::Unknown { at: at(format!("[{name}]"), ""), nearest: bracketed(nearest) };
     }
     SiteError::Unknown { at: at("before any table:".to_owned(), name), nearest: nearest_key(name, "") }

@@ -5,6 +5,7 @@
 
 use super::model::{Placement, Up};
 use crate::mesh::{Component, Mesh};
+use crate::message::{Field, Message, Piece, message, pieces};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
@@ -210,24 +211,27 @@ pub(super) fn of(
 }
 
 /// The notes on what a model looks like, each a sentence without its stop.
-pub(super) fn notes(model: &str, mends: &[Mend]) -> Vec<String> {
+pub(super) fn notes(model: &str, mends: &[Mend]) -> Vec<Message> {
     let scales: Vec<f64> =
         mends.iter().filter_map(|mend| if let Mend::Scale(scale) = mend { Some(*scale) } else { None }).collect();
     let mut notes = Vec::new();
     match scales[..] {
         [] => (),
-        [scale] => notes.push(format!(
-            "{model} looks as if it were in millimetres, so large is it; if it is, write `scale = {scale}` under [[model]]"
-        )),
-        _ => notes.push(format!(
-            "{model} looks as if it were in centimetres or inches, so large is it; if it is, write `scale = 0.01` or \
-             `scale = 0.0254` under [[model]]"
-        )),
+        [scale] => notes.push(message![
+            format!("{model} looks as if it were in millimetres, so large is it");
+            format!("if it is, write `scale = {scale}` under [[model]]")
+        ]),
+        _ => notes.push(message![
+            format!("{model} looks as if it were in centimetres or inches, so large is it");
+            "if it is, write `scale = 0.01` or `scale = 0.0254` under [[model]]"
+        ]),
     }
     if mends.iter().any(|mend| matches!(mend, Mend::Up(_))) {
-        notes.push(format!(
-            "{model} looks as if it lay on its side, its z being up; if it does, write `up = \"z\"` under [[model]], or say --up z"
-        ));
+        notes.push(message![
+            format!("{model} looks as if it lay on its side, its z being up");
+            "if it does, write `up = \"z\"` under [[model]]",
+            Piece::Where(Field::Up, pieces![", or say ", (Field::Up, "z")])
+        ]);
     }
     notes
 }

@@ -3,13 +3,15 @@
 use super::asked::{Overrides, refuse};
 use super::error::{At, SiteError};
 use super::extent::with_shadows;
-use super::model::{self, Model, ModelError, Placement, Up};
+use super::model::{self, Model, ModelError, Placement};
 use super::models::{Models, note_see_through};
 use super::names::on_disk;
 use super::written::Written;
 use super::{Finder, Ground, Method, Receivers, Site, camera, ground, likeness, notes, plan, study};
+use crate::choice::ChoiceError;
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
+use crate::message::{Field, message};
 use crate::sun::{Place, SunTrack};
 use glam::DVec3;
 use std::path::Path;
@@ -51,12 +53,13 @@ pub struct LoadedMesh {
     pub notes: Vec<String>,
 }
 
-/// The models alone: of a model file as it is, or of a site's models where they stand; `up` goes before what a site says.
-/// Place and study may be absent.
+/// The models alone: of a model file as it is, or of a site's models where they stand; [`Overrides::up`] goes before what a
+/// site says. Place and study may be absent.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
-pub fn load_mesh(path: &Path, up: Option<Up>) -> Result<LoadedMesh, SiteError> {
+pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError> {
+    let Overrides { up, words, .. } = *asked;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if matches!(extension.as_str(), "glb" | "gltf") && !path.is_dir() {
         let placement = Placement { up: up.unwrap_or_default(), ..Placement::default() };
@@ -67,13 +70,14 @@ pub fn load_mesh(path: &Path, up: Option<Up>) -> Result<LoadedMesh, SiteError> {
             notes.into_iter().chain(seen_through).map(|note| format!("{name} {note}")).collect();
         let mesh = Mesh::build(parts)?;
         let mends = likeness::of(&mesh, &mesh.components, &placement, [false, up.is_some()]);
-        notes.extend(notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends));
+        let of_model = notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends);
+        notes.extend(of_model.iter().map(|note| note.in_words(words)));
         return Ok(LoadedMesh { mesh, frame: Frame::Model, notes });
     }
     let written = Written::read(path, &Overrides { up, ..Overrides::default() })?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
-    let notes = models.notes(&written, &casts);
+    let notes = models.notes(&written, &casts, words);
     Ok(LoadedMesh { mesh: models.mesh, frame: Frame::Place, notes })
 }
 
@@ -125,20 +129,26 @@ impl Site {
         let track = study::track(&place, written, asked)?;
         let method = method(written, asked)?;
         if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
-            let what = "is the depth of the paper's hextree; say --silhouette hextree with it, or leave it out";
-            return Err(refuse(At::Option("--hextree-depth"), what));
+            let message = message![
+                "is the depth of the paper's hextree";
+                "say ", (Field::Silhouette, "hextree"), " with it, or leave it out"
+            ];
+            return Err(refuse(At::Field(Field::HextreeDepth), message));
         }
         // a NaN is not above zero either
         if let Some(width) = asked.settings.smoothie_width_m.filter(|width| !(width.is_finite() && *width > 0.0)) {
-            let what = format!("{width} is no width; write metres above 0, for example --smoothie-width 0.5");
-            return Err(refuse(At::Option("--smoothie-width"), what));
+            let message = message![
+                format!("{width} is no width");
+                "write metres above 0, for example ", (Field::SmoothieWidth, "0.5")
+            ];
+            return Err(refuse(At::Field(Field::SmoothieWidth), message));
         }
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
         let level = ground::level(written, asked)?;
         let models = models()?;
         let [casts, receives] = models.roles(written)?;
-        let mut notes = models.notes(written, &casts);
+        let mut notes = models.notes(written, &casts, asked.words);
         let Models { mesh, bounds, likenesses, .. } = models;
         let ground = Ground::of(&mesh, bounds, level);
         notes.extend(ground.notes(&mesh, receivers));
@@ -174,24 +184,29 @@ impl Site {
 fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {
     match (asked.technique, &written.site.study.technique) {
         (Some(method), _) => Ok(method),
-        (None, Some(word)) => word
-            .parse()
-            .map_err(|error: super::ChoiceError| refuse(written.key("study", "technique"), error.to_string())),
+        (None, Some(word)) => {
+            word.parse().map_err(|error: ChoiceError| refuse(written.key("study", "technique"), error.to_string()))
+        }
         (None, None) => Ok(Method::default()),
     }
 }
 
 /// Metres of a texel on surfaces.
 fn patch_cell(receivers: Receivers, asked: &Overrides) -> Result<f64, SiteError> {
-    let at = At::Option("--patch-cell");
+    let at = At::Field(Field::PatchCell);
     match asked.patch_cell {
         None => Ok(DEFAULT_CELL_M),
         Some(_) if receivers != Receivers::Surfaces => {
-            Err(refuse(at, "is the cell on surfaces; say --receivers surfaces with it, or leave it out"))
+            let message = message![
+                "is the cell on surfaces";
+                "say ", (Field::Receivers, "surfaces"), " with it, or leave it out"
+            ];
+            Err(refuse(at, message))
         }
         Some(cell) if cell.is_finite() && cell > 0.0 => Ok(cell),
         Some(cell) => {
-            Err(refuse(at, format!("{cell} is no cell; write metres above 0, for example --patch-cell 0.25")))
+            let what = format!("{cell} is no cell");
+            Err(refuse(at, message![what; "write metres above 0, for example ", (Field::PatchCell, "0.25")]))
         }
     }
 }

@@ -29,7 +29,6 @@ pub mod typed;
 mod written;
 
 pub use asked::Overrides;
-pub use choice::ChoiceError;
 pub use error::{At, SiteError};
 pub use ground::{Ground, GroundFrom, metres};
 pub use inputs::inputs;
@@ -41,95 +40,11 @@ pub use pair::Pair;
 pub use probe::{Probing, load_probes};
 pub use written::Written;
 
+pub use crate::choice::{Engine, Finder, Method, Receivers, Settings};
+
 use crate::mesh::Mesh;
 use crate::sun::{Place, SunTrack};
 use crate::view::{Camera, Grid, Side, View};
-
-/// Which surfaces are judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Receivers {
-    /// The highest receiving surface under each cell, ground included.
-    #[default]
-    Top,
-    /// The ground plane, as if the buildings only cast.
-    Ground,
-    /// All receiving surfaces of the models, walls and undersides too, on their outer side.
-    Surfaces,
-}
-
-/// How shadows are found, as the user asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Method {
-    /// The fastest exact technique for the work.
-    #[default]
-    Auto,
-    /// Stencil shadow volumes.
-    Stencil,
-    /// Faces projected onto the ground.
-    Projected,
-    /// A depth map drawn from the sun.
-    ShadowMap,
-    /// A depth map, and volumes where it cannot tell.
-    Hybrid,
-    /// A depth map with soft edges.
-    Smoothie,
-    /// Registered hard shadows on flat patches, added up.
-    SoftTexture,
-    /// Ray casting.
-    RayCast,
-}
-
-/// Which silhouette finder bounds the volumes, as the user asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Finder {
-    /// The fastest that exists.
-    #[default]
-    Auto,
-    /// One pass over all edges, on the processor.
-    Brute,
-    /// A search in dual space: classes of edges under a hierarchy, or with a depth the paper's tree.
-    Hextree,
-    /// One pass over all edges, on the graphics adapter.
-    Gpu,
-}
-
-/// How a shadow map's comparisons are filtered, as the user asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pcf {
-    /// The nearest texel alone.
-    None,
-    /// Four maps, a quarter of a texel apart.
-    TwoByTwo,
-    /// The four nearest texels of one map.
-    FastTwoByTwo,
-    /// The sixteen nearest texels of one map.
-    FastFourByFour,
-}
-
-/// What was asked of single techniques; each has its own default.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Settings {
-    /// Texels along a shadow map's side.
-    pub map_size: Option<u32>,
-    /// How its comparisons are filtered.
-    pub pcf: Option<Pcf>,
-    /// How wide smoothies are, metres across the sun's rays.
-    pub smoothie_width_m: Option<f64>,
-    /// Points of the sun's disc to which rays are cast.
-    pub sun_samples: Option<u32>,
-}
-
-/// Which machine draws, as the user asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Engine {
-    /// The graphics adapter where there is one, else the processor.
-    #[default]
-    Auto,
-    /// The graphics adapter, or an error.
-    Gpu,
-    /// The processor.
-    Cpu,
-}
 
 /// The checked request: place, models, receivers, study.
 #[derive(Clone, Debug)]

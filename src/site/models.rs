@@ -1,7 +1,6 @@
 //! The models of a site where they stand, and which of their components are chosen.
 
 use super::asked::refuse;
-use super::choice::ChoiceError;
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::file::Names;
@@ -12,7 +11,9 @@ use super::model::{Fault, Model, ModelError, Placement, SeeThrough, Up};
 use super::names::{few, on_disk};
 use super::notes;
 use super::written::Written;
+use crate::choice::ChoiceError;
 use crate::mesh::{Component, Mesh};
+use crate::message::{Message, Words, message};
 use glam::DVec3;
 use rustc_hash::FxBuildHasher;
 use std::cmp::Reverse;
@@ -27,7 +28,7 @@ pub struct Models {
     pub(super) mesh: Mesh,
     pub(super) bounds: Bounds,
     /// What the user should know of how they were read, each a sentence without its stop that names the model.
-    notes: Vec<String>,
+    notes: Vec<Message>,
     /// What they look like.
     pub(super) likenesses: Vec<Likeness>,
     /// Which components are whose.
@@ -67,7 +68,7 @@ impl Models {
             let first = parts.len();
             parts.extend(model.parts);
             let name = name(written, index);
-            notes.extend(model.notes.into_iter().map(|note| format!("{name} {note}")));
+            notes.extend(model.notes.into_iter().map(|note| format!("{name} {note}").into()));
             models.push((name.to_owned(), first..parts.len()));
             see_through.push(model.see_through);
         }
@@ -82,7 +83,7 @@ impl Models {
         for ((model, components), likeness) in models.iter().zip(&likenesses) {
             notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
         }
-        notes.extend(notes::of_all(&mesh));
+        notes.extend(notes::of_all(&mesh).map(Message::from));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
         let of_model = models.into_iter().map(|(_, components)| components).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
@@ -138,8 +139,8 @@ impl Models {
 
     /// What the user should know of how they were read, and of what casts; each a sentence without its stop that names the
     /// model.
-    pub(super) fn notes(&self, written: &Written, casts: &[bool]) -> Vec<String> {
-        let mut notes = self.notes.clone();
+    pub(super) fn notes(&self, written: &Written, casts: &[bool], words: &dyn Words) -> Vec<String> {
+        let mut notes: Vec<String> = self.notes.iter().map(|note| note.in_words(words)).collect();
         for (index, (of_model, materials)) in self.of_model.iter().zip(&self.see_through).enumerate() {
             let casts = &casts[of_model.clone()];
             let note = note_see_through(materials, casts);
@@ -189,21 +190,29 @@ fn name(written: &Written, index: usize) -> &str {
 }
 
 /// That a model's file is not there, and what may be wrong with its path.
-fn no_file(path: &str, file: &Path) -> String {
+fn no_file(path: &str, file: &Path) -> Message {
     let control = path.chars().find(|letter| letter.is_control()).map(|letter| match letter {
         '\t' => "a tab",
         '\n' | '\r' => "a line break",
         _ => "a control character",
     });
     match control {
-        Some(letter) => format!(
-            "{path:?} has {letter} in it, which a backslash in double quotes makes of the letter behind it; write / between \
-             folders, or put the path in single quotes"
-        ),
+        Some(letter) => message![
+            format!(
+                "{path:?} has {letter} in it, which a backslash in double quotes makes of the letter behind it"
+            );
+            "write / between folders, or put the path in single quotes"
+        ],
         None if path.contains('\\') => {
-            format!("there is no file {}; write / between folders, which every system reads", file.display())
+            message![
+                format!("there is no file {}", file.display());
+                "write / between folders, which every system reads"
+            ]
         }
-        None => format!("there is no file {}; write where the model lies, from the site file's folder", file.display()),
+        None => message![
+            format!("there is no file {}", file.display());
+            "write where the model lies, from the site file's folder"
+        ],
     }
 }
 
@@ -230,13 +239,16 @@ pub(super) fn placed(written: &Written, index: usize) -> Result<(PathBuf, Placem
     };
     let north_deg = table.north.unwrap_or(0.0);
     if !north_deg.is_finite() {
-        return Err(refuse(at("north"), format!("{north_deg} is no angle; write degrees, for example 0.0")));
+        return Err(refuse(
+            at("north"),
+            message![format!("{north_deg} is no angle"); "write degrees, for example 0.0"],
+        ));
     }
     let position = DVec3::from_array(table.position.unwrap_or_default());
     if !position.is_finite() {
         return Err(refuse(
             at("position"),
-            format!("{position} is no point; write metres, for example [0.0, 0.0, 0.0]"),
+            message![format!("{position} is no point"); "write metres, for example [0.0, 0.0, 0.0]"],
         ));
     }
     let scale = table.scale.unwrap_or(1.0);
@@ -244,7 +256,10 @@ pub(super) fn placed(written: &Written, index: usize) -> Result<(PathBuf, Placem
     if !(scale.is_finite() && scale > 0.0) {
         return Err(refuse(
             at("scale"),
-            format!("{scale} is no scale; write metres per model unit above 0, for example 0.001 for millimetres"),
+            message![
+                format!("{scale} is no scale");
+                "write metres per model unit above 0, for example 0.001 for millimetres"
+            ],
         ));
     }
     let scene = table.scene.clone();

@@ -2,8 +2,8 @@
 //!
 //! Names are compared in Unicode's normal form C, in which letters are composed as far as they can be.
 
-use super::error::nearest;
 use super::file::Names;
+use crate::choice::nearest;
 use crate::mesh::Component;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::borrow::Cow;

@@ -2,6 +2,7 @@
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Coarse, Component, Mesh};
+use crate::message::Message;
 use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -25,13 +26,13 @@ pub(super) fn of_all(mesh: &Mesh) -> Option<String> {
 }
 
 /// The notes on one of the models, each a sentence without its stop that begins with its name.
-pub(super) fn of_model(mesh: &Mesh, model: &str, components: Range<usize>, mends: &[Mend]) -> Vec<String> {
+pub(super) fn of_model(mesh: &Mesh, model: &str, components: Range<usize>, mends: &[Mend]) -> Vec<Message> {
     let components = &mesh.components[components];
     let mut notes = likeness::notes(model, mends);
     // in the wrong unit all is far
     if !mends.iter().any(|mend| matches!(mend, Mend::Scale(_))) {
-        notes.extend(far_off(mesh, model, components));
-        notes.extend(rounded(model, components));
+        let found = far_off(mesh, model, components).into_iter().chain(rounded(model, components));
+        notes.extend(found.map(Message::from));
     }
     notes
 }

@@ -9,6 +9,7 @@ use super::models::Models;
 use super::names::composed;
 use super::written::Written;
 use super::{Ground, GroundFrom, Site, metres, plan};
+use crate::message::message;
 use std::path::Path;
 
 /// Places nearer to each other than this are one, metres along the ground and in height.
@@ -76,11 +77,9 @@ impl Pair {
         match table.ground.level {
             // the command line's goes before what either says
             Some(level) if asked.ground.is_none() && !first.ground.is_at(level) => {
-                let what = format!(
-                    "{level} m is another ground than that of {}, {} m; write the same level in both",
-                    before.file, first.ground.level
-                );
-                return Err(refuse(after.key("ground", "level"), what));
+                let what =
+                    format!("{level} m is another ground than that of {}, {} m", before.file, first.ground.level);
+                return Err(refuse(after.key("ground", "level"), message![what; "write the same level in both"]));
             }
             _ => table.ground.level = Some(first.ground.level),
         }
@@ -131,8 +130,8 @@ fn same_place(before: &Written, after: &Written, asked: &Overrides) -> Result<St
     let turned = (there.longitude_deg - here.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;
     let east = turned * DEGREE_M * here.latitude_deg.to_radians().cos();
     let fault = |key: &str, what: String| {
-        let what = format!("{what} {}; both must have one place, since the sun is one", before.file);
-        Err(refuse(after.key("place", key), what))
+        let what = format!("{what} {}", before.file);
+        Err(refuse(after.key("place", key), message![what; "both must have one place, since the sun is one"]))
     };
     let apart = north.hypot(east);
     if apart > ONE_PLACE_M {

@@ -3,6 +3,7 @@
 use super::asked::{Overrides, numbers, refuse};
 use super::error::{At, SiteError};
 use super::written::Written;
+use crate::message::{Field, message};
 use crate::view::Grid;
 use glam::DVec2;
 
@@ -27,24 +28,30 @@ pub(super) fn grid(
     let (cell, at) = match (asked.cell, asked.size, written.site.plan.cell) {
         (Some(_), Some(_), _) => {
             return Err(refuse(
-                At::Option("--size"),
-                "says the cells' size once more beside --cell; leave one of the two out",
+                At::Field(Field::Size),
+                message!["says the cells' size once more beside ", Field::Cell; "leave one of the two out"],
             ));
         }
-        (Some(cell), None, _) => (cell, At::Option("--cell")),
+        (Some(cell), None, _) => (cell, At::Field(Field::Cell)),
         (None, Some(0), _) => {
             return Err(refuse(
-                At::Option("--size"),
-                "no cells at all; write how many lie along the longer side, for example --size 2048",
+                At::Field(Field::Size),
+                message![
+                    "no cells at all";
+                    "write how many lie along the longer side, for example ", (Field::Size, "2048")
+                ],
             ));
         }
-        (None, Some(size), _) => (longer / f64::from(size), At::Option("--size")),
+        (None, Some(size), _) => (longer / f64::from(size), At::Field(Field::Size)),
         (None, None, Some(cell)) => (cell, written.key("plan", "cell")),
         (None, None, None) => ((longer / f64::from(DEFAULT_SIZE)).max(LEAST_CELL_M), written.key("plan", "region")),
     };
     // A NaN is not above zero either.
     if !(cell.is_finite() && cell > 0.0) {
-        return Err(refuse(at, format!("{cell} is no side of a cell; write metres above 0, for example 0.5")));
+        return Err(refuse(
+            at,
+            message![format!("{cell} is no side of a cell"); "write metres above 0, for example 0.5"],
+        ));
     }
     let [width, height] = [east - west, north - south].map(|side: f64| (side / cell).round().max(1.0));
     if width * height > MOST_CELLS {
@@ -53,15 +60,19 @@ pub(super) fn grid(
         let least = (least * 1000.0).ceil() / 1000.0;
         return Err(refuse(
             at,
-            format!(
-                "{width} × {height} cells are more than 2³¹; take cells of at least {least} m, or a smaller region"
-            ),
+            message![
+                format!("{width} × {height} cells are more than 2³¹");
+                format!("take cells of at least {least} m, or a smaller region")
+            ],
         ));
     }
     if cell < LEAST_CELL_M {
         return Err(refuse(
             at,
-            format!("{cell} m is too small a cell; take at least {LEAST_CELL_M} m, or a larger region"),
+            message![
+                format!("{cell} m is too small a cell");
+                format!("take at least {LEAST_CELL_M} m, or a larger region")
+            ],
         ));
     }
     Ok(Grid {
@@ -82,13 +93,14 @@ fn region(
 ) -> Result<[f64; 4], SiteError> {
     const EXAMPLE: &str = "-300,-300,300,300";
     let (region, at) = match (&asked.region, written.site.plan.region) {
-        (Some(text), _) => (numbers("--region", text, EXAMPLE)?, At::Option("--region")),
+        (Some(text), _) => (numbers(Field::Region, text, EXAMPLE)?, At::Field(Field::Region)),
         (None, Some(region)) => (region, written.key("plan", "region")),
         (None, None) => return Ok(around(models_and_shadows())),
     };
     let [west, south, east, north] = region;
     let fault = |what: String| {
-        Err(refuse(at, format!("{what}; write west, south, east, north in metres, for example {EXAMPLE}")))
+        let hint = format!("write west, south, east, north in metres, for example {EXAMPLE}");
+        Err(refuse(at, message![what; hint]))
     };
     if !region.iter().all(|side| side.is_finite() && side.abs() <= 1e9) {
         return fault("a side is not a number of metres on earth".to_owned());

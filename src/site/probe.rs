@@ -12,6 +12,7 @@ use super::notes::on_probes;
 use super::study::{date_of, no_study};
 use super::written::Written;
 use crate::mesh::Mesh;
+use crate::message::{Field, message};
 use crate::sun::{DayWindow, Place, SunError, Zone, parse_duration_secs};
 use crate::view::Probe;
 use chrono::NaiveDate;
@@ -59,11 +60,11 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
         Ok(0) => Err(SunError::ZeroStep),
         step => step,
     }
-    .map_err(|error| SiteError::sun(At::Option("--step"), error))?;
+    .map_err(|error| SiteError::sun(At::Field(Field::Step), error))?;
     let level = ground::level(&written, asked)?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
-    let mut notes = models.notes(&written, &casts);
+    let mut notes = models.notes(&written, &casts, asked.words);
     let Models { mesh, bounds, .. } = models;
     let ground = Ground::of(&mesh, bounds, level);
     // a probe below it says so itself
@@ -77,15 +78,16 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
 /// The point of the command line, or else those of the file.
 fn probes(written: &Written, asked: &Overrides) -> Result<Vec<Probe>, SiteError> {
     if let Some(point) = &asked.point {
-        let point = DVec3::from_array(numbers("--point", point, "12,-3,4.5")?);
+        let point = DVec3::from_array(numbers(Field::Point, point, "12,-3,4.5")?);
         let normal = match &asked.normal {
-            Some(text) => Some(unit(numbers("--normal", text, "0,-1,0")?, || At::Option("--normal"))?),
+            Some(text) => Some(unit(numbers(Field::Normal, text, "0,-1,0")?, || At::Field(Field::Normal))?),
             None => None,
         };
         return Ok(vec![Probe { name: "point".to_owned(), point, normal }]);
     }
     if asked.normal.is_some() {
-        return Err(refuse(At::Option("--normal"), "belongs to --point; add that, or leave it out"));
+        let message = message!["belongs to ", Field::Point; "add that, or leave it out"];
+        return Err(refuse(At::Field(Field::Normal), message));
     }
     if written.site.probe.is_empty() {
         return Err(SiteError::NoProbe { file: written.file.clone() });
@@ -98,7 +100,7 @@ fn probes(written: &Written, asked: &Overrides) -> Result<Vec<Probe>, SiteError>
         if probes.iter().any(|other| composed(&other.name) == composed(&name)) {
             return Err(refuse(
                 at("name"),
-                format!("\"{name}\" is the name of another probe, too; name each otherwise"),
+                message![format!("\"{name}\" is the name of another probe, too"); "name each otherwise"],
             ));
         }
         let Some(point) = table.point.map(DVec3::from_array) else {
@@ -106,8 +108,8 @@ fn probes(written: &Written, asked: &Overrides) -> Result<Vec<Probe>, SiteError>
             return Err(written.missing(format!("point in {probe}"), super::keys::example("probe", "point")));
         };
         if !point.is_finite() {
-            let what = format!("{point} is no point; write metres, for example [12.0, -3.0, 4.5]");
-            return Err(refuse(at("point"), what));
+            let what = format!("{point} is no point");
+            return Err(refuse(at("point"), message![what; "write metres, for example [12.0, -3.0, 4.5]"]));
         }
         let normal = table.normal.map(|normal| unit(normal, || at("normal"))).transpose()?;
         probes.push(Probe { name, point, normal });
@@ -123,15 +125,15 @@ fn unit(normal: [f64; 3], at: impl Fn() -> At) -> Result<DVec3, SiteError> {
     if unit.is_finite() {
         return Ok(unit);
     }
-    Err(refuse(at(), format!("{normal} is no direction; write one of any length but 0, for example [0, -1, 0]")))
+    let what = format!("{normal} is no direction");
+    Err(refuse(at(), message![what; "write one of any length but 0, for example [0, -1, 0]"]))
 }
 
 /// The days asked, each with the part of it that is.
 fn days(place: &Place, written: &Written, asked: &Overrides) -> Result<Vec<DayWindow>, SiteError> {
-    let reading = |option: &'static str, text: &Option<String>| {
-        text.as_ref().map(|text| of_each_day(text, At::Option(option))).transpose()
-    };
-    let (from, to) = (reading("--from", &asked.from)?, reading("--to", &asked.to)?);
+    let reading =
+        |field, text: &Option<String>| text.as_ref().map(|text| of_each_day(text, At::Field(field))).transpose();
+    let (from, to) = (reading(Field::From, &asked.from)?, reading(Field::To, &asked.to)?);
     let (dates, dates_at) = dates(written, asked)?;
     dates
         .into_par_iter()
@@ -140,8 +142,8 @@ fn days(place: &Place, written: &Written, asked: &Overrides) -> Result<Vec<DayWi
                 let fails = |from| DayWindow::on(place, date, from, None).is_err();
                 let at = match to {
                     _ if fails(None) => dates_at.clone(),
-                    Some(_) if !fails(from.as_ref()) => At::Option("--to"),
-                    _ => At::Option("--from"),
+                    Some(_) if !fails(from.as_ref()) => At::Field(Field::To),
+                    _ => At::Field(Field::From),
                 };
                 SiteError::sun(at, error)
             })
@@ -155,7 +157,7 @@ fn dates(written: &Written, asked: &Overrides) -> Result<(Vec<NaiveDate>, At), S
         return Ok(dates);
     }
     let study = &written.site.study;
-    let at = || At::Option("--date");
+    let at = || At::Field(Field::Date);
     if let Some(date) = date_of(asked.date.clone().map(|text| (text, at())))? {
         return Ok((vec![date], at()));
     }

@@ -4,6 +4,7 @@ use super::asked::{Overrides, refuse};
 use super::dates::{of_each_day, own_date, several};
 use super::error::{At, SiteError};
 use super::written::Written;
+use crate::message::{Field, message};
 use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_date, parse_duration_secs};
 use chrono::NaiveDate;
 
@@ -26,35 +27,41 @@ impl Said<'_> {
 /// The instants asked: `--at` alone, or the study's window with the command line before the file.
 pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
+    if let Some(time) = asked.instant {
+        let time = time.with_timezone(&place.time_zone);
+        let track = SunTrack::of_instant(place, time, refraction);
+        return track.map_err(|error| SiteError::sun(written.key("study", ""), error));
+    }
     let study = &written.site.study;
     let file = |key: &str, text: Option<&'_ str>| text.map(|text| (text.to_owned(), written.key("study", key)));
-    let option = |name: &'static str, text: &Option<String>| text.clone().map(|text| (text, At::Option(name)));
-    let date_asked = option("--date", &asked.date);
+    let said = |field, text: &Option<String>| text.clone().map(|text| (text, At::Field(field)));
+    let date_asked = said(Field::Date, &asked.date);
     let date_written = file("date", study.date.as_ref().map(|date| date.0.as_str()));
 
     if let Some(text) = &asked.at {
         let given = [
-            ("--from", &asked.from),
-            ("--to", &asked.to),
-            ("--step", &asked.step),
-            ("--from-date", &asked.from_date),
-            ("--to-date", &asked.to_date),
+            (Field::From, &asked.from),
+            (Field::To, &asked.to),
+            (Field::Step, &asked.step),
+            (Field::FromDate, &asked.from_date),
+            (Field::ToDate, &asked.to_date),
         ];
-        for (name, given) in given {
+        for (field, given) in given {
             if given.is_some() {
-                return Err(refuse(At::Option(name), "says nothing beside --at; leave one of the two out"));
+                let message = message!["says nothing beside ", Field::At; "leave one of the two out"];
+                return Err(refuse(At::Field(field), message));
             }
         }
-        let said = Said { text, at: At::Option("--at") };
+        let said = Said { text, at: At::Field(Field::At) };
         let reading = said.reading()?;
         // A reading with its own date does not ask the site file for one.
         let date = date_asked.or(date_written.filter(|_| reading.date.is_none()));
         return SunTrack::at(place, &reading, date_of(date)?, refraction).map_err(|error| said.fault(error));
     }
 
-    let from = option("--from", &asked.from).or(file("from", study.from.as_ref().map(|text| text.0.as_str())));
-    let to = option("--to", &asked.to).or(file("to", study.to.as_ref().map(|text| text.0.as_str())));
-    let step = option("--step", &asked.step).or(file("step", study.step.as_deref()));
+    let from = said(Field::From, &asked.from).or(file("from", study.from.as_ref().map(|text| text.0.as_str())));
+    let to = said(Field::To, &asked.to).or(file("to", study.to.as_ref().map(|text| text.0.as_str())));
+    let step = said(Field::Step, &asked.step).or(file("step", study.step.as_deref()));
     if let Some((dates, dates_at)) = several(written, asked)? {
         return each_day(place, written, (&dates, dates_at), [from, to, step], refraction);
     }
@@ -115,14 +122,10 @@ pub(super) fn date_of(said: Option<(String, At)>) -> Result<Option<NaiveDate>, S
     said.map(|(text, at)| parse_date(&text).map_err(|error| SiteError::sun(at, error))).transpose()
 }
 
-/// Which of date, from, to and step nobody said, and which options would say them.
+/// Which of date, from, to and step nobody said.
 pub(super) fn no_study(written: &Written, said: [bool; 4]) -> SiteError {
-    const OPTIONS: [(&str, &str); 4] =
-        [("date", "--date 2026-03-21"), ("from", "--from 9:00"), ("to", "--to 17:00"), ("step", "--step 1h")];
-    let unsaid = || OPTIONS.iter().zip(said).filter(|(_, said)| !said).map(|(option, _)| option);
-    SiteError::NoStudy {
-        file: written.file.clone(),
-        missing: unsaid().map(|option| option.0).collect::<Vec<_>>().join(", "),
-        options: unsaid().map(|option| option.1).collect::<Vec<_>>().join(" "),
-    }
+    const EXAMPLES: [(Field, &str); 4] =
+        [(Field::Date, "2026-03-21"), (Field::From, "9:00"), (Field::To, "17:00"), (Field::Step, "1h")];
+    let unsaid = EXAMPLES.into_iter().zip(said).filter(|(_, said)| !said);
+    SiteError::NoStudy { file: written.file.clone(), missing: unsaid.map(|(missing, _)| missing).collect() }
 }

@@ -2,8 +2,8 @@
 
 use super::extent::Bounds;
 use super::ground::ON_GROUND_M;
-use crate::mesh::Mesh;
 use crate::mesh::scan::{by_rows, spans, wholes};
+use crate::mesh::{Component, Mesh};
 use glam::{DVec2, DVec3, Vec3Swizzles as _};
 
 /// Points along the longer side of the models' plan at which is looked.
@@ -27,11 +27,11 @@ pub(super) struct Buried {
     pub(super) of_plan: f64,
     /// Which part of what is seen of that component.
     pub(super) of_component: f64,
-    /// Whether that component is terrain: a sheet, and at least a quarter of what is seen.
+    /// Whether its node is terrain: a sheet, and at least a quarter of what is seen.
     pub(super) is_terrain: bool,
 }
 
-/// What a component comes to, in points.
+/// What a node comes to, in points: its components, one for each of its materials, together.
 #[derive(Clone, Copy, Default)]
 struct Count {
     faces: usize,
@@ -49,8 +49,10 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> 
     // the highest face at each point, and the component that covered it last
     let mut highest = vec![(f64::NEG_INFINITY, 0); columns * rows];
     let mut last = vec![usize::MAX; columns * rows];
-    let mut counts = vec![Count::default(); mesh.components.len()];
-    for (index, component) in mesh.components.iter().enumerate() {
+    let node_of = nodes(&mesh.components);
+    let mut of_nodes = vec![Count::default(); node_of.last().map_or(0, |last| last + 1)];
+    let (mut buried, mut seen) = (vec![0; mesh.components.len()], vec![0; mesh.components.len()]);
+    for (index, (component, &node)) in mesh.components.iter().zip(&node_of).enumerate() {
         for face in component.faces.clone() {
             let corners = mesh.corners(face as usize).map(|corner| mesh.origin + corner.as_dvec3());
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -65,8 +67,8 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> 
                 for column in wholes([from, to], 0..columns) {
                     let point = row * columns + column;
                     let z = height(low + (DVec2::new(column as f64, row as f64) + FIRST) * apart);
-                    counts[index].faces += 1;
-                    counts[index].covered += usize::from(std::mem::replace(&mut last[point], index) != index);
+                    of_nodes[node].faces += 1;
+                    of_nodes[node].covered += usize::from(std::mem::replace(&mut last[point], node) != node);
                     if z > highest[point].0 {
                         highest[point] = (z, index);
                     }
@@ -75,14 +77,18 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> 
         }
     }
     for (z, component) in highest.into_iter().filter(|(z, _)| z.is_finite()) {
-        counts[component].seen += 1;
-        counts[component].buried += usize::from(z < level - ON_GROUND_M);
+        let is_buried = usize::from(z < level - ON_GROUND_M);
+        buried[component] += is_buried;
+        seen[component] += 1;
+        of_nodes[node_of[component]].seen += 1;
+        of_nodes[node_of[component]].buried += is_buried;
     }
-    let of_all = |of: fn(&Count) -> usize| counts.iter().map(of).sum::<usize>();
-    let (seen, hidden) = (of_all(|count| count.seen).max(1), of_all(|count| count.buried));
-    let (component, most) = counts.iter().enumerate().max_by_key(|(_, count)| count.buried)?;
+    let of_all = |of: fn(&Count) -> usize| of_nodes.iter().map(of).sum::<usize>();
+    let (all, hidden) = (of_all(|count| count.seen).max(1), of_all(|count| count.buried));
+    let (node, most) = of_nodes.iter().enumerate().max_by_key(|(_, count)| count.buried)?;
+    let component = (0..buried.len()).filter(|&at| node_of[at] == node).max_by_key(|&at| buried[at])?;
     let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
-    let of_plan = share(hidden, seen);
+    let of_plan = share(hidden, all);
     let layers = most.faces as f64 / most.covered.max(1) as f64;
     // a block of earth has an underside, as a cellar has, but that lies below the plane as a whole
     let is_in_part = share(most.buried, most.seen) <= 1.0 - OVERLAP_SHARE;
@@ -90,7 +96,19 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> 
     (of_plan >= LEAST_SHARE).then(|| Buried {
         component,
         of_plan,
-        of_component: share(most.buried, most.seen),
-        is_terrain: share(most.seen, seen) >= TERRAIN_SHARE && is_sheet,
+        of_component: share(buried[component], seen[component]),
+        is_terrain: share(most.seen, all) >= TERRAIN_SHARE && is_sheet,
     })
+}
+
+/// Per component the number of its node: components of one node that has several materials follow each other.
+fn nodes(components: &[Component]) -> Vec<usize> {
+    let node = |component: &Component| component.aliases.first().filter(|node| **node != component.name).cloned();
+    let mut number = 0;
+    let after_the_first = components.windows(2).map(|pair| {
+        let is_same = node(&pair[0]).is_some_and(|first| node(&pair[1]) == Some(first));
+        number += usize::from(!is_same);
+        number
+    });
+    components.first().map(|_| 0).into_iter().chain(after_the_first).collect()
 }

@@ -6,6 +6,7 @@ use super::file::{ModelTable, PlaceTable, SiteFile};
 use super::keys;
 use super::names::on_disk;
 use super::typed::{self, TypedError};
+use crate::message::{Field, Worded, message};
 use crate::sun::Place;
 use std::path::{Path, PathBuf};
 
@@ -54,13 +55,13 @@ impl Written {
         if let Some(place) = &asked.place {
             if written.site.place.is_some() {
                 return Err(refuse(
-                    At::Option("--place"),
-                    format!("{} has its own [place]; leave one of the two out", written.file),
+                    At::Field(Field::Place),
+                    message![format!("{} has its own [place]", written.file); "leave one of the two out"],
                 ));
             }
             let read = typed::place(place).map_err(|error| match error {
-                TypedError::Sun(error) => SiteError::sun(At::Option("--place"), error),
-                error => refuse(At::Option("--place"), error.to_string()),
+                TypedError::Sun(error) => SiteError::sun(At::Field(Field::Place), error),
+                error => refuse(At::Field(Field::Place), error.message()),
             });
             let [latitude, longitude] = read?;
             written.site.place =
@@ -189,7 +190,7 @@ impl Written {
         )
         .map_err(|error| {
             let at = match asked.place {
-                Some(_) => At::Option("--place"),
+                Some(_) => At::Field(Field::Place),
                 None => self.key("place", ""),
             };
             SiteError::sun(at, error)

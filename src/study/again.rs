@@ -1,36 +1,57 @@
 //! Work that is done again where the graphics device fails that it is done on.
 
 use super::{Event, OnEvent, StudyError, tell};
-use crate::site::{Engine, Finder, Method, Site};
+use crate::choice::{Engine, Finder};
+use crate::gpu::{Gpu, GpuError};
+use crate::shadow::ShadowError;
+use crate::site::Site;
+use std::sync::Arc;
 
-/// Does what is asked of a site. Where the device fails on the way it is done once more on a new one, and where that fails
-/// too on the processor: if that `can` do it, and nobody asked for what draws on an adapter alone. Notes say so.
+/// Work on a site, on this adapter where there is one, else on whatever adapter it opens.
+pub type Attempt<'a, T> = dyn FnMut(&Site, Option<&Arc<Gpu>>, &mut OnEvent<'_>) -> Result<T, StudyError> + 'a;
+
+/// Does what is asked of a site. Where the device fails on the way it is done once more on a new one. Where that fails too
+/// the processor takes over, if it `can` do what is asked, and nobody asked for what draws on an adapter alone; else an
+/// adapter that is a program on the processor, so that the technique stays the one that was asked for. Notes say so.
 ///
 /// # Errors
-/// What the work says; where the device fails for good, what that says.
+/// What the work says; [`StudyError::NoDevice`] where every device fails.
 pub fn persist<T>(
     site: &Site,
     can: bool,
     on_event: &mut OnEvent<'_>,
-    work: &mut dyn FnMut(&Site, &mut OnEvent<'_>) -> Result<T, StudyError>,
+    attempt: &mut Attempt<'_, T>,
 ) -> Result<T, StudyError> {
-    let mut done = work(site, on_event);
-    if begins_anew(&done, "on a new device", on_event)? {
-        done = work(site, on_event);
-        let is_free = site.engine == Engine::Auto
-            && site.finder == Finder::Auto
-            && matches!(site.method, Method::Auto | Method::SoftTexture);
-        if can && is_free && begins_anew(&done, "on the processor", on_event)? {
-            done = work(&Site { engine: Engine::Cpu, ..site.clone() }, on_event);
-        }
+    let first = attempt(site, None, on_event);
+    let Some(lost) = first.as_ref().err().and_then(StudyError::lost_device) else { return first };
+    begin_again(&lost.why(), "on a new device", on_event)?;
+    let second = attempt(site, None, on_event);
+    let Some(why) = failed_device(&second) else { return second };
+    let is_free = site.engine == Engine::Auto && site.finder == Finder::Auto && !site.method.row().on_cpu.is_empty();
+    if can && is_free {
+        begin_again(&why, "on the processor", on_event)?;
+        return attempt(&Site { engine: Engine::Cpu, ..site.clone() }, None, on_event);
     }
-    done
+    let Ok(software) = Gpu::open_software() else { return Err(StudyError::NoDevice(why)) };
+    begin_again(&why, &format!("on the processor, by '{}'", software.name()), on_event)?;
+    let last = attempt(site, Some(&Arc::new(software)), on_event);
+    failed_device(&last).map_or(last, |why| Err(StudyError::NoDevice(why)))
 }
 
-/// Whether a device failed; that is told.
-fn begins_anew<T>(done: &Result<T, StudyError>, on: &str, on_event: &mut OnEvent<'_>) -> Result<bool, StudyError> {
-    let Some(lost) = done.as_ref().err().and_then(StudyError::lost_device) else { return Ok(false) };
-    tell(on_event, Event::Note(format!("{}: all is done again {on}", lost.why())))?;
-    tell(on_event, Event::Anew)?;
-    Ok(true)
+/// Says that a device failed, and on what the work is done again.
+fn begin_again(why: &str, on: &str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    tell(on_event, Event::Note(format!("{why}: the work is done again {on}")))?;
+    tell(on_event, Event::Anew)
+}
+
+/// Why no device did it, where that is what went wrong: it was lost, or none was left after a loss.
+fn failed_device<T>(done: &Result<T, StudyError>) -> Option<String> {
+    match done.as_ref().err()? {
+        StudyError::Gpu(error) | StudyError::Shadow(ShadowError::Gpu(error)) => match error {
+            GpuError::Failed { .. } => None,
+            GpuError::Lost { .. } | GpuError::Unusable { .. } | GpuError::NoAdapter => Some(error.why()),
+        },
+        StudyError::NoVolumes(why) | StudyError::NoVerification(why) => Some(why.clone()),
+        _ => None,
+    }
 }

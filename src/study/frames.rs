@@ -3,11 +3,13 @@
 use super::again::persist;
 use super::machine::{choose, not_surfaces};
 use super::{Event, Look, OnEvent, StudyError, judged, night, note_models, tell, tiles};
+use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::profile::Drawn;
 use crate::site::{Receivers, Site};
 use crate::sun::SunTrack;
 use crate::view::{Mask, Surface, View};
+use std::sync::Arc;
 
 /// One of them.
 #[derive(Clone, Copy, Debug)]
@@ -40,9 +42,9 @@ pub fn frames<E: From<StudyError>>(
     note_models(&site.notes, on_event)?;
     // each frame says itself what drew it: those that were given out stay
     let (mut given, mut fault) = (0, None);
-    let drawn = persist(site, true, on_event, &mut |site, on_event| {
+    let drawn = persist(site, true, on_event, &mut |site, gpu, on_event| {
         let first = given;
-        from(first, site, view, on_event, &mut |frame| {
+        from(first, gpu, site, view, on_event, &mut |frame| {
             given += 1;
             on_frame(frame).map_err(|error| {
                 fault = Some(error);
@@ -59,12 +61,13 @@ pub fn frames<E: From<StudyError>>(
 /// The frames from one on, by one machine.
 fn from(
     first: usize,
+    gpu: Option<&Arc<Gpu>>,
     site: &Site,
     view: View,
     on_event: &mut OnEvent<'_>,
     on_frame: &mut dyn FnMut(&Frame<'_>) -> Result<(), StudyError>,
 ) -> Result<Drawn, StudyError> {
-    let machine = choose(site, &view, on_event)?;
+    let machine = choose(gpu, site, &view, on_event)?;
     if let View::Plan(grid) = view {
         tiles::at_once(grid, site.receivers, &machine)?;
     }

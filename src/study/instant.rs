@@ -4,10 +4,13 @@ use super::again::persist;
 use super::machine::{choose, counting, not_surfaces, stencil_alone};
 use super::{Event, InstantOutcome, InstantWants, Look, NOTHING_COUNTED, OnEvent, Stopwatch, StudyError};
 use super::{judged, night, note_models, tell, tiles};
+use crate::gpu::Gpu;
+use crate::message::{Field, aside, message};
 use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
 use crate::sun::Instant;
 use crate::view::{Mask, Overlay, Tile, View};
+use std::sync::Arc;
 
 /// The first instant alone; at night nothing sees the sun, and a note says so.
 ///
@@ -25,11 +28,12 @@ pub fn instant(
     note_models(&site.notes, on_event)?;
     // volumes are drawn on an adapter alone, and counted there
     let can = !wants.volumes && !wants.silhouette && wants.counted.is_none();
-    persist(site, can, on_event, &mut |site, on_event| once(site, view, wants, on_event))
+    persist(site, can, on_event, &mut |site, gpu, on_event| once(gpu, site, view, wants, on_event))
 }
 
 /// As [`instant()`], on one machine.
 fn once(
+    gpu: Option<&Arc<Gpu>>,
     site: &Site,
     view: View,
     wants: &InstantWants,
@@ -39,9 +43,9 @@ fn once(
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
     let shows_volumes = wants.volumes || wants.silhouette;
     let machine = match (shows_volumes, wants.counted) {
-        (true, _) => stencil_alone(site, &view)?,
-        (false, Some(option)) => counting(site, &view, option)?,
-        (false, None) => choose(site, &view, on_event)?,
+        (true, _) => stencil_alone(gpu, site, &view)?,
+        (false, Some(counted)) => counting(gpu, site, &view, counted.field())?,
+        (false, None) => choose(gpu, site, &view, on_event)?,
     };
     let receivers = judged(site, &view);
     let look = Look { site, machine: &machine, view, receivers };
@@ -50,10 +54,12 @@ fn once(
         View::Camera(_) | View::Elevation(_) => Vec::new(),
     };
     let first = tiles.first().filter(|tile| !tile.is_whole());
-    if let (Some(_), Some(option)) = (first, wants.counted) {
-        let what = "the plan is done in tiles, and what counting took is told of the whole; take larger cells (--cell), \
-                    or leave it out";
-        return Err(StudyError::Conflict { option, what });
+    if let (Some(_), Some(counted)) = (first, wants.counted) {
+        let message = message![
+            "the plan is done in tiles, and what counting took is told of the whole";
+            "take larger cells", aside(Field::Cell), ", or leave it out"
+        ];
+        return Err(StudyError::Conflict { field: counted.field(), message });
     }
     tiles::note(&tiles, on_event)?;
     let mut technique = first.map_or_else(|| look.technique(), |tile| look.technique_of(*tile))?;

@@ -2,15 +2,16 @@
 //!
 //! The same techniques draw as in [`super::instant`]; what is kept between two pictures is the only difference.
 
-use super::machine::{Machine, choose_on};
+use super::machine::{Machine, choose};
 use super::{StudyError, night};
+use crate::choice::{Method, Receivers, Settings};
 use crate::gpu::Gpu;
+use crate::picture::overlay::VolumePicture;
+use crate::picture::{Picture, Style};
 use crate::profile::Drawn;
-use crate::shadow::overlay::VolumePicture;
-use crate::shadow::picture::{Picture, Style};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{DrawnMask, Scene, Technique};
-use crate::site::{Method, Receivers, Settings, Site};
+use crate::site::Site;
 use crate::view::{Camera, Counted, Mask, View};
 use glam::DVec3;
 use std::ops::ControlFlow;
@@ -52,6 +53,8 @@ pub struct Live {
     made: Option<(View, Way, Box<dyn Technique>)>,
     /// Rays turn to another view at once; they go to so many points of the sun.
     rays: Option<(RayCast, Option<u32>)>,
+    /// Volumes and silhouette, before the camera that they were shown to last.
+    volumes: Option<VolumePicture>,
     night: Mask,
 }
 
@@ -74,6 +77,7 @@ impl Live {
             looks_at: (view, false),
             made: None,
             rays: None,
+            volumes: None,
             night: night(&view),
         })
     }
@@ -88,7 +92,7 @@ impl Live {
         }
         if self.site.casts != site.casts {
             self.scene.casters = site.mesh.of_components(&site.casts);
-            (self.made, self.rays) = (None, None);
+            (self.made, self.rays, self.volumes) = (None, None, None);
         }
         self.site = without_models(site);
         true
@@ -111,7 +115,7 @@ impl Live {
     /// night.
     ///
     /// # Errors
-    /// [`StudyError::Conflict`] where the way does not go with the view; else what drawing says.
+    /// [`StudyError::Misfit`] where the way does not go with the view; else what drawing says.
     pub fn draw(
         &mut self,
         way: &Way,
@@ -122,9 +126,10 @@ impl Live {
         let machine = self.machine(way)?;
         let drawn = machine.drawn();
         let is_night = to_sun.z <= 0.0;
-        if let Machine::RayCast { sun_samples } = &machine {
-            let rays = self.rays.take().filter(|(_, samples)| samples == sun_samples);
-            let new = || (RayCast::new(self.scene.clone(), far_view(&self.scene), *sun_samples), *sun_samples);
+        if machine.method() == Method::RayCast {
+            let sun_samples = machine.settings().sun_samples;
+            let rays = self.rays.take().filter(|(_, samples)| *samples == sun_samples);
+            let new = || (RayCast::new(self.scene.clone(), far_view(&self.scene), sun_samples), sun_samples);
             let (rays, _) = self.rays.insert(rays.unwrap_or_else(new));
             if rays.view() != self.view {
                 rays.look_at(self.view);
@@ -156,7 +161,7 @@ impl Live {
     /// As [`Live::draw`].
     pub fn counted(&mut self, way: &Way, to_sun: DVec3) -> Result<Option<Counted>, StudyError> {
         let machine = self.machine(way)?;
-        if to_sun.z <= 0.0 || !matches!(machine, Machine::OnGpu(..)) {
+        if to_sun.z <= 0.0 || machine.gpu().is_none() {
             return Ok(None);
         }
         let technique = made(&mut self.made, machine, (self.view, *way), &self.scene)?;
@@ -176,7 +181,14 @@ impl Live {
         let most = self.gpu.limits.max_texture_dimension_2d;
         let times = if camera.width.max(camera.height) * 2 <= most { 2 } else { 1 };
         let fine = Camera { width: camera.width * times, height: camera.height * times, ..camera };
-        let seen = VolumePicture::new(Arc::clone(&self.gpu), &self.scene, fine, to_sun)?;
+        let seen = match self.volumes.take() {
+            Some(mut kept) => {
+                kept.turn_to(fine, to_sun)?;
+                kept
+            }
+            None => VolumePicture::new(Arc::clone(&self.gpu), &self.scene, fine, to_sun)?,
+        };
+        let seen = self.volumes.insert(seen);
         let layers = volumes.then(|| seen.layers()).transpose()?;
         let ink = silhouette.then(|| seen.silhouette()).transpose()?;
         self.picture.lay_overlay((fine.width, fine.height), layers.as_deref(), ink.as_deref());
@@ -186,7 +198,7 @@ impl Live {
     /// Who draws, as the command chooses.
     fn machine(&mut self, way: &Way) -> Result<Machine, StudyError> {
         (self.site.method, self.site.settings) = (way.method, way.settings);
-        choose_on(Some(&self.gpu), &self.site, &self.view, &mut |_| ControlFlow::Continue(()))
+        choose(Some(&self.gpu), &self.site, &self.view, &mut |_| ControlFlow::Continue(()))
     }
 }
 

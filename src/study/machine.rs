@@ -1,143 +1,91 @@
 //! Who draws: technique, engine and finder as asked, or the fastest of them.
 
-use super::{Event, OnEvent, StudyError, Wants, tell};
+use super::{Event, OnEvent, StudyError, Wants, judged, subject, tell};
+use crate::choice::{Engine, Finder, Method, MethodRow, Misfit, Receivers, Settings, Subject};
 use crate::gpu::{Gpu, GpuError};
-use crate::profile::{Drawn, DrawnSettings};
+use crate::message::{Field, message};
+use crate::profile::Drawn;
 use crate::shadow::hybrid::Hybrid;
-use crate::shadow::map;
 use crate::shadow::projected::{Projected, ProjectedOnGpu};
 use crate::shadow::ray_cast::RayCast;
-use crate::shadow::shadow_map::{Filter, ShadowMap};
+use crate::shadow::shadow_map::ShadowMap;
 use crate::shadow::smoothie::Smoothie;
-use crate::shadow::soft_picture::{self, SoftPicture};
+use crate::shadow::soft_picture::SoftPicture;
 use crate::shadow::stencil::Stencil;
-use crate::shadow::{Scene, ShadowError, Silhouettes, Technique};
+use crate::shadow::{Scene, Silhouettes, Technique};
 use crate::silhouette::Kind;
-use crate::site::{Engine, Finder, Method, Pcf, Receivers, Settings, Site};
-use crate::view::{Camera, Grid, Tile, View};
+use crate::site::Site;
+use crate::view::{Tile, View};
 use std::sync::Arc;
 
 /// A technique with all that it needs to be made for a view.
 #[derive(Clone)]
-pub(super) enum Machine {
-    /// Rays on the processor, to so many points of the sun's disc, or its centre.
-    RayCast { sun_samples: Option<u32> },
-    /// Faces projected onto what a plan sees, on the processor.
-    Projected(Grid),
-    /// Textures of what a camera sees, with so many points of the sun's disc, on the processor.
-    SoftPicture { camera: Camera, sun_samples: u32 },
-    /// Anything else.
-    OnGpu(Arc<Gpu>, Drawing),
-}
-
-/// A technique of the graphics adapter.
-#[derive(Clone, Copy)]
-pub(super) enum Drawing {
-    Stencil(Silhouettes),
-    /// On the ground of a plan alone.
-    Projected(Grid),
-    ShadowMap {
-        size: u32,
-        filter: Filter,
-    },
-    Hybrid {
-        silhouettes: Silhouettes,
-        map_size: u32,
-    },
-    Smoothie {
-        finder: Kind,
-        map_size: u32,
-        width_m: Option<f64>,
-    },
-}
-
-impl Drawing {
-    /// A technique as a site asks for it; [`Method::Auto`] is the stencil.
-    pub(super) fn of(method: Method, site: &Site, gpu: &Gpu) -> Drawing {
-        let settings = &site.settings;
-        let map_size = settings.map_size.unwrap_or(map::DEFAULT_SIZE);
-        match method {
-            Method::ShadowMap => Drawing::ShadowMap {
-                size: map_size,
-                filter: match settings.pcf {
-                    Some(Pcf::None) => Filter::None,
-                    Some(Pcf::TwoByTwo) => Filter::TwoByTwo,
-                    Some(Pcf::FastTwoByTwo) | None => Filter::FastTwoByTwo,
-                    Some(Pcf::FastFourByFour) => Filter::FastFourByFour,
-                },
-            },
-            Method::Hybrid => Drawing::Hybrid { silhouettes: silhouettes(site, gpu), map_size },
-            Method::Smoothie => Drawing::Smoothie { finder: kind(site), map_size, width_m: settings.smoothie_width_m },
-            Method::Stencil | Method::Auto | Method::RayCast | Method::Projected | Method::SoftTexture => {
-                Drawing::Stencil(silhouettes(site, gpu))
-            }
-        }
-    }
+pub(super) struct Machine {
+    /// Never [`Method::Auto`].
+    method: Method,
+    /// The adapter that draws; the processor does where there is none.
+    gpu: Option<Arc<Gpu>>,
+    /// Who finds silhouettes, where the technique has any.
+    silhouettes: Option<Silhouettes>,
+    settings: Settings,
 }
 
 impl Machine {
-    /// On the adapter that is open already, else on one that is opened.
-    fn open(site: &Site, gpu: Option<&Arc<Gpu>>) -> Result<Machine, GpuError> {
-        let gpu = opened(gpu)?;
-        let drawing = Drawing::of(site.method, site, &gpu);
-        Ok(Machine::OnGpu(gpu, drawing))
+    /// A technique as a site sets it, on the processor.
+    pub(super) fn on_processor(method: Method, site: &Site) -> Machine {
+        Machine { method, gpu: None, silhouettes: None, settings: method.row().set(&site.settings) }
+    }
+
+    /// A technique as a site sets it, on an adapter.
+    pub(super) fn on(gpu: Arc<Gpu>, method: Method, site: &Site) -> Machine {
+        let row = method.row();
+        let silhouettes = (!row.finders.is_empty()).then(|| silhouettes(row, site, &gpu));
+        Machine { method, silhouettes, settings: row.set(&site.settings), gpu: Some(gpu) }
+    }
+
+    /// Rays to so many points of the sun's disc, or to its centre.
+    pub(super) fn rays(sun_samples: Option<u32>) -> Machine {
+        let settings = Settings { sun_samples, ..Settings::NONE };
+        Machine { method: Method::RayCast, gpu: None, silhouettes: None, settings }
+    }
+
+    pub(super) fn method(&self) -> Method {
+        self.method
+    }
+
+    pub(super) fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     pub(super) fn gpu(&self) -> Option<Arc<Gpu>> {
-        match self {
-            Machine::RayCast { .. } | Machine::Projected(_) | Machine::SoftPicture { .. } => None,
-            Machine::OnGpu(gpu, _) => Some(Arc::clone(gpu)),
-        }
+        self.gpu.clone()
     }
 
     pub(super) fn drawn(&self) -> Drawn {
-        let found = |silhouettes: &Silhouettes| match silhouettes {
-            Silhouettes::OnProcessor(Kind::BruteForce) => Finder::Brute.word(),
-            Silhouettes::OnProcessor(Kind::Hextree { .. } | Kind::Hierarchy) => Finder::Hextree.word(),
-            Silhouettes::OnGpu | Silhouettes::InVertexShader => Finder::Gpu.word(),
-        };
-        let (method, silhouette) = match self {
-            Machine::RayCast { .. } => (Method::RayCast, None),
-            Machine::Projected(_) => (Method::Projected, None),
-            Machine::SoftPicture { .. } => (Method::SoftTexture, None),
-            Machine::OnGpu(_, Drawing::Stencil(silhouettes)) => (Method::Stencil, Some(found(silhouettes))),
-            Machine::OnGpu(_, Drawing::Projected(_)) => (Method::Projected, None),
-            Machine::OnGpu(_, Drawing::ShadowMap { .. }) => (Method::ShadowMap, None),
-            Machine::OnGpu(_, Drawing::Hybrid { silhouettes, .. }) => (Method::Hybrid, Some(found(silhouettes))),
-            Machine::OnGpu(_, Drawing::Smoothie { finder, .. }) => (Method::Smoothie, Some(found(&(*finder).into()))),
-        };
-        let mut settings = DrawnSettings::default();
-        match *self {
-            Machine::RayCast { sun_samples } => settings.sun_samples = sun_samples,
-            Machine::SoftPicture { sun_samples, .. } => settings.sun_samples = Some(sun_samples),
-            Machine::Projected(_) | Machine::OnGpu(_, Drawing::Stencil(_) | Drawing::Projected(_)) => {}
-            Machine::OnGpu(_, Drawing::ShadowMap { size, filter }) => {
-                settings.map_size = Some(size);
-                settings.pcf = Some(pcf(filter).word());
-            }
-            Machine::OnGpu(_, Drawing::Hybrid { map_size, .. }) => settings.map_size = Some(map_size),
-            Machine::OnGpu(_, Drawing::Smoothie { map_size, width_m, .. }) => {
-                settings.map_size = Some(map_size);
-                settings.smoothie_width = width_m;
-            }
+        let finder = self.silhouettes.map(|silhouettes| match silhouettes {
+            Silhouettes::OnProcessor(Kind::BruteForce) => Finder::Brute,
+            Silhouettes::OnProcessor(Kind::Hextree { .. } | Kind::Hierarchy) => Finder::Hextree,
+            Silhouettes::OnGpu | Silhouettes::InVertexShader => Finder::Gpu,
+        });
+        Drawn {
+            technique: self.method,
+            finder,
+            engine: if self.gpu.is_some() { Engine::Gpu } else { Engine::Cpu },
+            adapter: self.gpu.as_ref().map(|gpu| gpu.name().to_owned()),
+            settings: self.settings,
         }
-        let (engine, adapter) = match self {
-            Machine::RayCast { .. } | Machine::Projected(_) | Machine::SoftPicture { .. } => (Engine::Cpu, None),
-            Machine::OnGpu(gpu, _) => (Engine::Gpu, Some(gpu.name().to_owned())),
-        };
-        Drawn { technique: method.word(), silhouette, engine: engine.word(), adapter, settings }
     }
 
     /// What a cell of the plan takes at the most, bytes. Measured (docs/benchmarks/growth.md), and rounded up.
     pub(super) fn cell_bytes(&self, receivers: Receivers, wants: &Wants) -> u64 {
-        let drawing = match (self, receivers) {
+        let drawing = match (self.method, &self.gpu, receivers) {
             // sums, and their copy while they are kept
-            (Machine::Projected(_), Receivers::Ground) => 14,
+            (Method::Projected, None, Receivers::Ground) => 14,
             // what is seen, and the points that are judged, three times over while they are sorted
-            (Machine::Projected(_), _) => 160,
-            (Machine::RayCast { .. } | Machine::SoftPicture { .. }, _) => 36,
+            (Method::Projected, None, _) => 160,
+            (_, None, _) => 36,
             // textures of what is seen, of the depth that is judged, of mask and sums; and what is read back
-            (Machine::OnGpu(..), _) => 64,
+            (_, Some(_), _) => 64,
         };
         // bits twice; fragments as they are added up, and as they are read
         drawing + u64::from(wants.bits) + if wants.statistics { 32 } else { 0 }
@@ -145,58 +93,55 @@ impl Machine {
 
     /// The most columns and rows that are drawn at once.
     pub(super) fn most_cells(&self) -> Option<u32> {
-        self.gpu().map(|gpu| gpu.limits.max_texture_dimension_2d)
+        self.gpu.as_ref().map(|gpu| gpu.limits.max_texture_dimension_2d)
     }
 
     /// The technique for a tile of the plan.
-    pub(super) fn technique_of(&self, scene: Scene, tile: Tile) -> Result<Box<dyn Technique>, ShadowError> {
-        match self {
-            Machine::RayCast { sun_samples } => Ok(Box::new(RayCast::of_tile(scene, tile, *sun_samples))),
-            Machine::Projected(_) => Ok(Box::new(Projected::new(&scene, tile))),
-            Machine::OnGpu(gpu, Drawing::Projected(_)) => {
-                Machine::OnGpu(Arc::clone(gpu), Drawing::Projected(tile.grid()))
-                    .technique(scene, View::Plan(tile.grid()))
-            }
-            Machine::SoftPicture { .. } | Machine::OnGpu(..) => self.technique(scene, View::Plan(tile.grid())),
-        }
+    pub(super) fn technique_of(&self, scene: Scene, tile: Tile) -> Result<Box<dyn Technique>, StudyError> {
+        self.made(scene, View::Plan(tile.grid()), Some(tile))
     }
 
-    pub(super) fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, ShadowError> {
-        let (gpu, drawing) = match self {
-            Machine::RayCast { sun_samples } => return Ok(Box::new(RayCast::new(scene, view, *sun_samples))),
-            Machine::Projected(grid) => return Ok(Box::new(Projected::new(&scene, *grid))),
-            Machine::SoftPicture { camera, sun_samples } => {
-                return Ok(Box::new(SoftPicture::new(scene, *camera, *sun_samples)));
-            }
-            Machine::OnGpu(gpu, drawing) => (Arc::clone(gpu), *drawing),
+    pub(super) fn technique(&self, scene: Scene, view: View) -> Result<Box<dyn Technique>, StudyError> {
+        let whole = match view {
+            View::Plan(grid) => Some(Tile::from(grid)),
+            View::Camera(_) | View::Elevation(_) => None,
         };
-        Ok(match drawing {
-            Drawing::Stencil(silhouettes) => Box::new(Stencil::new(gpu, scene, view, silhouettes)?),
-            Drawing::Projected(grid) => Box::new(ProjectedOnGpu::new(gpu, &scene, grid)?),
-            Drawing::ShadowMap { size, filter } => Box::new(ShadowMap::new(gpu, &scene, view, size, filter)?),
-            Drawing::Hybrid { silhouettes, map_size } => {
-                Box::new(Hybrid::new(gpu, scene, view, silhouettes, map_size)?)
+        self.made(scene, view, whole)
+    }
+
+    /// Each technique is made here, in a line. What [`MethodRow::fit`] lets through has one; all else is no technique's.
+    fn made(&self, scene: Scene, view: View, tile: Option<Tile>) -> Result<Box<dyn Technique>, StudyError> {
+        let none = Misfit::Technique { method: self.method, subject: subject(&view, Receivers::Top) };
+        let Settings { map_size, filter, smoothie_width_m, sun_samples } = self.settings;
+        let (map_size, filter, silhouettes) = (map_size.ok_or(none), filter.ok_or(none), self.silhouettes.ok_or(none));
+        let Some(gpu) = self.gpu() else {
+            return Ok(match (self.method, view, tile) {
+                (Method::RayCast, _, Some(tile)) => Box::new(RayCast::of_tile(scene, tile, sun_samples)),
+                (Method::RayCast, view, None) => Box::new(RayCast::new(scene, view, sun_samples)),
+                (Method::Projected, _, Some(tile)) => Box::new(Projected::new(&scene, tile)),
+                (Method::SoftTexture, View::Camera(camera), _) => {
+                    Box::new(SoftPicture::new(scene, camera, sun_samples.ok_or(none)?))
+                }
+                _ => return Err(none.into()),
+            });
+        };
+        Ok(match (self.method, view) {
+            (Method::Stencil, view) => Box::new(Stencil::new(gpu, scene, view, silhouettes?)?),
+            (Method::Projected, View::Plan(grid)) => Box::new(ProjectedOnGpu::new(gpu, &scene, grid)?),
+            (Method::ShadowMap, view) => Box::new(ShadowMap::new(gpu, &scene, view, map_size?, filter?)?),
+            (Method::Hybrid, view) => Box::new(Hybrid::new(gpu, scene, view, silhouettes?, map_size?)?),
+            (Method::Smoothie, view) => {
+                let Silhouettes::OnProcessor(finder) = silhouettes? else { return Err(none.into()) };
+                Box::new(Smoothie::new(gpu, scene, view, finder, map_size?, smoothie_width_m)?)
             }
-            Drawing::Smoothie { finder, map_size, width_m } => {
-                Box::new(Smoothie::new(gpu, scene, view, finder, map_size, width_m)?)
-            }
+            _ => return Err(none.into()),
         })
     }
 }
 
 /// The adapter that is open already, else one that is opened.
-fn opened(gpu: Option<&Arc<Gpu>>) -> Result<Arc<Gpu>, GpuError> {
+pub(super) fn opened(gpu: Option<&Arc<Gpu>>) -> Result<Arc<Gpu>, GpuError> {
     gpu.map_or_else(|| Gpu::open().map(Arc::new), |gpu| Ok(Arc::clone(gpu)))
-}
-
-/// The word of a filter.
-fn pcf(filter: Filter) -> Pcf {
-    match filter {
-        Filter::None => Pcf::None,
-        Filter::TwoByTwo => Pcf::TwoByTwo,
-        Filter::FastTwoByTwo => Pcf::FastTwoByTwo,
-        Filter::FastFourByFour => Pcf::FastFourByFour,
-    }
 }
 
 /// Who finds silhouettes, as asked; else the fastest for the adapter.
@@ -204,228 +149,116 @@ fn pcf(filter: Filter) -> Pcf {
 /// Measured (docs/benchmarks/silhouettes.md): where the adapter is a program on the processor, the processor's hierarchy
 /// takes less time than a shader's pass over all edges. A real adapter has that pass for nothing beside the drawing, and
 /// is spared the upload of what is found.
-fn silhouettes(site: &Site, gpu: &Gpu) -> Silhouettes {
-    match site.finder {
-        Finder::Gpu => Silhouettes::OnGpu,
-        Finder::Auto if !gpu.software() => Silhouettes::OnGpu,
-        _ => kind(site).into(),
+fn silhouettes(row: &MethodRow, site: &Site, gpu: &Gpu) -> Silhouettes {
+    let is_quicker = site.finder == Finder::Auto && !gpu.software();
+    if row.finders.contains(&Finder::Gpu) && (site.finder == Finder::Gpu || is_quicker) {
+        return Silhouettes::OnGpu;
     }
-}
-
-/// Which of the processor's finders, as asked; else the fastest.
-fn kind(site: &Site) -> Kind {
     match (site.finder, site.hextree_depth) {
-        (Finder::Brute, _) => Kind::BruteForce,
-        (Finder::Hextree, Some(depth)) => Kind::Hextree { depth },
-        _ => Kind::Hierarchy,
+        (Finder::Brute, _) => Kind::BruteForce.into(),
+        (Finder::Hextree, Some(depth)) => Kind::Hextree { depth }.into(),
+        _ => Kind::Hierarchy.into(),
     }
-}
-
-/// Options that what was asked to draw does not use.
-fn unused(site: &Site, method: Method) -> Result<(), StudyError> {
-    use Method::{Hybrid, RayCast, ShadowMap, Smoothie, SoftTexture, Stencil};
-    let Settings { map_size, pcf, smoothie_width_m, sun_samples } = site.settings;
-    let finder = site.finder;
-    let rules: [(bool, &[Method], &str, &str); 6] = [
-        (
-            map_size.is_some(),
-            &[ShadowMap, Hybrid, Smoothie],
-            "--map-size",
-            "only the techniques shadow-map, hybrid and smoothie draw a map; say --technique with one of them, or leave it out",
-        ),
-        (
-            pcf.is_some(),
-            &[ShadowMap],
-            "--pcf",
-            "only the technique shadow-map filters so; say --technique shadow-map, or leave it out",
-        ),
-        (
-            smoothie_width_m.is_some(),
-            &[Smoothie],
-            "--smoothie-width",
-            "only the technique smoothie has smoothies; say --technique smoothie, or leave it out",
-        ),
-        (
-            sun_samples.is_some(),
-            &[RayCast, SoftTexture],
-            "--sun-samples",
-            "only ray casting and soft-texture take points of the sun's disc; say --technique ray-cast, or leave it out",
-        ),
-        (
-            finder != Finder::Auto,
-            &[Stencil, Hybrid, Smoothie],
-            "--silhouette",
-            "only the techniques stencil, hybrid and smoothie use silhouettes; leave the option out",
-        ),
-        (
-            finder == Finder::Gpu,
-            &[Stencil, Hybrid],
-            "--silhouette",
-            "smoothies take their silhouettes from the processor; say brute or hextree, or leave the option out",
-        ),
-    ];
-    for (given, users, option, what) in rules {
-        if given && !users.contains(&method) {
-            return Err(StudyError::Conflict { option, what });
-        }
-    }
-    Ok(())
 }
 
 /// Technique and engine as asked; else projection on the plan, and ray casting for a camera, but on a real graphics adapter
 /// the stencil, unless it is the ground alone that is judged.
 ///
 /// A projected instant on the ground takes less time than opening an adapter does, so none is opened for it
-/// (docs/benchmarks/peers.md).
-pub(super) fn choose(site: &Site, view: &View, on_event: &mut OnEvent<'_>) -> Result<Machine, StudyError> {
-    choose_on(None, site, view, on_event)
-}
-
-/// The same on an adapter that is open already, where there is one.
-pub(super) fn choose_on(
+/// (docs/benchmarks/peers.md). What draws on an adapter does so on the one that is open already, where there is one.
+pub(super) fn choose(
     gpu: Option<&Arc<Gpu>>,
     site: &Site,
     view: &View,
     on_event: &mut OnEvent<'_>,
 ) -> Result<Machine, StudyError> {
-    let conflict = |what| Err(StudyError::Conflict { option: "--engine", what });
-    let cast = Machine::RayCast { sun_samples: site.settings.sun_samples };
-    let plan = match view {
-        View::Plan(grid) => Some(*grid),
-        View::Camera(_) | View::Elevation(_) => None,
-    };
-    if matches!(view, View::Elevation(_)) {
-        if !matches!(site.method, Method::Auto | Method::RayCast) {
-            let what = "rays alone draw a side; take --technique ray-cast, or leave it out";
-            return Err(StudyError::Conflict { option: "--technique", what });
-        }
-        if site.engine == Engine::Gpu {
-            return conflict("rays alone draw a side, on the cpu; leave the option out");
-        }
-        unused(site, Method::RayCast)?;
-        return Ok(cast);
+    let subject = subject(view, judged(site, view));
+    let method = if site.method == Method::Auto { automatic(site, subject) } else { site.method };
+    let engine = method.row().fit(site.engine, subject)?;
+    method.row().check(site.finder, &site.settings, subject)?;
+    if method != Method::Auto {
+        return Ok(match engine {
+            Engine::Gpu => Machine::on(opened(gpu)?, method, site),
+            Engine::Auto | Engine::Cpu => Machine::on_processor(method, site),
+        });
     }
-    let is_plain = site.settings == Settings::default() && site.finder == Finder::Auto;
-    let on_processor = match plan {
-        Some(grid) if is_plain => Machine::Projected(grid),
-        _ => cast.clone(),
-    };
-    let ground_alone = plan.is_some() && site.receivers == Receivers::Ground;
-    if let (Method::Auto, true) = (site.method, is_plain)
-        && (site.engine == Engine::Cpu || (site.engine == Engine::Auto && ground_alone))
-    {
-        return Ok(on_processor);
+    match opened(gpu) {
+        // measured (docs/benchmarks): a stencil drawn in software is slower than either
+        Ok(gpu) if gpu.software() => {}
+        Ok(gpu) => return Ok(Machine::on(gpu, Method::Stencil, site)),
+        Err(error) => tell(on_event, Event::Note(format!("{}: drawing on the processor", error.why())))?,
     }
-    let machine = match (site.method, site.engine) {
-        (Method::Projected, engine) => {
-            unused(site, Method::Projected)?;
-            let Some(grid) = plan else {
-                let what = "projected draws the plan alone; leave --view camera out, or take another technique";
-                return Err(StudyError::Conflict { option: "--technique", what });
-            };
-            match engine {
-                Engine::Gpu if !ground_alone => {
-                    return conflict(
-                        "on the gpu projected draws on the ground alone; \
-                         add --receivers ground, or take --technique stencil",
-                    );
-                }
-                Engine::Gpu => Machine::OnGpu(opened(gpu)?, Drawing::Projected(grid)),
-                Engine::Auto | Engine::Cpu => Machine::Projected(grid),
-            }
-        }
-        (Method::SoftTexture, engine) => {
-            let View::Camera(camera) = view else {
-                let what = "soft-texture is for flat patches; add --receivers surfaces, or take another technique";
-                return Err(StudyError::Conflict { option: "--technique", what });
-            };
-            if engine == Engine::Gpu {
-                return conflict("a camera's picture by soft-texture is drawn on the cpu; leave the option out");
-            }
-            unused(site, Method::SoftTexture)?;
-            let sun_samples = site.settings.sun_samples.unwrap_or(soft_picture::DEFAULT_SUN_SAMPLES);
-            Machine::SoftPicture { camera: *camera, sun_samples }
-        }
-        (Method::RayCast, Engine::Gpu) => {
-            return conflict("the technique ray-cast works on the cpu; take --technique stencil with gpu");
-        }
-        (Method::RayCast, _) | (Method::Auto, Engine::Cpu) => {
-            unused(site, Method::RayCast)?;
-            cast
-        }
-        (Method::Auto, Engine::Gpu) => match plan {
-            // measured (docs/benchmarks/instants.md): faces that are filled need no silhouette, and no count
-            Some(grid) if is_plain && ground_alone => Machine::OnGpu(opened(gpu)?, Drawing::Projected(grid)),
-            _ => {
-                unused(site, Method::Stencil)?;
-                Machine::open(site, gpu)?
-            }
-        },
-        // silhouettes are asked, and only the stencil has them
-        (Method::Auto, Engine::Auto) if site.finder != Finder::Auto => {
-            unused(site, Method::Stencil)?;
-            Machine::open(site, gpu)?
-        }
-        (Method::Auto, Engine::Auto) => {
-            // what it will be does not depend on the machine's adapter alone: a setting of one technique names it
-            unused(site, Method::Auto)?;
-            match Machine::open(site, gpu) {
-                // measured (docs/benchmarks): a stencil drawn in software is slower than either
-                Ok(machine) if machine.gpu().is_some_and(|gpu| gpu.software()) => on_processor,
-                Ok(machine) => machine,
-                Err(error) => {
-                    tell(on_event, Event::Note(format!("{}: drawing on the processor", error.why())))?;
-                    on_processor
-                }
-            }
-        }
-        (_, Engine::Cpu) => {
-            return conflict("that technique draws on the gpu; take --technique ray-cast with cpu");
-        }
-        (method, _) => {
-            unused(site, method)?;
-            Machine::open(site, gpu)?
-        }
-    };
-    Ok(machine)
+    Ok(Machine::on_processor(on_processor(site, subject), site))
+}
+
+/// What [`Method::Auto`] is; itself where that is for the machine's adapter to say.
+fn automatic(site: &Site, subject: Subject) -> Method {
+    let on_ground = subject == Subject::Ground && is_plain(site);
+    match (site.engine, site.finder) {
+        // rays alone draw it
+        _ if subject == Subject::Side => Method::RayCast,
+        (Engine::Cpu, _) => on_processor(site, subject),
+        // measured (docs/benchmarks/instants.md): faces that are filled need no silhouette, and no count
+        (Engine::Gpu | Engine::Auto, _) if on_ground => Method::Projected,
+        // silhouettes are asked, and of the exact techniques only the stencil has them
+        (Engine::Gpu, _) | (Engine::Auto, Finder::Brute | Finder::Hextree | Finder::Gpu) => Method::Stencil,
+        // what it will be does not depend on the adapter alone: a setting of one technique names it
+        (Engine::Auto, Finder::Auto) => Method::Auto,
+    }
+}
+
+/// The fastest exact technique on the processor.
+fn on_processor(site: &Site, subject: Subject) -> Method {
+    let is_plan = matches!(subject, Subject::Top | Subject::Ground);
+    if is_plan && is_plain(site) { Method::Projected } else { Method::RayCast }
+}
+
+/// Whether no option of a single technique is given.
+fn is_plain(site: &Site) -> bool {
+    site.settings == Settings::NONE && site.finder == Finder::Auto
 }
 
 /// A technique that counts, as something asks what that took: as asked, else the stencil.
-pub(super) fn counting(site: &Site, view: &View, option: &'static str) -> Result<Machine, StudyError> {
-    not_side(view, option)?;
+pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: Field) -> Result<Machine, StudyError> {
+    not_side(view, field)?;
     let method = match site.method {
         Method::Auto => Method::Stencil,
         method => method,
     };
-    if !matches!(method, Method::Stencil | Method::Hybrid) || site.engine == Engine::Cpu {
-        let what = "only the techniques stencil and hybrid count, on the gpu; \
-                    take --technique hybrid without --engine cpu, or leave it out";
-        return Err(StudyError::Conflict { option, what });
+    if !method.row().counts || site.engine == Engine::Cpu {
+        let message = message![
+            "only techniques that count shadow volumes tell it, on the gpu";
+            "take ", (Field::Technique, "hybrid"), " without ", (Field::Engine, "cpu"), ", or leave it out"
+        ];
+        return Err(StudyError::Conflict { field, message });
     }
-    unused(site, method)?;
-    Ok(Machine::open(site, None)?)
+    method.row().check(site.finder, &site.settings, subject(view, judged(site, view)))?;
+    Ok(Machine::on(opened(gpu)?, method, site))
 }
 
 /// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.
-pub(super) fn stencil_alone(site: &Site, view: &View) -> Result<Machine, StudyError> {
-    not_side(view, "--show")?;
+pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) -> Result<Machine, StudyError> {
+    not_side(view, Field::Volumes)?;
     if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {
-        let what = "volumes and silhouette are drawn by the technique stencil on the gpu alone; \
-                    take --technique stencil without --engine cpu, or leave them out";
-        return Err(StudyError::Conflict { option: "--show", what });
+        let message = message![
+            "volumes and silhouette are drawn by the technique stencil on the gpu alone";
+            "take ", (Field::Technique, "stencil"), " without ", (Field::Engine, "cpu"), ", or leave them out"
+        ];
+        return Err(StudyError::Conflict { field: Field::Volumes, message });
     }
-    unused(site, Method::Stencil)?;
-    let gpu = Gpu::open().map_err(|error| StudyError::NoVolumes(error.why()))?;
-    let drawing = Drawing::of(Method::Stencil, site, &gpu);
-    Ok(Machine::OnGpu(Arc::new(gpu), drawing))
+    Method::Stencil.row().check(site.finder, &site.settings, subject(view, judged(site, view)))?;
+    let gpu = opened(gpu).map_err(|error| StudyError::NoVolumes(error.why()))?;
+    Ok(Machine::on(gpu, Method::Stencil, site))
 }
 
 /// Volumes are drawn and counted in the plan and in perspective.
-fn not_side(view: &View, option: &'static str) -> Result<(), StudyError> {
+fn not_side(view: &View, field: Field) -> Result<(), StudyError> {
     if matches!(view, View::Elevation(_)) {
-        let what =
-            "rays alone draw a side, and there are no shadow volumes in it; look from elsewhere, or leave it out";
-        return Err(StudyError::Conflict { option, what });
+        let message = message![
+            "rays alone draw a side, and there are no shadow volumes in it";
+            "look from elsewhere, or leave it out"
+        ];
+        return Err(StudyError::Conflict { field, message });
     }
     Ok(())
 }
@@ -433,8 +266,11 @@ fn not_side(view: &View, option: &'static str) -> Result<(), StudyError> {
 /// Masks are of a plan or of a camera's picture.
 pub(super) fn not_surfaces(site: &Site) -> Result<(), StudyError> {
     if site.receivers == Receivers::Surfaces {
-        let what = "surfaces are judged by gnomon profile alone; take top or ground, or leave it out";
-        return Err(StudyError::Conflict { option: "--receivers", what });
+        let message = message![
+            "surfaces are judged by gnomon profile alone";
+            "take top or ground, or leave it out"
+        ];
+        return Err(StudyError::Conflict { field: Field::Receivers, message });
     }
     Ok(())
 }

@@ -22,15 +22,17 @@ pub mod verify;
 pub use compare::{CompareOutcome, compare, compare_with};
 pub use frames::{Frame, frames};
 pub use instant::instant;
-pub use profile::{Tiled, Worked, in_tiles, run};
+pub use profile::{Tiled, Worked, in_tiles, paste, run};
 pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 pub use tiles::Budget;
 
+use crate::choice::{Misfit, Subject};
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
+use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
+use crate::picture::overlay::VolumePicture;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
-use crate::shadow::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
@@ -39,21 +41,24 @@ use crate::view::{Bits, Camera, Counted, Mask, Overlay, Surface, Tile, View};
 use chrono::DateTime;
 use glam::DVec3;
 use machine::{Machine, not_surfaces};
+use std::cell::RefCell;
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// What is made beside the profile.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wants {
     /// Every instant's mask, in [`Event::Drawn`].
     pub masks: bool,
     /// Of every instant with a sun which cells are in shadow, in [`Event::Drawn`].
     pub bits: bool,
-    /// Whether drawings are made of all cells at once, so that tiles will not do: the option that asks for them.
-    pub whole: Option<&'static str>,
-    /// Where whoever asks writes them, as a number: what is written elsewhere is another study.
-    pub written: u64,
+    /// The folder to which whoever asks writes the masks, by its canonical name: a study that writes them elsewhere is
+    /// another study.
+    pub masks_in: Option<PathBuf>,
+    /// Whether lines are drawn, which are made of all cells at once: tiles will not do.
+    pub lines: bool,
     /// What the cells see, for a drawing.
     pub surface: bool,
     /// What counting took.
@@ -73,8 +78,30 @@ pub struct InstantWants {
     pub volumes: bool,
     /// The silhouette's lines over a camera's picture.
     pub silhouette: bool,
-    /// What counting took, cell by cell: the option that asks for it.
-    pub counted: Option<&'static str>,
+    /// What counting took, cell by cell, and what it is for.
+    pub counted: Option<Counting>,
+}
+
+/// What counting shadow volumes is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counting {
+    /// Numbers of the whole.
+    Statistics,
+    /// A diagram of what a map decided and what the volumes did.
+    Mask,
+    /// A diagram of how many fragments were counted.
+    Overdraw,
+}
+
+impl Counting {
+    /// The field that asks for it.
+    fn field(self) -> Field {
+        match self {
+            Counting::Statistics => Field::Statistics,
+            Counting::Mask => Field::MaskDiagram,
+            Counting::Overdraw => Field::OverdrawDiagram,
+        }
+    }
 }
 
 /// What happens on the way.
@@ -84,6 +111,14 @@ pub enum Event<'a> {
     Note(String),
     /// A graphics adapter failed, and the work is done again: what was told of it is void, but for notes.
     Anew,
+    /// The same study is done again: whoever keeps what was done so far ([`Event::Kept`]) can put it here, and the study
+    /// goes on from there.
+    Resumes {
+        /// The study.
+        study: &'a Tiled<'a>,
+        /// What is to be gone on from.
+        begun: &'a RefCell<Option<Unfinished>>,
+    },
     /// All is prepared; drawing begins.
     Started {
         /// How many instants there are, those of each tile counted.
@@ -115,6 +150,8 @@ pub enum Event<'a> {
     },
     /// What is done so far, to be kept: with it the study can go on another time.
     Kept(&'a Unfinished),
+    /// The study is done, and of what is made of it another stage is.
+    Stage(&'static str),
 }
 
 /// Hears what happens; [`ControlFlow::Break`] ends the work with [`StudyError::Interrupted`].
@@ -160,19 +197,15 @@ pub struct InstantOutcome {
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// Two choices that exclude each other.
-    #[error("{option}: {what}")]
     Conflict {
-        /// The option that does not fit.
-        option: &'static str,
+        /// What does not fit.
+        field: Field,
         /// Why, and the way out.
-        what: &'static str,
+        message: Message,
     },
+    /// Technique, engine and settings that do not go together, or not with what is drawn.
+    Misfit(#[from] Misfit),
     /// The plan does not fit the memory that there is for it.
-    #[error(
-        "--memory: {} is too little for rows of {width} cells; take at least {}, or larger cells (--cell)",
-        tiles::amount(*asked),
-        tiles::amount(*least)
-    )]
     LittleMemory {
         /// What there is, bytes.
         asked: u64,
@@ -182,9 +215,6 @@ pub enum StudyError {
         width: u32,
     },
     /// The plan is drawn at once, and has too many cells for that.
-    #[error(
-        "{width} × {height} cells are more than can be drawn at once; choose larger cells (--cell) or fewer (--size)"
-    )]
     TooManyCells {
         /// Columns of the plan.
         width: u32,
@@ -192,11 +222,6 @@ pub enum StudyError {
         height: u32,
     },
     /// Time on surfaces is summed in 32 bits.
-    #[error(
-        "the study has {} hours of daylight, and surfaces sum at most {}; ask for fewer days or a shorter window",
-        day_secs / 3600,
-        most_secs / 3600
-    )]
     TooLong {
         /// Seconds of the window with the sun above the horizon.
         day_secs: u32,
@@ -204,46 +229,89 @@ pub enum StudyError {
         most_secs: u32,
     },
     /// Nothing that receives has an area.
-    #[error("no component that receives has a surface; see `receives` in the site file")]
     NoSurface,
     /// The track has no instant.
-    #[error("there is no instant to draw")]
     NoInstant,
     /// No adapter, or not a good one.
-    #[error(transparent)]
     Gpu(#[from] GpuError),
     /// Volumes and silhouettes are the stencil's alone.
-    #[error(
-        "--show: volumes and silhouette are drawn on a graphics adapter, and {0}; install a driver \
-         (on Linux mesa-vulkan-drivers draws in software) or leave them out"
-    )]
     NoVolumes(String),
     /// Techniques are held against ray casting where they draw.
-    #[error(
-        "verify draws with every technique on a graphics adapter, and {0}; install a driver \
-         (on Linux mesa-vulkan-drivers draws in software)"
-    )]
     NoVerification(String),
+    /// Every device failed on which what is asked was tried, and nothing else can do it.
+    NoDevice(String),
     /// All instants are at night.
-    #[error(
-        "there is no sun at any of the study's instants, and nothing to compare; take a window by day with --from and --to"
-    )]
     NoDay,
     /// The sun's position at a time cannot be found.
-    #[error(transparent)]
     Sun(#[from] SunError),
     /// Drawing failed.
-    #[error(transparent)]
     Shadow(#[from] ShadowError),
     /// As asked by the listener.
-    #[error("interrupted")]
     Interrupted,
+}
+
+plain_display!(StudyError);
+
+impl Worded for StudyError {
+    fn message(&self) -> Message {
+        const DRIVER: &str = "install a driver (on Linux mesa-vulkan-drivers draws in software)";
+        match self {
+            StudyError::Conflict { field, message } => message.clone().of((*field).into()),
+            StudyError::Misfit(misfit) => misfit.message(),
+            StudyError::LittleMemory { asked, least, width } => message![
+                Field::Memory,
+                format!(": {} is too little for rows of {width} cells", tiles::amount(*asked));
+                format!("take at least {}, or larger cells", tiles::amount(*least)), aside(Field::Cell)
+            ],
+            StudyError::TooManyCells { width, height } => message![
+                format!("{width} × {height} cells are more than can be drawn at once");
+                "choose larger cells",
+                aside(Field::Cell),
+                Piece::Where(Field::Size, pieces![" or fewer", aside(Field::Size)])
+            ],
+            StudyError::TooLong { day_secs, most_secs } => message![
+                format!(
+                    "the study has {} hours of daylight, and surfaces sum at most {}",
+                    day_secs / 3600,
+                    most_secs / 3600
+                );
+                "ask for fewer days or a shorter window"
+            ],
+            StudyError::NoSurface => {
+                message!["no component that receives has a surface"; "see `receives` in the site file"]
+            }
+            StudyError::NoInstant => message!["there is no instant to draw"],
+            StudyError::Gpu(error) => error.message(),
+            StudyError::NoVolumes(why) => message![
+                Field::Volumes,
+                format!(": volumes and silhouette are drawn on a graphics adapter, and {why}");
+                DRIVER, " or leave them out"
+            ],
+            StudyError::NoVerification(why) => message![
+                format!("verify draws with every technique on a graphics adapter, and {why}");
+                DRIVER
+            ],
+            StudyError::NoDevice(why) => message![
+                why.clone(), ", after another device had failed, and what is asked is drawn on a graphics adapter alone";
+                "update its driver, close what else draws on it, take larger cells, or install a driver that draws in \
+                 software (on Linux mesa-vulkan-drivers)"
+            ],
+            StudyError::NoDay => message![
+                "there is no sun at any of the study's instants, and nothing to compare";
+                "take a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
+            ],
+            StudyError::Sun(error) => error.message(),
+            StudyError::Shadow(error) => error.message(),
+            StudyError::Interrupted => message!["interrupted"],
+        }
+    }
 }
 
 impl StudyError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
-        matches!(self, StudyError::Conflict { .. } | StudyError::LittleMemory { .. } | StudyError::TooManyCells { .. })
+        use StudyError::{Conflict, LittleMemory, Misfit, TooManyCells};
+        matches!(self, Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. })
     }
 
     /// What a graphics device failed of, where it did while working: on another one the work can be done.
@@ -276,6 +344,17 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
     }
 }
 
+/// What a technique draws of a view.
+fn subject(view: &View, receivers: Receivers) -> Subject {
+    match (view, receivers) {
+        (View::Camera(_), _) => Subject::Camera,
+        (View::Elevation(_), _) => Subject::Side,
+        (View::Plan(_), Receivers::Top) => Subject::Top,
+        (View::Plan(_), Receivers::Ground) => Subject::Ground,
+        (View::Plan(_), Receivers::Surfaces) => Subject::Surfaces,
+    }
+}
+
 /// The seconds of the window with the sun above the horizon, and without.
 pub fn day_and_night(track: &SunTrack) -> (u32, u32) {
     // both fit: a window is at most ten years, 3.2e8 s
@@ -295,11 +374,11 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn technique(&self) -> Result<Box<dyn Technique>, ShadowError> {
+    fn technique(&self) -> Result<Box<dyn Technique>, StudyError> {
         self.machine.technique(self.scene(), self.view)
     }
 
-    fn technique_of(&self, tile: Tile) -> Result<Box<dyn Technique>, ShadowError> {
+    fn technique_of(&self, tile: Tile) -> Result<Box<dyn Technique>, StudyError> {
         self.machine.technique_of(self.scene(), tile)
     }
 
@@ -364,7 +443,11 @@ fn night(view: &View) -> Mask {
     Mask { width, height, share: vec![0; width as usize * height as usize] }
 }
 
-fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> {
+/// Tells what happens.
+///
+/// # Errors
+/// [`StudyError::Interrupted`] as asked by the listener.
+pub fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> {
     match on_event(event) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(StudyError::Interrupted),

@@ -2,15 +2,19 @@
 
 use super::again::persist;
 use super::machine::{Machine, choose, counting, not_surfaces};
-use super::{Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
+use super::{Counting, Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
 use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
+use crate::gpu::Gpu;
 use crate::mesh::Mesh;
+use crate::message::{Field, aside, message};
 use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::plan_surface;
 use crate::site::Site;
 use crate::view::{Surface, Tile, View};
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
+use std::fmt;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -40,6 +44,8 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     let worked = in_tiles(Tiled::new(site, wants, on_event)?, None, &mut |event| {
         match &event {
             Event::Anew => whole = Arc::default(),
+            // of what is gone on from only the rest would be told
+            Event::Resumes { .. } => return ControlFlow::Continue(()),
             Event::Tile(next) => tile = *next,
             Event::Summed(shaded) => whole = paste(&whole, &tile, shaded),
             _ => {}
@@ -52,8 +58,8 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, timings })
 }
 
-/// The whole with a tile in its place.
-fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
+/// The whole of a plan's sums, with a tile's in their place; an empty whole has none yet.
+pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
     if tile.is_whole() {
         return Arc::clone(shaded);
     }
@@ -84,17 +90,25 @@ impl<'a> Tiled<'a> {
     pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Tiled<'a>, StudyError> {
         not_surfaces(site)?;
         note_models(&site.notes, on_event)?;
-        Tiled::of(site, wants, on_event)
+        Tiled::of(None, site, wants, on_event)
     }
 
-    fn of(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Tiled<'a>, StudyError> {
+    fn of(
+        gpu: Option<&Arc<Gpu>>,
+        site: &'a Site,
+        wants: &Wants,
+        on_event: &mut OnEvent<'_>,
+    ) -> Result<Tiled<'a>, StudyError> {
         let watch = Stopwatch::start();
         let view = View::Plan(site.grid);
-        let machine = if wants.statistics { counting(site, &view, "--stats")? } else { choose(site, &view, on_event)? };
+        let machine = match wants.statistics {
+            true => counting(gpu, site, &view, Counting::Statistics.field())?,
+            false => choose(gpu, site, &view, on_event)?,
+        };
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
         check_tiles(&tiles, wants)?;
         tiles::note(&tiles, on_event)?;
-        Ok(Tiled { site, wants: *wants, machine, tiles, number: OnceCell::new(), watch })
+        Ok(Tiled { site, wants: wants.clone(), machine, tiles, number: OnceCell::new(), watch })
     }
 
     /// Which study it is: a number of all that its result depends on.
@@ -125,23 +139,37 @@ impl<'a> Tiled<'a> {
     }
 }
 
+impl fmt::Debug for Tiled<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Tiled").field("wants", &self.wants).field("tiles", &self.tiles).finish_non_exhaustive()
+    }
+}
+
 /// Every instant's shadows, summed; from where the study was stopped, where that is `begun`: sums are the same to the bit.
 /// Tiles before the one that was worked on are not told again. What another study left is not used. After [`Event::Anew`]
-/// all is told from the first instant on.
+/// all is told from the first instant on, or from what was put into [`Event::Resumes`].
 ///
 /// # Errors
 /// [`StudyError`]
 pub fn in_tiles(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>) -> Result<Worked, StudyError> {
-    let Tiled { site, wants, .. } = tiled;
+    let (site, wants) = (tiled.site, tiled.wants.clone());
+    // which study it is, where what is done of it is kept
+    let number = wants.keep_every.map(|_| tiled.number());
     let mut at_hand = Some((tiled, begun));
     // what counting takes is told of an adapter alone
-    persist(site, !wants.statistics, on_event, &mut |again, on_event| {
+    persist(site, !wants.statistics, on_event, &mut |again, gpu, on_event| {
         if let Some((tiled, begun)) = at_hand.take() {
             return once(tiled, begun, on_event);
         }
-        // what the processor takes over is no more the study that was begun, and must not be gone on with as that
-        let keep_every = wants.keep_every.filter(|_| again.engine == site.engine);
-        once(Tiled::of(again, &Wants { keep_every, ..wants }, on_event)?, None, on_event)
+        let mut tiled = Tiled::of(gpu, again, &wants, on_event)?;
+        let begun = RefCell::new(None);
+        if number.is_some_and(|number| number == tiled.number()) {
+            tell(on_event, Event::Resumes { study: &tiled, begun: &begun })?;
+        } else {
+            // what another machine takes over is no more the study that was begun, and must not be gone on with as that
+            tiled.wants.keep_every = None;
+        }
+        once(tiled, begun.into_inner(), on_event)
     })
 }
 
@@ -236,14 +264,18 @@ fn check_tiles(tiles: &[Tile], wants: &Wants) -> Result<(), StudyError> {
         return Ok(());
     }
     if wants.masks {
-        let what = "the plan is done in tiles, and masks are written whole; take --bits, which holds the same, or larger \
-                    cells (--cell)";
-        return Err(StudyError::Conflict { option: "--masks", what });
+        let message = message![
+            "the plan is done in tiles, and masks are written whole";
+            "take ", Field::Bits, ", which holds the same, or larger cells", aside(Field::Cell)
+        ];
+        return Err(StudyError::Conflict { field: Field::Masks, message });
     }
-    if let Some(option) = wants.whole {
-        let what = "the plan is done in tiles, and lines are drawn of the whole; take larger cells (--cell), leave \
-                    --memory out, or leave this out";
-        return Err(StudyError::Conflict { option, what });
+    if wants.lines {
+        let message = message![
+            "the plan is done in tiles, and lines are drawn of the whole";
+            "take larger cells", aside(Field::Cell), ", leave ", Field::Memory, " out, or leave this out"
+        ];
+        return Err(StudyError::Conflict { field: Field::Lines, message });
     }
     Ok(())
 }

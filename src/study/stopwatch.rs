@@ -1,7 +1,7 @@
 //! How long the stages of the work take.
 
 use crate::profile::Timings;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Takes the time of stages, one after the other.
 #[derive(Clone, Debug)]
@@ -18,6 +18,14 @@ impl Stopwatch {
         Stopwatch { started: now, lap: now, stages: Timings::default() }
     }
 
+    /// From now on, after stages that were done before.
+    pub fn after(stages: Timings) -> Stopwatch {
+        let now = Instant::now();
+        let before: f64 = stages.0.iter().map(|(_, secs)| secs).sum();
+        let started = Duration::try_from_secs_f64(before).ok().and_then(|before| now.checked_sub(before));
+        Stopwatch { started: started.unwrap_or(now), lap: now, stages }
+    }
+
     /// A stage ends; the next begins.
     pub fn lap(&mut self, stage: &'static str) {
         let now = Instant::now();
@@ -29,6 +37,11 @@ impl Stopwatch {
     pub fn laps(&mut self, stages: Timings) {
         self.stages.0.extend(stages.0);
         self.lap = Instant::now();
+    }
+
+    /// The stages so far.
+    pub fn stages(&self) -> Timings {
+        self.stages.clone()
     }
 
     /// The stages so far, and `total`.

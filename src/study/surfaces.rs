@@ -1,16 +1,18 @@
 //! The study on surfaces: hours of sun on every flat patch of what receives.
 
 use super::again::persist;
+use super::machine::opened;
 use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_models, tell};
+use crate::choice::{Engine, Method, Misfit, Settings, Subject};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::mesh::patches::{MOST_TEXELS, Patches};
 use crate::profile::surfaces::SurfaceHours;
-use crate::profile::{Drawn, DrawnSettings, Timings};
+use crate::profile::{Drawn, Timings};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::soft_texture::{Choice, Fill, Judged, Painter, Sample, SoftTexture};
 use crate::shadow::{JUDGED_ABOVE_M, Scene, Technique};
-use crate::site::{Engine, Finder, Method, Site};
+use crate::site::Site;
 use crate::sun::{Instant, disc};
 use crate::view::Surface;
 use glam::DVec3;
@@ -35,7 +37,7 @@ pub struct SurfaceOutcome {
 
 /// Hours of sun on surfaces, with texels of `cell` metres; larger ones where there would be too many, which a note says.
 ///
-/// Each instant is a sample of the sun's centre, or with [`crate::site::Settings::sun_samples`] as many of its disc, for
+/// Each instant is a sample of the sun's centre, or with [`Settings::sun_samples`] as many of its disc, for
 /// its weight. What lies below the ground plane sees no sun.
 ///
 /// # Errors
@@ -54,7 +56,10 @@ pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Su
     patches.leave_out_shared(&site.mesh, &site.casts, &site.receives);
     let patches = Arc::new(patches);
     note_patches(&patches, on_event)?;
-    persist(site, true, on_event, &mut |site, on_event| light(site, choice, &patches, watch.clone(), on_event))
+    persist(site, true, on_event, &mut |site, gpu, on_event| {
+        let painter = painter(gpu, site, choice, on_event)?;
+        light(site, choice, &patches, painter, watch.clone(), on_event)
+    })
 }
 
 /// Lets the sun fall on the patches, by one machine.
@@ -62,20 +67,20 @@ fn light(
     site: &Site,
     choice: Choice,
     patches: &Arc<Patches>,
+    painter: Painter,
     mut watch: Stopwatch,
     on_event: &mut OnEvent<'_>,
 ) -> Result<SurfaceOutcome, StudyError> {
     let (day_secs, night_secs) = day_and_night(&site.track);
-    let painter = painter(site, choice, on_event)?;
     let drawn = Drawn {
-        technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture }.word(),
-        silhouette: None,
-        engine: if matches!(painter, Painter::OnGpu(_)) { Engine::Gpu } else { Engine::Cpu }.word(),
+        technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture },
+        finder: None,
+        engine: if matches!(painter, Painter::OnGpu(_)) { Engine::Gpu } else { Engine::Cpu },
         adapter: match &painter {
             Painter::OnGpu(gpu) => Some(gpu.name().to_owned()),
             Painter::OnProcessor(_) => None,
         },
-        settings: DrawnSettings { sun_samples: site.settings.sun_samples, ..DrawnSettings::default() },
+        settings: Settings { sun_samples: site.settings.sun_samples, ..Settings::NONE },
     };
     let casters = site.mesh.of_components(&site.casts);
     let mut texture = SoftTexture::new(casters, Arc::clone(patches), painter, choice)?;
@@ -121,43 +126,34 @@ fn samples_of(instant: &Instant, sun_samples: Option<u32>) -> Vec<Sample> {
 }
 
 /// How patches are judged, as asked.
-fn choice(site: &Site) -> Result<Choice, StudyError> {
-    let conflict = |option, what| Err(StudyError::Conflict { option, what });
-    let settings = &site.settings;
-    if site.finder != Finder::Auto {
-        return conflict("--silhouette", "on surfaces nothing asks a finder; leave the option out");
-    }
-    let of_others = [
-        (settings.map_size.is_some(), "--map-size"),
-        (settings.pcf.is_some(), "--pcf"),
-        (settings.smoothie_width_m.is_some(), "--smoothie-width"),
-    ];
-    if let Some((_, option)) = of_others.into_iter().find(|(given, _)| *given) {
-        return conflict(option, "surfaces are judged without a map and without smoothies; leave the option out");
-    }
-    match site.method {
+fn choice(site: &Site) -> Result<Choice, Misfit> {
+    let (method, subject) = (site.method, Subject::Surfaces);
+    method.row().fit(site.engine, subject)?;
+    // of auto's two techniques one uses as much as the other
+    let row = if method == Method::Auto { Method::SoftTexture.row() } else { method.row() };
+    row.check(site.finder, &site.settings, subject)?;
+    match method {
         Method::Auto => Ok(Choice::Auto),
         Method::SoftTexture => Ok(Choice::Texture),
-        Method::RayCast if site.engine == Engine::Gpu => {
-            conflict("--engine", "the technique ray-cast works on the cpu; take --technique soft-texture with gpu")
-        }
         Method::RayCast => Ok(Choice::Rays),
-        _ => conflict(
-            "--technique",
-            "surfaces are judged by soft-texture or ray-cast, or by auto, which takes for each what costs less",
-        ),
+        _ => Err(Misfit::Technique { method, subject }),
     }
 }
 
 /// Who fills textures, as asked; else a real graphics adapter, and the processor where the adapter is a program on it.
 ///
 /// Measured (docs/benchmarks/receivers.md).
-fn painter(site: &Site, choice: Choice, on_event: &mut OnEvent<'_>) -> Result<Painter, StudyError> {
+fn painter(
+    gpu: Option<&Arc<Gpu>>,
+    site: &Site,
+    choice: Choice,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Painter, StudyError> {
     let on_processor = Painter::OnProcessor(Fill::Silhouettes);
     match site.engine {
         _ if choice == Choice::Rays => Ok(on_processor),
         Engine::Cpu => Ok(on_processor),
-        Engine::Gpu => Ok(Painter::OnGpu(Arc::new(Gpu::open()?))),
+        Engine::Gpu => Ok(Painter::OnGpu(opened(gpu)?)),
         Engine::Auto => match Gpu::open() {
             Ok(gpu) if gpu.software() => Ok(on_processor),
             Ok(gpu) => Ok(Painter::OnGpu(Arc::new(gpu))),

@@ -3,16 +3,18 @@
 //! [`verify`] makes the techniques, [`hold`] holds them against the truth, instant by instant. Ray casting is held against
 //! itself without its trees, at some cells.
 
-use super::machine::{Drawing, Machine, not_surfaces};
-use super::{Event, Look, OnEvent, StudyError, day_and_night, note_models, tell, tiles};
+use super::again::persist;
+use super::machine::{Machine, not_surfaces, opened};
+use super::{Event, Look, OnEvent, StudyError, day_and_night, note_models, subject, tell, tiles};
+use crate::choice::{Engine, Method, MethodRow, Promise, Receivers, TABLE, Truth};
 use crate::gpu::Gpu;
 use crate::mesh::report;
 use crate::profile::Drawn;
 use crate::profile::compare::{Difference, is_edge_cell};
-use crate::profile::verify::{Promise, Row, Tally, Truth, Verification};
+use crate::profile::verify::{Row, Tally, Verification};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{ShadowError, Technique};
-use crate::site::{Method, Receivers, Site};
+use crate::site::Site;
 use crate::sun::Instant;
 use crate::view::{Decided, Mask, View};
 use rayon::prelude::*;
@@ -29,16 +31,6 @@ const MOST_SAMPLED: usize = 200;
 /// Which part of an exact technique's edge cells may differ: on the ground under clean models, and elsewhere.
 const EDGE_SHARE_CLEAN: f64 = 0.005;
 const EDGE_SHARE: f64 = 0.01;
-
-/// The techniques that draw, what each is held against, and what it promises. A new technique is a line here; the hybrid
-/// comes after the stencil, of which it is to miss nothing.
-const TECHNIQUES: [(Method, Truth, Promise); 5] = [
-    (Method::Stencil, Truth::Centre, Promise::Exact),
-    (Method::Projected, Truth::Centre, Promise::Exact),
-    (Method::Hybrid, Truth::Centre, Promise::ExactButForMap),
-    (Method::ShadowMap, Truth::Centre, Promise::Near),
-    (Method::Smoothie, Truth::Disc, Promise::Near),
-];
 
 /// A technique that is to be held against the truth.
 pub struct Trial {
@@ -60,29 +52,46 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
     not_surfaces(site)?;
     by_day(site)?;
     note_models(&site.notes, on_event)?;
-    let gpu = Arc::new(Gpu::open().map_err(|error| StudyError::NoVerification(error.why()))?);
-    tiles::at_once(site.grid, site.receivers, &Machine::RayCast { sun_samples: None })?;
+    // whoever asks wants every technique: none takes another's place
+    persist(site, false, on_event, &mut |site, gpu, on_event| {
+        let gpu = opened(gpu).map_err(|error| StudyError::NoVerification(error.why()))?;
+        let trials = trials(&gpu, site, on_event)?;
+        hold(site, trials, on_event)
+    })
+}
+
+/// The techniques that draw, made for a site's plan on an adapter.
+fn trials(gpu: &Arc<Gpu>, site: &Site, on_event: &mut OnEvent<'_>) -> Result<Vec<Trial>, StudyError> {
+    tiles::at_once(site.grid, site.receivers, &Machine::rays(None))?;
+    let view = View::Plan(site.grid);
+    let subject = subject(&view, site.receivers);
     let mut trials = Vec::new();
-    for (method, against, promise) in TECHNIQUES {
-        if method == Method::Smoothie && gpu.blends_float32("").is_err() {
-            let note = format!("smoothie is left out: '{}' cannot blend 32-bit floats", gpu.name());
+    for row in held() {
+        if row.blends_float32 && gpu.blends_float32("").is_err() {
+            let note = format!("{} is left out: '{}' cannot blend 32-bit floats", row.word, gpu.name());
             tell(on_event, Event::Note(note))?;
             continue;
         }
-        let machine = match method {
-            Method::Projected => Machine::Projected(site.grid),
-            _ => Machine::OnGpu(Arc::clone(&gpu), Drawing::of(method, site, &gpu)),
-        };
-        tiles::at_once(site.grid, site.receivers, &machine)?;
-        let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
-        trials.push(Trial { drawn: machine.drawn(), against, promise, technique: look.technique()? });
-        if method == Method::Projected && site.receivers == Receivers::Ground {
-            let machine = Machine::OnGpu(Arc::clone(&gpu), Drawing::Projected(site.grid));
-            let technique = Look { machine: &machine, ..look }.technique()?;
+        for engine in [Engine::Cpu, Engine::Gpu].into_iter().filter(|engine| row.draws(*engine, subject)) {
+            let machine = match engine {
+                Engine::Gpu => Machine::on(Arc::clone(gpu), row.method, site),
+                Engine::Auto | Engine::Cpu => Machine::on_processor(row.method, site),
+            };
+            tiles::at_once(site.grid, site.receivers, &machine)?;
+            let technique = Look { site, machine: &machine, view, receivers: site.receivers }.technique()?;
+            let MethodRow { against, promise, .. } = *row;
             trials.push(Trial { drawn: machine.drawn(), against, promise, technique });
         }
     }
-    hold(site, trials, on_event)
+    Ok(trials)
+}
+
+/// The techniques that are held against ray casting: the exact ones first, as a map is held against one of them.
+fn held() -> Vec<&'static MethodRow> {
+    let is_held = |row: &&MethodRow| row.method != Method::Auto && row.promise != Promise::Same;
+    let mut rows: Vec<&MethodRow> = TABLE.iter().filter(is_held).collect();
+    rows.sort_by_key(|row| row.promise);
+    rows
 }
 
 /// Holds techniques, and ray casting itself, against the truth.
@@ -148,7 +157,7 @@ struct Cast {
 
 impl Cast {
     fn new(site: &Site, sun_samples: Option<u32>) -> Cast {
-        let machine = Machine::RayCast { sun_samples };
+        let machine = Machine::rays(sun_samples);
         let view = View::Plan(site.grid);
         let scene = Look { site, machine: &machine, view, receivers: site.receivers }.scene();
         Cast {

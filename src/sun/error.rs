@@ -1,13 +1,13 @@
 //! What can be wrong with a place, a clock reading or a window.
 
 use super::Zone;
+use crate::message::{Field, Message, Piece, Worded, message, plain_display};
 use chrono::{DateTime, NaiveDate, NaiveDateTime};
 
 /// Why there is no sun for what was asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SunError {
     /// A coordinate outside the earth, or not a number.
-    #[error("{what} {value} is not between {low} and {high} {unit}")]
     OutOfRange {
         /// `latitude`, `longitude` or `elevation`.
         what: &'static str,
@@ -21,7 +21,6 @@ pub enum SunError {
         unit: &'static str,
     },
     /// A name that the time zone database does not know.
-    #[error("time zone \"{name}\" is not in the IANA list; {hint}")]
     UnknownZone {
         /// What was given.
         name: String,
@@ -29,10 +28,6 @@ pub enum SunError {
         hint: String,
     },
     /// No zone could be found from the coordinates.
-    #[error(
-        "no time zone is known at latitude {latitude_deg}, longitude {longitude_deg}; \
-         give it, for example time_zone = \"Europe/Paris\""
-    )]
     NoZone {
         /// Degrees, north positive.
         latitude_deg: f64,
@@ -40,34 +35,23 @@ pub enum SunError {
         longitude_deg: f64,
     },
     /// Not a date.
-    #[error("\"{text}\" is not a date; write year-month-day, for example 2026-09-18")]
     BadDate {
         /// What was given.
         text: String,
     },
     /// Not a clock reading.
-    #[error(
-        "\"{text}\" is not a time; write 10:00, 10:00:30, sunrise+1h30, sunset-1h30 or 2026-09-18T15:00, \
-         the day's end as 0:00 and an offset from UTC as in 02:30+01:00"
-    )]
     BadReading {
         /// What was given.
         text: String,
     },
     /// Not a duration.
-    #[error("\"{text}\" is not a duration; write 30min, 1h, 1h30 or 90s, at most 366 days")]
     BadDuration {
         /// What was given.
         text: String,
     },
     /// A step of nothing.
-    #[error("a step of 0 never reaches the window's end; give at least 1s, for example 30min")]
     ZeroStep,
     /// More instants than anyone wants.
-    #[error(
-        "a step of {step_secs} s in a window of {window_secs} s makes {instants} instants, more than {most}; \
-         take a step of at least {least_secs}s"
-    )]
     TooManyInstants {
         /// The step asked.
         step_secs: u32,
@@ -81,7 +65,6 @@ pub enum SunError {
         least_secs: i64,
     },
     /// A window of more days than can be summed.
-    #[error("the window of {days} days is longer than {most} days; take a shorter one")]
     WindowTooLong {
         /// Whole days asked.
         days: i64,
@@ -89,13 +72,11 @@ pub enum SunError {
         most: i64,
     },
     /// A day's window begins before that of the day before ends.
-    #[error("the window of {date} begins before that of the day before ends; give an earlier `to`")]
     Overlap {
         /// The later date.
         date: NaiveDate,
     },
     /// On none of several days there is anything between `from` and `to`.
-    #[error("from {first} to {last} no day has a time between `from` and `to`; give an earlier `from` or a later `to`")]
     NoWindow {
         /// The first date.
         first: NaiveDate,
@@ -103,7 +84,6 @@ pub enum SunError {
         last: NaiveDate,
     },
     /// On a date there is nothing between `from` and `to`, which are bound to the sun.
-    #[error("on {date} there is nothing from {from} to {to}: {why}; give clock times, or `to` with its own date")]
     NothingAsked {
         /// As written.
         from: String,
@@ -115,10 +95,6 @@ pub enum SunError {
         why: &'static str,
     },
     /// `from` and `to` are the same.
-    #[error(
-        "the window from {from} to {to} is empty; give a later `to`, \
-         or for a whole day a `to` with its date, as in {example}"
-    )]
     EmptyWindow {
         /// As written.
         from: String,
@@ -128,7 +104,6 @@ pub enum SunError {
         example: String,
     },
     /// `to` names its own day and lies before `from`.
-    #[error("the window ends at {to}, before it begins at {from}; exchange them or give a later date")]
     Backwards {
         /// Start.
         from: DateTime<Zone>,
@@ -136,13 +111,11 @@ pub enum SunError {
         to: DateTime<Zone>,
     },
     /// The reading has no date and nothing else gives one.
-    #[error("{reading} needs a date; write it with one, for example 2026-09-18T15:00, or give date = 2026-09-18")]
     NoDate {
         /// As written.
         reading: String,
     },
     /// The date is said twice, differently.
-    #[error("{reading} is not on the study's date {date}; leave one of the two dates out")]
     TwoDates {
         /// As written.
         reading: String,
@@ -150,10 +123,6 @@ pub enum SunError {
         date: NaiveDate,
     },
     /// Skipped when clocks went forward.
-    #[error(
-        "{local} does not exist in {zone}: clocks jump from {before} to {after}; \
-         choose by the offset: {earlier} or {later}"
-    )]
     NoSuchTime {
         /// What was asked.
         local: NaiveDateTime,
@@ -169,10 +138,6 @@ pub enum SunError {
         later: String,
     },
     /// Read twice when clocks went back.
-    #[error(
-        "{local} exists twice in {zone}: {earlier} and {later}; \
-         choose one by its offset, for example {example}"
-    )]
     TwoReadings {
         /// What was asked.
         local: NaiveDateTime,
@@ -186,7 +151,6 @@ pub enum SunError {
         example: String,
     },
     /// The offset is none that the clock has at that time.
-    #[error("{local} in {zone} is never at {offset}; there it is {choices}, or leave the offset out")]
     WrongOffset {
         /// What was asked.
         local: NaiveDateTime,
@@ -198,7 +162,6 @@ pub enum SunError {
         choices: String,
     },
     /// A reading counts from a sunrise or sunset that does not happen.
-    #[error("there is no {event} on {date}: {why}; give a clock time instead of {reading}")]
     NoEvent {
         /// `sunrise` or `sunset`.
         event: &'static str,
@@ -210,7 +173,6 @@ pub enum SunError {
         reading: String,
     },
     /// Outside the years for which the earth's rotation is known well enough.
-    #[error("the year {year} is outside {first} to {last}, for which ΔT is known; take a date within")]
     Year {
         /// What was asked.
         year: i32,
@@ -220,6 +182,104 @@ pub enum SunError {
         last: i32,
     },
     /// The solar position library refused.
-    #[error("the sun's position cannot be computed: {0}")]
     Position(String),
+}
+
+plain_display!(SunError);
+
+/// As the site file has it.
+const FROM: Piece = Piece::Key(Field::From);
+const TO: Piece = Piece::Key(Field::To);
+
+impl Worded for SunError {
+    fn message(&self) -> Message {
+        match self {
+            SunError::OutOfRange { what, value, low, high, unit } => {
+                format!("{what} {value} is not between {low} and {high} {unit}").into()
+            }
+            SunError::UnknownZone { name, hint } => {
+                message![format!("time zone \"{name}\" is not in the IANA list"); hint.clone()]
+            }
+            SunError::NoZone { latitude_deg, longitude_deg } => message![
+                format!("no time zone is known at latitude {latitude_deg}, longitude {longitude_deg}");
+                "give it, for example time_zone = \"Europe/Paris\""
+            ],
+            SunError::BadDate { text } => message![
+                format!("\"{text}\" is not a date");
+                "write year-month-day, for example 2026-09-18"
+            ],
+            SunError::BadReading { text } => message![
+                format!("\"{text}\" is not a time");
+                "write 10:00, 10:00:30, sunrise+1h30, sunset-1h30 or 2026-09-18T15:00, the day's end as 0:00 and an \
+                 offset from UTC as in 02:30+01:00"
+            ],
+            SunError::BadDuration { text } => message![
+                format!("\"{text}\" is not a duration");
+                "write 30min, 1h, 1h30 or 90s, at most 366 days"
+            ],
+            SunError::Year { year, first, last } => message![
+                format!("the year {year} is outside {first} to {last}, for which ΔT is known");
+                "take a date within"
+            ],
+            SunError::Position(why) => format!("the sun's position cannot be computed: {why}").into(),
+            SunError::ZeroStep => message![
+                "a step of 0 never reaches the window's end";
+                "give at least 1s, for example 30min"
+            ],
+            SunError::TooManyInstants { step_secs, window_secs, instants, most, least_secs } => message![
+                format!(
+                    "a step of {step_secs} s in a window of {window_secs} s makes {instants} instants, more than {most}"
+                );
+                format!("take a step of at least {least_secs}s")
+            ],
+            SunError::WindowTooLong { days, most } => message![
+                format!("the window of {days} days is longer than {most} days");
+                "take a shorter one"
+            ],
+            SunError::Overlap { date } => message![
+                format!("the window of {date} begins before that of the day before ends");
+                "give an earlier `", TO, "`"
+            ],
+            SunError::NoWindow { first, last } => message![
+                format!("from {first} to {last} no day has a time between `"), FROM, "` and `", TO, "`";
+                "give an earlier `", FROM, "` or a later `", TO, "`"
+            ],
+            SunError::NothingAsked { from, to, date, why } => message![
+                format!("on {date} there is nothing from {from} to {to}: {why}");
+                "give clock times, or `", TO, "` with its own date"
+            ],
+            SunError::EmptyWindow { from, to, example } => message![
+                format!("the window from {from} to {to} is empty");
+                "give a later `", TO, "`, or for a whole day a `", TO, format!("` with its date, as in {example}")
+            ],
+            SunError::Backwards { from, to } => message![
+                format!("the window ends at {to}, before it begins at {from}");
+                "exchange them or give a later date"
+            ],
+            SunError::NoDate { reading } => message![
+                format!("{reading} needs a date");
+                "write it with one, for example 2026-09-18T15:00, or give date = 2026-09-18"
+            ],
+            SunError::TwoDates { reading, date } => message![
+                format!("{reading} is not on the study's date {date}");
+                "leave one of the two dates out"
+            ],
+            SunError::NoSuchTime { local, zone, before, after, earlier, later } => message![
+                format!("{local} does not exist in {zone}: clocks jump from {before} to {after}");
+                format!("choose by the offset: {earlier} or {later}")
+            ],
+            SunError::TwoReadings { local, zone, earlier, later, example } => message![
+                format!("{local} exists twice in {zone}: {earlier} and {later}");
+                format!("choose one by its offset, for example {example}")
+            ],
+            SunError::WrongOffset { local, zone, offset, choices } => message![
+                format!("{local} in {zone} is never at {offset}");
+                format!("there it is {choices}, or leave the offset out")
+            ],
+            SunError::NoEvent { event, date, why, reading } => message![
+                format!("there is no {event} on {date}: {why}");
+                format!("give a clock time instead of {reading}")
+            ],
+        }
+    }
 }

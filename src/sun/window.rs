@@ -4,7 +4,7 @@ use super::clock::When;
 use super::day::{light, midnight};
 use super::position::{Air, check_year, delta_t_secs};
 use super::{Day, Instant, Place, Polar, Reading, Sky, SunError, SunTrack, TimeOfDay, Zone};
-use chrono::{DateTime, Datelike, NaiveDate, TimeDelta};
+use chrono::{DateTime, Datelike, NaiveDate, SubsecRound, TimeDelta};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
@@ -177,6 +177,14 @@ impl SunTrack {
             return Err(SunError::NothingAsked { from, to, date, why });
         }
         track(place, &[[from, to]], window.step_secs, refraction)
+    }
+
+    /// One instant alone, of weight and step 0, in whole seconds.
+    ///
+    /// # Errors
+    /// A year outside 1600 to 2999.
+    pub fn of_instant(place: &Place, time: DateTime<Zone>, refraction: bool) -> Result<SunTrack, SunError> {
+        track(place, &[[time.trunc_subsecs(0); 2]], 0, refraction)
     }
 
     /// One instant alone, of weight and step 0. A reading without a date takes `date`.

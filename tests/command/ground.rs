@@ -21,20 +21,27 @@ cell = 0.5
 /// A part's name, its corners (east, north, up) and its triangles.
 type Named<'a> = (&'a str, Vec<[f32; 3]>, Vec<u16>);
 
-/// Named parts as a binary glTF.
+/// Named parts as a binary glTF. Those of one name that follow each other are one node, each of a material of its own.
 pub(crate) fn model(parts: &[Named<'_>]) -> Vec<u8> {
     let mut model = Model::new();
-    let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
-    for (index, (name, corners, triangles)) in parts.iter().enumerate() {
-        let corners: Vec<f32> = corners.iter().flat_map(|[east, north, up]| [*east, *up, -north]).collect();
-        let bytes: Vec<u8> = triangles.iter().flat_map(|index| index.to_le_bytes()).collect();
-        let positions = model.f32s("VEC3", &corners);
-        let indices = model.accessor("SCALAR", U16, triangles.len(), &bytes);
-        meshes.push(json!({"primitives": [{"attributes": {"POSITION": positions}, "indices": indices}]}));
-        nodes.push(json!({"mesh": index, "name": name}));
+    let (mut meshes, mut nodes, mut materials) = (Vec::new(), Vec::new(), Vec::new());
+    for node in parts.chunk_by(|one, other| one.0 == other.0) {
+        nodes.push(json!({"mesh": meshes.len(), "name": node[0].0}));
+        let primitives: Vec<Value> = node.iter().map(|part| primitive(&mut model, &mut materials, part)).collect();
+        meshes.push(json!({"primitives": primitives}));
     }
     (model.json["meshes"], model.json["nodes"]) = (meshes.into(), nodes.into());
+    model.json["materials"] = materials.into();
     model.glb()
+}
+
+fn primitive(model: &mut Model, materials: &mut Vec<Value>, (_, corners, triangles): &Named<'_>) -> Value {
+    let corners: Vec<f32> = corners.iter().flat_map(|[east, north, up]| [*east, *up, -north]).collect();
+    let bytes: Vec<u8> = triangles.iter().flat_map(|index| index.to_le_bytes()).collect();
+    let positions = model.f32s("VEC3", &corners);
+    let indices = model.accessor("SCALAR", U16, triangles.len(), &bytes);
+    materials.push(json!({"name": format!("material {}", materials.len())}));
+    json!({"attributes": {"POSITION": positions}, "indices": indices, "material": materials.len() - 1})
 }
 
 /// A closed box between two heights, so wide from its middle at east and north.
@@ -204,8 +211,16 @@ fn models_on_zero_stand_on_their_lowest_point() {
 #[test]
 fn terrain_is_judged_as_what_it_is() {
     let tower = || block("tower", [0.0; 2], 5.0, [-8.0, 30.0]);
+    let strip = |south: f32| -> Named<'static> {
+        let (name, corners, triangles) = slope("meadow", [-3.0, 5.0]);
+        let along = |[east, north, up]: [f32; 3]| [east, south + (north + 100.0) / 8.0, up];
+        (name, corners.into_iter().map(along).collect(), triangles)
+    };
+    let strips = (0..8_u8).map(|at| strip(-100.0 + 25.0 * f32::from(at)));
     let folder = sites(&[
         ("hill", model(&[slope("meadow", [-3.0, 5.0]), tower()]), ""),
+        // the same of one node in eight materials, none of which is a quarter of it
+        ("mosaic", model(&strips.into_iter().chain([tower()]).collect::<Vec<_>>()), ""),
         ("polder", model(&[slope("meadow", [-0.42, -0.42]), block("house", [0.0; 2], 5.0, [-0.4, 9.0])]), ""),
         // no terrain: a sheet over the house, and a floor in its cellar that nobody sees from above
         (
@@ -220,6 +235,9 @@ fn terrain_is_judged_as_what_it_is() {
     let note = "the ground is at -8.00 m, the models' lowest point: at their own zero it would hide 38 % of what is seen of \
                 \"meadow\"";
     assert!(notes.contains(note), "{notes}");
+    let (report, notes) = told(path, "profile mosaic.toml --out mosaic");
+    assert_eq!(ground(&report), (-8.0, "lowest", 0.0));
+    assert!(notes.contains("it would hide 38 % of what is seen of \"meadow/material"), "{notes}");
     let found = std::fs::read(path.join("out/shadow-hours.tif")).unwrap();
     told(path, "profile hill.toml --ground -50");
     assert!(found == std::fs::read(path.join("out/shadow-hours.tif")).unwrap(), "the plane lies under all of it");

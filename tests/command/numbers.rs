@@ -66,17 +66,27 @@ fn folder(model: &Model, keys: &str) -> TempDir {
     folder
 }
 
-/// The pergola, and where asked a triangle so many metres east of it, in the same primitive.
-fn strayed(metres: Option<f64>) -> TempDir {
+/// The pergola, and where asked a triangle so many metres east of it, in the same primitive: it lies there, or reaches there
+/// from home.
+fn strayed(metres: Option<f64>, from: From) -> TempDir {
     let (mut corners, mut indices) = pergola();
     if let Some(east) = metres {
         let first = corners.len() as u32;
-        corners.extend([[east, 0.0, 0.0], [east + 1.0, 0.0, 0.0], [east, 0.0, -1.0]]);
+        corners.extend(match from {
+            From::There => [[east, 0.0, 0.0], [east + 1.0, 0.0, 0.0], [east, 0.0, -1.0]],
+            From::Home => [[0.0, 0.0, 0.0], [east, 0.0, 0.0], [0.0, 0.0, -1.0]],
+        });
         indices.extend([first, first + 1, first + 2]);
     }
     let mut model = Model::new();
     add(&mut model, "slats", &corners, &indices);
     folder(&model, "")
+}
+
+#[derive(Clone, Copy)]
+enum From {
+    There,
+    Home,
 }
 
 /// Square metres of shadow times hours over the window, and square metres at 13:00.
@@ -97,21 +107,25 @@ fn shadow(folder: &Path) -> (f64, f64) {
 /// `shared/cases/07-weld-stray`: 17.6 m²h and no shadow at 13:00 before, 50.0 m²h and 8.10 m² without the stray.
 #[test]
 fn a_pergola_with_a_stray_shades_as_it_does_without() {
-    let right = shadow(strayed(None).path());
+    let right = shadow(strayed(None, From::There).path());
     assert!((right.0 - 50.0).abs() < 0.1 && (right.1 - 8.10).abs() < 0.05, "{right:?}");
-    for km in [60.0, 1000.0] {
-        assert_eq!(shadow(strayed(Some(km * 1000.0)).path()), right, "{km} km");
+    for (km, from) in [(60.0, From::There), (1000.0, From::There), (60.0, From::Home), (1000.0, From::Home)] {
+        assert_eq!(shadow(strayed(Some(km * 1000.0), from).path()), right, "{km} km");
     }
 }
 
 #[test]
 fn a_stray_is_named_and_nothing_of_home_is_called_wrong() {
-    let folder = strayed(Some(60_000.0));
-    let shadow = gnomon(folder.path(), "shadow . --at 2026-06-21T13:00 --mask m.png --receivers ground --engine cpu");
     let words = "has 1 triangle of 'slats' as far as 60 km from all else";
-    assert!(stderr(&shadow).contains(words) && !stderr(&shadow).contains("position"), "{}", stderr(&shadow));
-    let table = done(folder.path(), "check site.toml");
-    assert!(table.contains(words), "{table}");
+    for from in [From::Home, From::There] {
+        let folder = strayed(Some(60_000.0), from);
+        let shadow =
+            gnomon(folder.path(), "shadow . --at 2026-06-21T13:00 --mask m.png --receivers ground --engine cpu");
+        assert!(stderr(&shadow).contains(words) && !stderr(&shadow).contains("position"), "{}", stderr(&shadow));
+        let table = done(folder.path(), "check site.toml");
+        assert!(table.contains(words), "{table}");
+    }
+    let folder = strayed(Some(60_000.0), From::There);
     let report: Value = serde_json::from_str(&done(folder.path(), "check pergola.glb --json")).unwrap();
     assert_eq!(report["components"][0]["degenerate_triangles"], 0);
     assert_eq!(report["components"][0]["open_edges"], 3);

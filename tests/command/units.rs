@@ -30,7 +30,7 @@ pub(crate) fn blocks(boxes: &[([f64; 3], [f64; 3])]) -> Model {
     model
 }
 
-fn folder(model: &Model, keys: &str) -> TempDir {
+pub(crate) fn folder(model: &Model, keys: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("model.glb"), model.glb()).unwrap();
     std::fs::write(folder.path().join("site.toml"), format!("{PLACE}[[model]]\npath = \"model.glb\"\n{keys}{STUDY}"))
@@ -44,7 +44,7 @@ fn tower(units: f64) -> Model {
 }
 
 /// The same, its z up.
-fn lying() -> Model {
+pub(crate) fn lying() -> Model {
     block([-5.0, -5.0, 0.0], [5.0, 5.0, 30.0])
 }
 

@@ -25,7 +25,7 @@ fn volumes_are_a_model_that_others_read() {
         assert_eq!(extras[key], sun["instants"][0][key]);
     }
     // our own reader finds the caster's name, and a solid with the shadow's length
-    let mesh = gnomon::site::load_mesh(&path, None).unwrap().mesh;
+    let mesh = gnomon::site::load_mesh(&path, &gnomon::site::Overrides::default()).unwrap().mesh;
     assert_eq!(mesh.components[0].name, "tower");
     assert!(gnomon::mesh::report::components(&mesh)[0].closed);
     let (low, high) = mesh.bounds().unwrap();

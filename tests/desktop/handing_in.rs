@@ -58,7 +58,7 @@ fn hours_are_those_of_the_command() {
     }
 }
 
-/// Iso-hour lines and outlines, each as PNG and as SVG; what cannot be drawn is told in the command's words.
+/// Iso-hour lines and outlines, each as PNG and as SVG; what cannot be drawn is told without the command's options.
 #[test]
 fn lines_are_those_of_the_command() {
     let (folder, site) = small_site();
@@ -80,9 +80,10 @@ fn lines_are_those_of_the_command() {
     click(&mut harness, "Export…");
     answer(&mut harness, &out, "Write");
     let by_command = folder.path().join("command");
-    let options = ["--draw", "hours,outlines", "--quiet", "--out"].map(std::ffi::OsStr::new);
+    let options = ["--draw", "hours,outlines", "--bits", "--quiet", "--out"].map(std::ffi::OsStr::new);
     command(&[&["profile".as_ref(), site.as_os_str()], options.as_slice(), &[by_command.as_ref()]].concat());
-    for name in ["hours.png", "hours.svg", "outlines.png", "outlines.svg", "profile.png", "shadow-hours.tif"] {
+    let names = ["hours.png", "hours.svg", "outlines.png", "outlines.svg", "profile.png", "shadow-hours.tif"];
+    for name in names.into_iter().chain(["shadow.bits"]) {
         let [ours, theirs] = [&out, &by_command].map(|folder| std::fs::read(folder.join(name)).unwrap());
         assert!(ours == theirs, "{name} is another one");
     }
@@ -93,15 +94,8 @@ fn lines_are_those_of_the_command() {
     settle(&mut harness);
     menu(&mut harness, "Export the outlines…");
     answer(&mut harness, &folder.path().join("none"), "Write");
-    let told = Command::new(env!("CARGO_BIN_EXE_gnomon"))
-        .args(["profile".as_ref(), site.as_os_str()])
-        .args(["--step", "10min", "--draw", "outlines", "--out"])
-        .arg(folder.path().join("none"))
-        .output()
-        .expect("the command");
-    let told = String::from_utf8_lossy(&told.stderr).trim().trim_start_matches("error: ").to_owned();
-    assert!(told.contains("too many to tell apart"), "{told}");
-    harness.get_by_label(&told);
+    harness.get_by_label_contains("49 instants with a sun are too many to tell apart");
+    assert!(harness.query_by_label_contains("--").is_none(), "the window has no options");
     assert!(!folder.path().join("none").exists());
     menu(&mut harness, "Export the iso-hour lines…");
     answer(&mut harness, &folder.path().join("none"), "Write");
@@ -287,7 +281,7 @@ fn nothing_is_exported_over_a_model() {
 
     // nor where a study works
     let out = folder.path().join("out");
-    let locked = gnomon::export::workplace::Workplace::take([out.as_path()], &[], "somebody's study").unwrap();
+    let locked = gnomon::deliver::disk::workplace::Workplace::take([out.as_path()], &[], "somebody's study").unwrap();
     for entry in ["Export the hours…", "Export the animation…"] {
         menu(&mut harness, entry);
         answer(&mut harness, &out, "Write");
@@ -299,6 +293,37 @@ fn nothing_is_exported_over_a_model() {
     menu(&mut harness, "Export the hours…");
     answer(&mut harness, &out, "Write");
     assert!(out.join("profile.png").exists() && !out.join(".gnomon.lock").exists());
+}
+
+/// Hours that are cancelled are kept: the same study goes on from there another time.
+#[test]
+fn hours_that_are_cancelled_are_kept() {
+    let (folder, site) = small_site();
+    let studies = folder.path().join("studies");
+    let there = studies.clone();
+    let mut harness = Harness::<App>::builder()
+        .with_size(egui::vec2(1280.0, 720.0))
+        .wgpu_setup(gnomon::desktop::setup())
+        .build_eframe(move |cc| App::new(cc, Some(&site)).expect("an adapter").keeping_studies_in(&there));
+    settle(&mut harness);
+    write(&mut harness, "step", "1s");
+    settle(&mut harness);
+    click(&mut harness, "Find the hours");
+    let begun = Instant::now();
+    while harness.query_by_label_contains(" of 28801 instants").is_none() {
+        harness.step();
+        assert!(begun.elapsed() < Duration::from_secs(20), "no instant was drawn");
+    }
+    click(&mut harness, "Cancel the hours");
+    let is_kept = || {
+        let entries = studies.read_dir().into_iter().flatten().flatten();
+        let names: Vec<_> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.iter().any(|name| name.starts_with("profile.")) && !names.iter().any(|name| name == ".gnomon.lock")
+    };
+    while !is_kept() {
+        std::thread::sleep(Duration::from_millis(10));
+        assert!(begun.elapsed() < Duration::from_secs(40), "nothing was kept");
+    }
 }
 
 #[test]

@@ -124,7 +124,8 @@ fn losing_window() {
             // somebody looks at the screen
             5 if frames > 150 => {
                 app.lose_pictures(0);
-                app.lose_window();
+                // egui's renderer panics
+                app.lose_window_in_painting(context);
                 step = 6;
             }
             8 => context.send_viewport_cmd(egui::ViewportCommand::Close),
@@ -159,5 +160,50 @@ fn window_is_opened_again_whose_device_is_lost() {
     let why = "failed (its device was lost); the window was opened again on a new device";
     assert_eq!(said.matches(why).count(), 2, "{said}");
     assert!(before.iter().zip(&after).all(|(a, b)| (a - b).abs() < 0.02), "{before:?} {after:?}");
+    assert!(window.process.0.wait().expect("an end").success());
+}
+
+const OFTEN: &str = "lost::window_goes_to_the_processor_and_gives_up";
+
+/// Loses each window's device in its first frames, and says what the next one says of it.
+fn losing_again_and_again() {
+    let mut frames = 0;
+    let ended = desktop::open_with(None, &on_any_thread, &mut |app, context| {
+        frames += 1;
+        context.request_repaint_after(Duration::from_millis(20));
+        if frames == 3 {
+            println!("{SAYS}{:?}", app.told());
+            match app.told()[1].is_some_and(|told| told.contains("processor")) {
+                true => app.lose_window_in_painting(context),
+                false => app.lose_window(),
+            }
+            frames = 0;
+            app.hush();
+        }
+    });
+    println!("{SAYS}ended: {}", ended.expect_err("every device is lost"));
+}
+
+/// Devices that are lost again and again: the fourth time within a minute the processor draws the window, and where those
+/// of the processor are lost as often the program says so and ends.
+#[test]
+fn window_goes_to_the_processor_and_gives_up() {
+    if shows_window_of(OFTEN) {
+        return losing_again_and_again();
+    }
+    let (_server, display) = server(4);
+    let mut window = Watched::start(OFTEN, &display);
+    window.until_any("ended: ");
+    let said = &window.said;
+    assert_eq!(said.len(), 9, "{said:#?}");
+    assert_eq!(said[0], "[None, None]");
+    for (at, said) in said.iter().enumerate().skip(1) {
+        let rest = match at {
+            4 => "time and again; the window is drawn on the processor now",
+            8 => "time and again, and no window can be shown; look after its driver",
+            _ => "failed (its device was lost); the window was opened again on a new device",
+        };
+        assert!(said.contains(rest), "{at}: {said}");
+    }
     assert!(window.process.0.wait().expect("an end").success());
 }

@@ -21,7 +21,7 @@ fn bare_model_asks_for_its_place() {
     harness.get_by_label("Where does it stand?");
     write(&mut harness, "Latitude, longitude", "98, 16.37");
     settle(&mut harness);
-    let told = "--place: latitude 98 is not between -90 and 90 degrees";
+    let told = "latitude 98 is not between -90 and 90 degrees";
     assert!(harness.query_by_label_contains("latitude").is_some(), "{told}");
     drop_file(&mut harness, &sample("industry/industry.glb"));
     write(&mut harness, "Latitude, longitude", "48.2, 16.37");

@@ -68,7 +68,7 @@ impl Watched {
     }
 
     /// Waits until it says something that begins so.
-    fn until_any(&mut self, what: &str) {
+    pub(super) fn until_any(&mut self, what: &str) {
         self.wait(what, |said| said.starts_with(what));
     }
 

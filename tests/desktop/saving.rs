@@ -164,6 +164,44 @@ fn file_that_is_there_is_not_replaced_without_a_question() {
         click(&mut harness, "Cancel");
         assert!(std::fs::read(out.join(file)).unwrap() == written);
     }
+    // one frame is enough, whichever it is
+    let frames = folder.path().join("frames");
+    std::fs::create_dir(&frames).unwrap();
+    std::fs::write(frames.join("frame-0003.png"), "somebody's").unwrap();
+    menu(&mut harness, "Export the animation…");
+    name(&mut harness, &frames);
+    settle(&mut harness);
+    assert!(is_asked(&harness, REPLACE));
+    harness.get_by_label_contains("frame-0003.png is there already.");
+    click(&mut harness, "Cancel");
+    click(&mut harness, "Cancel");
+    assert_eq!(std::fs::read(frames.join("frame-0003.png")).unwrap(), b"somebody's");
+}
+
+/// What was to follow one question does not follow what is saved after another.
+#[test]
+fn what_follows_a_question_goes_with_it() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let theirs = std::fs::read_to_string(&site).unwrap().replace("\"17:00\"", "\"16:00\"");
+    std::fs::write(&site, &theirs).unwrap();
+    write(&mut harness, "step", "4h");
+    settle(&mut harness);
+    drop_file(&mut harness, &sample("tower/site.toml"));
+    assert!(is_asked(&harness, UNSAVED));
+    click(&mut harness, "Save");
+    settle(&mut harness);
+    assert!(is_asked(&harness, "Replace the file?"));
+    // instead of an answer the window is closed, which is thought better of
+    assert!(!closes(&mut harness));
+    harness.step();
+    assert!(is_asked(&harness, UNSAVED));
+    click(&mut harness, "Cancel");
+    save(&mut harness);
+    click(&mut harness, "Replace it");
+    settle(&mut harness);
+    assert!(std::fs::read_to_string(&site).unwrap().contains("4h"));
+    harness.get_by_label("Works");
 }
 
 /// What another program has written into the open file since is no more replaced unasked than any other file.
@@ -320,11 +358,16 @@ fn what_was_not_saved_is_offered_again() {
     let before = std::fs::read(&site).unwrap();
     let mut first = keeping(Some(&site), &recovery);
     assert_eq!(kept(&recovery), 0, "all is saved");
+    // of a window that was killed before it kept anything
+    std::fs::create_dir_all(&recovery).unwrap();
+    let lock = recovery.join("1-0.lock");
+    std::fs::write(&lock, "").unwrap();
     write(&mut first, "step", "4h");
     settle(&mut first);
     until_kept(&mut first, &recovery, "4h");
     let second = keeping(None, &recovery);
     assert!(!is_asked(&second, OFFER), "the first window lives");
+    assert!(!lock.exists(), "a lock that nobody holds goes");
     drop(second);
     // it ends without a word
     drop(first);
@@ -354,6 +397,7 @@ fn what_was_not_saved_is_offered_again() {
     save(&mut second);
     assert!(std::fs::read_to_string(&site).unwrap().contains("step = \"4h\""));
     assert_eq!(kept(&recovery), 0, "it is saved");
+    assert_eq!(recovery.read_dir().unwrap().count(), 0);
     drop(second);
     assert!(!is_asked(&keeping(None, &recovery), OFFER));
 }

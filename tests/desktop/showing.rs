@@ -138,7 +138,7 @@ fn techniques_are_chosen_and_said() {
         harness.get_by_label(word).click();
         harness.step();
         settle(&mut harness);
-        assert_eq!(harness.state().drawn().map(|drawn| drawn.technique), Some(technique));
+        assert_eq!(harness.state().drawn().map(|drawn| drawn.technique.word()), Some(technique));
     }
     // volumes and silhouette lie over the picture
     let before = harness.state().picture().unwrap();

@@ -140,6 +140,41 @@ fn dates_and_times_are_read_and_written_as_the_site_file_says_them() {
     assert_eq!(value(&harness, "Clock"), "17:00");
 }
 
+/// A study that is none is told by the panel's labels, and not by the keys and options of a site file and the command.
+#[test]
+fn what_is_wrong_with_a_study_is_told_by_the_labels() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let set = |harness: &mut Harness<'_, App>, label: &str, text: &str| {
+        write(harness, label, text);
+        settle(harness);
+        harness.state().told()[0].map(str::to_owned)
+    };
+    let told = set(&mut harness, "to", "9:00").expect("nothing from nine to nine");
+    let wanted = "Window, to: the window from 9:00 to 9:00 is empty; give a later `\"to\"`";
+    assert!(told.starts_with(wanted), "{told}");
+    assert!(says(&harness, "give a later \"to\", or for a whole day"), "no accents stand in the window");
+    let told = set(&mut harness, "to", " ").expect("no end");
+    assert!(told.ends_with("site.toml does not say \"to\" of the study"), "{told}");
+    assert_eq!(set(&mut harness, "to", "17:00"), None);
+}
+
+/// What a technique cannot do is told by the panel's labels.
+#[test]
+fn what_a_technique_cannot_do_is_told_by_the_labels() {
+    let (_folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    harness.get_by_role_and_label(egui::Role::ComboBox, "Technique").click();
+    harness.run_steps(2);
+    harness.get_by_label("soft-texture").click();
+    harness.step();
+    settle(&mut harness);
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    let told = harness.state().told()[0].expect("it draws no plan").to_owned();
+    assert!(told.starts_with("Technique: soft-texture ") && !told.contains("--"), "{told}");
+}
+
 /// What cannot be read keeps the dialog open, with what was typed and why.
 #[test]
 fn dialog_stays_open_over_what_cannot_be_read() {

@@ -164,11 +164,11 @@ fn diagrams_and_the_disc_are_seen() {
     let mask = harness.state().picture().unwrap().2;
     choose(&mut harness, "Picture of", "volumes counted");
     let counted = harness.state().picture().unwrap().2;
-    assert_eq!(harness.state().drawn().map(|drawn| drawn.technique), Some("hybrid"));
+    assert_eq!(harness.state().drawn().map(|drawn| drawn.technique.word()), Some("hybrid"));
     assert!(plain != mask && mask != counted && counted != plain, "three pictures");
     choose(&mut harness, "Technique", "ray-cast");
     let hard = harness.state().picture().unwrap().2;
-    assert_eq!(harness.state().drawn().map(|drawn| drawn.technique), Some("ray-cast"));
+    assert_eq!(harness.state().drawn().map(|drawn| drawn.technique.word()), Some("ray-cast"));
     click(&mut harness, "The sun as a disc: soft edges");
     settle(&mut harness);
     let soft = harness.state().picture().unwrap().2;

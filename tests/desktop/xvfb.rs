@@ -70,7 +70,7 @@ pub(super) fn shades(rgb: &[u8]) -> [f64; 2] {
 
 /// An X server without a screen, and its name; each test of this process has its own number.
 pub(super) fn server(of_test: u32) -> (Running, String) {
-    let number = 200 + (std::process::id() * 4 + of_test) % 2400;
+    let number = 200 + (std::process::id() * 5 + of_test) % 2400;
     let display = format!(":{number}");
     let server = Command::new("Xvfb")
         .args([&display, "-screen", "0", "1280x760x24", "-nolisten", "tcp"])

@@ -81,7 +81,7 @@ fn profile_json_is_the_contract() {
     assert!((millibar - 992.9).abs() < 0.2, "{millibar}");
 
     let mut town = town;
-    town.drawn.silhouette = None;
+    town.drawn.finder = None;
     town.drawn.adapter = None;
     town.track.refraction = false;
     let json: Value = serde_json::from_str(&write(&town)).unwrap();

@@ -2,10 +2,11 @@
 
 use chrono::{NaiveDate, TimeDelta, TimeZone};
 use glam::DVec3;
+use gnomon::choice::{Engine, Finder, Method, Receivers, Settings};
 use gnomon::export::figure::Scene;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::profile::{Drawn, DrawnSettings, Profile};
-use gnomon::site::{Ground, Receivers};
+use gnomon::profile::{Drawn, Profile};
+use gnomon::site::Ground;
 use gnomon::sun::{Day, Instant, Place, SunTrack, Zone, ZoneRules};
 use gnomon::view::{Grid, Mask, Surface};
 use rayon::prelude::*;
@@ -31,11 +32,11 @@ impl Town {
             track: track(from, to, step),
             mesh: mesh(scale),
             drawn: Drawn {
-                technique: "stencil",
-                silhouette: Some("brute"),
-                engine: "gpu",
+                technique: Method::Stencil,
+                finder: Some(Finder::Brute),
+                engine: Engine::Gpu,
                 adapter: Some("llvmpipe (LLVM 19.1.7, 256 bits)".to_owned()),
-                settings: DrawnSettings::default(),
+                settings: Settings::NONE,
             },
         }
     }

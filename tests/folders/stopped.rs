@@ -2,7 +2,7 @@
 
 use super::bytes;
 use crate::shared::program::{command, done, files, gnomon, left, numberless, site, stderr, stopped};
-use gnomon::export::unfinished::{self, Checks, Kept};
+use gnomon::deliver::disk::unfinished::{self, Checks, Kept};
 use gnomon::profile::{Statistics, Unfinished};
 use std::fs;
 use std::path::Path;

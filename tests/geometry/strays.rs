@@ -1,6 +1,6 @@
 //! What lies far off: leftovers of a drawing change no bit of what stands at home.
 
-use super::part;
+use super::{part, unjoined};
 use crate::shared::scenes::{cuboid, joined};
 use glam::{DVec3, dvec3};
 use gnomon::mesh::{Mesh, MeshError, Part, report};
@@ -53,6 +53,65 @@ fn a_stray_far_away_moves_no_bit_of_what_stands_at_home() {
             assert_eq!(mesh.bounds_at_home(), alone.bounds_at_home(), "{what} at {km} km");
         }
     }
+}
+
+/// Twenty bars of 0.9 mm, which a tolerance of a millimetre would make lines.
+fn bars(at: DVec3) -> Part {
+    let bar = |index: u32| {
+        let low = at + dvec3(f64::from(index) * 0.1, 0.0, 1.0);
+        cuboid("bars", low, low + dvec3(0.0009, 0.0009, 1.0))
+    };
+    joined((0..20).map(bar).collect())
+}
+
+#[test]
+fn a_stray_near_by_makes_nothing_flat_that_stands_at_home() {
+    for at in [DVec3::ZERO, dvec3(-120.0, 240.0, 3.0)] {
+        for away in [0.6, 2.0, 9.0, 15.0].map(|km| dvec3(km * 1000.0, 3.0, 0.0)) {
+            let mesh = Mesh::build(vec![joined(vec![bars(at), stray(at + away)])]).unwrap();
+            assert_eq!(mesh.faces.len(), 20 * 12 + 1, "{away}");
+            assert_eq!(mesh.components[0].flattened, 0, "{away}");
+        }
+    }
+}
+
+#[test]
+fn corners_at_both_sides_of_a_border_of_cells_are_welded() {
+    // borders lie at each 250 m from the place; one runs along a side of this house, and corners lie a hair beside it
+    let low = dvec3(250.0, 500.0, 0.0);
+    let mut house = unjoined(&cuboid("house", low, low + dvec3(40.0, 60.0, 3.0)));
+    for (at, corner) in house.positions.iter_mut().enumerate() {
+        corner.x += if at % 2 == 0 { 1e-5 } else { -1e-5 };
+    }
+    let far = low + dvec3(0.0, 900.0, 0.0);
+    let mesh = Mesh::build(vec![joined(vec![house, cuboid("far", far, far + 200.0)])]).unwrap();
+    assert_eq!(mesh.vertices.len(), 16);
+}
+
+#[test]
+fn a_triangle_from_home_to_far_away_joins_nothing() {
+    let home = || pergola(DVec3::ZERO);
+    let alone = Mesh::build(vec![home()]).unwrap();
+    for km in [60.0, 1000.0] {
+        let at = dvec3(km * 1000.0, 0.0, 0.0);
+        let corners = vec![dvec3(1.0, 1.0, 0.0), dvec3(2.0, 1.0, 0.0), at];
+        let across = || Part { name: "leftover".into(), ..part(corners.clone(), vec![[0, 1, 2]]) };
+        // a stray of its own at the other end, too
+        for parts in [vec![home(), across()], vec![joined(vec![across(), home()])], vec![across(), home(), stray(at)]] {
+            let mesh = Mesh::build(parts).unwrap();
+            assert_eq!(mesh.origin, alone.origin, "{km} km");
+            assert!(at_home(&mesh) == at_home(&alone), "{km} km");
+            assert_eq!(mesh.home(), alone.home(), "{km} km");
+        }
+    }
+}
+
+#[test]
+fn land_whose_triangles_are_wider_than_strays_are_far_is_one_home() {
+    let far = 30_000.0;
+    let corners = [(-far, -far), (far, -far), (far, far), (-far, far)].map(|(x, y)| dvec3(x, y, 0.0)).to_vec();
+    let mesh = Mesh::build(vec![Part { name: "land".into(), ..part(corners, vec![[0, 1, 2], [0, 2, 3]]) }]).unwrap();
+    assert!((0..4).all(|vertex| mesh.is_at_home(vertex)));
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};
+use gnomon::cli::Options;
 use gnomon::mesh::Mesh;
+use gnomon::message::Worded;
 use gnomon::site::{Engine, Finder, Method, Overrides, Site};
 use gnomon::study::{Event, StudyError, SurfaceOutcome, surfaces};
 use std::ops::ControlFlow;
@@ -41,17 +43,17 @@ fn every_machine_and_technique_finds_the_same_hours() {
     let mut site = house();
     let (auto, notes) = asked(&site, 0.5);
     assert!(notes.is_empty(), "{notes:?}");
-    assert_eq!((auto.drawn.technique, auto.drawn.silhouette), ("soft-texture", None));
+    assert_eq!((auto.drawn.technique, auto.drawn.finder), (Method::SoftTexture, None));
     site.method = Method::RayCast;
     let (rays, _) = asked(&site, 0.5);
-    assert_eq!((rays.drawn.technique, rays.judged.textures), ("ray-cast", 0));
+    assert_eq!((rays.drawn.technique, rays.judged.textures), (Method::RayCast, 0));
     assert_eq!(auto.hours, rays.hours);
     (site.method, site.engine) = (Method::SoftTexture, Engine::Cpu);
     let (filled, _) = asked(&site, 0.5);
-    assert_eq!((filled.hours.clone(), filled.drawn.engine, filled.gpu_bytes), (auto.hours, "cpu", 0));
+    assert_eq!((filled.hours.clone(), filled.drawn.engine, filled.gpu_bytes), (auto.hours, Engine::Cpu, 0));
     site.engine = Engine::Gpu;
     let (drawn, _) = asked(&site, 0.5);
-    assert_eq!(drawn.drawn.engine, "gpu");
+    assert_eq!(drawn.drawn.engine, Engine::Gpu);
     assert!(drawn.drawn.adapter.is_some() && drawn.gpu_bytes > 0);
     let differing = super::differing(&filled.hours.lit, &drawn.hours.lit).len();
     assert!(differing * 100 < filled.hours.lit.len(), "{differing} texels");
@@ -102,13 +104,13 @@ fn what_does_not_fit_is_told_and_listeners_may_stop() {
         let mut site = house();
         change(&mut site);
         let error = surfaces(&site, 0.5, &mut |_| ControlFlow::Continue(())).expect_err("a conflict");
-        assert!(error.to_string().contains(word), "{error}");
+        assert!(error.in_words(&Options).contains(word), "{error}");
         error
     };
     assert!(refused(|site| site.method = Method::Stencil, "soft-texture or ray-cast").is_wrong_use());
-    assert!(refused(|site| site.settings.map_size = Some(512), "--map-size").is_wrong_use());
-    assert!(refused(|site| site.finder = Finder::Brute, "--silhouette").is_wrong_use());
-    assert!(refused(|site| (site.method, site.engine) = (Method::RayCast, Engine::Gpu), "--engine").is_wrong_use());
+    assert!(refused(|site| site.settings.map_size = Some(512), "map-size: ").is_wrong_use());
+    assert!(refused(|site| site.finder = Finder::Brute, "silhouette: ").is_wrong_use());
+    assert!(refused(|site| (site.method, site.engine) = (Method::RayCast, Engine::Gpu), "engine: ").is_wrong_use());
     assert!(!refused(|site| site.receives = vec![false; 2], "receives").is_wrong_use());
     let mut drawn = 0;
     let stopped = surfaces(&house(), 0.5, &mut |event| {

@@ -2,7 +2,9 @@
 
 use crate::shared::dense::{cuboid, prism, to_sun};
 use glam::{DVec3, dvec3};
+use gnomon::cli::Options;
 use gnomon::mesh::{Mesh, Part};
+use gnomon::message::Worded;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::soft_picture::SoftPicture;
 use gnomon::shadow::{Scene, Technique};
@@ -89,17 +91,17 @@ fn the_command_draws_it_for_a_camera_on_the_processor() {
     let view = View::Camera(camera(dvec3(16.0, -26.0, 13.0), DVec3::ZERO));
     let asked = |site: &Site, view| instant(site, view, &InstantWants::default(), &mut |_| ControlFlow::Continue(()));
     let default = asked(&site, view).expect("a picture");
-    assert_eq!((default.drawn.technique, default.drawn.engine), ("soft-texture", "cpu"));
+    assert_eq!((default.drawn.technique, default.drawn.engine), (Method::SoftTexture, Engine::Cpu));
     assert!(default.mask.share.iter().any(|share| !matches!(share, 0 | 255)), "a penumbra is seen");
     site.settings.sun_samples = Some(64);
     assert_eq!(asked(&site, view).expect("a picture").mask, default.mask);
     site.settings.sun_samples = Some(8);
     assert_ne!(asked(&site, view).expect("a picture").mask, default.mask);
     for (view, engine, word) in
-        [(View::Plan(site.grid), Engine::Auto, "--receivers surfaces"), (view, Engine::Gpu, "on the cpu")]
+        [(View::Plan(site.grid), Engine::Auto, "does not draw the plan"), (view, Engine::Gpu, "on the cpu")]
     {
         let error = asked(&Site { engine, ..site.clone() }, view).expect_err("a conflict");
-        assert!(error.is_wrong_use() && error.to_string().contains(word), "{error}");
+        assert!(error.is_wrong_use() && error.in_words(&Options).contains(word), "{error}");
     }
 }
 

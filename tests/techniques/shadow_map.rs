@@ -5,8 +5,10 @@ use crate::shared::drawing::{gpu, plan, scene_of, to_sun};
 use crate::shared::far_wrong::far_wrong;
 use crate::shared::scenes::{cuboid, sheet};
 use glam::{DVec3, dvec3};
+use gnomon::choice::MAP_SIZE;
+use gnomon::cli::Options;
 use gnomon::mesh::Mesh;
-use gnomon::shadow::map::DEFAULT_SIZE;
+use gnomon::message::Worded;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::{Scene, ShadowError};
@@ -42,7 +44,7 @@ fn the_default_bias_leaves_neither_acne_nor_detached_shadows_on_the_sites() {
         let ground = Scene { receivers: top.receivers.of_components(&[]), ..top.clone() };
         for (judged, scene) in [("top", top), ("ground", ground)] {
             for (filter, _) in FILTERS {
-                let of = (DEFAULT_SIZE, filter);
+                let of = (MAP_SIZE, filter);
                 let wrong = far_wrong(&gpu(), &scene, view, &suns(&of_day), of, None).unwrap();
                 println!("{name}, {judged}, {filter:?}: {:.3}% far wrong, {wrong:?}", 100.0 * wrong.share());
                 assert!(wrong.share() <= 0.005, "{name}, {judged}, {filter:?}: {wrong:?}");
@@ -117,7 +119,7 @@ fn a_map_that_no_adapter_draws_is_refused() {
     let scene = scene_of(&Mesh::build(vec![]).unwrap(), Receivers::Top, 0.0);
     let refused = ShadowMap::new(gpu(), &scene, plan(5.0, 20), 1 << 20, Filter::None).err();
     let Some(error @ ShadowError::MapTooLarge { .. }) = refused else { panic!("not refused") };
-    assert!(error.to_string().contains("--map-size"), "{error}");
+    assert!(error.in_words(&Options).contains("--map-size"), "{error}");
 }
 
 #[test]

@@ -59,6 +59,12 @@ impl Frames {
         (0..count).map(|index| Frames::path(folder, index)).chain([folder.join(GIF)]).collect()
     }
 
+    /// What an animation would replace in a folder: a GIF, or the first file that is called as a frame is.
+    pub fn there(folder: &Path) -> Option<PathBuf> {
+        let gif = Some(folder.join(GIF)).filter(|gif| gif.is_file());
+        gif.or_else(|| older::beyond(folder, 0).into_values().next())
+    }
+
     /// Writes the next one.
     ///
     /// # Errors

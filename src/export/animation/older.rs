@@ -60,7 +60,7 @@ impl Older {
 }
 
 /// The files that are called as frames are, of so many on.
-fn beyond(folder: &Path, count: usize) -> BTreeMap<usize, PathBuf> {
+pub(super) fn beyond(folder: &Path, count: usize) -> BTreeMap<usize, PathBuf> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let entries = fs::read_dir(here).into_iter().flatten().flatten();
     let index = |name: &str| name.strip_prefix("frame-")?.strip_suffix(".png")?.parse::<usize>().ok();

@@ -30,12 +30,12 @@ pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
 pub use screen::{Screen, bare, instant_on_screen};
 pub use strips::strips;
-pub(super) use surfaces::NOT_JUDGED;
 pub use surfaces::{legend as surfaces_legend, surfaces};
 pub use text::without_middle;
 pub(super) use words::duration;
 
 use super::{ExportError, check_size, report};
+use crate::look::LOOK;
 use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile, ShadedCells};
 use crate::site::{Ground, Receivers};
@@ -169,7 +169,7 @@ fn instant_as<T>(
     }
     panel.legend_head = "What sees the sun".to_owned();
     let tones = match view {
-        View::Plan(_) => [plan::GROUND_SUN, plan::GROUND_SHADE],
+        View::Plan(_) => [LOOK.plan_ground_sun, LOOK.plan_ground_shade],
         View::Camera(_) | View::Elevation(_) => perspective::ground_tones(now.to_sun),
     };
     panel.legend = vec![(tones[0], "sun".to_owned()), (tones[1], "shadow".to_owned())];
@@ -240,7 +240,7 @@ fn show(panel: &mut Panel, shown: &Shown, ground: scale::Rgb, components: Option
         more.push((overlay::volume_tone(ground), "shadow volume".to_owned()));
     }
     if shown.overlay.is_some_and(|overlay| overlay.silhouette.is_some()) {
-        more.push((overlay::SILHOUETTE, "silhouette".to_owned()));
+        more.push((LOOK.silhouette, "silhouette".to_owned()));
     }
     more.extend(components.into_iter().flat_map(|components| components.legend.iter().cloned()));
     if !more.is_empty() {

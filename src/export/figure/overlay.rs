@@ -2,26 +2,18 @@
 
 use super::picture::{Between, Picture, Span, spans};
 use super::scale::{Rgb, mix};
+use crate::look::LOOK;
 use crate::view::Overlay;
 use rayon::prelude::*;
 
-/// The volumes' yellow.
-const VOLUME: Rgb = [250, 205, 40];
-/// The silhouette, also in the legend.
-pub(super) const SILHOUETTE: Rgb = [10, 10, 12];
-
-/// How much of what lies behind it one layer hides, and all layers together at most: shadows stay legible below.
-const LAYER: f64 = 0.27;
-const MOST: f64 = 0.62;
-
 /// How opaque so many layers are.
 fn opacity(layers: u8) -> f64 {
-    (1.0 - (1.0 - LAYER).powi(i32::from(layers))).min(MOST)
+    (1.0 - (1.0 - LOOK.layer).powi(i32::from(layers))).min(LOOK.most_layers)
 }
 
 /// Ground in the sun behind two volumes, of two walls each, for the legend.
 pub(super) fn volume_tone(ground: Rgb) -> Rgb {
-    mix(ground, VOLUME, opacity(4))
+    mix(ground, LOOK.volume, opacity(4))
 }
 
 /// Lays the overlay over the picture, averaged by area.
@@ -46,7 +38,7 @@ pub(super) fn lay(picture: &mut Picture, overlay: &Overlay) {
         for (pixel, columns) in line.iter_mut().zip(&columns) {
             let yellow = average(&overlay.layers, columns, rows, &|layers| opacities[usize::from(layers)]);
             let black = average(&overlay.silhouette, columns, rows, &|cover| f32::from(cover) / 255.0);
-            *pixel = mix(mix(*pixel, VOLUME, yellow), SILHOUETTE, black);
+            *pixel = mix(mix(*pixel, LOOK.volume, yellow), LOOK.silhouette, black);
         }
     });
 }

@@ -4,27 +4,11 @@ use super::Scene;
 use super::components::Components;
 use super::picture::{Between, Fit, Pen, Picture, compose};
 use super::scale::Rgb;
-use crate::site::Receivers;
+use crate::choice::Receivers;
+use crate::look::LOOK;
 use crate::view::{Camera, Elevation, Mask, Surface};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use rayon::prelude::*;
-
-/// Matt card, and the ground it stands on: reflectance in display values.
-const BUILDING: DVec3 = DVec3::new(0.995, 0.975, 0.935);
-const GROUND: DVec3 = DVec3::new(0.965, 0.945, 0.895);
-/// Earth that a side cuts, against that.
-const CUT_EARTH: f64 = 0.90;
-/// The light of the sky and of the sun, tinted.
-const SKY_LIGHT: DVec3 = DVec3::new(0.90, 0.97, 1.12);
-const SUN_LIGHT: DVec3 = DVec3::new(1.10, 1.00, 0.84);
-/// The sky at the horizon, which is also the haze, and overhead.
-const HORIZON: DVec3 = DVec3::new(0.945, 0.942, 0.925);
-const ZENITH: DVec3 = DVec3::new(0.640, 0.745, 0.850);
-
-/// Faces that meet at less than this are one surface: cos 10°.
-const CREASE_COS: f64 = 0.985;
-/// A gap in depth this much of the distance is a step.
-const STEP_SHARE: f64 = 0.004;
 
 /// What has colours of its own.
 #[derive(Clone, Copy)]
@@ -59,24 +43,24 @@ pub(super) fn instant(
             let colour = match scene.surface.face[pixel] {
                 Surface::SKY => sky(ray),
                 Surface::GROUND => {
-                    let card = if lens.side.is_some() { GROUND * CUT_EARTH } else { GROUND };
+                    let card = if lens.side.is_some() { LOOK.ground * LOOK.cut_earth } else { LOOK.ground };
                     let lit = card * light.on(DVec3::Z, share);
                     let far = lens.ground_distance(scene, pixel, ray);
-                    lit.lerp(HORIZON, lens.haze(far))
+                    lit.lerp(LOOK.horizon, lens.haze(far))
                 }
                 face => {
                     let plane = facing(scene, face, lens.viewer);
                     // A mask of the ground says nothing about the walls.
                     let share = if ground_only { 1.0 } else { share };
                     let own = |of: &Components| DVec3::from(of.colour(face).map(f64::from)) / 255.0;
-                    components.map_or(BUILDING, own) * light.on(plane.xyz(), share)
+                    components.map_or(LOOK.building, own) * light.on(plane.xyz(), share)
                 }
             };
             display(at_night(to_sun, colour))
         })
         .collect();
     // colours tell parts from each other, and lines upon lines would hide the colours of fine parts
-    let strength = if components.is_some() { 0.55 } else { 1.0 };
+    let strength = if components.is_some() { LOOK.tinted_lines } else { 1.0 };
     let quieter = |pen: Pen| Pen { strength: pen.strength * strength, ..pen };
     compose(fit, Between::Smooth, &colours, |a, b| pen(scene, lens, a, b).map(quieter))
 }
@@ -95,12 +79,12 @@ pub(super) fn painted(scene: &Scene, lens: &Lens, of_cells: &[Rgb], with_lines: 
 /// The colours of level ground in the sun and in the shade, for the legend.
 pub(super) fn ground_tones(to_sun: DVec3) -> [Rgb; 2] {
     let light = Light::new(to_sun);
-    [1.0, 0.0].map(|share| display(at_night(to_sun, GROUND * light.on(DVec3::Z, share))))
+    [1.0, 0.0].map(|share| display(at_night(to_sun, LOOK.ground * light.on(DVec3::Z, share))))
 }
 
 /// Without a sun all is dimmer and bluer.
 fn at_night(to_sun: DVec3, colour: DVec3) -> DVec3 {
-    if to_sun.z > 0.0 { colour } else { colour * DVec3::new(0.62, 0.66, 0.76) }
+    if to_sun.z > 0.0 { colour } else { colour * LOOK.night }
 }
 
 /// The camera's axes, scaled so that a pixel's ray is a sum of them.
@@ -181,7 +165,7 @@ impl Lens {
         if self.side.is_some() {
             return 0.0;
         }
-        1.0 - (-(distance_m / self.focus_m - 1.3).max(0.0) / 3.5).exp()
+        1.0 - (-(distance_m / self.focus_m - LOOK.haze_begins).max(0.0) / LOOK.haze_length).exp()
     }
 }
 
@@ -202,35 +186,31 @@ struct Light {
 }
 
 impl Light {
-    const SKY: f64 = 0.50;
-    const SKY_SLOPE: f64 = 0.09;
-    /// What the sun grazes is still told from shade: the drawing says where it shines, not how warm it is there.
-    const LEAST_SUN: f64 = 0.26;
-
     /// Exposed so that level ground in the sun is nearly the paper's white, even at a low sun.
     fn new(to_sun: DVec3) -> Light {
-        let sun = (0.98 - Self::SKY - Self::SKY_SLOPE) / to_sun.z.max(0.32);
+        let sun = (LOOK.exposure - LOOK.sky - LOOK.sky_slope) / to_sun.z.max(LOOK.least_height);
         Light { to_sun, sun }
     }
 
     fn on(&self, normal: DVec3, share: f64) -> DVec3 {
-        let sky = Self::SKY + Self::SKY_SLOPE * normal.z;
+        let sky = LOOK.sky + LOOK.sky_slope * normal.z;
         let across = normal.dot(self.to_sun);
-        let sun = if across > 0.0 { (self.sun * across).max(Self::LEAST_SUN) } else { 0.0 };
-        SKY_LIGHT * sky + SUN_LIGHT * sun * share
+        let sun = if across > 0.0 { (self.sun * across).max(LOOK.least_sun) } else { 0.0 };
+        LOOK.sky_light * sky + LOOK.sun_light * sun * share
     }
 }
 
 fn sky(ray: DVec3) -> DVec3 {
     let height = (ray.z / ray.length()).clamp(0.0, 1.0);
-    HORIZON.lerp(ZENITH, (height * 1.6).min(1.0).sqrt() * 0.85)
+    LOOK.horizon.lerp(LOOK.zenith, (height * LOOK.sky_rise).min(1.0).sqrt() * LOOK.sky_most)
 }
 
 /// To display values; the brightest tenth is pressed together instead of cut off.
 fn display(colour: DVec3) -> Rgb {
+    let (above, room) = (LOOK.pressed_above, LOOK.pressed_room);
     let soft = |value: f64| {
-        let over = value - 0.9;
-        let value = if over > 0.0 { 0.9 + 0.1 * (1.0 - (-over / 0.1).exp()) } else { value };
+        let over = value - above;
+        let value = if over > 0.0 { above + room * (1.0 - (-over / room).exp()) } else { value };
         (value.max(0.0) * 255.0).round() as u8
     };
     [soft(colour.x), soft(colour.y), soft(colour.z)]
@@ -255,9 +235,11 @@ fn pen(scene: &Scene, lens: &Lens, a: usize, b: usize) -> Option<Pen> {
             let gap = |pixel| depth(from, pixel) - depth(to, pixel);
             let (here, there) = (gap(a), gap(b));
             // Planes that cross between the two pixels adjoin, however steep; else there is air between them.
-            let least = lens.side.map_or_else(|| STEP_SHARE * depth(from, a).abs(), |(_, cell)| 2.0 * cell);
+            let least = lens
+                .side
+                .map_or_else(|| LOOK.step_share * depth(from, a).abs(), |(_, cell)| LOOK.side_step_pixels * cell);
             let step = here * there > 0.0 && here.abs().min(there.abs()) > least;
-            let crease = from.xyz().dot(to.xyz()) < CREASE_COS;
+            let crease = from.xyz().dot(to.xyz()) < LOOK.crease_cos;
             match (step, crease) {
                 (true, _) => Some(Pen::STEP),
                 (false, true) => Some(Pen::CREASE),
@@ -265,6 +247,6 @@ fn pen(scene: &Scene, lens: &Lens, a: usize, b: usize) -> Option<Pen> {
             }
         }
         _ if from == Surface::SKY || to == Surface::SKY => Some(Pen::STEP),
-        _ => Some(Pen { radius: 1.2, strength: 0.6 }),
+        _ => Some(Pen::FOOT),
     }
 }

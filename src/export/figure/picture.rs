@@ -1,11 +1,9 @@
 //! From cells to the page's pixels: colours averaged by area, lines drawn where neighbouring cells part.
 
 use super::scale::Rgb;
+use crate::look::LOOK;
 use rayon::prelude::*;
 use std::ops::Range;
-
-/// The colour of the lines; nearly black, so that it also reads on the scale's dark end.
-const LINE: Rgb = [24, 27, 34];
 
 /// How a border between two cells is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,11 +16,13 @@ pub(super) struct Pen {
 
 impl Pen {
     /// Against the sky or the ground, and where heights jump.
-    pub(super) const OUTLINE: Pen = Pen { radius: 2.0, strength: 0.9 };
+    pub(super) const OUTLINE: Pen = Pen { radius: 2.0, strength: LOOK.outline };
     /// A step between parts of buildings.
-    pub(super) const STEP: Pen = Pen { radius: 1.4, strength: 0.75 };
+    pub(super) const STEP: Pen = Pen { radius: 1.4, strength: LOOK.step };
+    /// Before a camera, where buildings meet the ground.
+    pub(super) const FOOT: Pen = Pen { radius: 1.2, strength: LOOK.foot };
     /// Where two faces meet at an angle.
-    pub(super) const CREASE: Pen = Pen { radius: 0.9, strength: 0.45 };
+    pub(super) const CREASE: Pen = Pen { radius: 0.9, strength: LOOK.crease };
 }
 
 /// A picture in the page's pixels, some rows at a time: the whole of a sheet is never held.
@@ -202,7 +202,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> Composed<F> {
     /// All of it.
     fn picture(&self) -> Picture {
         let (width, height) = self.fit.pixels;
-        let mut pixels = vec![LINE; width as usize * height as usize];
+        let mut pixels = vec![LOOK.line; width as usize * height as usize];
         pixels.par_chunks_mut(BAND * width as usize).enumerate().for_each(|(band, rows)| self.draw(band * BAND, rows));
         Picture { width, height, pixels }
     }
@@ -361,7 +361,7 @@ fn average<'a>(of_row: impl Fn(usize) -> &'a [u32], columns: &Span, rows: &Span)
 }
 
 fn blend(paper: Rgb, ink: f32) -> Rgb {
-    std::array::from_fn(|i| (f32::from(paper[i]) + (f32::from(LINE[i]) - f32::from(paper[i])) * ink + 0.5) as u8)
+    std::array::from_fn(|i| (f32::from(paper[i]) + (f32::from(LOOK.line[i]) - f32::from(paper[i])) * ink + 0.5) as u8)
 }
 
 /// The strength of the lines in some rows of pixels.

@@ -3,30 +3,17 @@
 use super::Scene;
 use super::picture::{Between, Cells, Composed, Fit, Pen, Picture, Pixels, compose};
 use super::scale::{Bands, Rgb, mix};
+use crate::choice::Receivers;
+use crate::look::LOOK;
 use crate::mesh::Mesh;
 use crate::profile::comparison::Altered;
 use crate::profile::{Profile, ShadedCells};
-use crate::site::Receivers;
 use crate::view::{Mask, Surface, SurfaceRows};
 use glam::DVec3;
 use std::ops::Range;
 
-/// Ground in the sun and in the shade.
-pub(super) const GROUND_SUN: Rgb = [246, 240, 226];
-pub(super) const GROUND_SHADE: Rgb = [140, 152, 173];
-/// Roofs in the sun and in the shade.
-pub(super) const ROOF_SUN: Rgb = [255, 255, 253];
-const ROOF_SHADE: Rgb = [174, 183, 198];
 /// Roofs that are not judged.
 pub(super) const ROOF_UNJUDGED: Rgb = [224, 222, 216];
-
-/// How strongly the relief tells on slopes: freely where the colour is no measure, else too little to be taken for
-/// another band.
-const RELIEF: f64 = 0.26;
-const RELIEF_OF_HOURS: f64 = 0.10;
-
-/// Faces that meet at less than this are one roof: cos 8°.
-const CREASE_COS: f64 = 0.990;
 
 /// Hours of shadow.
 pub(super) fn profile<S: SurfaceRows, C: ShadedCells>(
@@ -36,7 +23,7 @@ pub(super) fn profile<S: SurfaceRows, C: ShadedCells>(
     fit: Fit,
 ) -> impl Pixels {
     let ground_only = scene.receivers == Receivers::Ground;
-    let strength = if ground_only { RELIEF } else { RELIEF_OF_HOURS };
+    let strength = if ground_only { LOOK.relief } else { LOOK.relief_of_hours };
     let values = |cells| {
         let part = profile.shaded.part(cells);
         move |at| part.of(at)
@@ -55,14 +42,14 @@ pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, fit: Fit) -> impl
         scene,
         cell_m,
         fit,
-        RELIEF,
+        LOOK.relief,
         move |cells: Range<usize>| move |at| mask.share[cells.start + at],
         move |share, is_ground| {
             let share = f64::from(share) / 255.0;
             match is_ground {
-                true => mix(GROUND_SHADE, GROUND_SUN, share),
+                true => mix(LOOK.plan_ground_shade, LOOK.plan_ground_sun, share),
                 false if ground_only => ROOF_UNJUDGED,
-                false => mix(ROOF_SHADE, ROOF_SUN, share),
+                false => mix(LOOK.plan_roof_shade, LOOK.plan_roof_sun, share),
             }
         },
         |_, _| (),
@@ -97,7 +84,7 @@ pub(super) fn difference<'a>(
         after,
         cell_m,
         fit,
-        RELIEF_OF_HOURS,
+        LOOK.relief_of_hours,
         move |cells: Range<usize>| move |at| of_cells[cells.start + at],
         |colour, _| colour,
         lines_of_gone,
@@ -179,7 +166,7 @@ fn relief(normal: DVec3, light: DVec3, strength: f64) -> f64 {
     if normal.z > 0.9999 {
         return 1.0;
     }
-    (1.0 + strength * (normal.dot(light) / light.z - 1.0)).clamp(0.70, 1.04)
+    (1.0 + strength * (normal.dot(light) / light.z - 1.0)).clamp(LOOK.relief_darkest, LOOK.relief_lightest)
 }
 
 fn shade(colour: Rgb, factor: f64) -> Rgb {
@@ -207,7 +194,7 @@ pub(super) fn pen(mesh: &Mesh, surface: &Surface, cell_m: f64, a: usize, b: usiz
             if jump > step_m {
                 Some(Pen::STEP)
             } else {
-                (from.dot(to) < CREASE_COS).then_some(Pen::CREASE)
+                (from.dot(to) < LOOK.plan_crease_cos).then_some(Pen::CREASE)
             }
         }
         (None, None) => None,

@@ -6,12 +6,11 @@ use super::scale::{NO_SUN, Rgb};
 use super::{Scene, check_surface, lens, page, panel, perspective, words};
 use crate::export::ExportError;
 use crate::export::surfaces::{Atlas, Surfaces};
+use crate::look::LOOK;
 use crate::view::{Surface, View};
 use glam::Vec4Swizzles as _;
 use rayon::prelude::*;
 
-/// The colour of what is not judged: sides that look into the model.
-pub(in crate::export) const NOT_JUDGED: Rgb = [200, 191, 182];
 /// The ground, which is not judged either; it needs no word in the legend.
 const GROUND: Rgb = [236, 234, 229];
 
@@ -58,7 +57,7 @@ pub fn legend(surfaces: &Surfaces) -> (String, Vec<(Rgb, String)>) {
         (bands.colours[bands.colours.len() - 1 - band], format!("{from} – {to}"))
     };
     let bands = (0..bands.colours.len()).rev().map(entry);
-    let rest = [(NO_SUN, "none".to_owned()), (NOT_JUDGED, super::UNJUDGED.to_owned())];
+    let rest = [(NO_SUN, "none".to_owned()), (LOOK.not_judged, super::UNJUDGED.to_owned())];
     (head, bands.chain(rest).collect())
 }
 
@@ -74,7 +73,7 @@ fn painted(scene: &Scene, lens: &Lens, surfaces: &Surfaces) -> Vec<Rgb> {
             return GROUND;
         }
         let plane = facing(scene, face, lens.viewer);
-        let Some(patch) = atlas.patch(patches, face, plane.xyz()) else { return NOT_JUDGED };
+        let Some(patch) = atlas.patch(patches, face, plane.xyz()) else { return LOOK.not_judged };
         let (column, row) = (pixel % width, pixel / width);
         let (start, ray) = (lens.start(column, row), lens.ray(column, row));
         let depth = -plane.dot(start.extend(1.0)) / plane.xyz().dot(ray);

@@ -1,7 +1,8 @@
 //! How a drawing says things: places, times, durations, techniques.
 
-use crate::profile::{Drawn, DrawnSettings};
-use crate::site::{self, Ground, GroundFrom, Receivers};
+use crate::choice::{Finder, Receivers, Settings};
+use crate::profile::Drawn;
+use crate::site::{self, Ground, GroundFrom};
 use crate::sun::{Air, Day, EachDay, Instant, Place, Polar, SunTrack, Zone};
 use crate::view::Elevation;
 use chrono::{DateTime, NaiveDate, Offset, Timelike};
@@ -157,31 +158,22 @@ pub(super) fn day(day: &Day) -> String {
 
 /// What drew, in words: technique, silhouettes, machine.
 pub(super) fn technique(drawn: &Drawn) -> String {
-    let technique = match drawn.technique {
-        "stencil" => "stencil shadow volumes",
-        "projected" => "projected shadows",
-        "shadow-map" => "shadow map",
-        "hybrid" => "shadow map and volumes",
-        "smoothie" => "smoothies (soft edges, outside of the hard ones)",
-        "soft-texture" => "soft shadow textures",
-        "ray-cast" => "ray casting",
-        other => other,
-    };
-    let silhouettes = drawn.silhouette.map(|finder| match finder {
-        "brute" => ", silhouettes by brute force",
-        "hextree" => ", silhouettes by hextree",
-        "gpu" => ", silhouettes on the GPU",
-        _ => "",
+    let technique = drawn.technique.row().name;
+    let silhouettes = drawn.finder.map(|finder| match finder {
+        Finder::Brute => ", silhouettes by brute force",
+        Finder::Hextree => ", silhouettes by hextree",
+        Finder::Gpu => ", silhouettes on the GPU",
+        Finder::Auto => "",
     });
-    let machine = match (drawn.engine, drawn.adapter.as_deref()) {
-        ("gpu", Some(adapter)) => format!("GPU: {adapter}"),
-        (engine, _) => engine.to_uppercase(),
+    let machine = match &drawn.adapter {
+        Some(adapter) => format!("GPU: {adapter}"),
+        None => drawn.engine.word().to_uppercase(),
     };
-    let DrawnSettings { map_size, pcf, smoothie_width, sun_samples } = drawn.settings;
+    let Settings { map_size, filter, smoothie_width_m, sun_samples } = drawn.settings;
     let settings = [
         map_size.map(|size| format!(", map of {size}²")),
-        pcf.map(|pcf| format!(", filtered {pcf}")),
-        smoothie_width.map(|width| format!(", at most {width} m wide")),
+        filter.map(|filter| format!(", filtered {filter}")),
+        smoothie_width_m.map(|width| format!(", at most {width} m wide")),
         sun_samples.map(|samples| format!(" to {samples} points of the sun’s disc")),
     ];
     let settings: String = settings.into_iter().flatten().collect();

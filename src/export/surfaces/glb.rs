@@ -6,10 +6,10 @@
 
 use super::{Exposure, Surfaces, pages};
 use crate::export::ExportError;
-use crate::export::figure::NOT_JUDGED;
 use crate::export::raster::png_bytes;
 use crate::export::report::{place_report, stamp, tz_version};
 use crate::export::volumes::in_gltf;
+use crate::look::LOOK;
 use crate::mesh::Component;
 use crate::mesh::patches::Patch;
 use glam::Vec3;
@@ -114,7 +114,7 @@ fn material(page: usize) -> Value {
 /// The material of what does not receive: the drawing's colour of what is not judged.
 fn not_judged() -> Value {
     // to linear light, as the format asks for
-    let [red, green, blue] = NOT_JUDGED.map(|value| (f64::from(value) / 255.0).powf(2.2));
+    let [red, green, blue] = LOOK.not_judged.map(|value| (f64::from(value) / 255.0).powf(2.2));
     json!({
         "name": "not judged",
         "pbrMetallicRoughness": {
@@ -240,10 +240,7 @@ impl File {
         let document = serde_json::to_vec(&document).map_err(refused)?;
         let total = 12 + 8 + document.len().next_multiple_of(4) as u64 + 8 + self.data.len() as u64;
         let Ok(length) = u32::try_from(total) else {
-            let gib = total as f64 / f64::from(1 << 30);
-            return Err(refused(format!(
-                "the file would be {gib:.1} GiB, and GLB ends at 4; take a larger --patch-cell"
-            )));
+            return Err(ExportError::LargeGlb { size: total });
         };
         let header = Header { magic: *b"glTF", version: 2, length };
         Glb { header, json: Cow::Owned(document), bin: Some(Cow::Owned(self.data)) }.to_vec().map_err(refused)

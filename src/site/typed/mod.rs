@@ -10,6 +10,7 @@ pub use date::{clock, date, step};
 pub use degrees::{Axis, Degrees, degrees, place};
 pub use number::{number, within};
 
+use crate::message::{Message, Worded, message, plain_display};
 use crate::sun::SunError;
 use chrono::NaiveDate;
 
@@ -17,10 +18,8 @@ use chrono::NaiveDate;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TypedError {
     /// Not a number.
-    #[error("\"{0}\" is no number; write for example 0.5 or 0,5")]
     Number(String),
     /// A number that cannot be.
-    #[error("{value} is not between {low} and {high} {unit}")]
     Outside {
         /// What was typed.
         value: f64,
@@ -32,7 +31,6 @@ pub enum TypedError {
         unit: &'static str,
     },
     /// Not an angle on the globe.
-    #[error("\"{text}\" is no {axis}; write degrees, for example {}", axis.example())]
     Degrees {
         /// What was typed.
         text: String,
@@ -40,19 +38,12 @@ pub enum TypedError {
         axis: Axis,
     },
     /// Not two of them.
-    #[error(
-        "\"{0}\" is no place; write latitude and longitude in degrees, \
-         for example 48.2082, 16.3738 or 48°12'30\" N 16°22'26\" E"
-    )]
     Place(String),
     /// A coordinate outside the globe, a step of nothing.
-    #[error(transparent)]
     Sun(#[from] SunError),
     /// Not a date.
-    #[error("\"{0}\" is no date; write 2026-12-21 or 21.12.2026")]
     Date(String),
     /// A date that can be read in two ways.
-    #[error("\"{text}\" can be {} or {}; write {} or {}", long(.dates[0]), long(.dates[1]), .dates[0], .dates[1])]
     TwoDates {
         /// What was typed.
         text: String,
@@ -60,14 +51,44 @@ pub enum TypedError {
         dates: [NaiveDate; 2],
     },
     /// Not a time of day.
-    #[error("\"{0}\" is no time; write 16:30, 16.30, 4 pm, sunrise or sunset-1h30")]
     Clock(String),
     /// The end of a day, which belongs to the next one.
-    #[error("a day has no 24 o'clock; write 0:00 for its end")]
     DayEnd,
     /// Not a duration.
-    #[error("\"{0}\" is no step; write 30min, 1h, 1h30 or 90s")]
     Step(String),
+}
+
+plain_display!(TypedError);
+
+impl Worded for TypedError {
+    fn message(&self) -> Message {
+        match self {
+            TypedError::Number(text) => message![format!("\"{text}\" is no number"); "write for example 0.5 or 0,5"],
+            TypedError::Outside { value, low, high, unit } => {
+                format!("{value} is not between {low} and {high} {unit}").into()
+            }
+            TypedError::Degrees { text, axis } => message![
+                format!("\"{text}\" is no {axis}");
+                format!("write degrees, for example {}", axis.example())
+            ],
+            TypedError::Place(text) => message![
+                format!("\"{text}\" is no place");
+                "write latitude and longitude in degrees, for example 48.2082, 16.3738 or 48°12'30\" N 16°22'26\" E"
+            ],
+            TypedError::Sun(error) => error.message(),
+            TypedError::Date(text) => message![format!("\"{text}\" is no date"); "write 2026-12-21 or 21.12.2026"],
+            TypedError::TwoDates { text, dates: [first, second] } => message![
+                format!("\"{text}\" can be {} or {}", long(*first), long(*second));
+                format!("write {first} or {second}")
+            ],
+            TypedError::Clock(text) => message![
+                format!("\"{text}\" is no time");
+                "write 16:30, 16.30, 4 pm, sunrise or sunset-1h30"
+            ],
+            TypedError::DayEnd => message!["a day has no 24 o'clock"; "write 0:00 for its end"],
+            TypedError::Step(text) => message![format!("\"{text}\" is no step"); "write 30min, 1h, 1h30 or 90s"],
+        }
+    }
 }
 
 /// A date in words that nobody reads otherwise.

@@ -10,6 +10,7 @@ use super::svg::{ACCENT, Anchor, Block, GRAY, INK, Style};
 use super::text;
 use crate::export::ExportError;
 use crate::export::probe::{clock, counted, lies};
+use crate::message::{Field, Words, message};
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, below_ground_m};
 use crate::site::{Ground, metres};
 use crate::sun::{Day, Place, Zone};
@@ -18,7 +19,7 @@ use chrono::{DateTime, NaiveDate};
 
 /// In the sun, in the shade, without a sun, and where nothing was asked.
 const SUN: Rgb = [250, 218, 128];
-const SHADE: Rgb = super::plan::GROUND_SHADE;
+const SHADE: Rgb = crate::look::LOOK.plan_ground_shade;
 const NIGHT: Rgb = [62, 70, 88];
 const OUTSIDE: Rgb = [226, 224, 217];
 
@@ -36,15 +37,15 @@ const GAP: f64 = 62.0;
 const LOWEST: f64 = 60.0;
 const HIGHEST: f64 = 300.0;
 
-/// `gnomon probe --out`: a strip for each probe.
+/// `gnomon probe --out`: a strip for each probe; where they do not all fit, what `words` call says where the others are.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the page cannot be drawn or encoded.
-pub fn strips(sunlight: &Sunlight, place: &Place, ground: &Ground) -> Result<Vec<u8>, ExportError> {
+pub fn strips(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> Result<Vec<u8>, ExportError> {
     let hours = Hours::of(&sunlight.days);
     let left = if sunlight.days.len() > 1 { LEFT } else { RIGHT };
     page::chart(&said::panel(sunlight, place, ground), [left, HOURS, RIGHT, HOURS], |pixels| {
-        draw(sunlight, ground, &hours, pixels)
+        draw(sunlight, ground, &hours, pixels, words)
     })
 }
 
@@ -72,7 +73,13 @@ impl Strips {
     }
 }
 
-fn draw(sunlight: &Sunlight, ground: &Ground, hours: &Hours, pixels: (u32, u32)) -> (Picture, Block) {
+fn draw(
+    sunlight: &Sunlight,
+    ground: &Ground,
+    hours: &Hours,
+    pixels: (u32, u32),
+    words: &dyn Words,
+) -> (Picture, Block) {
     let strips = Strips::within(sunlight, pixels);
     let width = strips.width as usize;
     let mut picture = Picture { width: pixels.0, height: pixels.1, pixels: vec![PAPER; width * pixels.1 as usize] };
@@ -113,7 +120,8 @@ fn draw(sunlight: &Sunlight, ground: &Ground, hours: &Hours, pixels: (u32, u32))
         over.place(0.0, top, &said::intervals(sunlight, &intervals, f64::from(pixels.1) + HOURS - top));
     }
     if strips.count < sunlight.probes.len() {
-        let more = format!("and {} more probes; --csv and --json have all", sunlight.probes.len() - strips.count);
+        let more = format!("and {} more probes", sunlight.probes.len() - strips.count);
+        let more = message![more; Field::Csv, " and ", Field::Json, " have all"].in_words(words);
         over.text(f64::from(strips.width), bottom + 84.0, Anchor::End, Style::LABEL, &more);
     }
     (picture, over)

@@ -10,9 +10,10 @@
 //! volumes; then in 64 bits each the four numbers of that, the checksums of bits and sums, how many masks are written, and
 //! the checksum of each; the cells; last the checksum of all before it.
 
-use super::checksum::checksum;
-use super::{ExportError, bytes, file};
+use crate::export::checksum::checksum;
+use crate::export::{ExportError, bytes, file};
 use crate::profile::{Shaded, Statistics, Unfinished};
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::ErrorKind;
@@ -99,11 +100,8 @@ pub fn remove(folder: &Path, study: u64) -> Result<(), ExportError> {
 /// as it was killed before it kept anything, are removed. Whoever calls it has locked the folder.
 pub fn tidy(folder: &Path, study: u64) -> Option<String> {
     file::remove_leftovers(&[path(folder, study)]);
-    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    // what cannot be listed is not touched
-    let names = fs::read_dir(here).ok()?.flatten().filter_map(|entry| entry.file_name().into_string().ok());
-    let found: BTreeSet<u64> = names.filter_map(|name| study_of(&name)).filter(|other| *other != study).collect();
-    let (stopped, dead): (Vec<u64>, Vec<u64>) = found.into_iter().partition(|other| path(folder, *other).is_file());
+    let others = studies_in(folder).into_iter().filter(|other| *other != study);
+    let (stopped, dead): (Vec<u64>, Vec<u64>) = others.partition(|other| path(folder, *other).is_file());
     for other in dead {
         // nothing is lost where they stay
         let _ = remove(folder, other);
@@ -121,6 +119,26 @@ pub fn tidy(folder: &Path, study: u64) -> Option<String> {
          where nobody will ask, the {file} can be removed",
         first.display()
     ))
+}
+
+/// Removes the files of all stopped studies in a folder but the newest ones. Whoever calls it has locked the folder.
+pub fn keep_newest(folder: &Path, most: usize) {
+    let mut studies: Vec<u64> = studies_in(folder).into_iter().collect();
+    // what is dead has no time, and is the oldest
+    let changed = |study: &u64| path(folder, *study).metadata().and_then(|found| found.modified()).ok();
+    studies.sort_by_cached_key(|study| Reverse(changed(study)));
+    for study in studies.into_iter().skip(most) {
+        // nothing is lost where they stay
+        let _ = remove(folder, study);
+    }
+}
+
+/// The studies that have files in a folder; what cannot be listed is not touched.
+fn studies_in(folder: &Path) -> BTreeSet<u64> {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let Ok(entries) = fs::read_dir(here) else { return BTreeSet::new() };
+    let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+    names.filter_map(|name| study_of(&name)).collect()
 }
 
 /// Whose a file is, by its name.

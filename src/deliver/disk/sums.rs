@@ -4,9 +4,9 @@
 //! in 4 bytes, or in 8 where the study has more daylight than 32 bits hold. A tile is in it once all of its instants are
 //! done; what a stopped study had of the next one is in `profile.NUMBER.unfinished`.
 
-use super::checksum::Checksum;
 use super::unfinished::sums_path;
-use super::{ExportError, file};
+use crate::export::checksum::Checksum;
+use crate::export::{ExportError, file};
 use crate::profile::accumulate::MOST_SECS;
 use crate::profile::{Part, Shaded, ShadedCells};
 use crate::view::{Grid, Tile};

@@ -7,7 +7,7 @@
 //! gets the lock of a file that nobody finds any more, while a third makes the file anew. So a lock counts only where its
 //! path still leads to the locked file; else all begins again. Thus two never hold one folder.
 
-use super::{ExportError, file};
+use crate::export::{ExportError, file};
 use chrono::{DateTime, Local};
 use same_file::Handle;
 use std::fs::{self, File, OpenOptions, TryLockError};

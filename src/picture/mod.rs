@@ -3,15 +3,20 @@
 //!
 //! [`crate::export`] draws sheets on the processor, cell by cell; a test holds the two against each other.
 
-pub use super::patch_textures::PatchColours;
-use super::patch_textures::textures;
-use super::surface::{PLANES_WIDTH, UNIFORM, bind_group_layout, texture_binding};
-use super::{DrawnMask, GpuSurface, Scene, ShadowError};
-use crate::gpu::layout::Shown;
+pub mod overlay;
+mod patch_textures;
+
+pub use patch_textures::PatchColours;
+
+use crate::gpu::layout::{self, Shown};
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
+use crate::look::{LOOK, Look};
+use crate::shadow::surface::{PLANES_WIDTH, UNIFORM, bind_group_layout, texture_binding};
+use crate::shadow::{DrawnMask, GpuSurface, Scene, ShadowError};
 use crate::view::{Mask, View};
 use glam::DVec3;
+use patch_textures::textures;
 use std::sync::Arc;
 use wgpu::*;
 
@@ -54,6 +59,7 @@ pub struct Picture {
     pipeline: RenderPipeline,
     group: BindGroupLayout,
     uniform: Buffer,
+    look: Buffer,
     origin: DVec3,
     uploaded: Option<Texture>,
     hours: Option<Over>,
@@ -87,7 +93,7 @@ impl Picture {
             multisampled: false,
         };
         let plains = [plain; 7];
-        let types: Vec<_> = [UNIFORM].into_iter().chain(plains).chain([numbers, plain, pages]).collect();
+        let types: Vec<_> = [UNIFORM].into_iter().chain(plains).chain([numbers, plain, pages, UNIFORM]).collect();
         let group = bind_group_layout(&gpu, "picture", &types);
         let stages = Stages {
             module: &gpu.shader("picture", shaders::PICTURE),
@@ -100,9 +106,12 @@ impl Picture {
         let pipeline = gpu.pipeline("picture", stages, None);
         let nothing = [COLOURS, TextureFormat::R32Uint]
             .map(|format| gpu.texture("picture.nothing", (1, 1), format, TextureUsages::TEXTURE_BINDING));
+        let look = gpu.uniform::<layout::Look>("picture.look");
+        gpu.queue.write_buffer(&look, 0, bytemuck::bytes_of(&uniform(&LOOK)));
         gpu.check()?;
         Ok(Picture {
             surface,
+            look,
             pipeline,
             group,
             uniform: gpu.uniform::<Shown>("picture.shown"),
@@ -237,7 +246,9 @@ impl Picture {
             .chain(self.patch_views(patches))
             .collect();
         let textures = views.iter().enumerate().map(|(at, view)| (at as u32 + 1, BindingResource::TextureView(view)));
-        let entries: Vec<_> = std::iter::once((0, self.uniform.as_entire_binding())).chain(textures).collect();
+        let look = (views.len() as u32 + 1, self.look.as_entire_binding());
+        let entries: Vec<_> =
+            std::iter::once((0, self.uniform.as_entire_binding())).chain(textures).chain([look]).collect();
         let bound = gpu.bind("picture", &self.group, &entries);
 
         let mut encoder = self.surface.encoder();
@@ -275,8 +286,58 @@ impl Picture {
 }
 
 /// Fills a texture with its texels, row 0 first.
-pub(super) fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
+fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
     let bytes_per_row = Some((bytes.len() / texture.height() as usize) as u32);
     let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
     gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
+}
+
+/// The look as the shader takes it.
+fn uniform(look: &Look) -> layout::Look {
+    let linear = |colour: DVec3| colour.as_vec3().to_array();
+    let bytes = |colour: [u8; 3]| colour.map(|value| f32::from(value) / 255.0);
+    layout::Look {
+        building: linear(look.building),
+        cut_earth: look.cut_earth as f32,
+        ground: linear(look.ground),
+        sky: look.sky as f32,
+        sky_light: linear(look.sky_light),
+        sky_slope: look.sky_slope as f32,
+        sun_light: linear(look.sun_light),
+        exposure: look.exposure as f32,
+        horizon: linear(look.horizon),
+        least_height: look.least_height as f32,
+        zenith: linear(look.zenith),
+        least_sun: look.least_sun as f32,
+        night: linear(look.night),
+        pressed_above: look.pressed_above as f32,
+        not_judged: bytes(look.not_judged),
+        pressed_room: look.pressed_room as f32,
+        plan_ground_sun: bytes(look.plan_ground_sun),
+        sky_rise: look.sky_rise as f32,
+        plan_ground_shade: bytes(look.plan_ground_shade),
+        sky_most: look.sky_most as f32,
+        plan_roof_sun: bytes(look.plan_roof_sun),
+        haze_begins: look.haze_begins as f32,
+        plan_roof_shade: bytes(look.plan_roof_shade),
+        haze_length: look.haze_length as f32,
+        line: bytes(look.line),
+        relief: look.relief as f32,
+        volume: bytes(look.volume),
+        relief_of_hours: look.relief_of_hours as f32,
+        silhouette: bytes(look.silhouette),
+        relief_darkest: look.relief_darkest as f32,
+        relief_lightest: look.relief_lightest as f32,
+        outline: look.outline,
+        step: look.step,
+        foot: look.foot,
+        crease: look.crease,
+        crease_cos: look.crease_cos as f32,
+        plan_crease_cos: look.plan_crease_cos as f32,
+        step_share: look.step_share as f32,
+        side_step_pixels: look.side_step_pixels as f32,
+        tinted_lines: look.tinted_lines,
+        layer: look.layer as f32,
+        most_layers: look.most_layers as f32,
+    }
 }

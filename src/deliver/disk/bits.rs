@@ -13,10 +13,10 @@
 //!
 //! It is written instant by instant, for each tile of the plan, beside its place, and renamed when it is whole.
 
-use super::checksum::Checksum;
-use super::report::{InstantReport, instant_report};
 use super::unfinished::bits_path;
-use super::{ExportError, file};
+use crate::export::checksum::Checksum;
+use crate::export::report::{InstantReport, instant_report};
+use crate::export::{ExportError, file};
 use crate::site::Receivers;
 use crate::sun::SunTrack;
 use crate::view::{Bits, Grid, Tile};
@@ -25,6 +25,8 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+/// What it is called.
+pub const NAME: &str = "shadow.bits";
 const MAGIC: &[u8; 8] = b"GNOMBITS";
 /// Rasters begin at a multiple of this.
 const ALIGNED: usize = 64;
@@ -38,6 +40,39 @@ struct Header {
     receivers: &'static str,
     bytes_a_row: usize,
     instants: Vec<InstantReport>,
+}
+
+/// The whole file, of the shadows at all instants with a sun.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn encode<'a>(
+    grid: Grid,
+    receivers: Receivers,
+    track: &SunTrack,
+    shadows: impl Iterator<Item = &'a Bits>,
+) -> Result<Vec<u8>, ExportError> {
+    let mut bytes = header(grid, receivers, track)?;
+    let row_bytes = grid.width.div_ceil(8) as usize;
+    for row in shadows.flat_map(|shadow| shadow.words.chunks(shadow.in_row())) {
+        let end = bytes.len() + row_bytes;
+        row.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
+        bytes.truncate(end);
+    }
+    Ok(bytes)
+}
+
+/// All before the first raster.
+fn header(grid: Grid, receivers: Receivers, track: &SunTrack) -> Result<Vec<u8>, ExportError> {
+    let instants: Vec<_> = track.instants.iter().filter(|instant| !instant.night).map(instant_report).collect();
+    let bytes_a_row = grid.width.div_ceil(8) as usize;
+    let (region, Grid { cell, width, height, .. }) = (grid.region(), grid);
+    let header = Header { region, cell, width, height, receivers: receivers.word(), bytes_a_row, instants };
+    let json = serde_json::to_vec(&header).map_err(|error| ExportError::encode("bits", error))?;
+    let begin = (2 * MAGIC.len() + json.len()).next_multiple_of(ALIGNED);
+    let mut header = [&MAGIC[..], &(begin as u64).to_le_bytes(), &json].concat();
+    header.resize(begin, b' ');
+    Ok(header)
 }
 
 /// The file as it comes to be.
@@ -67,16 +102,9 @@ impl BitsFile {
         receivers: Receivers,
         track: &SunTrack,
     ) -> Result<BitsFile, ExportError> {
-        let instants: Vec<_> = track.instants.iter().filter(|instant| !instant.night).map(instant_report).collect();
-        let count = instants.len();
-        let bytes_a_row = grid.width.div_ceil(8) as usize;
-        let (region, Grid { cell, width, height, .. }) = (grid.region(), grid);
-        let header = Header { region, cell, width, height, receivers: receivers.word(), bytes_a_row, instants };
-        let json = serde_json::to_vec(&header).map_err(|error| ExportError::encode("bits", error))?;
-        let begin = (2 * MAGIC.len() + json.len()).next_multiple_of(ALIGNED);
-        let mut header = [&MAGIC[..], &(begin as u64).to_le_bytes(), &json].concat();
-        header.resize(begin, b' ');
-        let (path, unfinished) = (folder.join("shadow.bits"), bits_path(folder, study));
+        let count = track.instants.iter().filter(|instant| !instant.night).count();
+        let header = header(grid, receivers, track)?;
+        let (path, unfinished) = (folder.join(NAME), bits_path(folder, study));
         Ok(BitsFile { path, unfinished, header, grid, count, file: None, checksum: Checksum::default(), at: 0 })
     }
 

@@ -1,0 +1,161 @@
+//! What fits what.
+
+use super::table::{Method, MethodRow, Setting, Subject, TABLE};
+use super::{Engine, Finder, Settings, listed};
+use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
+
+/// Two choices that do not go together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Misfit {
+    /// A technique that does not draw that on any machine.
+    Technique {
+        /// Which one.
+        method: Method,
+        /// What it was to draw.
+        subject: Subject,
+    },
+    /// A technique that draws that on the other machine.
+    Engine {
+        /// Which one.
+        method: Method,
+        /// Where it was to draw.
+        engine: Engine,
+        /// What it was to draw.
+        subject: Subject,
+    },
+    /// An option that the technique does not use.
+    Setting {
+        /// Which one.
+        setting: Setting,
+        /// What is drawn.
+        subject: Subject,
+    },
+    /// A finder that the technique cannot use.
+    Finder {
+        /// Which one.
+        method: Method,
+    },
+}
+
+impl Misfit {
+    /// The choice that does not fit.
+    pub fn field(&self) -> Field {
+        match self {
+            Misfit::Technique { .. } => Field::Technique,
+            Misfit::Engine { .. } => Field::Engine,
+            Misfit::Setting { setting, .. } => setting.field(),
+            Misfit::Finder { .. } => Setting::Finder.field(),
+        }
+    }
+
+    fn what_and_hint(&self) -> (String, Vec<Piece>) {
+        match *self {
+            Misfit::Technique { method, subject } => {
+                let others = listed(&subject.drawn_by(Engine::Auto), "or");
+                (format!("{method} does not draw {}", subject.name()), pieces![format!("take {others}")])
+            }
+            Misfit::Engine { method, engine, subject } => {
+                let other = if engine == Engine::Gpu { Engine::Cpu } else { Engine::Gpu };
+                let hint = match subject.drawn_by(engine).as_slice() {
+                    [] => pieces!["leave it out, as nothing else draws that on the other machine"],
+                    others => pieces![format!("leave it out, or take {} with {engine}", listed(others, "or"))],
+                };
+                (format!("{method} draws {} on the {other} alone", subject.name()), hint)
+            }
+            Misfit::Setting { setting, subject } => {
+                let users = TABLE.iter().filter(|row| row.uses(setting) && row.draws(Engine::Auto, subject));
+                match users.map(|row| row.word).collect::<Vec<_>>().as_slice() {
+                    [] => (format!("nothing that draws {} uses it", subject.name()), pieces!["leave it out"]),
+                    [user] => (format!("only {user} uses it"), pieces!["take that technique, or leave it out"]),
+                    users => {
+                        (format!("only {} use it", listed(users, "and")), pieces!["take one of them, or leave it out"])
+                    }
+                }
+            }
+            Misfit::Finder { method } => {
+                let finders: Vec<_> = method.row().finders.iter().map(|finder| finder.word()).collect();
+                let what = format!("{method} uses {} alone", listed(&finders, "and"));
+                (what, pieces!["take one of them, or leave it out"])
+            }
+        }
+    }
+
+    /// What the technique would draw, where it does not draw what was asked.
+    fn draws_instead(&self) -> Option<(Method, &'static [Subject])> {
+        let (method, instead) = match *self {
+            Misfit::Technique { method, .. } => (method, either(method.row())),
+            Misfit::Engine { method, engine: Engine::Gpu, .. } => (method, method.row().on_gpu),
+            Misfit::Engine { method, .. } => (method, method.row().on_cpu),
+            Misfit::Setting { .. } | Misfit::Finder { .. } => return None,
+        };
+        (!instead.is_empty()).then_some((method, instead))
+    }
+}
+
+/// What a technique draws on the machine where it draws more.
+fn either(row: &MethodRow) -> &'static [Subject] {
+    if row.on_cpu.len() > row.on_gpu.len() { row.on_cpu } else { row.on_gpu }
+}
+
+plain_display!(Misfit);
+
+impl Worded for Misfit {
+    /// With what the technique would draw, where it does not draw what was asked.
+    fn message(&self) -> Message {
+        let (what, mut hint) = self.what_and_hint();
+        if let Some((method, subjects)) = self.draws_instead() {
+            hint.extend(pieces![format!("; {method} goes with ")]);
+            for (at, subject) in subjects.iter().enumerate() {
+                let gap = match at {
+                    0 => "",
+                    _ if at + 1 == subjects.len() => " or ",
+                    _ => ", ",
+                };
+                hint.extend(pieces![gap, subject.choice()]);
+            }
+        }
+        Message { what: pieces![what], hint }.of(self.field().into())
+    }
+}
+
+impl std::error::Error for Misfit {}
+
+impl MethodRow {
+    /// The machine that draws, where nothing but technique and machine are asked: the processor where it can.
+    ///
+    /// # Errors
+    /// [`Misfit`] where the technique does not draw that, or not there.
+    pub fn fit(&self, engine: Engine, subject: Subject) -> Result<Engine, Misfit> {
+        let method = self.method;
+        match engine {
+            _ if !self.draws(Engine::Auto, subject) => Err(Misfit::Technique { method, subject }),
+            _ if !self.draws(engine, subject) => Err(Misfit::Engine { method, engine, subject }),
+            Engine::Auto if self.draws(Engine::Cpu, subject) => Ok(Engine::Cpu),
+            Engine::Auto => Ok(Engine::Gpu),
+            asked => Ok(asked),
+        }
+    }
+
+    /// Errs where an option is given that the technique does not use.
+    ///
+    /// # Errors
+    /// [`Misfit::Setting`], [`Misfit::Finder`].
+    pub fn check(&self, finder: Finder, settings: &Settings, subject: Subject) -> Result<(), Misfit> {
+        let Settings { map_size, filter, smoothie_width_m, sun_samples } = settings;
+        let given = |setting: &Setting| match setting {
+            Setting::Finder => finder != Finder::Auto,
+            Setting::MapSize => map_size.is_some(),
+            Setting::Filter => filter.is_some(),
+            Setting::SmoothieWidth => smoothie_width_m.is_some(),
+            Setting::SunSamples => sun_samples.is_some(),
+        };
+        if let Some(setting) = Setting::ALL.into_iter().find(|setting| given(setting) && !self.uses(*setting)) {
+            return Err(Misfit::Setting { setting, subject });
+        }
+        match finder {
+            Finder::Auto => Ok(()),
+            finder if self.finders.contains(&finder) => Ok(()),
+            _ => Err(Misfit::Finder { method: self.method }),
+        }
+    }
+}

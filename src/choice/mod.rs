@@ -1,0 +1,111 @@
+//! What people choose: technique, finder, engine, filter and receivers, with a table that says of each technique what it can
+//! do.
+//!
+//! [`TABLE`] is what the command's help, the window's menus, the documents, `verify` and the checks of what fits what
+//! ([`MethodRow::fit`], [`MethodRow::check`]) read. A new technique is a row there.
+
+mod fit;
+mod table;
+mod words;
+
+pub use fit::Misfit;
+pub use table::{MAP_SIZE, Method, MethodRow, Promise, Setting, Subject, TABLE, Truth};
+pub use words::{ChoiceError, listed};
+pub(crate) use words::{find, nearest, read, words};
+
+/// Which surfaces are judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Receivers {
+    /// The highest receiving surface under each cell, ground included.
+    #[default]
+    Top,
+    /// The ground plane, as if the buildings only cast.
+    Ground,
+    /// All receiving surfaces of the models, walls and undersides too, on their outer side.
+    Surfaces,
+}
+
+/// Which silhouette finder bounds the volumes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Finder {
+    /// The fastest that exists.
+    #[default]
+    Auto,
+    /// One pass over all edges, on the processor.
+    Brute,
+    /// A search in dual space: classes of edges under a hierarchy, or with a depth the paper's tree.
+    Hextree,
+    /// One pass over all edges, on the graphics adapter.
+    Gpu,
+}
+
+/// How a shadow map's comparisons are filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filter {
+    /// The nearest texel alone: 2 levels.
+    None,
+    /// Four maps, each a quarter of a texel aside, in four channels: 5 levels.
+    TwoByTwo,
+    /// The four nearest texels of one map: 5 levels.
+    FastTwoByTwo,
+    /// The sixteen nearest texels of one map: 17 levels.
+    FastFourByFour,
+}
+
+/// Which machine draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Engine {
+    /// The graphics adapter where there is one, else the processor.
+    #[default]
+    Auto,
+    /// The graphics adapter, or an error.
+    Gpu,
+    /// The processor.
+    Cpu,
+}
+
+/// How single techniques are set; what is absent has the default of [`MethodRow::defaults`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// Texels along a shadow map's side.
+    pub map_size: Option<u32>,
+    /// How its comparisons are filtered.
+    pub filter: Option<Filter>,
+    /// How wide smoothies are at most, metres across the sun's rays.
+    pub smoothie_width_m: Option<f64>,
+    /// Points of the sun's disc to which rays are cast.
+    pub sun_samples: Option<u32>,
+}
+
+impl Settings {
+    /// Nothing is set.
+    pub const NONE: Settings = Settings { map_size: None, filter: None, smoothie_width_m: None, sun_samples: None };
+}
+
+words!(
+    Filter,
+    [
+        "none" => Filter::None,
+        "2x2" => Filter::TwoByTwo,
+        "fast-2x2" => Filter::FastTwoByTwo,
+        "fast-4x4" => Filter::FastFourByFour
+    ]
+);
+words!(
+    Finder,
+    [
+        "auto" => Finder::Auto,
+        "brute" => Finder::Brute,
+        "hextree" => Finder::Hextree,
+        "gpu" => Finder::Gpu
+    ]
+);
+words!(Engine, ["auto" => Engine::Auto, "gpu" => Engine::Gpu, "cpu" => Engine::Cpu]);
+words!(
+    Receivers,
+    [
+        "top" => Receivers::Top,
+        "ground" => Receivers::Ground,
+        "surfaces" => Receivers::Surfaces
+    ]
+);

@@ -1,0 +1,343 @@
+//! What each technique can do: one row a technique.
+
+use super::{Engine, Filter, Finder, Settings};
+use crate::message::Field;
+
+/// What a technique draws a mask of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// The plan, on the highest surface under each cell.
+    Top,
+    /// The plan, on the ground alone.
+    Ground,
+    /// What a camera sees in perspective.
+    Camera,
+    /// A side, along parallel, level rays.
+    Side,
+    /// All flat patches of what receives.
+    Surfaces,
+}
+
+impl Subject {
+    /// All of them.
+    pub const ALL: [Subject; 5] = [Subject::Top, Subject::Ground, Subject::Camera, Subject::Side, Subject::Surfaces];
+
+    /// As the object of a sentence.
+    pub fn name(self) -> &'static str {
+        match self {
+            Subject::Top => "the plan's highest surfaces",
+            Subject::Ground => "the plan's ground",
+            Subject::Camera => "a camera's picture",
+            Subject::Side => "a side",
+            Subject::Surfaces => "façades and roofs",
+        }
+    }
+
+    /// The choice that asks for it.
+    pub(super) fn choice(self) -> (Field, &'static str) {
+        match self {
+            Subject::Top => (Field::Receivers, "top"),
+            Subject::Ground => (Field::Receivers, "ground"),
+            Subject::Camera => (Field::View, "camera"),
+            Subject::Side => (Field::View, "north, east, south or west"),
+            Subject::Surfaces => (Field::Receivers, "surfaces"),
+        }
+    }
+
+    /// The words of the techniques that draw it on a machine, but for the program's own choice.
+    pub fn drawn_by(self, engine: Engine) -> Vec<&'static str> {
+        let rows = TABLE.iter().filter(|row| row.method != Method::Auto && row.draws(engine, self));
+        rows.map(|row| row.word).collect()
+    }
+}
+
+/// An option that some techniques use, and others not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// Which finder; see [`MethodRow::finders`].
+    Finder,
+    /// [`Settings::map_size`]
+    MapSize,
+    /// [`Settings::filter`]
+    Filter,
+    /// [`Settings::smoothie_width_m`]
+    SmoothieWidth,
+    /// [`Settings::sun_samples`]
+    SunSamples,
+}
+
+impl Setting {
+    /// All of them.
+    pub const ALL: [Setting; 5] =
+        [Setting::Finder, Setting::MapSize, Setting::Filter, Setting::SmoothieWidth, Setting::SunSamples];
+
+    /// Where it is asked.
+    pub fn field(self) -> Field {
+        match self {
+            Setting::Finder => Field::Silhouette,
+            Setting::MapSize => Field::MapSize,
+            Setting::Filter => Field::Pcf,
+            Setting::SmoothieWidth => Field::SmoothieWidth,
+            Setting::SunSamples => Field::SunSamples,
+        }
+    }
+
+    /// The words of the techniques that use it.
+    pub fn users(self) -> Vec<&'static str> {
+        TABLE.iter().filter(|row| row.uses(self)).map(|row| row.word).collect()
+    }
+}
+
+/// What a technique is held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Truth {
+    /// Ray casting to the sun's centre.
+    Centre,
+    /// Ray casting to points of the sun's disc.
+    Disc,
+    /// Rays to the sun's centre for which every face is asked, without the trees.
+    EveryFace,
+}
+
+/// What a technique promises, the strictest first but for the truth itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Promise {
+    /// The truth, but for the rounding of corners at a shadow's edge. It decides whether the verification holds.
+    Exact,
+    /// As exact, but where its map missed a caster or a gap; those cells are counted apart.
+    ExactButForMap,
+    /// Something near the truth.
+    Near,
+    /// The truth itself. It decides, too.
+    Same,
+}
+
+/// What a technique is and can do.
+#[derive(Debug)]
+pub struct MethodRow {
+    /// Which one.
+    pub method: Method,
+    /// The word by which people choose it.
+    pub word: &'static str,
+    /// What it is called in a drawing.
+    pub name: &'static str,
+    /// What it is good for, in half a line.
+    pub good_for: &'static str,
+    /// How wrong it can be.
+    pub wrong: &'static str,
+    /// What it draws on the processor.
+    pub on_cpu: &'static [Subject],
+    /// What it draws on the graphics adapter.
+    pub on_gpu: &'static [Subject],
+    /// The finders that it can use, beside [`Finder::Auto`].
+    pub finders: &'static [Finder],
+    /// The other options that it uses.
+    pub settings: &'static [Setting],
+    /// What of these it takes where nobody says.
+    pub defaults: Settings,
+    /// Whether it counts shadow volumes, so that what that takes can be told.
+    pub counts: bool,
+    /// Whether it blends 32-bit floats, which not every adapter can.
+    pub blends_float32: bool,
+    /// What `verify` holds it against.
+    pub against: Truth,
+    /// What `verify` demands of it.
+    pub promise: Promise,
+}
+
+/// The enum of techniques, with the table and the words, from one row each.
+macro_rules! techniques {
+    ($($(#[$of:meta])+ $name:ident: $word:literal, { $($field:ident: $value:expr,)+ })+) => {
+        /// How shadows are found.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+        pub enum Method { $($(#[$of])+ $name),+ }
+
+        impl Method {
+            /// The words that choose, with what they choose.
+            pub const WORDS: &'static [(&'static str, Method)] = &[$(($word, Method::$name)),+];
+        }
+
+        /// All techniques, in the order in which people are shown them; the first is the choice of the program.
+        pub static TABLE: &[MethodRow] = &[$(MethodRow { method: Method::$name, word: $word, $($field: $value),+ }),+];
+    };
+}
+
+/// Plan and perspective.
+const SEEN: &[Subject] = &[Subject::Top, Subject::Ground, Subject::Camera];
+/// All finders.
+const FINDERS: &[Finder] = &[Finder::Brute, Finder::Hextree, Finder::Gpu];
+/// Texels along a map's side where nobody says.
+pub const MAP_SIZE: u32 = 2048;
+
+techniques! {
+    /// The fastest exact technique for the work.
+    #[default]
+    Auto: "auto", {
+        name: "the fastest exact technique",
+        good_for: "the fastest exact one for the work and the machine",
+        wrong: "as the one that it takes",
+        on_cpu: &Subject::ALL,
+        on_gpu: &[Subject::Top, Subject::Ground, Subject::Camera, Subject::Surfaces],
+        finders: &[],
+        settings: &[],
+        defaults: Settings::NONE,
+        counts: false,
+        blends_float32: false,
+        against: Truth::Centre,
+        promise: Promise::Exact,
+    }
+    /// Stencil shadow volumes.
+    Stencil: "stencil", {
+        name: "stencil shadow volumes",
+        good_for: "exact, on a graphics adapter: shadow volumes are counted",
+        wrong: "cells within 1/256 of a cell of an edge",
+        on_cpu: &[],
+        on_gpu: SEEN,
+        finders: FINDERS,
+        settings: &[],
+        defaults: Settings::NONE,
+        counts: true,
+        blends_float32: false,
+        against: Truth::Centre,
+        promise: Promise::Exact,
+    }
+    /// Faces projected onto the ground.
+    Projected: "projected", {
+        name: "projected shadows",
+        good_for: "exact, for the plan: faces are projected along the sun; by far the fastest on the ground alone",
+        wrong: "not at all, for the model as given; on a graphics adapter cells within 1/128 of a cell of an edge",
+        on_cpu: &[Subject::Top, Subject::Ground],
+        on_gpu: &[Subject::Ground],
+        finders: &[],
+        settings: &[],
+        defaults: Settings::NONE,
+        counts: false,
+        blends_float32: false,
+        against: Truth::Centre,
+        promise: Promise::Exact,
+    }
+    /// A depth map drawn from the sun.
+    ShadowMap: "shadow-map", {
+        name: "shadow map",
+        good_for: "a quick look",
+        wrong: "an edge is as coarse as a texel of its map",
+        on_cpu: &[],
+        on_gpu: SEEN,
+        finders: &[],
+        settings: &[Setting::MapSize, Setting::Filter],
+        defaults: Settings { map_size: Some(MAP_SIZE), filter: Some(Filter::FastTwoByTwo), ..Settings::NONE },
+        counts: false,
+        blends_float32: false,
+        against: Truth::Centre,
+        promise: Promise::Near,
+    }
+    /// A depth map, and volumes where it cannot tell.
+    Hybrid: "hybrid", {
+        name: "shadow map and volumes",
+        good_for: "exact but for thin parts; quick where many of them throw volumes over each other",
+        wrong: "misses what is thinner than a texel of its map",
+        on_cpu: &[],
+        on_gpu: SEEN,
+        finders: FINDERS,
+        settings: &[Setting::MapSize],
+        defaults: Settings { map_size: Some(MAP_SIZE), ..Settings::NONE },
+        counts: true,
+        blends_float32: false,
+        against: Truth::Centre,
+        promise: Promise::ExactButForMap,
+    }
+    /// A depth map with soft edges.
+    Smoothie: "smoothie", {
+        name: "smoothies (soft edges, outside of the hard ones)",
+        good_for: "pictures with the soft edge of a real sun",
+        wrong: "shadows are too large by half of their soft edge, and slits close: not for hours",
+        on_cpu: &[],
+        on_gpu: SEEN,
+        finders: &[Finder::Brute, Finder::Hextree],
+        settings: &[Setting::MapSize, Setting::SmoothieWidth],
+        defaults: Settings { map_size: Some(MAP_SIZE), ..Settings::NONE },
+        counts: false,
+        blends_float32: true,
+        against: Truth::Disc,
+        promise: Promise::Near,
+    }
+    /// Registered hard shadows on flat patches, added up.
+    SoftTexture: "soft-texture", {
+        name: "soft shadow textures",
+        good_for: "hours on façades and roofs; in a camera's picture the sun as a disc on what is flat",
+        wrong: "not at all on surfaces, for the model as given; pixels at edges, by one or two in 255 on average",
+        on_cpu: &[Subject::Camera, Subject::Surfaces],
+        on_gpu: &[Subject::Surfaces],
+        finders: &[],
+        settings: &[Setting::SunSamples],
+        defaults: Settings { sun_samples: Some(64), ..Settings::NONE },
+        counts: false,
+        blends_float32: false,
+        against: Truth::Disc,
+        promise: Promise::Near,
+    }
+    /// Ray casting.
+    RayCast: "ray-cast", {
+        name: "ray casting",
+        good_for: "exact, on the processor; with points of the sun's disc the soft edge of a real sun, as it is",
+        wrong: "not at all, for the model as given",
+        on_cpu: &Subject::ALL,
+        on_gpu: &[],
+        finders: &[],
+        settings: &[Setting::SunSamples],
+        defaults: Settings::NONE,
+        counts: false,
+        blends_float32: false,
+        against: Truth::EveryFace,
+        promise: Promise::Same,
+    }
+}
+
+impl Method {
+    /// Its row.
+    pub fn row(self) -> &'static MethodRow {
+        // the table and the enum are made of the same list
+        &TABLE[self as usize]
+    }
+
+    /// The word that chooses this.
+    pub fn word(self) -> &'static str {
+        self.row().word
+    }
+}
+
+super::read!(Method);
+
+impl MethodRow {
+    /// What it draws on a machine; on [`Engine::Auto`] on either.
+    pub fn draws(&self, engine: Engine, subject: Subject) -> bool {
+        let (on_cpu, on_gpu) = (self.on_cpu.contains(&subject), self.on_gpu.contains(&subject));
+        match engine {
+            Engine::Auto => on_cpu || on_gpu,
+            Engine::Cpu => on_cpu,
+            Engine::Gpu => on_gpu,
+        }
+    }
+
+    /// Whether it uses an option.
+    pub fn uses(&self, setting: Setting) -> bool {
+        match setting {
+            Setting::Finder => !self.finders.is_empty(),
+            _ => self.settings.contains(&setting),
+        }
+    }
+
+    /// How it is set: as asked, else by its defaults; what it does not use is absent.
+    pub fn set(&self, asked: &Settings) -> Settings {
+        let Settings { map_size, filter, smoothie_width_m, sun_samples } = *asked;
+        let uses = |setting| self.uses(setting);
+        Settings {
+            map_size: map_size.filter(|_| uses(Setting::MapSize)).or(self.defaults.map_size),
+            filter: filter.filter(|_| uses(Setting::Filter)).or(self.defaults.filter),
+            smoothie_width_m: smoothie_width_m
+                .filter(|_| uses(Setting::SmoothieWidth))
+                .or(self.defaults.smoothie_width_m),
+            sun_samples: sun_samples.filter(|_| uses(Setting::SunSamples)).or(self.defaults.sun_samples),
+        }
+    }
+}

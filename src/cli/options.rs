@@ -1,0 +1,58 @@
+//! What the command calls the fields of a request: its options.
+
+use crate::message::{Field, Words};
+use crate::site::Overrides;
+
+/// Nothing is asked yet; what is noted is noted in the command's words.
+pub(super) fn nothing_asked() -> Overrides {
+    Overrides { words: &Options, ..Overrides::default() }
+}
+
+/// The command's words.
+#[derive(Clone, Copy, Debug)]
+pub struct Options;
+
+impl Words for Options {
+    fn name(&self, field: Field) -> Option<&'static str> {
+        Some(match field {
+            Field::Place => "--place",
+            Field::Up => "--up",
+            Field::Ground => "--ground",
+            Field::Date => "--date",
+            Field::FromDate => "--from-date",
+            Field::ToDate => "--to-date",
+            Field::From => "--from",
+            Field::To => "--to",
+            Field::Step => "--step",
+            Field::At => "--at",
+            Field::Point => "--point",
+            Field::Normal => "--normal",
+            Field::Region => "--region",
+            Field::Cell => "--cell",
+            Field::Size => "--size",
+            Field::Receivers => "--receivers",
+            Field::View => "--view",
+            Field::PatchCell => "--patch-cell",
+            Field::Technique => "--technique",
+            Field::Silhouette => "--silhouette",
+            Field::HextreeDepth => "--hextree-depth",
+            Field::Engine => "--engine",
+            Field::MapSize => "--map-size",
+            Field::Pcf => "--pcf",
+            Field::SmoothieWidth => "--smoothie-width",
+            Field::SunSamples => "--sun-samples",
+            Field::Volumes => "--show",
+            Field::MaskDiagram => "--show mask",
+            Field::OverdrawDiagram => "--show overdraw",
+            Field::Statistics => "--stats",
+            Field::Lines => "--draw",
+            Field::Outlines => "--draw outlines",
+            Field::Masks => "--masks",
+            Field::Bits => "--bits",
+            Field::Memory => "--memory",
+            Field::Out => "--out",
+            Field::Csv => "--csv",
+            Field::Json => "--json",
+        })
+    }
+}

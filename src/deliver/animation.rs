@@ -1,0 +1,100 @@
+//! The study's instants as pictures, and as a GIF. Both lie in a folder: the GIF is made of the pictures when all are there.
+
+use super::parts::{Seen, note, note_letters, scene, told};
+use super::{DeliverError, Folder, Sink, Written};
+use crate::export::animation::{Frames, MOST_FRAMES};
+use crate::export::figure::{self, Shown};
+use crate::export::report;
+use crate::profile::Drawn;
+use crate::site::Site;
+use crate::study::{self, Event, Frame, OnEvent, Stopwatch, tell};
+use crate::view::View;
+use std::path::{Path, PathBuf};
+
+/// How wide a picture is where nobody says, pixels.
+pub const WIDTH: u32 = 1280;
+/// Pictures a second where nobody says.
+pub const FPS: u16 = 4;
+
+/// What is asked of an animation.
+#[derive(Clone, Debug)]
+pub struct AnimationRequest {
+    /// From where the site is seen.
+    pub view: View,
+    /// How wide a picture is, pixels.
+    pub width: u32,
+    /// Pictures a second in the GIF; each is shown for whole hundredths of a second.
+    pub fps: u16,
+    /// Runs since before the site was read.
+    pub watch: Stopwatch,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct AnimationAnswer {
+    /// The GIF.
+    pub gif: PathBuf,
+    /// The frames, in their order.
+    pub frames: Written,
+    /// All in JSON.
+    pub report: String,
+    /// What drew.
+    pub drawn: Drawn,
+}
+
+/// Draws every instant of the site's study into a folder. Beside the study's events the stage `gif` is told as each of the
+/// frames goes into that.
+///
+/// # Errors
+/// [`DeliverError`]; too many instants, and what cannot be written, before anything is drawn.
+pub fn animation(
+    site: &Site,
+    asked: &AnimationRequest,
+    folder: Folder<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<AnimationAnswer, DeliverError> {
+    let count = site.track.instants.len();
+    if count > MOST_FRAMES {
+        return Err(DeliverError::TooManyFrames { count, most: MOST_FRAMES });
+    }
+    // without the folder, which the sink names
+    let open = Sink::Folder(folder).open(&Frames::outputs(Path::new(""), count), None)?;
+    let mut watch = asked.watch.clone();
+    watch.lap("load");
+    note(open.note(), on_event)?;
+    note_letters([site.place.name.as_str()], on_event)?;
+    let (drawn, frames) = draw(site, asked, folder.path, on_event)?;
+    watch.lap("frames");
+    open.check()?;
+    // for whole hundredths of a second
+    let mut gif = frames.gif((100.0 / f64::from(asked.fps)).round() as u16)?;
+    for index in 0..count {
+        tell(on_event, Event::Stage("gif"))?;
+        gif.add(index)?;
+    }
+    let gif = gif.finish()?;
+    watch.lap("gif");
+    let timings = &watch.timings();
+    let told = told(site, study::judged(site, &asked.view), &drawn, timings, None);
+    let report = report::shadow_json(&asked.view, &site.place, &site.track, &told)?;
+    let paths = (0..count).map(|index| Frames::path(folder.path, index)).collect();
+    Ok(AnimationAnswer { gif, frames: Written { paths, files: Vec::new() }, report, drawn })
+}
+
+/// Draws the frames.
+fn draw(
+    site: &Site,
+    asked: &AnimationRequest,
+    folder: &Path,
+    on_event: &mut OnEvent<'_>,
+) -> Result<(Drawn, Frames), DeliverError> {
+    let mut frames = Frames::new(folder, site.track.instants.len())?;
+    note(frames.note(), on_event)?;
+    let drawn = study::frames(site, asked.view, on_event, &mut |frame| -> Result<(), DeliverError> {
+        let Frame { track, mask, surface, surface_mesh: mesh, receivers, drawn } = *frame;
+        let scene = figure::Scene { track, ..scene(site, Seen { receivers, surface, mesh, drawn }) };
+        let picture = figure::instant_on_screen(&scene, &asked.view, mask, &Shown::default(), asked.width)?;
+        Ok(frames.add(&picture)?)
+    })?;
+    Ok((drawn, frames))
+}

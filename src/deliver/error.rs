@@ -1,0 +1,82 @@
+//! Why there is no deliverable.
+
+use super::lines::LinesError;
+use crate::export::ExportError;
+use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
+use crate::study::StudyError;
+use crate::sun::Zone;
+use crate::volume::solid::SolidError;
+use chrono::DateTime;
+
+/// Why there is no deliverable. One line each.
+#[derive(Debug, thiserror::Error)]
+pub enum DeliverError {
+    /// The study has no answer.
+    Study(#[from] StudyError),
+    /// The answer did not become files.
+    Export(#[from] ExportError),
+    /// Lines cannot be drawn of such a study.
+    Lines(#[from] LinesError),
+    /// There are more pictures than an animation has.
+    TooManyFrames {
+        /// How many instants there are.
+        count: usize,
+        /// How many frames there can be.
+        most: usize,
+    },
+    /// Nothing casts a shadow at night.
+    Night {
+        /// When.
+        time: DateTime<Zone>,
+        /// How far below the horizon the sun is, degrees.
+        below_deg: f64,
+    },
+    /// The shadow volumes make no solids.
+    Solid(#[from] SolidError),
+}
+
+plain_display!(DeliverError);
+
+impl Worded for DeliverError {
+    fn message(&self) -> Message {
+        match self {
+            DeliverError::Study(error) => error.message(),
+            DeliverError::Export(error) => error.message(),
+            DeliverError::Lines(error) => error.message(),
+            DeliverError::TooManyFrames { count, most } => message![
+                format!("the study has {count} instants, and an animation at most {most} frames");
+                "take a longer ", Field::Step, ", or fewer hours", by_clock()
+            ],
+            DeliverError::Night { time, below_deg } => message![
+                format!(
+                    "no sun at {}: it is {below_deg:.1}° below the horizon, and nothing casts a shadow",
+                    time.format("%Y-%m-%d %H:%M")
+                );
+                "take a time of day", Piece::Where(Field::At, pieces![" for ", Field::At])
+            ],
+            DeliverError::Solid(error) => error.to_string().into(),
+        }
+    }
+}
+
+/// The fields that shorten a window, for faces that have them.
+pub(super) fn by_clock() -> Piece {
+    Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
+}
+
+impl DeliverError {
+    /// Whether what was asked does not go together, or not with the site.
+    pub fn is_wrong_use(&self) -> bool {
+        match self {
+            DeliverError::Study(error) => error.is_wrong_use(),
+            DeliverError::Export(error) => error.is_wrong_use(),
+            DeliverError::Lines(_) | DeliverError::TooManyFrames { .. } => true,
+            DeliverError::Night { .. } | DeliverError::Solid(_) => false,
+        }
+    }
+
+    /// Whether somebody ended the work.
+    pub fn is_interrupted(&self) -> bool {
+        matches!(self, DeliverError::Study(StudyError::Interrupted))
+    }
+}

@@ -1,0 +1,130 @@
+//! The shadows at one instant: as a drawing, and as a bare mask.
+
+use super::parts::{Seen, note, note_letters, scene, told};
+use super::{DeliverError, Sink, Written};
+use crate::export::figure::{self, Diagram, Shown};
+use crate::export::{raster, report};
+use crate::profile::{Drawn, Statistics};
+use crate::site::Site;
+use crate::study::{self, Counting, Event, InstantOutcome, InstantWants, OnEvent, Stopwatch, tell};
+use crate::view::{Surface, View};
+use std::path::PathBuf;
+
+/// What is asked of the first instant of a site's study.
+#[derive(Clone, Debug)]
+pub struct InstantRequest {
+    /// From where it is seen.
+    pub view: View,
+    /// What the drawing is called; without a name there is none.
+    pub drawing: Option<PathBuf>,
+    /// What the mask is called.
+    pub mask: Option<PathBuf>,
+    /// What the drawing shows besides sun and shadow.
+    pub show: Show,
+    /// What counting shadow volumes took.
+    pub statistics: bool,
+    /// Runs since before the site was read.
+    pub watch: Stopwatch,
+}
+
+/// What a drawing of an instant shows besides sun and shadow, or instead of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Show {
+    /// The shadow volumes, over a camera's picture.
+    pub volumes: bool,
+    /// The silhouette, over a camera's picture.
+    pub silhouette: bool,
+    /// Components in their own colours.
+    pub components: bool,
+    /// What counting took, instead of sun and shadow.
+    pub diagram: Option<Diagram>,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct InstantAnswer {
+    /// The files.
+    pub written: Written,
+    /// All in JSON.
+    pub report: String,
+    /// What drew.
+    pub drawn: Drawn,
+    /// What counting took, where that was asked and there is a sun.
+    pub statistics: Option<Statistics>,
+}
+
+/// Draws the first instant of the site's study.
+///
+/// # Errors
+/// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
+pub fn instant(
+    site: &Site,
+    asked: &InstantRequest,
+    sink: Sink<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<InstantAnswer, DeliverError> {
+    let names: Vec<PathBuf> = [&asked.drawing, &asked.mask].into_iter().flatten().cloned().collect();
+    let open = sink.open(&names, None)?;
+    note(open.note(), on_event)?;
+    let mut watch = asked.watch.clone();
+    watch.lap("load");
+    if asked.drawing.is_some() {
+        let parts = site.mesh.components.iter().filter(|_| asked.show.components).map(|part| part.name.as_str());
+        note_letters([site.place.name.as_str()].into_iter().chain(parts), on_event)?;
+    }
+    let outcome = study::instant(site, asked.view, &asked.wants(), on_event)?;
+    watch.laps(outcome.timings.clone());
+
+    let mut ready = Vec::new();
+    if let (Some(name), Some(surface)) = (&asked.drawing, &outcome.surface) {
+        let bytes = draw(site, asked, &outcome, surface)?;
+        tell(on_event, Event::Stage("picture"))?;
+        ready.push(open.ready((name.clone(), bytes))?);
+        watch.lap("picture");
+    }
+    if let Some(name) = &asked.mask {
+        ready.push(open.ready((name.clone(), raster::mask_png(&outcome.mask)?))?);
+        watch.lap("mask");
+    }
+    let written = open.put(ready)?;
+    let statistics = outcome.counted.as_ref().filter(|_| asked.statistics).map(Statistics::of);
+    let receivers = study::judged(site, &asked.view);
+    let timings = &watch.timings();
+    let told = told(site, receivers, &outcome.drawn, timings, statistics.as_ref());
+    let report = report::shadow_json(&asked.view, &site.place, &site.track, &told)?;
+    Ok(InstantAnswer { written, report, drawn: outcome.drawn, statistics })
+}
+
+fn draw(
+    site: &Site,
+    asked: &InstantRequest,
+    outcome: &InstantOutcome,
+    surface: &Surface,
+) -> Result<Vec<u8>, DeliverError> {
+    let InstantOutcome { mask, surface_mesh: mesh, drawn, overlay, counted, .. } = outcome;
+    let scene = scene(site, Seen { receivers: study::judged(site, &asked.view), surface, mesh, drawn });
+    let casts = seen_casts(site);
+    let shown = Shown {
+        overlay: overlay.as_ref(),
+        casts: asked.show.components.then_some(casts.as_slice()),
+        counted: counted.as_ref().zip(asked.show.diagram),
+    };
+    Ok(figure::instant(&scene, &asked.view, mask, &shown)?)
+}
+
+/// Of the components that are seen, which a drawing's mesh holds, whether each casts.
+pub fn seen_casts(site: &Site) -> Vec<bool> {
+    site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect()
+}
+
+impl InstantRequest {
+    fn wants(&self) -> InstantWants {
+        let Show { volumes, silhouette, diagram, .. } = self.show;
+        let counted = match diagram {
+            Some(Diagram::Mask) => Some(Counting::Mask),
+            Some(Diagram::Overdraw) => Some(Counting::Overdraw),
+            None => self.statistics.then_some(Counting::Statistics),
+        };
+        InstantWants { surface: self.drawing.is_some(), volumes, silhouette, counted }
+    }
+}

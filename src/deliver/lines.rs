@@ -1,0 +1,110 @@
+//! Drawings of lines, beside the profile's other files: iso-hour lines, and outlines of shadows.
+
+use super::error::by_clock;
+use super::sink::NamedFile;
+use crate::export::ExportError;
+use crate::export::figure::{self, MOST_OUTLINES, Outline, Scene};
+use crate::message::{Field, Message, Worded, message, plain_display};
+use crate::profile::Profile;
+use crate::sun::{Instant, SunTrack};
+use crate::view::SurfaceRows;
+use chrono::NaiveDate;
+
+/// A drawing of lines, which becomes a PNG and an SVG.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lines {
+    /// A labelled line for each whole hour of shadow.
+    Hours,
+    /// The border of each instant's shadow, with its time.
+    Outlines,
+}
+
+/// Why lines cannot be drawn of a study: they would show nothing, or more than can be told apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LinesError {
+    /// All instants are at night.
+    NoSun,
+    /// Outlines are told apart by their times.
+    SeveralDays {
+        /// The first of them.
+        date: NaiveDate,
+    },
+    /// There are too many outlines.
+    TooMany {
+        /// How many instants have a sun.
+        count: usize,
+        /// A step with which they are few enough, minutes.
+        step_min: i64,
+    },
+}
+
+plain_display!(LinesError);
+
+impl Worded for LinesError {
+    fn message(&self) -> Message {
+        match self {
+            LinesError::NoSun => message![
+                Field::Lines, ": there is no sun at any of the study's instants";
+                "take a window by day", by_clock()
+            ],
+            LinesError::SeveralDays { date } => message![
+                Field::Outlines, " is for one day, and these instants lie on several";
+                "take one without dates: ", (Field::Date, date.to_string()), by_clock()
+            ],
+            LinesError::TooMany { count, step_min } => message![
+                Field::Outlines,
+                format!(": {count} instants with a sun are too many to tell apart, at most {MOST_OUTLINES} are drawn");
+                "take a longer ", Field::Step, format!(", as {step_min}min, or a shorter window"), by_clock()
+            ],
+        }
+    }
+}
+
+impl Lines {
+    /// Errs where a drawing of such a study would show nothing, or more than can be told apart.
+    ///
+    /// # Errors
+    /// [`LinesError`].
+    pub fn check(self, track: &SunTrack) -> Result<(), LinesError> {
+        let day: Vec<&Instant> = track.instants.iter().filter(|instant| !instant.night).collect();
+        let (Some(first), Some(last)) = (day.first(), day.last()) else { return Err(LinesError::NoSun) };
+        if self == Lines::Hours {
+            return Ok(());
+        }
+        // a single window is shorter than a day, so that no clock time comes twice
+        let date = first.time.date_naive();
+        if track.each_day.is_some() && date != last.time.date_naive() {
+            return Err(LinesError::SeveralDays { date });
+        }
+        if day.len() > MOST_OUTLINES {
+            let secs = (last.time - first.time).num_seconds();
+            let fits = |minutes: &&i64| secs / (**minutes * 60) < MOST_OUTLINES as i64;
+            let step_min = *[1, 2, 5, 10, 15, 20, 30, 60].iter().find(fits).unwrap_or(&120);
+            return Err(LinesError::TooMany { count: day.len(), step_min });
+        }
+        Ok(())
+    }
+
+    /// What the files are called.
+    pub fn names(self) -> [&'static str; 2] {
+        match self {
+            Lines::Hours => ["hours.png", "hours.svg"],
+            Lines::Outlines => ["outlines.png", "outlines.svg"],
+        }
+    }
+
+    /// The files; `outlines` are those of all instants with a sun.
+    pub(super) fn files<S: SurfaceRows>(
+        self,
+        scene: &Scene<S>,
+        profile: &Profile,
+        outlines: &[Outline],
+    ) -> Result<[NamedFile; 2], ExportError> {
+        let drawing = match self {
+            Lines::Hours => figure::iso_hours(scene, profile)?,
+            Lines::Outlines => figure::outlines(scene, &profile.grid, outlines)?,
+        };
+        let [png, svg] = self.names();
+        Ok([(png.into(), drawing.png()?), (svg.into(), drawing.svg().into_bytes())])
+    }
+}

@@ -1,0 +1,22 @@
+//! Deliverables: a request in, files out. What both faces make of a site is made here, once.
+//!
+//! Each deliverable is one function: from a checked [`Site`](crate::site::Site) and a small request, through events, into a
+//! [`Sink`], with a typed answer that a face prints or shows. What lies on the disk while a study goes on lies beside it.
+
+pub mod animation;
+pub mod comparison;
+pub mod disk;
+mod error;
+pub mod instant;
+pub mod lines;
+mod parts;
+pub mod probe;
+pub mod profile;
+mod sink;
+pub mod surfaces;
+pub mod verification;
+pub mod volumes;
+
+pub use error::DeliverError;
+pub use parts::{Seen, scene};
+pub use sink::{Folder, NamedFile, Sink, Written};

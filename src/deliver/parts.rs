@@ -1,0 +1,61 @@
+//! What every deliverable is put together from: what a drawing is told, what a report is told, and the notes on both.
+
+use crate::export::figure;
+use crate::export::report::Told;
+use crate::mesh::Mesh;
+use crate::profile::{Drawn, Statistics, Timings};
+use crate::site::{Receivers, Site};
+use crate::study::{Event, OnEvent, StudyError, tell};
+
+/// What of a site was drawn, and by what.
+#[derive(Clone, Copy)]
+pub struct Seen<'a, S> {
+    /// Which surfaces were judged.
+    pub receivers: Receivers,
+    /// What each cell sees.
+    pub surface: &'a S,
+    /// Whose faces those are.
+    pub mesh: &'a Mesh,
+    /// What drew.
+    pub drawn: &'a Drawn,
+}
+
+/// What a drawing of a site needs beside the answer.
+pub fn scene<'a, S>(site: &'a Site, seen: Seen<'a, S>) -> figure::Scene<'a, S> {
+    let Seen { receivers, surface, mesh, drawn } = seen;
+    figure::Scene { place: &site.place, track: &site.track, mesh, surface, receivers, ground: site.ground, drawn }
+}
+
+/// What a report of a site tells beside the instants.
+pub(super) fn told<'a>(
+    site: &'a Site,
+    receivers: Receivers,
+    drawn: &'a Drawn,
+    timings: &'a Timings,
+    statistics: Option<&'a Statistics>,
+) -> Told<'a> {
+    Told { receivers, ground: site.ground, drawn, timings, statistics, notes: &site.notes }
+}
+
+/// Notes letters that no font has, of texts that are drawn.
+pub(super) fn note_letters<'a>(
+    texts: impl IntoIterator<Item = &'a str>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<(), StudyError> {
+    let missing = texts.into_iter().map(|text| (text, figure::without_face(text)));
+    match missing.into_iter().find(|(_, letters)| !letters.is_empty()) {
+        Some((text, letters)) => note(
+            Some(format!(
+                "no font has the letters {letters} of \"{text}\", and boxes are drawn for them; install one that has, or \
+                 write other letters"
+            )),
+            on_event,
+        ),
+        None => Ok(()),
+    }
+}
+
+/// Notes what there is.
+pub(super) fn note(note: Option<String>, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    note.map_or(Ok(()), |note| tell(on_event, Event::Note(note)))
+}

@@ -1,0 +1,58 @@
+//! When points lie in the sun: as a drawing and a table.
+
+use super::parts::note_letters;
+use super::{DeliverError, Sink, Written};
+use crate::export::{figure, probe as encode};
+use crate::message::Words;
+use crate::profile::probe::Sunlight;
+use crate::site::Probing;
+use crate::study::{self, Event, OnEvent, tell};
+use std::path::PathBuf;
+
+/// What is asked beside the answer itself.
+#[derive(Clone, Debug, Default)]
+pub struct ProbeRequest {
+    /// What the drawing is called: time of day across, days down. Without a name there is none.
+    pub drawing: Option<PathBuf>,
+    /// What the table is called, with a line an interval.
+    pub table: Option<PathBuf>,
+    /// In whose words the drawing speaks of fields.
+    pub words: &'static dyn Words,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct ProbeAnswer {
+    /// When each point lies in the sun.
+    pub sunlight: Sunlight,
+    /// The files.
+    pub written: Written,
+}
+
+/// Finds when points lie in the sun.
+///
+/// # Errors
+/// [`DeliverError`]; what cannot be written, before anything is searched.
+pub fn probe(
+    probing: &Probing,
+    asked: &ProbeRequest,
+    sink: Sink<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<ProbeAnswer, DeliverError> {
+    let names: Vec<PathBuf> = [&asked.drawing, &asked.table].into_iter().flatten().cloned().collect();
+    let open = sink.open(&names, None)?;
+    if asked.drawing.is_some() {
+        let probes = probing.probes.iter().map(|probe| probe.name.as_str());
+        note_letters([probing.place.name.as_str()].into_iter().chain(probes), on_event)?;
+    }
+    let sunlight = study::probe::probe(probing, on_event)?;
+    let mut files = Vec::new();
+    if let Some(name) = &asked.table {
+        files.push((name.clone(), encode::csv(&sunlight).into_bytes()));
+    }
+    if let Some(name) = &asked.drawing {
+        files.push((name.clone(), figure::strips(&sunlight, &probing.place, &probing.ground, asked.words)?));
+    }
+    tell(on_event, Event::Stage("picture"))?;
+    Ok(ProbeAnswer { written: open.write(files)?, sunlight })
+}

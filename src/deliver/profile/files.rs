@@ -1,0 +1,103 @@
+//! Hours that were found → their files.
+
+use super::hours::{Hours, Range};
+use super::{DRAWING, ProfileRequest, RASTER, REPORT};
+use crate::deliver::DeliverError;
+use crate::deliver::disk::bits;
+use crate::deliver::parts::{Seen, scene, told};
+use crate::deliver::sink::{OpenSink, Ready};
+use crate::export::{ExportError, figure, raster, report};
+use crate::profile::{Profile, Shaded, Timings};
+use crate::shadow::PlanSurface;
+use crate::site::Site;
+use crate::study::{Stopwatch, StudyError};
+use std::path::Path;
+use std::sync::LazyLock;
+use std::time::Instant;
+
+/// All files, whole and not yet in their places.
+pub(super) struct Pieces {
+    pub(super) ready: Vec<Ready>,
+    /// `profile.json`
+    pub(super) report: String,
+    pub(super) range: Range,
+}
+
+/// Makes what is asked; bits are those of the outlines. `stage` hears of each stage, and may end the work.
+pub(super) fn make(
+    site: &Site,
+    hours: &Hours,
+    asked: &ProfileRequest<'_>,
+    open: &OpenSink<'_>,
+    watch: &mut Stopwatch,
+    stage: &mut dyn FnMut(&'static str) -> Result<(), StudyError>,
+) -> Result<Pieces, DeliverError> {
+    let Hours { profile, drawn, surface_mesh: mesh, .. } = hours;
+    let surface = LazyLock::new(|| PlanSurface::new(mesh, site.ground.level, &site.grid));
+    let scene = || scene(site, Seen { receivers: site.receivers, surface: &*surface, mesh, drawn });
+    let picture = || asked.drawing.then(|| timed("picture", || figure::profile(&scene(), profile)));
+    let raster = || asked.raster.then(|| timed("raster", || raster_of(site, hours, open)));
+    // much of either is for one processor alone
+    let (picture, raster) = rayon::join(picture, raster);
+    let mut files = Vec::new();
+    if let Some((bytes, timing)) = picture {
+        files.push((DRAWING.into(), bytes?));
+        watch.laps(timing);
+    }
+    let raster = match raster {
+        Some((ready, timing)) => {
+            watch.laps(timing);
+            Some(ready?)
+        }
+        None => None,
+    };
+    profile.shaded.check()?;
+    stage("picture")?;
+    if let (Some(shaded), false) = (hours.shaded(), asked.lines.is_empty()) {
+        let Profile { grid, day_secs, night_secs, .. } = *profile;
+        let profile = Profile { grid, shaded: Shaded::clone(shaded), day_secs, night_secs };
+        for lines in asked.lines {
+            files.extend(lines.files(&scene(), &profile, &hours.outlines)?);
+        }
+        watch.lap("lines");
+        stage("lines")?;
+    }
+    let timings = &watch.timings();
+    let told = told(site, site.receivers, drawn, timings, hours.statistics.as_ref());
+    let report = report::profile_json(profile, &site.place, &site.track, &told)?;
+    // all are there before the first is put in its place
+    let mut ready = files.into_iter().map(|file| open.ready(file)).collect::<Result<Vec<_>, _>>()?;
+    ready.extend(raster);
+    if asked.report {
+        ready.push(open.ready((REPORT.into(), report.clone().into_bytes()))?);
+    }
+    if asked.bits {
+        let shadows = hours.outlines.iter().map(|outline| &outline.shadow);
+        let bytes = bits::encode(site.grid, site.receivers, &site.track, shadows)?;
+        ready.push(open.ready((bits::NAME.into(), bytes))?);
+    }
+    let range = hours.range();
+    profile.shaded.check()?;
+    // to sync large files takes long, and until here nothing is replaced
+    stage("files")?;
+    Ok(Pieces { ready, report, range })
+}
+
+/// The raster is written beside its place as it is made.
+fn raster_of(site: &Site, hours: &Hours, open: &OpenSink<'_>) -> Result<Ready, ExportError> {
+    match open.path(Path::new(RASTER)) {
+        Some(path) => {
+            let beside = raster::geotiff_file(&hours.profile, &site.place, &path)?;
+            beside.sync()?;
+            Ok(Ready::Disk(beside))
+        }
+        None => open.ready((RASTER.into(), raster::geotiff(&hours.profile, &site.place)?)),
+    }
+}
+
+/// Work as a stage of its own, that is done beside others.
+fn timed<T>(stage: &'static str, work: impl FnOnce() -> T) -> (T, Timings) {
+    let started = Instant::now();
+    let result = work();
+    (result, Timings(vec![(stage, started.elapsed().as_secs_f64())]))
+}

@@ -1,0 +1,97 @@
+//! The hours of shadow on a plan, as a study finds them.
+
+use super::ProfileRequest;
+use super::keeping::Keeping;
+use super::sums::Sums;
+use crate::deliver::DeliverError;
+use crate::export::ExportError;
+use crate::export::figure::Outline;
+use crate::mesh::Mesh;
+use crate::profile::{Drawn, Profile, Shaded, ShadedCells, Statistics, Timings};
+use crate::site::Site;
+use crate::study::{self, OnEvent, Tiled, Worked};
+use rayon::prelude::*;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The hours of shadow on a plan.
+pub struct Hours {
+    /// Shaded time.
+    pub profile: Profile<Sums>,
+    /// What drew.
+    pub drawn: Drawn,
+    /// Whose faces the plan's cells see.
+    pub surface_mesh: Mesh,
+    /// What counting took, where that was asked.
+    pub statistics: Option<Statistics>,
+    /// How long the stages took.
+    pub timings: Timings,
+    /// The shadow at each instant with a sun, where that was asked and is in memory.
+    pub outlines: Vec<Outline>,
+}
+
+/// The least and the most hours of shadow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// In the cell that has the least.
+    pub least: f64,
+    /// In the cell that has the most.
+    pub most: f64,
+    /// Hours of the window with the sun above the horizon.
+    pub day: f64,
+}
+
+/// Finds them. What the study left in the folder when it was stopped is gone on with; what is left there now goes when
+/// [`Keeping`] finishes.
+pub(super) fn find<'a>(
+    site: &Site,
+    asked: &ProfileRequest<'a>,
+    folder: Option<&'a Path>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<(Hours, Keeping<'a>), DeliverError> {
+    let study = Tiled::new(site, &asked.wants(site, folder.is_some()), on_event)?;
+    let mut keeping = Keeping::new(site, asked, folder, &study)?;
+    keeping.look_around(on_event)?;
+    let begun = keeping.begun(&study, site, on_event)?;
+    let worked = study::in_tiles(study, begun, &mut |event| keeping.hear(event, site, on_event));
+    let worked = keeping.take_fault().map_or(worked.map_err(DeliverError::from), Err);
+    let worked = worked.inspect_err(|_| keeping.leave(on_event))?;
+    let Worked { drawn, day_and_night_secs: (day_secs, night_secs), surface_mesh, statistics, timings, .. } = worked;
+    let shaded = std::mem::replace(&mut keeping.sums, Sums::Memory(Arc::default()));
+    let profile = Profile { grid: site.grid, shaded, day_secs, night_secs };
+    let outlines = std::mem::take(&mut keeping.outlines);
+    Ok((Hours { profile, drawn, surface_mesh, statistics, timings, outlines }, keeping))
+}
+
+impl Hours {
+    /// The sums, where they are in memory.
+    pub fn shaded(&self) -> Option<&Arc<Shaded>> {
+        match &self.profile.shaded {
+            Sums::Memory(shaded) => Some(shaded),
+            Sums::File(_) => None,
+        }
+    }
+
+    /// The same with the sums in memory.
+    pub(super) fn in_memory(mut self) -> Result<Hours, ExportError> {
+        let shaded = std::mem::replace(&mut self.profile.shaded, Sums::Memory(Arc::default()));
+        self.profile.shaded = Sums::Memory(shaded.in_memory()?);
+        Ok(self)
+    }
+
+    /// The least and the most.
+    pub fn range(&self) -> Range {
+        let Profile { grid, shaded, day_secs, .. } = &self.profile;
+        let width = grid.width as usize;
+        let both =
+            |[least, most]: [u64; 2], [its_least, its_most]: [u64; 2]| [least.min(its_least), most.max(its_most)];
+        let of_row = |row: usize| {
+            let part = shaded.part(row * width..(row + 1) * width);
+            (0..width).map(|cell| [part.of(cell); 2]).fold([u64::MAX, 0], both)
+        };
+        let rows = (0..grid.height as usize).into_par_iter().with_min_len(64);
+        let [least, most] = rows.map(of_row).reduce(|| [u64::MAX, 0], both);
+        let hours = |secs: f64| secs / 3600.0;
+        Range { least: hours(least as f64 / 255.0), most: hours(most as f64 / 255.0), day: hours(f64::from(*day_secs)) }
+    }
+}

@@ -1,0 +1,331 @@
+//! What a study writes while it goes on, and what it goes on from where it was stopped.
+
+use super::ProfileRequest;
+use super::sums::Sums;
+use crate::deliver::disk::bits::BitsFile;
+use crate::deliver::disk::sums::SumsFile;
+use crate::deliver::disk::unfinished::{self, Checks, Kept};
+use crate::deliver::parts::note;
+use crate::deliver::{DeliverError, NamedFile};
+use crate::export::figure::Outline;
+use crate::export::{ExportError, bytes, checksum, file, raster};
+use crate::profile::Unfinished;
+use crate::site::Site;
+use crate::study::{self, Event, OnEvent, StudyError, Tiled, tell};
+use crate::sun::Instant;
+use crate::view::{Bits, Tile};
+use std::iter;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What is written while the study goes on: in a folder, from which it can go on another time; or in memory alone.
+pub(super) struct Keeping<'a> {
+    folder: Option<&'a Path>,
+    /// The study's number.
+    study: u64,
+    /// The checksums of what was written so far.
+    checks: Checks,
+    /// The folder that is named for the masks.
+    masks: Option<&'a Path>,
+    /// The masks, where there is no folder.
+    pub(super) held_masks: Vec<NamedFile>,
+    pub(super) bits: Option<BitsFile>,
+    /// Each instant's shadow, where that is needed when all is done.
+    pub(super) outlines: Vec<Outline>,
+    holds_outlines: bool,
+    /// How many instants before each have a sun; one more than there are.
+    with_sun: Vec<usize>,
+    pub(super) sums: Sums,
+    /// The sums that are gone on with.
+    begun_sums: Option<SumsFile>,
+    /// The tile that is worked on, of how many, and whether this run begins anew.
+    tile: (Tile, usize),
+    is_new: bool,
+    /// Whether no tile was begun yet.
+    is_first: bool,
+    /// Whether there is something to go on from.
+    is_kept: bool,
+    /// What could not be written.
+    fault: Option<DeliverError>,
+}
+
+impl Keeping<'_> {
+    pub(super) fn new<'a>(
+        site: &Site,
+        asked: &ProfileRequest<'a>,
+        folder: Option<&'a Path>,
+        study: &Tiled<'_>,
+    ) -> Result<Keeping<'a>, ExportError> {
+        let number = folder.map_or(0, |_| study.number());
+        let bits = |folder| BitsFile::new(folder, number, site.grid, site.receivers, &site.track);
+        let count = |before: &mut usize, instant: &Instant| {
+            *before += usize::from(!instant.night);
+            Some(*before)
+        };
+        Ok(Keeping {
+            with_sun: iter::once(0).chain(site.track.instants.iter().scan(0, count)).collect(),
+            folder,
+            study: number,
+            checks: Checks::default(),
+            masks: asked.masks,
+            held_masks: Vec::new(),
+            bits: folder.filter(|_| asked.bits).map(bits).transpose()?,
+            outlines: Vec::new(),
+            holds_outlines: asked.holds_outlines() || (asked.bits && folder.is_none()),
+            sums: Sums::Memory(Arc::default()),
+            begun_sums: None,
+            tile: (site.grid.into(), 1),
+            is_new: true,
+            is_first: true,
+            is_kept: false,
+            fault: None,
+        })
+    }
+
+    /// Says what else lies in the folder, and what will.
+    pub(super) fn look_around(&self, on_event: &mut OnEvent<'_>) -> Result<(), DeliverError> {
+        let Some(folder) = self.folder else { return Ok(()) };
+        note(unfinished::tidy(folder, self.study), on_event)?;
+        if let Some(bits) = &self.bits {
+            bits.check_room()?;
+            note(Some(format!("{} will take {}", bits.path().display(), bytes(bits.size()))), on_event)?;
+        }
+        Ok(())
+    }
+
+    /// What the study left when it was stopped, where all that it wrote is still there as it was written.
+    pub(super) fn begun(
+        &mut self,
+        study: &Tiled<'_>,
+        site: &Site,
+        on_event: &mut OnEvent<'_>,
+    ) -> Result<Option<Unfinished>, DeliverError> {
+        // nothing keeps the outlines of instants that were drawn before
+        let Some(folder) = self.folder.filter(|_| !self.holds_outlines) else { return Ok(None) };
+        let (begun, checks) = match unfinished::kept(folder, self.study)? {
+            Kept::Nothing => return Ok(None),
+            Kept::Whole(whole) if study.is_of(&whole.0) => *whole,
+            Kept::Whole(_) | Kept::Damaged => return Ok(anew(&unfinished::path(folder, self.study), on_event)?),
+        };
+        if let Some(other) = self.other_than_written(folder, study, site, &begun, &checks) {
+            return Ok(anew(&other, on_event)?);
+        }
+        self.checks = checks;
+        Ok(Some(begun))
+    }
+
+    /// Looks for all that the study wrote beside what is begun, and takes it; else which file of it is another one.
+    fn other_than_written(
+        &mut self,
+        folder: &Path,
+        study: &Tiled<'_>,
+        site: &Site,
+        begun: &Unfinished,
+        checks: &Checks,
+    ) -> Option<PathBuf> {
+        let count = site.track.instants.len();
+        if let Some(masks) = self.masks {
+            let is_it =
+                |index: &usize| checksum::of_file(&mask_path(masks, *index)) == checks.masks.get(*index).copied();
+            if let Some(other) = (0..begun.done.min(count)).find(|index| !is_it(index)) {
+                return Some(mask_path(masks, other));
+            }
+        }
+        if let Some(bits) = &mut self.bits {
+            let drawn = (0..begun.done).map(|index| (index % count, study.tiles()[index / count]));
+            let with_sun = drawn.filter(|(at, _)| !site.track.instants[*at].night);
+            if !bits.go_on(with_sun.map(|(at, tile)| (self.with_sun[at], tile)), checks.bits) {
+                return Some(bits.unfinished().to_owned());
+            }
+        }
+        if begun.tiles > 1 {
+            let tiles = &study.tiles()[..study.worked_on(begun.done)];
+            let day_secs = study::day_and_night(&site.track).0;
+            self.begun_sums = SumsFile::go_on(folder, self.study, site.grid, day_secs, tiles, checks.sums);
+            if self.begun_sums.is_none() {
+                return Some(unfinished::sums_path(folder, self.study));
+            }
+        }
+        None
+    }
+
+    /// Another stage is done of what is made of the study.
+    pub(super) fn stage(&self, stage: &'static str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+        tell(on_event, Event::Stage(stage)).inspect_err(|_| {
+            if self.folder.is_some() && !self.is_kept {
+                let note = "what is done took little time and is not kept; the same command begins anew";
+                // who ended the work has said all there is to say
+                let _ = on_event(Event::Note(note.to_owned()));
+            }
+            self.tell_kept(on_event);
+        })
+    }
+
+    /// The work ends before all is done: what nobody can go on from does not stay.
+    pub(super) fn leave(&mut self, on_event: &mut OnEvent<'_>) {
+        if let Some(folder) = self.folder
+            && self.is_new
+            && !self.is_first
+            && !self.is_kept
+        {
+            // Windows removes no open file
+            (self.bits, self.sums) = (None, Sums::Memory(Arc::default()));
+            // the first error is the one to tell
+            let _ = unfinished::remove(folder, self.study);
+        }
+        self.tell_kept(on_event);
+    }
+
+    /// Tells who ended the work where it goes on.
+    fn tell_kept(&self, on_event: &mut OnEvent<'_>) {
+        if let Some(folder) = self.folder.filter(|_| self.is_kept) {
+            let path = unfinished::path(folder, self.study);
+            let note = format!("{} keeps what is done; the same command goes on from there", path.display());
+            let _ = on_event(Event::Note(note));
+        }
+    }
+
+    /// All is in its place: nothing is kept any more.
+    pub(super) fn finish(&self) -> Result<(), ExportError> {
+        self.folder.map_or(Ok(()), |folder| unfinished::remove(folder, self.study))
+    }
+
+    /// What could not be written, where that ended the work.
+    pub(super) fn take_fault(&mut self) -> Option<DeliverError> {
+        self.fault.take()
+    }
+
+    /// Makes room for what is written, before the first tile.
+    fn begin(&mut self, site: &Site) -> Result<(), ExportError> {
+        let Some(folder) = self.folder else { return Ok(()) };
+        if self.is_new {
+            // what does not go on must not be taken for what does
+            unfinished::remove(folder, self.study)?;
+        }
+        if self.tile.1 > 1 {
+            let day_secs = study::day_and_night(&site.track).0;
+            let begin = || SumsFile::begin(folder, self.study, site.grid, day_secs);
+            self.sums = Sums::File(self.begun_sums.take().map_or_else(begin, Ok)?);
+        }
+        Ok(())
+    }
+
+    /// Writes what an event brings, and tells it on. Once an instant is drawn, what is done can be kept: until then nobody
+    /// ends the work.
+    pub(super) fn hear(&mut self, event: Event<'_>, site: &Site, on_event: &mut OnEvent<'_>) -> ControlFlow<()> {
+        let done = match &event {
+            // the study is done again on another device, and asks where it was
+            Event::Resumes { study, begun } => self.begun(study, site, on_event).map(|kept| *begun.borrow_mut() = kept),
+            event => self.write(event, site).map_err(DeliverError::from),
+        };
+        if let Err(fault) = done {
+            self.fault = Some(fault);
+            return ControlFlow::Break(());
+        }
+        let goes_on = matches!(event, Event::Tile(_) | Event::Summed(_));
+        match on_event(event) {
+            ControlFlow::Break(()) if !goes_on => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        }
+    }
+
+    fn write(&mut self, event: &Event<'_>, site: &Site) -> Result<(), ExportError> {
+        match event {
+            Event::Anew => {
+                // Windows removes no open file
+                (self.is_new, self.is_first, self.is_kept) = (true, true, false);
+                (self.sums, self.begun_sums) = (Sums::Memory(Arc::default()), None);
+                (self.checks, self.outlines, self.held_masks) = (Checks::default(), Vec::new(), Vec::new());
+                if let (Some(folder), Some(_)) = (self.folder, self.bits.take()) {
+                    self.bits = Some(BitsFile::new(folder, self.study, site.grid, site.receivers, &site.track)?);
+                }
+            }
+            Event::Started { tiles, .. } => self.tile.1 = *tiles,
+            Event::GoesOn { .. } => {
+                (self.is_new, self.is_kept) = (false, true);
+                if let Some(file) = &mut self.bits {
+                    file.begin(true)?;
+                }
+            }
+            Event::Tile(tile) => {
+                self.tile.0 = *tile;
+                if std::mem::take(&mut self.is_first) {
+                    self.begin(site)?;
+                }
+            }
+            Event::Summed(shaded) => match &mut self.sums {
+                Sums::Memory(sums) => *sums = study::paste(sums, &self.tile.0, shaded),
+                Sums::File(file) => file.put(&self.tile.0, shaded)?,
+            },
+            Event::Drawn { index, mask, bits, .. } => {
+                let index = index % site.track.instants.len();
+                if let (Some(mask), Some(folder)) = (mask, self.masks) {
+                    self.put_mask(mask_path(folder, index), raster::mask_png(mask)?)?;
+                }
+                if let (Some(bits), true) = (bits, self.holds_outlines) {
+                    self.hold(index, bits);
+                }
+                if let (Some(bits), Some(file)) = (bits, &mut self.bits) {
+                    file.add(self.with_sun[index], &self.tile.0, bits)?;
+                }
+            }
+            // after a fault there is nothing to go on from
+            Event::Kept(done) if self.fault.is_none() => self.keep(done)?,
+            Event::Note(_) | Event::Kept(_) | Event::Stage(_) | Event::Resumes { .. } => {}
+        }
+        Ok(())
+    }
+
+    fn put_mask(&mut self, path: PathBuf, bytes: Vec<u8>) -> Result<(), ExportError> {
+        if self.folder.is_none() {
+            self.held_masks.push((path, bytes));
+            return Ok(());
+        }
+        file::write(&path, &bytes)?;
+        self.checks.masks.push(checksum::checksum(&bytes));
+        Ok(())
+    }
+
+    /// Holds an instant's shadow, of which a tile has come.
+    fn hold(&mut self, index: usize, bits: &Bits) {
+        let tile = &self.tile.0;
+        if tile.is_whole() {
+            self.outlines.push(Outline { index, shadow: bits.clone() });
+            return;
+        }
+        let at = self.with_sun[index];
+        if at == self.outlines.len() {
+            self.outlines.push(Outline { index, shadow: Bits::new(tile.plan.width, tile.plan.height) });
+        }
+        self.outlines[at].shadow.paste(tile, bits);
+    }
+
+    /// What is done so far is on the disk.
+    fn keep(&mut self, done: &Unfinished) -> Result<(), ExportError> {
+        let Some(folder) = self.folder else { return Ok(()) };
+        if let Some(file) = &mut self.bits {
+            file.sync()?;
+            self.checks.bits = file.checksum();
+        }
+        if let Sums::File(file) = &self.sums {
+            file.sync()?;
+            self.checks.sums = file.checksum();
+        }
+        unfinished::keep(folder, done, &self.checks)?;
+        self.is_kept = true;
+        Ok(())
+    }
+}
+
+/// Tells that what a study left cannot be gone on with.
+fn anew(path: &Path, on_event: &mut OnEvent<'_>) -> Result<Option<Unfinished>, StudyError> {
+    let what = "is not what the study left there when it was stopped: it begins anew";
+    note(Some(format!("{} {what}", path.display())), on_event)?;
+    Ok(None)
+}
+
+/// Where an instant's mask goes.
+pub(super) fn mask_path(folder: &Path, index: usize) -> PathBuf {
+    folder.join(format!("mask-{index:04}.png"))
+}

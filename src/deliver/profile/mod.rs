@@ -1,0 +1,229 @@
+//! The shadow profile of a study: hours of shadow on the plan, as a drawing, a raster, a report, lines, masks and bits.
+//!
+//! A study that was stopped in a folder goes on there. Whoever shows hours first and writes them later finds them with
+//! [`find_hours`], and writes them with [`write_hours`].
+
+mod files;
+mod hours;
+mod keeping;
+mod sums;
+
+pub use hours::{Hours, Range};
+pub use sums::Sums;
+
+use super::disk::{bits, unfinished};
+use super::lines::Lines;
+use super::parts::{note, note_letters};
+use super::sink::Also;
+use super::{DeliverError, Folder, Sink, Written};
+use crate::export::figure;
+use crate::profile::{Drawn, Statistics};
+use crate::site::Site;
+use crate::study::{Budget, Event, OnEvent, Stopwatch, Wants, tell};
+use files::Pieces;
+use keeping::mask_path;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How long work may be lost where a machine fails.
+const KEEP_EVERY: Duration = Duration::from_secs(60);
+
+/// So many stopped studies are kept of hours that are to be shown.
+const MOST_KEPT: usize = 4;
+
+const DRAWING: &str = "profile.png";
+const RASTER: &str = "shadow-hours.tif";
+const REPORT: &str = "profile.json";
+
+/// What is asked of a study on the plan.
+#[derive(Clone, Debug)]
+pub struct ProfileRequest<'a> {
+    /// `profile.png`
+    pub drawing: bool,
+    /// `shadow-hours.tif`
+    pub raster: bool,
+    /// `profile.json`
+    pub report: bool,
+    /// Drawings of lines.
+    pub lines: &'a [Lines],
+    /// The bare mask of each instant, in this folder.
+    pub masks: Option<&'a Path>,
+    /// `shadow.bits`: one bit a cell for every instant with a sun.
+    pub bits: bool,
+    /// What counting shadow volumes took.
+    pub statistics: bool,
+    /// Memory for what grows with the plan, bytes; without a limit as much as that takes.
+    pub memory: Option<u64>,
+    /// Runs since before the site was read.
+    pub watch: Stopwatch,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct ProfileAnswer {
+    /// The files, without the masks.
+    pub written: Written,
+    /// How many masks were written.
+    pub masks: usize,
+    /// `profile.json`, whether it is one of the files or not.
+    pub report: String,
+    /// What drew.
+    pub drawn: Drawn,
+    /// What counting took, where that was asked.
+    pub statistics: Option<Statistics>,
+    /// The least and the most hours.
+    pub range: Range,
+}
+
+/// Adds up the hours of shadow on the site's plan, and writes what is asked.
+///
+/// # Errors
+/// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
+pub fn profile(
+    site: &Site,
+    asked: &ProfileRequest<'_>,
+    sink: Sink<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<ProfileAnswer, DeliverError> {
+    let mut watch = asked.watch.clone();
+    asked.lines.iter().try_for_each(|lines| lines.check(&site.track))?;
+    let open = sink.open(&asked.names(), asked.mask_files(site))?;
+    note(open.note(), on_event)?;
+    if asked.drawing || !asked.lines.is_empty() {
+        note_letters([site.place.name.as_str()], on_event)?;
+    }
+    watch.lap("load");
+
+    let (hours, mut keeping) = hours::find(site, asked, sink.folder(), on_event)?;
+    watch.laps(hours.timings.clone());
+    let mut stage = |stage| keeping.stage(stage, on_event);
+    // bits that lie in the folder are written already
+    let asked_now = ProfileRequest { bits: asked.bits && keeping.bits.is_none(), ..asked.clone() };
+    let Pieces { ready, report, range } = files::make(site, &hours, &asked_now, &open, &mut watch, &mut stage)?;
+    let (drawn, statistics) = (hours.drawn.clone(), hours.statistics);
+    let mut written = open.put(ready)?;
+    if let Some(bits) = keeping.bits.take() {
+        written.paths.push(bits.path().to_owned());
+        bits.finish()?;
+    }
+    // Windows removes no open file.
+    drop(hours);
+    keeping.finish()?;
+    let masks = asked.masks.map_or(0, |_| site.track.instants.len());
+    written.files.append(&mut keeping.held_masks);
+    if let Some(folder) = asked.masks.filter(|_| sink.folder().is_some()) {
+        let beyond = Some(mask_path(folder, masks)).filter(|path| path.exists());
+        let beyond =
+            beyond.map(|path| format!("{} and what follows it is of another study; remove it", path.display()));
+        // all is written, and nothing is left to be ended
+        let _ = note(beyond, on_event);
+    }
+    Ok(ProfileAnswer { written, masks, report, drawn, statistics, range })
+}
+
+/// Finds hours that are to be shown, all of them in memory; with bits, each instant's shadow too.
+///
+/// A study that is stopped is kept in `shelf`, of the newest ones, and goes on when the same is asked again. One with bits
+/// is not kept, and none is while another one works there.
+///
+/// # Errors
+/// As [`profile()`].
+pub fn find_hours(
+    site: &Site,
+    asked: &ProfileRequest<'_>,
+    shelf: Option<Folder<'_>>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Hours, DeliverError> {
+    let shelf = shelf.filter(|_| !asked.bits);
+    let open = match shelf.map(|folder| Sink::Folder(folder).open(&[], None)).transpose() {
+        Ok(open) => open,
+        Err(error) => {
+            note(Some(format!("{error}; until then what is done is not kept")), on_event)?;
+            None
+        }
+    };
+    let folder = open.as_ref().and(shelf).map(|folder| folder.path);
+    let found = hours::find(site, asked, folder, on_event).and_then(|(hours, keeping)| {
+        let hours = hours.in_memory()?;
+        keeping.finish()?;
+        Ok(hours)
+    });
+    if let Some(folder) = folder {
+        unfinished::keep_newest(folder, MOST_KEPT);
+    }
+    found
+}
+
+/// Writes hours that were found, as far as is asked. The request's stopwatch runs on from [`Hours::timings`].
+///
+/// # Errors
+/// As [`profile()`].
+pub fn write_hours(
+    site: &Site,
+    hours: &Hours,
+    asked: &ProfileRequest<'_>,
+    sink: Sink<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<ProfileAnswer, DeliverError> {
+    let mut watch = asked.watch.clone();
+    asked.lines.iter().try_for_each(|lines| lines.check(&site.track))?;
+    let open = sink.open(&asked.names(), None)?;
+    note(open.note(), on_event)?;
+    let mut stage = |stage| tell(on_event, Event::Stage(stage));
+    let Pieces { ready, report, range } = files::make(site, hours, asked, &open, &mut watch, &mut stage)?;
+    let (drawn, statistics) = (hours.drawn.clone(), hours.statistics);
+    Ok(ProfileAnswer { written: open.put(ready)?, masks: 0, report, drawn, statistics, range })
+}
+
+impl<'a> ProfileRequest<'a> {
+    /// Asks for no file yet. The stopwatch runs since before the site was read.
+    pub fn of(watch: Stopwatch) -> ProfileRequest<'a> {
+        ProfileRequest {
+            drawing: false,
+            raster: false,
+            report: false,
+            lines: &[],
+            masks: None,
+            bits: false,
+            statistics: false,
+            memory: None,
+            watch,
+        }
+    }
+
+    /// What its files are called, without the masks.
+    pub fn names(&self) -> Vec<PathBuf> {
+        let kinds = [(self.drawing, DRAWING), (self.raster, RASTER), (self.report, REPORT), (self.bits, bits::NAME)];
+        let kinds = kinds.into_iter().filter(|(asked, _)| *asked).map(|(_, name)| name);
+        kinds.chain(self.lines.iter().flat_map(|lines| lines.names())).map(PathBuf::from).collect()
+    }
+
+    fn mask_files(&self, site: &Site) -> Option<Also<'a>> {
+        let folder = self.masks?;
+        let files = (0..site.track.instants.len()).map(|index| mask_path(folder, index)).collect();
+        Some(Also { folder, files })
+    }
+
+    /// Whether each instant's shadow is needed when all is done.
+    fn holds_outlines(&self) -> bool {
+        self.lines.contains(&Lines::Outlines)
+    }
+
+    fn wants(&self, site: &Site, is_kept: bool) -> Wants {
+        Wants {
+            masks: self.masks.is_some(),
+            // by which way a folder is named makes no other study
+            masks_in: self.masks.map(|folder| folder.canonicalize().unwrap_or_else(|_| folder.to_owned())),
+            bits: self.bits || self.holds_outlines(),
+            lines: !self.lines.is_empty(),
+            surface: false,
+            statistics: self.statistics,
+            // outlines are not kept
+            keep_every: (is_kept && !self.holds_outlines()).then_some(KEEP_EVERY),
+            budget: self.memory.map(|bytes| Budget {
+                bytes,
+                drawing: if self.drawing { figure::profile_bytes(&site.grid) } else { 0 },
+            }),
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The sums of a study: in memory, or in a file where the plan is done in tiles.
+
+use crate::deliver::disk::sums::SumsFile;
+use crate::export::ExportError;
+use crate::profile::{Part, Shaded, ShadedCells};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Shaded time per cell.
+pub enum Sums {
+    /// All of it is in memory.
+    Memory(Arc<Shaded>),
+    /// It is read from a file, some cells at a time.
+    File(SumsFile),
+}
+
+impl Sums {
+    /// Errs where something could not be read since the file was opened: it was taken for nothing.
+    pub(super) fn check(&self) -> Result<(), ExportError> {
+        match self {
+            Sums::Memory(_) => Ok(()),
+            Sums::File(file) => file.check(),
+        }
+    }
+
+    /// All of it in memory.
+    pub(super) fn in_memory(self) -> Result<Arc<Shaded>, ExportError> {
+        let file = match self {
+            Sums::Memory(shaded) => return Ok(shaded),
+            Sums::File(file) => file,
+        };
+        let shaded = match file.part(0..file.cells()) {
+            Part::One(cells) => Shaded::from(cells.into_owned()),
+            Part::Two(cells) => Shaded::from(cells.into_owned()),
+        };
+        file.check()?;
+        Ok(Arc::new(shaded))
+    }
+}
+
+impl ShadedCells for Sums {
+    fn cells(&self) -> usize {
+        match self {
+            Sums::Memory(shaded) => shaded.cells(),
+            Sums::File(file) => file.cells(),
+        }
+    }
+
+    fn part(&self, cells: Range<usize>) -> Part<'_> {
+        match self {
+            Sums::Memory(shaded) => shaded.part(cells),
+            Sums::File(file) => file.part(cells),
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Where the files of a deliverable go: into a folder, each to a place of its own, or into memory.
+
+use super::disk::workplace::Workplace;
+use crate::export::ExportError;
+use crate::export::file::{self, Beside};
+use std::path::{Path, PathBuf};
+
+/// A file's name, and what is in it.
+pub type NamedFile = (PathBuf, Vec<u8>);
+
+/// Where files go.
+#[derive(Clone, Copy, Debug)]
+pub enum Sink<'a> {
+    /// Into a folder, which is locked while the work goes on.
+    Folder(Folder<'a>),
+    /// Each to where its name leads, without a lock.
+    Paths {
+        /// The files that the site is read from, none of which is written over.
+        inputs: &'a [PathBuf],
+    },
+    /// Into memory: the files come back with the answer.
+    Memory,
+}
+
+/// A folder in which a deliverable is made.
+#[derive(Clone, Copy, Debug)]
+pub struct Folder<'a> {
+    /// Where it is; it is made where it is missing.
+    pub path: &'a Path,
+    /// Who works there, for others who want to: a command line, or a window.
+    pub who: &'a str,
+    /// The files that the site is read from, none of which is written over.
+    pub inputs: &'a [PathBuf],
+}
+
+/// What was written, in the order in which it is told.
+#[derive(Clone, Debug, Default)]
+pub struct Written {
+    /// Where each file lies; its name alone where it is in memory.
+    pub paths: Vec<PathBuf>,
+    /// The files themselves, where they go into memory.
+    pub files: Vec<NamedFile>,
+}
+
+/// A second folder, and the files that are written into it while the work goes on.
+pub(super) struct Also<'a> {
+    pub(super) folder: &'a Path,
+    pub(super) files: Vec<PathBuf>,
+}
+
+impl<'a> Sink<'a> {
+    /// The folder, where it is one.
+    pub(super) fn folder(self) -> Option<&'a Path> {
+        match self {
+            Sink::Folder(Folder { path, .. }) => Some(path),
+            Sink::Paths { .. } | Sink::Memory => None,
+        }
+    }
+
+    /// Sees that files of these names can be written, and that none of them is an input; locks the folders. Called before
+    /// long work, not after it.
+    ///
+    /// # Errors
+    /// [`ExportError`]: what the file system refuses; where the folder is another study's, or a file an input.
+    pub(super) fn open(self, names: &[PathBuf], also: Option<Also<'_>>) -> Result<OpenSink<'a>, ExportError> {
+        let workplace = match self {
+            Sink::Memory => None,
+            Sink::Paths { inputs } => {
+                file::check_inputs(inputs, names)?;
+                for path in names {
+                    file::check_folder(path.parent().unwrap_or(Path::new("")))?;
+                }
+                None
+            }
+            Sink::Folder(Folder { path, who, inputs }) => {
+                let second = also.as_ref().map(|also| also.folder);
+                let outputs = names.iter().map(|name| path.join(name));
+                let outputs: Vec<PathBuf> = outputs.chain(also.iter().flat_map(|also| also.files.clone())).collect();
+                file::check_inputs(inputs, &outputs)?;
+                Some(Workplace::take([path].into_iter().chain(second), &outputs, who)?)
+            }
+        };
+        Ok(OpenSink { sink: self, workplace })
+    }
+}
+
+/// A sink that takes files.
+pub(super) struct OpenSink<'a> {
+    sink: Sink<'a>,
+    workplace: Option<Workplace>,
+}
+
+/// A file that is whole, and not in its place yet.
+pub(super) enum Ready {
+    Disk(Beside),
+    Memory(NamedFile),
+}
+
+impl OpenSink<'_> {
+    /// What the user should know of the folder.
+    pub(super) fn note(&self) -> Option<String> {
+        self.workplace.as_ref().and_then(Workplace::note)
+    }
+
+    /// Where a file of that name goes on the disk.
+    pub(super) fn path(&self, name: &Path) -> Option<PathBuf> {
+        match self.sink {
+            Sink::Folder(Folder { path, .. }) => Some(path.join(name)),
+            Sink::Paths { .. } => Some(name.to_owned()),
+            Sink::Memory => None,
+        }
+    }
+
+    /// Writes a file beside its place.
+    pub(super) fn ready(&self, (name, bytes): NamedFile) -> Result<Ready, ExportError> {
+        match self.path(&name) {
+            Some(path) => Ok(Ready::Disk(Beside::of(&path, &bytes)?)),
+            None => Ok(Ready::Memory((name, bytes))),
+        }
+    }
+
+    /// Puts files in their places once all of them are whole, so that files of two studies do not lie side by side.
+    pub(super) fn put(&self, files: Vec<Ready>) -> Result<Written, ExportError> {
+        self.check()?;
+        let mut written = Written::default();
+        for file in files {
+            match file {
+                Ready::Disk(beside) => {
+                    written.paths.push(beside.path().to_owned());
+                    beside.put_in_place()?;
+                }
+                Ready::Memory((name, bytes)) => {
+                    written.paths.push(name.clone());
+                    written.files.push((name, bytes));
+                }
+            }
+        }
+        Ok(written)
+    }
+
+    /// As [`OpenSink::put`], of files that are in memory.
+    pub(super) fn write(&self, files: Vec<NamedFile>) -> Result<Written, ExportError> {
+        let ready = files.into_iter().map(|file| self.ready(file)).collect::<Result<Vec<_>, _>>()?;
+        self.put(ready)
+    }
+
+    /// Errs where the folder is no longer the one that was locked.
+    pub(super) fn check(&self) -> Result<(), ExportError> {
+        self.workplace.as_ref().map_or(Ok(()), Workplace::check)
+    }
+}

@@ -1,0 +1,138 @@
+//! Hours of sun on the model itself: as a drawing, a model, a table and a report.
+
+use super::parts::{Seen, note, note_letters, scene, told};
+use super::sink::OpenSink;
+use super::{DeliverError, NamedFile, Sink, Written};
+use crate::export::surfaces::{self, Surfaces};
+use crate::export::{figure, report};
+use crate::profile::Drawn;
+use crate::site::{Receivers, Site};
+use crate::study::{self, Event, OnEvent, Stopwatch, SurfaceOutcome, tell};
+use std::path::PathBuf;
+
+const DRAWING: &str = "surfaces.png";
+const MODEL: &str = "surfaces.glb";
+const TABLE: &str = "surfaces.csv";
+const REPORT: &str = "profile.json";
+
+/// What is asked of a study on surfaces.
+#[derive(Clone, Debug)]
+pub struct SurfacesRequest {
+    /// `surfaces.png`
+    pub drawing: bool,
+    /// `surfaces.glb`
+    pub model: bool,
+    /// `surfaces.csv`
+    pub table: bool,
+    /// `profile.json`
+    pub report: bool,
+    /// Runs since before the site was read.
+    pub watch: Stopwatch,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct SurfacesAnswer {
+    /// The files.
+    pub written: Written,
+    /// `profile.json`, whether it is one of the files or not.
+    pub report: String,
+    /// What drew.
+    pub drawn: Drawn,
+    /// The hours of each component, in lines for people.
+    pub summary: String,
+}
+
+/// Finds the hours of sun on the site's surfaces, and writes what is asked.
+///
+/// # Errors
+/// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
+pub fn surfaces(
+    site: &Site,
+    asked: &SurfacesRequest,
+    sink: Sink<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<SurfacesAnswer, DeliverError> {
+    let open = sink.open(&asked.names(), None)?;
+    let mut watch = asked.watch.clone();
+    watch.lap("load");
+    note(open.note(), on_event)?;
+    if asked.drawing {
+        note_letters([site.place.name.as_str()], on_event)?;
+    }
+    let outcome = study::surfaces(site, site.patch_cell, on_event)?;
+    watch.laps(outcome.timings.clone());
+    write(site, &outcome, &SurfacesRequest { watch, ..asked.clone() }, &open, on_event)
+}
+
+/// Writes hours that were found on the site's surfaces, as far as is asked. The request's stopwatch runs on from
+/// [`SurfaceOutcome::timings`].
+///
+/// # Errors
+/// As [`surfaces()`].
+pub fn write_surfaces(
+    site: &Site,
+    outcome: &SurfaceOutcome,
+    asked: &SurfacesRequest,
+    sink: Sink<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<SurfacesAnswer, DeliverError> {
+    let open = sink.open(&asked.names(), None)?;
+    note(open.note(), on_event)?;
+    write(site, outcome, asked, &open, on_event)
+}
+
+/// What is found of a site's surfaces, as drawings and tables take it.
+pub fn answer<'a>(site: &'a Site, outcome: &'a SurfaceOutcome) -> Surfaces<'a> {
+    let Site { place, track, mesh, receives, .. } = site;
+    Surfaces { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours }
+}
+
+fn write(
+    site: &Site,
+    outcome: &SurfaceOutcome,
+    asked: &SurfacesRequest,
+    open: &OpenSink<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<SurfacesAnswer, DeliverError> {
+    let mut watch = asked.watch.clone();
+    let (drawn, receivers) = (&outcome.drawn, Receivers::Surfaces);
+    let answer = answer(site, outcome);
+    let mut files: Vec<NamedFile> = Vec::new();
+    let mut stage = |watch: &mut Stopwatch, stage| {
+        watch.lap(stage);
+        tell(on_event, Event::Stage(stage))
+    };
+    if asked.drawing {
+        let (mesh, surface) = &study::seen_receivers(site)?;
+        let scene = scene(site, Seen { receivers, surface, mesh, drawn });
+        files.push((DRAWING.into(), figure::surfaces(&scene, &site.picture(), &answer)?));
+        stage(&mut watch, "picture")?;
+    }
+    if asked.model {
+        files.push((MODEL.into(), surfaces::glb(&answer)?));
+        stage(&mut watch, "model")?;
+    }
+    if asked.table {
+        files.push((TABLE.into(), surfaces::csv(&answer).into_bytes()));
+    }
+    let report = report::surfaces_json(&answer, &told(site, receivers, drawn, &watch.timings(), None))?;
+    if asked.report {
+        files.push((REPORT.into(), report.clone().into_bytes()));
+    }
+    let written = open.write(files)?;
+    Ok(SurfacesAnswer { written, report, drawn: drawn.clone(), summary: surfaces::summary(&answer) })
+}
+
+impl SurfacesRequest {
+    /// All files.
+    pub fn all(watch: Stopwatch) -> SurfacesRequest {
+        SurfacesRequest { drawing: true, model: true, table: true, report: true, watch }
+    }
+
+    /// What its files are called.
+    pub fn names(&self) -> Vec<PathBuf> {
+        let kinds = [(self.drawing, DRAWING), (self.model, MODEL), (self.table, TABLE), (self.report, REPORT)];
+        kinds.into_iter().filter(|(asked, _)| *asked).map(|(_, name)| PathBuf::from(name)).collect()
+    }
+}

@@ -1,0 +1,81 @@
+//! The shadow volumes at one instant, as solids in a model.
+
+use super::parts::note;
+use super::{DeliverError, Sink, Written};
+use crate::export::volumes::{self as encode, Volumes};
+use crate::site::Site;
+use crate::study::{self, Event, OnEvent, StudyError, tell};
+use crate::sun::Instant;
+use crate::volume::solid::{Solids, solids};
+use std::path::Path;
+
+/// Longer volumes are noted, metres.
+const LONG_M: f64 = 10_000.0;
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct VolumesAnswer {
+    /// The model.
+    pub written: Written,
+    /// All in JSON.
+    pub report: String,
+    /// How many solids there are, and where the sun is, in lines for people.
+    pub summary: String,
+}
+
+/// Writes the shadow volumes at the first instant of the site's study into a model of that name.
+///
+/// # Errors
+/// [`DeliverError`]; at night, and what cannot be written, before anything is made.
+pub fn volumes(
+    site: &Site,
+    name: &Path,
+    sink: Sink<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<VolumesAnswer, DeliverError> {
+    let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
+    if instant.night {
+        return Err(DeliverError::Night { time: instant.time, below_deg: -instant.altitude_deg() });
+    }
+    let open = sink.open(&[name.to_owned()], None)?;
+    note(open.note(), on_event)?;
+    study::note_models(&site.notes, on_event)?;
+    let found = solids(&site.mesh, &site.casts, instant.to_sun, site.ground.level)?;
+    tell(on_event, Event::Stage("volumes"))?;
+    note_extent(&found, instant, on_event)?;
+    let volumes = Volumes {
+        place: &site.place,
+        instant,
+        refraction: site.track.refraction,
+        ground: site.ground,
+        mesh: &site.mesh,
+        solids: &found.solids,
+        left_out: found.left_out,
+        notes: &site.notes,
+    };
+    let bytes = encode::glb(&volumes)?;
+    tell(on_event, Event::Stage("model"))?;
+    let written = open.write(vec![(name.to_owned(), bytes)])?;
+    Ok(VolumesAnswer { written, report: encode::json(&volumes, name)?, summary: encode::summary(&volumes) })
+}
+
+/// Notes what is left out, and what is very long.
+fn note_extent(found: &Solids, instant: &Instant, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let left_out = match found.left_out {
+        0 => None,
+        1 => {
+            let one = "1 component casts nothing on the ground (below it, or edge-on to the sun) and is left out";
+            Some(one.to_owned())
+        }
+        many => Some(format!(
+            "{many} components cast nothing on the ground (below it, or edge-on to the sun) and are left out"
+        )),
+    };
+    note(left_out, on_event)?;
+    let longest = found.solids.iter().fold(0.0, |longest: f64, solid| longest.max(solid.length_m));
+    let long = (longest > LONG_M).then(|| {
+        let altitude = instant.altitude_deg();
+        format!("the sun is {altitude:.2}° above the horizon: volumes reach {:.0} km far", longest / 1000.0)
+    });
+    note(long, on_event)
+}

@@ -1,0 +1,61 @@
+//! What the window calls the fields of a request: by the labels of its panel, and what has none by the site file's keys.
+
+use crate::message::{Field, Words};
+
+/// The words of what is set in the panel: keys are labels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Labels;
+
+/// The words of what files say: keys are keys.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Keys;
+
+impl Words for Labels {
+    fn name(&self, field: Field) -> Option<&'static str> {
+        Keys.name(field)
+    }
+
+    fn key(&self, field: Field) -> &'static str {
+        match field {
+            Field::Date => "\"Study date\"",
+            Field::From => "\"Window\"",
+            Field::To => "\"to\"",
+            Field::Step => "\"step\"",
+            _ => field.name(),
+        }
+    }
+
+    fn at(&self, file: &str, table: &str, key: &str) -> String {
+        let label = match (table, key) {
+            ("[place]", "") => "Place",
+            ("[place]", "latitude") => "Latitude",
+            ("[place]", "longitude") => "Longitude",
+            ("[place]", "elevation") => "Elevation",
+            ("[[model]]", "north") => "Model north",
+            ("[[model]]", "scale") => "Model north, scale",
+            ("[ground]", "level") => "Ground",
+            ("[study]", "date") => "Study date",
+            ("[study]", "dates") => "Study days",
+            ("[study]", "from") => "Window",
+            ("[study]", "to") => "Window, to",
+            ("[study]", "step") => "Study date, step",
+            ("[study]", "technique") => "Technique",
+            _ => return Keys.at(file, table, key),
+        };
+        label.to_owned()
+    }
+}
+
+impl Words for Keys {
+    fn name(&self, field: Field) -> Option<&'static str> {
+        Some(match field {
+            Field::Technique => "Technique",
+            Field::Step => "step",
+            Field::SunSamples => "The sun as a disc",
+            Field::Volumes => "Volumes and Silhouette",
+            Field::MaskDiagram | Field::OverdrawDiagram => "Picture of",
+            Field::Cell => "cell under [plan] in the site file",
+            _ => return None,
+        })
+    }
+}

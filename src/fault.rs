@@ -1,0 +1,56 @@
+//! What went wrong, in the words of a face.
+
+use crate::deliver::DeliverError;
+use crate::deliver::lines::LinesError;
+use crate::export::ExportError;
+use crate::gpu::GpuError;
+use crate::message::{Worded, Words};
+use crate::shadow::ShadowError;
+use crate::site::SiteError;
+use crate::site::typed::TypedError;
+use crate::study::StudyError;
+use crate::sun::SunError;
+use std::error::Error;
+
+/// An error as what speaks of fields, where it does.
+type AsWorded = for<'a> fn(&'a (dyn Error + 'static)) -> Option<&'a dyn Worded>;
+
+/// Every error that speaks of fields.
+const WORDED: &[AsWorded] = &[
+    worded::<SunError>,
+    worded::<TypedError>,
+    worded::<SiteError>,
+    worded::<GpuError>,
+    worded::<ShadowError>,
+    worded::<StudyError>,
+    worded::<ExportError>,
+    worded::<DeliverError>,
+    worded::<LinesError>,
+];
+
+fn worded<'a, E: Worded + Error + 'static>(error: &'a (dyn Error + 'static)) -> Option<&'a dyn Worded> {
+    error.downcast_ref::<E>().map(|error| error as &dyn Worded)
+}
+
+/// An error and its causes on one line; causes that the message already tells are not told again.
+pub fn line(error: &(dyn Error + 'static), words: &dyn Words) -> String {
+    let mut line = String::new();
+    let mut next = Some(error);
+    while let Some(error) = next {
+        let cause = said(error, words);
+        next = error.source();
+        if line.is_empty() {
+            line = cause;
+        } else if !line.contains(&cause) {
+            line = format!("{line}: {cause}");
+        }
+    }
+    line
+}
+
+/// An error without its causes and without line breaks.
+fn said(error: &(dyn Error + 'static), words: &dyn Words) -> String {
+    let worded = WORDED.iter().find_map(|as_worded| as_worded(error));
+    let text = worded.map_or_else(|| error.to_string(), |error| error.in_words(words));
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

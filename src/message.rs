@@ -1,0 +1,302 @@
+//! What is said to people, while it is not known where they sit: text in which the fields of a request are marked.
+//!
+//! An error or a note names a [`Field`], and a face has [`Words`] for it: the command an option, the window a label.
+
+use std::borrow::Cow;
+use std::fmt;
+
+/// The fields of a request, each with the name that it has where no face words it.
+macro_rules! fields {
+    ($($(#[$doc:meta])* $field:ident => $name:literal,)+) => {
+        /// What can be asked.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Field { $($(#[$doc])* $field,)+ }
+
+        impl Field {
+            /// All of them.
+            pub const ALL: &'static [Field] = &[$(Field::$field,)+];
+
+            /// Its name where no face words it.
+            pub fn name(self) -> &'static str {
+                match self { $(Field::$field => $name,)+ }
+            }
+        }
+    };
+}
+
+fields! {
+    /// Latitude and longitude.
+    Place => "place",
+    /// The axis of all models that is up.
+    Up => "up",
+    /// The height of the ground.
+    Ground => "ground",
+    /// The day of the study.
+    Date => "date",
+    /// The first of several days.
+    FromDate => "first day",
+    /// The last of several days.
+    ToDate => "last day",
+    /// The beginning of the window.
+    From => "from",
+    /// Its end.
+    To => "to",
+    /// The time between two instants.
+    Step => "step",
+    /// A single instant, instead of the study.
+    At => "instant",
+    /// A single probe, instead of the site file's.
+    Point => "point",
+    /// That probe's normal.
+    Normal => "normal",
+    /// The rectangle of the plan.
+    Region => "region",
+    /// The side of a cell.
+    Cell => "cell",
+    /// Cells along the longer side.
+    Size => "size",
+    /// What is judged.
+    Receivers => "receivers",
+    /// From where one looks.
+    View => "view",
+    /// The side of a texel on surfaces.
+    PatchCell => "cell on surfaces",
+    /// How shadows are found.
+    Technique => "technique",
+    /// Who finds silhouettes.
+    Silhouette => "silhouette",
+    /// The depth of the paper's hextree.
+    HextreeDepth => "hextree depth",
+    /// On which machine.
+    Engine => "engine",
+    /// Texels along a shadow map's side.
+    MapSize => "map size",
+    /// How a shadow map's comparisons are filtered.
+    Pcf => "filter",
+    /// How wide smoothies are.
+    SmoothieWidth => "smoothie width",
+    /// Points of the sun's disc.
+    SunSamples => "points of the sun's disc",
+    /// Volumes and silhouette over the picture.
+    Volumes => "volumes and silhouette",
+    /// A picture of who decides a cell.
+    MaskDiagram => "picture of the mask",
+    /// A picture of how many volumes are counted.
+    OverdrawDiagram => "picture of the overdraw",
+    /// What counting took.
+    Statistics => "statistics",
+    /// Drawings of lines.
+    Lines => "drawings of lines",
+    /// A drawing of each instant's outlines.
+    Outlines => "a drawing of outlines",
+    /// Every instant's mask.
+    Masks => "masks",
+    /// Every instant's mask, a bit a cell.
+    Bits => "bits",
+    /// How much memory there is.
+    Memory => "memory",
+    /// Where the answer is written.
+    Out => "output",
+    /// The answer as CSV.
+    Csv => "CSV",
+    /// The answer as JSON.
+    Json => "JSON",
+}
+
+/// What a face calls the fields of a request.
+pub trait Words: fmt::Debug + Send + Sync {
+    /// A field; none where the face has no such field.
+    fn name(&self, _field: Field) -> Option<&'static str> {
+        None
+    }
+
+    /// A field that the site file has, where it is spoken of as of one of its keys.
+    fn key(&self, field: Field) -> &'static str {
+        field.name()
+    }
+
+    /// A key of a site file; an empty one is the table itself.
+    fn at(&self, file: &str, table: &str, key: &str) -> String {
+        let gap = if key.is_empty() { "" } else { " " };
+        format!("{file}, {table}{gap}{key}")
+    }
+}
+
+/// The words of nobody's face: fields have their own names.
+#[derive(Clone, Copy, Debug)]
+pub struct Plain;
+
+impl Words for Plain {}
+
+impl Default for &dyn Words {
+    fn default() -> Self {
+        &Plain
+    }
+}
+
+/// A piece of what is said.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Piece {
+    /// As it is.
+    Text(Cow<'static, str>),
+    /// A field.
+    Field(Field),
+    /// A field with a value.
+    Set(Field, Cow<'static, str>),
+    /// A field as a key of the site file.
+    Key(Field),
+    /// A key in a table of a file.
+    At {
+        /// As the user named it.
+        file: String,
+        /// With its brackets.
+        table: String,
+        /// Empty for the table itself.
+        key: String,
+    },
+    /// What is said by faces alone that have a field.
+    Where(Field, Vec<Piece>),
+}
+
+impl From<&'static str> for Piece {
+    fn from(text: &'static str) -> Piece {
+        Piece::Text(text.into())
+    }
+}
+
+impl From<String> for Piece {
+    fn from(text: String) -> Piece {
+        Piece::Text(text.into())
+    }
+}
+
+impl From<Field> for Piece {
+    fn from(field: Field) -> Piece {
+        Piece::Field(field)
+    }
+}
+
+impl From<(Field, &'static str)> for Piece {
+    fn from((field, value): (Field, &'static str)) -> Piece {
+        Piece::Set(field, value.into())
+    }
+}
+
+impl From<(Field, String)> for Piece {
+    fn from((field, value): (Field, String)) -> Piece {
+        Piece::Set(field, value.into())
+    }
+}
+
+/// What is wrong, or what is to be known; and apart from it what can be done.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Message {
+    /// What is wrong.
+    pub what: Vec<Piece>,
+    /// What can be done; empty where nothing can, or where that is said already.
+    pub hint: Vec<Piece>,
+}
+
+/// Pieces, of texts and fields.
+macro_rules! pieces {
+    ($($piece:expr),*) => { vec![$($crate::message::Piece::from($piece)),*] };
+}
+
+/// A [`Message`]: the pieces of what is wrong, and behind a semicolon those of the hint.
+macro_rules! message {
+    ($($what:expr),+ $(; $($hint:expr),+)?) => {
+        $crate::message::Message {
+            what: $crate::message::pieces![$($what),+],
+            hint: $crate::message::pieces![$($($hint),+)?],
+        }
+    };
+}
+
+pub(crate) use {message, pieces};
+
+/// A field in brackets, for faces that have it: what stands before it says the same.
+pub(crate) fn aside(field: Field) -> Piece {
+    Piece::Where(field, pieces![" (", field, ")"])
+}
+
+impl From<String> for Message {
+    fn from(what: String) -> Message {
+        message![what]
+    }
+}
+
+impl Message {
+    /// The same, said of a field or key: `--step: …`.
+    pub(crate) fn of(mut self, at: Piece) -> Message {
+        self.what.splice(..0, [at, ": ".into()]);
+        self
+    }
+
+    /// The same of a site file, which has keys for fields.
+    pub(crate) fn of_keys(mut self) -> Message {
+        let keyed = |piece: &mut Piece| {
+            if let Piece::Field(field) = *piece {
+                *piece = Piece::Key(field);
+            }
+        };
+        self.what.iter_mut().chain(&mut self.hint).for_each(keyed);
+        self
+    }
+
+    /// In the words of a face, on one line: what is wrong, then what can be done.
+    pub fn in_words(&self, words: &dyn Words) -> String {
+        let (mut text, mut hint) = (String::new(), String::new());
+        write(&mut text, &self.what, words);
+        write(&mut hint, &self.hint, words);
+        if !hint.is_empty() {
+            text.push_str("; ");
+            text.push_str(&hint);
+        }
+        text
+    }
+}
+
+fn write(text: &mut String, pieces: &[Piece], words: &dyn Words) {
+    let name = |field: Field| words.name(field).unwrap_or_else(|| field.name());
+    for piece in pieces {
+        match piece {
+            Piece::Text(piece) => text.push_str(piece),
+            Piece::Field(field) => text.push_str(name(*field)),
+            Piece::Set(field, value) => text.extend([name(*field), " ", value]),
+            Piece::Key(field) => text.push_str(words.key(*field)),
+            Piece::At { file, table, key } => text.push_str(&words.at(file, table, key)),
+            Piece::Where(field, pieces) if words.name(*field).is_some() => write(text, pieces, words),
+            Piece::Where(..) => {}
+        }
+    }
+}
+
+impl fmt::Display for Message {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.in_words(&Plain))
+    }
+}
+
+/// An error that speaks of fields. Its `Display` says it in [`Plain`] words.
+pub trait Worded {
+    /// What is wrong, and what can be done.
+    fn message(&self) -> Message;
+
+    /// The same in the words of a face.
+    fn in_words(&self, words: &dyn Words) -> String {
+        self.message().in_words(words)
+    }
+}
+
+/// `Display` of an error in plain words.
+macro_rules! plain_display {
+    ($error:ty) => {
+        impl std::fmt::Display for $error {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                std::fmt::Display::fmt(&$crate::message::Worded::message(self), f)
+            }
+        }
+    };
+}
+
+pub(crate) use plain_display;

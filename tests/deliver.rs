@@ -1,0 +1,200 @@
+//! Deliverables as a program takes them that uses the library: in memory as in a folder, and from where they were stopped.
+
+use crate::shared::program::site;
+use gnomon::deliver::comparison::comparison;
+use gnomon::deliver::disk::workplace::Workplace;
+use gnomon::deliver::instant::{InstantRequest, Show, instant};
+use gnomon::deliver::lines::Lines;
+use gnomon::deliver::probe::{ProbeRequest, probe};
+use gnomon::deliver::profile::{ProfileAnswer, ProfileRequest, find_hours, profile};
+use gnomon::deliver::surfaces::{SurfacesRequest, surfaces};
+use gnomon::deliver::volumes::volumes;
+use gnomon::deliver::{Folder, NamedFile, Sink, Written};
+use gnomon::site::{Engine, Overrides, Pair, Receivers, Site, load_probes};
+use gnomon::study::{Event, Stopwatch};
+use gnomon::view::View;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow::{self, Break, Continue};
+use std::path::{Path, PathBuf};
+
+fn loaded(folder: &Path, step: &str) -> Site {
+    let step = Some(step.to_owned());
+    Site::load(folder, &Overrides { engine: Some(Engine::Cpu), size: Some(150), step, ..Overrides::default() }).unwrap()
+}
+
+fn inside(path: &Path) -> Folder<'_> {
+    Folder { path, who: "a test", inputs: &[] }
+}
+
+/// What lies in folders, by its name without the folder; how long it took is another each time.
+fn comparable(files: impl Iterator<Item = NamedFile>) -> BTreeMap<PathBuf, Vec<u8>> {
+    let timeless = |bytes: Vec<u8>| {
+        let mut report: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+        report.as_object_mut().unwrap().remove("timings_secs").unwrap();
+        serde_json::to_vec(&report).unwrap()
+    };
+    let file = |(path, bytes): NamedFile| {
+        let is_report = path.extension().is_some_and(|is| is == "json");
+        (PathBuf::from(path.file_name().unwrap()), if is_report { timeless(bytes) } else { bytes })
+    };
+    files.map(file).collect()
+}
+
+fn read(folder: &Path) -> impl Iterator<Item = NamedFile> {
+    let paths = folder.read_dir().unwrap().map(|entry| entry.unwrap().path());
+    paths.filter(|path| path.is_file()).map(|path| (path.clone(), std::fs::read(path).unwrap()))
+}
+
+/// All that a folder gets comes back from memory, the same to the byte: of a plan in one go, and of one in tiles.
+#[test]
+fn memory_holds_what_a_folder_gets() {
+    let folder = site();
+    let site = loaded(folder.path(), "1h");
+    let (out, masks) = (folder.path().join("out"), folder.path().join("masks"));
+    let of = |asked: &ProfileRequest<'_>, sink: Sink<'_>| -> (ProfileAnswer, usize) {
+        let mut tiles = 0;
+        let answer = profile(&site, asked, sink, &mut |event| {
+            if let Event::Started { tiles: count, .. } = event {
+                tiles = count;
+            }
+            Continue(())
+        });
+        (answer.unwrap(), tiles)
+    };
+    let all = ProfileRequest {
+        drawing: true,
+        raster: true,
+        report: true,
+        bits: true,
+        ..ProfileRequest::of(Stopwatch::start())
+    };
+    let whole = ProfileRequest { lines: &[Lines::Hours, Lines::Outlines], masks: Some(&masks), ..all.clone() };
+    let in_tiles = ProfileRequest { memory: Some(400 << 10), ..all };
+    for (asked, is_in_tiles) in [(whole, false), (in_tiles, true)] {
+        let (by_folder, tiles) = of(&asked, Sink::Folder(inside(&out)));
+        assert_eq!(tiles > 1, is_in_tiles, "{tiles} tiles");
+        let (by_memory, _) = of(&asked, Sink::Memory);
+        let mut written = comparable(read(&out));
+        if let Some(masks) = asked.masks {
+            written.extend(comparable(read(masks)));
+        }
+        let held = comparable(by_memory.written.files.into_iter());
+        assert_eq!(held.keys().collect::<Vec<_>>(), written.keys().collect::<Vec<_>>());
+        assert!(held == written, "a file is another one");
+        assert!(held.contains_key(Path::new("shadow.bits")) && held.len() >= 4, "{:?}", held.keys());
+        assert_eq!((by_memory.range, by_memory.masks), (by_folder.range, by_folder.masks));
+        std::fs::remove_dir_all(&out).unwrap();
+    }
+}
+
+/// Hours that are to be shown go on where they were stopped; where another works on the shelf they are found all the same.
+#[test]
+fn hours_go_on_from_their_shelf() {
+    let folder = site();
+    let site = loaded(folder.path(), "10min");
+    let shelf = folder.path().join("studies");
+    let asked = ProfileRequest::of(Stopwatch::start());
+    let mut drawn = 0;
+    let mut find = |most: usize, shelf: Option<Folder<'_>>| {
+        drawn = 0;
+        let hours = find_hours(&site, &asked, shelf, &mut |event| -> ControlFlow<()> {
+            drawn += usize::from(matches!(event, Event::Drawn { .. }));
+            if drawn < most { Continue(()) } else { Break(()) }
+        });
+        (hours.map(|hours| hours.shaded().unwrap().clone()), drawn)
+    };
+    let (whole, count) = find(usize::MAX, None);
+    assert!(count > 10, "{count} instants");
+    let (stopped, _) = find(7, Some(inside(&shelf)));
+    assert!(stopped.is_err_and(|error| error.is_interrupted()));
+    assert_eq!(read(&shelf).count(), 1, "what is done is kept, and nothing is locked");
+    let locked = Workplace::take([shelf.as_path()], &[], "somebody").unwrap();
+    let (beside, drawn) = find(usize::MAX, Some(inside(&shelf)));
+    assert_eq!(drawn, count, "all is found anew while somebody works there");
+    drop(locked);
+    let (gone_on, drawn) = find(usize::MAX, Some(inside(&shelf)));
+    assert_eq!(drawn, count - 7);
+    let whole = whole.unwrap();
+    assert!(*whole == *gone_on.unwrap() && *whole == *beside.unwrap());
+    assert_eq!(read(&shelf).count(), 0, "nothing stays of a study that is done");
+}
+
+/// Of stopped studies the newest are kept.
+#[test]
+fn shelf_holds_so_many_studies() {
+    let folder = site();
+    let shelf = folder.path().join("studies");
+    for step in ["10min", "11min", "12min", "13min", "14min", "15min"] {
+        let site = loaded(folder.path(), step);
+        let mut drawn = 0;
+        let _ = find_hours(&site, &ProfileRequest::of(Stopwatch::start()), Some(inside(&shelf)), &mut |event| {
+            drawn += usize::from(matches!(event, Event::Drawn { .. }));
+            if drawn < 3 { Continue(()) } else { Break(()) }
+        });
+    }
+    assert_eq!(read(&shelf).count(), 4);
+}
+
+/// Makes a deliverable.
+type Write<'a> = &'a dyn Fn(Sink<'_>) -> Written;
+
+/// So it is with all other deliverables but the animation, whose GIF is made of files.
+#[test]
+fn every_deliverable_goes_into_memory() {
+    let folder = site();
+    let path = folder.path();
+    let site = loaded(path, "1h");
+    let watch = Stopwatch::start();
+    let camera = Site { receivers: Receivers::Surfaces, ..site.clone() };
+    let pair = Pair::load(path, path, &Overrides { engine: Some(Engine::Cpu), size: Some(60), ..Overrides::default() });
+    let pair = pair.unwrap();
+    let point = Overrides { point: Some("12,-3,4.5".to_owned()), ..Overrides::default() };
+    let probing = load_probes(path, &point).unwrap();
+    let [one, other, of_volumes] = ["one.png", "other.png", "volumes.glb"].map(|name| path.join(name));
+    let of_instant = InstantRequest {
+        view: View::Plan(site.grid),
+        drawing: Some(one.clone()),
+        mask: Some(other.clone()),
+        show: Show::default(),
+        statistics: false,
+        watch: watch.clone(),
+    };
+    let of_probe = ProbeRequest { drawing: Some(one), table: Some(other), ..ProbeRequest::default() };
+    let all = SurfacesRequest::all(watch.clone());
+    let on_event = |_: Event<'_>| Continue(());
+    let of_one = |sink: Sink<'_>| instant(&site, &of_instant, sink, &mut on_event.clone()).unwrap().written;
+    let of_points = |sink: Sink<'_>| probe(&probing, &of_probe, sink, &mut on_event.clone()).unwrap().written;
+    let of_solids = |sink: Sink<'_>| volumes(&site, &of_volumes, sink, &mut on_event.clone()).unwrap().written;
+    let of_walls = |sink: Sink<'_>| surfaces(&camera, &all, sink, &mut on_event.clone()).unwrap().written;
+    let of_both = |sink: Sink<'_>| comparison(&pair, watch.clone(), sink, &mut on_event.clone()).unwrap().written;
+    let out = path.join("out");
+    let (files, folder) = (Sink::Paths { inputs: &[] }, Sink::Folder(inside(&out)));
+    let deliverables: [(Write<'_>, Sink<'_>, usize); 5] = [
+        (&of_one, files, 2),
+        (&of_points, files, 2),
+        (&of_solids, files, 1),
+        (&of_walls, folder, 4),
+        (&of_both, folder, 3),
+    ];
+    for (write, sink, count) in deliverables {
+        let paths = write(sink).paths;
+        let written = comparable(paths.into_iter().map(|path| (path.clone(), std::fs::read(path).unwrap())));
+        let held = comparable(write(Sink::Memory).files.into_iter());
+        assert_eq!(held.keys().collect::<Vec<_>>(), written.keys().collect::<Vec<_>>());
+        assert!(held == written && held.len() == count, "{:?}", held.keys());
+    }
+}
+
+/// A time that is known is the one that is written, where clocks show it twice too.
+#[test]
+fn known_time_is_the_one_that_is_written() {
+    let folder = site();
+    for at in ["2026-06-21T13:00", "2026-10-25T02:30+01:00", "2026-10-25T02:30+02:00"] {
+        let written = Overrides { at: Some(at.to_owned()), ..Overrides::default() };
+        let written = Site::load(folder.path(), &written).unwrap();
+        let instant = Some(written.track.instants[0].time);
+        let known = Site::load(folder.path(), &Overrides { instant, ..Overrides::default() }).unwrap();
+        assert_eq!(known.track, written.track, "{at}");
+        assert_eq!(known.grid, written.grid, "{at}");
+    }
+}

@@ -1,0 +1,104 @@
+//! What errors and notes say of the fields of a request, in the words of each face.
+
+use crate::shared::program::done;
+use crate::site::{SITE, load, some};
+use gnomon::cli::Options;
+use gnomon::fault;
+use gnomon::gpu::GpuError;
+use gnomon::message::{Field, Message, Piece, Plain, Worded, Words};
+use gnomon::shadow::ShadowError;
+use gnomon::site::Overrides;
+use gnomon::study::StudyError;
+use std::path::Path;
+
+/// A face that has steps, and nothing else.
+#[derive(Debug)]
+struct Steps;
+
+impl Words for Steps {
+    fn name(&self, field: Field) -> Option<&'static str> {
+        (field == Field::Step).then_some("Step")
+    }
+
+    fn key(&self, _field: Field) -> &'static str {
+        "a label"
+    }
+}
+
+#[test]
+fn pieces_are_said_in_the_words_of_a_face() {
+    let message = Message {
+        what: vec!["it has too many instants".into()],
+        hint: vec![
+            "take a longer ".into(),
+            Field::Step.into(),
+            ", as ".into(),
+            (Field::Step, "1h").into(),
+            Piece::Where(Field::Memory, vec![", or more ".into(), Field::Memory.into()]),
+            ", and not another ".into(),
+            Piece::Key(Field::To),
+        ],
+    };
+    let said = |words: &dyn Words| message.in_words(words);
+    let what = "it has too many instants; take a longer";
+    assert_eq!(said(&Options), format!("{what} --step, as --step 1h, or more --memory, and not another to"));
+    assert_eq!(said(&Steps), format!("{what} Step, as Step 1h, and not another a label"));
+    assert_eq!(said(&Plain), format!("{what} step, as step 1h, and not another to"));
+    assert_eq!(message.to_string(), said(&Plain));
+    // a way out that nobody can take is none
+    let alone = Message { hint: vec![Piece::Where(Field::Memory, vec!["take more".into()])], ..message };
+    assert_eq!(alone.in_words(&Steps), "it has too many instants");
+}
+
+/// Every field is an option, and every option is one that the command takes somewhere.
+#[test]
+fn fields_are_options_of_the_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let commands = ["profile", "compare", "shadow", "animate", "sun", "check", "volumes", "verify", "probe"];
+    let help: String = commands.map(|command| done(folder.path(), &format!("{command} --help"))).concat();
+    let taken: Vec<&str> = help.split(|c: char| !c.is_ascii_alphanumeric() && c != '-').collect();
+    for field in Field::ALL {
+        let option = Options.name(*field).expect("an option");
+        let (option, value) = option.split_once(' ').unwrap_or((option, ""));
+        assert!(taken.contains(&option) && (value.is_empty() || taken.contains(&value)), "{field:?}: {option} {value}");
+    }
+}
+
+/// The causes of an error are said in the same words, and once.
+#[test]
+fn errors_within_errors_are_worded() {
+    let lost = || GpuError::Lost { adapter: "some card".to_owned(), reason: "memory\nis full".to_owned() };
+    let error = StudyError::Shadow(ShadowError::Gpu(lost()));
+    let what = "the graphics adapter 'some card' failed: memory is full; try larger cells";
+    assert_eq!(fault::line(&error, &Options), format!("{what} (--cell) or --engine cpu"));
+    assert_eq!(fault::line(&error, &Steps), what);
+    let context = anyhow::Error::from(error).context("the picture cannot be drawn");
+    let said = fault::line(context.as_ref(), &Options);
+    assert_eq!(said, format!("the picture cannot be drawn: {what} (--cell) or --engine cpu"));
+}
+
+/// What a site file says is spoken of by its keys, whoever asks; what is asked beside it by the face's own words.
+#[test]
+fn site_files_have_keys_and_faces_have_words() {
+    let days = SITE.replace("date = 2026-09-18", "dates = [2026-09-18, 2026-09-19]");
+    let days = |from: &str| days.replace("from = \"10:00\"", &format!("from = \"{from}\""));
+    let said = |site: &str, asked: &Overrides| load(site, asked).expect_err("a mistake").in_words(&Options);
+    let told = said(&days("2026-09-18T10:00"), &Overrides::default());
+    assert!(told.contains("[study] from: ") && told.ends_with("; leave it out, and name days with date"), "{told}");
+    let from = Overrides { from: some("2026-09-18T10:00"), date: some("2026-09-18"), ..Overrides::default() };
+    let from = Overrides { from_date: from.date.clone(), to_date: from.date.clone(), date: None, ..from };
+    let told = said(&days("10:00"), &from);
+    assert!(told.starts_with("--from: ") && told.ends_with("; leave it out, and name days with --date"), "{told}");
+}
+
+/// Notes go into files, too: in the words of whoever asked.
+#[test]
+fn notes_are_in_the_words_of_who_asks() {
+    let folder = crate::command::units::folder(&crate::command::units::lying(), "");
+    let note = |words: &'static dyn Words| {
+        let asked = Overrides { words, ..Overrides::default() };
+        gnomon::site::load_mesh(Path::new(folder.path()), &asked).expect("models").notes.concat()
+    };
+    assert!(note(&Options).ends_with("write `up = \"z\"` under [[model]], or say --up z"), "{}", note(&Options));
+    assert!(note(&Plain).ends_with("write `up = \"z\"` under [[model]]"), "{}", note(&Plain));
+}
