@@ -3,7 +3,7 @@
 //!
 //! `docs/benchmarks/techniques.md` keeps a run.
 
-#[path = "../tests/far_wrong.rs"]
+#[path = "../tests/shared/far_wrong.rs"]
 mod far_wrong;
 
 use glam::DVec3;

@@ -6,7 +6,7 @@
 //! *gpu* stands with the number of runs in which edges were handed to the adapter; it tells nobody what it found, and
 //! its time is that of the whole submission. `-- --copies 10,100` adds `headquarters` copied so often.
 
-#[path = "../tests/dome.rs"]
+#[path = "../tests/shared/dome.rs"]
 mod dome;
 mod timing;
 

@@ -4,9 +4,9 @@
 //! adapter's passes; and how many fragments reach the count with and without the hybrid's mask. Techniques take turns at
 //! each sun, so ratios hold whatever else the machine does. `docs/benchmarks/techniques.md` keeps a run.
 
-#[path = "../tests/dense.rs"]
+#[path = "../tests/shared/dense.rs"]
 mod dense;
-#[path = "../tests/dome.rs"]
+#[path = "../tests/shared/dome.rs"]
 mod dome;
 mod timing;
 

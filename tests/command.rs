@@ -14,86 +14,9 @@ mod techniques;
 pub(crate) mod units;
 mod volumes;
 
-use crate::model::{F32, Model, U16};
+use crate::shared::program::{PLACE, command, done, fails, gnomon, names, pixels, site, stderr};
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use tempfile::TempDir;
-
-const STUDY: &str = "[study]\ndate = 2026-09-18\nfrom = \"10:00\"\nto = \"12:00\"\nstep = \"30min\"\n";
-pub(crate) const PLACE: &str = "[place]\nname = \"Paris\"\nlatitude = 48.8583\nlongitude = 2.2945\n";
-
-/// A closed box of 10 × 10 × 20 m on the ground, as a binary glTF; without its lid where `open`.
-fn tower(open: bool) -> Vec<u8> {
-    let mut model = Model::new();
-    let corners: Vec<f32> = (0..8)
-        .flat_map(|i| [(i & 1) as f32 * 10.0 - 5.0, (i >> 2) as f32 * 20.0, ((i >> 1) & 1) as f32 * -10.0 + 5.0])
-        .collect();
-    // East, north, up are x, −z and y: sides counter-clockwise from outside.
-    let sides: [[u16; 4]; 6] = [[4, 5, 7, 6], [0, 2, 3, 1], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    let indices: Vec<u16> =
-        sides[usize::from(open)..].iter().flat_map(|[a, b, c, d]| [*a, *b, *c, *a, *c, *d]).collect();
-    let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
-    let floats: Vec<u8> = corners.iter().flat_map(|number| number.to_le_bytes()).collect();
-    let positions = model.accessor("VEC3", F32, 8, &floats);
-    let indices = model.accessor("SCALAR", U16, indices.len(), &bytes);
-    model.json["meshes"] = json!([{"primitives": [{"attributes": {"POSITION": positions}, "indices": indices}]}]);
-    model.json["nodes"] = json!([{"mesh": 0, "name": "tower"}]);
-    model.glb()
-}
-
-/// A folder with a tower and its site.
-pub(crate) fn site() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("tower.glb"), tower(false)).unwrap();
-    std::fs::write(folder.path().join("open.glb"), tower(true)).unwrap();
-    let text = format!("{PLACE}[[model]]\npath = \"tower.glb\"\n{STUDY}");
-    std::fs::write(folder.path().join("site.toml"), text).unwrap();
-    folder
-}
-
-pub(crate) fn command(folder: &Path, arguments: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_gnomon"));
-    command.current_dir(folder).args(arguments.split_whitespace());
-    // where it is not set drivers say so, and the command's own words are all that may be told
-    command.env("XDG_RUNTIME_DIR", folder);
-    command
-}
-
-pub(crate) fn gnomon(folder: &Path, arguments: &str) -> Output {
-    command(folder, arguments).output().unwrap()
-}
-
-/// Standard output of what must succeed.
-pub(crate) fn done(folder: &Path, arguments: &str) -> String {
-    let output = gnomon(folder, arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments}: {}", stderr(&output));
-    String::from_utf8(output.stdout).unwrap()
-}
-
-pub(crate) fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-/// Expects a failure that is told in one line with these words.
-pub(crate) fn fails(folder: &Path, arguments: &str, status: i32, words: &[&str]) {
-    let output = gnomon(folder, arguments);
-    let told = stderr(&output);
-    assert_eq!(output.status.code(), Some(status), "{arguments}: {told}");
-    assert!(output.stdout.is_empty(), "{arguments}");
-    assert!(told.starts_with("error: ") && told.lines().count() == 1, "{arguments}: {told}");
-    for word in words {
-        assert!(told.contains(word), "{arguments}: {told:?} does not say {word:?}");
-    }
-}
-
-/// The names in a folder, in order.
-fn names(folder: PathBuf) -> Vec<String> {
-    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
-    let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
+use std::process::Command;
 
 #[test]
 fn profile_writes_three_files() {
@@ -345,11 +268,6 @@ fn shadow_is_seen_by_a_camera() {
     assert!(mask.pixels().any(|pixel| pixel.0 == [0]) && mask.pixels().any(|pixel| pixel.0 == [255]));
 }
 
-/// How many pixels of a drawing are so.
-pub(crate) fn pixels(path: PathBuf, so: impl Fn([u8; 3]) -> bool) -> usize {
-    image::open(path).unwrap().into_rgb8().pixels().filter(|pixel| so(pixel.0)).count()
-}
-
 #[test]
 fn show_draws_volumes_silhouette_and_components() {
     let folder = site();
@@ -457,5 +375,5 @@ fn ctrl_c_ends_the_work_without_an_answer() {
     assert_eq!((child.wait().unwrap().code(), told.last().unwrap().as_str()), (Some(130), "error: interrupted"));
     assert!(told.iter().any(|line| line.contains("the same command goes on from there")), "{told:?}");
     // no file of the answer, and what it goes on from
-    assert_eq!(crate::year::numberless(&folder.path().join("out")), ["profile.N.unfinished"]);
+    assert_eq!(crate::shared::program::numberless(&folder.path().join("out")), ["profile.N.unfinished"]);
 }

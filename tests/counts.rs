@@ -1,7 +1,7 @@
 //! How much work is done, in counts that do not drift, held against those in `docs/benchmarks/counts.md`: a technique that
 //! comes to look at twice as much is found out on a machine that is busy with something else.
 
-use crate::exact::gpu;
+use crate::shared::drawing::gpu;
 use gnomon::choice::MAP_SIZE;
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::ray_cast::RayCast;

@@ -1,6 +1,6 @@
 //! The seconds that count are those with the sun up, at any step: against pvlib, and the same in all answers.
 
-use crate::command::{PLACE, done, fails, gnomon, site, stderr};
+use crate::shared::program::{PLACE, done, fails, gnomon, site, stderr};
 use chrono::{NaiveDate, TimeDelta, Timelike};
 use gnomon::sun::{EachDay, Place, SunError, SunTrack, Window};
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! Deliverables as a program takes them that uses the library: in memory as in a folder, and from where they were stopped.
 
-use crate::command::site;
+use crate::shared::program::site;
 use gnomon::deliver::comparison::comparison;
 use gnomon::deliver::disk::workplace::Workplace;
 use gnomon::deliver::instant::{InstantRequest, Show, instant};

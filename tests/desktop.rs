@@ -81,14 +81,26 @@ pub(crate) fn click(harness: &mut Harness<'_, App>, label: &str) {
 
 /// Types into a field instead of what it says, and finishes it.
 pub(crate) fn write(harness: &mut Harness<'_, App>, label: &str, text: &str) {
-    harness.get_by_role_and_label(egui::Role::TextInput, label).focus();
+    type_into(harness, egui::Role::TextInput, label, text);
+    harness.step();
+}
+
+/// The same with a field of a number; what comes of it is waited for.
+pub(crate) fn enter(harness: &mut Harness<'_, App>, label: &str, text: &str) {
+    type_into(harness, egui::Role::SpinButton, label, text);
+    settle(harness);
+}
+
+fn type_into(harness: &mut Harness<'_, App>, role: egui::Role, label: &str, text: &str) {
+    harness.get_by_role_and_label(role, label).focus();
+    harness.step();
+    // a field of a number becomes one of text first
     harness.step();
     harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
     harness.step();
     harness.event(Event::Text(text.to_owned()));
     harness.step();
     harness.key_press(Key::Enter);
-    harness.step();
     harness.step();
 }
 

@@ -1,7 +1,7 @@
 //! A side along parallel rays: what it sees and what shades it, by closed forms.
 
-use crate::dense::slab;
-use crate::exact::{gpu, to_sun};
+use crate::shared::dense::cuboid;
+use crate::shared::drawing::{gpu, to_sun};
 use glam::{DVec3, dvec3};
 use gnomon::export::figure;
 use gnomon::mesh::Mesh;
@@ -16,8 +16,8 @@ use std::path::Path;
 
 /// A wall that begins below the ground, and a post two metres before it, from the south.
 fn scene() -> (Scene, Elevation) {
-    let wall = slab("wall", dvec3(-4.0, 0.0, -2.0), dvec3(4.0, 3.0, 10.0));
-    let post = slab("post", dvec3(-0.5, -3.0, 0.0), dvec3(0.5, -2.0, 6.0));
+    let wall = cuboid("wall", dvec3(-4.0, 0.0, -2.0), dvec3(4.0, 3.0, 10.0));
+    let post = cuboid("post", dvec3(-0.5, -3.0, 0.0), dvec3(0.5, -2.0, 6.0));
     let mesh = Mesh::build(vec![wall, post]).unwrap();
     let side = Elevation { target: dvec3(0.0, 40.0, 5.0), to_viewer: DVec3::NEG_Y, cell: 0.25, width: 64, height: 56 };
     (Scene { casters: mesh.clone(), receivers: mesh, ground: 0.0 }, side)

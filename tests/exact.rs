@@ -4,10 +4,10 @@ mod cameras;
 mod compare;
 mod counts;
 pub(crate) mod dirty;
-pub(crate) mod scenes;
 
+use crate::shared::drawing::{day, gpu, plan, scene_of, to_sun};
+use crate::shared::scenes::*;
 use glam::{DVec3, dvec3};
-use gnomon::gpu::Gpu;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::compare::Difference;
 use gnomon::shadow::ray_cast::RayCast;
@@ -15,15 +15,7 @@ use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::Kind;
 use gnomon::site::{Overrides, Receivers, Site};
-use gnomon::view::{Camera, Grid, Mask, View};
-use scenes::*;
-use std::sync::{Arc, OnceLock};
-
-/// The adapter for all tests. None is a failure, never a skip.
-pub(crate) fn gpu() -> Arc<Gpu> {
-    static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
-    Arc::clone(GPU.get_or_init(|| Arc::new(Gpu::open().expect("the tests need a graphics adapter: run tests/run.sh"))))
-}
+use gnomon::view::{Camera, Mask, View};
 
 /// For each sun the stencil's mask, the truth's, and how they differ.
 fn masks(scene: &Scene, view: View, suns: &[DVec3]) -> Vec<(Mask, Mask, Difference)> {
@@ -46,28 +38,6 @@ fn agree(name: &str, scene: &Scene, view: View, suns: &[DVec3], edge_share: f64)
     println!("{name}: {total}");
     assert!(total.edge_cells > 0, "{name}: no shadow edge in view");
     assert!(total.holds(edge_share), "{name}: {total}");
-}
-
-pub(crate) fn scene_of(mesh: &Mesh, receivers: Receivers, ground: f64) -> Scene {
-    let none = vec![false; mesh.components.len()];
-    let receivers = match receivers {
-        Receivers::Top | Receivers::Surfaces => mesh.clone(),
-        Receivers::Ground => mesh.of_components(&none),
-    };
-    Scene { casters: mesh.clone(), receivers, ground }
-}
-
-pub(crate) fn plan(half: f64, cells: u32) -> View {
-    View::Plan(Grid { west: -half, north: half, cell: 2.0 * half / f64::from(cells), width: cells, height: cells })
-}
-
-pub(crate) fn to_sun(azimuth_deg: f64, altitude_deg: f64) -> DVec3 {
-    let (azimuth, altitude) = (azimuth_deg.to_radians(), altitude_deg.to_radians());
-    dvec3(azimuth.sin() * altitude.cos(), azimuth.cos() * altitude.cos(), altitude.sin())
-}
-
-pub(crate) fn day() -> Vec<DVec3> {
-    [(95.3, 3.1), (130.7, 24.4), (171.2, 51.9), (214.6, 38.8), (263.1, 9.7)].map(|(az, alt)| to_sun(az, alt)).to_vec()
 }
 
 #[test]

@@ -96,5 +96,5 @@ pub(crate) fn light() -> impl Strategy<Value = DVec4> {
 
 /// Closed, open and crowded meshes that people would model, each with two components' worth of names at most.
 pub(crate) fn modelled() -> Vec<(&'static str, Mesh)> {
-    crate::exact::scenes::small().into_iter().map(|(name, parts)| (name, Mesh::build(parts).unwrap())).collect()
+    crate::shared::scenes::small().into_iter().map(|(name, parts)| (name, Mesh::build(parts).unwrap())).collect()
 }

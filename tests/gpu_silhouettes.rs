@@ -1,9 +1,9 @@
 //! Silhouettes found on the GPU against those found on the processor, edge for edge; and the masks that come of them.
 
-use crate::exact::scenes::{cuboid, joined, small, stack};
-use crate::exact::{day, gpu, plan, scene_of, to_sun};
 use crate::geometry::silhouettes::{naive, sums};
 use crate::geometry::{light, modelled, part, soup, sphere};
+use crate::shared::drawing::{day, gpu, plan, scene_of, to_sun};
+use crate::shared::scenes::{cuboid, joined, small, stack};
 use crate::try_models::extracted::{edges_of, facing_of, near_edge_on};
 use glam::{DVec3, DVec4, dvec3, dvec4};
 use gnomon::gpu::GpuError;

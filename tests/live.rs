@@ -1,6 +1,6 @@
 //! The view that is drawn again and again is drawn as the single instant is.
 
-use crate::exact::gpu;
+use crate::shared::drawing::gpu;
 use gnomon::gpu::readback;
 use gnomon::picture::{Picture, Style};
 use gnomon::site::{Ground, Method, Overrides, Settings, Site};

@@ -1,6 +1,6 @@
 //! The window's picture has the look of a drawing: whole pictures of the two are held against each other, pixel by pixel.
 
-use crate::exact::gpu;
+use crate::shared::drawing::gpu;
 use gnomon::choice::{Engine, Method, Receivers, Settings};
 use gnomon::export::figure::{self, Shown};
 use gnomon::gpu::readback;

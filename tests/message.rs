@@ -1,6 +1,6 @@
 //! What errors and notes say of the fields of a request, in the words of each face.
 
-use crate::command::done;
+use crate::shared::program::done;
 use crate::site::{SITE, load, some};
 use gnomon::cli::Options;
 use gnomon::fault;

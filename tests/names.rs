@@ -232,7 +232,7 @@ fn the_same_tower_has_the_same_shadow() {
 /// The note is told wherever an answer is: on stderr, in the report, by check on stdout.
 #[test]
 fn what_is_left_out_is_told_with_every_answer() {
-    let folder = crate::command::site();
+    let folder = crate::shared::program::site();
     let mut model = crate::model::poses::tower(20.0);
     push(
         &mut model.json["nodes"],
@@ -250,16 +250,16 @@ fn what_is_left_out_is_told_with_every_answer() {
         "probe . --date 2026-09-18 --point 0,-9,1 --json",
         "volumes . --at 2026-09-18T11:00 --out volumes.glb --json",
     ] {
-        let output = crate::command::gnomon(folder.path(), study);
-        let stderr = crate::command::stderr(&output);
+        let output = crate::shared::program::gnomon(folder.path(), study);
+        let stderr = crate::shared::program::stderr(&output);
         assert!(stderr.contains(&format!("note: {told}\n")), "{study}: {stderr}");
         let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect(study);
         assert_eq!(report["notes"], noted, "{study}");
     }
     let report = std::fs::read_to_string(folder.path().join("out/profile.json")).unwrap();
     assert_eq!(serde_json::from_str::<serde_json::Value>(&report).unwrap()["notes"], noted);
-    let check = crate::command::done(folder.path(), "check tower.glb");
+    let check = crate::shared::program::done(folder.path(), "check tower.glb");
     assert!(check.contains(&format!("\nnote: {told}\n")), "{check}");
-    let check = crate::command::done(folder.path(), "check . --json");
+    let check = crate::shared::program::done(folder.path(), "check . --json");
     assert_eq!(serde_json::from_str::<serde_json::Value>(&check).unwrap()["notes"], noted);
 }

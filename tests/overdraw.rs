@@ -1,7 +1,7 @@
 //! What the hybrid's mask keeps away from the count, told in fragments, where volumes lie over each other a hundredfold.
 
-use crate::dense::{self, Dense};
-use crate::exact::gpu;
+use crate::shared::dense::{self, Dense};
+use crate::shared::drawing::gpu;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::stencil::Stencil;

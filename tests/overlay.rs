@@ -1,8 +1,8 @@
 //! Volumes and silhouette over a camera's picture, against a box computed by hand: its faces, edges, walls and shadow
 //! need no mesh, no finder and no stencil.
 
-use crate::exact::gpu;
-use crate::exact::scenes::cuboid;
+use crate::shared::drawing::gpu;
+use crate::shared::scenes::cuboid;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use gnomon::mesh::Mesh;
 use gnomon::picture::overlay::VolumePicture;

@@ -1,6 +1,6 @@
 //! Surfaces gathered into flat patches: nothing lost, holes respected, the outer side judged, texels where they belong.
 
-use crate::dense::slab;
+use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::patches::{DEFAULT_CELL_M, FLAT_M, MOST_TEXELS, Patch, Patches};
 use gnomon::mesh::{Mesh, Part};
@@ -76,7 +76,7 @@ fn towards(patches: &Patches, along: DVec3) -> &Patch {
 
 #[test]
 fn a_box_has_six_patches_that_look_outwards_however_it_is_wound() {
-    let plain = slab("box", dvec3(0.0, 0.0, 0.0), dvec3(8.0, 6.0, 4.0));
+    let plain = cuboid("box", dvec3(0.0, 0.0, 0.0), dvec3(8.0, 6.0, 4.0));
     let mut mixed = plain.clone();
     mixed.triangles.iter_mut().step_by(3).for_each(|triangle| triangle.reverse());
     for part in [plain.clone(), turned(plain), mixed] {
@@ -103,8 +103,8 @@ fn a_box_has_six_patches_that_look_outwards_however_it_is_wound() {
 
 #[test]
 fn what_a_solid_holds_is_a_room_or_stands_in_its_court_and_beside_it_is_a_solid() {
-    let shell = slab("house", dvec3(0.0, 0.0, 0.0), dvec3(8.0, 6.0, 4.0));
-    let room = turned(slab("house", dvec3(1.0, 1.0, 1.0), dvec3(7.0, 5.0, 3.0)));
+    let shell = cuboid("house", dvec3(0.0, 0.0, 0.0), dvec3(8.0, 6.0, 4.0));
+    let room = turned(cuboid("house", dvec3(1.0, 1.0, 1.0), dvec3(7.0, 5.0, 3.0)));
     let mut part = shell.clone();
     let base = part.positions.len() as u32;
     part.positions.extend(room.positions);
@@ -116,7 +116,7 @@ fn what_a_solid_holds_is_a_room_or_stands_in_its_court_and_beside_it_is_a_solid(
     }
     // beside the house it is a house turned inside out
     let mut beside = shell;
-    let other = turned(slab("house", dvec3(20.0, 0.0, 0.0), dvec3(24.0, 3.0, 3.0)));
+    let other = turned(cuboid("house", dvec3(20.0, 0.0, 0.0), dvec3(24.0, 3.0, 3.0)));
     beside.positions.extend(other.positions);
     beside.triangles.extend(other.triangles.iter().map(|triangle| triangle.map(|corner| corner + 8)));
     let (mesh, patches) = patches(vec![beside], 0.5);
@@ -129,7 +129,7 @@ fn what_a_solid_holds_is_a_room_or_stands_in_its_court_and_beside_it_is_a_solid(
 
 /// Some sides of a box: those whose outer normals are kept.
 fn sides_of_box(keep: impl Fn(DVec3) -> bool) -> Part {
-    let mut part = slab("sheet", dvec3(0.0, 0.0, 0.0), dvec3(8.0, 6.0, 4.0));
+    let mut part = cuboid("sheet", dvec3(0.0, 0.0, 0.0), dvec3(8.0, 6.0, 4.0));
     let positions = part.positions.clone();
     part.triangles.retain(|triangle| {
         let [a, b, c] = triangle.map(|corner| positions[corner as usize]);
@@ -189,7 +189,7 @@ fn holes_are_respected_and_thin_patches_have_a_value() {
 
 #[test]
 fn the_cell_grows_where_the_atlas_would_be_too_large() {
-    let part = slab("box", dvec3(0.0, 0.0, 0.0), dvec3(80.0, 60.0, 40.0));
+    let part = cuboid("box", dvec3(0.0, 0.0, 0.0), dvec3(80.0, 60.0, 40.0));
     let mesh = Mesh::build(vec![part]).expect("a mesh");
     let small = Patches::of(&mesh, &[true], 0.25, 20_000);
     assert!(small.cell > 0.25 && small.asked_cell == 0.25);
@@ -225,7 +225,7 @@ fn sites_lose_nothing() {
 
 #[test]
 fn tables_weigh_by_texels_and_area() {
-    let (_, patches) = patches(vec![slab("box", dvec3(0.0, 0.0, 0.0), dvec3(8.0, 6.0, 4.0))], 2.0);
+    let (_, patches) = patches(vec![cuboid("box", dvec3(0.0, 0.0, 0.0), dvec3(8.0, 6.0, 4.0))], 2.0);
     let mut hours = SurfaceHours { lit: vec![0; patches.texels.len()], samples: 2, day_secs: 36_000, night_secs: 0 };
     let roof = towards(&patches, DVec3::Z).clone();
     // 12 texels: half of them an hour, a quarter three
@@ -261,7 +261,7 @@ fn near(area: f64, right: f64) -> bool {
 /// `shared/cases/10-doubled-faces-area`: 2000 and 400 before, 1000 and 200 are right.
 #[test]
 fn a_surface_that_is_there_twice_counts_once() {
-    let tower = || slab("tower", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 10.0, 20.0));
+    let tower = || cuboid("tower", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 10.0, 20.0));
     let again = |turn: fn([u32; 3]) -> [u32; 3]| {
         let mut part = tower();
         let twice: Vec<[u32; 3]> = part.triangles.iter().map(|&triangle| turn(triangle)).collect();
@@ -307,7 +307,7 @@ fn of_two_that_lie_over_each_other_in_part_that_part_counts_once() {
 
 #[test]
 fn walls_between_parts_that_touch_are_left_out() {
-    let house = |name: &str, low: DVec3, high: DVec3| slab(name, low, high);
+    let house = |name: &str, low: DVec3, high: DVec3| cuboid(name, low, high);
     let first = || house("first", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 10.0, 20.0));
     let second = |aside: f64| house("second", dvec3(10.0, aside, 0.0), dvec3(20.0, 10.0 + aside, 20.0));
     let (areas_of, patches) = areas(vec![first(), second(0.0)], &[true; 2], 0.25);
@@ -334,8 +334,8 @@ fn walls_between_parts_that_touch_are_left_out() {
 #[test]
 fn a_neighbour_that_only_casts_covers_the_wall_it_touches() {
     let parts = vec![
-        slab("house", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 10.0, 20.0)),
-        slab("neighbour", dvec3(10.0, 0.0, 0.0), dvec3(20.0, 10.0, 20.0)),
+        cuboid("house", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 10.0, 20.0)),
+        cuboid("neighbour", dvec3(10.0, 0.0, 0.0), dvec3(20.0, 10.0, 20.0)),
     ];
     let mesh = Mesh::build(parts).expect("a mesh");
     let mut patches = Patches::of(&mesh, &[true, false], 0.25, MOST_TEXELS);
@@ -351,7 +351,7 @@ fn a_sheet_with_front_and_back_counts_once_and_sheet_metal_has_two_sides() {
     let (areas_of, patches) = areas(vec![fence], &[true], 0.25);
     assert!(near(areas_of[0], 100.0), "{areas_of:?}");
     assert!(near(patches.left_out.doubled_m2, 100.0) && patches.left_out.touching_m2 == 0.0);
-    let metal = slab("metal", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 0.0005, 10.0));
+    let metal = cuboid("metal", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 0.0005, 10.0));
     let (areas_of, patches) = areas(vec![metal], &[true], 0.25);
     assert!(near(areas_of[0], 200.02), "{areas_of:?}");
     assert_eq!(patches.left_out, gnomon::mesh::patches::LeftOut::default());

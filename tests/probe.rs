@@ -3,8 +3,8 @@
 
 mod asked;
 
-use crate::exact::scenes::{cuboid, sheet, small};
-use crate::exact::{plan, scene_of};
+use crate::shared::drawing::{plan, scene_of};
+use crate::shared::scenes::{cuboid, sheet, small};
 use chrono::{NaiveDate, TimeDelta};
 use glam::{DVec2, DVec3, dvec3};
 use gnomon::cli::Options;

@@ -1,10 +1,41 @@
 #!/usr/bin/env bash
-# Sets up what the tests need and runs all of them. The one command for people and machines alike.
+# Sets up what the tests need and runs all of them, or with --fast the quick ones. The one command for people and
+# machines alike.
 #
 # Tests draw with Mesa's lavapipe, a Vulkan driver that needs no graphics card, so that results are the same everywhere.
 # To test another driver: VK_DRIVER_FILES=/path/to/its_icd.json tests/run.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+usage() {
+    cat <<'EOF'
+usage: tests/run.sh [--fast]
+
+Without an option: format, lints, the command without its window, all tests, documentation.
+
+--fast: format, and the tests that are quick (under a minute once they are built). It leaves out
+  - lints (cargo clippy), the build without the window, and the documentation;
+  - most tests that draw with the graphics adapter, and those that hold techniques against ray casting;
+  - drawings, hours on façades, years, tiles, and studies that were stopped;
+  - all tests of the window, and nearly all of the command as a process of its own.
+Run everything before you hand a change in.
+EOF
+}
+
+# The modules of the quick tests. A word here that names no test is an error.
+QUICK=(
+    architecture:: clock:: documents:: export::contour:: export::raster:: export::report:: far::
+    geometry:: mistakes:: model:: probe:: references:: shaders:: site:: sun:: typed:: volumes::
+)
+
+fast=false
+for argument in "$@"; do
+    case $argument in
+        --fast) fast=true ;;
+        --help | -h) usage; exit ;;
+        *) usage >&2; printf '\ntests/run.sh: no option %s\n' "$argument" >&2; exit 2 ;;
+    esac
+done
 
 say() { printf '\n== %s\n' "$*"; }
 fail() { printf 'tests/run.sh: %s\n' "$*" >&2; exit 1; }
@@ -56,16 +87,28 @@ if [ "$(uname -s)" = Linux ]; then
     say "Vulkan driver: $VK_DRIVER_FILES"
 
     # The window is driven before an X server without a screen, by its pointer and keys.
-    for program in Xvfb xdotool xwd; do
-        command -v "$program" >/dev/null || {
-            install "$program" xvfb xdotool x11-apps libxkbcommon-x11-0 libxcursor1 libxi6 libxrandr2 libx11-xcb1
-            break
-        }
-    done
+    if ! $fast; then
+        for program in Xvfb xdotool xwd; do
+            command -v "$program" >/dev/null || {
+                install "$program" xvfb xdotool x11-apps libxkbcommon-x11-0 libxcursor1 libxi6 libxrandr2 libx11-xcb1
+                break
+            }
+        done
+    fi
 fi
 
 say "format"
 "$CARGO" fmt --check
+if $fast; then
+    say "quick tests"
+    known=$("$CARGO" test --test all -- --list)
+    for word in "${QUICK[@]}"; do
+        grep -q "^$word" <<<"$known" || fail "no test is in $word: mend the list QUICK in this file"
+    done
+    "$CARGO" test --test all -- "${QUICK[@]}"
+    say "the quick tests are well; tests/run.sh runs all of them"
+    exit
+fi
 say "lints"
 "$CARGO" clippy --all-targets -- -D warnings
 say "the command without its window"

@@ -1,6 +1,6 @@
 //! Sums of masks are exact integers, on both machines, and shadow, sun and night fill the window.
 
-use crate::exact::gpu;
+use crate::shared::drawing::gpu;
 use crate::site::{SITE, load};
 use gnomon::gpu::Gpu;
 use gnomon::profile::Profile;

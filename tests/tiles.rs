@@ -1,10 +1,9 @@
 //! A plan in tiles is the plan in one go: on the processor to the bit, on a graphics adapter but for cells that lie within a
 //! 64th of a cell of an edge; and what does not go together with tiles is told.
 
-use crate::command::{done, fails, gnomon, site, stderr};
-use crate::exact::scenes::{sheet, small};
-use crate::exact::{day, plan, scene_of};
-use crate::year::files;
+use crate::shared::drawing::{day, plan, scene_of};
+use crate::shared::program::{done, fails, files, gnomon, site, stderr};
+use crate::shared::scenes::{sheet, small};
 use glam::{DVec3, dvec2, dvec3};
 use gnomon::gpu::Gpu;
 use gnomon::mesh::Mesh;
@@ -285,19 +284,19 @@ fn a_study_that_was_stopped_among_its_tiles_goes_on_and_comes_to_the_same() {
         let memory = &format!("--memory {memory}");
         done(path, &asked("whole", memory));
         for when in ["10%", "40%", "70%"] {
-            crate::year::stopped(path, &asked("stopped", memory), when);
+            crate::shared::program::stopped(path, &asked("stopped", memory), when);
         }
         let out = path.join(format!("{name}-stopped"));
         let names = ["profile.N.unfinished", "profile.sums.N.unfinished", "shadow.bits.N.unfinished"];
-        assert_eq!(crate::year::numberless(&out), names);
+        assert_eq!(crate::shared::program::numberless(&out), names);
         let number = |out: &Path| {
-            let name = crate::year::left(out).file_name().unwrap().to_str().unwrap().to_owned();
+            let name = crate::shared::program::left(out).file_name().unwrap().to_str().unwrap().to_owned();
             name.split('.').nth(1).unwrap().to_owned()
         };
         let ours = number(&out);
         // other tiles are another study
         let other = if name == "gpu" { "--memory 2MiB" } else { "--memory 300KiB" };
-        crate::year::stopped(path, &asked("other", other), "10%");
+        crate::shared::program::stopped(path, &asked("other", other), "10%");
         let theirs = number(&path.join(format!("{name}-other")));
         assert_ne!(ours, theirs);
         for file in names {
@@ -313,7 +312,7 @@ fn a_study_that_was_stopped_among_its_tiles_goes_on_and_comes_to_the_same() {
         if name == "ground" {
             same(path, &format!("{name}-whole"), &format!("{name}-other"));
             std::fs::remove_dir_all(path.join(format!("{name}-stopped"))).unwrap();
-            crate::year::stopped(path, &asked("stopped", memory), "60%");
+            crate::shared::program::stopped(path, &asked("stopped", memory), "60%");
             std::fs::remove_file(out.join(names[1].replace('N', &ours))).unwrap();
             let told = stderr(&gnomon(path, &asked("stopped", memory)));
             assert!(told.contains("begins anew") && !told.contains("goes on"), "{told}");

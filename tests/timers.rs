@@ -1,7 +1,7 @@
 //! The clock of passes.
 
-use crate::exact::scenes::cuboid;
-use crate::exact::{plan, scene_of, to_sun};
+use crate::shared::drawing::{plan, scene_of, to_sun};
+use crate::shared::scenes::cuboid;
 use glam::dvec3;
 use gnomon::gpu::Gpu;
 use gnomon::mesh::Mesh;

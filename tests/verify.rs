@@ -1,7 +1,7 @@
 //! `gnomon verify`: what it counts is right, and every row that decides is seen failing.
 
-use crate::command::{PLACE, command, done, fails, site, stderr};
-use crate::exact::{plan, scene_of, to_sun};
+use crate::shared::drawing::{plan, scene_of, to_sun};
+use crate::shared::program::{PLACE, command, done, fails, site, stderr};
 use crate::site::{SITE, load};
 use glam::{DVec3, dvec3};
 use gnomon::choice::{Engine, Method, Promise, Receivers, Settings, Truth};
@@ -88,7 +88,7 @@ fn samples_are_spread_and_half_of_them_lie_at_edges() {
 
 #[test]
 fn a_cell_at_which_the_trees_are_wrong_is_seen() {
-    for (name, parts) in crate::exact::scenes::small() {
+    for (name, parts) in crate::shared::scenes::small() {
         let mesh = Mesh::build(parts).unwrap();
         for receivers in [Receivers::Ground, Receivers::Top] {
             let mut cast = RayCast::new(scene_of(&mesh, receivers, 0.0), plan(40.371_93, 60), None);

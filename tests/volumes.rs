@@ -1,7 +1,7 @@
 //! Shadow volumes as solids: closed, as large as they must be, counting the faces towards the sun, and readable.
 
-use crate::exact::scenes::{cuboid, small};
 use crate::geometry::soup;
+use crate::shared::scenes::{cuboid, small};
 use glam::{DVec3, Vec3, dvec3};
 use gnomon::mesh::{Mesh, report};
 use gnomon::shadow::ray_cast::RayCaster;

@@ -1,12 +1,10 @@
 //! Studies of several days: which instants, what is kept of them, and that a stopped one goes on as if it had not been.
 
-use crate::command::{PLACE, command, done, fails, gnomon, site, stderr};
+use crate::shared::program::{PLACE, command, done, fails, files, gnomon, left, numberless, site, stderr, stopped};
 use chrono::{Datelike, NaiveDate, TimeDelta, Timelike};
 use gnomon::sun::{EachDay, Place, SunError, SunTrack, Window};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
 #[cfg(unix)]
 use std::process::{Command, Stdio};
 
@@ -89,46 +87,6 @@ fn a_day_without_a_time_between_from_and_to_has_no_instant() {
     let year = days(&paris(), "2026-01-01", 365, "sunrise+4h30", "sunset-4h30", 1800).unwrap();
     let with = |month: u32| year.instants.iter().any(|it| it.time.month() == month);
     assert!(!with(12) && with(6) && year.days.len() == 365);
-}
-
-/// All files of a folder but what took how long.
-pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let entry = entry.unwrap();
-        let name = entry.file_name().into_string().unwrap();
-        if entry.path().is_dir() {
-            found.extend(files(&entry.path()).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)));
-            continue;
-        }
-        let mut bytes = fs::read(entry.path()).unwrap();
-        if name.ends_with(".json") {
-            let mut json: Value = serde_json::from_slice(&bytes).unwrap();
-            json["timings_secs"] = Value::Null;
-            bytes = json.to_string().into_bytes();
-        }
-        found.insert(name, bytes);
-    }
-    found
-}
-
-/// The names of a folder's files, without the numbers of studies.
-pub(crate) fn numberless(folder: &Path) -> Vec<String> {
-    let short = |name: String| match name.strip_suffix(".unfinished").and_then(|name| name.rsplit_once('.')) {
-        Some((words, number)) if number.len() == 16 => format!("{words}.N.unfinished"),
-        _ => name,
-    };
-    let mut names: Vec<String> = files(folder).into_keys().map(short).collect();
-    names.sort();
-    names
-}
-
-/// What the one study that was stopped in a folder keeps of its sums.
-pub(crate) fn left(folder: &Path) -> PathBuf {
-    let is_it = |name: &String| name.starts_with("profile.") && name.ends_with(".unfinished") && !name.contains("sums");
-    let found: Vec<String> = files(folder).into_keys().filter(is_it).collect();
-    assert_eq!(found.len(), 1, "{found:?}");
-    folder.join(&found[0])
 }
 
 const RANGE: &str = "--from-date 2026-03-28 --to-date 2026-04-02 --from 8:00 --to 18:00";
@@ -222,31 +180,6 @@ fn bits_are_the_masks() {
         }
         assert!(shadow > 100, "{engine}");
     }
-}
-
-/// Starts a study, stops it by Ctrl-C when it has told of a part of its work, and says what it told.
-#[cfg(unix)]
-pub(crate) fn stopped(folder: &Path, arguments: &str, when: &str) -> String {
-    use std::io::{BufRead, BufReader, Write};
-    let mut child = command(folder, arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
-    // it waits already: starting it takes as long as some hundred instants
-    let kill = format!("read line && kill -INT {}", child.id());
-    let mut killer = Command::new("sh").args(["-c", &kill]).stdin(Stdio::piped()).spawn().unwrap();
-    let mut ask = killer.stdin.take();
-    let mut told = String::new();
-    for line in BufReader::new(child.stderr.take().unwrap()).lines() {
-        let line = line.unwrap();
-        if line.trim_start().starts_with(when)
-            && let Some(mut ask) = ask.take()
-        {
-            ask.write_all(b"now\n").unwrap();
-        }
-        told += &(line + "\n");
-    }
-    drop(ask);
-    killer.wait().unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(130), "{told}");
-    told
 }
 
 /// Stopped while its drawing is made, a study says whether it goes on.

@@ -1,6 +1,6 @@
 //! `gnomon animate`: frames that are what `gnomon shadow` draws, and a GIF of them.
 
-use super::{command, done, fails, names, site, stderr};
+use crate::shared::program::{command, done, fails, names, site, stderr};
 use std::path::Path;
 use std::process::Stdio;
 

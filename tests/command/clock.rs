@@ -1,6 +1,6 @@
 //! Which rules of clocks were taken, in all that is handed out; and what is said of years for which they are a guess.
 
-use super::{done, fails, gnomon, names, site, stderr};
+use crate::shared::program::{done, fails, gnomon, names, site, stderr};
 use gnomon::sun::ZoneRules;
 use serde_json::Value;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! `gnomon compare`: against closed forms, and against two runs of `gnomon profile`.
 
-use super::{PLACE, STUDY, done, fails, site};
+use crate::shared::program::{PLACE, STUDY, done, fails, site};
 use serde_json::Value;
 use std::path::Path;
 use tiff::decoder::{Decoder, DecodingResult};

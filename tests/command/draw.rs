@@ -1,6 +1,6 @@
 //! `gnomon profile --draw`: the lines as they are written, against closed forms and against the raster.
 
-use super::{done, fails, names, site};
+use crate::shared::program::{done, fails, names, site};
 use serde_json::Value;
 use std::path::Path;
 use tiff::decoder::{Decoder, DecodingResult};

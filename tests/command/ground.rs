@@ -1,7 +1,7 @@
 //! The ground's height: who says it, what it is where nobody does, and where it stands.
 
-use super::{command, done, fails, stderr};
 use crate::model::{Model, U16};
+use crate::shared::program::{command, done, fails, stderr};
 use serde_json::{Value, json};
 use std::path::Path;
 use tempfile::TempDir;

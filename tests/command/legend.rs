@@ -1,7 +1,7 @@
 //! The legend of components.
 
 use super::ground::{block, model};
-use super::{PLACE, STUDY, done, pixels};
+use crate::shared::program::{PLACE, STUDY, done, pixels};
 use gnomon::export::figure::component_colours;
 use gnomon::site::{Overrides, Site};
 

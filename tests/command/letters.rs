@@ -1,6 +1,6 @@
 //! Letters that Noto Sans lacks: the system's faces draw them, and what none has is told.
 
-use super::{command, site, stderr};
+use crate::shared::program::{command, site, stderr};
 use image::RgbImage;
 
 /// No letter, and in no font.

@@ -1,7 +1,7 @@
 //! Numbers that a file does not hold: strays far off, and corners that are rounded before they are read.
 
-use super::{done, gnomon, stderr};
 use crate::model::{I16, Model, U32};
+use crate::shared::program::{done, gnomon, stderr};
 use gnomon::site::{Engine, Overrides, Receivers, Site};
 use gnomon::study::{self, InstantWants, Wants};
 use gnomon::view::View;

@@ -1,6 +1,6 @@
 //! `--view south` and `[camera] side`: a side along parallel rays, by the command.
 
-use super::{done, fails, pixels, site};
+use crate::shared::program::{done, fails, pixels, site};
 use serde_json::{Value, json};
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! `gnomon profile --receivers surfaces`: files, numbers and mistakes.
 
-use super::{done, fails, gnomon, names, site, stderr};
+use crate::shared::program::{done, fails, gnomon, names, site, stderr};
 use glam::DVec3;
 use serde_json::Value;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! The techniques and their options, as the command takes them.
 
-use super::{done, fails, gnomon, pixels, site};
+use crate::shared::program::{done, fails, gnomon, pixels, site};
 use serde_json::Value;
 
 fn json(text: &str) -> Value {

@@ -1,7 +1,7 @@
 //! Models in other units, and such as lie on their side: what they look like is told, with the key that mends it.
 
-use super::{PLACE, STUDY, done, fails, gnomon, stderr};
 use crate::model::{Model, U32};
+use crate::shared::program::{PLACE, STUDY, done, fails, gnomon, stderr};
 use gnomon::site::{Mend, Overrides, Site};
 use serde_json::json;
 use tempfile::TempDir;

@@ -1,6 +1,6 @@
 //! `gnomon volumes`: the model, what is said of it, and mistakes.
 
-use super::{PLACE, done, fails, gnomon, names, site, stderr};
+use crate::shared::program::{PLACE, done, fails, gnomon, names, site, stderr};
 use serde_json::Value;
 
 #[test]

@@ -159,7 +159,7 @@ fn a_unit_and_an_axis_are_mended_by_a_button() {
     let site = folder.path().join("site.toml");
     let text = format!(
         "{}[[model]]\npath = \"tower.glb\"\n[study]\ndate = 2026-09-18\nfrom = \"10:00\"\nto = \"12:00\"\nstep = \"1h\"\n",
-        crate::command::PLACE
+        crate::shared::program::PLACE
     );
     std::fs::write(&site, text).unwrap();
     let mut harness = window(Some(&site));

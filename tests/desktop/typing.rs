@@ -2,20 +2,6 @@
 
 use super::*;
 
-/// Types into a field of a number instead of what it says, and finishes it.
-fn enter(harness: &mut Harness<'_, App>, label: &str, text: &str) {
-    harness.get_by_role_and_label(egui::Role::SpinButton, label).focus();
-    harness.step();
-    harness.step();
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
-    harness.step();
-    harness.event(Event::Text(text.to_owned()));
-    harness.step();
-    harness.key_press(Key::Enter);
-    harness.step();
-    settle(harness);
-}
-
 /// Whether this stands in the window, whatever it is a part of.
 fn says(harness: &Harness<'_, App>, text: &str) -> bool {
     harness.query_by_label_contains(text).is_some()

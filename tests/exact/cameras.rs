@@ -1,7 +1,7 @@
 //! Cameras that move through shadows, walls and casters: z-pass where it is right, z-fail everywhere else.
 
-use super::scenes::{cuboid, sheet};
-use super::{gpu, scene_of, to_sun};
+use crate::shared::drawing::{crossing, gpu, scene_of, to_sun};
+use crate::shared::scenes::sheet;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Difference;
@@ -12,17 +12,6 @@ use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::Kind;
 use gnomon::site::Receivers;
 use gnomon::view::{Camera, View};
-
-/// A tower, a slab on edge and an open sheet, whose shadows cross.
-fn scene() -> Scene {
-    let roof = [dvec3(8.0, -2.0, 5.0), dvec3(14.0, -2.0, 6.0), dvec3(14.0, 4.0, 6.0), dvec3(8.0, 4.0, 5.0)];
-    let mesh = Mesh::build(vec![
-        cuboid("tower", dvec3(-6.0, -6.0, 0.0), dvec3(6.0, 6.0, 30.0)),
-        cuboid("slab", dvec3(-14.0, -1.0, 0.0), dvec3(-13.5, 8.0, 9.0)),
-        sheet(roof),
-    ]);
-    scene_of(&mesh.unwrap(), Receivers::Top, 0.0)
-}
 
 fn camera(eye: DVec3, target: DVec3) -> Camera {
     Camera { eye, target, up: DVec3::Z, fov_rad: 1.2, width: 160, height: 100 }
@@ -53,7 +42,7 @@ fn differences(scene: &Scene, sun: DVec3, cameras: &[Camera], forced: Option<boo
 
 /// Each picture agrees with the truth. In how many z-fail was chosen.
 fn agree(name: &str, cameras: &[Camera], sun: DVec3) -> usize {
-    let scene = scene();
+    let scene = crossing();
     let differences = differences(&scene, sun, cameras, None);
     let mut total = Difference::default();
     for ((z_fail, difference), camera) in differences.iter().zip(cameras) {
@@ -92,7 +81,7 @@ fn through_casters_that_the_near_plane_cuts() {
 
 #[test]
 fn the_wrong_way_of_counting_is_seen_to_fail_and_z_fail_is_always_right() {
-    let (scene, sun) = (scene(), to_sun(180.0, 40.0));
+    let (scene, sun) = (crossing(), to_sun(180.0, 40.0));
     let cameras = walk(dvec3(-40.0, 20.0, 2.0), dvec3(40.0, 17.0, 2.0), 12, dvec3(0.0, 0.0, 6.0));
     let mut failures = 0;
     for (z_fail, difference) in differences(&scene, sun, &cameras, Some(false)) {

@@ -1,7 +1,7 @@
 //! The comparison of masks is seen to fail.
 
-use super::scenes::cuboid;
-use super::{plan, scene_of, to_sun};
+use crate::shared::drawing::{plan, scene_of, to_sun};
+use crate::shared::scenes::cuboid;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Difference;

@@ -1,7 +1,8 @@
 //! The count is never wrong: not where it passes 128 or 256, nor where half of it does.
 
-use super::scenes::stack;
-use super::{masks, plan, scene_of, to_sun};
+use super::masks;
+use crate::shared::drawing::{plan, scene_of, to_sun};
+use crate::shared::scenes::stack;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::Mesh;
 use gnomon::shadow::Technique;

@@ -1,7 +1,8 @@
 //! Meshes with each kind of dirt: the stencil equals ray casting on the plan, on what stands there and in pictures.
 
-use super::scenes::{cuboid, joined, sheet, small};
-use super::{agree, masks, scene_of, to_sun};
+use super::{agree, masks};
+use crate::shared::drawing::{scene_of, to_sun};
+use crate::shared::scenes::{cuboid, joined, sheet, small};
 use glam::{DVec3, dvec3};
 use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::compare::Difference;

@@ -1,7 +1,7 @@
 //! An output that is one of the inputs is refused before the work, whatever it is called.
 
 use super::bytes;
-use crate::command::{PLACE, done, fails, site};
+use crate::shared::program::{PLACE, done, fails, site};
 use std::fs;
 use std::path::{Path, PathBuf};
 

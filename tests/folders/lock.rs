@@ -1,8 +1,7 @@
 //! One study works in a folder at a time; and what a dead one leaves there is in nobody's way.
 
 use super::bytes;
-use crate::command::{command, done, fails, gnomon, site, stderr};
-use crate::year::{files, numberless};
+use crate::shared::program::{command, done, fails, files, gnomon, numberless, site, stderr};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;

@@ -1,8 +1,7 @@
 //! What a stopped study keeps is its own: checked when it is taken over, and not another's to remove.
 
 use super::bytes;
-use crate::command::{command, done, gnomon, site, stderr};
-use crate::year::{files, left, numberless, stopped};
+use crate::shared::program::{command, done, files, gnomon, left, numberless, site, stderr, stopped};
 use gnomon::deliver::disk::unfinished::{self, Checks, Kept};
 use gnomon::profile::{Statistics, Unfinished};
 use std::fs;

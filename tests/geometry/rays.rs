@@ -1,7 +1,7 @@
 //! The ray caster: no ray slips through a shared edge, and the nearest face is the nearest.
 
 use super::{part, soup, sphere};
-use crate::exact::scenes::stack;
+use crate::shared::scenes::stack;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::{Mesh, Part};
 use gnomon::shadow::ray_cast::{RayCaster, Shear};

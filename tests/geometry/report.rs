@@ -1,7 +1,7 @@
 //! What is said of a mesh: open, crowded, flipped, degenerate, duplicate.
 
 use super::{part, sphere};
-use crate::exact::scenes::cuboid;
+use crate::shared::scenes::cuboid;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::report::{ComponentReport, OpenKind, components};
 use gnomon::mesh::{Mesh, Part};
@@ -61,7 +61,7 @@ fn a_book_is_crowded_at_its_spine() {
 #[test]
 fn two_solids_at_one_edge_are_closed_and_crowded() {
     let other = cuboid("block", dvec3(5.0, 4.0, 0.0), dvec3(9.0, 9.0, 9.0));
-    let report = of(crate::exact::scenes::joined(vec![block(), other]));
+    let report = of(crate::shared::scenes::joined(vec![block(), other]));
     assert_eq!(counts(&report), [0, 1, 0, 0, 0]);
     assert!(report.closed && !report.clean());
 }

@@ -1,7 +1,7 @@
 //! Silhouettes against the sum of directions written plainly, and volumes that close.
 
 use super::{light, modelled, soup};
-use crate::exact::scenes::cuboid;
+use crate::shared::scenes::cuboid;
 use glam::{DVec4, dvec3, dvec4};
 use gnomon::mesh::Mesh;
 use gnomon::silhouette::brute_force::BruteForce;
@@ -201,14 +201,14 @@ fn all_finders_agree_on_the_sites_and_a_dome() {
         let lights = all_around(&mesh);
         agree(name, &mesh, if name == "headquarters" { &lights[5..9] } else { &lights });
     }
-    let mesh = Mesh::build(vec![crate::dome::dome()]).unwrap();
+    let mesh = Mesh::build(vec![crate::shared::dome::dome()]).unwrap();
     assert!(mesh.faces.len() > 199_000);
     agree("dome", &mesh, &all_around(&mesh)[3..8]);
 }
 
 #[test]
 fn the_hierarchy_looks_at_little() {
-    let mut meshes = vec![("dome", Mesh::build(vec![crate::dome::dome()]).unwrap())];
+    let mut meshes = vec![("dome", Mesh::build(vec![crate::shared::dome::dome()]).unwrap())];
     for name in ["tower", "industry", "headquarters"] {
         let folder = std::path::PathBuf::from(format!("sites/{name}"));
         let site = gnomon::site::Site::load(&folder, &gnomon::site::Overrides::default()).unwrap();

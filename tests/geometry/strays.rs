@@ -1,7 +1,7 @@
 //! What lies far off: leftovers of a drawing change no bit of what stands at home.
 
 use super::{part, unjoined};
-use crate::exact::scenes::{cuboid, joined};
+use crate::shared::scenes::{cuboid, joined};
 use glam::{DVec3, dvec3};
 use gnomon::mesh::{Mesh, MeshError, Part, report};
 

@@ -1,7 +1,7 @@
 //! The volume counts at every point the faces between it and the light, and no count is above its bound.
 
 use super::{light, modelled, soup, sphere};
-use crate::exact::scenes::{cuboid, stack};
+use crate::shared::scenes::{cuboid, stack};
 use glam::{DVec3, DVec4, dvec3, dvec4};
 use gnomon::mesh::Mesh;
 use gnomon::shadow::ray_cast::RayCaster;

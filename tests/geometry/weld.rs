@@ -1,7 +1,7 @@
 //! Corners that lie on each other become one vertex, within a part and never across.
 
 use super::{part, sphere, unjoined};
-use crate::exact::scenes::cuboid;
+use crate::shared::scenes::cuboid;
 use glam::{DVec3, Vec3, dvec3};
 use gnomon::mesh::{Mesh, Part, report};
 use std::collections::HashSet;

@@ -1,6 +1,6 @@
 //! The command and the site file's `[[probe]]`.
 
-use crate::command::{PLACE, done, fails, site};
+use crate::shared::program::{PLACE, done, fails, site};
 use serde_json::{Value, json};
 
 const PROBES: &str = "

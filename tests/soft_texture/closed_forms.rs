@@ -1,7 +1,7 @@
 //! Lamps and the sun's disc over a plate, against closed forms.
 
 use super::Scene;
-use crate::dense::slab;
+use crate::shared::dense::cuboid;
 use glam::{DVec3, DVec4, dvec3};
 use gnomon::mesh::patches::{MOST_TEXELS, Patch, Patches};
 use gnomon::mesh::{Mesh, Part};
@@ -61,7 +61,7 @@ fn sheet(height: f64) -> Part {
 
 /// A plate that alone receives, under a sheet.
 fn under_a_sheet(low: DVec3, high: DVec3, height: f64, cell: f64) -> Scene {
-    let casters = Mesh::build(vec![slab("plate", low, high), sheet(height)]).expect("a mesh");
+    let casters = Mesh::build(vec![cuboid("plate", low, high), sheet(height)]).expect("a mesh");
     let patches = Arc::new(Patches::of(&casters, &[true, false], cell, MOST_TEXELS));
     assert_eq!(patches.cell, cell);
     Scene { casters, patches }

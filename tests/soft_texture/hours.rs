@@ -1,6 +1,6 @@
 //! Hours on surfaces: the study, on each machine and by each technique.
 
-use crate::dense::slab;
+use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};
 use gnomon::cli::Options;
 use gnomon::mesh::Mesh;
@@ -22,8 +22,8 @@ fn site(parts: Vec<gnomon::mesh::Part>) -> Site {
 
 pub(super) fn house() -> Site {
     site(vec![
-        slab("house", dvec3(-5.0, -4.0, -2.0), dvec3(5.0, 4.0, 6.0)),
-        slab("tree", dvec3(2.0, -9.0, 0.0), dvec3(3.0, -8.0, 7.0)),
+        cuboid("house", dvec3(-5.0, -4.0, -2.0), dvec3(5.0, 4.0, 6.0)),
+        cuboid("tree", dvec3(2.0, -9.0, 0.0), dvec3(3.0, -8.0, 7.0)),
     ])
 }
 
@@ -61,7 +61,7 @@ fn every_machine_and_technique_finds_the_same_hours() {
 
 #[test]
 fn a_free_wall_has_the_sun_while_it_stands_before_it_and_the_underground_never() {
-    let site = site(vec![slab("house", dvec3(-5.0, -4.0, -2.0), dvec3(5.0, 4.0, 6.0))]);
+    let site = site(vec![cuboid("house", dvec3(-5.0, -4.0, -2.0), dvec3(5.0, 4.0, 6.0))]);
     let (found, _) = asked(&site, 0.5);
     let mut underground = 0;
     for patch in &found.patches.list {
@@ -122,11 +122,11 @@ fn what_does_not_fit_is_told_and_listeners_may_stop() {
 
 #[test]
 fn sheets_and_larger_texels_are_told() {
-    let mut wall = slab("wall", DVec3::ZERO, dvec3(9.0, 0.1, 3.0));
+    let mut wall = cuboid("wall", DVec3::ZERO, dvec3(9.0, 0.1, 3.0));
     wall.triangles.truncate(5);
     wall.triangles.drain(..4);
     let (_, notes) = asked(&site(vec![wall]), 0.5);
     assert!(notes.len() == 1 && notes[0].contains("1 of 1 patches"), "{notes:?}");
-    let (found, notes) = asked(&site(vec![slab("lawn", DVec3::ZERO, dvec3(3000.0, 2000.0, 1.0))]), 0.25);
+    let (found, notes) = asked(&site(vec![cuboid("lawn", DVec3::ZERO, dvec3(3000.0, 2000.0, 1.0))]), 0.25);
     assert!(found.patches.cell > 0.5 && notes.len() == 1 && notes[0].contains("0.25 m"), "{notes:?}");
 }

@@ -1,6 +1,6 @@
 //! A camera's picture by soft textures against rays to the same points of the sun's disc.
 
-use crate::dense::{prism, slab, to_sun};
+use crate::shared::dense::{cuboid, prism, to_sun};
 use glam::{DVec3, dvec3};
 use gnomon::cli::Options;
 use gnomon::mesh::{Mesh, Part};
@@ -25,11 +25,11 @@ fn scene() -> Scene {
     prism(&mut round, [dvec3(9.0, -4.0, 0.0), dvec3(9.0, -4.0, 4.0)], 48, [2.0, 2.0]);
     let mut mast = Part { name: "mast".into(), ..Part::default() };
     prism(&mut mast, [dvec3(-7.0, -6.0, 0.0), dvec3(-7.0, -6.0, 14.0)], 6, [0.15, 0.1]);
-    let mut sheet = slab("sheet", dvec3(-12.0, -4.0, 0.0), dvec3(-11.9, 3.0, 2.5));
+    let mut sheet = cuboid("sheet", dvec3(-12.0, -4.0, 0.0), dvec3(-11.9, 3.0, 2.5));
     sheet.triangles.truncate(5);
     let mesh = Mesh::build(vec![
-        slab("house", dvec3(-5.0, 0.0, 0.0), dvec3(5.0, 7.0, 6.0)),
-        slab("canopy", dvec3(-3.0, -3.0, 3.0), dvec3(3.0, 0.0, 3.2)),
+        cuboid("house", dvec3(-5.0, 0.0, 0.0), dvec3(5.0, 7.0, 6.0)),
+        cuboid("canopy", dvec3(-3.0, -3.0, 3.0), dvec3(3.0, 0.0, 3.2)),
         round,
         mast,
         sheet,
@@ -107,7 +107,7 @@ fn the_command_draws_it_for_a_camera_on_the_processor() {
 
 #[test]
 fn what_is_flat_alone_needs_no_rays() {
-    let mesh = Mesh::build(vec![slab("house", dvec3(-5.0, 0.0, 0.0), dvec3(5.0, 7.0, 6.0))]).expect("a mesh");
+    let mesh = Mesh::build(vec![cuboid("house", dvec3(-5.0, 0.0, 0.0), dvec3(5.0, 7.0, 6.0))]).expect("a mesh");
     let scene = Scene { casters: mesh.clone(), receivers: mesh, ground: 0.0 };
     let mut picture = SoftPicture::new(scene, camera(dvec3(16.0, -26.0, 13.0), DVec3::ZERO), SAMPLES);
     drawn(&mut picture, to_sun(215.0, 36.0));

@@ -1,7 +1,7 @@
 //! Small scenes: what passes through the receiver, what touches it, what is curved; and comparators that fail.
 
 use super::{Scene, differing, weighed};
-use crate::dense::{prism, slab, to_sun};
+use crate::shared::dense::{cuboid, prism, to_sun};
 use glam::{DVec3, DVec4, dvec3};
 use gnomon::mesh::Part;
 use gnomon::shadow::JUDGED_ABOVE_M;
@@ -20,19 +20,19 @@ fn samples() -> Vec<Sample> {
 
 /// A house with a balcony through its wall, a beam through its roof, a basement wall through the lawn, and a fence.
 fn house(cell: f64) -> Scene {
-    let mut fence = slab("fence", dvec3(-9.0, -8.0, 0.0), dvec3(9.0, -7.9, 1.6));
+    let mut fence = cuboid("fence", dvec3(-9.0, -8.0, 0.0), dvec3(9.0, -7.9, 1.6));
     // an open part of it alone
     fence.triangles.truncate(6);
     let mut beam = Part { name: "beam".into(), ..Part::default() };
     prism(&mut beam, [dvec3(1.0, 0.5, 2.0), dvec3(3.1, 2.4, 9.0)], 5, [0.3, 0.2]);
     Scene::of(
         vec![
-            slab("lawn", dvec3(-13.0, -12.0, -0.5), dvec3(12.0, 13.0, 0.0)),
-            slab("house", dvec3(-5.0, -3.0, 0.0), dvec3(5.0, 4.0, 6.0)),
-            slab("balcony", dvec3(-2.5, -5.1, 2.9), dvec3(1.7, -2.2, 3.1)),
-            slab("rail", dvec3(-2.5, -5.1, 3.1), dvec3(1.7, -5.05, 4.0)),
-            slab("basement", dvec3(7.0, -6.0, -3.0), dvec3(7.6, 5.0, 1.1)),
-            slab("annexe", dvec3(5.0, -1.0, 0.0), dvec3(6.5, 2.0, 2.4)),
+            cuboid("lawn", dvec3(-13.0, -12.0, -0.5), dvec3(12.0, 13.0, 0.0)),
+            cuboid("house", dvec3(-5.0, -3.0, 0.0), dvec3(5.0, 4.0, 6.0)),
+            cuboid("balcony", dvec3(-2.5, -5.1, 2.9), dvec3(1.7, -2.2, 3.1)),
+            cuboid("rail", dvec3(-2.5, -5.1, 3.1), dvec3(1.7, -5.05, 4.0)),
+            cuboid("basement", dvec3(7.0, -6.0, -3.0), dvec3(7.6, 5.0, 1.1)),
+            cuboid("annexe", dvec3(5.0, -1.0, 0.0), dvec3(6.5, 2.0, 2.4)),
             beam,
             fence,
         ],
@@ -113,8 +113,8 @@ fn no_light_comes_through_a_wall_that_touches() {
     for foot in [0.0, -0.3] {
         let scene = Scene::of(
             vec![
-                slab("floor", dvec3(0.0, 0.0, -0.5), dvec3(6.0, 6.0, 0.0)),
-                slab("wall", dvec3(0.0, 2.0, foot), dvec3(6.0, 2.02, 3.0)),
+                cuboid("floor", dvec3(0.0, 0.0, -0.5), dvec3(6.0, 6.0, 0.0)),
+                cuboid("wall", dvec3(0.0, 2.0, foot), dvec3(6.0, 2.02, 3.0)),
             ],
             0.01,
         );
@@ -202,7 +202,7 @@ fn what_lies_within_the_millimetre_shades_nothing() {
         let mut sheet = Part { name: "sheet".into(), ..Part::default() };
         sheet.positions = [(1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0)].map(|(x, y)| dvec3(x, y, above)).to_vec();
         sheet.triangles = vec![[0, 1, 2], [0, 2, 3]];
-        let scene = Scene::of(vec![slab("floor", dvec3(0.0, 0.0, -1.0), dvec3(4.0, 4.0, 0.0)), sheet], 0.1);
+        let scene = Scene::of(vec![cuboid("floor", dvec3(0.0, 0.0, -1.0), dvec3(4.0, 4.0, 0.0)), sheet], 0.1);
         let sample = [Sample { light: DVec3::new(0.3, -0.4, 0.8).normalize().extend(0.0), weight: 1 }];
         let floor = scene.patches.list.iter().find(|it| it.component == 0 && it.normal().z > 0.5).expect("a floor");
         for painter in

@@ -1,8 +1,8 @@
 //! Ray casting to the sun's disc, against the closed form of a straight edge.
 
 use super::draw;
-use crate::exact::scenes::cuboid;
-use crate::exact::{plan, scene_of, to_sun};
+use crate::shared::drawing::{plan, scene_of, to_sun};
+use crate::shared::scenes::cuboid;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::Mesh;
 use gnomon::shadow::ray_cast::RayCast;

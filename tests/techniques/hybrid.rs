@@ -1,8 +1,8 @@
 //! The hybrid: the stencil's own mask, but for what the map missed; and the count behind its mask.
 
 use super::{draw, site};
-use crate::exact::scenes::{cuboid, sheet, small, stack};
-use crate::exact::{day, gpu, plan, scene_of, to_sun};
+use crate::shared::drawing::{crossing, day, gpu, plan, scene_of, to_sun};
+use crate::shared::scenes::{sheet, small, stack};
 use glam::{DVec3, dvec3};
 use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Edges;
@@ -129,17 +129,6 @@ fn the_count_is_never_wrong_at_128() {
             }
         }
     }
-}
-
-/// A tower, a slab on edge and an open sheet, whose shadows cross.
-fn crossing() -> Scene {
-    let roof = [dvec3(8.0, -2.0, 5.0), dvec3(14.0, -2.0, 6.0), dvec3(14.0, 4.0, 6.0), dvec3(8.0, 4.0, 5.0)];
-    let mesh = Mesh::build(vec![
-        cuboid("tower", dvec3(-6.0, -6.0, 0.0), dvec3(6.0, 6.0, 30.0)),
-        cuboid("slab", dvec3(-14.0, -1.0, 0.0), dvec3(-13.5, 8.0, 9.0)),
-        sheet(roof),
-    ]);
-    scene_of(&mesh.unwrap(), Receivers::Top, 0.0)
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use super::plain_scan::scanned;
 use super::{draw, site};
 use crate::exact::dirty::dirty;
-use crate::exact::scenes::{cuboid, sheet, small, stack};
-use crate::exact::{day, plan, scene_of, to_sun};
-use crate::{dense, dome};
+use crate::shared::drawing::{day, plan, scene_of, to_sun};
+use crate::shared::scenes::{cuboid, sheet, small, stack};
+use crate::shared::{dense, dome};
 use glam::{DVec3, dvec2, dvec3};
 use gnomon::gpu::Gpu;
 use gnomon::mesh::{Mesh, Part};

@@ -1,9 +1,9 @@
 //! Shadow maps: the levels of each filter, the bias, and casters outside of the view.
 
 use super::{draw, site};
-use crate::exact::scenes::{cuboid, sheet};
-use crate::exact::{gpu, plan, scene_of, to_sun};
-use crate::far_wrong::far_wrong;
+use crate::shared::drawing::{gpu, plan, scene_of, to_sun};
+use crate::shared::far_wrong::far_wrong;
+use crate::shared::scenes::{cuboid, sheet};
 use glam::{DVec3, dvec3};
 use gnomon::choice::MAP_SIZE;
 use gnomon::cli::Options;

@@ -2,8 +2,8 @@
 //! alone would not give.
 
 use super::{draw, site};
-use crate::exact::scenes::{cuboid, joined, sheet};
-use crate::exact::{gpu, scene_of, to_sun};
+use crate::shared::drawing::{gpu, scene_of, to_sun};
+use crate::shared::scenes::{cuboid, joined, sheet};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use gnomon::mesh::Mesh;
 use gnomon::shadow::ray_cast::RayCast;

@@ -1,22 +1,8 @@
 //! Small meshes of each kind: clean, open, crowded, nested, touching.
 
+pub(crate) use super::dense::cuboid;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::Part;
-
-/// A closed, well-wound box.
-pub(crate) fn cuboid(name: &str, low: DVec3, high: DVec3) -> Part {
-    let corner = |index: usize| {
-        let pick = |bit: usize, low: f64, high: f64| if index >> bit & 1 == 1 { high } else { low };
-        dvec3(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
-    };
-    let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    Part {
-        name: name.into(),
-        positions: (0..8).map(corner).collect(),
-        triangles: quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
-        ..Part::default()
-    }
-}
 
 /// Several parts as one component.
 pub(crate) fn joined(parts: Vec<Part>) -> Part {

@@ -18,9 +18,9 @@ pub(crate) struct Dense {
 /// for an overdraw of 109, 0.85 for one of 52. The camera stands in it, and so in the volumes.
 pub(crate) fn cage(pitch: f64) -> Dense {
     let (low, high) = (dvec3(-4.0, -3.5, 0.0), dvec3(4.0, 3.5, 4.0));
-    let floor = slab("floor", low, dvec3(high.x, high.y, 0.05));
-    let north = slab("north wall", dvec3(low.x, high.y, 0.0), dvec3(high.x, high.y + 0.2, high.z));
-    let east = slab("east wall", dvec3(high.x, low.y, 0.0), dvec3(high.x + 0.2, high.y + 0.2, high.z));
+    let floor = cuboid("floor", low, dvec3(high.x, high.y, 0.05));
+    let north = cuboid("north wall", dvec3(low.x, high.y, 0.0), dvec3(high.x, high.y + 0.2, high.z));
+    let east = cuboid("east wall", dvec3(high.x, low.y, 0.0), dvec3(high.x + 0.2, high.y + 0.2, high.z));
     let mut bars = Part { name: "bars".into(), ..Part::default() };
     let mut bar = |from: DVec3, to: DVec3| prism(&mut bars, [from, to], 4, [0.02, 0.02]);
     let (across, along, up) = (high.x - low.x, high.y - low.y, high.z - low.z);
@@ -135,7 +135,7 @@ pub(crate) fn prism(whole: &mut Part, ends: [DVec3; 2], sides: u32, radii: [f64;
 }
 
 /// A closed box.
-pub(crate) fn slab(name: &str, low: DVec3, high: DVec3) -> Part {
+pub(crate) fn cuboid(name: &str, low: DVec3, high: DVec3) -> Part {
     let corner =
         |index: u32| DVec3::select(glam::BVec3::new(index & 1 == 0, index & 2 == 0, index & 4 == 0), low, high);
     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];

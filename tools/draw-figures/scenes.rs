@@ -1,16 +1,16 @@
 //! Small scenes that show one thing each.
 
-use crate::dense::{prism, slab};
+use crate::dense::{cuboid, prism};
 use glam::{DVec3, dvec3};
 use gnomon::mesh::Part;
 
 /// A house of 12 × 8 m with a balcony, a gate of bars, a fence and a column in its yard, which lies to the south.
 pub(crate) fn house() -> Vec<Part> {
     let mut parts = vec![
-        slab("house", dvec3(-6.0, 0.0, 0.0), dvec3(6.0, 8.0, 6.2)),
-        slab("roof", dvec3(-6.4, -0.4, 6.2), dvec3(6.4, 8.4, 6.5)),
-        slab("chimney", dvec3(5.0, 0.5, 6.5), dvec3(5.8, 1.3, 10.5)),
-        slab("balcony", dvec3(-4.5, -1.7, 2.8), dvec3(1.5, 0.0, 3.0)),
+        cuboid("house", dvec3(-6.0, 0.0, 0.0), dvec3(6.0, 8.0, 6.2)),
+        cuboid("roof", dvec3(-6.4, -0.4, 6.2), dvec3(6.4, 8.4, 6.5)),
+        cuboid("chimney", dvec3(5.0, 0.5, 6.5), dvec3(5.8, 1.3, 10.5)),
+        cuboid("balcony", dvec3(-4.5, -1.7, 2.8), dvec3(1.5, 0.0, 3.0)),
     ];
     let mut railing = Part { name: "railing".into(), ..Part::default() };
     let mut bar = |from: DVec3, to: DVec3, radius: f64| prism(&mut railing, [from, to], 4, [radius; 2]);
@@ -49,16 +49,16 @@ fn fence(from: DVec3, to: DVec3) -> Part {
 /// A plate 6 m above the ground, and a lower one that catches part of its shadow's edge.
 pub(crate) fn two_plates() -> Vec<Part> {
     vec![
-        slab("upper", dvec3(-1.0, -9.0, 6.0), dvec3(2.0, 3.0, 6.2)),
-        slab("lower", dvec3(-1.85, 0.0, 4.2), dvec3(2.6, 2.4, 4.4)),
+        cuboid("upper", dvec3(-1.0, -9.0, 6.0), dvec3(2.0, 3.0, 6.2)),
+        cuboid("lower", dvec3(-1.85, 0.0, 4.2), dvec3(2.6, 2.4, 4.4)),
     ]
 }
 
 /// A slit between two plates 9 m above the ground, and two poles below it.
 pub(crate) fn crossing() -> Vec<Part> {
     let mut parts = vec![
-        slab("west", dvec3(-3.0, -1.5, 9.0), dvec3(-0.06, 1.2, 9.2)),
-        slab("east", dvec3(0.06, -1.5, 9.0), dvec3(3.0, 1.2, 9.2)),
+        cuboid("west", dvec3(-3.0, -1.5, 9.0), dvec3(-0.06, 1.2, 9.2)),
+        cuboid("east", dvec3(0.06, -1.5, 9.0), dvec3(3.0, 1.2, 9.2)),
     ];
     for (from, to) in [(dvec3(-3.0, 2.9, 5.0), dvec3(3.0, 6.4, 5.0)), (dvec3(-2.6, 7.1, 7.0), dvec3(2.2, -0.9, 7.0))] {
         let mut pole = Part { name: "pole".into(), ..Part::default() };

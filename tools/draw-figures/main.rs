@@ -5,7 +5,7 @@
 //! which are measured on the spot.
 
 mod bars;
-#[path = "../../tests/dense.rs"]
+#[path = "../../tests/shared/dense.rs"]
 mod dense;
 mod filters;
 mod hybrid;

@@ -23,7 +23,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-#[path = "extracted.rs"]
 pub(crate) mod extracted;
 
 /// Makes a finder for a mesh.
@@ -264,7 +263,7 @@ mod tests {
 
     #[test]
     fn a_finder_that_is_wrong_is_named() {
-        let parts = crate::exact::scenes::small().remove(4).1;
+        let parts = crate::shared::scenes::small().remove(4).1;
         let mesh = Mesh::build(parts).unwrap();
         let lights = [dvec4(0.3, 0.2, 0.8, 0.0), dvec4(3.0, -9.0, 12.0, 1.0)];
         assert!(disagreeing(&mesh, &lights, FINDERS).is_empty());
@@ -298,12 +297,13 @@ mod tests {
     fn a_site_s_model_is_found_and_holds() {
         let found = models(Path::new("sites/tower")).unwrap();
         assert_eq!(found, [Path::new("sites/tower/tower.glb")]);
-        let row = try_model(&crate::exact::gpu(), &Program::new(&crate::exact::gpu()), &found[0]).unwrap();
+        let row = try_model(&crate::shared::drawing::gpu(), &Program::new(&crate::shared::drawing::gpu()), &found[0])
+            .unwrap();
         assert!(row.holds() && row.suns >= 5 && row.lowest_deg < 5.0 && row.triangles > 0 && row.edges > 0);
         assert!(
             try_model(
-                &crate::exact::gpu(),
-                &Program::new(&crate::exact::gpu()),
+                &crate::shared::drawing::gpu(),
+                &Program::new(&crate::shared::drawing::gpu()),
                 Path::new("sites/tower/site.toml.glb")
             )
             .is_err()

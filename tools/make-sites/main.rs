@@ -1,24 +1,15 @@
-//! Draws the models of the sample sites: `cargo run --example make-sites` writes each `sites/NAME/NAME.glb` anew.
+//! Draws the models of the sample sites: `cargo run --example make-sites` writes each `sites/NAME/NAME.glb`.
 //!
 //! The tests include this file to see that what lies in the repository is what it draws.
 
-#[path = "make/glb.rs"]
 mod glb;
-#[path = "make/headquarters.rs"]
 mod headquarters;
-#[path = "make/houses.rs"]
 mod houses;
-#[path = "make/industry.rs"]
 mod industry;
-#[path = "make/plant.rs"]
 mod plant;
-#[path = "make/quarter.rs"]
 mod quarter;
-#[path = "make/shapes.rs"]
 mod shapes;
-#[path = "make/solids.rs"]
 mod solids;
-#[path = "make/tower.rs"]
 mod tower;
 
 /// Every model's path in `sites/` and its bytes.

@@ -1,0 +1,207 @@
+//! Every key that a site file may have. The reader refuses all others, errors take their examples from here, and
+//! `docs/site-file.md` is written from it.
+
+use super::Method;
+use crate::view::Side;
+
+/// One key of the site file.
+#[derive(Clone, Copy, Debug)]
+pub struct SiteKey {
+    /// The table that it stands in.
+    pub table: &'static str,
+    /// Its name.
+    pub key: &'static str,
+    /// What is written behind it.
+    pub value: ValueType,
+    /// What its number counts; empty where it is no number with a unit.
+    pub unit: &'static str,
+    /// What holds where the key is not written.
+    pub default: &'static str,
+    /// What it says.
+    pub meaning: &'static str,
+    /// The key as it is written.
+    pub example: &'static str,
+}
+
+/// What a key's value may be.
+#[derive(Clone, Copy, Debug)]
+pub enum ValueType {
+    /// Text in quotes.
+    Text,
+    /// Text in quotes, or one of TOML's dates or times.
+    Moment,
+    /// Two of these in a list.
+    TwoMoments,
+    /// A number.
+    Number,
+    /// So many numbers in a list.
+    Numbers(usize),
+    /// Text in quotes, or a whole number.
+    TextOrNumber,
+    /// `true`, `false`, or a list of names.
+    Names,
+    /// One of some words, in quotes.
+    Word(fn() -> Vec<&'static str>),
+}
+
+/// The tables, in the order in which they are explained; whether there may be several of one; and what each is about.
+pub const SITE_TABLES: &[(&str, bool, &str)] = &[
+    ("place", false, "Where on earth the models stand."),
+    ("model", true, "A model file. There is one table for each model, and at least one."),
+    ("ground", false, "The horizontal plane on which the models stand."),
+    ("study", false, "The instants that are computed. Options of the command can replace or supply single keys."),
+    ("plan", false, "The raster of cells in which ground and roofs are judged."),
+    ("camera", false, "From where the perspective is seen, or which side an elevation shows."),
+    ("probe", true, "A point whose hours of sun `gnomon probe` finds. There may be any number."),
+];
+
+const fn key(table: &'static str, key: &'static str, value: ValueType, example: &'static str) -> SiteKey {
+    SiteKey { table, key, value, unit: "", default: "", meaning: "", example }
+}
+
+impl SiteKey {
+    const fn unit(self, unit: &'static str) -> Self {
+        SiteKey { unit, ..self }
+    }
+
+    const fn default(self, default: &'static str) -> Self {
+        SiteKey { default, ..self }
+    }
+
+    const fn means(self, meaning: &'static str) -> Self {
+        SiteKey { meaning, ..self }
+    }
+}
+
+fn technique_words() -> Vec<&'static str> {
+    Method::WORDS.iter().map(|(word, _)| *word).collect()
+}
+
+fn side_words() -> Vec<&'static str> {
+    Side::WORDS.iter().map(|(word, _)| *word).collect()
+}
+
+fn up_words() -> Vec<&'static str> {
+    super::model::Up::WORDS.iter().map(|(word, _)| *word).collect()
+}
+
+/// Every key, table by table.
+pub const SITE_KEYS: &[SiteKey] = &[
+    key("place", "name", ValueType::Text, "name = \"Champ de Mars, Paris\"")
+        .default("none")
+        .means("What drawings and reports call the place."),
+    key("place", "latitude", ValueType::Number, "latitude = 48.8583")
+        .unit("degrees")
+        .default("must be written")
+        .means("North is positive, −90 to 90."),
+    key("place", "longitude", ValueType::Number, "longitude = 2.2945")
+        .unit("degrees")
+        .default("must be written")
+        .means("East is positive, −180 to 180."),
+    key("place", "elevation", ValueType::Number, "elevation = 35.0")
+        .unit("metres")
+        .default("0")
+        .means("Height above sea level, −500 to 9000. It sets the air's pressure, and so refraction."),
+    key("place", "time_zone", ValueType::Text, "time_zone = \"Europe/Paris\"")
+        .default("found from the coordinates")
+        .means("The IANA name of the zone whose clock is read."),
+    key("model", "path", ValueType::Text, "path = \"tower.glb\"")
+        .default("must be written")
+        .means("The file, glTF or GLB: relative to the site file, or absolute."),
+    key("model", "scene", ValueType::TextOrNumber, "scene = \"existing\"")
+        .default("the file's default scene, or its first")
+        .means(
+            "Which scene of the file is read: its name, or its number from 0. Two scenes of one name need the \
+             number.",
+        ),
+    key("model", "up", ValueType::Word(up_words), "up = \"z\"")
+        .default("`\"y\"`, as glTF has it")
+        .means("Which axis of the model points upwards."),
+    key("model", "north", ValueType::Number, "north = 0.0").unit("degrees").default("0").means(
+        "The angle clockwise from the model's north to true north. The model's north is −z, or +y where z is \
+             up.",
+    ),
+    key("model", "position", ValueType::Numbers(3), "position = [0.0, 0.0, 0.0]")
+        .unit("metres")
+        .default("`[0, 0, 0]`")
+        .means(
+            "Where the model's origin lies, east, north and up of the place. The model is scaled first, then \
+             turned, then moved.",
+        ),
+    key("model", "scale", ValueType::Number, "scale = 1.0")
+        .unit("metres")
+        .default("1")
+        .means("The length of one unit of the model: 0.001 for a model in millimetres."),
+    key("model", "casts", ValueType::Names, "casts = [\"roof\", \"walls\"]").default("true").means(
+        "What casts shadows: everything, nothing, or what the names name; `\"!glass\"` takes out what is named \
+             glass.",
+    ),
+    key("model", "receives", ValueType::Names, "receives = true")
+        .default("true")
+        .means("What is judged, by names as in `casts`. What does not receive is looked through."),
+    key("ground", "level", ValueType::Number, "level = 0.0")
+        .unit("metres")
+        .default("[found from the models](#the-ground)")
+        .means("The ground's height above the place's point."),
+    key("study", "date", ValueType::Moment, "date = 2026-09-18")
+        .default("`date` or `dates` must be written")
+        .means("The day."),
+    key("study", "dates", ValueType::TwoMoments, "dates = [\"2026-01-01\", \"2026-12-31\"]")
+        .default("`date` or `dates` must be written")
+        .means(
+            "The first and the last of several days, at most ten years apart, each with the same window. Not \
+             together with `date`.",
+        ),
+    key("study", "from", ValueType::Moment, "from = \"10:00\"")
+        .default("with `dates` the day's beginning, else must be written")
+        .means("Where each day's window begins: a local clock time, `\"sunrise\"` or `\"sunrise+1h30\"`."),
+    key("study", "to", ValueType::Moment, "to = \"14:00\"")
+        .default("with `dates` the day's end, else must be written")
+        .means(
+            "Where the window ends; a clock time earlier than `from` is on the next day. `\"sunset-1h30\"` is \
+             allowed, too.",
+        ),
+    key("study", "step", ValueType::Text, "step = \"30min\"")
+        .default("must be written")
+        .means("The time from one instant to the next: `\"30min\"`, `\"1h\"`, `\"1h30\"`, `\"90s\"`."),
+    key("study", "technique", ValueType::Word(technique_words), "technique = \"auto\"")
+        .default("`\"auto\"`, the fastest exact one")
+        .means("How shadows are found; see [techniques.md](techniques.md)."),
+    key("plan", "region", ValueType::Numbers(4), "region = [-300, -300, 300, 300]")
+        .unit("metres")
+        .default("the models and their shadows, each shadow cut at 4.3 times its height (a sun below 13°)")
+        .means("The rectangle's west, south, east and north border, counted from the place."),
+    key("plan", "cell", ValueType::Number, "cell = 0.5")
+        .unit("metres")
+        .default("the longer side over 2048, but at least a millimetre")
+        .means("The side of a cell."),
+    key("camera", "eye", ValueType::Numbers(3), "eye = [250, -300, 180]")
+        .unit("metres")
+        .default("from the sunlit side, with the models and their shadows in view")
+        .means("Where the camera stands, east, north and up of the place."),
+    key("camera", "target", ValueType::Numbers(3), "target = [0, 0, 60]")
+        .unit("metres")
+        .default("the middle of what is to be seen")
+        .means("The point that the camera looks at."),
+    key("camera", "up", ValueType::Numbers(3), "up = [0, 0, 1]")
+        .default("`[0, 0, 1]`")
+        .means("The direction that is up in the picture."),
+    key("camera", "fov", ValueType::Number, "fov = 40.0")
+        .unit("degrees")
+        .default("40")
+        .means("The vertical field of view, 1 to 170."),
+    key("camera", "side", ValueType::Word(side_words), "side = \"south\"").default("none").means(
+        "Shows this side as an elevation instead of the perspective: along parallel rays, as much as the \
+             perspective sees at `target`; without `eye` all models.",
+    ),
+    key("probe", "name", ValueType::Text, "name = \"kitchen window\"")
+        .default("probe 1, probe 2, …")
+        .means("What the answer calls the point."),
+    key("probe", "point", ValueType::Numbers(3), "point = [12.0, -3.0, 4.5]")
+        .unit("metres")
+        .default("must be written")
+        .means("Where it is, east, north and up of the place."),
+    key("probe", "normal", ValueType::Numbers(3), "normal = [0, -1, 0]")
+        .default("none: it is free on all sides")
+        .means("The direction that it faces, as a window does, of any length but 0."),
+];

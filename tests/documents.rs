@@ -1,0 +1,95 @@
+//! The documents for people: links that lead somewhere, and a README that one reads.
+
+use std::path::{Path, PathBuf};
+
+/// So long may the README be.
+const README_LINES: usize = 100;
+
+/// README, CONTRIBUTING and all of `docs`.
+fn documents() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let in_folder = |folder: &Path| {
+        let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+        entries.filter(|path| path.extension().is_some_and(|it| it == "md")).collect::<Vec<_>>()
+    };
+    [root.to_owned(), root.join("docs"), root.join("docs/benchmarks")].iter().flat_map(|it| in_folder(it)).collect()
+}
+
+/// Its lines that are no code.
+fn prose(text: &str) -> impl Iterator<Item = &str> {
+    let mut is_code = false;
+    text.lines().filter(move |line| {
+        let is_fence = line.starts_with("```");
+        is_code ^= is_fence;
+        !is_code && !is_fence
+    })
+}
+
+/// The anchors of a page's headings, as they are made where the repository is shown.
+fn anchors(text: &str) -> Vec<String> {
+    let headings = prose(text).filter(|line| line.starts_with('#'));
+    let anchor = |heading: &str| {
+        let words = heading.trim_start_matches('#').trim().to_lowercase();
+        words
+            .chars()
+            .filter(|c| c.is_alphanumeric() || " -_".contains(*c))
+            .map(|c| if c == ' ' { '-' } else { c })
+            .collect()
+    };
+    headings.map(anchor).collect()
+}
+
+/// Where the links of a page's text point to.
+fn links(text: &str) -> Vec<&str> {
+    let after = prose(text).flat_map(|line| line.split("](").skip(1));
+    after.filter_map(|rest| rest.split(')').next()).filter(|target| !target.contains("://")).collect()
+}
+
+/// What is wrong with the links of a page.
+fn faults(path: &Path, text: &str) -> Vec<String> {
+    let leads = |target: &str| {
+        let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
+        let to = if file.is_empty() { path.to_owned() } else { path.with_file_name(file) };
+        if anchor.is_empty() {
+            return to.exists();
+        }
+        let page = if file.is_empty() { Ok(text.to_owned()) } else { std::fs::read_to_string(&to) };
+        page.is_ok_and(|page| anchors(&page).iter().any(|known| known == anchor))
+    };
+    let broken = links(text).into_iter().filter(|target| !leads(target));
+    broken.map(|target| format!("{}: {target} leads nowhere", path.display())).collect()
+}
+
+#[test]
+fn links_lead_somewhere() {
+    let mut count = 0;
+    let mut found = Vec::new();
+    for path in documents() {
+        let text = std::fs::read_to_string(&path).expect("a document");
+        count += links(&text).len();
+        found.extend(faults(&path, &text));
+    }
+    assert!(count > 100, "only {count} links were checked");
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn a_broken_link_is_seen() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/page.md");
+    let text =
+        "# A page\n[a](words.md) [b](#a-page) [c](https://nowhere) [d](words.md#words)\n```\n[e](nothing)\n```\n";
+    assert!(faults(&path, text).is_empty());
+    for broken in ["[a](nothing.md)", "[b](#nothing)", "[c](words.md#nothing)", "![d](pictures/nothing.png)"] {
+        assert_eq!(faults(&path, broken).len(), 1, "{broken}");
+    }
+}
+
+#[test]
+fn the_readme_is_short_and_has_the_two_commands() {
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("a README");
+    assert!(text.lines().count() <= README_LINES, "{} lines", text.lines().count());
+    let commands = ["cargo run --release -- profile sites/headquarters --out out ", "tests/run.sh "];
+    for command in commands {
+        assert!(text.lines().any(|line| line.starts_with(command)), "the README does not have {command}");
+    }
+}

@@ -1,0 +1,8 @@
+//! What several tests need: scenes, and what draws them; the program, and folders for it.
+
+pub(crate) mod dense;
+pub(crate) mod dome;
+pub(crate) mod drawing;
+pub(crate) mod far_wrong;
+pub(crate) mod program;
+pub(crate) mod scenes;

@@ -1,0 +1,33 @@
+//! The keys of the site file, from the table that its reader uses.
+
+use super::blocks::{Block, head, row};
+use gnomon::site::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
+
+/// A block for each table.
+pub(super) fn blocks() -> Vec<Block> {
+    SITE_TABLES.iter().map(|(table, _, about)| ((*table).to_owned(), section(table, about))).collect()
+}
+
+fn section(table: &str, about: &str) -> String {
+    let mut text = format!("{about}\n\n{}", head(["key", "value", "default", "meaning", "example"]));
+    for key in SITE_KEYS.iter().filter(|key| key.table == table) {
+        let [name, example] = [key.key, key.example].map(|code| format!("`{code}`"));
+        text.push_str(&row([&name, &value(key), key.default, key.meaning, &example]));
+    }
+    text
+}
+
+/// What is written behind a key, in words, with its unit.
+fn value(key: &SiteKey) -> String {
+    let kind = match key.value {
+        ValueType::Text => "text in quotes".to_owned(),
+        ValueType::Moment => "text in quotes, or TOML's own date or time".to_owned(),
+        ValueType::TwoMoments => "a list of two dates".to_owned(),
+        ValueType::Number => "a number".to_owned(),
+        ValueType::Numbers(count) => format!("a list of {count} numbers"),
+        ValueType::TextOrNumber => "text in quotes, or a whole number".to_owned(),
+        ValueType::Names => "`true`, `false`, or a list of names in quotes".to_owned(),
+        ValueType::Word(words) => words().iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(", "),
+    };
+    if key.unit.is_empty() { kind } else { format!("{kind}, {}", key.unit) }
+}
