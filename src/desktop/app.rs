@@ -373,6 +373,10 @@ impl App {
         let Some(open) = &self.open else { return };
         let project = &open.project;
         let changed = project.written.site != self.settings.site || project.hidden != self.settings.hidden;
+        if !changed && self.refused.take().is_some() {
+            // the open site is asked for again, and what was refused is past
+            self.fault = None;
+        }
         let is_refused = self.refused.as_ref().is_some_and(|refused| refused.site == self.settings.site);
         if changed && rests && !is_refused && self.loading.is_none() {
             let mut written = project.written.clone();
