@@ -120,7 +120,7 @@ fn what_does_not_fit_names_the_choice_and_the_way_out() {
     let fit = |method: Method, engine, subject| told(method.row().fit(engine, subject).map(drop));
     assert_eq!(
         fit(Method::Projected, Engine::Auto, Subject::Side),
-        "technique: projected does not draw a side; take ray-cast; projected goes with receivers top or receivers ground"
+        "technique: projected does not draw a side; take ray-cast"
     );
     assert_eq!(
         fit(Method::RayCast, Engine::Gpu, Subject::Side),
@@ -129,7 +129,7 @@ fn what_does_not_fit_names_the_choice_and_the_way_out() {
     assert_eq!(
         fit(Method::SoftTexture, Engine::Gpu, Subject::Camera),
         "engine: soft-texture draws a camera's picture on the cpu alone; \
-         leave it out, or take stencil, shadow-map, hybrid or smoothie with gpu; soft-texture goes with receivers surfaces"
+         leave it out, or take stencil, shadow-map, hybrid or smoothie with gpu"
     );
     let check = |method: Method, finder, settings| told(method.row().check(finder, &settings, Subject::Top));
     let map = Settings { map_size: Some(512), ..Settings::NONE };

@@ -104,15 +104,17 @@ impl Worded for Misfit {
     fn message(&self) -> Message {
         let (what, mut hint) = self.what_and_hint();
         if let Some((method, subjects)) = self.draws_instead() {
-            hint.extend(pieces![format!("; {method} goes with ")]);
+            let mut instead = pieces![format!("; {method} goes with ")];
             for (at, subject) in subjects.iter().enumerate() {
                 let gap = match at {
                     0 => "",
                     _ if at + 1 == subjects.len() => " or ",
                     _ => ", ",
                 };
-                hint.extend(pieces![gap, subject.choice()]);
+                instead.extend(pieces![gap, subject.choice()]);
             }
+            // who has no such field has other ways to choose what is drawn
+            hint.push(Piece::Where(Field::Receivers, instead));
         }
         Message { what: pieces![what], hint }.of(self.field().into())
     }
