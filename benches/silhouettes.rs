@@ -14,7 +14,7 @@ use glam::{DVec3, DVec4, dvec3};
 use gnomon::gpu::Gpu;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::shadow::walls::extraction::{Extraction, Program};
-use gnomon::shadow::walls::{Sought, Walls};
+use gnomon::shadow::walls::{WallQuery, Walls};
 use gnomon::silhouette::hierarchy::Hierarchy;
 use gnomon::silhouette::{DirectedEdge, Kind, Looked, SilhouetteFinder, hextree};
 use gnomon::site::{Overrides, Site};
@@ -148,7 +148,7 @@ fn entries(gpu: Option<&Machine>, mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
         let name = format!("gpu, in {}", extraction.runs());
         let gpu = Arc::clone(gpu);
         let query = Box::new(move |mesh: &Mesh, local_light, _: &mut Vec<_>| {
-            let sought = Sought { local_light, to_infinity: true, with_cap: false, halved: false, borders: None };
+            let sought = WallQuery { local_light, to_infinity: true, with_cap: false, halved: false, borders: None };
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             extraction.find(mesh, &sought, &mut encoder).expect("a list");
             gpu.queue.submit([encoder.finish()]);

@@ -41,7 +41,7 @@ fn row(name: &str) {
     let outcome = study::run(&site, &Wants { surface: true, ..Wants::default() }, &mut |_| ControlFlow::Continue(()))
         .expect("a study");
     let surface = outcome.surface.as_ref().expect("a surface");
-    let scene = figure::Scene {
+    let scene = figure::FigureContext {
         place: &site.place,
         track: &site.track,
         mesh: &outcome.surface_mesh,

@@ -325,9 +325,11 @@ fn put_together(sources: &[(PathBuf, String)]) -> Vec<String> {
     let mut files = Vec::new();
     for (path, source) in sources.iter().filter(|(path, _)| module_of(path)[0] != "export") {
         let code = without_comments(source);
-        let found = ["figure::Scene {", "Told {"].into_iter().flat_map(|word| code.match_indices(word));
+        let found =
+            ["figure::FigureContext {", "ReportContext {"].into_iter().flat_map(|word| code.match_indices(word));
         let fields = found.map(|(at, _)| code[at..].split('}').next().unwrap_or_default());
-        let whole = fields.filter(|fields| !fields.contains("..scene(") && !fields.contains("..told("));
+        let whole =
+            fields.filter(|fields| !fields.contains("..figure_context(") && !fields.contains("..report_context("));
         files.extend(whole.map(|_| path.display().to_string()));
     }
     files
@@ -336,7 +338,7 @@ fn put_together(sources: &[(PathBuf, String)]) -> Vec<String> {
 #[test]
 fn drawings_and_reports_are_put_together_in_one_place() {
     assert_eq!(put_together(&files("src", "rs")), ["deliver/parts.rs"; 2], "what a drawing is told, and a report");
-    let twin = (PathBuf::from("desktop/hours.rs"), "let scene = figure::Scene { place, track };".to_owned());
+    let twin = (PathBuf::from("desktop/hours.rs"), "let scene = figure::FigureContext { place, track };".to_owned());
     assert_eq!(put_together(&[twin]), ["desktop/hours.rs"]);
 }
 

@@ -113,7 +113,7 @@ fn the_sheet_of_a_side_has_no_north_arrow() {
     let accents = |view: View| {
         let wants = InstantWants { surface: true, ..InstantWants::default() };
         let outcome = study::instant(&site, view, &wants, &mut |_| ControlFlow::Continue(())).unwrap();
-        let scene = figure::Scene {
+        let scene = figure::FigureContext {
             place: &site.place,
             track: &site.track,
             mesh: &outcome.surface_mesh,
@@ -122,7 +122,7 @@ fn the_sheet_of_a_side_has_no_north_arrow() {
             ground: site.ground,
             drawn: &outcome.drawn,
         };
-        let png = figure::instant(&scene, &view, &outcome.mask, &figure::Shown::default()).unwrap();
+        let png = figure::instant(&scene, &view, &outcome.mask, &figure::PictureExtras::default()).unwrap();
         let page = image::load_from_memory(&png).unwrap().to_rgb8();
         let arrow =
             page.enumerate_pixels().filter(|(_, y, pixel)| y * 5 > page.height() * 4 && pixel.0 == [190, 82, 44]);

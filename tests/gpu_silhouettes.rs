@@ -12,7 +12,7 @@ use gnomon::shadow::near_clip::near_clip_volume_touched;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::walls::borders::Borders;
 use gnomon::shadow::walls::extraction::{Extraction, Program};
-use gnomon::shadow::walls::{Sought, Walls};
+use gnomon::shadow::walls::{WallQuery, Walls};
 use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::brute_force::BruteForce;
 use gnomon::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
@@ -30,13 +30,13 @@ fn program() -> &'static Program {
 }
 
 /// The walls as the indices that are drawn, and the cap's; and how many runs wrote them.
-fn extracted(mesh: &Mesh, sought: &Sought, most: u64) -> Result<([Vec<u32>; 2], usize), GpuError> {
+fn extracted(mesh: &Mesh, sought: &WallQuery, most: u64) -> Result<([Vec<u32>; 2], usize), GpuError> {
     let gpu = gpu();
     let mut extraction = Extraction::new(program(), mesh, most)?;
     // the second answer must not build on the first
     for light in [-sought.local_light, sought.local_light] {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        extraction.find(mesh, &Sought { local_light: light, ..*sought }, &mut encoder)?;
+        extraction.find(mesh, &WallQuery { local_light: light, ..*sought }, &mut encoder)?;
         gpu.queue.submit([encoder.finish()]);
     }
     Ok((extraction.read()?, extraction.runs()))
@@ -51,7 +51,7 @@ fn brute_force(mesh: &Mesh, light: DVec4) -> Vec<DirectedEdge> {
 
 /// Holds one extraction, in runs of at most `most` bytes, against the processor.
 fn check(name: &str, mesh: &Mesh, light: DVec4, to_infinity: bool, most: u64) -> usize {
-    let sought = Sought { local_light: light, to_infinity, with_cap: true, halved: false, borders: None };
+    let sought = WallQuery { local_light: light, to_infinity, with_cap: true, halved: false, borders: None };
     let ([walls, cap], runs) = extracted(mesh, &sought, most).unwrap();
     let (facing, expected_facing) = (facing_of(mesh, &cap), mesh.facing(light));
     for face in 0..mesh.faces.len() {
@@ -76,7 +76,7 @@ fn one_wrong_edge_is_seen() {
     let mesh = Mesh::build(vec![cuboid("box", dvec3(-3.0, -4.0, 0.0), dvec3(3.0, 4.0, 7.0))]).unwrap();
     let light = dvec4(0.3, 0.4, 0.8, 0.0);
     for to_infinity in [false, true] {
-        let sought = Sought { local_light: light, to_infinity, with_cap: true, halved: false, borders: None };
+        let sought = WallQuery { local_light: light, to_infinity, with_cap: true, halved: false, borders: None };
         let ([walls, _], _) = extracted(&mesh, &sought, PLENTY).unwrap();
         let sorted = |walls: &[u32]| {
             let mut edges = edges_of(&mesh, walls, light, to_infinity);
@@ -131,7 +131,7 @@ fn halved_walls_stand_half_as_often() {
     let mesh = Mesh::build(vec![sphere(9.0, 20, 12), cuboid("box", DVec3::splat(20.0), DVec3::splat(25.0))]).unwrap();
     let light = dvec4(0.3, 0.4, 0.8, 0.0);
     for to_infinity in [false, true] {
-        let sought = Sought { local_light: light, to_infinity, with_cap: false, halved: true, borders: None };
+        let sought = WallQuery { local_light: light, to_infinity, with_cap: false, halved: true, borders: None };
         let ([walls, cap], _) = extracted(&mesh, &sought, PLENTY).unwrap();
         assert!(cap.is_empty());
         let mut twice: Vec<_> =
@@ -149,7 +149,7 @@ fn what_does_not_fit_is_an_error() {
     });
     let mesh = Mesh::build(vec![joined(pages.collect())]).unwrap();
     let sought =
-        |to_infinity| Sought { local_light: DVec4::Y, to_infinity, with_cap: false, halved: false, borders: None };
+        |to_infinity| WallQuery { local_light: DVec4::Y, to_infinity, with_cap: false, halved: false, borders: None };
     // ten walls can hang from the spine
     assert!(extracted(&mesh, &sought(false), 240).is_ok());
     let error = extracted(&mesh, &sought(false), 239).unwrap_err().to_string();

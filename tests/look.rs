@@ -2,7 +2,7 @@
 
 use crate::shared::drawing::gpu;
 use gnomon::choice::{Engine, Method, Receivers, Settings};
-use gnomon::export::figure::{self, Shown};
+use gnomon::export::figure::{self, PictureExtras};
 use gnomon::gpu::readback;
 use gnomon::look::LOOK;
 use gnomon::picture::{Picture, Style};
@@ -68,7 +68,7 @@ fn pair(site: &Site, view: View, is_tinted: bool) -> Pair {
         adapter: None,
         settings: Settings::NONE,
     };
-    let sheet = figure::Scene {
+    let sheet = figure::FigureContext {
         place: &site.place,
         track: &site.track,
         mesh: &scene.receivers,
@@ -77,7 +77,7 @@ fn pair(site: &Site, view: View, is_tinted: bool) -> Pair {
         ground: site.ground,
         drawn: &drawn,
     };
-    let shown = Shown { casts: is_tinted.then_some(casts.as_slice()), ..Shown::default() };
+    let shown = PictureExtras { casts: is_tinted.then_some(casts.as_slice()), ..PictureExtras::default() };
     let drawing = figure::bare(&sheet, &view, &mask, instant.to_sun, &shown);
     let picture = readback::texels(&gpu(), &target, TextureAspect::All).expect("pixels");
     let planes = scene.receivers.planes();

@@ -5,7 +5,7 @@ use gnomon::deliver::{Folder, Sink};
 use gnomon::gpu::{Gpu, GpuError, lose_after, readback};
 use gnomon::site::{Engine, Method, Overrides, Receivers, Site};
 use gnomon::study::again::persist;
-use gnomon::study::{self, Event, InstantWants, Stopwatch, StudyError, Tiled, Wants};
+use gnomon::study::{self, Event, InstantWants, Stopwatch, StudyError, TiledStudy, Wants};
 use gnomon::view::View;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -240,7 +240,7 @@ fn study_goes_on_from_what_was_kept() {
     let nothing = &mut |_: Event<'_>| ControlFlow::Continue(());
     for keeps in [true, false] {
         let (mut told, mut kept, mut sums, mut gone_on) = (Told::default(), None, None, Vec::new());
-        let tiled = Tiled::new(&site, &wants, nothing).expect("a study");
+        let tiled = TiledStudy::new(&site, &wants, nothing).expect("a study");
         study::in_tiles(tiled, None, &mut |event| {
             match &event {
                 Event::Kept(unfinished) => {

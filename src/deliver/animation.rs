@@ -1,9 +1,9 @@
 //! The study's instants as pictures, and as a GIF. Both lie in a folder: the GIF is made of the pictures when all are there.
 
-use super::parts::{Seen, note, note_letters, scene, told};
+use super::parts::{Seen, figure_context, note, note_letters, report_context};
 use super::{DeliverError, Folder, Sink, Written};
 use crate::export::animation::{Frames, MOST_FRAMES};
-use crate::export::figure::{self, Shown};
+use crate::export::figure::{self, PictureExtras};
 use crate::export::report;
 use crate::profile::Drawn;
 use crate::site::Site;
@@ -75,7 +75,7 @@ pub fn animation(
     let gif = gif.finish()?;
     watch.lap("gif");
     let timings = &watch.timings();
-    let told = told(site, study::judged(site, &asked.view), &drawn, timings, None);
+    let told = report_context(site, study::judged(site, &asked.view), &drawn, timings, None);
     let report = report::shadow_json(&asked.view, &site.place, &site.track, &told)?;
     let paths = (0..count).map(|index| Frames::path(folder.path, index)).collect();
     Ok(AnimationAnswer { gif, frames: Written { paths, files: Vec::new() }, report, drawn })
@@ -92,8 +92,8 @@ fn draw(
     note(frames.note(), on_event)?;
     let drawn = study::frames(site, asked.view, on_event, &mut |frame| -> Result<(), DeliverError> {
         let Frame { track, mask, surface, surface_mesh: mesh, receivers, drawn } = *frame;
-        let scene = figure::Scene { track, ..scene(site, Seen { receivers, surface, mesh, drawn }) };
-        let picture = figure::instant_on_screen(&scene, &asked.view, mask, &Shown::default(), asked.width)?;
+        let scene = figure::FigureContext { track, ..figure_context(site, Seen { receivers, surface, mesh, drawn }) };
+        let picture = figure::instant_on_screen(&scene, &asked.view, mask, &PictureExtras::default(), asked.width)?;
         Ok(frames.add(&picture)?)
     })?;
     Ok((drawn, frames))

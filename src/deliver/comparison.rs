@@ -1,9 +1,9 @@
 //! What a change of a site does to its sun: as a drawing, a raster and a report.
 
-use super::parts::{Seen, note, note_letters, scene, told};
+use super::parts::{Seen, figure_context, note, note_letters, report_context};
 use super::sink::OpenSink;
 use super::{DeliverError, Sink, Written};
-use crate::export::report::Told;
+use crate::export::report::ReportContext;
 use crate::export::{comparison, figure, raster};
 use crate::profile::Drawn;
 use crate::site::Pair;
@@ -77,7 +77,7 @@ fn write(
     let site = &pair.after;
     let scenes = [0, 1].map(|at| {
         let (mesh, surface, drawn) = (&outcome.meshes[at], &outcome.surfaces[at], &outcome.drawn[at]);
-        scene(site, Seen { receivers: site.receivers, surface, mesh, drawn })
+        figure_context(site, Seen { receivers: site.receivers, surface, mesh, drawn })
     });
     let change = &outcome.comparison;
     let picture = figure::difference(&scenes, &pair.names, change)?;
@@ -88,7 +88,7 @@ fn write(
     tell(on_event, Event::Stage("raster"))?;
     let drawn = &outcome.drawn[1];
     let (timings, notes) = (&watch.timings(), &pair.notes());
-    let told = Told { notes, ..told(site, site.receivers, drawn, timings, None) };
+    let told = ReportContext { notes, ..report_context(site, site.receivers, drawn, timings, None) };
     let report = comparison::json(change, &pair.names, &site.place, &site.track, &told)?;
     let [of_drawing, of_raster, of_report] = names();
     let files = vec![(of_drawing, picture), (of_raster, raster), (of_report, report.clone().into_bytes())];

@@ -1,8 +1,8 @@
 //! The shadows at one instant: as a drawing, and as a bare mask.
 
-use super::parts::{Seen, note, note_letters, scene, told};
+use super::parts::{Seen, figure_context, note, note_letters, report_context};
 use super::{DeliverError, Sink, Written};
-use crate::export::figure::{self, Diagram, Shown};
+use crate::export::figure::{self, Diagram, PictureExtras};
 use crate::export::{raster, report};
 use crate::profile::{Drawn, Statistics};
 use crate::site::Site;
@@ -90,7 +90,7 @@ pub fn instant(
     let statistics = outcome.counted.as_ref().filter(|_| asked.statistics).map(Statistics::of);
     let receivers = study::judged(site, &asked.view);
     let timings = &watch.timings();
-    let told = told(site, receivers, &outcome.drawn, timings, statistics.as_ref());
+    let told = report_context(site, receivers, &outcome.drawn, timings, statistics.as_ref());
     let report = report::shadow_json(&asked.view, &site.place, &site.track, &told)?;
     Ok(InstantAnswer { written, report, drawn: outcome.drawn, statistics })
 }
@@ -102,9 +102,9 @@ fn draw(
     surface: &Surface,
 ) -> Result<Vec<u8>, DeliverError> {
     let InstantOutcome { mask, surface_mesh: mesh, drawn, overlay, counted, .. } = outcome;
-    let scene = scene(site, Seen { receivers: study::judged(site, &asked.view), surface, mesh, drawn });
+    let scene = figure_context(site, Seen { receivers: study::judged(site, &asked.view), surface, mesh, drawn });
     let casts = seen_casts(site);
-    let shown = Shown {
+    let shown = PictureExtras {
         overlay: overlay.as_ref(),
         casts: asked.show.components.then_some(casts.as_slice()),
         counted: counted.as_ref().zip(asked.show.diagram),

@@ -3,7 +3,7 @@
 use super::error::by_clock;
 use super::sink::NamedFile;
 use crate::export::ExportError;
-use crate::export::figure::{self, MOST_OUTLINES, Outline, Scene};
+use crate::export::figure::{self, FigureContext, MOST_OUTLINES, Outline};
 use crate::message::{Field, Message, Worded, message, plain_display};
 use crate::profile::Profile;
 use crate::sun::{Instant, SunTrack};
@@ -96,7 +96,7 @@ impl Lines {
     /// The files; `outlines` are those of all instants with a sun.
     pub(super) fn files<S: SurfaceRows>(
         self,
-        scene: &Scene<S>,
+        scene: &FigureContext<S>,
         profile: &Profile,
         outlines: &[Outline],
     ) -> Result<[NamedFile; 2], ExportError> {

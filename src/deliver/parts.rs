@@ -1,7 +1,7 @@
 //! What every deliverable is put together from: what a drawing is told, what a report is told, and the notes on both.
 
 use crate::export::figure;
-use crate::export::report::Told;
+use crate::export::report::ReportContext;
 use crate::mesh::Mesh;
 use crate::profile::{Drawn, Statistics, Timings};
 use crate::site::{Receivers, Site};
@@ -21,20 +21,28 @@ pub struct Seen<'a, S> {
 }
 
 /// What a drawing of a site needs beside the answer.
-pub fn scene<'a, S>(site: &'a Site, seen: Seen<'a, S>) -> figure::Scene<'a, S> {
+pub fn figure_context<'a, S>(site: &'a Site, seen: Seen<'a, S>) -> figure::FigureContext<'a, S> {
     let Seen { receivers, surface, mesh, drawn } = seen;
-    figure::Scene { place: &site.place, track: &site.track, mesh, surface, receivers, ground: site.ground, drawn }
+    figure::FigureContext {
+        place: &site.place,
+        track: &site.track,
+        mesh,
+        surface,
+        receivers,
+        ground: site.ground,
+        drawn,
+    }
 }
 
 /// What a report of a site tells beside the instants.
-pub(super) fn told<'a>(
+pub(super) fn report_context<'a>(
     site: &'a Site,
     receivers: Receivers,
     drawn: &'a Drawn,
     timings: &'a Timings,
     statistics: Option<&'a Statistics>,
-) -> Told<'a> {
-    Told { receivers, ground: site.ground, drawn, timings, statistics, notes: &site.notes }
+) -> ReportContext<'a> {
+    ReportContext { receivers, ground: site.ground, drawn, timings, statistics, notes: &site.notes }
 }
 
 /// Notes letters that no font has, of texts that are drawn.

@@ -1,6 +1,6 @@
 //! Hours of sun on the model itself: as a drawing, a model, a table and a report.
 
-use super::parts::{Seen, note, note_letters, scene, told};
+use super::parts::{Seen, figure_context, note, note_letters, report_context};
 use super::sink::OpenSink;
 use super::{DeliverError, NamedFile, Sink, Written};
 use crate::export::surfaces::{self, Surfaces};
@@ -105,7 +105,7 @@ fn write(
     };
     if asked.drawing {
         let (mesh, surface) = &study::seen_receivers(site)?;
-        let scene = scene(site, Seen { receivers, surface, mesh, drawn });
+        let scene = figure_context(site, Seen { receivers, surface, mesh, drawn });
         files.push((DRAWING.into(), figure::surfaces(&scene, &site.picture(), &answer)?));
         stage(&mut watch, "picture")?;
     }
@@ -116,7 +116,7 @@ fn write(
     if asked.table {
         files.push((TABLE.into(), surfaces::csv(&answer).into_bytes()));
     }
-    let report = report::surfaces_json(&answer, &told(site, receivers, drawn, &watch.timings(), None))?;
+    let report = report::surfaces_json(&answer, &report_context(site, receivers, drawn, &watch.timings(), None))?;
     if asked.report {
         files.push((REPORT.into(), report.clone().into_bytes()));
     }

@@ -1,20 +1,20 @@
 //! The window's state, and its frame: menus above, panel beside, time below, the picture in the middle.
 
 use super::bare::Bare;
-use super::change::Known;
+use super::change::BeforeState;
 use super::clock::Clock;
 use super::eye::Stand;
 use super::files::{self, Answer, Asking};
-use super::hours::{self, Laid};
+use super::hours::{self, StudyResult};
 use super::loading::{Fault, Loading, Project, Wanted};
-use super::pick::Under;
+use super::pick::PickedPoint;
 use super::reopening::devices;
 use super::saving::{Saving, Then};
 use super::settings::{History, Settings};
 use super::stage::Stage;
 use super::typed::Typed;
 use super::unit::Unit;
-use super::view::{Asked, Viewer};
+use super::view::{ViewRequest, Viewer};
 use super::work::Work;
 use super::{cards, look, panel, screen};
 use crate::export::figure::Colours;
@@ -32,7 +32,7 @@ use std::sync::Arc;
 
 /// What is kept from one start to the next.
 #[derive(Default, Serialize, Deserialize)]
-pub(super) struct Kept {
+pub(super) struct PersistentState {
     pub(super) recent: Vec<PathBuf>,
     pub(super) feet: bool,
     pub(super) no_sun_path: bool,
@@ -49,19 +49,19 @@ pub(super) struct Open {
     /// How many times hours were asked for.
     pub(super) answers: u64,
     /// The hours that are being added up.
-    pub(super) adding: Option<Work<Laid>>,
+    pub(super) adding: Option<Work<StudyResult>>,
     /// The hours that were found, or the change.
-    pub(super) laid: Option<Arc<Laid>>,
+    pub(super) laid: Option<Arc<StudyResult>>,
     /// Whether they lie over the model, instead of one instant: a matter of looking, which undo leaves alone.
     pub(super) shows_hours: bool,
     /// The state that was kept to be compared with.
-    pub(super) known: Option<Known>,
+    pub(super) known: Option<BeforeState>,
     /// The point that is being searched.
     pub(super) probing: Option<Work<Sunlight>>,
     /// When a point lies in the sun.
     pub(super) sunlight: Option<Sunlight>,
     /// What was clicked for it.
-    pub(super) clicked: Option<Under>,
+    pub(super) clicked: Option<PickedPoint>,
 }
 
 /// The window.
@@ -70,7 +70,7 @@ pub struct App {
     pub(super) gpu: Gpu,
     pub(super) render: RenderState,
     pub(super) stage: Stage,
-    pub(super) kept: Kept,
+    pub(super) kept: PersistentState,
     /// The open site.
     pub(super) open: Option<Open>,
     /// What a person sets.
@@ -281,7 +281,7 @@ impl App {
                         let before = Arc::clone(&change.before);
                         if open.known.as_ref().is_none_or(|known| known.before != before || known.laid.is_none()) {
                             let models = change.models.clone();
-                            open.known = Some(Known { before: Arc::clone(&before), models, laid: None });
+                            open.known = Some(BeforeState { before: Arc::clone(&before), models, laid: None });
                         }
                         self.settings.before = Some(before);
                     }
@@ -469,7 +469,7 @@ impl App {
         let Some(open) = &mut self.open else { return };
         open.clock.tick(&context);
         let Open { project, number, clock, viewer, laid, shows_hours, .. } = open;
-        let asked = Asked {
+        let asked = ViewRequest {
             project,
             number: *number,
             choice: self.settings.shown,

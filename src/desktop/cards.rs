@@ -2,7 +2,7 @@
 
 use super::app::Open;
 use super::components;
-use super::hours::Laid;
+use super::hours::StudyResult;
 use super::look;
 use super::settings::Settings;
 use super::sky;
@@ -75,7 +75,7 @@ pub(super) fn swatch(ui: &mut Ui, [r, g, b]: Rgb, what: &str) {
 }
 
 /// What the colours mean of what lies over the scene.
-fn legend(ui: &mut Ui, laid: &Laid) {
+fn legend(ui: &mut Ui, laid: &StudyResult) {
     let (head, entries) = laid.legend();
     ui.label(head);
     scrolled(ui, 0.0, |ui| swatches(ui, &entries));
@@ -92,7 +92,7 @@ fn swatches(ui: &mut Ui, entries: &[(Rgb, String)]) {
     });
 }
 
-fn probe(open: &mut Open, settings: &mut Settings, unit: Unit, laid: Option<&Arc<Laid>>, ui: &mut Ui) {
+fn probe(open: &mut Open, settings: &mut Settings, unit: Unit, laid: Option<&Arc<StudyResult>>, ui: &mut Ui) {
     if open.probing.is_some() {
         ui.horizontal(|ui| {
             ui.add(egui::Spinner::new().size(16.0));

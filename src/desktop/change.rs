@@ -1,6 +1,6 @@
 //! What a change does to the sun: another state of the site, before, and the open one, after.
 
-use super::hours::{Found, Laid, cell_at, raster};
+use super::hours::{Findings, StudyResult, cell_at, raster};
 use super::loading::Project;
 use super::work::Work;
 use crate::deliver::Sink;
@@ -33,17 +33,17 @@ pub(super) struct Change {
 
 /// What is known of the state that is compared with.
 #[derive(Clone)]
-pub(super) struct Known {
+pub(super) struct BeforeState {
     /// As it was written.
     pub(super) before: Arc<Written>,
     /// Its models. Those of a kept state stay as they were, whatever becomes of their files; those of another file are that
     /// file's.
     pub(super) models: Models,
     /// The hours of a state that was kept.
-    pub(super) laid: Option<Arc<Laid>>,
+    pub(super) laid: Option<Arc<StudyResult>>,
 }
 
-impl Known {
+impl BeforeState {
     /// Its models, where they need not be read anew.
     fn models(&self) -> Option<Models> {
         let holds = self.laid.is_some() || self.models.changed_file().is_none();
@@ -59,7 +59,7 @@ impl Known {
             && known.ground.level == site.ground.level
             && laid.method == site.method;
         match &laid.found {
-            Found::Shadow(hours) if same => Some(hours.outcome()),
+            Findings::Shadow(hours) if same => Some(hours.outcome()),
             _ => None,
         }
     }
@@ -77,11 +77,11 @@ pub(super) fn read(path: &Path, project: &Project) -> Result<Written, SiteError>
 pub(super) fn find(
     project: &Project,
     before: Arc<Written>,
-    known: Option<Known>,
+    known: Option<BeforeState>,
     method: Method,
     number: u64,
     context: egui::Context,
-) -> Work<Laid> {
+) -> Work<StudyResult> {
     let site = Arc::clone(&project.site);
     let (mut after, written) = (project.written.clone(), project.written.site.clone());
     let (models_after, mark) = (project.models.clone(), project.models.mark());
@@ -95,7 +95,7 @@ pub(super) fn find(
         first.site.study = after.site.study.clone();
         first.site.plan = after.site.plan.clone();
         first.site.camera = after.site.camera.clone();
-        let at_hand = known.as_ref().and_then(Known::models);
+        let at_hand = known.as_ref().and_then(BeforeState::models);
         let models = at_hand.map_or_else(|| Models::read(&first, model::load), Ok)?;
         let takes_ground = first.site.ground.level.is_none() && !models.stand_on(site.ground.level);
         if takes_ground {
@@ -119,8 +119,8 @@ pub(super) fn find(
         for site in [&mut pair.before, &mut pair.after] {
             site.mesh = site.mesh.of_components(&[]);
         }
-        let found = Found::Change(Box::new(Change { before, models, pair, outcome, timings, colours }));
-        Ok(Laid { number, site, method, written, mark, found })
+        let found = Findings::Change(Box::new(Change { before, models, pair, outcome, timings, colours }));
+        Ok(StudyResult { number, site, method, written, mark, found })
     })
 }
 

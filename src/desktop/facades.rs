@@ -1,8 +1,8 @@
 //! Hours of sun on the model itself: façades, roofs and undersides, texel by texel.
 
-use super::hours::{Found, Laid};
+use super::hours::{Findings, StudyResult};
 use super::loading::Project;
-use super::pick::Under;
+use super::pick::PickedPoint;
 use super::settings::Settings;
 use super::unit::Unit;
 use super::work::Work;
@@ -35,7 +35,7 @@ pub(super) fn method(settings: &Settings) -> Method {
 }
 
 /// Finds the hours of sun on the surfaces of a site.
-pub(super) fn find(project: &Project, method: Method, number: u64, context: egui::Context) -> Work<Laid> {
+pub(super) fn find(project: &Project, method: Method, number: u64, context: egui::Context) -> Work<StudyResult> {
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
     let mark = project.models.mark();
     Work::start(context, move |on_event| {
@@ -45,8 +45,8 @@ pub(super) fn find(project: &Project, method: Method, number: u64, context: egui
         let atlas = Atlas::of(&answer);
         let pages = atlas.colours(&answer.bands(), outcome.hours.samples);
         let legend = figure::surfaces_legend(&answer);
-        let found = Found::Facades(Box::new(Facades { outcome, atlas, pages, legend }));
-        Ok(Laid { number, site, method, written, mark, found })
+        let found = Findings::Facades(Box::new(Facades { outcome, atlas, pages, legend }));
+        Ok(StudyResult { number, site, method, written, mark, found })
     })
 }
 
@@ -65,7 +65,7 @@ impl Facades {
     }
 
     /// The hours of sun at a point, and where it lies on its face.
-    pub(super) fn said(&self, under: &Under, unit: Unit) -> Option<String> {
+    pub(super) fn said(&self, under: &PickedPoint, unit: Unit) -> Option<String> {
         let patches = &self.outcome.patches;
         let patch = self.atlas.patch(patches, under.face?, under.normal)?;
         let point = under.point - patches.origin;

@@ -1,10 +1,10 @@
 //! The panel's part that finds hours and changes, and tells what was found.
 
 use super::app::{App, Open};
-use super::change::{self, Known};
+use super::change::{self, BeforeState};
 use super::facades;
 use super::files::Purpose;
-use super::hours::{self, Found};
+use super::hours::{self, Findings};
 use super::loading::name_of;
 use super::look;
 use super::settings::Settings;
@@ -94,8 +94,9 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
         ui.add(egui::Label::new(format!("Before: {name}")).truncate()).on_hover_text(&before.file);
     }
     ui.horizontal(|ui| {
-        let is_asked = |laid: &&Arc<hours::Laid>| laid.is_asked(&open.project, &app.settings);
-        let laid = open.laid.as_ref().filter(is_asked).filter(|laid| matches!(laid.found, Found::Shadow(_))).cloned();
+        let is_asked = |laid: &&Arc<hours::StudyResult>| laid.is_asked(&open.project, &app.settings);
+        let laid =
+            open.laid.as_ref().filter(is_asked).filter(|laid| matches!(laid.found, Findings::Shadow(_))).cloned();
         if app.settings.before.is_some() {
             if ui.button("Compare no more").clicked() {
                 // what is being found would bring it back
@@ -107,7 +108,7 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
         {
             let before = Arc::new(open.project.written.clone());
             app.settings.before = Some(Arc::clone(&before));
-            open.known = Some(Known { before, models: open.project.models.clone(), laid: Some(laid) });
+            open.known = Some(BeforeState { before, models: open.project.models.clone(), laid: Some(laid) });
         }
         ui.add_enabled_ui(rests, |ui| {
             ui.menu_button("Compare with", |ui| {

@@ -5,7 +5,7 @@ use super::clock::Play;
 use super::eye::Stand;
 use super::files::{self, Purpose};
 use super::handing;
-use super::hours::Found;
+use super::hours::Findings;
 use super::loading::{Wanted, name_of};
 use super::look;
 use super::time::steps;
@@ -149,7 +149,7 @@ impl App {
                     self.ask(Purpose::Drawing, &context);
                 }
                 let laid = self.open.as_ref().and_then(|open| open.laid.as_ref());
-                let has_lines = laid.is_some_and(|laid| matches!(laid.found, Found::Shadow(_)));
+                let has_lines = laid.is_some_and(|laid| matches!(laid.found, Findings::Shadow(_)));
                 for (name, purpose, is_there) in [
                     ("Export the hours…", Purpose::Hours, laid.is_some()),
                     ("Export the iso-hour lines…", Purpose::Lines(Lines::Hours), has_lines),

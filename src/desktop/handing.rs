@@ -1,7 +1,7 @@
 //! What is handed in, as the command makes it: the site file, drawings, hours and animations.
 
 use super::eye::{Eye, Stand};
-use super::hours::Laid;
+use super::hours::StudyResult;
 use super::loading::Project;
 use super::settings::Settings;
 use super::view;
@@ -185,7 +185,7 @@ pub(super) fn progress(writing: &Work<PathBuf>, ui: &mut egui::Ui) -> bool {
 pub(super) fn found(
     project: &Project,
     settings: &Settings,
-    laid: Arc<Laid>,
+    laid: Arc<StudyResult>,
     lines: Option<Lines>,
     folder: PathBuf,
     context: egui::Context,

@@ -5,7 +5,7 @@ use super::change::Change;
 use super::facades::{self, Facades};
 use super::handing::WHO;
 use super::loading::Project;
-use super::pick::Under;
+use super::pick::PickedPoint;
 use super::settings::Settings;
 use super::unit::Unit;
 use super::work::Work;
@@ -30,7 +30,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What was found, ready to be laid over the scene.
-pub(super) struct Laid {
+pub(super) struct StudyResult {
     /// Grows with every answer.
     pub(super) number: u64,
     /// The open site that it was found of.
@@ -42,11 +42,11 @@ pub(super) struct Laid {
     /// The number of its models.
     pub(super) mark: u64,
     /// What.
-    pub(super) found: Found,
+    pub(super) found: Findings,
 }
 
 /// What can be found.
-pub(super) enum Found {
+pub(super) enum Findings {
     /// The hours of shadow on ground and roofs.
     Shadow(Box<ShadowHours>),
     /// What changes from another state to that of the site.
@@ -55,16 +55,16 @@ pub(super) enum Found {
     Facades(Box<Facades>),
 }
 
-impl Laid {
+impl StudyResult {
     /// Lays it over a picture of the site, or of what of it is visible.
     ///
     /// # Errors
     /// Where the adapter cannot hold it.
     pub(super) fn lay(&self, picture: &mut Picture, visible: &Site) -> Result<(), ShadowError> {
         match &self.found {
-            Found::Shadow(hours) => picture.lay_hours(Some(hours.raster())),
-            Found::Change(change) => picture.lay_hours(Some(change.raster())),
-            Found::Facades(facades) => facades.lay(picture, &self.site, visible)?,
+            Findings::Shadow(hours) => picture.lay_hours(Some(hours.raster())),
+            Findings::Change(change) => picture.lay_hours(Some(change.raster())),
+            Findings::Facades(facades) => facades.lay(picture, &self.site, visible)?,
         }
         Ok(())
     }
@@ -72,9 +72,9 @@ impl Laid {
     /// What it is, in a few words.
     pub(super) fn what(&self) -> &'static str {
         match &self.found {
-            Found::Shadow(_) => "hours of shadow",
-            Found::Change(_) => "sun lost and gained",
-            Found::Facades(_) => "hours of sun",
+            Findings::Shadow(_) => "hours of shadow",
+            Findings::Change(_) => "sun lost and gained",
+            Findings::Facades(_) => "hours of sun",
         }
     }
 
@@ -82,33 +82,33 @@ impl Laid {
     pub(super) fn lies_on(&self, site: &Site) -> bool {
         let ours = &self.site;
         let same_mesh = || ours.mesh.vertices == site.mesh.vertices && ours.mesh.faces == site.mesh.faces;
-        !matches!(self.found, Found::Facades(_)) || (ours.receives == site.receives && same_mesh())
+        !matches!(self.found, Findings::Facades(_)) || (ours.receives == site.receives && same_mesh())
     }
 
     /// What it says of a point, where its surface is the one that was counted.
-    pub(super) fn said(&self, under: &Under, unit: Unit) -> Option<String> {
+    pub(super) fn said(&self, under: &PickedPoint, unit: Unit) -> Option<String> {
         match &self.found {
-            Found::Shadow(hours) => hours.said(under.point),
-            Found::Change(change) => change.said(under.point),
-            Found::Facades(facades) => facades.said(under, unit),
+            Findings::Shadow(hours) => hours.said(under.point),
+            Findings::Change(change) => change.said(under.point),
+            Findings::Facades(facades) => facades.said(under, unit),
         }
     }
 
     /// What its colours mean: a head, and each of them.
     pub(super) fn legend(&self) -> (String, Vec<(Rgb, String)>) {
         match &self.found {
-            Found::Shadow(hours) => hours.legend(),
-            Found::Change(change) => (change.colours.legend_head.clone(), change.colours.legend.clone()),
-            Found::Facades(facades) => facades.legend.clone(),
+            Findings::Shadow(hours) => hours.legend(),
+            Findings::Change(change) => (change.colours.legend_head.clone(), change.colours.legend.clone()),
+            Findings::Facades(facades) => facades.legend.clone(),
         }
     }
 
     /// What its files are called.
     pub(super) fn names(&self) -> Vec<PathBuf> {
         match &self.found {
-            Found::Shadow(hours) => hours.all().names(),
-            Found::Change(_) => comparison::names().to_vec(),
-            Found::Facades(facades) => facades.all().names(),
+            Findings::Shadow(hours) => hours.all().names(),
+            Findings::Change(_) => comparison::names().to_vec(),
+            Findings::Facades(facades) => facades.all().names(),
         }
     }
 
@@ -118,28 +118,28 @@ impl Laid {
     /// Where the study has no such lines, or the files cannot be written.
     pub(super) fn write(&self, lines: Option<Lines>, sink: Sink<'_>, on_event: &mut OnEvent<'_>) -> anyhow::Result<()> {
         match (&self.found, lines) {
-            (Found::Shadow(hours), None) => hours.write(&self.site, &hours.all(), sink, on_event),
-            (Found::Shadow(hours), Some(lines)) => {
+            (Findings::Shadow(hours), None) => hours.write(&self.site, &hours.all(), sink, on_event),
+            (Findings::Shadow(hours), Some(lines)) => {
                 let lines = ProfileRequest { lines: &[lines], ..hours.nothing() };
                 hours.write(&self.site, &lines, sink, on_event)
             }
             (_, Some(_)) => anyhow::bail!("lines are drawn of the hours of shadow on the plan; find those first"),
-            (Found::Change(change), None) => change.write(sink, on_event),
-            (Found::Facades(facades), None) => facades.write(&self.site, sink, on_event),
+            (Findings::Change(change), None) => change.write(sink, on_event),
+            (Findings::Facades(facades), None) => facades.write(&self.site, sink, on_event),
         }
     }
 
     /// Whether it is what the settings ask of the site.
     pub(super) fn is_asked(&self, project: &Project, settings: &Settings) -> bool {
         let is_found = match (&self.found, &settings.before) {
-            (Found::Change(change), Some(before)) => change.before == *before,
-            (Found::Shadow(_), None) => !settings.shown.facades,
-            (Found::Facades(_), None) => settings.shown.facades,
+            (Findings::Change(change), Some(before)) => change.before == *before,
+            (Findings::Shadow(_), None) => !settings.shown.facades,
+            (Findings::Facades(_), None) => settings.shown.facades,
             _ => false,
         };
         let method = match self.found {
-            Found::Facades(_) => facades::method(settings),
-            Found::Shadow(_) | Found::Change(_) => settings.shown.method,
+            Findings::Facades(_) => facades::method(settings),
+            Findings::Shadow(_) | Findings::Change(_) => settings.shown.method,
         };
         let (then, now) = (&self.written, &project.written.site);
         let same_models = then.model == now.model && self.mark == project.models.mark();
@@ -152,7 +152,7 @@ impl Laid {
     /// The change, where it is one.
     pub(super) fn change(&self) -> Option<&Change> {
         match &self.found {
-            Found::Change(change) => Some(change),
+            Findings::Change(change) => Some(change),
             _ => None,
         }
     }
@@ -271,7 +271,7 @@ pub(super) fn add_up(
     number: u64,
     studies: Option<PathBuf>,
     context: egui::Context,
-) -> Work<Laid> {
+) -> Work<StudyResult> {
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
     let mark = project.models.mark();
     Work::start(context, move |on_event| {
@@ -280,8 +280,8 @@ pub(super) fn add_up(
         let asked = ProfileRequest { bits, ..ProfileRequest::of(Stopwatch::start()) };
         let shelf = studies.as_deref().map(|path| Folder { path, who: WHO, inputs: &[] });
         let hours = find_hours(&Site { method, ..Site::clone(&site) }, &asked, shelf, on_event)?;
-        let found = Found::Shadow(Box::new(ShadowHours::new(&site, hours)));
-        Ok(Laid { number, site, method, written, mark, found })
+        let found = Findings::Shadow(Box::new(ShadowHours::new(&site, hours)));
+        Ok(StudyResult { number, site, method, written, mark, found })
     })
 }
 

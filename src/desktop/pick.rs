@@ -8,7 +8,7 @@ use glam::DVec3;
 
 /// What lies under the pointer.
 #[derive(Clone, Debug)]
-pub(super) struct Under {
+pub(super) struct PickedPoint {
     /// Metres in the world frame.
     pub(super) point: DVec3,
     /// The unit normal of its surface, on the seen side.
@@ -31,7 +31,7 @@ pub(super) fn dome(project: &Project) -> Dome {
 }
 
 /// What lies under a place of the picture.
-pub(super) fn under(project: &Project, view: &View, rect: Rect, pointer: egui::Pos2) -> Option<Under> {
+pub(super) fn under(project: &Project, view: &View, rect: Rect, pointer: egui::Pos2) -> Option<PickedPoint> {
     let (mesh, rays) = &*project.seen;
     let at = (pointer - rect.min) / rect.size();
     let (x, y) = (f64::from(at.x), f64::from(at.y));
@@ -67,9 +67,11 @@ pub(super) fn under(project: &Project, view: &View, rect: Rect, pointer: egui::P
             let component = mesh.components.partition_point(|component| component.faces.end <= face);
             let name = mesh.components.get(component)?.name.clone();
             let face = Some(among_receivers(project, face));
-            Some(Under { point: from + along * distance, normal, face, name })
+            Some(PickedPoint { point: from + along * distance, normal, face, name })
         }
-        _ => Some(Under { point: from + along * ground?, normal: DVec3::Z, face: None, name: "ground".to_owned() }),
+        _ => {
+            Some(PickedPoint { point: from + along * ground?, normal: DVec3::Z, face: None, name: "ground".to_owned() })
+        }
     }
 }
 

@@ -3,8 +3,8 @@
 use super::stage::Wish;
 use crate::choice::{Engine, Method, Receivers, Settings};
 use crate::deliver::instant::seen_casts;
-use crate::deliver::{Seen, scene};
-use crate::export::figure::{self, Shown};
+use crate::deliver::{Seen, figure_context};
+use crate::export::figure::{self, PictureExtras};
 use crate::profile::Drawn;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{Scene, ShadowError, Technique};
@@ -51,9 +51,9 @@ pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]
         settings: Settings { sun_samples, ..Settings::NONE },
     };
     let (mesh, surface) = (&plain.scene.receivers, &plain.rays.surface()?);
-    let scene = scene(site, Seen { receivers: Receivers::Top, surface, mesh, drawn: &drawn });
+    let scene = figure_context(site, Seen { receivers: Receivers::Top, surface, mesh, drawn: &drawn });
     let casts = seen_casts(site);
-    let shown = Shown { casts: wish.style.tinted.then_some(casts.as_slice()), ..Shown::default() };
+    let shown = PictureExtras { casts: wish.style.tinted.then_some(casts.as_slice()), ..PictureExtras::default() };
     let pixels = figure::bare(&scene, &wish.view, &mask, wish.to_sun, &shown);
     Ok((pixels.into_iter().map(|[red, green, blue]| [red, green, blue, 255]).collect(), drawn))
 }

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 pub(super) struct Saving {
     /// What the site file says, and by which technique; none yet for a bare model.
     saved: Option<(SiteFile, Method)>,
-    question: Option<Asked>,
+    question: Option<SaveQuestion>,
     /// What goes on once it is saved.
     then: Option<Then>,
     /// Ctrl+S, or the window's own way to close: once the fields have what is typed.
@@ -30,7 +30,7 @@ pub(super) struct Saving {
 }
 
 /// What is asked.
-enum Asked {
+enum SaveQuestion {
     /// What becomes of what is not saved.
     Unsaved(Then),
     /// Whether the site file, which is not what was read any more, is replaced.
@@ -96,7 +96,7 @@ impl App {
             Some(path) if !files::is_sample(path) => {
                 let path = path.clone();
                 if open.project.written.has_changed_at(&path) {
-                    self.saving.question = Some(Asked::Replaced(path));
+                    self.saving.question = Some(SaveQuestion::Replaced(path));
                 } else {
                     self.write_site(path, context);
                 }
@@ -185,7 +185,7 @@ impl App {
     /// Asks what becomes of what is not saved; what was to follow an earlier question does not any more.
     fn question_unsaved(&mut self, then: Then) {
         self.give_up_saving();
-        self.saving.question = Some(Asked::Unsaved(then));
+        self.saving.question = Some(SaveQuestion::Unsaved(then));
     }
 
     fn go_on(&mut self, then: Then, context: &egui::Context) {
@@ -249,8 +249,8 @@ impl App {
             self.go_on_or_ask(Then::Close, context);
         }
         match self.saving.question.take() {
-            Some(Asked::Unsaved(then)) => self.ask_unsaved(then, context),
-            Some(Asked::Replaced(path)) => self.ask_replaced(path, context),
+            Some(SaveQuestion::Unsaved(then)) => self.ask_unsaved(then, context),
+            Some(SaveQuestion::Replaced(path)) => self.ask_replaced(path, context),
             None => self.offer_recovered(context),
         }
         let title = self.title();
@@ -275,7 +275,7 @@ impl App {
             first: 0,
         };
         match answer.show(context) {
-            None => self.saving.question = Some(Asked::Unsaved(then)),
+            None => self.saving.question = Some(SaveQuestion::Unsaved(then)),
             Some(0) => {
                 self.saving.then = Some(then);
                 self.save_site(context);
@@ -294,7 +294,7 @@ impl App {
             first: 2,
         };
         match answer.show(context) {
-            None => self.saving.question = Some(Asked::Replaced(path)),
+            None => self.saving.question = Some(SaveQuestion::Replaced(path)),
             Some(0) => self.write_site(path, context),
             Some(1) => self.ask_where(context),
             Some(_) => self.give_up_saving(),

@@ -13,7 +13,7 @@ pub(super) struct Settings {
     /// What the site file says.
     pub(super) site: SiteFile,
     /// How its shadows are shown.
-    pub(super) shown: Shown,
+    pub(super) shown: ShadowSettings,
     /// The components that the picture leaves out, by name.
     pub(super) hidden: Hidden,
     /// The state that it is compared with.
@@ -25,7 +25,7 @@ pub(super) type Hidden = Arc<BTreeSet<String>>;
 
 /// How shadows are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Shown {
+pub(super) struct ShadowSettings {
     /// By which technique they are found.
     pub(super) method: Method,
     /// Rays go to the whole disc of the sun, where rays are cast.

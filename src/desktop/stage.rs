@@ -5,7 +5,7 @@
 //! where another thread hands in work meanwhile, and waits for all work that was handed in before.
 
 use super::easel::Easel;
-use super::hours::Laid;
+use super::hours::StudyResult;
 use super::plain::{self, Plain};
 use super::words::Labels;
 use crate::export::figure::{Colours, Diagram};
@@ -41,7 +41,7 @@ pub(super) struct Wish {
     /// How the picture is drawn.
     pub(super) style: Style,
     /// Hours to lie over the scene.
-    pub(super) hours: Option<Arc<Laid>>,
+    pub(super) hours: Option<Arc<StudyResult>>,
     /// The volumes and the silhouette over it.
     pub(super) overlay: [bool; 2],
     /// What counting took, instead.
@@ -66,7 +66,7 @@ impl Wish {
 }
 
 /// A picture, and what it shows.
-pub(super) struct Shown {
+pub(super) struct StagePicture {
     /// The picture, on the window's device.
     pub(super) texture: wgpu::Texture,
     /// What was wished.
@@ -93,7 +93,7 @@ struct Shared {
     context: egui::Context,
     next: Mutex<Option<Wish>>,
     woken: Condvar,
-    done: Mutex<Option<Result<Shown, String>>>,
+    done: Mutex<Option<Result<StagePicture, String>>>,
     busy: AtomicBool,
     over: AtomicBool,
 }
@@ -126,7 +126,7 @@ impl Stage {
     }
 
     /// The newest picture since the last time it was asked for, or why there is none.
-    pub(super) fn done(&self) -> Option<Result<Shown, String>> {
+    pub(super) fn done(&self) -> Option<Result<StagePicture, String>> {
         self.shared.done.lock().ok()?.take()
     }
 
@@ -164,7 +164,7 @@ impl Drop for Stage {
 /// What is kept from one picture to the next; for quick looks and for the best ones apart, so that neither turns the other
 /// to its size.
 #[derive(Default)]
-struct Kept {
+struct StageCache {
     /// The site's number, and the site itself with what draws it.
     live: Option<(u64, Live)>,
     hours: Option<u64>,
@@ -178,7 +178,7 @@ struct Kept {
 
 impl Shared {
     fn work(&self) {
-        let mut kept = [Kept::default(), Kept::default()];
+        let mut kept = [StageCache::default(), StageCache::default()];
         while let Some(wish) = self.wait() {
             let result = self.draw_somewhere(&mut kept, &wish);
             let Ok(mut done) = self.done.lock() else { return };
@@ -195,7 +195,7 @@ impl Shared {
     }
 
     /// Makes what quick looks need while nothing is asked, so that the first movement does not wait for it.
-    fn get_ready(&self, kept: &mut [Kept; 2]) {
+    fn get_ready(&self, kept: &mut [StageCache; 2]) {
         let [best, quick] = &*kept;
         let (Some(wish), false) = (&best.wish, self.is_busy() || self.easel.is_given_up()) else { return };
         if quick.live.as_ref().is_some_and(|(number, _)| *number == wish.number) {
@@ -213,7 +213,7 @@ impl Shared {
     }
 
     /// Draws on the device at hand; where that fails on another, and where all fail on none.
-    fn draw_somewhere(&self, kept: &mut [Kept; 2], wish: &Wish) -> Result<Shown, String> {
+    fn draw_somewhere(&self, kept: &mut [StageCache; 2], wish: &Wish) -> Result<StagePicture, String> {
         let mut failures = 0;
         let mut gpu = self.easel.gpu();
         while let Some(device) = gpu.take() {
@@ -222,7 +222,7 @@ impl Shared {
                 Ok(shown) => return Ok(shown),
                 Err(error) => error,
             };
-            *its = Kept::default();
+            *its = StageCache::default();
             let Some(lost) = error.lost_device() else { return Err(error.in_words(&Labels)) };
             // nothing of it can be used again
             *kept = Default::default();
@@ -233,7 +233,7 @@ impl Shared {
         self.draw_plain(&mut kept[usize::from(wish.quick)].plain, wish).map_err(|error| error.in_words(&Labels))
     }
 
-    fn draw_plain(&self, kept: &mut Option<Plain>, wish: &Wish) -> Result<Shown, ShadowError> {
+    fn draw_plain(&self, kept: &mut Option<Plain>, wish: &Wish) -> Result<StagePicture, ShadowError> {
         let started = Instant::now();
         let (pixels, drawn) = plain::draw(kept, wish)?;
         let size = wish.view.size();
@@ -242,7 +242,7 @@ impl Shared {
         let bytes = bytemuck::cast_slice(&pixels);
         self.render.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
         let secs = started.elapsed().as_secs_f64();
-        Ok(Shown { texture, wish: wish.clone(), drawn, plain: true, secs, legend: None })
+        Ok(StagePicture { texture, wish: wish.clone(), drawn, plain: true, secs, legend: None })
     }
 
     fn is_busy(&self) -> bool {
@@ -262,7 +262,7 @@ impl Shared {
         }
     }
 
-    fn draw(&self, gpu: &Arc<Gpu>, kept: &mut Kept, wish: Wish) -> Result<Shown, StudyError> {
+    fn draw(&self, gpu: &Arc<Gpu>, kept: &mut StageCache, wish: Wish) -> Result<StagePicture, StudyError> {
         let tint = |live: &mut Live| live.picture().tint(super::components::face_colours(&wish.site));
         // one of another scene goes first, with its memory
         let at_hand = kept.live.take().and_then(|(number, mut live)| {
@@ -311,7 +311,7 @@ impl Shared {
         let texture = target[1].clone();
         kept.target = Some(target);
         (kept.live, kept.wish) = (Some((wish.number, live)), Some(wish.clone()));
-        Ok(Shown { texture, wish, drawn, plain: false, secs, legend })
+        Ok(StagePicture { texture, wish, drawn, plain: false, secs, legend })
     }
 
     /// A picture of the window's device.

@@ -2,13 +2,13 @@
 
 use super::clock::Clock;
 use super::eye::{Eye, Stand};
-use super::hours::Laid;
+use super::hours::StudyResult;
 use super::loading::Project;
-use super::pick::{Under, dome, under};
+use super::pick::{PickedPoint, dome, under};
 use super::screen::Print;
-use super::settings::Shown as Choice;
+use super::settings::ShadowSettings;
 use super::sky;
-use super::stage::{Shown, Stage, Wish};
+use super::stage::{Stage, StagePicture, Wish};
 use crate::choice::{Engine, Method, Settings, Subject};
 use crate::picture::Style;
 use crate::study::live::{FARTHEST, Way};
@@ -31,7 +31,7 @@ pub(super) struct Viewer {
     pub(super) eye: Eye,
     /// All is to be seen, once the picture's proportion is known.
     fits: bool,
-    shown: Option<Shown>,
+    shown: Option<StagePicture>,
     print: Option<Print>,
     wished: Option<Wish>,
     /// The best picture of what is asked, as asked at the last frame; and when that changed last.
@@ -42,19 +42,19 @@ pub(super) struct Viewer {
     /// Why there is no picture.
     pub(super) fault: Option<String>,
     /// What lies under the pointer.
-    pub(super) under: Option<Under>,
+    pub(super) under: Option<PickedPoint>,
 }
 
 /// What the view is asked to show.
-pub(super) struct Asked<'a> {
+pub(super) struct ViewRequest<'a> {
     /// The site.
     pub(super) project: &'a Project,
     /// Which one of those that were loaded.
     pub(super) number: u64,
     /// How its shadows are shown.
-    pub(super) choice: Choice,
+    pub(super) choice: ShadowSettings,
     /// The hours found, where they are to be seen.
-    pub(super) laid: Option<&'a Arc<Laid>>,
+    pub(super) laid: Option<&'a Arc<StudyResult>>,
     /// Whether the sun's path lies over it.
     pub(super) sun_path: bool,
     /// Lengths in feet.
@@ -97,7 +97,7 @@ impl Viewer {
     }
 
     /// The newest picture.
-    pub(super) fn shown(&self) -> Option<&Shown> {
+    pub(super) fn shown(&self) -> Option<&StagePicture> {
         self.shown.as_ref()
     }
 
@@ -131,7 +131,7 @@ impl Viewer {
 
     /// Chooses the size of the next quick look by how long rays took for this picture. Sizes lie apart, as another one is
     /// looked at anew; it does not grow before there is time to spare.
-    fn adapt(&mut self, shown: &Shown) {
+    fn adapt(&mut self, shown: &StagePicture) {
         const SIZES: [f64; 8] = [0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
         let Some(best) = &self.best else { return };
         let by_quickest = shown.drawn.technique == Way::quickest().method;
@@ -153,9 +153,9 @@ impl Viewer {
         ui: &mut Ui,
         stage: &Stage,
         software: bool,
-        asked: &Asked<'_>,
+        asked: &ViewRequest<'_>,
         clock: &mut Clock,
-    ) -> Option<Under> {
+    ) -> Option<PickedPoint> {
         let rect = ui.available_rect_before_wrap();
         self.eye.width_by_height = f64::from(rect.width() / rect.height().max(1.0));
         if std::mem::take(&mut self.fits) || !self.eye.is_framed() {
@@ -192,7 +192,7 @@ impl Viewer {
     }
 
     /// Asks for the picture of this moment: a quick one while something moves, the best when all is still.
-    fn wish(&mut self, ui: &Ui, rect: Rect, stage: &Stage, software: bool, asked: &Asked<'_>, clock: &Clock) {
+    fn wish(&mut self, ui: &Ui, rect: Rect, stage: &Stage, software: bool, asked: &ViewRequest<'_>, clock: &Clock) {
         let now = ui.input(|input| input.time);
         let pixels = f64::from(ui.pixels_per_point());
         let sized = |scale: f64| {
@@ -288,7 +288,7 @@ impl Viewer {
     }
 
     /// What drew, at the picture's corner.
-    fn status(&self, ui: &Ui, rect: Rect, software: bool, asked: &Asked<'_>) {
+    fn status(&self, ui: &Ui, rect: Rect, software: bool, asked: &ViewRequest<'_>) {
         let Some(shown) = &self.shown else { return };
         let drawn = &shown.drawn;
         let over = shown.wish.hours.as_ref().filter(|_| shown.wish.style.hours && !shown.plain);

@@ -2,7 +2,7 @@
 
 use super::ExportError;
 use super::figure::{ChangeBands, duration};
-use super::report::{self, DrawnReport, Told};
+use super::report::{self, DrawnReport, ReportContext};
 use crate::profile::comparison::{Altered, Change, Comparison};
 use crate::sun::{Place, SunTrack};
 use serde::Serialize;
@@ -83,7 +83,7 @@ pub fn json(
     names: &[String; 2],
     place: &Place,
     track: &SunTrack,
-    told: &Told<'_>,
+    told: &ReportContext<'_>,
 ) -> Result<String, ExportError> {
     let thresholds = thresholds(comparison, track);
     let sun = |secs| {

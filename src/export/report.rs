@@ -160,7 +160,7 @@ struct DayReport {
 
 /// What a report tells beside the instants.
 #[derive(Clone, Copy, Debug)]
-pub struct Told<'a> {
+pub struct ReportContext<'a> {
     /// Which surfaces were judged.
     pub receivers: Receivers,
     /// The ground plane.
@@ -183,7 +183,7 @@ pub fn profile_json<S>(
     profile: &Profile<S>,
     place: &Place,
     track: &SunTrack,
-    told: &Told<'_>,
+    told: &ReportContext<'_>,
 ) -> Result<String, ExportError> {
     shadow_json(&View::Plan(profile.grid), place, track, told)
 }
@@ -192,7 +192,12 @@ pub fn profile_json<S>(
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn shadow_json(view: &View, place: &Place, track: &SunTrack, told: &Told<'_>) -> Result<String, ExportError> {
+pub fn shadow_json(
+    view: &View,
+    place: &Place,
+    track: &SunTrack,
+    told: &ReportContext<'_>,
+) -> Result<String, ExportError> {
     drawn_json(view_report(view), place, track, told)
 }
 
@@ -200,7 +205,7 @@ pub fn shadow_json(view: &View, place: &Place, track: &SunTrack, told: &Told<'_>
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn surfaces_json(surfaces: &Surfaces<'_>, told: &Told<'_>) -> Result<String, ExportError> {
+pub fn surfaces_json(surfaces: &Surfaces<'_>, told: &ReportContext<'_>) -> Result<String, ExportError> {
     let component = |(component, patches, exposure): (_, &[_], Exposure)| {
         let [share_1h, share_2h, share_3h, share_4h] = exposure.shares;
         let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;
@@ -229,12 +234,22 @@ pub fn surfaces_json(surfaces: &Surfaces<'_>, told: &Told<'_>) -> Result<String,
     drawn_json(view, surfaces.place, surfaces.track, told)
 }
 
-fn drawn_json(view: ViewReport<'_>, place: &Place, track: &SunTrack, told: &Told<'_>) -> Result<String, ExportError> {
+fn drawn_json(
+    view: ViewReport<'_>,
+    place: &Place,
+    track: &SunTrack,
+    told: &ReportContext<'_>,
+) -> Result<String, ExportError> {
     json(&drawn_report(view, place, track, told))
 }
 
 /// What `profile.json` says, to stand in another report.
-pub(super) fn plan_report<'a>(grid: &Grid, place: &'a Place, track: &SunTrack, told: &Told<'a>) -> DrawnReport<'a> {
+pub(super) fn plan_report<'a>(
+    grid: &Grid,
+    place: &'a Place,
+    track: &SunTrack,
+    told: &ReportContext<'a>,
+) -> DrawnReport<'a> {
     drawn_report(view_report(&View::Plan(*grid)), place, track, told)
 }
 
@@ -243,8 +258,13 @@ pub(super) fn settings_report(settings: &Settings) -> SettingsReport {
     SettingsReport { map_size, pcf: filter.map(Filter::word), smoothie_width: smoothie_width_m, sun_samples }
 }
 
-fn drawn_report<'a>(view: ViewReport<'a>, place: &'a Place, track: &SunTrack, told: &Told<'a>) -> DrawnReport<'a> {
-    let Told { receivers, ground, drawn, timings, statistics, notes } = *told;
+fn drawn_report<'a>(
+    view: ViewReport<'a>,
+    place: &'a Place,
+    track: &SunTrack,
+    told: &ReportContext<'a>,
+) -> DrawnReport<'a> {
+    let ReportContext { receivers, ground, drawn, timings, statistics, notes } = *told;
     let air = Air::standard(place.elevation_m);
     let refracted = |value| track.refraction.then_some(value);
     DrawnReport {

@@ -4,7 +4,7 @@
 //! are halved until a bound shows that no count of a half can reach that ([`layers_bound`]). What is found tells its
 //! bound, so that as much as fits is counted together before the mask takes the trace.
 
-use super::walls::{Maker, Sought, Walls};
+use super::walls::{Maker, WallQuery, Walls};
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::volume::layers_bound;
@@ -45,7 +45,7 @@ impl Batch {
     pub(super) fn find<'a>(
         &'a mut self,
         maker: &Maker,
-        sought: Sought,
+        sought: WallQuery,
         most_counted: u32,
         encoder: &mut CommandEncoder,
         found: &mut Vec<Found<'a>>,
@@ -66,7 +66,7 @@ impl Batch {
             Some(walls) => walls,
             none => none.insert(maker.walls(&self.mesh)?),
         };
-        if walls.find(&self.mesh, &Sought { halved, ..sought }, encoder)? {
+        if walls.find(&self.mesh, &WallQuery { halved, ..sought }, encoder)? {
             found.push((&**walls, bound >> u32::from(halved)));
         }
         Ok(())

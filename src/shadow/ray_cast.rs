@@ -289,11 +289,11 @@ struct Rays {
     first: [u32; 2],
     /// The scene's origin.
     origin: DVec3,
-    whence: Whence,
+    whence: RayStart,
 }
 
 /// Where rays begin.
-enum Whence {
+enum RayStart {
     /// A height above everything, in the world frame: the plan looks down from there.
     Above(Grid, f64),
     /// A camera's eye; its rays begin at the near plane.
@@ -305,12 +305,12 @@ enum Whence {
 impl Rays {
     fn new(scene: &Scene, view: View) -> Rays {
         let whence = match view {
-            View::Plan(grid) => Whence::Above(grid, scene.receivers.top().max(scene.ground) + 1.0),
-            View::Camera(camera) => Whence::Eye(camera.eye, camera.lens()),
+            View::Plan(grid) => RayStart::Above(grid, scene.receivers.top().max(scene.ground) + 1.0),
+            View::Camera(camera) => RayStart::Eye(camera.eye, camera.lens()),
             View::Elevation(side) => {
                 let (low, high) = scene.receivers.bounds().unwrap_or_default();
                 let nearest = DVec3::select(side.to_viewer.cmpgt(DVec3::ZERO), high, low);
-                Whence::Before(side, (nearest - side.target).dot(side.to_viewer) + 1.0)
+                RayStart::Before(side, (nearest - side.target).dot(side.to_viewer) + 1.0)
             }
         };
         Rays { view, first: [0, 0], origin: scene.casters.origin, whence }
@@ -320,16 +320,16 @@ impl Rays {
     fn of(&self, column: u32, row: u32) -> (DVec3, DVec3) {
         let (column, row) = (self.first[0] + column, self.first[1] + row);
         match &self.whence {
-            Whence::Above(grid, top) => {
+            RayStart::Above(grid, top) => {
                 let at = grid.centre(column, row) + TIE * grid.cell;
                 (at.extend(*top) - self.origin, DVec3::NEG_Z)
             }
-            Whence::Eye(eye, lens) => {
+            RayStart::Eye(eye, lens) => {
                 let direction = lens.direction(column, row);
                 let near = direction * (Camera::NEAR_M / direction.dot(lens.forward()));
                 (*eye + near - self.origin, direction)
             }
-            Whence::Before(side, away) => {
+            RayStart::Before(side, away) => {
                 (side.centre(column, row) + side.to_viewer * *away - self.origin, -side.to_viewer)
             }
         }

@@ -22,7 +22,7 @@ pub mod verify;
 pub use compare::{CompareOutcome, compare, compare_with};
 pub use frames::{Frame, frames};
 pub use instant::instant;
-pub use profile::{Tiled, Worked, in_tiles, paste, run};
+pub use profile::{TiledOutcome, TiledStudy, in_tiles, paste, run};
 pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 pub use tiles::Budget;
@@ -115,7 +115,7 @@ pub enum Event<'a> {
     /// goes on from there.
     Resumes {
         /// The study.
-        study: &'a Tiled<'a>,
+        study: &'a TiledStudy<'a>,
         /// What is to be gone on from.
         begun: &'a RefCell<Option<Unfinished>>,
     },

@@ -20,7 +20,7 @@ use std::time::Instant;
 
 /// What a study in tiles tells beside the sums, which [`Event::Summed`] tells.
 #[derive(Clone, Debug)]
-pub struct Worked {
+pub struct TiledOutcome {
     /// What drew.
     pub drawn: Drawn,
     /// Seconds of the window with the sun above the horizon, and without.
@@ -41,7 +41,7 @@ pub struct Worked {
 /// [`StudyError`]; choices that exclude each other before anything is drawn.
 pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
     let (mut tile, mut whole) = (Tile::from(site.grid), Arc::default());
-    let worked = in_tiles(Tiled::new(site, wants, on_event)?, None, &mut |event| {
+    let worked = in_tiles(TiledStudy::new(site, wants, on_event)?, None, &mut |event| {
         match &event {
             Event::Anew => whole = Arc::default(),
             // of what is gone on from only the rest would be told
@@ -52,8 +52,8 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
         }
         on_event(event)
     })?;
-    let Worked { drawn, day_and_night_secs: (day_secs, night_secs), .. } = worked;
-    let Worked { surface, surface_mesh, statistics, timings, .. } = worked;
+    let TiledOutcome { drawn, day_and_night_secs: (day_secs, night_secs), .. } = worked;
+    let TiledOutcome { surface, surface_mesh, statistics, timings, .. } = worked;
     let profile = Profile { grid: site.grid, shaded: Arc::unwrap_or_clone(whole), day_secs, night_secs };
     Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, timings })
 }
@@ -73,7 +73,7 @@ pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shad
 }
 
 /// A study that is prepared: with its sums tile by tile ([`Event::Tile`], [`Event::Summed`]), so that not all of them are held.
-pub struct Tiled<'a> {
+pub struct TiledStudy<'a> {
     site: &'a Site,
     wants: Wants,
     machine: Machine,
@@ -82,15 +82,15 @@ pub struct Tiled<'a> {
     watch: Stopwatch,
 }
 
-impl<'a> Tiled<'a> {
+impl<'a> TiledStudy<'a> {
     /// Chooses what draws, and the tiles.
     ///
     /// # Errors
     /// [`StudyError`]; choices that exclude each other; [`StudyError::LittleMemory`].
-    pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Tiled<'a>, StudyError> {
+    pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<TiledStudy<'a>, StudyError> {
         not_surfaces(site)?;
         note_models(&site.notes, on_event)?;
-        Tiled::of(None, site, wants, on_event)
+        TiledStudy::of(None, site, wants, on_event)
     }
 
     fn of(
@@ -98,7 +98,7 @@ impl<'a> Tiled<'a> {
         site: &'a Site,
         wants: &Wants,
         on_event: &mut OnEvent<'_>,
-    ) -> Result<Tiled<'a>, StudyError> {
+    ) -> Result<TiledStudy<'a>, StudyError> {
         let watch = Stopwatch::start();
         let view = View::Plan(site.grid);
         let machine = match wants.statistics {
@@ -108,7 +108,7 @@ impl<'a> Tiled<'a> {
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
         check_tiles(&tiles, wants)?;
         tiles::note(&tiles, on_event)?;
-        Ok(Tiled { site, wants: wants.clone(), machine, tiles, number: OnceCell::new(), watch })
+        Ok(TiledStudy { site, wants: wants.clone(), machine, tiles, number: OnceCell::new(), watch })
     }
 
     /// Which study it is: a number of all that its result depends on.
@@ -139,7 +139,7 @@ impl<'a> Tiled<'a> {
     }
 }
 
-impl fmt::Debug for Tiled<'_> {
+impl fmt::Debug for TiledStudy<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_struct("Tiled").field("wants", &self.wants).field("tiles", &self.tiles).finish_non_exhaustive()
     }
@@ -151,7 +151,11 @@ impl fmt::Debug for Tiled<'_> {
 ///
 /// # Errors
 /// [`StudyError`]
-pub fn in_tiles(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>) -> Result<Worked, StudyError> {
+pub fn in_tiles(
+    tiled: TiledStudy<'_>,
+    begun: Option<Unfinished>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<TiledOutcome, StudyError> {
     let (site, wants) = (tiled.site, tiled.wants.clone());
     // which study it is, where what is done of it is kept
     let number = wants.keep_every.map(|_| tiled.number());
@@ -161,7 +165,7 @@ pub fn in_tiles(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEv
         if let Some((tiled, begun)) = at_hand.take() {
             return once(tiled, begun, on_event);
         }
-        let mut tiled = Tiled::of(gpu, again, &wants, on_event)?;
+        let mut tiled = TiledStudy::of(gpu, again, &wants, on_event)?;
         let begun = RefCell::new(None);
         if number.is_some_and(|number| number == tiled.number()) {
             tell(on_event, Event::Resumes { study: &tiled, begun: &begun })?;
@@ -174,11 +178,15 @@ pub fn in_tiles(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEv
 }
 
 /// As [`in_tiles`], on one machine.
-fn once(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>) -> Result<Worked, StudyError> {
+fn once(
+    tiled: TiledStudy<'_>,
+    begun: Option<Unfinished>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<TiledOutcome, StudyError> {
     let begun = begun.filter(|begun| tiled.is_of(begun));
     let first = tiled.worked_on(begun.as_ref().map_or(0, |begun| begun.done));
     let study = tiled.wants.keep_every.map_or(0, |_| tiled.number());
-    let Tiled { site, wants, machine, tiles, mut watch, .. } = tiled;
+    let TiledStudy { site, wants, machine, tiles, mut watch, .. } = tiled;
     let (day_secs, night_secs) = day_and_night(&site.track);
     let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
     let instants = &site.track.instants;
@@ -248,7 +256,7 @@ fn once(tiled: Tiled<'_>, begun: Option<Unfinished>, on_event: &mut OnEvent<'_>)
         statistics = None;
     }
     watch.lap("shadows");
-    Ok(Worked {
+    Ok(TiledOutcome {
         drawn: machine.drawn(),
         day_and_night_secs: (day_secs, night_secs),
         surface,

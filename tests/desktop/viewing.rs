@@ -239,8 +239,8 @@ fn exported_side_is_that_of_the_window() {
         let outcome = study::instant(&site, view, &wants, &mut |_| ControlFlow::Continue(())).unwrap();
         let (place, track, receivers) = (&site.place, &site.track, study::judged(&site, &view));
         let (mesh, surface, drawn) = (&outcome.surface_mesh, outcome.surface.as_ref().unwrap(), &outcome.drawn);
-        let scene = figure::Scene { place, track, mesh, surface, receivers, ground: site.ground, drawn };
-        figure::instant(&scene, &view, &outcome.mask, &figure::Shown::default()).unwrap()
+        let scene = figure::FigureContext { place, track, mesh, surface, receivers, ground: site.ground, drawn };
+        figure::instant(&scene, &view, &outcome.mask, &figure::PictureExtras::default()).unwrap()
     };
     let [ours, right, near, far] = [std::fs::read(ours).unwrap(), drawn(cell), drawn(cell * 0.98), drawn(cell * 1.02)]
         .map(|bytes| image::load_from_memory(&bytes).unwrap().into_rgb8());

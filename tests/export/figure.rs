@@ -4,7 +4,7 @@ use super::camera;
 use super::synthetic::{self, Town};
 use glam::DVec3;
 use gnomon::export::figure::scale::{self, Bands};
-use gnomon::export::figure::{self, ScaleBar, Shown};
+use gnomon::export::figure::{self, PictureExtras, ScaleBar};
 use gnomon::profile::Profile;
 use gnomon::site::Receivers;
 use gnomon::sun::ZoneRules;
@@ -73,7 +73,7 @@ fn windows_without_sun() {
 #[test]
 fn instants() {
     let look = |name: &str, town: &Town, surface: &Surface, view: View, mask: &Mask, receivers| {
-        let png = figure::instant(&town.scene(surface, receivers), &view, mask, &Shown::default()).unwrap();
+        let png = figure::instant(&town.scene(surface, receivers), &view, mask, &PictureExtras::default()).unwrap();
         keep(name, &png);
     };
     let town = Town::new(1.0, 15 * H, 15 * H, 0);
@@ -116,35 +116,35 @@ fn overlays_and_components() {
     let lens = Camera { eye, target, up: DVec3::Z, fov_rad: 0.7, width: 300, height: 200 };
     let (surface, mask) = camera::photograph(&town.mesh, &lens, town.track.instants[0].to_sun);
     let scene = town.scene(&surface, Receivers::Top);
-    let draw = |shown: &Shown| figure::instant(&scene, &View::Camera(lens), &mask, shown);
+    let draw = |shown: &PictureExtras| figure::instant(&scene, &View::Camera(lens), &mask, shown);
     let cells = 600 * 400;
     let mut overlay = Overlay { width: 600, height: 400, layers: None, silhouette: Some(vec![0; cells]) };
     overlay.silhouette.as_mut().unwrap()[..cells / 4].fill(255);
     let black = [10, 10, 12];
-    let lines = draw(&Shown { overlay: Some(&overlay), casts: None, ..Shown::default() }).unwrap();
+    let lines = draw(&PictureExtras { overlay: Some(&overlay), casts: None, ..PictureExtras::default() }).unwrap();
     let picture = in_colour(&lines, black);
-    let plain = in_colour(&draw(&Shown::default()).unwrap(), black);
+    let plain = in_colour(&draw(&PictureExtras::default()).unwrap(), black);
     assert!(picture > 1_000_000 && plain == 0, "{picture} black pixels, {plain} without a silhouette");
 
     // many layers hide no more than some do
     let with = |layers: u8| {
         let overlay = Overlay { width: 600, height: 400, layers: Some(vec![layers; cells]), silhouette: None };
-        let png = draw(&Shown { overlay: Some(&overlay), casts: None, ..Shown::default() }).unwrap();
+        let png = draw(&PictureExtras { overlay: Some(&overlay), casts: None, ..PictureExtras::default() }).unwrap();
         image::load_from_memory(&png).unwrap().to_rgb8().get_pixel(1700, 1500).0
     };
     let tones = [0, 1, 2, 8, 255].map(with);
     assert!(tones.windows(2).take(3).all(|pair| pair[0][2] > pair[1][2]), "each layer is yellower: {tones:?}");
     assert_eq!(tones[3], tones[4], "and then they are as opaque as they get");
 
-    let [casting, not] =
-        [[true], [false]].map(|casts| draw(&Shown { overlay: None, casts: Some(&casts), ..Shown::default() }).unwrap());
+    let [casting, not] = [[true], [false]]
+        .map(|casts| draw(&PictureExtras { overlay: None, casts: Some(&casts), ..PictureExtras::default() }).unwrap());
     keep("component", &casting);
     let mint = [139, 212, 188];
     assert!(in_colour(&casting, mint) > 3000 && in_colour(&not, mint) == 0, "{}", in_colour(&casting, mint));
 
     overlay.width = 601;
     assert!(
-        draw(&Shown { overlay: Some(&overlay), casts: None, ..Shown::default() }).is_err(),
+        draw(&PictureExtras { overlay: Some(&overlay), casts: None, ..PictureExtras::default() }).is_err(),
         "a raster of another size"
     );
 }
@@ -239,6 +239,7 @@ fn a_surface_of_another_size_is_an_error() {
     assert!(figure::profile(&town.scene(&surface, Receivers::Top), &profile).is_err());
     let mask = Mask { width: 4, height: 3, share: vec![0; 12] };
     assert!(
-        figure::instant(&town.scene(&surface, Receivers::Top), &View::Plan(grid), &mask, &Shown::default()).is_err()
+        figure::instant(&town.scene(&surface, Receivers::Top), &View::Plan(grid), &mask, &PictureExtras::default())
+            .is_err()
     );
 }

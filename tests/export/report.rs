@@ -1,7 +1,7 @@
 //! The reports' keys and words.
 
 use super::synthetic::{self, Town};
-use gnomon::export::report::{self, Told};
+use gnomon::export::report::{self, ReportContext};
 use gnomon::profile::{Profile, Timings};
 use gnomon::site::{Ground, Receivers};
 use gnomon::sun::Polar;
@@ -22,7 +22,7 @@ fn profile_json_is_the_contract() {
     let write = |town: &Town| {
         let (receivers, drawn, notes) = (Receivers::Ground, &town.drawn, &["hut.glb leaves something out".to_owned()]);
         let ground = Ground::asked(0.0);
-        let told = Told { receivers, ground, drawn, timings: &timings, statistics: None, notes };
+        let told = ReportContext { receivers, ground, drawn, timings: &timings, statistics: None, notes };
         report::profile_json(&profile, &town.place, &town.track, &told).unwrap()
     };
     let text = write(&town);

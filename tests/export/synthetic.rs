@@ -3,7 +3,7 @@
 use chrono::{NaiveDate, TimeDelta, TimeZone};
 use glam::DVec3;
 use gnomon::choice::{Engine, Finder, Method, Receivers, Settings};
-use gnomon::export::figure::Scene;
+use gnomon::export::figure::FigureContext;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::{Drawn, Profile};
 use gnomon::site::Ground;
@@ -41,9 +41,9 @@ impl Town {
         }
     }
 
-    pub(super) fn scene<'a>(&'a self, surface: &'a Surface, receivers: Receivers) -> Scene<'a> {
+    pub(super) fn scene<'a>(&'a self, surface: &'a Surface, receivers: Receivers) -> FigureContext<'a> {
         let Town { place, track, mesh, drawn, .. } = self;
-        Scene { place, track, mesh, surface, receivers, ground: Ground::asked(0.0), drawn }
+        FigureContext { place, track, mesh, surface, receivers, ground: Ground::asked(0.0), drawn }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::bytes;
 use crate::shared::program::{command, done, files, gnomon, left, numberless, site, stderr, stopped};
-use gnomon::deliver::disk::unfinished::{self, Checks, Kept};
+use gnomon::deliver::disk::unfinished::{self, Checks, StoredStudy};
 use gnomon::profile::{Statistics, Unfinished};
 use std::fs;
 use std::path::Path;
@@ -20,24 +20,24 @@ fn one_flipped_bit_is_noticed_wherever_it_is() {
         unfinished::keep(folder.path(), &begun, &checks).unwrap();
         let path = folder.path().join("profile.00000000000012ab.unfinished");
         let kept = || unfinished::kept(folder.path(), 0x12ab).unwrap();
-        assert!(matches!(kept(), Kept::Whole(whole) if *whole == (begun.clone(), checks.clone())));
+        assert!(matches!(kept(), StoredStudy::Whole(whole) if *whole == (begun.clone(), checks.clone())));
         let right = bytes(&path);
         for at in 0..right.len() {
             let mut wrong = right.clone();
             wrong[at] ^= 1 << (at % 8);
             fs::write(&path, wrong).unwrap();
-            assert!(matches!(kept(), Kept::Damaged), "byte {at}");
+            assert!(matches!(kept(), StoredStudy::Damaged), "byte {at}");
         }
         for length in [0, 8, 20, right.len() - 1] {
             fs::write(&path, &right[..length]).unwrap();
-            assert!(matches!(kept(), Kept::Damaged), "{length} bytes");
+            assert!(matches!(kept(), StoredStudy::Damaged), "{length} bytes");
         }
         fs::write(&path, [&right[..], &[0]].concat()).unwrap();
-        assert!(matches!(kept(), Kept::Damaged), "a byte more");
+        assert!(matches!(kept(), StoredStudy::Damaged), "a byte more");
         // whole, and of another study
         fs::write(folder.path().join("profile.00000000000012ac.unfinished"), &right).unwrap();
-        assert!(matches!(unfinished::kept(folder.path(), 0x12ac).unwrap(), Kept::Damaged));
-        assert!(matches!(unfinished::kept(folder.path(), 0x12ad).unwrap(), Kept::Nothing));
+        assert!(matches!(unfinished::kept(folder.path(), 0x12ac).unwrap(), StoredStudy::Damaged));
+        assert!(matches!(unfinished::kept(folder.path(), 0x12ad).unwrap(), StoredStudy::Nothing));
     }
 }
 

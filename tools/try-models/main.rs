@@ -13,7 +13,7 @@ use gnomon::profile::compare::Difference;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::walls::extraction::{Extraction, Program};
-use gnomon::shadow::walls::{Sought, Walls};
+use gnomon::shadow::walls::{WallQuery, Walls};
 use gnomon::shadow::{Scene, ShadowError, Technique};
 use gnomon::silhouette::hextree::{DEEPEST, PAPER_DEPTH};
 use gnomon::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
@@ -101,7 +101,7 @@ fn adapter_agrees(program: &Program, gpu: &Gpu, mesh: &Mesh, lights: &[DVec4]) -
     let most = gpu.limits.max_storage_buffer_binding_size;
     let mut extraction = Extraction::new(program, mesh, most)?;
     for &local_light in lights {
-        let sought = Sought { local_light, to_infinity: true, with_cap: true, halved: false, borders: None };
+        let sought = WallQuery { local_light, to_infinity: true, with_cap: true, halved: false, borders: None };
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         extraction.find(mesh, &sought, &mut encoder)?;
         gpu.queue.submit([encoder.finish()]);

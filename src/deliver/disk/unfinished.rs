@@ -36,7 +36,7 @@ pub struct Checks {
 }
 
 /// What was found of a study.
-pub enum Kept {
+pub enum StoredStudy {
     /// Nothing.
     Nothing,
     /// A file that is not what was written: a byte of it is another.
@@ -75,14 +75,14 @@ pub fn keep(folder: &Path, unfinished: &Unfinished, checks: &Checks) -> Result<(
 ///
 /// # Errors
 /// [`ExportError::Read`] where there is a file that cannot be read.
-pub fn kept(folder: &Path, study: u64) -> Result<Kept, ExportError> {
+pub fn kept(folder: &Path, study: u64) -> Result<StoredStudy, ExportError> {
     let path = path(folder, study);
     match fs::read(&path) {
         Ok(bytes) => Ok(match decode(&bytes).filter(|(unfinished, _)| unfinished.study == study) {
-            Some(whole) => Kept::Whole(Box::new(whole)),
-            None => Kept::Damaged,
+            Some(whole) => StoredStudy::Whole(Box::new(whole)),
+            None => StoredStudy::Damaged,
         }),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Kept::Nothing),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(StoredStudy::Nothing),
         Err(source) => Err(ExportError::Read { path, source }),
     }
 }

@@ -9,7 +9,7 @@ use crate::export::figure::Outline;
 use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile, Shaded, ShadedCells, Statistics, Timings};
 use crate::site::Site;
-use crate::study::{self, OnEvent, Tiled, Worked};
+use crate::study::{self, OnEvent, TiledOutcome, TiledStudy};
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
@@ -49,14 +49,15 @@ pub(super) fn find<'a>(
     folder: Option<&'a Path>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<(Hours, Keeping<'a>), DeliverError> {
-    let study = Tiled::new(site, &asked.wants(site, folder.is_some()), on_event)?;
+    let study = TiledStudy::new(site, &asked.wants(site, folder.is_some()), on_event)?;
     let mut keeping = Keeping::new(site, asked, folder, &study)?;
     keeping.look_around(on_event)?;
     let begun = keeping.begun(&study, site, on_event)?;
     let worked = study::in_tiles(study, begun, &mut |event| keeping.hear(event, site, on_event));
     let worked = keeping.take_fault().map_or(worked.map_err(DeliverError::from), Err);
     let worked = worked.inspect_err(|_| keeping.leave(on_event))?;
-    let Worked { drawn, day_and_night_secs: (day_secs, night_secs), surface_mesh, statistics, timings, .. } = worked;
+    let TiledOutcome { drawn, day_and_night_secs: (day_secs, night_secs), surface_mesh, statistics, timings, .. } =
+        worked;
     let shaded = std::mem::replace(&mut keeping.sums, Sums::Memory(Arc::default()));
     let profile = Profile { grid: site.grid, shaded, day_secs, night_secs };
     let outlines = std::mem::take(&mut keeping.outlines);

@@ -4,14 +4,14 @@ use super::ProfileRequest;
 use super::sums::Sums;
 use crate::deliver::disk::bits::BitsFile;
 use crate::deliver::disk::sums::SumsFile;
-use crate::deliver::disk::unfinished::{self, Checks, Kept};
+use crate::deliver::disk::unfinished::{self, Checks, StoredStudy};
 use crate::deliver::parts::note;
 use crate::deliver::{DeliverError, NamedFile};
 use crate::export::figure::Outline;
 use crate::export::{ExportError, bytes, checksum, file, raster};
 use crate::profile::Unfinished;
 use crate::site::Site;
-use crate::study::{self, Event, OnEvent, StudyError, Tiled, tell};
+use crate::study::{self, Event, OnEvent, StudyError, TiledStudy, tell};
 use crate::sun::Instant;
 use crate::view::{Bits, Tile};
 use std::iter;
@@ -55,7 +55,7 @@ impl Keeping<'_> {
         site: &Site,
         asked: &ProfileRequest<'a>,
         folder: Option<&'a Path>,
-        study: &Tiled<'_>,
+        study: &TiledStudy<'_>,
     ) -> Result<Keeping<'a>, ExportError> {
         let number = folder.map_or(0, |_| study.number());
         let bits = |folder| BitsFile::new(folder, number, site.grid, site.receivers, &site.track);
@@ -97,16 +97,18 @@ impl Keeping<'_> {
     /// What the study left when it was stopped, where all that it wrote is still there as it was written.
     pub(super) fn begun(
         &mut self,
-        study: &Tiled<'_>,
+        study: &TiledStudy<'_>,
         site: &Site,
         on_event: &mut OnEvent<'_>,
     ) -> Result<Option<Unfinished>, DeliverError> {
         // nothing keeps the outlines of instants that were drawn before
         let Some(folder) = self.folder.filter(|_| !self.holds_outlines) else { return Ok(None) };
         let (begun, checks) = match unfinished::kept(folder, self.study)? {
-            Kept::Nothing => return Ok(None),
-            Kept::Whole(whole) if study.is_of(&whole.0) => *whole,
-            Kept::Whole(_) | Kept::Damaged => return Ok(anew(&unfinished::path(folder, self.study), on_event)?),
+            StoredStudy::Nothing => return Ok(None),
+            StoredStudy::Whole(whole) if study.is_of(&whole.0) => *whole,
+            StoredStudy::Whole(_) | StoredStudy::Damaged => {
+                return Ok(anew(&unfinished::path(folder, self.study), on_event)?);
+            }
         };
         if let Some(other) = self.other_than_written(folder, study, site, &begun, &checks) {
             return Ok(anew(&other, on_event)?);
@@ -119,7 +121,7 @@ impl Keeping<'_> {
     fn other_than_written(
         &mut self,
         folder: &Path,
-        study: &Tiled<'_>,
+        study: &TiledStudy<'_>,
         site: &Site,
         begun: &Unfinished,
         checks: &Checks,

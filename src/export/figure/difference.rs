@@ -1,7 +1,7 @@
 //! The drawing of a change: sun lost in blues, sun gained in oranges, what is new or gone in grays.
 
 use super::scale::{NO_SHADOW, Rgb, band_secs, mix};
-use super::{Scene, cells, check_surface, page, panel, plan, text, words};
+use super::{FigureContext, cells, check_surface, page, panel, plan, text, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::comparison::{Altered, Change, Comparison};
 use crate::site::Receivers;
@@ -131,7 +131,11 @@ impl ChangeColours {
 ///
 /// # Errors
 /// [`ExportError::Size`] where a surface or the comparison does not fill the grid; [`ExportError::Encode`] from the encoder.
-pub fn difference(scenes: &[Scene; 2], names: &[String; 2], comparison: &Comparison) -> Result<Vec<u8>, ExportError> {
+pub fn difference(
+    scenes: &[FigureContext; 2],
+    names: &[String; 2],
+    comparison: &Comparison,
+) -> Result<Vec<u8>, ExportError> {
     let grid = comparison.grid();
     check_size("comparison", comparison.cells(), grid.width, grid.height)?;
     for scene in scenes {

@@ -48,7 +48,7 @@ use scale::{Bands, NO_SHADOW, mix};
 
 /// What every drawing needs besides the answer itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a, S = Surface> {
+pub struct FigureContext<'a, S = Surface> {
     /// Where on earth.
     pub place: &'a Place,
     /// The instants studied; the first one is drawn where there is one.
@@ -67,10 +67,10 @@ pub struct Scene<'a, S = Surface> {
 
 /// What a camera's picture shows besides sun and shadow.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Shown<'a> {
+pub struct PictureExtras<'a> {
     /// Shadow volumes and silhouette, over the picture.
     pub overlay: Option<&'a Overlay>,
-    /// Each component of [`Scene::mesh`] in its own colour; here is said which of them cast.
+    /// Each component of [`FigureContext::mesh`] in its own colour; here is said which of them cast.
     pub casts: Option<&'a [bool]>,
     /// What counting took, instead of sun and shadow; in the plan's picture, too.
     pub counted: Option<(&'a Counted, Diagram)>,
@@ -80,7 +80,10 @@ pub struct Shown<'a> {
 ///
 /// # Errors
 /// [`ExportError::Size`] where surface and profile do not fill the grid; [`ExportError::Encode`] from the encoder.
-pub fn profile<S: SurfaceRows, C: ShadedCells>(scene: &Scene<S>, profile: &Profile<C>) -> Result<Vec<u8>, ExportError> {
+pub fn profile<S: SurfaceRows, C: ShadedCells>(
+    scene: &FigureContext<S>,
+    profile: &Profile<C>,
+) -> Result<Vec<u8>, ExportError> {
     let grid = &profile.grid;
     check_size("profile", profile.shaded.cells(), grid.width, grid.height)?;
     check_size("surface", scene.surface.cells(), grid.width, grid.height)?;
@@ -91,7 +94,7 @@ pub fn profile<S: SurfaceRows, C: ShadedCells>(scene: &Scene<S>, profile: &Profi
 }
 
 /// What drawings of hours of shadow say.
-fn profile_panel<S, C>(scene: &Scene<S>, profile: &Profile<C>, kicker: &str) -> Panel {
+fn profile_panel<S, C>(scene: &FigureContext<S>, profile: &Profile<C>, kicker: &str) -> Panel {
     let grid = &profile.grid;
     let mut panel = panel(scene, kicker);
     let all = words::long_duration(profile.day_secs);
@@ -121,16 +124,16 @@ pub fn profile_bytes(grid: &Grid) -> u64 {
 /// # Errors
 /// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay; [`ExportError::Encode`] from the encoder, or
 /// where the track has no instant.
-pub fn instant(scene: &Scene, view: &View, mask: &Mask, shown: &Shown) -> Result<Vec<u8>, ExportError> {
+pub fn instant(scene: &FigureContext, view: &View, mask: &Mask, shown: &PictureExtras) -> Result<Vec<u8>, ExportError> {
     instant_as(scene, view, mask, shown, page::png)
 }
 
 /// The sheet of [`instant`], which becomes what `finish` makes of it.
 fn instant_as<T>(
-    scene: &Scene,
+    scene: &FigureContext,
     view: &View,
     mask: &Mask,
-    shown: &Shown,
+    shown: &PictureExtras,
     finish: impl FnOnce(&Sheet) -> Result<T, ExportError>,
 ) -> Result<T, ExportError> {
     let size = view.size();
@@ -234,7 +237,7 @@ pub fn ground_tones(to_sun: glam::DVec3) -> [scale::Rgb; 2] {
 }
 
 /// The legend of what a picture shows besides sun and shadow.
-fn show(panel: &mut Panel, shown: &Shown, ground: scale::Rgb, components: Option<&Components>) {
+fn show(panel: &mut Panel, shown: &PictureExtras, ground: scale::Rgb, components: Option<&Components>) {
     let mut more = Vec::new();
     if shown.overlay.is_some_and(|overlay| overlay.layers.is_some()) {
         more.push((overlay::volume_tone(ground), "shadow volume".to_owned()));
@@ -261,7 +264,7 @@ fn check_surface(surface: &Surface, (width, height): (u32, u32)) -> Result<(), E
 }
 
 /// What all drawings say; the legend is still empty.
-fn panel<S>(scene: &Scene<S>, kicker: &str) -> Panel {
+fn panel<S>(scene: &FigureContext<S>, kicker: &str) -> Panel {
     let (place, track) = (scene.place, scene.track);
     let name = text::clean(&place.name);
     let nameless = name.is_empty();

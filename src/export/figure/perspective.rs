@@ -1,6 +1,6 @@
 //! The camera's colours and lines: a quiet model photograph, warm in the sun and cool in the shade.
 
-use super::Scene;
+use super::FigureContext;
 use super::components::Components;
 use super::picture::{Between, Fit, Pen, Picture, compose};
 use super::scale::Rgb;
@@ -21,7 +21,7 @@ pub(super) struct Painted<'a> {
 
 /// Sun and shadow at one instant, as the camera sees them; of matt card where nothing is painted.
 pub(super) fn instant(
-    scene: &Scene,
+    scene: &FigureContext,
     lens: &Lens,
     mask: &Mask,
     to_sun: DVec3,
@@ -66,7 +66,7 @@ pub(super) fn instant(
 }
 
 /// Cells in the colours given, with or without lines, under the sky of a day; that of the sky's cells is not asked.
-pub(super) fn painted(scene: &Scene, lens: &Lens, of_cells: &[Rgb], with_lines: bool, fit: Fit) -> Picture {
+pub(super) fn painted(scene: &FigureContext, lens: &Lens, of_cells: &[Rgb], with_lines: bool, fit: Fit) -> Picture {
     let width = lens.width();
     let colour = |(pixel, &colour): (usize, &Rgb)| match scene.surface.face[pixel] {
         Surface::SKY => display(sky(lens.ray(pixel % width, pixel / width))),
@@ -154,7 +154,7 @@ impl Lens {
         if self.side.is_some() { self.forward } else { self.forward + self.right * x + self.up * y }
     }
 
-    fn ground_distance(&self, scene: &Scene, pixel: usize, ray: DVec3) -> f64 {
+    fn ground_distance(&self, scene: &FigureContext, pixel: usize, ray: DVec3) -> f64 {
         let drop = f64::from(scene.surface.height_m[pixel]) - self.viewer.z;
         let depth = drop / ray.z;
         if depth.is_finite() { depth.max(0.0) * ray.length() } else { f64::INFINITY }
@@ -170,7 +170,7 @@ impl Lens {
 }
 
 /// A face's plane (n, d) with n·p + d > 0 towards the viewer (homogeneous), in the world frame.
-pub(super) fn facing(scene: &Scene, face: u32, viewer: DVec4) -> DVec4 {
+pub(super) fn facing(scene: &FigureContext, face: u32, viewer: DVec4) -> DVec4 {
     let Some(plane) = scene.mesh.planes().get(face as usize) else {
         return DVec3::Z.extend(0.0);
     };
@@ -216,7 +216,7 @@ fn display(colour: DVec3) -> Rgb {
     [soft(colour.x), soft(colour.y), soft(colour.z)]
 }
 
-fn pen(scene: &Scene, lens: &Lens, a: usize, b: usize) -> Option<Pen> {
+fn pen(scene: &FigureContext, lens: &Lens, a: usize, b: usize) -> Option<Pen> {
     let (from, to) = (scene.surface.face[a], scene.surface.face[b]);
     if from == to {
         return None;

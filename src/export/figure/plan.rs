@@ -1,6 +1,6 @@
 //! The plan's colours and lines: ground and roofs seen from above.
 
-use super::Scene;
+use super::FigureContext;
 use super::picture::{Between, Cells, Composed, Fit, Pen, Picture, Pixels, compose};
 use super::scale::{Bands, Rgb, mix};
 use crate::choice::Receivers;
@@ -17,7 +17,7 @@ pub(super) const ROOF_UNJUDGED: Rgb = [224, 222, 216];
 
 /// Hours of shadow.
 pub(super) fn profile<S: SurfaceRows, C: ShadedCells>(
-    scene: &Scene<S>,
+    scene: &FigureContext<S>,
     profile: &Profile<C>,
     bands: &Bands,
     fit: Fit,
@@ -36,7 +36,7 @@ pub(super) fn profile<S: SurfaceRows, C: ShadedCells>(
 }
 
 /// Sun and shadow at one instant.
-pub(super) fn instant(scene: &Scene, cell_m: f64, mask: &Mask, fit: Fit) -> impl Pixels {
+pub(super) fn instant(scene: &FigureContext, cell_m: f64, mask: &Mask, fit: Fit) -> impl Pixels {
     let ground_only = scene.receivers == Receivers::Ground;
     draw(
         scene,
@@ -63,7 +63,7 @@ pub(super) fn painted(of_cells: &[Rgb], fit: Fit) -> Picture {
 
 /// Hours of shadow after minus those before; what is gone keeps its lines.
 pub(super) fn difference<'a>(
-    scenes: &'a [Scene; 2],
+    scenes: &'a [FigureContext; 2],
     of_cells: &'a [Rgb],
     altered: &'a [Altered],
     cell_m: f64,
@@ -95,7 +95,7 @@ pub(super) fn difference<'a>(
 /// counted from the first of them; slopes get their relief, borders
 /// their lines, and `more` lines of some rows lie beside those.
 fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
-    scene: &Scene<S>,
+    scene: &FigureContext<S>,
     cell_m: f64,
     fit: Fit,
     strength: f64,
@@ -153,7 +153,7 @@ fn upward(mesh: &Mesh, face: usize) -> DVec3 {
 /// Half-way up in the direction of the highest sun of the study, so that relief and shadows tell the same story.
 ///
 /// Maps light relief from the north-west, but here that would darken the very roofs that have most sun.
-fn relief_light<S>(scene: &Scene<S>) -> DVec3 {
+fn relief_light<S>(scene: &FigureContext<S>) -> DVec3 {
     let instants = scene.track.instants.iter();
     let highest = instants.max_by(|a, b| a.altitude_rad.total_cmp(&b.altitude_rad));
     let (sin, cos) = highest.map_or(0.0, |instant| instant.azimuth_rad).sin_cos();

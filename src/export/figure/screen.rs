@@ -5,7 +5,7 @@ use super::page::{HEIGHT, Sheet, WIDTH};
 use super::perspective::{self, Lens, Painted};
 use super::picture::{Fit, Pixels};
 use super::scale::Rgb;
-use super::{Scene, Shown, instant_as, plan};
+use super::{FigureContext, PictureExtras, instant_as, plan};
 use crate::export::{ExportError, raster};
 use crate::view::{Mask, View};
 use glam::DVec3;
@@ -41,10 +41,10 @@ impl Screen {
 /// # Errors
 /// As [`super::instant`].
 pub fn instant_on_screen(
-    scene: &Scene,
+    scene: &FigureContext,
     view: &View,
     mask: &Mask,
-    shown: &Shown,
+    shown: &PictureExtras,
     width: u32,
 ) -> Result<Screen, ExportError> {
     instant_as(scene, view, mask, shown, |sheet| on_screen(sheet, width))
@@ -65,7 +65,7 @@ fn on_screen(sheet: &Sheet, width: u32) -> Result<Screen, ExportError> {
 
 /// What a view shows of sun and shadow without a sheet around it: a pixel a cell, row 0 first. Of what is `shown` over it
 /// there are the components' colours, in a camera's picture.
-pub fn bare(scene: &Scene, view: &View, mask: &Mask, to_sun: DVec3, shown: &Shown) -> Vec<Rgb> {
+pub fn bare(scene: &FigureContext, view: &View, mask: &Mask, to_sun: DVec3, shown: &PictureExtras) -> Vec<Rgb> {
     let size = view.size();
     let fit = Fit { cells: size, pixels: size };
     let lens = match view {

@@ -3,7 +3,7 @@
 use super::panel::{Panel, thousands};
 use super::perspective::{Lens, facing};
 use super::scale::{NO_SUN, Rgb};
-use super::{Scene, check_surface, lens, page, panel, perspective, words};
+use super::{FigureContext, check_surface, lens, page, panel, perspective, words};
 use crate::export::ExportError;
 use crate::export::surfaces::{Atlas, Surfaces};
 use crate::look::LOOK;
@@ -19,7 +19,7 @@ const GROUND: Rgb = [236, 234, 229];
 ///
 /// # Errors
 /// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder, and for a plan.
-pub fn surfaces(scene: &Scene, view: &View, surfaces: &Surfaces) -> Result<Vec<u8>, ExportError> {
+pub fn surfaces(scene: &FigureContext, view: &View, surfaces: &Surfaces) -> Result<Vec<u8>, ExportError> {
     let size = view.size();
     check_surface(scene.surface, size)?;
     let mut panel = labelled(scene, surfaces);
@@ -29,7 +29,7 @@ pub fn surfaces(scene: &Scene, view: &View, surfaces: &Surfaces) -> Result<Vec<u
     page::page(&panel, size, cell, draw, page::png)
 }
 
-fn labelled(scene: &Scene, surfaces: &Surfaces) -> Panel {
+fn labelled(scene: &FigureContext, surfaces: &Surfaces) -> Panel {
     let (hours, patches) = (surfaces.hours, surfaces.patches);
     let mut panel = panel(scene, "Sun on surfaces");
     panel
@@ -62,7 +62,7 @@ pub fn legend(surfaces: &Surfaces) -> (String, Vec<(Rgb, String)>) {
 }
 
 /// Per pixel its colour; the sky's is not looked at.
-fn painted(scene: &Scene, lens: &Lens, surfaces: &Surfaces) -> Vec<Rgb> {
+fn painted(scene: &FigureContext, lens: &Lens, surfaces: &Surfaces) -> Vec<Rgb> {
     let (patches, bands, samples) = (surfaces.patches, surfaces.bands(), surfaces.hours.samples);
     // the scene's faces are those of the components that receive
     let atlas = Atlas::of(surfaces);

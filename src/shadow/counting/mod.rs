@@ -18,7 +18,7 @@ mod ways;
 use super::batch::{Batch, Found};
 use super::near_clip::needs_z_fail;
 use super::walls::borders::Borders;
-use super::walls::{Maker, Sought};
+use super::walls::{Maker, WallQuery};
 use super::{GpuSurface, Scene, ShadowError, Silhouettes};
 use crate::gpu::targets::{SUMMED, whole};
 use crate::gpu::{Gpu, readback};
@@ -178,7 +178,7 @@ impl Counting {
             View::Camera(camera) => self.forced_z_fail.unwrap_or_else(|| needs_z_fail(camera, to_sun, &self.scene)),
         };
         self.surface.set_sun(to_sun);
-        let sought = Sought {
+        let sought = WallQuery {
             local_light: self.scene.casters.local_light(to_sun.extend(0.0)),
             to_infinity: z_fail,
             with_cap: z_fail || !self.casters_are_seen,

@@ -159,7 +159,7 @@ impl SoftTexture {
             samples.iter().map(|sample| Sample { light: sample.light - origin * sample.light.w, ..*sample }).collect();
         let SoftTexture { casters, patches, sides, occluders, rays, choice, fill, culling, sums, drawer, counts } =
             self;
-        let sought = Sought { patches, occluders, culling: *culling, choice: *choice };
+        let sought = OccluderQuery { patches, occluders, culling: *culling, choice: *choice };
         let casting = Casting { mesh: casters, sides, occluders };
         let judge = Judge { sought, rays, casting, fill: *fill, counts };
         // those that the adapter leaves to rays
@@ -238,14 +238,14 @@ fn is_drawn(patch: &Patch, choice: Choice) -> bool {
 }
 
 /// What is asked of occluders.
-struct Sought<'a> {
+struct OccluderQuery<'a> {
     patches: &'a Patches,
     occluders: &'a Occluders,
     culling: bool,
     choice: Choice,
 }
 
-impl Sought<'_> {
+impl OccluderQuery<'_> {
     /// Finds what stands between a patch and a light; false where rays are to be cast instead.
     fn find(&self, patch: &Patch, onto: &Registered, waiting: &mut Vec<u32>, found: &mut Vec<u32>) -> bool {
         let most = match self.choice {
@@ -276,7 +276,7 @@ fn raster(patch: &Patch, cell: f64, light: DVec4) -> Option<Raster> {
 
 /// What judges patches on the processor.
 struct Judge<'a> {
-    sought: Sought<'a>,
+    sought: OccluderQuery<'a>,
     rays: &'a RayCaster,
     casting: Casting<'a>,
     fill: Fill,

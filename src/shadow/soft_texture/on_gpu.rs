@@ -5,7 +5,7 @@
 //! adapter; nothing comes back before the end.
 
 use super::occluders::Occluders;
-use super::{Choice, Judged, Sample, Sought, is_drawn, raster};
+use super::{Choice, Judged, OccluderQuery, Sample, is_drawn, raster};
 use crate::gpu::layout::Run;
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
@@ -141,7 +141,7 @@ impl Drawer {
     /// Adds a sample to all drawn patches. Returns those that are left to rays, in their order.
     pub(super) fn add(
         &self,
-        sought: &Sought<'_>,
+        sought: &OccluderQuery<'_>,
         casters: &Mesh,
         sample: &Sample,
     ) -> Result<(Judged, Vec<u32>), ShadowError> {

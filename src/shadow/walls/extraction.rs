@@ -7,7 +7,7 @@
 //! edges are silhouette.
 
 use super::faces::{self, Faces, GROUP};
-use super::{NO_FACE, Sought, Walls, along, packed};
+use super::{NO_FACE, WallQuery, Walls, along, packed};
 use crate::gpu::{Gpu, GpuError, layout, readback, shaders};
 use crate::mesh::Mesh;
 use std::sync::Arc;
@@ -157,7 +157,7 @@ impl Extraction {
 
 impl Run {
     /// Makes the list as long as it can become.
-    fn make_list(&mut self, extraction: &Extraction, sought: &Sought) -> Result<(), GpuError> {
+    fn make_list(&mut self, extraction: &Extraction, sought: &WallQuery) -> Result<(), GpuError> {
         let gpu = &extraction.gpu;
         let most_walls = self.most_walls >> u32::from(sought.halved);
         let size = most_walls * u64::from(sought.indices_per_wall()) * 4;
@@ -184,7 +184,7 @@ impl Run {
 }
 
 impl Walls for Extraction {
-    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<bool, GpuError> {
+    fn find(&mut self, mesh: &Mesh, sought: &WallQuery, encoder: &mut CommandEncoder) -> Result<bool, GpuError> {
         let mut runs = std::mem::take(&mut self.runs);
         let made = runs.iter_mut().try_for_each(|run| run.make_list(self, sought));
         self.runs = runs;

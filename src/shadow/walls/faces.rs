@@ -1,6 +1,6 @@
 //! Faces on the GPU: which of them a light shines on, one bit a face; and the light cap that those bits turn.
 
-use super::Sought;
+use super::WallQuery;
 use crate::gpu::targets::whole;
 use crate::gpu::{Gpu, GpuError, layout, shaders};
 use crate::mesh::Mesh;
@@ -84,7 +84,12 @@ impl Faces {
     }
 
     /// Decides facing, and turns the cap where it is sought.
-    pub(super) fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<(), GpuError> {
+    pub(super) fn find(
+        &mut self,
+        mesh: &Mesh,
+        sought: &WallQuery,
+        encoder: &mut CommandEncoder,
+    ) -> Result<(), GpuError> {
         self.cap_is_sought = sought.with_cap;
         if sought.with_cap && self.cap.is_empty() {
             self.make_cap(mesh)?;

@@ -37,7 +37,7 @@ impl From<Kind> for Silhouettes {
 
 /// Which volume is sought.
 #[derive(Clone, Copy, Debug)]
-pub struct Sought {
+pub struct WallQuery {
     /// The light around the mesh's origin (sun: w = 0, lamp: w = 1).
     pub local_light: DVec4,
     /// Walls end in one point at infinity, so that each is one triangle; else two.
@@ -50,7 +50,7 @@ pub struct Sought {
     pub borders: Option<Borders>,
 }
 
-impl Sought {
+impl WallQuery {
     fn indices_per_wall(&self) -> u32 {
         if self.to_infinity { 3 } else { 6 }
     }
@@ -70,7 +70,7 @@ impl Sought {
 pub trait Walls {
     /// Finds the volume that is drawn next; what the GPU has to do for it goes into `encoder`. Says whether there may be
     /// something to draw.
-    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<bool, GpuError>;
+    fn find(&mut self, mesh: &Mesh, sought: &WallQuery, encoder: &mut CommandEncoder) -> Result<bool, GpuError>;
 
     /// Draws its walls.
     fn draw_walls(&self, pass: &mut RenderPass<'_>);

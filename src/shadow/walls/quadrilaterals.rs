@@ -4,7 +4,7 @@
 //! shader know edges with two faces: one with more comes as several, a pair of its faces each, whose walls add up.
 
 use super::faces::{self, Faces, GROUP};
-use super::{NO_FACE, Sought, Walls, packed};
+use super::{NO_FACE, WallQuery, Walls, packed};
 use crate::gpu::{Gpu, GpuError, layout, shaders};
 use crate::mesh::Mesh;
 use crate::shadow::surface::bind_group_layout;
@@ -82,7 +82,7 @@ fn pairs(mesh: &Mesh, edge: usize) -> impl Iterator<Item = layout::Quadrilateral
 }
 
 impl Walls for Quadrilaterals {
-    fn find(&mut self, mesh: &Mesh, sought: &Sought, encoder: &mut CommandEncoder) -> Result<bool, GpuError> {
+    fn find(&mut self, mesh: &Mesh, sought: &WallQuery, encoder: &mut CommandEncoder) -> Result<bool, GpuError> {
         self.instances = if sought.halved { 1 } else { 2 };
         self.faces.find(mesh, sought, encoder)?;
         Ok(true)

@@ -1,6 +1,6 @@
 //! Walls from a finder on the processor, as a list of indices that is uploaded at each instant.
 
-use super::{Sought, Walls, sunward};
+use super::{WallQuery, Walls, sunward};
 use crate::gpu::{Gpu, GpuError};
 use crate::mesh::Mesh;
 use crate::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
@@ -30,7 +30,7 @@ fn buffer(gpu: &Gpu, size: u64) -> Result<Buffer, GpuError> {
 }
 
 /// Appends a wall's triangles, counter-clockwise seen from outside.
-fn append(upload: &mut Vec<u32>, mesh: &Mesh, wall: DirectedEdge, sought: &Sought) {
+fn append(upload: &mut Vec<u32>, mesh: &Mesh, wall: DirectedEdge, sought: &WallQuery) {
     let [from, to] = wall.map(|vertex| [vertex * 2, vertex * 2 + 1]);
     if sought.to_infinity {
         upload.extend([from[0], to[1], to[0]]); // far ends are one point
@@ -42,7 +42,7 @@ fn append(upload: &mut Vec<u32>, mesh: &Mesh, wall: DirectedEdge, sought: &Sough
 }
 
 impl Walls for Uploaded {
-    fn find(&mut self, mesh: &Mesh, sought: &Sought, _: &mut CommandEncoder) -> Result<bool, GpuError> {
+    fn find(&mut self, mesh: &Mesh, sought: &WallQuery, _: &mut CommandEncoder) -> Result<bool, GpuError> {
         let volume = Volume::find(mesh, &mut *self.finder, sought.local_light, sought.with_cap);
         self.upload.clear();
         // an edge's walls stand in a row

@@ -4,7 +4,7 @@ use super::{Line, Lines, Scale, fill, group, line, paths, stroke};
 use crate::export::figure::picture::{Cells, Pen};
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::Block;
-use crate::export::figure::{Scene, plan};
+use crate::export::figure::{FigureContext, plan};
 use crate::profile::contour::{Contour, Field, contours};
 use crate::site::Receivers;
 use crate::view::{Grid, Surface, SurfaceRows};
@@ -29,7 +29,7 @@ pub(super) struct Base {
 }
 
 impl Base {
-    pub(super) fn new<S: SurfaceRows>(scene: &Scene<S>, grid: &Grid) -> Base {
+    pub(super) fn new<S: SurfaceRows>(scene: &FigureContext<S>, grid: &Grid) -> Base {
         /// Rows that one task looks at.
         const BAND: usize = 64;
         let (width, height) = (grid.width, grid.height);

@@ -6,7 +6,7 @@ use super::{LineDrawing, Lines, Scale, fill, group, length};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb, mix};
 use crate::export::figure::svg::{Block, Style};
 use crate::export::figure::text::Weight;
-use crate::export::figure::{self, Scene, plan, words};
+use crate::export::figure::{self, FigureContext, plan, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::Profile;
 use crate::profile::contour::Contour;
@@ -35,7 +35,7 @@ const APART: f64 = 240.0;
 ///
 /// # Errors
 /// [`ExportError::Size`] where surface and profile do not fill the grid.
-pub fn iso_hours<S: SurfaceRows>(scene: &Scene<S>, profile: &Profile) -> Result<LineDrawing, ExportError> {
+pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) -> Result<LineDrawing, ExportError> {
     let grid = &profile.grid;
     check_size("profile", profile.shaded.len(), grid.width, grid.height)?;
     check_size("surface", scene.surface.cells(), grid.width, grid.height)?;

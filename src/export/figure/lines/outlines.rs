@@ -7,7 +7,7 @@ use crate::export::figure::picture::Fit;
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::{Block, Style};
 use crate::export::figure::text::Weight;
-use crate::export::figure::{self, Scene, UNJUDGED, plan, words};
+use crate::export::figure::{self, FigureContext, UNJUDGED, plan, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::contour::Contour;
 use crate::site::Receivers;
@@ -55,7 +55,7 @@ const BESIDE: f64 = 12.0;
 /// [`ExportError::Size`] where surface or a shadow do not fill the grid; [`ExportError::Encode`] where the track has no such
 /// instant.
 pub fn outlines<S: SurfaceRows>(
-    scene: &Scene<S>,
+    scene: &FigureContext<S>,
     grid: &Grid,
     outlines: &[Outline],
 ) -> Result<LineDrawing, ExportError> {
