@@ -12,7 +12,7 @@ use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::brute_force::BruteForce;
-use gnomon::silhouette::{Kind, SilhouetteFinder};
+use gnomon::silhouette::{ProcessorFinder, SilhouetteFinder};
 use gnomon::site::{Overrides, Site};
 use gnomon::view::View;
 use gnomon::volume::{Volume, layers_bound};
@@ -55,7 +55,7 @@ fn ground_row(name: &str, gpu: Option<&Arc<Gpu>>) {
         Box::new(ProjectedOnGpu::new(Arc::clone(gpu), &scene, site.grid).expect("it fits")) as Box<dyn Technique>
     }));
     ways.push(gpu.map(|gpu| {
-        let finder = if gpu.software() { Kind::Hierarchy.into() } else { Silhouettes::OnGpu };
+        let finder = if gpu.software() { ProcessorFinder::Hierarchy.into() } else { Silhouettes::OnGpu };
         Box::new(Stencil::new(Arc::clone(gpu), scene.clone(), view, finder).expect("it fits")) as Box<dyn Technique>
     }));
     ways.push(Some(Box::new(RayCast::new(scene.clone(), view, None))));
@@ -97,7 +97,8 @@ fn row(name: &str, gpu: Option<Arc<Gpu>>) {
         timed(&mut times[3], || layers_bound(mesh, instant.to_sun));
     }
     if let Some(gpu) = gpu {
-        let mut stencil = Stencil::new(Arc::clone(&gpu), scene.clone(), view, Kind::BruteForce).expect("a stencil");
+        let mut stencil =
+            Stencil::new(Arc::clone(&gpu), scene.clone(), view, ProcessorFinder::BruteForce).expect("a stencil");
         let mut sum = Sum::new(Some(Arc::clone(&gpu)), width, height);
         let wait = || gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter answers");
         for instant in &suns {

@@ -9,7 +9,7 @@ mod timing;
 use gnomon::gpu::Gpu;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::{Overrides, Site};
 use gnomon::view::{Camera, Grid, View};
 use gnomon::volume::layers_bound;
@@ -18,8 +18,8 @@ use std::sync::Arc;
 use timing::{median, timed};
 
 const WAYS: [Silhouettes; 4] = [
-    Silhouettes::OnProcessor(Kind::BruteForce),
-    Silhouettes::OnProcessor(Kind::Hierarchy),
+    Silhouettes::OnProcessor(ProcessorFinder::BruteForce),
+    Silhouettes::OnProcessor(ProcessorFinder::Hierarchy),
     Silhouettes::OnGpu,
     Silhouettes::InVertexShader,
 ];

@@ -13,10 +13,10 @@ mod timing;
 use glam::{DVec3, DVec4, dvec3};
 use gnomon::gpu::Gpu;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::shadow::walls::extraction::{Extraction, Program};
+use gnomon::shadow::walls::extraction::{Extraction, ExtractionProgram};
 use gnomon::shadow::walls::{WallQuery, Walls};
 use gnomon::silhouette::hierarchy::Hierarchy;
-use gnomon::silhouette::{DirectedEdge, Kind, Looked, SilhouetteFinder, hextree};
+use gnomon::silhouette::{DirectedEdge, Looked, ProcessorFinder, SilhouetteFinder, hextree};
 use gnomon::site::{Overrides, Site};
 use std::path::Path;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ fn main() {
     let copies = arguments.iter().position(|argument| argument == "--copies").and_then(|at| arguments.get(at + 1));
     let gpu = Gpu::open().ok().map(|gpu| {
         let gpu = Arc::new(gpu);
-        let program = Program::new(&gpu);
+        let program = ExtractionProgram::new(&gpu);
         (gpu, program)
     });
     println!("adapter: {}\n", gpu.as_ref().map_or("none", |(gpu, _)| gpu.name()));
@@ -59,7 +59,7 @@ fn main() {
 }
 
 /// An adapter, with the finder's shaders.
-type Machine = (Arc<Gpu>, Program);
+type Machine = (Arc<Gpu>, ExtractionProgram);
 
 /// A site's casters and its suns; with `all`, every component casts.
 fn site(name: &str, all: Option<()>) -> (Mesh, Vec<DVec4>) {
@@ -114,7 +114,7 @@ fn entries(gpu: Option<&Machine>, mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
         looked: Vec::new(),
     };
     let mut entries = Vec::new();
-    let mut brute = Kind::BruteForce.build(mesh);
+    let mut brute = ProcessorFinder::BruteForce.build(mesh);
     entries.push(entry("brute force", 0.0, 0, Box::new(move |mesh, sun, out| brute.find(mesh, sun, out))));
     for depth in [hextree::PAPER_DEPTH, hextree::DEEPEST] {
         let mut built = Vec::new();

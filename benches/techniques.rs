@@ -19,9 +19,9 @@ use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::{Overrides, Site};
-use gnomon::view::{Camera, Counted, Decided, View};
+use gnomon::view::{Camera, Decided, FragmentCounts, View};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -121,7 +121,8 @@ struct Tables {
 impl Tables {
     fn measure(&mut self, gpu: &Arc<Gpu>, case: &Case, map_size: u32) {
         let Case { name, scene, view, suns } = case;
-        let silhouettes: Silhouettes = if gpu.software() { Kind::Hierarchy.into() } else { Silhouettes::OnGpu };
+        let silhouettes: Silhouettes =
+            if gpu.software() { ProcessorFinder::Hierarchy.into() } else { Silhouettes::OnGpu };
         let filter = Filter::FastTwoByTwo;
         let map = ShadowMap::new(Arc::clone(gpu), scene, *view, map_size, filter).expect("a map");
         let mut hybrid = Hybrid::new(Arc::clone(gpu), scene.clone(), *view, silhouettes, map_size).expect("a hybrid");
@@ -130,7 +131,7 @@ impl Tables {
             .map(|it| it.counted(suns[suns.len() / 2]).expect("a count").expect("what is counted"));
         self.fragments.push(fragments_row(name, map_size, &counted));
 
-        let smoothie = Smoothie::new(Arc::clone(gpu), scene.clone(), *view, Kind::Hierarchy, map_size, None);
+        let smoothie = Smoothie::new(Arc::clone(gpu), scene.clone(), *view, ProcessorFinder::Hierarchy, map_size, None);
         let mut techniques: [Box<dyn Technique>; 4] =
             [Box::new(map), Box::new(hybrid), Box::new(stencil), Box::new(smoothie.expect("smoothies"))];
         let mut whole: [Vec<f64>; 4] = Default::default();
@@ -196,7 +197,7 @@ impl Tables {
     }
 }
 
-fn fragments_row(name: &str, map_size: u32, [stencil, hybrid]: &[Counted; 2]) -> String {
+fn fragments_row(name: &str, map_size: u32, [stencil, hybrid]: &[FragmentCounts; 2]) -> String {
     let cells = f64::from(stencil.width * stencil.height);
     let reached: u64 = hybrid.reached.iter().map(|&fragments| u64::from(fragments)).sum();
     let decided = hybrid.decided.as_ref().expect("what decided");

@@ -12,7 +12,7 @@ use gnomon::desktop::App;
 use gnomon::gpu::Gpu;
 use gnomon::picture::{Picture, Style};
 use gnomon::site::{Method, Overrides, Settings, Site};
-use gnomon::study::live::{Live, Way};
+use gnomon::study::live::{Live, LiveMethod};
 use gnomon::view::{Camera, View};
 use screen::Screen;
 use std::collections::VecDeque;
@@ -222,7 +222,7 @@ fn hand(window: &Harness<'_, App>, on: &str) -> (Pos2, Pos2) {
 
 /// Median milliseconds of a picture for another sun, and for another eye.
 fn measure(site: &Site, gpu: &Arc<Gpu>, (width, height): (u32, u32), method: Method) -> [f64; 2] {
-    let way = Way { method, settings: Settings::default() };
+    let way = LiveMethod { method, settings: Settings::default() };
     let camera = Camera { width, height, ..site.camera };
     let view = |step: usize| {
         let eye = camera.eye + camera.up * step as f64 * 0.7;

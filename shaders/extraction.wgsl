@@ -1,6 +1,6 @@
 // All edges asked at once: the walls of those that are silhouette, as the list that is drawn next.
 
-struct Edge {
+struct EdgeRecord {
     first: u32,
     second: u32,
     // The faces at it, as they run from `first` to `second`; `b` may be NO_FACE. Where there are more than two: CROWDED and
@@ -14,7 +14,7 @@ struct Edge {
 const CROWDED: u32 = 0x80000000u;
 
 // The arguments of an indirect draw.
-struct Arguments {
+struct DrawArguments {
     index_count: atomic<u32>,
     instance_count: u32,
     first_index: u32,
@@ -22,12 +22,12 @@ struct Arguments {
     first_instance: u32,
 }
 
-@group(2) @binding(2) var<storage, read> edges: array<Edge>;
+@group(2) @binding(2) var<storage, read> edges: array<EdgeRecord>;
 @group(2) @binding(3) var<storage, read> crowds: array<u32>;
 @group(2) @binding(4) var<storage, read_write> indices: array<u32>;
-@group(2) @binding(5) var<storage, read_write> arguments: Arguments;
+@group(2) @binding(5) var<storage, read_write> arguments: DrawArguments;
 
-fn multiplicity(edge: Edge) -> i32 {
+fn multiplicity(edge: EdgeRecord) -> i32 {
     if (edge.a & CROWDED) == 0u {
         return turned(edge.a) + turned(edge.b);
     }
@@ -50,7 +50,7 @@ fn extract(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let at = (group.y * groups.x + group.x) * 256u + lane;
-    var edge = Edge();
+    var edge = EdgeRecord();
     var sum = 0;
     if at < arrayLength(&edges) {
         edge = edges[at];

@@ -25,13 +25,13 @@ fn decide(
     }
 }
 
-struct Face {
+struct FaceRecord {
     // Of the mesh, counter-clockwise seen from its front side.
     corners: vec3u,
     number: u32,
 }
 
-@group(2) @binding(3) var<storage, read> faces: array<Face>;
+@group(2) @binding(3) var<storage, read> faces: array<FaceRecord>;
 @group(2) @binding(4) var<storage, read_write> indices: array<u32>;
 
 @compute @workgroup_size(256)

@@ -1,7 +1,7 @@
 // What a view shows, for the eye: sun and shadow on matt card as drawings have them (src/export/figure), or hours of
 // shadow over it. Colours are display values.
 
-struct Shown {
+struct PictureUniforms {
     // Where the hours' raster begins (west, north), metres around the scene's origin; its cell, metres.
     hours_corner: vec2f,
     hours_cell: f32,
@@ -25,7 +25,7 @@ struct Shown {
 }
 
 // The look that drawings have (src/look.rs), field for field.
-struct Look {
+struct LookUniforms {
     building: vec3f,
     cut_earth: f32,
     ground: vec3f,
@@ -70,7 +70,7 @@ struct Look {
     most_layers: f32,
 }
 
-@group(2) @binding(0) var<uniform> shown: Shown;
+@group(2) @binding(0) var<uniform> shown: PictureUniforms;
 @group(2) @binding(1) var share_of_sun: texture_2d<f32>;
 // Colours of the hours' cells, and the height of the surface that they were counted on, around the scene's origin.
 @group(2) @binding(2) var hours_colour: texture_2d<f32>;
@@ -86,7 +86,7 @@ struct Look {
 @group(2) @binding(8) var patch_of: texture_2d<u32>;
 @group(2) @binding(9) var patch_frames: texture_2d<f32>;
 @group(2) @binding(10) var atlas: texture_2d_array<f32>;
-@group(2) @binding(11) var<uniform> look: Look;
+@group(2) @binding(11) var<uniform> look: LookUniforms;
 
 // What a pixel sees, from its face's plane: depths are not needed, which rays do not tell.
 fn point_on(face: u32, pixel: vec2f) -> vec3f {

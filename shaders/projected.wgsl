@@ -1,13 +1,13 @@
 // Faces that fall along the sun onto a plan's raster.
 
-struct Fall {
+struct FallUniforms {
     // Columns and rows that a shadow falls away from the sun, a metre of height.
     a_metre: vec2f,
     // Columns and rows of the raster.
     size: vec2f,
 }
 
-@group(0) @binding(0) var<uniform> fall: Fall;
+@group(0) @binding(0) var<uniform> fall: FallUniforms;
 
 // Columns and rows from the raster's middle, and metres above the plane.
 @vertex

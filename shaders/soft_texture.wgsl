@@ -27,10 +27,10 @@ fn covered() -> @location(0) vec4f {
 // The sample's weight for each patch: 0 where the sample is not in front of it.
 @group(0) @binding(3) var<storage, read> weights: array<u32>;
 @group(0) @binding(4) var<storage, read_write> sums: array<u32>;
-@group(0) @binding(5) var<uniform> run: Run;
+@group(0) @binding(5) var<uniform> run: TexelRunUniforms;
 
 // The texels of a page.
-struct Run {
+struct TexelRunUniforms {
     first: u32,
     count: u32,
 }

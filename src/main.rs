@@ -7,7 +7,7 @@ fn main() -> ExitCode {
 }
 
 /// What opens the window, where there is one.
-const WINDOW: Option<gnomon::cli::Window> = {
+const WINDOW: Option<gnomon::cli::WindowOpener> = {
     #[cfg(feature = "desktop")]
     {
         Some(gnomon::desktop::open)

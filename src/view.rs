@@ -456,7 +456,7 @@ pub enum Decided {
 
 /// What counting shadow volumes takes at one instant.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Counted {
+pub struct FragmentCounts {
     /// Columns.
     pub width: u32,
     /// Rows.

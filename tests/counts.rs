@@ -7,7 +7,7 @@ use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::model;
 use gnomon::site::{Overrides, Receivers, Site};
 use gnomon::view::View;
@@ -43,9 +43,9 @@ fn counts(name: &str) -> Counts {
         ("edges of those", casters.edges.len() as u64),
     ];
     let finders = [
-        ("edges tested by brute force", Kind::BruteForce),
-        ("edges and nodes tested by the hextree, depth 4", Kind::Hextree { depth: 4 }),
-        ("edges and nodes tested by the hierarchy", Kind::Hierarchy),
+        ("edges tested by brute force", ProcessorFinder::BruteForce),
+        ("edges and nodes tested by the hextree, depth 4", ProcessorFinder::Hextree { depth: 4 }),
+        ("edges and nodes tested by the hierarchy", ProcessorFinder::Hierarchy),
     ];
     let mut silhouettes = Vec::new();
     for (what, kind) in finders {
@@ -61,8 +61,8 @@ fn counts(name: &str) -> Counts {
     let (scene, view) = (Scene { casters, receivers, ground: site.ground.level }, View::Plan(site.grid));
     let rays = RayCast::new(scene.clone(), view, None);
     counts.push(("rays", suns.iter().map(|sun| rays.rays(*sun)).sum::<usize>() as u64));
-    let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::Hierarchy).unwrap();
-    let mut hybrid = Hybrid::new(gpu(), scene, view, Kind::Hierarchy, MAP_SIZE).unwrap();
+    let mut stencil = Stencil::new(gpu(), scene.clone(), view, ProcessorFinder::Hierarchy).unwrap();
+    let mut hybrid = Hybrid::new(gpu(), scene, view, ProcessorFinder::Hierarchy, MAP_SIZE).unwrap();
     let [mut all, mut reached] = [0; 2];
     for sun in suns {
         all += stencil.counted(sun).unwrap().unwrap().all;

@@ -9,7 +9,7 @@ use gnomon::deliver::probe::{ProbeRequest, probe};
 use gnomon::deliver::profile::{ProfileAnswer, ProfileRequest, find_hours, profile};
 use gnomon::deliver::surfaces::{SurfacesRequest, surfaces};
 use gnomon::deliver::volumes::volumes;
-use gnomon::deliver::{Folder, NamedFile, Sink, Written};
+use gnomon::deliver::{Folder, NamedFile, Sink, WrittenFiles};
 use gnomon::site::{Engine, Overrides, Pair, Receivers, Site, load_probes};
 use gnomon::study::{Event, Stopwatch};
 use gnomon::view::View;
@@ -136,7 +136,7 @@ fn shelf_holds_so_many_studies() {
 }
 
 /// Makes a deliverable.
-type Write<'a> = &'a dyn Fn(Sink<'_>) -> Written;
+type Write<'a> = &'a dyn Fn(Sink<'_>) -> WrittenFiles;
 
 /// So it is with all other deliverables but the animation, whose GIF is made of files.
 #[test]

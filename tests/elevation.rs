@@ -8,7 +8,7 @@ use gnomon::mesh::Mesh;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{GpuSurface, Scene, Technique};
 use gnomon::site::{Method, Overrides, Settings, Site};
-use gnomon::study::live::{Live, Way};
+use gnomon::study::live::{Live, LiveMethod};
 use gnomon::study::{self, InstantWants};
 use gnomon::view::{Elevation, Surface, View};
 use std::ops::ControlFlow;
@@ -91,12 +91,12 @@ fn no_other_technique_draws_a_side() {
     let target = gnomon::picture::Picture::target(&gpu(), &view);
     let style = gnomon::picture::Style { focus_m: 1.0, lines: 1.0, wide_lines: false, tinted: false, hours: false };
     for method in [Method::Stencil, Method::Projected, Method::ShadowMap, Method::Hybrid, Method::SoftTexture] {
-        let way = Way { method, settings: Settings::default() };
+        let way = LiveMethod { method, settings: Settings::default() };
         let fault = live.draw(&way, to_sun(180.0, 40.0), &style, &target).expect_err("a fault").to_string();
         assert!(fault.contains("technique: ") && fault.contains("ray-cast"), "{method}: {fault}");
     }
     for method in [Method::Auto, Method::RayCast] {
-        let way = Way { method, settings: Settings::default() };
+        let way = LiveMethod { method, settings: Settings::default() };
         let drawn = live.draw(&way, to_sun(180.0, 40.0), &style, &target).unwrap();
         assert_eq!(drawn.technique, Method::RayCast, "{method}");
     }

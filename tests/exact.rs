@@ -13,13 +13,13 @@ use gnomon::profile::compare::Difference;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::{Overrides, Receivers, Site};
 use gnomon::view::{Camera, Mask, View};
 
 /// For each sun the stencil's mask, the truth's, and how they differ.
 fn masks(scene: &Scene, view: View, suns: &[DVec3]) -> Vec<(Mask, Mask, Difference)> {
-    let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::BruteForce).unwrap();
+    let mut stencil = Stencil::new(gpu(), scene.clone(), view, ProcessorFinder::BruteForce).unwrap();
     let mut truth = RayCast::new(scene.clone(), view, None);
     let both = |&sun: &DVec3| {
         let [drawn, cast] =

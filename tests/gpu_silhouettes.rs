@@ -11,11 +11,11 @@ use gnomon::mesh::Mesh;
 use gnomon::shadow::near_clip::near_clip_volume_touched;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::walls::borders::Borders;
-use gnomon::shadow::walls::extraction::{Extraction, Program};
+use gnomon::shadow::walls::extraction::{Extraction, ExtractionProgram};
 use gnomon::shadow::walls::{WallQuery, Walls};
 use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::brute_force::BruteForce;
-use gnomon::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
+use gnomon::silhouette::{DirectedEdge, ProcessorFinder, SilhouetteFinder};
 use gnomon::site::{Overrides, Receivers, Site};
 use gnomon::view::{Camera, Grid, Mask, View};
 use proptest::prelude::*;
@@ -24,9 +24,9 @@ use std::sync::OnceLock;
 /// Far more than any mesh of these tests takes.
 const PLENTY: u64 = 1 << 27;
 
-fn program() -> &'static Program {
-    static PROGRAM: OnceLock<Program> = OnceLock::new();
-    PROGRAM.get_or_init(|| Program::new(&gpu()))
+fn program() -> &'static ExtractionProgram {
+    static PROGRAM: OnceLock<ExtractionProgram> = OnceLock::new();
+    PROGRAM.get_or_init(|| ExtractionProgram::new(&gpu()))
 }
 
 /// The walls as the indices that are drawn, and the cap's; and how many runs wrote them.
@@ -179,7 +179,7 @@ proptest! {
 }
 
 const WAYS: [Silhouettes; 3] =
-    [Silhouettes::OnProcessor(Kind::BruteForce), Silhouettes::OnGpu, Silhouettes::InVertexShader];
+    [Silhouettes::OnProcessor(ProcessorFinder::BruteForce), Silhouettes::OnGpu, Silhouettes::InVertexShader];
 
 /// Draws by all ways, each sun twice and others between.
 fn masks(scene: &Scene, view: View, suns: &[DVec3]) -> [Vec<Mask>; 3] {

@@ -4,15 +4,15 @@ use crate::shared::drawing::gpu;
 use gnomon::gpu::readback;
 use gnomon::picture::{Picture, Style};
 use gnomon::site::{Ground, Method, Overrides, Settings, Site};
-use gnomon::study::live::{Live, Way};
+use gnomon::study::live::{Live, LiveMethod};
 use gnomon::view::{Camera, Grid, View};
 use std::path::Path;
 use wgpu::TextureAspect;
 
 const STYLE: Style = Style { focus_m: 300.0, lines: 1.0, wide_lines: false, tinted: false, hours: false };
 
-fn way(method: Method) -> Way {
-    Way { method, settings: Settings::default() }
+fn way(method: Method) -> LiveMethod {
+    LiveMethod { method, settings: Settings::default() }
 }
 
 /// Whatever was looked at before, a view's picture is the one that a new start draws; and every exact technique's is the same

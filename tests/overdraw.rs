@@ -6,7 +6,7 @@ use gnomon::mesh::Mesh;
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::view::View;
 
 fn scene(parts: Vec<gnomon::mesh::Part>) -> Scene {
@@ -17,8 +17,8 @@ fn scene(parts: Vec<gnomon::mesh::Part>) -> Scene {
 /// Fragments a cell that reach the count, without a mask and behind one of a map of `map_size` texels a side.
 fn overdraw(Dense { parts, camera, to_sun }: Dense, map_size: u32) -> [f64; 2] {
     let (scene, view) = (scene(parts), View::Camera(camera));
-    let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::Hierarchy).unwrap();
-    let mut hybrid = Hybrid::new(gpu(), scene, view, Kind::Hierarchy, map_size).unwrap();
+    let mut stencil = Stencil::new(gpu(), scene.clone(), view, ProcessorFinder::Hierarchy).unwrap();
+    let mut hybrid = Hybrid::new(gpu(), scene, view, ProcessorFinder::Hierarchy, map_size).unwrap();
     let all = stencil.counted(to_sun).unwrap().unwrap();
     let masked = hybrid.counted(to_sun).unwrap().unwrap();
     let reached: u64 = masked.reached.iter().map(|&fragments| u64::from(fragments)).sum();

@@ -1,6 +1,6 @@
 //! Every shader is valid, and its structs lie in memory as Rust's do. Needs no GPU.
 
-use gnomon::gpu::layout::{self, Layout};
+use gnomon::gpu::layout::{self, StructLayout};
 use gnomon::gpu::shaders;
 use std::path::Path;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -24,7 +24,7 @@ fn in_shader(module: &Module, name: &str) -> Option<(usize, Vec<(String, usize)>
 }
 
 /// How a struct of the shader differs from Rust's, where it has one of that name.
-fn difference(shader: &str, module: &Module, rust: &Layout) -> Option<String> {
+fn difference(shader: &str, module: &Module, rust: &StructLayout) -> Option<String> {
     let wgsl = in_shader(module, rust.name)?;
     let rust_has = (rust.size, rust.fields.iter().map(|(name, offset)| (name.to_string(), *offset)).collect());
     (wgsl != rust_has).then(|| format!("{shader}: {}: the shader has {wgsl:?}, Rust has {rust_has:?}", rust.name))
@@ -77,7 +77,7 @@ fn a_broken_shader_and_a_moved_field_are_found() {
 
     let source = "struct Sun { to_sun: vec3f, share: f32 }\n@group(0) @binding(0) var<uniform> sun: Sun;";
     let module = validated("made up", source).expect("a valid shader");
-    let sun = |size, fields| Layout { name: "Sun", size, fields };
+    let sun = |size, fields| StructLayout { name: "Sun", size, fields };
     assert_eq!(difference("made up", &module, &sun(16, &[("to_sun", 0), ("share", 12)])), None);
     for wrong in [
         sun(16, &[("to_sun", 0), ("share", 8)]),

@@ -11,7 +11,7 @@ use gnomon::shadow::projected::Projected;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::{Overrides, Receivers, Site};
 use gnomon::view::{Grid, Mask, Tile, View};
 use std::path::Path;
@@ -149,7 +149,7 @@ fn tiles_that_lie_elsewhere_are_found_out() {
     // an eighth of a cell, on the adapter
     let gpu = Arc::new(Gpu::open().unwrap());
     let stencil = |grid| {
-        let silhouettes = Silhouettes::OnProcessor(Kind::Hierarchy);
+        let silhouettes = Silhouettes::OnProcessor(ProcessorFinder::Hierarchy);
         draw(&mut Stencil::new(Arc::clone(&gpu), scene.clone(), View::Plan(grid), silhouettes).unwrap(), suns[1])
     };
     let at = tile.grid();
@@ -174,7 +174,7 @@ fn beside_no_edge(scene: &Scene, grid: &Grid, sun: DVec3, cells: &[(u32, u32)]) 
 #[test]
 fn on_the_adapter_tiles_differ_beside_edges_alone() {
     let gpu = Arc::new(Gpu::open().unwrap());
-    let silhouettes = Silhouettes::OnProcessor(Kind::Hierarchy);
+    let silhouettes = Silhouettes::OnProcessor(ProcessorFinder::Hierarchy);
     let (mut all, mut differ_at_all) = (0, 0);
     for (name, scene, grid, suns) in scenes() {
         let stencil = |view| Stencil::new(Arc::clone(&gpu), scene.clone(), view, silhouettes).unwrap();

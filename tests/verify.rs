@@ -15,7 +15,7 @@ use gnomon::shadow::{DrawnMask, ShadowError, Technique};
 use gnomon::site::{Overrides, Site};
 use gnomon::study::verify::{Trial, hold, spread};
 use gnomon::study::{Event, StudyError};
-use gnomon::view::{Counted, Decided, Mask, Surface, View};
+use gnomon::view::{Decided, FragmentCounts, Mask, Surface, View};
 use serde_json::Value;
 use std::ops::ControlFlow;
 
@@ -125,10 +125,10 @@ impl Technique for Wrong {
         self.rays.surface()
     }
 
-    fn counted(&mut self, _: DVec3) -> Result<Option<Counted>, ShadowError> {
+    fn counted(&mut self, _: DVec3) -> Result<Option<FragmentCounts>, ShadowError> {
         let Mask { width, height, ref share } = self.mask;
         let decided = Some(vec![self.decided; share.len()]);
-        Ok(Some(Counted { width, height, reached: Vec::new(), all: 0, decided }))
+        Ok(Some(FragmentCounts { width, height, reached: Vec::new(), all: 0, decided }))
     }
 }
 

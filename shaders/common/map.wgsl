@@ -1,7 +1,7 @@
 // The map: what the light sees. A place in it is column and row in texels, and a depth in metres: for the sun along its
 // rays from the map's near side, for a lamp along the map's axis from the lamp.
 
-struct Map {
+struct MapUniforms {
     // Metres around the scene's origin → homogeneous column and row in texels, and depth in metres; w is 1 for the sun, the
     // depth itself for a lamp.
     from_local: mat4x4f,
@@ -32,7 +32,7 @@ struct Map {
     unused: f32,
 }
 
-@group(2) @binding(0) var<uniform> map: Map;
+@group(2) @binding(0) var<uniform> map: MapUniforms;
 
 fn in_map(local: vec3f) -> vec3f {
     let at = map.from_local * vec4f(local, 1.0);

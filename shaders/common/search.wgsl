@@ -1,6 +1,6 @@
 // What is asked of a batch's faces and edges.
 
-struct Search {
+struct SearchUniforms {
     // Homogeneous, around the mesh's origin: the sun (to_sun, 0) or a lamp (position, 1).
     light: vec4f,
     // 6, or 3 where all walls end in one point.
@@ -10,4 +10,4 @@ struct Search {
     unused: vec2u,
 }
 
-@group(2) @binding(0) var<uniform> search: Search;
+@group(2) @binding(0) var<uniform> search: SearchUniforms;

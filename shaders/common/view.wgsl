@@ -1,6 +1,6 @@
 // The view, the light and the whole picture as one triangle. Positions are metres around the scene's origin.
 
-struct View {
+struct ViewUniforms {
     // Depth is 1 near and 0 far.
     clip_from_local: mat4x4f,
     // Homogeneous: the eye, or for the plan the direction straight up, for an elevation that towards the viewer.
@@ -20,13 +20,13 @@ struct View {
     unused: vec2f,
 }
 
-struct Light {
+struct LightUniforms {
     // Homogeneous: the unit vector to the sun (w = 0), or a lamp's place around the scene's origin (w = 1).
     towards: vec4f,
 }
 
-@group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<uniform> light: Light;
+@group(0) @binding(0) var<uniform> view: ViewUniforms;
+@group(0) @binding(1) var<uniform> light: LightUniforms;
 
 @vertex
 fn whole_picture(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {

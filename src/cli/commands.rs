@@ -6,7 +6,7 @@ use super::options::{Options, nothing_asked};
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
 use crate::deliver::instant::{self, InstantRequest};
-use crate::deliver::{Sink, Written};
+use crate::deliver::{Sink, WrittenFiles};
 use crate::export::figure::Diagram;
 use crate::export::{check, file, report};
 use crate::mesh::report as mesh_report;
@@ -94,7 +94,7 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
 }
 
 /// The paths of files, each in a line.
-pub(super) fn lines(written: &Written) -> String {
+pub(super) fn lines(written: &WrittenFiles) -> String {
     written.paths.iter().map(|path| format!("{}\n", path.display())).collect()
 }
 

@@ -35,7 +35,7 @@ use std::process::ExitCode;
 pub use options::Options;
 
 /// What opens the window, with a site or a model in it where one is named.
-pub type Window = fn(Option<&Path>) -> anyhow::Result<()>;
+pub type WindowOpener = fn(Option<&Path>) -> anyhow::Result<()>;
 
 /// Every subcommand and option, as the command line is read; `docs/command.md` is written from it.
 pub fn definition() -> clap::Command {
@@ -43,7 +43,7 @@ pub fn definition() -> clap::Command {
 }
 
 /// Reads the command line and does what it asks; without a subcommand it opens the window, where there is one.
-pub fn main(window: Option<Window>) -> ExitCode {
+pub fn main(window: Option<WindowOpener>) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return refuse(&error),

@@ -1,7 +1,7 @@
 //! The study's instants as pictures, and as a GIF. Both lie in a folder: the GIF is made of the pictures when all are there.
 
-use super::parts::{Seen, figure_context, note, note_letters, report_context};
-use super::{DeliverError, Folder, Sink, Written};
+use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
+use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::export::animation::{Frames, MOST_FRAMES};
 use crate::export::figure::{self, PictureExtras};
 use crate::export::report;
@@ -35,7 +35,7 @@ pub struct AnimationAnswer {
     /// The GIF.
     pub gif: PathBuf,
     /// The frames, in their order.
-    pub frames: Written,
+    pub frames: WrittenFiles,
     /// All in JSON.
     pub report: String,
     /// What drew.
@@ -78,7 +78,7 @@ pub fn animation(
     let told = report_context(site, study::judged(site, &asked.view), &drawn, timings, None);
     let report = report::shadow_json(&asked.view, &site.place, &site.track, &told)?;
     let paths = (0..count).map(|index| Frames::path(folder.path, index)).collect();
-    Ok(AnimationAnswer { gif, frames: Written { paths, files: Vec::new() }, report, drawn })
+    Ok(AnimationAnswer { gif, frames: WrittenFiles { paths, files: Vec::new() }, report, drawn })
 }
 
 /// Draws the frames.
@@ -92,7 +92,8 @@ fn draw(
     note(frames.note(), on_event)?;
     let drawn = study::frames(site, asked.view, on_event, &mut |frame| -> Result<(), DeliverError> {
         let Frame { track, mask, surface, surface_mesh: mesh, receivers, drawn } = *frame;
-        let scene = figure::FigureContext { track, ..figure_context(site, Seen { receivers, surface, mesh, drawn }) };
+        let scene =
+            figure::FigureContext { track, ..figure_context(site, DrawnView { receivers, surface, mesh, drawn }) };
         let picture = figure::instant_on_screen(&scene, &asked.view, mask, &PictureExtras::default(), asked.width)?;
         Ok(frames.add(&picture)?)
     })?;

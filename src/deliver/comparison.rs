@@ -1,8 +1,8 @@
 //! What a change of a site does to its sun: as a drawing, a raster and a report.
 
-use super::parts::{Seen, figure_context, note, note_letters, report_context};
+use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::sink::OpenSink;
-use super::{DeliverError, Sink, Written};
+use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::report::ReportContext;
 use crate::export::{comparison, figure, raster};
 use crate::profile::Drawn;
@@ -18,7 +18,7 @@ const REPORT: &str = "compare.json";
 #[derive(Clone, Debug)]
 pub struct ComparisonAnswer {
     /// The files.
-    pub written: Written,
+    pub written: WrittenFiles,
     /// `compare.json`
     pub report: String,
     /// What drew the state after.
@@ -77,7 +77,7 @@ fn write(
     let site = &pair.after;
     let scenes = [0, 1].map(|at| {
         let (mesh, surface, drawn) = (&outcome.meshes[at], &outcome.surfaces[at], &outcome.drawn[at]);
-        figure_context(site, Seen { receivers: site.receivers, surface, mesh, drawn })
+        figure_context(site, DrawnView { receivers: site.receivers, surface, mesh, drawn })
     });
     let change = &outcome.comparison;
     let picture = figure::difference(&scenes, &pair.names, change)?;

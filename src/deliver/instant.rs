@@ -1,12 +1,12 @@
 //! The shadows at one instant: as a drawing, and as a bare mask.
 
-use super::parts::{Seen, figure_context, note, note_letters, report_context};
-use super::{DeliverError, Sink, Written};
+use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
+use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::figure::{self, Diagram, PictureExtras};
 use crate::export::{raster, report};
 use crate::profile::{Drawn, Statistics};
 use crate::site::Site;
-use crate::study::{self, Counting, Event, InstantOutcome, InstantWants, OnEvent, Stopwatch, tell};
+use crate::study::{self, CountingPurpose, Event, InstantOutcome, InstantWants, OnEvent, Stopwatch, tell};
 use crate::view::{Surface, View};
 use std::path::PathBuf;
 
@@ -44,7 +44,7 @@ pub struct Show {
 #[derive(Clone, Debug)]
 pub struct InstantAnswer {
     /// The files.
-    pub written: Written,
+    pub written: WrittenFiles,
     /// All in JSON.
     pub report: String,
     /// What drew.
@@ -102,7 +102,7 @@ fn draw(
     surface: &Surface,
 ) -> Result<Vec<u8>, DeliverError> {
     let InstantOutcome { mask, surface_mesh: mesh, drawn, overlay, counted, .. } = outcome;
-    let scene = figure_context(site, Seen { receivers: study::judged(site, &asked.view), surface, mesh, drawn });
+    let scene = figure_context(site, DrawnView { receivers: study::judged(site, &asked.view), surface, mesh, drawn });
     let casts = seen_casts(site);
     let shown = PictureExtras {
         overlay: overlay.as_ref(),
@@ -121,9 +121,9 @@ impl InstantRequest {
     fn wants(&self) -> InstantWants {
         let Show { volumes, silhouette, diagram, .. } = self.show;
         let counted = match diagram {
-            Some(Diagram::Mask) => Some(Counting::Mask),
-            Some(Diagram::Overdraw) => Some(Counting::Overdraw),
-            None => self.statistics.then_some(Counting::Statistics),
+            Some(Diagram::Mask) => Some(CountingPurpose::Mask),
+            Some(Diagram::Overdraw) => Some(CountingPurpose::Overdraw),
+            None => self.statistics.then_some(CountingPurpose::Statistics),
         };
         InstantWants { surface: self.drawing.is_some(), volumes, silhouette, counted }
     }

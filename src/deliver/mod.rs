@@ -18,5 +18,5 @@ pub mod verification;
 pub mod volumes;
 
 pub use error::DeliverError;
-pub use parts::{Seen, figure_context};
-pub use sink::{Folder, NamedFile, Sink, Written};
+pub use parts::{DrawnView, figure_context};
+pub use sink::{Folder, NamedFile, Sink, WrittenFiles};

@@ -9,7 +9,7 @@ use crate::study::{Event, OnEvent, StudyError, tell};
 
 /// What of a site was drawn, and by what.
 #[derive(Clone, Copy)]
-pub struct Seen<'a, S> {
+pub struct DrawnView<'a, S> {
     /// Which surfaces were judged.
     pub receivers: Receivers,
     /// What each cell sees.
@@ -21,8 +21,8 @@ pub struct Seen<'a, S> {
 }
 
 /// What a drawing of a site needs beside the answer.
-pub fn figure_context<'a, S>(site: &'a Site, seen: Seen<'a, S>) -> figure::FigureContext<'a, S> {
-    let Seen { receivers, surface, mesh, drawn } = seen;
+pub fn figure_context<'a, S>(site: &'a Site, seen: DrawnView<'a, S>) -> figure::FigureContext<'a, S> {
+    let DrawnView { receivers, surface, mesh, drawn } = seen;
     figure::FigureContext {
         place: &site.place,
         track: &site.track,

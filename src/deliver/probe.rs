@@ -1,7 +1,7 @@
 //! When points lie in the sun: as a drawing and a table.
 
 use super::parts::note_letters;
-use super::{DeliverError, Sink, Written};
+use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::{figure, probe as encode};
 use crate::message::Words;
 use crate::profile::probe::Sunlight;
@@ -26,7 +26,7 @@ pub struct ProbeAnswer {
     /// When each point lies in the sun.
     pub sunlight: Sunlight,
     /// The files.
-    pub written: Written,
+    pub written: WrittenFiles,
 }
 
 /// Finds when points lie in the sun.

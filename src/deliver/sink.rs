@@ -35,7 +35,7 @@ pub struct Folder<'a> {
 
 /// What was written, in the order in which it is told.
 #[derive(Clone, Debug, Default)]
-pub struct Written {
+pub struct WrittenFiles {
     /// Where each file lies; its name alone where it is in memory.
     pub paths: Vec<PathBuf>,
     /// The files themselves, where they go into memory.
@@ -120,9 +120,9 @@ impl OpenSink<'_> {
     }
 
     /// Puts files in their places once all of them are whole, so that files of two studies do not lie side by side.
-    pub(super) fn put(&self, files: Vec<Ready>) -> Result<Written, ExportError> {
+    pub(super) fn put(&self, files: Vec<Ready>) -> Result<WrittenFiles, ExportError> {
         self.check()?;
-        let mut written = Written::default();
+        let mut written = WrittenFiles::default();
         for file in files {
             match file {
                 Ready::Disk(beside) => {
@@ -139,7 +139,7 @@ impl OpenSink<'_> {
     }
 
     /// As [`OpenSink::put`], of files that are in memory.
-    pub(super) fn write(&self, files: Vec<NamedFile>) -> Result<Written, ExportError> {
+    pub(super) fn write(&self, files: Vec<NamedFile>) -> Result<WrittenFiles, ExportError> {
         let ready = files.into_iter().map(|file| self.ready(file)).collect::<Result<Vec<_>, _>>()?;
         self.put(ready)
     }

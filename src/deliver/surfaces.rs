@@ -1,8 +1,8 @@
 //! Hours of sun on the model itself: as a drawing, a model, a table and a report.
 
-use super::parts::{Seen, figure_context, note, note_letters, report_context};
+use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::sink::OpenSink;
-use super::{DeliverError, NamedFile, Sink, Written};
+use super::{DeliverError, NamedFile, Sink, WrittenFiles};
 use crate::export::surfaces::{self, Surfaces};
 use crate::export::{figure, report};
 use crate::profile::Drawn;
@@ -34,7 +34,7 @@ pub struct SurfacesRequest {
 #[derive(Clone, Debug)]
 pub struct SurfacesAnswer {
     /// The files.
-    pub written: Written,
+    pub written: WrittenFiles,
     /// `profile.json`, whether it is one of the files or not.
     pub report: String,
     /// What drew.
@@ -105,7 +105,7 @@ fn write(
     };
     if asked.drawing {
         let (mesh, surface) = &study::seen_receivers(site)?;
-        let scene = figure_context(site, Seen { receivers, surface, mesh, drawn });
+        let scene = figure_context(site, DrawnView { receivers, surface, mesh, drawn });
         files.push((DRAWING.into(), figure::surfaces(&scene, &site.picture(), &answer)?));
         stage(&mut watch, "picture")?;
     }

@@ -1,7 +1,7 @@
 //! The shadow volumes at one instant, as solids in a model.
 
 use super::parts::note;
-use super::{DeliverError, Sink, Written};
+use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::volumes::{self as encode, Volumes};
 use crate::site::Site;
 use crate::study::{self, Event, OnEvent, StudyError, tell};
@@ -16,7 +16,7 @@ const LONG_M: f64 = 10_000.0;
 #[derive(Clone, Debug)]
 pub struct VolumesAnswer {
     /// The model.
-    pub written: Written,
+    pub written: WrittenFiles,
     /// All in JSON.
     pub report: String,
     /// How many solids there are, and where the sun is, in lines for people.

@@ -7,7 +7,7 @@ use crate::deliver::Sink;
 use crate::deliver::comparison::write_comparison;
 use crate::export::comparison;
 use crate::export::figure::ChangeColours;
-use crate::picture::Hours;
+use crate::picture::HoursRaster;
 use crate::profile::Timings;
 use crate::profile::comparison::Altered;
 use crate::site::{Method, Models, Overrides, Pair, Site, SiteError, Written, model};
@@ -144,7 +144,7 @@ fn compare(pair: &Pair, known: Option<Outcome>, on_event: &mut OnEvent<'_>) -> R
 
 impl Change {
     /// As the picture takes it.
-    pub(super) fn raster(&self) -> Hours<'_> {
+    pub(super) fn raster(&self) -> HoursRaster<'_> {
         raster(self.outcome.comparison.grid(), &self.colours.of_cells, &self.outcome.surfaces[1].height_m)
     }
 

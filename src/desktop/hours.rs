@@ -14,7 +14,7 @@ use crate::deliver::probe::{self, ProbeRequest};
 use crate::deliver::profile::{Hours, ProfileRequest, find_hours, write_hours};
 use crate::deliver::{Folder, Sink, comparison};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
-use crate::picture::{Hours as HoursRaster, Picture};
+use crate::picture::{HoursRaster, Picture};
 use crate::profile::probe::Sunlight;
 use crate::profile::{Profile, Shaded, hours as hours_of};
 use crate::shadow::{ShadowError, plan_surface};

@@ -3,7 +3,7 @@
 use super::stage::Wish;
 use crate::choice::{Engine, Method, Receivers, Settings};
 use crate::deliver::instant::seen_casts;
-use crate::deliver::{Seen, figure_context};
+use crate::deliver::{DrawnView, figure_context};
 use crate::export::figure::{self, PictureExtras};
 use crate::profile::Drawn;
 use crate::shadow::ray_cast::RayCast;
@@ -51,7 +51,7 @@ pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]
         settings: Settings { sun_samples, ..Settings::NONE },
     };
     let (mesh, surface) = (&plain.scene.receivers, &plain.rays.surface()?);
-    let scene = figure_context(site, Seen { receivers: Receivers::Top, surface, mesh, drawn: &drawn });
+    let scene = figure_context(site, DrawnView { receivers: Receivers::Top, surface, mesh, drawn: &drawn });
     let casts = seen_casts(site);
     let shown = PictureExtras { casts: wish.style.tinted.then_some(casts.as_slice()), ..PictureExtras::default() };
     let pixels = figure::bare(&scene, &wish.view, &mask, wish.to_sun, &shown);

@@ -16,7 +16,7 @@ use crate::profile::Drawn;
 use crate::shadow::ShadowError;
 use crate::site::Site;
 use crate::study::StudyError;
-use crate::study::live::{Live, Way};
+use crate::study::live::{Live, LiveMethod};
 use crate::view::{Camera, Elevation, Grid, View};
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
@@ -35,7 +35,7 @@ pub(super) struct Wish {
     /// With the picture's size in pixels.
     pub(super) view: View,
     /// How shadows are found.
-    pub(super) way: Way,
+    pub(super) way: LiveMethod,
     /// The unit vector to the sun.
     pub(super) to_sun: DVec3,
     /// How the picture is drawn.
@@ -206,7 +206,7 @@ impl Shared {
             View::Camera(camera) => View::Camera(Camera { width: 16, height: 16, ..camera }),
             View::Elevation(side) => View::Elevation(Elevation { width: 16, height: 16, ..side }),
         };
-        let way = if self.easel.is_software() { Way::quickest() } else { wish.way };
+        let way = if self.easel.is_software() { LiveMethod::quickest() } else { wish.way };
         let small = Wish { view, way, overlay: [false; 2], diagram: None, quick: true, ..wish.clone() };
         // what is wrong here will be told when it is asked for
         let _ = self.draw_somewhere(kept, &small);

@@ -11,7 +11,7 @@ use super::sky;
 use super::stage::{Stage, StagePicture, Wish};
 use crate::choice::{Engine, Method, Settings, Subject};
 use crate::picture::Style;
-use crate::study::live::{FARTHEST, Way};
+use crate::study::live::{FARTHEST, LiveMethod};
 use crate::view::View;
 use eframe::egui::{self, Align2, PointerButton, Rect, Sense, Ui};
 use eframe::egui_wgpu::RenderState;
@@ -134,8 +134,8 @@ impl Viewer {
     fn adapt(&mut self, shown: &StagePicture) {
         const SIZES: [f64; 8] = [0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
         let Some(best) = &self.best else { return };
-        let by_quickest = shown.drawn.technique == Way::quickest().method;
-        if !by_quickest || shown.wish.way.settings != Way::quickest().settings {
+        let by_quickest = shown.drawn.technique == LiveMethod::quickest().method;
+        if !by_quickest || shown.wish.way.settings != LiveMethod::quickest().settings {
             return;
         }
         let side = |view: &View| f64::from(view.size().0.max(1));
@@ -204,7 +204,7 @@ impl Viewer {
         let is_perspective = stand == Stand::Perspective;
         let method = if draws(choice.method, stand) { choice.method } else { Method::Auto };
         let disc = choice.disc && casts_rays(method, software);
-        let way = Way {
+        let way = LiveMethod {
             method: if disc { Method::RayCast } else { method },
             settings: Settings { sun_samples: disc.then_some(DISC_SAMPLES), ..Settings::default() },
         };
@@ -240,7 +240,7 @@ impl Viewer {
             ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(STILL_SECS));
             Wish {
                 view: self.eye.view(sized(if software { self.scale } else { 1.0 })),
-                way: if software { Way::quickest() } else { best.way },
+                way: if software { LiveMethod::quickest() } else { best.way },
                 style: Style { wide_lines: false, lines: if software { 0.45 } else { 0.62 }, ..best.style },
                 overlay: [false; 2],
                 diagram: None,

@@ -6,7 +6,7 @@ use super::{ExportError, report};
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
 use crate::message::{Field, Words, message};
-use crate::site::Frame;
+use crate::site::CoordinateFrame;
 use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
@@ -47,7 +47,7 @@ struct ComponentLine<'a> {
 pub fn json(
     mesh: &Mesh,
     components: &[ComponentReport],
-    frame: Frame,
+    frame: CoordinateFrame,
     notes: &[String],
 ) -> Result<String, ExportError> {
     let lines = components.iter().map(|component| ComponentLine {
@@ -73,7 +73,13 @@ pub fn json(
 
 /// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
 /// break. How the models were read stands below the totals.
-pub fn table(mesh: &Mesh, components: &[ComponentReport], frame: Frame, notes: &[String], words: &dyn Words) -> String {
+pub fn table(
+    mesh: &Mesh,
+    components: &[ComponentReport],
+    frame: CoordinateFrame,
+    notes: &[String],
+    words: &dyn Words,
+) -> String {
     let mut table = format!(
         "{}, {}, {}\n",
         counted(components.len(), "component", "components"),

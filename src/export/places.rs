@@ -1,7 +1,7 @@
 //! The kinds of what can be wrong with a mesh, and where: in words that whoever drew the model can act on, and as JSON.
 
 use crate::mesh::report::{ComponentReport, EdgePlace, FacePlace, OpenKind, OpenPlace, Places};
-use crate::site::Frame;
+use crate::site::CoordinateFrame;
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 
@@ -67,10 +67,10 @@ pub(super) const KINDS: [Kind; 6] = [
 ];
 
 /// Whose coordinates places have.
-pub(super) fn frame(frame: Frame) -> &'static str {
+pub(super) fn frame(frame: CoordinateFrame) -> &'static str {
     match frame {
-        Frame::Place => "metres east, north, up from the place",
-        Frame::Model => "metres along the file's own axes, turned z up (x, −z, y of the glTF)",
+        CoordinateFrame::Place => "metres east, north, up from the place",
+        CoordinateFrame::Model => "metres along the file's own axes, turned z up (x, −z, y of the glTF)",
     }
 }
 

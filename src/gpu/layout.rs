@@ -3,10 +3,10 @@
 use bytemuck::{Pod, Zeroable};
 use std::mem::offset_of;
 
-/// `View` of `shaders/common/view.wgsl`.
+/// `ViewUniforms` of `shaders/common/view.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct View {
+pub struct ViewUniforms {
     /// Metres around the scene's origin → clip space, depth 1 near and 0 far.
     pub clip_from_local: [[f32; 4]; 4],
     /// Homogeneous: the eye, or for the plan the direction straight up.
@@ -31,18 +31,18 @@ pub struct View {
     pub unused: [f32; 2],
 }
 
-/// `Light` of `shaders/common/view.wgsl`.
+/// `LightUniforms` of `shaders/common/view.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Light {
+pub struct LightUniforms {
     /// Homogeneous: a unit vector towards a light at infinity (w = 0), or a lamp's place (w = 1).
     pub towards: [f32; 4],
 }
 
-/// `Map` of `shaders/common/map.wgsl`.
+/// `MapUniforms` of `shaders/common/map.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Map {
+pub struct MapUniforms {
     /// Metres around the scene's origin → homogeneous column and row in texels, and depth in metres.
     pub from_local: [[f32; 4]; 4],
     /// One texel to the right, metres around the scene's origin (a lamp's: a metre before it).
@@ -76,10 +76,10 @@ pub struct Map {
     pub unused: f32,
 }
 
-/// `Shown` of `shaders/picture.wgsl`.
+/// `PictureUniforms` of `shaders/picture.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Shown {
+pub struct PictureUniforms {
     /// Where the hours' raster begins (west, north), metres around the scene's origin.
     pub hours_corner: [f32; 2],
     /// Its cell, metres.
@@ -104,11 +104,11 @@ pub struct Shown {
     pub unused: f32,
 }
 
-/// `Look` of `shaders/picture.wgsl`: what `crate::look::Look` says of each, colours as display values from 0 to 1.
+/// `LookUniforms` of `shaders/picture.wgsl`: what `crate::look::Look` says of each, colours as display values from 0 to 1.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[expect(missing_docs, reason = "each field is told where the look is")]
-pub struct Look {
+pub struct LookUniforms {
     pub building: [f32; 3],
     pub cut_earth: f32,
     pub ground: [f32; 3],
@@ -153,18 +153,18 @@ pub struct Look {
     pub most_layers: f32,
 }
 
-/// `Weight` of `shaders/accumulate.wgsl`.
+/// `WeightUniforms` of `shaders/accumulate.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Weight {
+pub struct WeightUniforms {
     /// Seconds that a mask stands for.
     pub secs: u32,
 }
 
-/// `Search` of `shaders/common/search.wgsl`.
+/// `SearchUniforms` of `shaders/common/search.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Search {
+pub struct SearchUniforms {
     /// Homogeneous, around the mesh's origin.
     pub light: [f32; 4],
     /// 6, or 3 where all walls end in one point.
@@ -175,20 +175,20 @@ pub struct Search {
     pub unused: [u32; 2],
 }
 
-/// `Face` of `shaders/faces.wgsl`.
+/// `FaceRecord` of `shaders/faces.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Face {
+pub struct FaceRecord {
     /// Vertices of the mesh.
     pub corners: [u32; 3],
     /// The face's number, that of its bit.
     pub number: u32,
 }
 
-/// `Edge` of `shaders/extraction.wgsl`.
+/// `EdgeRecord` of `shaders/extraction.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Edge {
+pub struct EdgeRecord {
     /// One vertex.
     pub first: u32,
     /// The other.
@@ -201,10 +201,10 @@ pub struct Edge {
     pub along: [f32; 2],
 }
 
-/// `Arguments` of `shaders/extraction.wgsl`: those of an indirect draw.
+/// `DrawArguments` of `shaders/extraction.wgsl`: those of an indirect draw.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Arguments {
+pub struct DrawArguments {
     /// How much of the list is drawn.
     pub index_count: u32,
     /// How often.
@@ -231,20 +231,20 @@ pub struct Quadrilateral {
     pub b: u32,
 }
 
-/// `Fall` of `shaders/projected.wgsl`.
+/// `FallUniforms` of `shaders/projected.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Fall {
+pub struct FallUniforms {
     /// Columns and rows that a shadow falls away from the sun, a metre of height.
     pub a_metre: [f32; 2],
     /// Columns and rows of the raster.
     pub size: [f32; 2],
 }
 
-/// `Run` of `shaders/soft_texture.wgsl`.
+/// `TexelRunUniforms` of `shaders/soft_texture.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Run {
+pub struct TexelRunUniforms {
     /// The first texel of a page.
     pub first: u32,
     /// How many it has.
@@ -252,7 +252,7 @@ pub struct Run {
 }
 
 /// A struct as Rust lays it out.
-pub struct Layout {
+pub struct StructLayout {
     /// Its name, in Rust and in WGSL.
     pub name: &'static str,
     /// Bytes.
@@ -263,7 +263,7 @@ pub struct Layout {
 
 macro_rules! layout {
     ($name:ident: $($field:ident),+) => {
-        Layout {
+        StructLayout {
             name: stringify!($name),
             size: size_of::<$name>(),
             fields: &[$((stringify!($field), offset_of!($name, $field))),+],
@@ -272,18 +272,18 @@ macro_rules! layout {
 }
 
 /// All structs that shaders share with us.
-pub const ALL: &[Layout] = &[
-    layout!(View: clip_from_local, viewer, right, up, forward, ground_z, lowest_z, judged_above, depth_scale, size, unused),
-    layout!(Light: towards),
-    layout!(Map: from_local, across, along, ground, texel, size, range, near, bias, slope_bias, spread, width, linear, farthest, unused),
-    layout!(Search: light, indices_per_wall, halved, unused),
-    layout!(Face: corners, number),
-    layout!(Edge: first, second, a, b, along),
-    layout!(Arguments: index_count, instance_count, first_index, base_vertex, first_instance),
+pub const ALL: &[StructLayout] = &[
+    layout!(ViewUniforms: clip_from_local, viewer, right, up, forward, ground_z, lowest_z, judged_above, depth_scale, size, unused),
+    layout!(LightUniforms: towards),
+    layout!(MapUniforms: from_local, across, along, ground, texel, size, range, near, bias, slope_bias, spread, width, linear, farthest, unused),
+    layout!(SearchUniforms: light, indices_per_wall, halved, unused),
+    layout!(FaceRecord: corners, number),
+    layout!(EdgeRecord: first, second, a, b, along),
+    layout!(DrawArguments: index_count, instance_count, first_index, base_vertex, first_instance),
     layout!(Quadrilateral: first, a, second, b),
-    layout!(Shown: hours_corner, hours_cell, hours, focus, night, lines, both_sides, tinted, overlay, painted, unused),
-    layout!(Look: building, cut_earth, ground, sky, sky_light, sky_slope, sun_light, exposure, horizon, least_height, zenith, least_sun, night, pressed_above, not_judged, pressed_room, plan_ground_sun, sky_rise, plan_ground_shade, sky_most, plan_roof_sun, haze_begins, plan_roof_shade, haze_length, line, relief, volume, relief_of_hours, silhouette, relief_darkest, relief_lightest, outline, step, foot, crease, crease_cos, plan_crease_cos, step_share, side_step_pixels, tinted_lines, layer, most_layers),
-    layout!(Weight: secs),
-    layout!(Fall: a_metre, size),
-    layout!(Run: first, count),
+    layout!(PictureUniforms: hours_corner, hours_cell, hours, focus, night, lines, both_sides, tinted, overlay, painted, unused),
+    layout!(LookUniforms: building, cut_earth, ground, sky, sky_light, sky_slope, sun_light, exposure, horizon, least_height, zenith, least_sun, night, pressed_above, not_judged, pressed_room, plan_ground_sun, sky_rise, plan_ground_shade, sky_most, plan_roof_sun, haze_begins, plan_roof_shade, haze_length, line, relief, volume, relief_of_hours, silhouette, relief_darkest, relief_lightest, outline, step, foot, crease, crease_cos, plan_crease_cos, step_share, side_step_pixels, tinted_lines, layer, most_layers),
+    layout!(WeightUniforms: secs),
+    layout!(FallUniforms: a_metre, size),
+    layout!(TexelRunUniforms: first, count),
 ];

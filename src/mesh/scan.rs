@@ -11,7 +11,8 @@ use std::ops::Range;
 /// Tells for each row of some that a triangle reaches from which column to which it does. Its corners are in the order of
 /// rows, then columns ([`by_rows`]).
 pub fn spans([top, middle, bottom]: [DVec2; 3], of: Range<usize>, mut tell: impl FnMut(usize, f64, f64)) {
-    let [long, upper, lower] = [Side::between(top, bottom), Side::between(top, middle), Side::between(middle, bottom)];
+    let [long, upper, lower] =
+        [TriangleSide::between(top, bottom), TriangleSide::between(top, middle), TriangleSide::between(middle, bottom)];
     for row in wholes([top.y, bottom.y], of) {
         let y = row as f64;
         // at the middle's height both short sides end
@@ -95,17 +96,17 @@ impl Coverage {
 }
 
 /// A triangle's side, from its upper to its lower end.
-pub struct Side {
+pub struct TriangleSide {
     start: DVec2,
     end: DVec2,
     /// Columns a row; not used where the side is level.
     slope: f64,
 }
 
-impl Side {
+impl TriangleSide {
     /// From the upper end to the lower.
-    pub fn between(start: DVec2, end: DVec2) -> Side {
-        Side { start, end, slope: (end.x - start.x) / (end.y - start.y) }
+    pub fn between(start: DVec2, end: DVec2) -> TriangleSide {
+        TriangleSide { start, end, slope: (end.x - start.x) / (end.y - start.y) }
     }
 
     /// Its column at a row between its ends.

@@ -8,7 +8,7 @@ mod patch_textures;
 
 pub use patch_textures::PatchColours;
 
-use crate::gpu::layout::{self, Shown};
+use crate::gpu::layout::{self, PictureUniforms};
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
 use crate::look::{LOOK, Look};
@@ -25,7 +25,7 @@ pub const COLOURS: TextureFormat = TextureFormat::Rgba8Unorm;
 
 /// The hours of shadow of a profile, to be laid over what is seen.
 #[derive(Clone, Copy, Debug)]
-pub struct Hours<'a> {
+pub struct HoursRaster<'a> {
     /// West and north edge, metres of the world frame.
     pub corner: [f64; 2],
     /// Side of a cell, metres.
@@ -106,7 +106,7 @@ impl Picture {
         let pipeline = gpu.pipeline("picture", stages, None);
         let nothing = [COLOURS, TextureFormat::R32Uint]
             .map(|format| gpu.texture("picture.nothing", (1, 1), format, TextureUsages::TEXTURE_BINDING));
-        let look = gpu.uniform::<layout::Look>("picture.look");
+        let look = gpu.uniform::<layout::LookUniforms>("picture.look");
         gpu.queue.write_buffer(&look, 0, bytemuck::bytes_of(&uniform(&LOOK)));
         gpu.check()?;
         Ok(Picture {
@@ -114,7 +114,7 @@ impl Picture {
             look,
             pipeline,
             group,
-            uniform: gpu.uniform::<Shown>("picture.shown"),
+            uniform: gpu.uniform::<PictureUniforms>("picture.shown"),
             origin: scene.receivers.origin,
             uploaded: None,
             hours: None,
@@ -152,7 +152,7 @@ impl Picture {
     }
 
     /// Lays hours over the scene, or takes them away.
-    pub fn lay_hours(&mut self, hours: Option<Hours<'_>>) {
+    pub fn lay_hours(&mut self, hours: Option<HoursRaster<'_>>) {
         self.hours = hours.map(|hours| {
             let texels: Vec<[u8; 4]> = hours.colours.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
             let heights: Vec<f32> =
@@ -220,7 +220,7 @@ impl Picture {
             Some(Over::Plan(corner, textures)) => (*corner, 1.0, Some(textures), None),
             Some(Over::Patches(textures)) => ([0.0, 0.0, 1.0], 2.0, None, Some(textures)),
         };
-        let shown = Shown {
+        let shown = PictureUniforms {
             hours_corner: [west, north],
             hours_cell: cell,
             hours: if style.hours { over } else { 0.0 },
@@ -293,10 +293,10 @@ fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
 }
 
 /// The look as the shader takes it.
-fn uniform(look: &Look) -> layout::Look {
+fn uniform(look: &Look) -> layout::LookUniforms {
     let linear = |colour: DVec3| colour.as_vec3().to_array();
     let bytes = |colour: [u8; 3]| colour.map(|value| f32::from(value) / 255.0);
-    layout::Look {
+    layout::LookUniforms {
         building: linear(look.building),
         cut_earth: look.cut_earth as f32,
         ground: linear(look.ground),

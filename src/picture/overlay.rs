@@ -9,7 +9,7 @@
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
 use crate::shadow::{GpuSurface, Scene, ShadowError};
-use crate::silhouette::Kind;
+use crate::silhouette::ProcessorFinder;
 use crate::view::{Camera, View};
 use crate::volume::Volume;
 use glam::{DVec3, Vec3};
@@ -144,7 +144,7 @@ impl VolumePicture {
 /// The volumes that are shown: each wall once.
 fn volume(scene: &Scene, to_sun: DVec3) -> Volume {
     let casters = &scene.casters;
-    let mut volume = Volume::find(casters, &mut *Kind::BruteForce.build(casters), to_sun.extend(0.0), true);
+    let mut volume = Volume::find(casters, &mut *ProcessorFinder::BruteForce.build(casters), to_sun.extend(0.0), true);
     // an edge's walls stand in a row
     volume.walls.dedup();
     volume

@@ -1,7 +1,7 @@
 //! Masks times weights, added up where the masks are, in integers.
 
 use super::Shaded;
-use crate::gpu::layout::Weight;
+use crate::gpu::layout::WeightUniforms;
 use crate::gpu::targets::{NUMBER, whole};
 use crate::gpu::{Gpu, readback, shaders};
 use crate::shadow::{DrawnMask, ShadowError};
@@ -253,7 +253,7 @@ impl GpuSum {
             compilation_options: PipelineCompilationOptions::default(),
             cache: None,
         });
-        let weight = gpu.uniform::<Weight>("accumulate.weight");
+        let weight = gpu.uniform::<WeightUniforms>("accumulate.weight");
         GpuSum { gpu, sum, weight, pipeline }
     }
 
@@ -286,7 +286,7 @@ impl GpuSum {
 
     fn add(&self, mask: &Texture, secs: u32) {
         let GpuSum { gpu, sum, weight, pipeline } = self;
-        gpu.queue.write_buffer(weight, 0, bytemuck::bytes_of(&Weight { secs }));
+        gpu.queue.write_buffer(weight, 0, bytemuck::bytes_of(&WeightUniforms { secs }));
         let group = gpu.bind(
             "accumulate",
             &pipeline.get_bind_group_layout(0),

@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 
 /// Numbers of which the contours are asked.
 #[derive(Clone, Copy)]
-pub struct Field<'a> {
+pub struct ScalarField<'a> {
     /// Columns.
     pub width: u32,
     /// Rows.
@@ -30,7 +30,7 @@ pub struct Contour {
     /// Columns and rows from the raster's north-west corner, in cells: a cell's centre is half a cell from its corners.
     pub points: Vec<[f64; 2]>,
     /// Of the segment from each point to the next whether it is drawn: not along the raster's own border, and not where
-    /// [`Field::open`] says no on both of its ends.
+    /// [`ScalarField::open`] says no on both of its ends.
     pub drawn: Vec<bool>,
 }
 
@@ -66,7 +66,7 @@ impl Contour {
 const CLEAR: f64 = 0.01;
 
 /// The contours of all cells whose number is above `threshold`, in the order of their first rows.
-pub fn contours(field: &Field, threshold: u64) -> Vec<Contour> {
+pub fn contours(field: &ScalarField, threshold: u64) -> Vec<Contour> {
     let walk = Walk { field, threshold, pitch: u64::from(field.width) + 2 * PAD };
     let rows = (0..u64::from(field.height) + 2 * PAD - 1).into_par_iter();
     let steps: Vec<(u64, u64)> = rows.flat_map_iter(|row| walk.steps(row)).collect();
@@ -111,7 +111,7 @@ struct Crossing {
 }
 
 struct Walk<'a> {
-    field: &'a Field<'a>,
+    field: &'a ScalarField<'a>,
     threshold: u64,
     /// Columns with what is around.
     pitch: u64,

@@ -9,10 +9,10 @@ mod shaded;
 pub mod surfaces;
 pub mod verify;
 
-pub use shaded::{Part, Shaded, ShadedCells};
+pub use shaded::{Shaded, ShadedCells, ShadedPart};
 
 use crate::choice::{Engine, Finder, Method, Settings};
-use crate::view::{Counted, Decided, Grid};
+use crate::view::{Decided, FragmentCounts, Grid};
 
 /// The raster of shaded time.
 ///
@@ -87,7 +87,7 @@ pub struct Statistics {
 
 impl Statistics {
     /// Adds an instant.
-    pub fn add(&mut self, counted: &Counted) {
+    pub fn add(&mut self, counted: &FragmentCounts) {
         self.cells += counted.reached.len() as u64;
         self.fragments += counted.reached.iter().map(|&fragments| u64::from(fragments)).sum::<u64>();
         self.fragments_without_mask += counted.all;
@@ -98,7 +98,7 @@ impl Statistics {
     }
 
     /// An instant's own.
-    pub fn of(counted: &Counted) -> Statistics {
+    pub fn of(counted: &FragmentCounts) -> Statistics {
         let mut statistics = Statistics::default();
         statistics.add(counted);
         statistics

@@ -6,29 +6,29 @@ use std::ops::Range;
 /// Per cell the shaded time in 1/255 s, row 0 (north) first: one word of 32 bits, as a year of daylight just fits, or two
 /// where a longer study needs them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Shaded(Part<'static>);
+pub struct Shaded(ShadedPart<'static>);
 
 /// Some cells' shaded time, as it lies in memory or was read for the purpose.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Part<'a> {
+pub enum ShadedPart<'a> {
     /// In one word each.
     One(Cow<'a, [u32]>),
     /// In two.
     Two(Cow<'a, [u64]>),
 }
 
-impl Default for Part<'_> {
+impl Default for ShadedPart<'_> {
     fn default() -> Self {
-        Part::One(Cow::default())
+        ShadedPart::One(Cow::default())
     }
 }
 
-impl Part<'_> {
+impl ShadedPart<'_> {
     /// How many cells there are.
     pub fn len(&self) -> usize {
         match self {
-            Part::One(cells) => cells.len(),
-            Part::Two(cells) => cells.len(),
+            ShadedPart::One(cells) => cells.len(),
+            ShadedPart::Two(cells) => cells.len(),
         }
     }
 
@@ -40,8 +40,8 @@ impl Part<'_> {
     /// A cell's, in 1/255 s.
     pub fn of(&self, cell: usize) -> u64 {
         match self {
-            Part::One(cells) => cells[cell].into(),
-            Part::Two(cells) => cells[cell],
+            ShadedPart::One(cells) => cells[cell].into(),
+            ShadedPart::Two(cells) => cells[cell],
         }
     }
 }
@@ -52,7 +52,7 @@ pub trait ShadedCells: Sync {
     fn cells(&self) -> usize;
 
     /// Some of them.
-    fn part(&self, cells: Range<usize>) -> Part<'_>;
+    fn part(&self, cells: Range<usize>) -> ShadedPart<'_>;
 }
 
 impl ShadedCells for Shaded {
@@ -60,10 +60,10 @@ impl ShadedCells for Shaded {
         self.len()
     }
 
-    fn part(&self, cells: Range<usize>) -> Part<'_> {
+    fn part(&self, cells: Range<usize>) -> ShadedPart<'_> {
         match &self.0 {
-            Part::One(all) => Part::One(Cow::Borrowed(&all[cells])),
-            Part::Two(all) => Part::Two(Cow::Borrowed(&all[cells])),
+            ShadedPart::One(all) => ShadedPart::One(Cow::Borrowed(&all[cells])),
+            ShadedPart::Two(all) => ShadedPart::Two(Cow::Borrowed(&all[cells])),
         }
     }
 }
@@ -92,15 +92,15 @@ impl Shaded {
     /// The cells, where one word is enough for each.
     pub fn in_one_word(&self) -> Option<&[u32]> {
         match &self.0 {
-            Part::One(cells) => Some(cells),
-            Part::Two(_) => None,
+            ShadedPart::One(cells) => Some(cells),
+            ShadedPart::Two(_) => None,
         }
     }
 }
 
 impl From<Vec<u32>> for Shaded {
     fn from(cells: Vec<u32>) -> Shaded {
-        Shaded(Part::One(cells.into()))
+        Shaded(ShadedPart::One(cells.into()))
     }
 }
 
@@ -109,7 +109,7 @@ impl From<Vec<u64>> for Shaded {
     fn from(cells: Vec<u64>) -> Shaded {
         match cells.iter().map(|&cell| u32::try_from(cell)).collect::<Result<Vec<u32>, _>>() {
             Ok(cells) => cells.into(),
-            Err(_) => Shaded(Part::Two(cells.into())),
+            Err(_) => Shaded(ShadedPart::Two(cells.into())),
         }
     }
 }

@@ -49,7 +49,7 @@ fn depths(scene: &Scene, side: &Elevation) -> (f64, f64) {
     (end(low, high) - 1.0, end(high, low) + 1.0)
 }
 
-pub(super) fn uniform(scene: &Scene, view: &View) -> layout::View {
+pub(super) fn uniform(scene: &Scene, view: &View) -> layout::ViewUniforms {
     let origin = scene.casters.origin;
     let world_viewer = view.viewer();
     let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
@@ -74,7 +74,7 @@ pub(super) fn uniform(scene: &Scene, view: &View) -> layout::View {
         }
     };
     let direction = |axis: DVec3| axis.extend(0.0).as_vec4().to_array();
-    layout::View {
+    layout::ViewUniforms {
         clip_from_local: clip_from_local(scene, view).as_mat4().to_cols_array_2d(),
         viewer: viewer.as_vec4().to_array(),
         right: direction(right),

@@ -16,7 +16,7 @@ use super::map::{DepthMap, compared_layout};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
-use crate::view::{Counted, Decided, Surface, View};
+use crate::view::{Decided, FragmentCounts, Surface, View};
 use glam::DVec3;
 use std::sync::Arc;
 use wgpu::*;
@@ -119,7 +119,7 @@ impl Technique for Hybrid {
         self.counting.surface.read()
     }
 
-    fn counted(&mut self, to_sun: DVec3) -> Result<Option<Counted>, ShadowError> {
+    fn counted(&mut self, to_sun: DVec3) -> Result<Option<FragmentCounts>, ShadowError> {
         self.counting.prepare_adding()?;
         let gpu = Arc::clone(&self.counting.surface.gpu);
         let share = self.draw(to_sun)?.read()?.share;
@@ -139,6 +139,6 @@ impl Technique for Hybrid {
         });
         let (width, height) = self.counting.view.size();
         let all = all.iter().map(|&fragments| u64::from(fragments)).sum();
-        Ok(Some(Counted { width, height, reached, all, decided: Some(decided.collect()) }))
+        Ok(Some(FragmentCounts { width, height, reached, all, decided: Some(decided.collect()) }))
     }
 }

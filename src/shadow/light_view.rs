@@ -236,7 +236,13 @@ pub(super) struct LightView {
 
 impl LightView {
     /// The uniform for a map of `size` texels a side.
-    pub(super) fn uniform(&self, extents: &Extents, size: u32, slope_bias: f32, smoothies: Smoothies) -> layout::Map {
+    pub(super) fn uniform(
+        &self,
+        extents: &Extents,
+        size: u32,
+        slope_bias: f32,
+        smoothies: Smoothies,
+    ) -> layout::MapUniforms {
         let &LightView { light, away, right, up, near, far, .. } = self;
         let border = (self.high - self.low) * (BORDER_TEXELS / (f64::from(size) - 2.0 * BORDER_TEXELS));
         let (low, high) = (self.low - border, self.high + border);
@@ -259,7 +265,7 @@ impl LightView {
             .into_iter()
             .fold(near.abs().max(far.abs()), f64::max);
         let vector = |vector: DVec3| vector.extend(0.0).as_vec4().to_array();
-        layout::Map {
+        layout::MapUniforms {
             from_local: from_local.as_mat4().to_cols_array_2d(),
             across: vector(right * texel.x),
             along: vector(-up * texel.y),

@@ -55,7 +55,7 @@ impl DepthMap {
         if size > largest {
             return Err(ShadowError::MapTooLarge { size, largest, adapter: gpu.name().to_owned() });
         }
-        let uniform = gpu.uniform::<layout::Map>("map");
+        let uniform = gpu.uniform::<layout::MapUniforms>("map");
         let layout = bind_group_layout(&gpu, "map", &[UNIFORM]);
         let bound = gpu.bind("map", &layout, &[(0, uniform.as_entire_binding())]);
         let module = gpu.shader("map", shaders::MAP);

@@ -27,7 +27,7 @@ pub mod walls;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
-use crate::view::{Bits, Counted, Mask, Surface, Tile, View};
+use crate::view::{Bits, FragmentCounts, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
 
 pub use plan_surface::{PlanSurface, plan_surface};
@@ -117,7 +117,7 @@ pub trait Technique {
     }
 
     /// What counting takes for that sun; none where nothing is counted. Slow: it is read back.
-    fn counted(&mut self, _to_sun: DVec3) -> Result<Option<Counted>, ShadowError> {
+    fn counted(&mut self, _to_sun: DVec3) -> Result<Option<FragmentCounts>, ShadowError> {
         Ok(None)
     }
 }

@@ -43,7 +43,7 @@ pub struct Registered {
 
 /// A vertex seen from the light.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct ProjectedVertex {
     /// Homogeneous column and row, and what divides them.
     pub at: DVec3,
     /// How high above the judged plane it stands, metres.
@@ -72,9 +72,9 @@ impl Registered {
     }
 
     /// Where a vertex is.
-    pub fn place(&self, vertex: DVec3) -> Place {
+    pub fn place(&self, vertex: DVec3) -> ProjectedVertex {
         let vertex = vertex.extend(1.0);
-        Place {
+        ProjectedVertex {
             at: DVec3::new(self.column.dot(vertex), self.row.dot(vertex), self.w.dot(vertex)),
             height: self.height.dot(vertex),
         }
@@ -83,12 +83,12 @@ impl Registered {
 
 /// What of a face lies between the plane and the light: a convex polygon in cells.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Part {
+pub struct ClippedFace {
     points: [DVec2; 5],
     count: usize,
 }
 
-impl Part {
+impl ClippedFace {
     /// Its corners, in the face's order.
     pub fn points(&self) -> &[DVec2] {
         &self.points[..self.count]
@@ -103,13 +103,13 @@ impl Part {
 }
 
 /// Whether a face's place needs no cutting.
-pub fn is_whole(face: &[Place; 3]) -> bool {
+pub fn is_whole(face: &[ProjectedVertex; 3]) -> bool {
     face.iter().all(|place| place.height > 0.0 && place.at.z > LEAST_W)
 }
 
 /// Cuts a face at the judged plane, and below a lamp. Two faces that share an edge are cut at the same point of it.
-pub fn part(face: [Place; 3]) -> Part {
-    let mut part = Part::default();
+pub fn part(face: [ProjectedVertex; 3]) -> ClippedFace {
+    let mut part = ClippedFace::default();
     if is_whole(&face) {
         part.points[..3].copy_from_slice(&face.map(flat));
         part.count = 3;
@@ -127,7 +127,7 @@ pub fn part(face: [Place; 3]) -> Part {
             count += 1;
         }
     }
-    let before_lamp = |place: &Place| place.at.z - LEAST_W;
+    let before_lamp = |place: &ProjectedVertex| place.at.z - LEAST_W;
     for at in 0..count {
         let (from, to) = (above[at], above[(at + 1) % count]);
         if before_lamp(&from) > 0.0 {
@@ -142,14 +142,14 @@ pub fn part(face: [Place; 3]) -> Part {
     part
 }
 
-fn flat(place: Place) -> DVec2 {
+fn flat(place: ProjectedVertex) -> DVec2 {
     place.at.truncate() / place.at.z
 }
 
 /// Where the line between two places comes to 0. The same whichever is named first.
-fn cut(one: Place, other: Place, height: impl Fn(Place) -> f64) -> Place {
+fn cut(one: ProjectedVertex, other: ProjectedVertex, height: impl Fn(ProjectedVertex) -> f64) -> ProjectedVertex {
     let (low, high) = if height(one) < height(other) { (one, other) } else { (other, one) };
     // homogeneous places are linear, below the plane as well
     let along = -height(low) / (height(high) - height(low));
-    Place { at: low.at + (high.at - low.at) * along, height: low.height + (high.height - low.height) * along }
+    ProjectedVertex { at: low.at + (high.at - low.at) * along, height: low.height + (high.height - low.height) * along }
 }

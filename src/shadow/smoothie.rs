@@ -22,7 +22,7 @@ use super::map::{DepthMap, SLOPE_BIAS_TEXELS, Triangles, compared_layout, depth}
 use super::{DrawnMask, GpuSurface, Scene, ShadowError, Technique};
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
-use crate::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
+use crate::silhouette::{DirectedEdge, ProcessorFinder, SilhouetteFinder};
 use crate::view::{Surface, View};
 use glam::{DVec3, DVec4, Vec3};
 use std::sync::Arc;
@@ -70,7 +70,7 @@ impl Smoothie {
         gpu: Arc<Gpu>,
         scene: Scene,
         view: View,
-        finder: Kind,
+        finder: ProcessorFinder,
         map_size: u32,
         width_m: Option<f64>,
     ) -> Result<Smoothie, ShadowError> {

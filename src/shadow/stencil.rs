@@ -9,7 +9,7 @@ use super::counting::{Bits, Counting};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
-use crate::view::{Counted, Surface, View};
+use crate::view::{FragmentCounts, Surface, View};
 use glam::DVec3;
 use std::sync::Arc;
 use wgpu::*;
@@ -83,12 +83,12 @@ impl Technique for Stencil {
         self.counting.surface.read()
     }
 
-    fn counted(&mut self, to_sun: DVec3) -> Result<Option<Counted>, ShadowError> {
+    fn counted(&mut self, to_sun: DVec3) -> Result<Option<FragmentCounts>, ShadowError> {
         self.counting.prepare_adding()?;
         let mut encoder = self.counting.surface.encoder();
         let reached = self.counting.find(to_sun, &mut encoder)?.fragments(encoder, None)?;
         let (width, height) = self.counting.view.size();
         let all = reached.iter().map(|&fragments| u64::from(fragments)).sum();
-        Ok(Some(Counted { width, height, reached, all, decided: None }))
+        Ok(Some(FragmentCounts { width, height, reached, all, decided: None }))
     }
 }

@@ -3,7 +3,7 @@
 
 use super::frame::{clip_from_local, uniform};
 use super::{Scene, ShadowError};
-use crate::gpu::layout::{self, Light};
+use crate::gpu::layout::{self, LightUniforms};
 use crate::gpu::targets::{COUNTED, DEPTH, NUMBER, SHARE, Stages, whole};
 use crate::gpu::{Gpu, GpuError, readback, shaders};
 use crate::mesh::Mesh;
@@ -56,9 +56,9 @@ impl GpuSurface {
         let planes = planes(&gpu, &scene.receivers)?;
 
         let uniform = uniform(scene, &view);
-        let view_buffer = gpu.uniform::<layout::View>("view");
+        let view_buffer = gpu.uniform::<layout::ViewUniforms>("view");
         gpu.queue.write_buffer(&view_buffer, 0, bytemuck::bytes_of(&uniform));
-        let light = gpu.uniform::<Light>("light");
+        let light = gpu.uniform::<LightUniforms>("light");
         let frame_layout = bind_group_layout(&gpu, "frame", &[UNIFORM, UNIFORM]);
         let seen_layout = bind_group_layout(
             &gpu,
@@ -309,7 +309,7 @@ impl GpuSurface {
 
     /// Sets a light around the scene's origin (sun: w = 0, lamp: w = 1).
     pub(crate) fn set_light(&self, local_light: DVec4) {
-        let light = Light { towards: local_light.as_vec4().to_array() };
+        let light = LightUniforms { towards: local_light.as_vec4().to_array() };
         self.gpu.queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
     }
 

@@ -42,7 +42,7 @@ impl SilhouetteFinder for Hierarchy {
         let mut runs = Vec::new();
         let looked = classes.ask(local_light, &mut runs);
         silhouette.reserve(runs.iter().map(|run| run.edges.len() * run.multiplicity.unsigned_abs() as usize).sum());
-        for Run { edges, multiplicity } in runs {
+        for ClassEdges { edges, multiplicity } in runs {
             let edges = classes.edges[edges.start as usize..edges.end as usize].iter();
             match multiplicity {
                 2 => silhouette.extend(edges.flat_map(|&edge| [edge; 2])),
@@ -74,7 +74,7 @@ pub struct Classes {
 
 /// The answer of a class: its edges, and how often each stands in the silhouette, negative against its direction.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Run {
+pub struct ClassEdges {
     /// Of [`Classes::edges`].
     pub edges: Range<u32>,
     /// As [`super::multiplicity`].
@@ -186,13 +186,13 @@ impl Classes {
     }
 
     /// The classes that are silhouette for a light around the mesh's origin.
-    pub fn ask(&self, local_light: DVec4, runs: &mut Vec<Run>) -> Looked {
+    pub fn ask(&self, local_light: DVec4, runs: &mut Vec<ClassEdges>) -> Looked {
         let before = runs.len();
         for sum in &self.sums {
             let facing = |plane| self.facing(plane, local_light);
             let multiplicity = sum.terms.iter().map(|&(plane, times)| times * facing(plane)).sum();
             if multiplicity != 0 {
-                runs.push(Run { edges: sum.edges.clone(), multiplicity });
+                runs.push(ClassEdges { edges: sum.edges.clone(), multiplicity });
             }
         }
         let light = self.frame.light(local_light).as_vec4();
@@ -219,7 +219,7 @@ impl Classes {
                 times * (one + if turned { -other } else { other })
             };
             if multiplicity != 0 {
-                runs.push(Run { edges: first_edge..first_edge + edges, multiplicity });
+                runs.push(ClassEdges { edges: first_edge..first_edge + edges, multiplicity });
             }
         }
         looked.found = runs.len() - before;

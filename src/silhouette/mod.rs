@@ -37,7 +37,7 @@ pub struct Looked {
 
 /// The finders that work on the processor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ProcessorFinder {
     /// One pass over all edges.
     BruteForce,
     /// The paper's tree.
@@ -49,13 +49,13 @@ pub enum Kind {
     Hierarchy,
 }
 
-impl Kind {
+impl ProcessorFinder {
     /// Makes the finder for a mesh.
     pub fn build(self, mesh: &Mesh) -> Box<dyn SilhouetteFinder> {
         match self {
-            Kind::BruteForce => Box::new(BruteForce),
-            Kind::Hextree { depth } => Box::new(Hextree::new(mesh, depth)),
-            Kind::Hierarchy => Box::new(Hierarchy::default()),
+            ProcessorFinder::BruteForce => Box::new(BruteForce),
+            ProcessorFinder::Hextree { depth } => Box::new(Hextree::new(mesh, depth)),
+            ProcessorFinder::Hierarchy => Box::new(Hierarchy::default()),
         }
     }
 }

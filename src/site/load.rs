@@ -35,7 +35,7 @@ pub fn load_sun(path: &Path, asked: &Overrides) -> Result<(Place, SunTrack), Sit
 
 /// Whose coordinates a mesh has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Frame {
+pub enum CoordinateFrame {
     /// East, north, up from the place's point: models as a site places them.
     Place,
     /// A model file's own axes, turned z up.
@@ -48,7 +48,7 @@ pub struct LoadedMesh {
     /// All of them, welded.
     pub mesh: Mesh,
     /// Whose coordinates that has.
-    pub frame: Frame,
+    pub frame: CoordinateFrame,
     /// What the user should know of how they were read, as [`Site::notes`].
     pub notes: Vec<String>,
 }
@@ -72,13 +72,13 @@ pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError
         let mends = likeness::of(&mesh, &mesh.components, &placement, [false, up.is_some()]);
         let of_model = notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends);
         notes.extend(of_model.iter().map(|note| note.in_words(words)));
-        return Ok(LoadedMesh { mesh, frame: Frame::Model, notes });
+        return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes });
     }
     let written = Written::read(path, &Overrides { up, ..Overrides::default() })?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
     let notes = models.notes(&written, &casts, words);
-    Ok(LoadedMesh { mesh: models.mesh, frame: Frame::Place, notes })
+    Ok(LoadedMesh { mesh: models.mesh, frame: CoordinateFrame::Place, notes })
 }
 
 impl Site {

@@ -12,7 +12,7 @@ use crate::profile::Drawn;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{DrawnMask, Scene, Technique};
 use crate::site::Site;
-use crate::view::{Camera, Counted, Mask, View};
+use crate::view::{Camera, FragmentCounts, Mask, View};
 use glam::DVec3;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -22,20 +22,20 @@ pub const FARTHEST: f64 = 40.0;
 
 /// How shadows are found in a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Way {
+pub struct LiveMethod {
     /// By which technique.
     pub method: Method,
     /// What is asked of it.
     pub settings: Settings,
 }
 
-impl Way {
+impl LiveMethod {
     /// Where the adapter is a program on the processor: rays, one a pixel.
     ///
     /// What a map or volumes cost grows with the model, and a quick look has few pixels; at a few hundred a side a map
     /// takes about as long as rays do on the tower (docs/benchmarks/desktop.md), and has coarse edges.
-    pub fn quickest() -> Way {
-        Way { method: Method::RayCast, settings: Settings::default() }
+    pub fn quickest() -> LiveMethod {
+        LiveMethod { method: Method::RayCast, settings: Settings::default() }
     }
 }
 
@@ -50,7 +50,7 @@ pub struct Live {
     /// What the picture looks at now, and whether rays told it.
     looks_at: (View, bool),
     /// The technique, the view that it is turned to, and the way that it was made for.
-    made: Option<(View, Way, Box<dyn Technique>)>,
+    made: Option<(View, LiveMethod, Box<dyn Technique>)>,
     /// Rays turn to another view at once; they go to so many points of the sun.
     rays: Option<(RayCast, Option<u32>)>,
     /// Volumes and silhouette, before the camera that they were shown to last.
@@ -118,7 +118,7 @@ impl Live {
     /// [`StudyError::Misfit`] where the way does not go with the view; else what drawing says.
     pub fn draw(
         &mut self,
-        way: &Way,
+        way: &LiveMethod,
         to_sun: DVec3,
         style: &Style,
         target: &wgpu::Texture,
@@ -159,7 +159,7 @@ impl Live {
     ///
     /// # Errors
     /// As [`Live::draw`].
-    pub fn counted(&mut self, way: &Way, to_sun: DVec3) -> Result<Option<Counted>, StudyError> {
+    pub fn counted(&mut self, way: &LiveMethod, to_sun: DVec3) -> Result<Option<FragmentCounts>, StudyError> {
         let machine = self.machine(way)?;
         if to_sun.z <= 0.0 || machine.gpu().is_none() {
             return Ok(None);
@@ -196,7 +196,7 @@ impl Live {
     }
 
     /// Who draws, as the command chooses.
-    fn machine(&mut self, way: &Way) -> Result<Machine, StudyError> {
+    fn machine(&mut self, way: &LiveMethod) -> Result<Machine, StudyError> {
         (self.site.method, self.site.settings) = (way.method, way.settings);
         choose(Some(&self.gpu), &self.site, &self.view, &mut |_| ControlFlow::Continue(()))
     }
@@ -209,9 +209,9 @@ fn without_models(site: &Site) -> Site {
 
 /// The technique at hand, turned to the view; a new one where it does not turn, or was made for another way.
 fn made<'a>(
-    at_hand: &'a mut Option<(View, Way, Box<dyn Technique>)>,
+    at_hand: &'a mut Option<(View, LiveMethod, Box<dyn Technique>)>,
     machine: Machine,
-    (view, way): (View, Way),
+    (view, way): (View, LiveMethod),
     scene: &Scene,
 ) -> Result<&'a mut Box<dyn Technique>, StudyError> {
     let kept = match at_hand.take().filter(|(_, of_way, _)| *of_way == way) {

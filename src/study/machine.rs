@@ -13,7 +13,7 @@ use crate::shadow::smoothie::Smoothie;
 use crate::shadow::soft_picture::SoftPicture;
 use crate::shadow::stencil::Stencil;
 use crate::shadow::{Scene, Silhouettes, Technique};
-use crate::silhouette::Kind;
+use crate::silhouette::ProcessorFinder;
 use crate::site::Site;
 use crate::view::{Tile, View};
 use std::sync::Arc;
@@ -63,8 +63,8 @@ impl Machine {
 
     pub(super) fn drawn(&self) -> Drawn {
         let finder = self.silhouettes.map(|silhouettes| match silhouettes {
-            Silhouettes::OnProcessor(Kind::BruteForce) => Finder::Brute,
-            Silhouettes::OnProcessor(Kind::Hextree { .. } | Kind::Hierarchy) => Finder::Hextree,
+            Silhouettes::OnProcessor(ProcessorFinder::BruteForce) => Finder::Brute,
+            Silhouettes::OnProcessor(ProcessorFinder::Hextree { .. } | ProcessorFinder::Hierarchy) => Finder::Hextree,
             Silhouettes::OnGpu | Silhouettes::InVertexShader => Finder::Gpu,
         });
         Drawn {
@@ -155,9 +155,9 @@ fn silhouettes(row: &MethodRow, site: &Site, gpu: &Gpu) -> Silhouettes {
         return Silhouettes::OnGpu;
     }
     match (site.finder, site.hextree_depth) {
-        (Finder::Brute, _) => Kind::BruteForce.into(),
-        (Finder::Hextree, Some(depth)) => Kind::Hextree { depth }.into(),
-        _ => Kind::Hierarchy.into(),
+        (Finder::Brute, _) => ProcessorFinder::BruteForce.into(),
+        (Finder::Hextree, Some(depth)) => ProcessorFinder::Hextree { depth }.into(),
+        _ => ProcessorFinder::Hierarchy.into(),
     }
 }
 

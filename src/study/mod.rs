@@ -37,7 +37,7 @@ use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
 use crate::sun::{SunError, SunTrack, Zone};
-use crate::view::{Bits, Camera, Counted, Mask, Overlay, Surface, Tile, View};
+use crate::view::{Bits, Camera, FragmentCounts, Mask, Overlay, Surface, Tile, View};
 use chrono::DateTime;
 use glam::DVec3;
 use machine::{Machine, not_surfaces};
@@ -79,12 +79,12 @@ pub struct InstantWants {
     /// The silhouette's lines over a camera's picture.
     pub silhouette: bool,
     /// What counting took, cell by cell, and what it is for.
-    pub counted: Option<Counting>,
+    pub counted: Option<CountingPurpose>,
 }
 
 /// What counting shadow volumes is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Counting {
+pub enum CountingPurpose {
     /// Numbers of the whole.
     Statistics,
     /// A diagram of what a map decided and what the volumes did.
@@ -93,13 +93,13 @@ pub enum Counting {
     Overdraw,
 }
 
-impl Counting {
+impl CountingPurpose {
     /// The field that asks for it.
     fn field(self) -> Field {
         match self {
-            Counting::Statistics => Field::Statistics,
-            Counting::Mask => Field::MaskDiagram,
-            Counting::Overdraw => Field::OverdrawDiagram,
+            CountingPurpose::Statistics => Field::Statistics,
+            CountingPurpose::Mask => Field::MaskDiagram,
+            CountingPurpose::Overdraw => Field::OverdrawDiagram,
         }
     }
 }
@@ -186,7 +186,7 @@ pub struct InstantOutcome {
     /// Volumes and silhouette, where wanted and where there is a camera and a sun.
     pub overlay: Option<Overlay>,
     /// What counting took, where wanted and where there is a sun.
-    pub counted: Option<Counted>,
+    pub counted: Option<FragmentCounts>,
     /// Whose faces [`Surface::face`] counts.
     pub surface_mesh: Mesh,
     /// `prepare` and `shadows`.

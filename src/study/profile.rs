@@ -2,7 +2,7 @@
 
 use super::again::persist;
 use super::machine::{Machine, choose, counting, not_surfaces};
-use super::{Counting, Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
+use super::{CountingPurpose, Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
 use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -102,7 +102,7 @@ impl<'a> TiledStudy<'a> {
         let watch = Stopwatch::start();
         let view = View::Plan(site.grid);
         let machine = match wants.statistics {
-            true => counting(gpu, site, &view, Counting::Statistics.field())?,
+            true => counting(gpu, site, &view, CountingPurpose::Statistics.field())?,
             false => choose(gpu, site, &view, on_event)?,
         };
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;

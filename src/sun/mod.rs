@@ -22,7 +22,7 @@ pub use error::SunError;
 pub use place::zone_at;
 pub use position::{Air, Position, delta_t_secs, position};
 pub use rules::{TzVersion, ZoneRules, zone_names};
-pub use sky::{Cut, Sky};
+pub use sky::{HorizonCrossings, Sky};
 pub use window::{MOST_DAYS, Window};
 pub use zone::{Zone, ZoneOffset};
 

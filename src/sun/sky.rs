@@ -16,7 +16,7 @@ pub struct Sky<'a> {
 
 /// Where the sun rises and sets between two instants.
 #[derive(Clone, Debug)]
-pub struct Cut {
+pub struct HorizonCrossings {
     /// The first second that is otherwise than at the instant before: with a sun or without.
     pub first: DateTime<Zone>,
     /// From here on it is as at the instant after.
@@ -49,7 +49,7 @@ impl Sky<'_> {
     ///
     /// # Errors
     /// As [`position()`].
-    pub fn cut(&self, before: &Instant, after: &Instant) -> Result<Option<Cut>, SunError> {
+    pub fn cut(&self, before: &Instant, after: &Instant) -> Result<Option<HorizonCrossings>, SunError> {
         let mut changes = Vec::new();
         self.search(before, after, &mut changes)?;
         let (Some(first), Some(last)) = (changes.first(), changes.last()) else { return Ok(None) };
@@ -59,7 +59,7 @@ impl Sky<'_> {
             Ok(Instant { weight_secs: u32::try_from(secs).unwrap_or(0), ..instant })
         };
         let between = changes.windows(2).map(middle).collect::<Result<_, SunError>>()?;
-        Ok(Some(Cut { first: *first, last: *last, between }))
+        Ok(Some(HorizonCrossings { first: *first, last: *last, between }))
     }
 
     /// Finds every change between night and day, to the second, by halving. A half whose ends agree is left alone where

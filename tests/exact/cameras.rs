@@ -9,7 +9,7 @@ use gnomon::shadow::near_clip::near_clip_volume_touched;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::Receivers;
 use gnomon::view::{Camera, View};
 
@@ -27,7 +27,7 @@ fn differences(scene: &Scene, sun: DVec3, cameras: &[Camera], forced: Option<boo
     let mut truth = RayCast::new(scene.clone(), View::Camera(cameras[0]), None);
     let of = |&camera: &Camera| {
         let view = View::Camera(camera);
-        let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::BruteForce).unwrap();
+        let mut stencil = Stencil::new(gpu(), scene.clone(), view, ProcessorFinder::BruteForce).unwrap();
         if let Some(z_fail) = forced {
             stencil.force_z_fail(z_fail);
         }

@@ -1,6 +1,6 @@
 //! Contours against the cells that they part, one by one.
 
-use gnomon::profile::contour::{Contour, Field, contours};
+use gnomon::profile::contour::{Contour, ScalarField, contours};
 use gnomon::site::{Engine, Overrides, Receivers, Site};
 use gnomon::study::{self, Wants};
 use std::collections::BTreeMap;
@@ -44,7 +44,7 @@ fn crossed(contours: &[Contour], [width, height]: [usize; 2]) -> Crossed {
 
 /// Every pair of neighbours is crossed once where one is above and the other is not, and else never; and what crosses is
 /// drawn where it may be. Says how many pairs are parted.
-fn agree(field: &Field, threshold: u64, contours: &[Contour]) -> usize {
+fn agree(field: &ScalarField, threshold: u64, contours: &[Contour]) -> usize {
     let [width, height] = [field.width, field.height].map(|count| count as usize);
     let crossed = crossed(contours, [width, height]);
     let mut parted = 0;
@@ -87,7 +87,7 @@ fn lines_part_what_the_numbers_part() {
         let values: Vec<u64> = (0..count).map(|_| random(levels)).collect();
         let walls: Vec<bool> = (0..count).map(|_| random(5) == 0).collect();
         let (value, open) = (|cell: usize| values[cell], |a: usize, _| !walls[a]);
-        let field = Field { width, height, value: &value, open: &open };
+        let field = ScalarField { width, height, value: &value, open: &open };
         for threshold in 0..levels {
             all += agree(&field, threshold, &contours(&field, threshold));
         }
@@ -98,17 +98,17 @@ fn lines_part_what_the_numbers_part() {
 #[test]
 fn no_line_is_drawn_along_the_border() {
     let (width, height) = (7, 5);
-    let field = Field { width, height, value: &|_| 1, open: &|_, _| true };
+    let field = ScalarField { width, height, value: &|_| 1, open: &|_, _| true };
     let [all] = &contours(&field, 0)[..] else { panic!("one patch") };
     assert_eq!((all.area(), all.lines().len()), (35.0, 0));
     // a strip across, up to both borders
-    let field = Field { width, height, value: &|cell| u64::from(cell % 7 > 2), open: &|_, _| true };
+    let field = ScalarField { width, height, value: &|cell| u64::from(cell % 7 > 2), open: &|_, _| true };
     let [strip] = &contours(&field, 0)[..] else { panic!("one patch") };
     let mut line = strip.lines().concat();
     line.sort_by(|a, b| a[1].total_cmp(&b[1]));
     assert_eq!((strip.area(), line), (20.0, vec![[3.0, 0.0], [3.0, 5.0]]));
     // a hole has its own, the other way round
-    let field = Field { width, height, value: &|cell| u64::from(cell != 17), open: &|_, _| true };
+    let field = ScalarField { width, height, value: &|cell| u64::from(cell != 17), open: &|_, _| true };
     let areas: Vec<f64> = contours(&field, 0).iter().map(Contour::area).collect();
     assert_eq!(areas, [35.0, -0.5]);
 }
@@ -117,7 +117,7 @@ fn no_line_is_drawn_along_the_border() {
 #[test]
 fn saddles_hang_together_by_their_mean() {
     for values in [[9, 0, 0, 9], [0, 9, 9, 0]] {
-        let field = Field { width: 2, height: 2, value: &|cell| values[cell], open: &|_, _| true };
+        let field = ScalarField { width: 2, height: 2, value: &|cell| values[cell], open: &|_, _| true };
         let counts = [3, 4].map(|threshold| contours(&field, threshold).len());
         assert_eq!(counts, [1, 2], "{values:?}");
     }
@@ -130,7 +130,7 @@ fn straight_edges_are_straight() {
         let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
         let away = |[x, y]: [f64; 2]| (x - 150.3) * sin - (y - 149.6) * cos;
         let value = |cell: usize| u64::from(away([(cell % 300) as f64 + 0.5, (cell / 300) as f64 + 0.5]) > 0.0);
-        let field = Field { width: 300, height: 300, value: &value, open: &|_, _| true };
+        let field = ScalarField { width: 300, height: 300, value: &value, open: &|_, _| true };
         let lines = contours(&field, 0).iter().flat_map(Contour::lines).collect::<Vec<_>>();
         let [line] = &lines[..] else { panic!("{degrees}: {} lines", lines.len()) };
         assert!(line.len() <= 24, "{degrees}°: {} corners", line.len());
@@ -152,7 +152,8 @@ fn iso_hours_of_the_sites_part_the_hours() {
             let site = Site::load(Path::new(&format!("sites/{name}")), &asked).unwrap();
             let profile = study::run(&site, &Wants::default(), &mut |_| ControlFlow::Continue(())).unwrap().profile;
             let value = |cell: usize| profile.shaded.of(cell);
-            let field = Field { width: site.grid.width, height: site.grid.height, value: &value, open: &|_, _| true };
+            let field =
+                ScalarField { width: site.grid.width, height: site.grid.height, value: &value, open: &|_, _| true };
             for hour in 0..profile.day_secs / 3600 {
                 let threshold = u64::from(hour) * 3600 * 255;
                 let parted = agree(&field, threshold, &contours(&field, threshold));

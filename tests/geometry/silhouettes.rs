@@ -5,7 +5,7 @@ use crate::shared::scenes::cuboid;
 use glam::{DVec4, dvec3, dvec4};
 use gnomon::mesh::Mesh;
 use gnomon::silhouette::brute_force::BruteForce;
-use gnomon::silhouette::{DirectedEdge, Kind, SilhouetteFinder, hextree};
+use gnomon::silhouette::{DirectedEdge, ProcessorFinder, SilhouetteFinder, hextree};
 use gnomon::volume::Volume;
 use proptest::prelude::*;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -41,12 +41,12 @@ fn found(mesh: &Mesh, light: DVec4) -> Vec<DirectedEdge> {
 }
 
 /// Every other finder that works on the processor.
-const KINDS: [Kind; 5] = [
-    Kind::Hierarchy,
-    Kind::Hextree { depth: 0 },
-    Kind::Hextree { depth: 1 },
-    Kind::Hextree { depth: hextree::PAPER_DEPTH },
-    Kind::Hextree { depth: hextree::DEEPEST },
+const KINDS: [ProcessorFinder; 5] = [
+    ProcessorFinder::Hierarchy,
+    ProcessorFinder::Hextree { depth: 0 },
+    ProcessorFinder::Hextree { depth: 1 },
+    ProcessorFinder::Hextree { depth: hextree::PAPER_DEPTH },
+    ProcessorFinder::Hextree { depth: hextree::DEEPEST },
 ];
 
 /// Whether two silhouettes hold the same edges, direction for direction and as often.
@@ -215,7 +215,7 @@ fn the_hierarchy_looks_at_little() {
         meshes.push((name, site.mesh.of_components(&site.casts)));
     }
     for (name, mesh) in meshes {
-        let mut finder = Kind::Hierarchy.build(&mesh);
+        let mut finder = ProcessorFinder::Hierarchy.build(&mesh);
         for light in all_around(&mesh).into_iter().filter(|light| light.w == 0.0 && light.z > 0.05) {
             let looked = finder.find(&mesh, light, &mut Vec::new());
             println!("{name}: {looked:?}, {:.1} a find", looked.at as f64 / looked.found as f64);

@@ -11,15 +11,15 @@ use gnomon::shadow::near_clip::near_clip_volume_touched;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::Receivers;
-use gnomon::view::{Camera, Counted, Decided, Mask, View};
+use gnomon::view::{Camera, Decided, FragmentCounts, Mask, View};
 
 /// A sun's masks, and what decided.
 struct Pair {
     hybrid: Mask,
     stencil: Mask,
-    counted: Counted,
+    counted: FragmentCounts,
 }
 
 fn by_volumes(decided: Decided) -> bool {
@@ -43,7 +43,7 @@ fn to_edge(mask: &Mask, at: usize) -> f64 {
 
 fn pairs(scene: &Scene, view: View, suns: &[DVec3], map_size: u32, silhouettes: Silhouettes) -> Vec<Pair> {
     let mut hybrid = Hybrid::new(gpu(), scene.clone(), view, silhouettes, map_size).unwrap();
-    let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::BruteForce).unwrap();
+    let mut stencil = Stencil::new(gpu(), scene.clone(), view, ProcessorFinder::BruteForce).unwrap();
     let pair = |&sun: &DVec3| Pair {
         hybrid: draw(&mut hybrid, sun),
         stencil: draw(&mut stencil, sun),
@@ -58,7 +58,7 @@ fn it_is_the_stencils_mask_on_solids_larger_than_a_texel() {
         let mesh = Mesh::build(parts).unwrap();
         for receivers in [Receivers::Ground, Receivers::Top] {
             let scene = scene_of(&mesh, receivers, 0.0);
-            for silhouettes in [Silhouettes::OnProcessor(Kind::Hierarchy), Silhouettes::OnGpu] {
+            for silhouettes in [Silhouettes::OnProcessor(ProcessorFinder::Hierarchy), Silhouettes::OnGpu] {
                 for pair in pairs(&scene, plan(40.371_93, 500), &day()[1..4], 1024, silhouettes) {
                     let [by_volumes, by_map] = pair.differing();
                     // an open sheet's own corners are thinner than any texel
@@ -82,7 +82,7 @@ fn on_the_sites_it_differs_only_where_the_map_missed_something_thin() {
         for size in [512, 2048] {
             let texels = ShadowMap::new(gpu(), &scene, view, size, Filter::None).unwrap();
             let suns: Vec<DVec3> = suns.iter().step_by(4).copied().collect();
-            let pairs = pairs(&scene, view, &suns, size, Kind::Hierarchy.into());
+            let pairs = pairs(&scene, view, &suns, size, ProcessorFinder::Hierarchy.into());
             let (mut missed, mut far) = (0, 0);
             for (pair, &sun) in pairs.iter().zip(&suns) {
                 let [by_volumes, by_map] = pair.differing();
@@ -114,7 +114,7 @@ fn the_count_is_never_wrong_at_128() {
                 let what = format!("{plates} plates of {thickness} m, {receivers:?}");
                 // so coarse a map that much is left to the volumes
                 let suns = [to_sun(200.0, 70.0), to_sun(230.0, 80.0)];
-                for pair in pairs(&scene, plan(9.0, 160), &suns, 64, Kind::Hierarchy.into()) {
+                for pair in pairs(&scene, plan(9.0, 160), &suns, 64, ProcessorFinder::Hierarchy.into()) {
                     let [by_volumes, by_map] = pair.differing();
                     assert!(
                         by_volumes.is_empty() && by_map.len() <= 2,
@@ -139,14 +139,14 @@ fn cameras_count_by_the_views_own_rule() {
         let eye = dvec3(-40.0, 20.0, 2.0).lerp(dvec3(40.0, 17.0, 2.0), (f64::from(step) + 0.37) / 30.0);
         let camera = Camera { eye, target: dvec3(0.0, 0.0, 6.0), up: DVec3::Z, fov_rad: 1.2, width: 320, height: 200 };
         let view = View::Camera(camera);
-        let pair = pairs(&scene, view, &[sun], 256, Kind::Hierarchy.into()).remove(0);
+        let pair = pairs(&scene, view, &[sun], 256, ProcessorFinder::Hierarchy.into()).remove(0);
         let [by_volumes, by_map] = pair.differing();
         let near = by_map.iter().all(|&at| to_edge(&pair.stencil, at) <= 8.0);
         assert!(by_volumes.is_empty() && by_map.len() < 30 && near, "{eye}: {} {}", by_volumes.len(), by_map.len());
         let z_fail = near_clip_volume_touched(&camera, sun, &scene.casters);
         z_fails += usize::from(z_fail);
         // z-pass is wrong where it is not chosen, behind the mask too
-        let mut forced = Hybrid::new(gpu(), scene.clone(), view, Kind::Hierarchy, 256).unwrap();
+        let mut forced = Hybrid::new(gpu(), scene.clone(), view, ProcessorFinder::Hierarchy, 256).unwrap();
         forced.force_z_fail(false);
         let differs = draw(&mut forced, sun).share.iter().zip(&pair.hybrid.share).filter(|(a, b)| a != b).count();
         assert!(z_fail || differs == 0, "{eye}: {differs}");
@@ -168,13 +168,13 @@ fn what_is_counted_lies_behind_the_mask_and_adds_up() {
     };
     for view in [View::Camera(camera), plan(40.0, 200)] {
         let sun = to_sun(200.0, 35.0);
-        let pair = pairs(&scene, view, &[sun], 512, Kind::BruteForce.into()).remove(0);
-        let Counted { reached, all, decided, .. } = &pair.counted;
+        let pair = pairs(&scene, view, &[sun], 512, ProcessorFinder::BruteForce.into()).remove(0);
+        let FragmentCounts { reached, all, decided, .. } = &pair.counted;
         let decided = decided.as_ref().unwrap();
         let stray = reached.iter().zip(decided).filter(|(reached, decided)| **reached > 0 && !by_volumes(**decided));
         assert_eq!(stray.count(), 0, "fragments outside of the mask");
         let sum: u64 = reached.iter().map(|reached| u64::from(*reached)).sum();
-        let mut stencil = Stencil::new(gpu(), scene.clone(), view, Kind::BruteForce).unwrap();
+        let mut stencil = Stencil::new(gpu(), scene.clone(), view, ProcessorFinder::BruteForce).unwrap();
         let unmasked = stencil.counted(sun).unwrap().unwrap();
         assert!(unmasked.decided.is_none() && sum > 0 && sum < unmasked.all);
         // the hybrid's batches are smaller, but there is one of each here
@@ -224,7 +224,7 @@ fn the_map_misses_nothing_wider_than_its_texel() {
     let texel = texel_of(&scene(0.1));
     let scene = scene(texel);
     assert!((texel_of(&scene) / texel - 1.0).abs() < 0.02, "the bars' width changed the map");
-    let pair = pairs(&scene, view, &[sun], 256, Kind::Hierarchy.into()).remove(0);
+    let pair = pairs(&scene, view, &[sun], 256, ProcessorFinder::Hierarchy.into()).remove(0);
     let [by_volumes, by_map] = pair.differing();
     assert!(by_volumes.is_empty());
     let mut missed = [0; 8];
@@ -249,7 +249,7 @@ fn by_the_sites_cameras_it_differs_only_where_the_map_missed_something() {
         let view = View::Camera(Camera { width: 480, height: 300, ..site.unwrap().camera });
         let suns: Vec<DVec3> = suns.iter().step_by(5).copied().collect();
         let (mut missed, cells) = (0, suns.len() * 480 * 300);
-        for pair in pairs(&scene, view, &suns, 2048, Kind::Hierarchy.into()) {
+        for pair in pairs(&scene, view, &suns, 2048, ProcessorFinder::Hierarchy.into()) {
             let [by_volumes, by_map] = pair.differing();
             assert!(by_volumes.len() <= 2, "{name}: {}", by_volumes.len());
             missed += by_map.len();

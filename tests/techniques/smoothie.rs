@@ -10,7 +10,7 @@ use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::{DrawnMask, Scene};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::Receivers;
 use gnomon::sun::SUN_DISC_RAD;
 use gnomon::view::{Grid, Mask, View};
@@ -24,7 +24,7 @@ fn around(middle: DVec2, side_m: f64) -> View {
 }
 
 fn smoothie(scene: &Scene, view: View, width_m: Option<f64>) -> Smoothie {
-    Smoothie::new(gpu(), scene.clone(), view, Kind::Hierarchy, 2048, width_m).unwrap()
+    Smoothie::new(gpu(), scene.clone(), view, ProcessorFinder::Hierarchy, 2048, width_m).unwrap()
 }
 
 /// The share at a place of a plan's mask.

@@ -8,7 +8,7 @@ use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::{Scene, ShadowError, Technique};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::view::{Grid, Mask, Tile, View};
 use std::sync::Arc;
 
@@ -66,10 +66,11 @@ fn maps_of_tiles_are_finer() {
         type Make<'a> = Box<dyn Fn(View) -> Result<Box<dyn Technique>, ShadowError> + 'a>;
         let map: Make<'_> =
             Box::new(|view| Ok(Box::new(ShadowMap::new(gpu.clone(), scene, view, SIZE, Filter::FastTwoByTwo)?)));
-        let hybrid: Make<'_> =
-            Box::new(|view| Ok(Box::new(Hybrid::new(gpu.clone(), scene.clone(), view, Kind::Hierarchy, SIZE)?)));
+        let hybrid: Make<'_> = Box::new(|view| {
+            Ok(Box::new(Hybrid::new(gpu.clone(), scene.clone(), view, ProcessorFinder::Hierarchy, SIZE)?))
+        });
         let smoothie: Make<'_> = Box::new(|view| {
-            Ok(Box::new(Smoothie::new(gpu.clone(), scene.clone(), view, Kind::Hierarchy, SIZE, None)?))
+            Ok(Box::new(Smoothie::new(gpu.clone(), scene.clone(), view, ProcessorFinder::Hierarchy, SIZE, None)?))
         });
         for (technique, most, make) in
             [("shadow-map", 0.01, map), ("hybrid", 0.001, hybrid), ("smoothie", 0.01, smoothie)]

@@ -10,7 +10,7 @@ use glam::{DVec3, dvec3};
 use gnomon::gpu::Gpu;
 use gnomon::shadow::Technique;
 use gnomon::shadow::shadow_map::Filter;
-use gnomon::view::{Counted, Decided, Mask, View};
+use gnomon::view::{Decided, FragmentCounts, Mask, View};
 use std::sync::Arc;
 
 /// The paper's colours.
@@ -36,16 +36,16 @@ pub(crate) fn stage(gpu: &Arc<Gpu>, dense: Dense) -> Result<Stage> {
     Stage::new(gpu, dense.parts, View::Camera(dense.camera), dense.to_sun)
 }
 
-pub(crate) fn counted(stage: &Stage, technique: &mut dyn Technique) -> Result<Counted> {
+pub(crate) fn counted(stage: &Stage, technique: &mut dyn Technique) -> Result<FragmentCounts> {
     technique.counted(stage.to_sun)?.context("this technique counts")
 }
 
-fn decided(counted: &Counted) -> Result<Picture> {
+fn decided(counted: &FragmentCounts) -> Result<Picture> {
     let decided = counted.decided.as_ref().context("the hybrid says what decided")?;
     Ok(Picture::of((counted.width, counted.height), decided, colour_of))
 }
 
-pub(crate) fn silhouette_share(counted: &Counted) -> f64 {
+pub(crate) fn silhouette_share(counted: &FragmentCounts) -> f64 {
     let by_volumes = |decided: &&Decided| matches!(decided, Decided::VolumeShadow | Decided::VolumeLight);
     let decided = counted.decided.iter().flatten();
     decided.clone().filter(by_volumes).count() as f64 / decided.count().max(1) as f64
@@ -91,11 +91,11 @@ pub(crate) fn overdraw(gpu: &Arc<Gpu>) -> Result<Sheet> {
         let seen = stage.shaded(&stage.mask(&mut stage.stencil()?)?).shrunk(3);
         let all = counted(&stage, &mut stage.stencil()?)?;
         let masked = counted(&stage, &mut stage.hybrid(1024)?)?;
-        let layers = |counted: &Counted| {
+        let layers = |counted: &FragmentCounts| {
             let picture = Picture::of((counted.width, counted.height), &counted.reached, |&layers| bright(layers));
             picture.shrunk(3)
         };
-        let mean = |counted: &Counted| {
+        let mean = |counted: &FragmentCounts| {
             let sum: u64 = counted.reached.iter().map(|&layers| u64::from(layers)).sum();
             sum as f64 / counted.reached.len() as f64
         };

@@ -11,7 +11,7 @@ use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique, seen_normal};
-use gnomon::silhouette::Kind;
+use gnomon::silhouette::ProcessorFinder;
 use gnomon::view::{Camera, Grid, Mask, Surface, View};
 use std::sync::Arc;
 use std::time::Instant;
@@ -45,16 +45,16 @@ impl Stage {
     }
 
     pub(crate) fn hybrid(&self, map_size: u32) -> Result<Hybrid> {
-        Ok(Hybrid::new(Arc::clone(&self.gpu), self.scene.clone(), self.view, Kind::Hierarchy, map_size)?)
+        Ok(Hybrid::new(Arc::clone(&self.gpu), self.scene.clone(), self.view, ProcessorFinder::Hierarchy, map_size)?)
     }
 
     pub(crate) fn stencil(&self) -> Result<Stencil> {
-        Ok(Stencil::new(Arc::clone(&self.gpu), self.scene.clone(), self.view, Kind::Hierarchy)?)
+        Ok(Stencil::new(Arc::clone(&self.gpu), self.scene.clone(), self.view, ProcessorFinder::Hierarchy)?)
     }
 
     pub(crate) fn smoothie(&self, map_size: u32, width_m: Option<f64>) -> Result<Smoothie> {
         let scene = self.scene.clone();
-        Ok(Smoothie::new(Arc::clone(&self.gpu), scene, self.view, Kind::Hierarchy, map_size, width_m)?)
+        Ok(Smoothie::new(Arc::clone(&self.gpu), scene, self.view, ProcessorFinder::Hierarchy, map_size, width_m)?)
     }
 
     /// Ray casting to the sun's centre, or to points all over its disc.

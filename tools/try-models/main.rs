@@ -12,11 +12,11 @@ use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Difference;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
-use gnomon::shadow::walls::extraction::{Extraction, Program};
+use gnomon::shadow::walls::extraction::{Extraction, ExtractionProgram};
 use gnomon::shadow::walls::{WallQuery, Walls};
 use gnomon::shadow::{Scene, ShadowError, Technique};
 use gnomon::silhouette::hextree::{DEEPEST, PAPER_DEPTH};
-use gnomon::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
+use gnomon::silhouette::{DirectedEdge, ProcessorFinder, SilhouetteFinder};
 use gnomon::site::{Overrides, Receivers, Site};
 use gnomon::view::View;
 use std::collections::BTreeMap;
@@ -30,10 +30,10 @@ type Make = fn(&Mesh) -> Box<dyn SilhouetteFinder>;
 
 /// The finders that are held against the plain rule. A new finder is a line here.
 const FINDERS: &[(&str, Make)] = &[
-    ("brute force", |mesh| Kind::BruteForce.build(mesh)),
-    ("hextree of the paper's depth", |mesh| Kind::Hextree { depth: PAPER_DEPTH }.build(mesh)),
-    ("deepest hextree", |mesh| Kind::Hextree { depth: DEEPEST }.build(mesh)),
-    ("hierarchy", |mesh| Kind::Hierarchy.build(mesh)),
+    ("brute force", |mesh| ProcessorFinder::BruteForce.build(mesh)),
+    ("hextree of the paper's depth", |mesh| ProcessorFinder::Hextree { depth: PAPER_DEPTH }.build(mesh)),
+    ("deepest hextree", |mesh| ProcessorFinder::Hextree { depth: DEEPEST }.build(mesh)),
+    ("hierarchy", |mesh| ProcessorFinder::Hierarchy.build(mesh)),
 ];
 
 /// Cells along the plan's longer side.
@@ -97,7 +97,7 @@ fn is_silhouette(found: Vec<DirectedEdge>, truth: &Sums) -> bool {
 
 /// Whether the adapter's silhouettes are those of the plain rule, by the adapter's own facing; and whether that is the
 /// processor's but for faces so near to edge-on that they may fall either way.
-fn adapter_agrees(program: &Program, gpu: &Gpu, mesh: &Mesh, lights: &[DVec4]) -> Result<bool, GpuError> {
+fn adapter_agrees(program: &ExtractionProgram, gpu: &Gpu, mesh: &Mesh, lights: &[DVec4]) -> Result<bool, GpuError> {
     let most = gpu.limits.max_storage_buffer_binding_size;
     let mut extraction = Extraction::new(program, mesh, most)?;
     for &local_light in lights {
@@ -138,7 +138,7 @@ impl Row {
 
 /// The stencil's plan against ray casting, over all suns.
 fn stencil_against_rays(gpu: &Arc<Gpu>, scene: Scene, view: View, suns: &[DVec3]) -> Result<Difference, ShadowError> {
-    let mut stencil = Stencil::new(Arc::clone(gpu), scene.clone(), view, Kind::BruteForce)?;
+    let mut stencil = Stencil::new(Arc::clone(gpu), scene.clone(), view, ProcessorFinder::BruteForce)?;
     let mut truth = RayCast::new(scene, view, None);
     let mut total = Difference::default();
     for &sun in suns {
@@ -149,7 +149,7 @@ fn stencil_against_rays(gpu: &Arc<Gpu>, scene: Scene, view: View, suns: &[DVec3]
     Ok(total)
 }
 
-fn try_model(gpu: &Arc<Gpu>, program: &Program, path: &Path) -> Result<Row, Box<dyn std::error::Error>> {
+fn try_model(gpu: &Arc<Gpu>, program: &ExtractionProgram, path: &Path) -> Result<Row, Box<dyn std::error::Error>> {
     let site = Site::load(path, &asked(Receivers::Top))?;
     let mesh = &site.mesh;
     let instants: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
@@ -209,7 +209,7 @@ fn main() -> Result<std::process::ExitCode, Box<dyn std::error::Error>> {
         return Err("which folder? cargo run --example try-models -- FOLDER...".into());
     }
     let gpu = Arc::new(Gpu::open()?);
-    let program = Program::new(&gpu);
+    let program = ExtractionProgram::new(&gpu);
     println!("{SIZE} cells on the plan's longer side; {}", gpu.name());
     println!("model: triangles, edges, finders; edge cells and other cells that differ, ground and top receivers");
     let (mut tried, mut refused, mut failed) = (0, 0, 0);
@@ -255,7 +255,7 @@ mod tests {
 
     impl SilhouetteFinder for Wrong {
         fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked {
-            let looked = Kind::BruteForce.build(mesh).find(mesh, local_light, silhouette);
+            let looked = ProcessorFinder::BruteForce.build(mesh).find(mesh, local_light, silhouette);
             (self.0)(silhouette);
             looked
         }
@@ -297,13 +297,17 @@ mod tests {
     fn a_site_s_model_is_found_and_holds() {
         let found = models(Path::new("sites/tower")).unwrap();
         assert_eq!(found, [Path::new("sites/tower/tower.glb")]);
-        let row = try_model(&crate::shared::drawing::gpu(), &Program::new(&crate::shared::drawing::gpu()), &found[0])
-            .unwrap();
+        let row = try_model(
+            &crate::shared::drawing::gpu(),
+            &ExtractionProgram::new(&crate::shared::drawing::gpu()),
+            &found[0],
+        )
+        .unwrap();
         assert!(row.holds() && row.suns >= 5 && row.lowest_deg < 5.0 && row.triangles > 0 && row.edges > 0);
         assert!(
             try_model(
                 &crate::shared::drawing::gpu(),
-                &Program::new(&crate::shared::drawing::gpu()),
+                &ExtractionProgram::new(&crate::shared::drawing::gpu()),
                 Path::new("sites/tower/site.toml.glb")
             )
             .is_err()

@@ -8,7 +8,7 @@ use super::unfinished::sums_path;
 use crate::export::checksum::Checksum;
 use crate::export::{ExportError, file};
 use crate::profile::accumulate::MOST_SECS;
-use crate::profile::{Part, Shaded, ShadedCells};
+use crate::profile::{Shaded, ShadedCells, ShadedPart};
 use crate::view::{Grid, Tile};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -150,7 +150,7 @@ impl ShadedCells for SumsFile {
         self.grid.cells()
     }
 
-    fn part(&self, cells: Range<usize>) -> Part<'_> {
+    fn part(&self, cells: Range<usize>) -> ShadedPart<'_> {
         let mut bytes = vec![0; cells.len() * self.cell_bytes as usize];
         let mut read = || {
             let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
@@ -161,8 +161,8 @@ impl ShadedCells for SumsFile {
             self.fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
         }
         match self.cell_bytes {
-            4 => Part::One(bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect()),
-            _ => Part::Two(bytes.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect()),
+            4 => ShadedPart::One(bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect()),
+            _ => ShadedPart::Two(bytes.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect()),
         }
     }
 }

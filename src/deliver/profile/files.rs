@@ -4,7 +4,7 @@ use super::hours::{Hours, Range};
 use super::{DRAWING, ProfileRequest, RASTER, REPORT};
 use crate::deliver::DeliverError;
 use crate::deliver::disk::bits;
-use crate::deliver::parts::{Seen, figure_context, report_context};
+use crate::deliver::parts::{DrawnView, figure_context, report_context};
 use crate::deliver::sink::{OpenSink, Ready};
 use crate::export::{ExportError, figure, raster, report};
 use crate::profile::{Profile, Shaded, Timings};
@@ -34,7 +34,7 @@ pub(super) fn make(
 ) -> Result<Pieces, DeliverError> {
     let Hours { profile, drawn, surface_mesh: mesh, .. } = hours;
     let surface = LazyLock::new(|| PlanSurface::new(mesh, site.ground.level, &site.grid));
-    let scene = || figure_context(site, Seen { receivers: site.receivers, surface: &*surface, mesh, drawn });
+    let scene = || figure_context(site, DrawnView { receivers: site.receivers, surface: &*surface, mesh, drawn });
     let picture = || asked.drawing.then(|| timed("picture", || figure::profile(&scene(), profile)));
     let raster = || asked.raster.then(|| timed("raster", || raster_of(site, hours, open)));
     // much of either is for one processor alone

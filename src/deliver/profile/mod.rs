@@ -15,7 +15,7 @@ use super::disk::{bits, unfinished};
 use super::lines::Lines;
 use super::parts::{note, note_letters};
 use super::sink::Also;
-use super::{DeliverError, Folder, Sink, Written};
+use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::export::figure;
 use crate::profile::{Drawn, Statistics};
 use crate::site::Site;
@@ -62,7 +62,7 @@ pub struct ProfileRequest<'a> {
 #[derive(Clone, Debug)]
 pub struct ProfileAnswer {
     /// The files, without the masks.
-    pub written: Written,
+    pub written: WrittenFiles,
     /// How many masks were written.
     pub masks: usize,
     /// `profile.json`, whether it is one of the files or not.

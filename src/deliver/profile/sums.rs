@@ -2,7 +2,7 @@
 
 use crate::deliver::disk::sums::SumsFile;
 use crate::export::ExportError;
-use crate::profile::{Part, Shaded, ShadedCells};
+use crate::profile::{Shaded, ShadedCells, ShadedPart};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -30,8 +30,8 @@ impl Sums {
             Sums::File(file) => file,
         };
         let shaded = match file.part(0..file.cells()) {
-            Part::One(cells) => Shaded::from(cells.into_owned()),
-            Part::Two(cells) => Shaded::from(cells.into_owned()),
+            ShadedPart::One(cells) => Shaded::from(cells.into_owned()),
+            ShadedPart::Two(cells) => Shaded::from(cells.into_owned()),
         };
         file.check()?;
         Ok(Arc::new(shaded))
@@ -46,7 +46,7 @@ impl ShadedCells for Sums {
         }
     }
 
-    fn part(&self, cells: Range<usize>) -> Part<'_> {
+    fn part(&self, cells: Range<usize>) -> ShadedPart<'_> {
         match self {
             Sums::Memory(shaded) => shaded.part(cells),
             Sums::File(file) => file.part(cells),

@@ -1,7 +1,7 @@
 //! What counting took, as colours of cells: seed 000, figures 3-5 and 3-9.
 
 use super::scale::{Rgb, mix};
-use crate::view::{Counted, Decided};
+use crate::view::{Decided, FragmentCounts};
 
 /// Which picture of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +45,7 @@ impl Diagram {
 
 impl Colours {
     /// None where a mask is to be shown and there was none.
-    pub fn of(counted: &Counted, diagram: Diagram) -> Option<Colours> {
+    pub fn of(counted: &FragmentCounts, diagram: Diagram) -> Option<Colours> {
         match diagram {
             Diagram::Mask => Some(of_mask(counted.decided.as_ref()?)),
             Diagram::Overdraw => Some(of_overdraw(counted)),
@@ -75,7 +75,7 @@ fn of_mask(decided: &[Decided]) -> Colours {
 }
 
 /// Brightness grows with the root of the fragments: else a few dense cells would leave all others black.
-fn of_overdraw(counted: &Counted) -> Colours {
+fn of_overdraw(counted: &FragmentCounts) -> Colours {
     let most = counted.reached.iter().copied().max().unwrap_or(0).max(1);
     let colour = |fragments: u32| mix(NO_FRAGMENT, MOST_FRAGMENTS, (f64::from(fragments) / f64::from(most)).sqrt());
     let mut legend: Vec<u32> = vec![0, most.div_ceil(16), most.div_ceil(4), most];

@@ -40,7 +40,7 @@ use crate::mesh::Mesh;
 use crate::profile::{Drawn, Profile, ShadedCells};
 use crate::site::{Ground, Receivers};
 use crate::sun::{Air, Instant, Place, SunTrack, position};
-use crate::view::{Counted, Grid, Mask, Overlay, Surface, SurfaceRows, View};
+use crate::view::{FragmentCounts, Grid, Mask, Overlay, Surface, SurfaceRows, View};
 use components::Components;
 use page::Sheet;
 use panel::Panel;
@@ -73,7 +73,7 @@ pub struct PictureExtras<'a> {
     /// Each component of [`FigureContext::mesh`] in its own colour; here is said which of them cast.
     pub casts: Option<&'a [bool]>,
     /// What counting took, instead of sun and shadow; in the plan's picture, too.
-    pub counted: Option<(&'a Counted, Diagram)>,
+    pub counted: Option<(&'a FragmentCounts, Diagram)>,
 }
 
 /// `profile.png`: the hours of shadow on the plan, in bands of whole steps.

@@ -50,7 +50,7 @@ impl ProjectedOnGpu {
         // from the middle, where places are finest; a centre lies half a cell beyond its whole number
         let middle = dvec3(f64::from(width) - 1.0, f64::from(height) - 1.0, 0.0) / 2.0;
         let points: Vec<[f32; 3]> = points.par_iter().map(|point| (point - middle).as_vec3().to_array()).collect();
-        let fall = gpu.uniform::<layout::Fall>("projected.fall");
+        let fall = gpu.uniform::<layout::FallUniforms>("projected.fall");
         let stages = Stages {
             module: &gpu.shader("projected", shaders::PROJECTED),
             vertex: "fallen",
@@ -88,7 +88,7 @@ impl Technique for ProjectedOnGpu {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
         let gpu = &self.gpu;
         let a_metre = throw(&self.raster_from_local, to_sun).as_vec2().to_array();
-        let fall = layout::Fall { a_metre, size: [self.grid.width as f32, self.grid.height as f32] };
+        let fall = layout::FallUniforms { a_metre, size: [self.grid.width as f32, self.grid.height as f32] };
         gpu.queue.write_buffer(&self.fall, 0, bytemuck::bytes_of(&fall));
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {

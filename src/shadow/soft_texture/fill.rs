@@ -13,8 +13,8 @@
 use super::Fill;
 use super::occluders::Occluders;
 use crate::mesh::Mesh;
-use crate::mesh::scan::{Coverage, Side};
-use crate::shadow::registered::{self, Part, Place, Registered};
+use crate::mesh::scan::{Coverage, TriangleSide};
+use crate::shadow::registered::{self, ClippedFace, ProjectedVertex, Registered};
 use glam::DVec2;
 
 /// The sides of each face: twice the edge, and 1 where the face runs against it.
@@ -96,7 +96,7 @@ impl Casting<'_> {
         }
     }
 
-    fn places(&self, onto: &Registered, at: u32) -> [Place; 3] {
+    fn places(&self, onto: &Registered, at: u32) -> [ProjectedVertex; 3] {
         self.occluders.corners[at as usize].map(|corner| onto.place(corner.as_dvec3()))
     }
 
@@ -156,7 +156,7 @@ struct Events<'a> {
 }
 
 impl Events<'_> {
-    fn mark_part(&mut self, part: &Part, facing: i32) {
+    fn mark_part(&mut self, part: &ClippedFace, facing: i32) {
         let points = part.points();
         for (at, from) in points.iter().enumerate() {
             self.mark(*from, points[(at + 1) % points.len()], facing);
@@ -174,7 +174,7 @@ impl Events<'_> {
         if !is_crossed {
             return;
         }
-        let side = Side::between(top, bottom);
+        let side = TriangleSide::between(top, bottom);
         for row in first as i64..=last as i64 {
             let column = side.x_at(row as f64).ceil().clamp(0.0, self.width as f64);
             self.events[row as usize * self.in_row + column as usize] += times;

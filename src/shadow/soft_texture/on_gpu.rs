@@ -6,7 +6,7 @@
 
 use super::occluders::Occluders;
 use super::{Choice, Judged, OccluderQuery, Sample, is_drawn, raster};
-use crate::gpu::layout::Run;
+use crate::gpu::layout::TexelRunUniforms;
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
 use crate::mesh::Mesh;
@@ -118,8 +118,8 @@ impl Drawer {
         let add = gpu.compute("soft_texture.add", &module, "add");
         let mask_view = whole(&mask);
         let pages = runs.into_iter().map(|(of_patches, texels)| {
-            let run = gpu.uniform::<Run>("soft_texture.run");
-            let counted = Run { first: texels.start, count: texels.end - texels.start };
+            let run = gpu.uniform::<TexelRunUniforms>("soft_texture.run");
+            let counted = TexelRunUniforms { first: texels.start, count: texels.end - texels.start };
             gpu.queue.write_buffer(&run, 0, bytemuck::bytes_of(&counted));
             let bound = [&places, &patch_of, &weights, &sums, &run];
             let mut entries = vec![(0, BindingResource::TextureView(&mask_view))];

@@ -19,20 +19,23 @@ use wgpu::{
 const CROWDED: u32 = 1 << 31;
 
 /// Before an edge is asked.
-const NOTHING_DRAWN: layout::Arguments =
-    layout::Arguments { index_count: 0, instance_count: 1, first_index: 0, base_vertex: 0, first_instance: 0 };
+const NOTHING_DRAWN: layout::DrawArguments =
+    layout::DrawArguments { index_count: 0, instance_count: 1, first_index: 0, base_vertex: 0, first_instance: 0 };
 
 /// What all meshes share.
-pub struct Program {
-    pub(super) faces: Arc<faces::Program>,
+pub struct ExtractionProgram {
+    pub(super) faces: Arc<faces::FacingProgram>,
     extract: ComputePipeline,
 }
 
-impl Program {
+impl ExtractionProgram {
     /// Compiles the shaders.
-    pub fn new(gpu: &Arc<Gpu>) -> Program {
+    pub fn new(gpu: &Arc<Gpu>) -> ExtractionProgram {
         let module = gpu.shader("extraction", shaders::EXTRACTION);
-        Program { faces: Arc::new(faces::Program::new(gpu)), extract: gpu.compute("extraction", &module, "extract") }
+        ExtractionProgram {
+            faces: Arc::new(faces::FacingProgram::new(gpu)),
+            extract: gpu.compute("extraction", &module, "extract"),
+        }
     }
 }
 
@@ -67,7 +70,7 @@ struct List {
 /// A run on its way to the GPU.
 #[derive(Default)]
 struct Gathered {
-    edges: Vec<layout::Edge>,
+    edges: Vec<layout::EdgeRecord>,
     crowds: Vec<u32>,
     most_walls: u64,
 }
@@ -85,13 +88,13 @@ impl Gathered {
             self.crowds.extend(faces.iter().map(|&face| packed(face)));
         }
         let along = along(&mesh.vertices, [first, second]).to_array();
-        self.edges.push(layout::Edge { first, second, a, b, along });
+        self.edges.push(layout::EdgeRecord { first, second, a, b, along });
         self.most_walls += faces.len() as u64;
     }
 
     /// Whether the next edge, which so many faces share, still fits into buffers of `most` bytes.
     fn has_room(&self, faces: usize, most: u64) -> bool {
-        let edges = (self.edges.len() as u64 + 1) * size_of::<layout::Edge>() as u64;
+        let edges = (self.edges.len() as u64 + 1) * size_of::<layout::EdgeRecord>() as u64;
         let crowds = (self.crowds.len() + faces) as u64 * 4;
         let list = (self.most_walls + faces as u64) * 24; // six indices a wall
         edges.max(crowds).max(list) <= most
@@ -103,7 +106,7 @@ impl Gathered {
         let crowds_size = size_of_val(&self.crowds[..]) as u64;
         let crowds = gpu.storage("extraction.crowds", crowds_size, most, BufferUsages::COPY_DST)?;
         let usage = BufferUsages::INDIRECT | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
-        let arguments_size = size_of::<layout::Arguments>() as u64;
+        let arguments_size = size_of::<layout::DrawArguments>() as u64;
         let arguments = gpu.storage("extraction.arguments", arguments_size, most, usage)?;
         gpu.queue.write_buffer(&edges, 0, bytemuck::cast_slice(&self.edges));
         gpu.queue.write_buffer(&crowds, 0, bytemuck::cast_slice(&self.crowds));
@@ -114,7 +117,7 @@ impl Gathered {
 
 impl Extraction {
     /// Uploads the edges of a mesh, in runs whose buffers have at most `most` bytes.
-    pub fn new(program: &Program, mesh: &Mesh, most: u64) -> Result<Extraction, GpuError> {
+    pub fn new(program: &ExtractionProgram, mesh: &Mesh, most: u64) -> Result<Extraction, GpuError> {
         let gpu = Arc::clone(&program.faces.gpu);
         let mut runs = Vec::new();
         let mut run = Gathered::default();

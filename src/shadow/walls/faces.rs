@@ -15,16 +15,16 @@ use wgpu::{
 pub(super) const GROUP: u32 = 2;
 
 /// What all meshes' faces share.
-pub struct Program {
+pub struct FacingProgram {
     pub(in crate::shadow) gpu: Arc<Gpu>,
     decide: ComputePipeline,
     cap: ComputePipeline,
 }
 
-impl Program {
-    pub(super) fn new(gpu: &Arc<Gpu>) -> Program {
+impl FacingProgram {
+    pub(super) fn new(gpu: &Arc<Gpu>) -> FacingProgram {
         let module = gpu.shader("faces", shaders::FACES);
-        Program {
+        FacingProgram {
             gpu: Arc::clone(gpu),
             decide: gpu.compute("faces.decide", &module, "decide"),
             cap: gpu.compute("faces.cap", &module, "cap"),
@@ -34,11 +34,11 @@ impl Program {
 
 /// The faces of one mesh.
 pub(super) struct Faces {
-    program: Arc<Program>,
+    program: Arc<FacingProgram>,
     /// The most bytes of a buffer.
     most: u64,
     count: u32,
-    /// What is sought, a [`layout::Search`].
+    /// What is sought, a [`layout::SearchUniforms`].
     pub(super) search: Buffer,
     /// One bit a face.
     pub(super) facing: Buffer,
@@ -56,9 +56,9 @@ struct CapRun {
 }
 
 impl Faces {
-    pub(super) fn new(program: &Arc<Program>, mesh: &Mesh, most: u64) -> Result<Faces, GpuError> {
+    pub(super) fn new(program: &Arc<FacingProgram>, mesh: &Mesh, most: u64) -> Result<Faces, GpuError> {
         let gpu = &program.gpu;
-        let search = gpu.uniform::<layout::Search>("faces.search");
+        let search = gpu.uniform::<layout::SearchUniforms>("faces.search");
         let bits = mesh.faces.len().div_ceil(32) as u64 * 4;
         let facing = gpu.storage("faces.facing", bits, most, BufferUsages::COPY_SRC)?;
         let planes = surface::planes(gpu, mesh)?;
@@ -113,11 +113,14 @@ impl Faces {
 
     fn make_cap(&mut self, mesh: &Mesh) -> Result<(), GpuError> {
         let gpu = &self.program.gpu;
-        let at_once = (self.most / size_of::<layout::Face>() as u64).max(1) as usize;
+        let at_once = (self.most / size_of::<layout::FaceRecord>() as u64).max(1) as usize;
         for (run, faces) in mesh.faces.chunks(at_once).enumerate() {
             let number = |at: usize| (run * at_once + at) as u32;
-            let faces: Vec<_> =
-                faces.iter().enumerate().map(|(at, &corners)| layout::Face { corners, number: number(at) }).collect();
+            let faces: Vec<_> = faces
+                .iter()
+                .enumerate()
+                .map(|(at, &corners)| layout::FaceRecord { corners, number: number(at) })
+                .collect();
             let input =
                 gpu.storage("faces.faces", size_of_val(&faces[..]) as u64, self.most, BufferUsages::COPY_DST)?;
             gpu.queue.write_buffer(&input, 0, bytemuck::cast_slice(&faces));

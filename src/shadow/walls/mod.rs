@@ -9,7 +9,7 @@ mod uploaded;
 
 use crate::gpu::{Gpu, GpuError, layout};
 use crate::mesh::{Incidence, Mesh};
-use crate::silhouette::Kind;
+use crate::silhouette::ProcessorFinder;
 use borders::Borders;
 use extraction::Extraction;
 use glam::{DVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
@@ -22,15 +22,15 @@ use wgpu::{BindGroupLayout, CommandEncoder, RenderPass, ShaderModule};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Silhouettes {
     /// A finder on the processor; its walls are uploaded.
-    OnProcessor(Kind),
+    OnProcessor(ProcessorFinder),
     /// A compute pass over all edges.
     OnGpu,
     /// The vertex shader, for each edge of the mesh. To compare with: it is the older way (seed 003).
     InVertexShader,
 }
 
-impl From<Kind> for Silhouettes {
-    fn from(kind: Kind) -> Silhouettes {
+impl From<ProcessorFinder> for Silhouettes {
+    fn from(kind: ProcessorFinder) -> Silhouettes {
         Silhouettes::OnProcessor(kind)
     }
 }
@@ -55,8 +55,8 @@ impl WallQuery {
         if self.to_infinity { 3 } else { 6 }
     }
 
-    fn uniform(&self) -> layout::Search {
-        layout::Search {
+    fn uniform(&self) -> layout::SearchUniforms {
+        layout::SearchUniforms {
             light: self.local_light.as_vec4().to_array(),
             indices_per_wall: self.indices_per_wall(),
             halved: u32::from(self.halved),
@@ -81,17 +81,17 @@ pub trait Walls {
 
 /// Makes walls for meshes, in the way that was chosen.
 pub(super) enum Maker {
-    OnProcessor(Arc<Gpu>, Kind),
-    OnGpu(extraction::Program),
-    InVertexShader(quadrilaterals::Program),
+    OnProcessor(Arc<Gpu>, ProcessorFinder),
+    OnGpu(extraction::ExtractionProgram),
+    InVertexShader(quadrilaterals::QuadrilateralProgram),
 }
 
 impl Maker {
     pub(super) fn new(gpu: &Arc<Gpu>, silhouettes: Silhouettes) -> Maker {
         match silhouettes {
             Silhouettes::OnProcessor(kind) => Maker::OnProcessor(Arc::clone(gpu), kind),
-            Silhouettes::OnGpu => Maker::OnGpu(extraction::Program::new(gpu)),
-            Silhouettes::InVertexShader => Maker::InVertexShader(quadrilaterals::Program::new(gpu)),
+            Silhouettes::OnGpu => Maker::OnGpu(extraction::ExtractionProgram::new(gpu)),
+            Silhouettes::InVertexShader => Maker::InVertexShader(quadrilaterals::QuadrilateralProgram::new(gpu)),
         }
     }
 

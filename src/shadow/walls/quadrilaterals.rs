@@ -14,19 +14,19 @@ use wgpu::{
 };
 
 /// What all meshes share.
-pub(in crate::shadow) struct Program {
-    faces: Arc<faces::Program>,
+pub(in crate::shadow) struct QuadrilateralProgram {
+    faces: Arc<faces::FacingProgram>,
     /// The stencil's shader with these vertex stages.
     pub(in crate::shadow) module: ShaderModule,
     pub(super) layout: BindGroupLayout,
 }
 
-impl Program {
-    pub(super) fn new(gpu: &Arc<Gpu>) -> Program {
+impl QuadrilateralProgram {
+    pub(super) fn new(gpu: &Arc<Gpu>) -> QuadrilateralProgram {
         let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
         let read = buffer(BufferBindingType::Storage { read_only: true });
-        Program {
-            faces: Arc::new(faces::Program::new(gpu)),
+        QuadrilateralProgram {
+            faces: Arc::new(faces::FacingProgram::new(gpu)),
             module: gpu.shader("quadrilaterals", shaders::QUADRILATERALS),
             layout: bind_group_layout(gpu, "quadrilaterals", &[buffer(BufferBindingType::Uniform), read, read]),
         }
@@ -43,7 +43,7 @@ pub(super) struct Quadrilaterals {
 }
 
 impl Quadrilaterals {
-    pub(super) fn new(program: &Program, mesh: &Mesh) -> Result<Quadrilaterals, GpuError> {
+    pub(super) fn new(program: &QuadrilateralProgram, mesh: &Mesh) -> Result<Quadrilaterals, GpuError> {
         let gpu = &program.faces.gpu;
         let most = gpu.most_storage();
         let faces = Faces::new(&program.faces, mesh, most)?;

@@ -3,7 +3,7 @@
 use super::{WallQuery, Walls, sunward};
 use crate::gpu::{Gpu, GpuError};
 use crate::mesh::Mesh;
-use crate::silhouette::{DirectedEdge, Kind, SilhouetteFinder};
+use crate::silhouette::{DirectedEdge, ProcessorFinder, SilhouetteFinder};
 use crate::volume::Volume;
 use std::sync::Arc;
 use wgpu::{Buffer, BufferUsages, CommandEncoder, IndexFormat, RenderPass};
@@ -19,7 +19,7 @@ pub(super) struct Uploaded {
 }
 
 impl Uploaded {
-    pub(super) fn new(gpu: Arc<Gpu>, kind: Kind, mesh: &Mesh) -> Result<Uploaded, GpuError> {
+    pub(super) fn new(gpu: Arc<Gpu>, kind: ProcessorFinder, mesh: &Mesh) -> Result<Uploaded, GpuError> {
         let indices = buffer(&gpu, 4)?;
         Ok(Uploaded { gpu, finder: kind.build(mesh), indices, upload: Vec::new(), of_walls: 0 })
     }

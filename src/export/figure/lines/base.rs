@@ -5,7 +5,7 @@ use crate::export::figure::picture::{Cells, Pen};
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::Block;
 use crate::export::figure::{FigureContext, plan};
-use crate::profile::contour::{Contour, Field, contours};
+use crate::profile::contour::{Contour, ScalarField, contours};
 use crate::site::Receivers;
 use crate::view::{Grid, Surface, SurfaceRows};
 use rayon::prelude::*;
@@ -81,7 +81,7 @@ impl Base {
         let mut base = Base { width, height, ground_only, buildings, steps, strokes, footprints: Vec::new() };
         let value = |cell| u64::from(base.buildings[cell]);
         let open = |a, b| base.is_step(a, b);
-        base.footprints = contours(&Field { width, height, value: &value, open: &open }, 0);
+        base.footprints = contours(&ScalarField { width, height, value: &value, open: &open }, 0);
         base
     }
 
@@ -98,7 +98,7 @@ impl Base {
     /// The contours of numbers on this plan.
     pub(super) fn contours(&self, value: &(dyn Fn(usize) -> u64 + Sync), threshold: u64) -> Vec<Contour> {
         let open = |a, b| self.open(a, b);
-        contours(&Field { width: self.width, height: self.height, value, open: &open }, threshold)
+        contours(&ScalarField { width: self.width, height: self.height, value, open: &open }, threshold)
     }
 
     /// The buildings' areas in one colour.
