@@ -124,13 +124,13 @@ pub trait Words: fmt::Debug + Send + Sync {
 
 /// The words of nobody's face: fields have their own names.
 #[derive(Clone, Copy, Debug)]
-pub struct Plain;
+pub struct PlainWords;
 
-impl Words for Plain {}
+impl Words for PlainWords {}
 
 impl Default for &dyn Words {
     fn default() -> Self {
-        &Plain
+        &PlainWords
     }
 }
 
@@ -273,11 +273,11 @@ fn write(text: &mut String, pieces: &[Piece], words: &dyn Words) {
 
 impl fmt::Display for Message {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.in_words(&Plain))
+        f.write_str(&self.in_words(&PlainWords))
     }
 }
 
-/// An error that speaks of fields. Its `Display` says it in [`Plain`] words.
+/// An error that speaks of fields. Its `Display` says it in [`PlainWords`] words.
 pub trait Worded {
     /// What is wrong, and what can be done.
     fn message(&self) -> Message;

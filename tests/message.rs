@@ -5,7 +5,7 @@ use crate::site::{SITE, load, some};
 use gnomon::cli::Options;
 use gnomon::fault;
 use gnomon::gpu::GpuError;
-use gnomon::message::{Field, Message, Piece, Plain, Worded, Words};
+use gnomon::message::{Field, Message, Piece, PlainWords, Worded, Words};
 use gnomon::shadow::ShadowError;
 use gnomon::site::Overrides;
 use gnomon::study::StudyError;
@@ -43,8 +43,8 @@ fn pieces_are_said_in_the_words_of_a_face() {
     let what = "it has too many instants; take a longer";
     assert_eq!(said(&Options), format!("{what} --step, as --step 1h, or more --memory, and not another to"));
     assert_eq!(said(&Steps), format!("{what} Step, as Step 1h, and not another a label"));
-    assert_eq!(said(&Plain), format!("{what} step, as step 1h, and not another to"));
-    assert_eq!(message.to_string(), said(&Plain));
+    assert_eq!(said(&PlainWords), format!("{what} step, as step 1h, and not another to"));
+    assert_eq!(message.to_string(), said(&PlainWords));
     // a way out that nobody can take is none
     let alone = Message { hint: vec![Piece::Where(Field::Memory, vec!["take more".into()])], ..message };
     assert_eq!(alone.in_words(&Steps), "it has too many instants");
@@ -100,5 +100,5 @@ fn notes_are_in_the_words_of_who_asks() {
         gnomon::site::load_mesh(Path::new(folder.path()), &asked).expect("models").notes.concat()
     };
     assert!(note(&Options).ends_with("write `up = \"z\"` under [[model]], or say --up z"), "{}", note(&Options));
-    assert!(note(&Plain).ends_with("write `up = \"z\"` under [[model]]"), "{}", note(&Plain));
+    assert!(note(&PlainWords).ends_with("write `up = \"z\"` under [[model]]"), "{}", note(&PlainWords));
 }

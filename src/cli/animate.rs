@@ -2,7 +2,7 @@
 
 use super::arguments::{Common, DrawArgs, PlanArgs, SiteArgs, WindowArgs};
 use super::commands::drawn_by;
-use super::eye::Eye;
+use super::eye::Viewpoint;
 use super::model::ModelArgs;
 use super::progress::Progress;
 use super::{say, who};
@@ -27,8 +27,8 @@ pub(super) struct AnimateArgs {
     #[command(flatten)]
     plan: PlanArgs,
     /// From where
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
-    view: Eye,
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = Viewpoint::Plan)]
+    view: Viewpoint,
     /// How wide a picture is, 320 to 3508: the sheet that shadow draws, in fewer pixels
     #[arg(long, value_name = "PIXELS", default_value_t = WIDTH, allow_negative_numbers = true,
           value_parser = value_parser!(u32).range(320..=i64::from(figure::WIDTH)))]

@@ -4,7 +4,7 @@ use super::WrongUse;
 use super::animate::AnimateArgs;
 use super::compare::CompareArgs;
 use super::draw::LinesArgs;
-use super::eye::Eye;
+use super::eye::Viewpoint;
 use super::memory;
 use super::model::{GroundArgs, ModelArgs};
 use super::options::nothing_asked;
@@ -208,7 +208,7 @@ pub(super) struct ProfileArgs {
     pub(super) stats: bool,
     /// Which files [default: png,tif,json; with --receivers surfaces png,glb,csv,json]
     #[arg(long, value_name = "png,tif,glb,csv,json", value_delimiter = ',')]
-    write: Vec<Written>,
+    write: Vec<ProfileFile>,
     #[command(flatten)]
     pub(super) lines: LinesArgs,
     #[command(flatten)]
@@ -217,7 +217,7 @@ pub(super) struct ProfileArgs {
 
 /// A file of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Written {
+pub(super) enum ProfileFile {
     Png,
     Tif,
     Glb,
@@ -244,11 +244,11 @@ pub(super) struct ShadowArgs {
     #[arg(long, help = technique::stats())]
     pub(super) stats: bool,
     /// From where
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = Eye::Plan)]
-    pub(super) view: Eye,
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = Viewpoint::Plan)]
+    pub(super) view: Viewpoint,
     #[arg(long, value_name = "volumes,silhouette,components|mask|overdraw", value_delimiter = ',',
           help = technique::show())]
-    pub(super) show: Vec<Show>,
+    pub(super) show: Vec<ShowArg>,
     /// The drawing [default: shadow.png, or none with --mask]
     #[arg(long, value_name = "FILE.png")]
     pub(super) out: Option<PathBuf>,
@@ -261,7 +261,7 @@ pub(super) struct ShadowArgs {
 
 /// What a camera's drawing shows besides sun and shadow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Show {
+pub(super) enum ShowArg {
     Volumes,
     Silhouette,
     Components,
@@ -373,8 +373,9 @@ impl ProfileArgs {
     }
 
     /// The files asked, of those that there can be; all of them where none is named.
-    pub(super) fn wanted(&self, possible: &[Written]) -> Result<Vec<Written>, WrongUse> {
-        let word = |kind: &Written| kind.to_possible_value().map_or_else(String::new, |it| it.get_name().to_owned());
+    pub(super) fn wanted(&self, possible: &[ProfileFile]) -> Result<Vec<ProfileFile>, WrongUse> {
+        let word =
+            |kind: &ProfileFile| kind.to_possible_value().map_or_else(String::new, |it| it.get_name().to_owned());
         if let Some(kind) = self.write.iter().find(|kind| !possible.contains(kind)) {
             let known: Vec<_> = possible.iter().map(word).collect();
             let what = format!("--write {}: these receivers have {}; take one of them", word(kind), known.join(", "));

@@ -1,7 +1,7 @@
 //! The subcommands: load, work, write, say.
 
-use super::arguments::{CheckArgs, ShadowArgs, Show, SunArgs};
-use super::eye::Eye;
+use super::arguments::{CheckArgs, ShadowArgs, ShowArg, SunArgs};
+use super::eye::Viewpoint;
 use super::options::{Options, nothing_asked};
 use super::progress::Progress;
 use super::{WrongUse, interrupt, say};
@@ -54,9 +54,9 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         drawing: out,
         mask: asked.mask.clone(),
         show: instant::Show {
-            volumes: shows(Show::Volumes),
-            silhouette: shows(Show::Silhouette),
-            components: shows(Show::Components),
+            volumes: shows(ShowArg::Volumes),
+            silhouette: shows(ShowArg::Silhouette),
+            components: shows(ShowArg::Components),
             diagram,
         },
         statistics: asked.stats,
@@ -78,7 +78,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
 /// Which diagram is to be shown, if any; or why what is to be shown does not go together.
 fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagram>> {
     let wrong = |what: &str| Err(WrongUse(format!("--show {what}")).into());
-    let diagrams = [(Show::Mask, Diagram::Mask), (Show::Overdraw, Diagram::Overdraw)];
+    let diagrams = [(ShowArg::Mask, Diagram::Mask), (ShowArg::Overdraw, Diagram::Overdraw)];
     let diagram = diagrams.into_iter().find(|(show, _)| asked.show.contains(show)).map(|(_, diagram)| diagram);
     match (asked.show.as_slice(), asked.view) {
         ([], _) => Ok(None),
@@ -86,7 +86,7 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
         ([_, _, ..], _) if diagram.is_some() => {
             wrong("mask and overdraw stand instead of all else; show one of them alone")
         }
-        (_, Eye::Plan) if diagram.is_none() => {
+        (_, Viewpoint::Plan) if diagram.is_none() => {
             wrong("is not for the plan; add --view camera or a side, or leave it out")
         }
         _ => Ok(diagram),

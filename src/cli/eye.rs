@@ -8,7 +8,7 @@ use clap::ValueEnum;
 
 /// From where the shadows are seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Eye {
+pub(super) enum Viewpoint {
     /// From above, north up
     Plan,
     /// As the site's camera sees it: in perspective, or the side that it names
@@ -23,22 +23,22 @@ pub(super) enum Eye {
     West,
 }
 
-impl Eye {
+impl Viewpoint {
     /// The side that is named.
     pub(super) fn side(self) -> Option<Side> {
         match self {
-            Eye::Plan | Eye::Camera => None,
-            Eye::North => Some(Side::North),
-            Eye::East => Some(Side::East),
-            Eye::South => Some(Side::South),
-            Eye::West => Some(Side::West),
+            Viewpoint::Plan | Viewpoint::Camera => None,
+            Viewpoint::North => Some(Side::North),
+            Viewpoint::East => Some(Side::East),
+            Viewpoint::South => Some(Side::South),
+            Viewpoint::West => Some(Side::West),
         }
     }
 
     /// The view of a site that was asked for that side.
     pub(super) fn of(self, site: &Site) -> View {
         match self {
-            Eye::Plan => View::Plan(site.grid),
+            Viewpoint::Plan => View::Plan(site.grid),
             _ => site.picture(),
         }
     }
@@ -46,7 +46,7 @@ impl Eye {
     /// Errs where something is asked of the plan, and none is drawn.
     pub(super) fn check(self, plan: &PlanArgs) -> Result<(), WrongUse> {
         match (self, plan.given().as_slice()) {
-            (Eye::Plan, _) | (_, []) => Ok(()),
+            (Viewpoint::Plan, _) | (_, []) => Ok(()),
             (_, [option, ..]) => {
                 let word = self.to_possible_value().map_or_else(String::new, |word| word.get_name().to_owned());
                 Err(WrongUse(format!("{option} is for the plan, and --view {word} has none; leave one out")))

@@ -1,6 +1,6 @@
 //! `gnomon profile`: the hours of shadow on the plan, and of sun on surfaces.
 
-use super::arguments::{ProfileArgs, Written};
+use super::arguments::{ProfileArgs, ProfileFile};
 use super::commands::{drawn_by, lines, took};
 use super::progress::Progress;
 use super::{say, surfaces, who};
@@ -17,12 +17,12 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     if site.receivers == Receivers::Surfaces {
         return surfaces::profile(asked, &site, watch);
     }
-    let kinds = asked.wanted(&[Written::Png, Written::Tif, Written::Json])?;
+    let kinds = asked.wanted(&[ProfileFile::Png, ProfileFile::Tif, ProfileFile::Json])?;
     let wanted = |kind| kinds.contains(&kind);
     let request = ProfileRequest {
-        drawing: wanted(Written::Png),
-        raster: wanted(Written::Tif),
-        report: wanted(Written::Json),
+        drawing: wanted(ProfileFile::Png),
+        raster: wanted(ProfileFile::Tif),
+        report: wanted(ProfileFile::Json),
         lines: &asked.lines.lines(),
         masks: asked.masks.as_deref(),
         bits: asked.bits,

@@ -1,6 +1,6 @@
 //! `gnomon profile --receivers surfaces`: hours of sun on the model itself.
 
-use super::arguments::{ProfileArgs, Written};
+use super::arguments::{ProfileArgs, ProfileFile};
 use super::commands::{drawn_by, lines};
 use super::progress::Progress;
 use super::{WrongUse, say, who};
@@ -24,13 +24,13 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, watch: Stopwatch) -> any
         let what = format!("{option} is for the plan, and --receivers surfaces has none; leave one of the two out");
         return Err(WrongUse(what).into());
     }
-    let kinds = asked.wanted(&[Written::Png, Written::Glb, Written::Csv, Written::Json])?;
+    let kinds = asked.wanted(&[ProfileFile::Png, ProfileFile::Glb, ProfileFile::Csv, ProfileFile::Json])?;
     let wanted = |kind| kinds.contains(&kind);
     let request = SurfacesRequest {
-        drawing: wanted(Written::Png),
-        model: wanted(Written::Glb),
-        table: wanted(Written::Csv),
-        report: wanted(Written::Json),
+        drawing: wanted(ProfileFile::Png),
+        model: wanted(ProfileFile::Glb),
+        table: wanted(ProfileFile::Csv),
+        report: wanted(ProfileFile::Json),
         watch,
     };
     let mut progress = Progress::new(asked.common.quiet);

@@ -6,11 +6,11 @@ use super::clock::Clock;
 use super::eye::Stand;
 use super::files::{self, Answer, Asking};
 use super::hours::{self, StudyResult};
-use super::loading::{Fault, Loading, Project, Wanted};
+use super::loading::{LoadError, Loading, Project, Wanted};
 use super::pick::PickedPoint;
 use super::reopening::devices;
 use super::saving::{Saving, Then};
-use super::settings::{History, Settings};
+use super::settings::{History, WindowSettings};
 use super::stage::Stage;
 use super::typed::Typed;
 use super::unit::Unit;
@@ -74,14 +74,14 @@ pub struct App {
     /// The open site.
     pub(super) open: Option<Open>,
     /// What a person sets.
-    pub(super) settings: Settings,
+    pub(super) settings: WindowSettings,
     pub(super) history: History,
     pub(super) loading: Option<Loading>,
     loaded: u64,
     /// The site is being read again, as its settings have changed.
     pub(super) is_reading: bool,
     /// Settings of which it is known that no site comes of them.
-    pub(super) refused: Option<Settings>,
+    pub(super) refused: Option<WindowSettings>,
     pub(super) bare: Option<Bare>,
     pub(super) asking: Option<Asking>,
     pub(super) writing: Option<Work<PathBuf>>,
@@ -119,7 +119,7 @@ impl App {
             stage,
             kept,
             open: None,
-            settings: Settings::default(),
+            settings: WindowSettings::default(),
             history: History::default(),
             loading: None,
             loaded: 0,
@@ -249,10 +249,10 @@ impl App {
             match result {
                 Ok(project) if opens => self.go_on_or_ask(Then::Open(Box::new(project)), context),
                 Ok(project) => self.take(project, false),
-                Err(Fault::Bare(path)) => {
+                Err(LoadError::Bare(path)) => {
                     self.bare = Some(Bare::new(path));
                 }
-                Err(Fault::Told(fault)) => {
+                Err(LoadError::Told(fault)) => {
                     self.fault = Some(fault);
                     if !opens {
                         self.refused = Some(self.settings.clone());
@@ -388,7 +388,7 @@ impl App {
         }
     }
 
-    pub(super) fn set(&mut self, settings: Option<Settings>) {
+    pub(super) fn set(&mut self, settings: Option<WindowSettings>) {
         if let Some(settings) = settings {
             if let Some(open) = self.open.as_mut().filter(|_| settings.before != self.settings.before) {
                 // what it would bring is undone

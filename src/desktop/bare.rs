@@ -4,7 +4,7 @@ use super::app::App;
 use super::loading::{Wanted, name_of};
 use super::look;
 use super::typed::refused;
-use super::words::Labels;
+use super::words::PanelWords;
 use crate::message::Worded;
 use crate::site::typed::{self, TypedError};
 use eframe::egui::{self, Key, Response, TextEdit, Ui};
@@ -42,7 +42,7 @@ impl Bare {
 
     /// Whether all that was typed can be read; what cannot be is told beside its field.
     fn is_read(&mut self) -> bool {
-        let told = |error: TypedError| error.in_words(&Labels);
+        let told = |error: TypedError| error.in_words(&PanelWords);
         self.faults = [typed::place(&self.place).err().map(told), self.north().err().map(told)];
         self.faults.iter().all(Option::is_none)
     }

@@ -4,7 +4,7 @@ use super::app::Open;
 use super::components;
 use super::hours::StudyResult;
 use super::look;
-use super::settings::Settings;
+use super::settings::WindowSettings;
 use super::sky;
 use super::unit::Unit;
 use crate::export::figure::scale::Rgb;
@@ -21,7 +21,7 @@ const AROUND: f32 = 14.0;
 const WITHIN: f32 = 10.0;
 
 /// Shows the cards over a picture: beside each other, or in one where there is no room for two.
-pub(super) fn show(ui: &Ui, open: &mut Open, settings: &mut Settings, rect: Rect, unit: Unit) {
+pub(super) fn show(ui: &Ui, open: &mut Open, settings: &mut WindowSettings, rect: Rect, unit: Unit) {
     let laid = open.laid.clone().filter(|_| open.shows_hours);
     let is_probed = open.probing.is_some() || open.sunlight.is_some();
     let is_wide = rect.width() > 2.0 * WIDTH;
@@ -92,7 +92,7 @@ fn swatches(ui: &mut Ui, entries: &[(Rgb, String)]) {
     });
 }
 
-fn probe(open: &mut Open, settings: &mut Settings, unit: Unit, laid: Option<&Arc<StudyResult>>, ui: &mut Ui) {
+fn probe(open: &mut Open, settings: &mut WindowSettings, unit: Unit, laid: Option<&Arc<StudyResult>>, ui: &mut Ui) {
     if open.probing.is_some() {
         ui.horizontal(|ui| {
             ui.add(egui::Spinner::new().size(16.0));

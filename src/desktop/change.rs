@@ -18,7 +18,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// A change that was found.
-pub(super) struct Change {
+pub(super) struct ChangeResult {
     /// The state before, as it was asked.
     pub(super) before: Arc<Written>,
     /// What stands there before.
@@ -119,7 +119,7 @@ pub(super) fn find(
         for site in [&mut pair.before, &mut pair.after] {
             site.mesh = site.mesh.of_components(&[]);
         }
-        let found = Findings::Change(Box::new(Change { before, models, pair, outcome, timings, colours }));
+        let found = Findings::Change(Box::new(ChangeResult { before, models, pair, outcome, timings, colours }));
         Ok(StudyResult { number, site, method, written, mark, found })
     })
 }
@@ -142,7 +142,7 @@ fn compare(pair: &Pair, known: Option<Outcome>, on_event: &mut OnEvent<'_>) -> R
     study::compare_with(pair, known, on_event)
 }
 
-impl Change {
+impl ChangeResult {
     /// As the picture takes it.
     pub(super) fn raster(&self) -> HoursRaster<'_> {
         raster(self.outcome.comparison.grid(), &self.colours.of_cells, &self.outcome.surfaces[1].height_m)

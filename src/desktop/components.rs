@@ -2,7 +2,7 @@
 
 use super::loading::Project;
 use super::look;
-use super::settings::{Hidden, Settings};
+use super::settings::{Hidden, WindowSettings};
 use crate::export::figure::{component_colours, without_middle};
 use crate::site::Site;
 use crate::site::file::{ModelTable, Names};
@@ -27,7 +27,7 @@ const SWITCHES: [(&str, &str); 3] = [
 const COLUMN: f32 = 52.0;
 
 /// The list: colour, name, and three switches.
-pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut Settings) {
+pub(super) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut WindowSettings) {
     let site = &project.site;
     row(ui, |ui, column| match column {
         Some(column) => {
@@ -120,7 +120,7 @@ fn row(ui: &mut egui::Ui, mut content: impl FnMut(&mut egui::Ui, Option<usize>))
 }
 
 /// Leaves a component out of the picture, or takes it in again.
-pub(super) fn hide(settings: &mut Settings, name: &str, hides: bool) {
+pub(super) fn hide(settings: &mut WindowSettings, name: &str, hides: bool) {
     let hidden = Arc::make_mut(&mut settings.hidden);
     if hides {
         hidden.insert(name.to_owned());
@@ -130,7 +130,7 @@ pub(super) fn hide(settings: &mut Settings, name: &str, hides: bool) {
 }
 
 /// Per component whether it has a role, as the settings say it.
-fn roles(project: &Project, settings: &Settings, names: fn(&ModelTable) -> &Names) -> Vec<bool> {
+fn roles(project: &Project, settings: &WindowSettings, names: fn(&ModelTable) -> &Names) -> Vec<bool> {
     let mut components = project.site.mesh.components.as_slice();
     let counts = project.models.component_counts().into_iter().zip(&settings.site.model);
     let of_model = counts.flat_map(|(count, table)| {
@@ -142,7 +142,7 @@ fn roles(project: &Project, settings: &Settings, names: fn(&ModelTable) -> &Name
 }
 
 /// Writes into the site that a component casts, or is seen, or not.
-fn switch(project: &Project, settings: &mut Settings, (index, casts, on): (usize, bool, bool), now: &[bool]) {
+fn switch(project: &Project, settings: &mut WindowSettings, (index, casts, on): (usize, bool, bool), now: &[bool]) {
     let site = &project.site;
     let mut first = 0;
     for (model, count) in project.models.component_counts().into_iter().enumerate() {

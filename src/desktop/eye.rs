@@ -58,12 +58,12 @@ pub(super) struct Eye {
     /// The vertical field of view, radians.
     fov_rad: f64,
     /// What the plan and the sides show; none before they are first seen.
-    flat: [Option<Flat>; Stand::ALL.len() - 1],
+    flat: [Option<ParallelView>; Stand::ALL.len() - 1],
 }
 
 /// What a picture without perspective shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Flat {
+struct ParallelView {
     /// The point in its middle, metres.
     target: DVec3,
     /// How much it shows from its foot to its head, metres; of a side the sheet, which leaves nothing out that the
@@ -104,7 +104,7 @@ impl Eye {
     /// The camera that a site file keeps: that of the perspective, or one that sees at its target as much as the side's
     /// sheet shows.
     pub(super) fn kept(&self) -> Camera {
-        let Flat { target, height_m } = self.framed();
+        let ParallelView { target, height_m } = self.framed();
         let distance = height_m / self.of_sheet_in_window() / self.height_at_one();
         Eye { target, distance, ..*self }.camera((16, 10))
     }
@@ -128,16 +128,17 @@ impl Eye {
     }
 
     /// The point in the middle of the window's picture, and how much is seen there from foot to head, metres.
-    fn framed(&self) -> Flat {
-        let of_perspective = Flat { target: self.target, height_m: self.distance * self.height_at_one() };
-        let Flat { target, height_m } = self.stand.flat().and_then(|flat| self.flat[flat]).unwrap_or(of_perspective);
-        Flat { target, height_m: height_m * self.of_sheet_in_window() }
+    fn framed(&self) -> ParallelView {
+        let of_perspective = ParallelView { target: self.target, height_m: self.distance * self.height_at_one() };
+        let ParallelView { target, height_m } =
+            self.stand.flat().and_then(|flat| self.flat[flat]).unwrap_or(of_perspective);
+        ParallelView { target, height_m: height_m * self.of_sheet_in_window() }
     }
 
     fn frame(&mut self, target: DVec3, height_m: f64) {
         match self.stand.flat() {
             Some(flat) => {
-                self.flat[flat] = Some(Flat { target, height_m: height_m / self.of_sheet_in_window() });
+                self.flat[flat] = Some(ParallelView { target, height_m: height_m / self.of_sheet_in_window() });
             }
             None => (self.target, self.distance) = (target, height_m / self.height_at_one()),
         }
@@ -199,7 +200,7 @@ impl Eye {
     /// Moves with the ground under the hand by so many pixels.
     pub(super) fn pan(&mut self, pixels: DVec2, height: u32) {
         let [right, up] = self.across();
-        let Flat { target, height_m } = self.framed();
+        let ParallelView { target, height_m } = self.framed();
         self.frame(target + (up * pixels.y - right * pixels.x) * self.metres_a_pixel(height), height_m);
     }
 
@@ -211,7 +212,7 @@ impl Eye {
 
     /// Comes nearer by a factor, within limits of the distance, about a point: it stays where it is in the picture.
     pub(super) fn zoom(&mut self, factor: f64, about: DVec3, limits: [f64; 2]) {
-        let Flat { target, height_m } = self.framed();
+        let ParallelView { target, height_m } = self.framed();
         let [least, most] = limits.map(|distance| distance * self.height_at_one());
         let height = (height_m / factor).clamp(least, most);
         self.frame(about + (target - about) * (height / height_m), height);

@@ -3,7 +3,7 @@
 use super::hours::{Findings, StudyResult};
 use super::loading::Project;
 use super::pick::PickedPoint;
-use super::settings::Settings;
+use super::settings::WindowSettings;
 use super::unit::Unit;
 use super::work::Work;
 use crate::choice::{Engine, Method, Receivers, Subject};
@@ -29,7 +29,7 @@ pub(super) struct Facades {
 }
 
 /// By what surfaces are judged, where the window draws by some technique: by that, or by the faster of the two that can.
-pub(super) fn method(settings: &Settings) -> Method {
+pub(super) fn method(settings: &WindowSettings) -> Method {
     let method = settings.shown.method;
     if method.row().draws(Engine::Auto, Subject::Surfaces) { method } else { Method::Auto }
 }

@@ -7,7 +7,7 @@ use super::files::Purpose;
 use super::hours::{self, Findings};
 use super::loading::name_of;
 use super::look;
-use super::settings::Settings;
+use super::settings::WindowSettings;
 use crate::choice::{Engine, Subject, listed};
 use eframe::egui::{self, Ui};
 use std::path::{Path, PathBuf};
@@ -68,7 +68,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 }
 
 /// Begins to find what is asked.
-fn find(open: &mut Open, settings: &Settings, studies: Option<PathBuf>, context: &egui::Context) {
+fn find(open: &mut Open, settings: &WindowSettings, studies: Option<PathBuf>, context: &egui::Context) {
     open.answers += 1;
     let (method, number, context) = (settings.shown.method, open.answers, context.clone());
     open.adding = Some(match &settings.before {

@@ -3,7 +3,7 @@
 use super::eye::{Eye, Stand};
 use super::hours::StudyResult;
 use super::loading::Project;
-use super::settings::Settings;
+use super::settings::WindowSettings;
 use super::view;
 use super::work::Work;
 use crate::deliver::animation::{self, AnimationRequest, FPS, WIDTH};
@@ -54,7 +54,7 @@ pub(super) fn move_models(site: &mut SiteFile, from: &Path, to: &Path) {
 }
 
 /// What a site file at a path is to say, so that it reopens to the same view.
-pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &Path) -> Written {
+pub(super) fn written(project: &Project, settings: &WindowSettings, eye: &Eye, path: &Path) -> Written {
     let mut site = settings.site.clone();
     site.camera = camera(eye, &site.camera);
     site.study.technique = match settings.shown.method {
@@ -67,7 +67,7 @@ pub(super) fn written(project: &Project, settings: &Settings, eye: &Eye, path: &
 }
 
 /// The site as the eye sees it: the command draws from the saved camera, and so the same drawing.
-fn seen_from(project: &Project, settings: &Settings, eye: &Eye) -> Written {
+fn seen_from(project: &Project, settings: &WindowSettings, eye: &Eye) -> Written {
     let mut written = Written { site: settings.site.clone(), ..project.written.clone() };
     written.site.camera = camera(eye, &written.site.camera);
     written
@@ -88,7 +88,7 @@ fn view_from(site: &Site, eye: &Eye) -> View {
 /// Draws the instant as the command does: on the site's plan, or as the eye sees it.
 pub(super) fn drawing(
     project: &Project,
-    settings: &Settings,
+    settings: &WindowSettings,
     eye: Eye,
     time: DateTime<Zone>,
     path: PathBuf,
@@ -130,7 +130,7 @@ pub(super) fn drawing(
 /// Draws every instant of the study as the command does, into a folder: on the site's plan, or as the eye sees it.
 pub(super) fn animation(
     project: &Project,
-    settings: &Settings,
+    settings: &WindowSettings,
     eye: Eye,
     folder: PathBuf,
     context: egui::Context,
@@ -184,7 +184,7 @@ pub(super) fn progress(writing: &Work<PathBuf>, ui: &mut egui::Ui) -> bool {
 /// Writes files of what was found into a folder: all of them, or a drawing of its lines.
 pub(super) fn found(
     project: &Project,
-    settings: &Settings,
+    settings: &WindowSettings,
     laid: Arc<StudyResult>,
     lines: Option<Lines>,
     folder: PathBuf,

@@ -1,12 +1,12 @@
 //! What is found of a site's study and lies over the scene; and when a single point lies in the sun. Both are found beside
 //! the window.
 
-use super::change::Change;
+use super::change::ChangeResult;
 use super::facades::{self, Facades};
 use super::handing::WHO;
 use super::loading::Project;
 use super::pick::PickedPoint;
-use super::settings::Settings;
+use super::settings::WindowSettings;
 use super::unit::Unit;
 use super::work::Work;
 use crate::deliver::lines::Lines;
@@ -50,7 +50,7 @@ pub(super) enum Findings {
     /// The hours of shadow on ground and roofs.
     Shadow(Box<ShadowHours>),
     /// What changes from another state to that of the site.
-    Change(Box<Change>),
+    Change(Box<ChangeResult>),
     /// The hours of sun on façades and roofs.
     Facades(Box<Facades>),
 }
@@ -130,7 +130,7 @@ impl StudyResult {
     }
 
     /// Whether it is what the settings ask of the site.
-    pub(super) fn is_asked(&self, project: &Project, settings: &Settings) -> bool {
+    pub(super) fn is_asked(&self, project: &Project, settings: &WindowSettings) -> bool {
         let is_found = match (&self.found, &settings.before) {
             (Findings::Change(change), Some(before)) => change.before == *before,
             (Findings::Shadow(_), None) => !settings.shown.facades,
@@ -150,7 +150,7 @@ impl StudyResult {
     }
 
     /// The change, where it is one.
-    pub(super) fn change(&self) -> Option<&Change> {
+    pub(super) fn change(&self) -> Option<&ChangeResult> {
         match &self.found {
             Findings::Change(change) => Some(change),
             _ => None,

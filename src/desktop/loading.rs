@@ -1,8 +1,8 @@
 //! A site is loaded beside the window, which shows how far it is and can give it up.
 
 use super::bare::Bare;
-use super::settings::{Hidden, Settings};
-use super::words::{Keys, Labels};
+use super::settings::{Hidden, WindowSettings};
+use super::words::{FileWords, PanelWords};
 use crate::export::figure::component_colours;
 use crate::fault;
 use crate::mesh::Mesh;
@@ -46,7 +46,7 @@ pub(super) struct Before {
 }
 
 /// Why there is no project.
-pub(super) enum Fault {
+pub(super) enum LoadError {
     /// It is a bare model.
     Bare(PathBuf),
     /// What the command would say.
@@ -75,7 +75,7 @@ pub(super) struct Loading {
     pub(super) reads: bool,
     stage: Arc<Mutex<(f32, String)>>,
     cancelled: Arc<AtomicBool>,
-    result: mpsc::Receiver<Result<Project, Fault>>,
+    result: mpsc::Receiver<Result<Project, LoadError>>,
 }
 
 impl Loading {
@@ -91,7 +91,7 @@ impl Loading {
         let cancelled = Arc::new(AtomicBool::new(false));
         let opens = !matches!(wanted, Wanted::Again(..));
         let reads = !matches!(&wanted, Wanted::Again(_, _, before) if before.models.is_some());
-        let progress = Progress { stage: Arc::clone(&stage), cancelled: Arc::clone(&cancelled), context };
+        let progress = LoadProgress { stage: Arc::clone(&stage), cancelled: Arc::clone(&cancelled), context };
         std::thread::spawn(move || {
             let project = project(wanted, &progress);
             // who gave the loading up listens no more
@@ -107,12 +107,12 @@ impl Loading {
     }
 
     /// What came of it, once it is done.
-    pub(super) fn done(&self) -> Option<Result<Project, Fault>> {
+    pub(super) fn done(&self) -> Option<Result<Project, LoadError>> {
         match self.result.try_recv() {
             Ok(result) => Some(result),
             Err(mpsc::TryRecvError::Empty) => None,
             Err(mpsc::TryRecvError::Disconnected) => {
-                Some(Err(Fault::Told(format!("{} could not be loaded: the work ended early", self.name))))
+                Some(Err(LoadError::Told(format!("{} could not be loaded: the work ended early", self.name))))
             }
         }
     }
@@ -123,13 +123,13 @@ impl Loading {
     }
 }
 
-struct Progress {
+struct LoadProgress {
     stage: Arc<Mutex<(f32, String)>>,
     cancelled: Arc<AtomicBool>,
     context: egui::Context,
 }
 
-impl Progress {
+impl LoadProgress {
     fn tell(&self, share: f32, what: impl Into<String>) {
         if let Ok(mut stage) = self.stage.lock() {
             *stage = (share, what.into());
@@ -148,25 +148,25 @@ pub(super) fn name_of(path: &Path) -> String {
     }
 }
 
-fn project(wanted: Wanted, progress: &Progress) -> Result<Project, Fault> {
+fn project(wanted: Wanted, progress: &LoadProgress) -> Result<Project, LoadError> {
     let (path, written) = match wanted {
         Wanted::File(path) => match Written::read(&path, &Overrides::default()) {
             Err(SiteError::NoPlaceForModel { .. }) => {
                 // a model that cannot be read is told before its place is asked
-                crate::site::load_mesh(&path, &Overrides::default()).map_err(|error| told(&error, &Keys))?;
-                return Err(Fault::Bare(path));
+                crate::site::load_mesh(&path, &Overrides::default()).map_err(|error| told(&error, &FileWords))?;
+                return Err(LoadError::Bare(path));
             }
             Ok(written) => {
                 let path = if path.is_dir() { path.join("site.toml") } else { path };
                 (Some(path), written)
             }
-            Err(error) => return Err(told(&error, &Keys)),
+            Err(error) => return Err(told(&error, &FileWords)),
         },
         Wanted::Placed(bare) => {
             let asked = Overrides { place: Some(bare.place.clone()), ..Overrides::default() };
-            let mut written = Written::read(&bare.path, &asked).map_err(|error| told(&error, &Keys))?;
+            let mut written = Written::read(&bare.path, &asked).map_err(|error| told(&error, &FileWords))?;
             if let Some(table) = written.site.model.first_mut() {
-                let north = bare.north().map_err(|error| told(&error, &Keys))?;
+                let north = bare.north().map_err(|error| told(&error, &FileWords))?;
                 table.north = Some(north).filter(|north| *north != 0.0);
             }
             (None, written)
@@ -188,11 +188,11 @@ fn read(
     written: Written,
     hidden: Hidden,
     before: Option<&Before>,
-    progress: &Progress,
-) -> Result<Project, Fault> {
+    progress: &LoadProgress,
+) -> Result<Project, LoadError> {
     let known = before.and_then(|before| before.models.as_ref()).filter(|models| models.are_those_of(&written));
     // what is set in the panel has its labels, and what a file says its keys
-    let words: &dyn Words = if before.is_some() { &Labels } else { &Keys };
+    let words: &dyn Words = if before.is_some() { &PanelWords } else { &FileWords };
     let mut models = None;
     let site = Site::with_models(&written, &Overrides::default(), || {
         let read = known.map_or_else(|| read_models(&written, progress), |models| Ok(models.clone()))?;
@@ -200,7 +200,7 @@ fn read(
     })
     .map_err(|error| told(&error, words))?;
     if progress.cancelled.load(Ordering::Relaxed) {
-        return Err(Fault::Told("given up".to_owned()));
+        return Err(LoadError::Told("given up".to_owned()));
     }
     let site = Arc::new(site);
     let visible = visible(&site, &hidden);
@@ -215,7 +215,7 @@ fn read(
         }
     };
     progress.tell(1.0, "Drawing");
-    let Some(models) = models else { return Err(Fault::Told("the models were not read".to_owned())) };
+    let Some(models) = models else { return Err(LoadError::Told("the models were not read".to_owned())) };
     Ok(Project {
         path,
         written,
@@ -238,7 +238,7 @@ fn visible(site: &Arc<Site>, hidden: &Hidden) -> Arc<Site> {
     Arc::new(Site { receives, ..Site::clone(site) })
 }
 
-fn read_models(written: &Written, progress: &Progress) -> Result<Models, SiteError> {
+fn read_models(written: &Written, progress: &LoadProgress) -> Result<Models, SiteError> {
     progress.tell(0.15, "Reading the models");
     let count = written.site.model.len().max(1) as f32;
     let done = Cell::new(0.0);
@@ -267,8 +267,8 @@ fn complete(site: &mut SiteFile) {
     study.to.get_or_insert_with(|| Text("17:00".to_owned()));
 }
 
-fn told(error: &(dyn std::error::Error + 'static), words: &dyn Words) -> Fault {
-    Fault::Told(fault::line(error, words))
+fn told(error: &(dyn std::error::Error + 'static), words: &dyn Words) -> LoadError {
+    LoadError::Told(fault::line(error, words))
 }
 
 impl Project {
@@ -316,10 +316,10 @@ impl Project {
     }
 
     /// The settings that it comes with.
-    pub(super) fn settings(&self, before: &Settings) -> Settings {
+    pub(super) fn settings(&self, before: &WindowSettings) -> WindowSettings {
         let mut shown = before.shown;
         shown.method = self.site.method;
-        Settings { site: self.written.site.clone(), shown, hidden: Arc::clone(&self.hidden), before: None }
+        WindowSettings { site: self.written.site.clone(), shown, hidden: Arc::clone(&self.hidden), before: None }
     }
 
     /// What the site is called: its place, else its file.

@@ -2,7 +2,7 @@
 
 use super::app::App;
 use super::eye::Stand;
-use super::typed::{Number, Typed};
+use super::typed::{NumberField, Typed};
 use super::unit::Unit;
 use super::{cards, components, found, look, view};
 use crate::choice::{Method, Promise, TABLE};
@@ -142,7 +142,7 @@ fn place(app: &mut App, ui: &mut Ui) {
         let mut value = table.elevation.unwrap_or_default() / unit.metres;
         let range = -500.0 / unit.metres..=9000.0 / unit.metres;
         let suffix = &format!(" {}", unit.name);
-        let number = Number { speed: 1.0, range, unit: unit.name, suffix, decimals: 0..=2 };
+        let number = NumberField { speed: 1.0, range, unit: unit.name, suffix, decimals: 0..=2 };
         if typed.number(ui, ("Elevation", label), &mut value, &number).changed() {
             // to the millimetre, as feet are written in metres
             table.elevation = Some((value * unit.metres * 1000.0).round() / 1000.0);
@@ -155,7 +155,7 @@ fn place(app: &mut App, ui: &mut Ui) {
     if let [model] = app.settings.site.model.as_mut_slice() {
         row(ui, "Model north", |ui, label| {
             let mut north = model.north.unwrap_or_default();
-            let number = Number { speed: 0.5, range: NORTH, unit: "degrees", suffix: "°", decimals: 0..=3 };
+            let number = NumberField { speed: 0.5, range: NORTH, unit: "degrees", suffix: "°", decimals: 0..=3 };
             let response = typed.number(ui, ("Model north", label), &mut north, &number);
             let response = response.on_hover_text("Degrees clockwise from the model's north to true north");
             if response.changed() {
@@ -163,7 +163,7 @@ fn place(app: &mut App, ui: &mut Ui) {
             }
             let label = then(ui, "scale");
             let mut scale = model.scale.unwrap_or(1.0);
-            let number = Number { speed: 0.01, range: SCALE, unit: "metres a unit", suffix: "", decimals: 0..=6 };
+            let number = NumberField { speed: 0.01, range: SCALE, unit: "metres a unit", suffix: "", decimals: 0..=6 };
             let response = typed.number(ui, ("scale", label), &mut scale, &number);
             let response = response.on_hover_text("Metres a unit of the model");
             if response.changed() {
@@ -180,7 +180,7 @@ fn ground(ui: &mut Ui, typed: &mut Typed, level: &mut Option<f64>, found: &Groun
         let mut value = level.unwrap_or(found.level) / unit.metres;
         let range = -10_000.0 / unit.metres..=10_000.0 / unit.metres;
         let suffix = &format!(" {}", unit.name);
-        let number = Number { speed: 0.1, range, unit: unit.name, suffix, decimals: 0..=3 };
+        let number = NumberField { speed: 0.1, range, unit: unit.name, suffix, decimals: 0..=3 };
         let response = typed.number(ui, ("Ground", label), &mut value, &number);
         if response.on_hover_text("How high the ground lies above the place's point").changed() {
             // to the millimetre, as feet are written in metres

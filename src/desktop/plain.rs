@@ -12,7 +12,7 @@ use crate::study::live::far_view;
 use crate::view::Mask;
 
 /// What is kept from one picture to the next.
-pub(super) struct Plain {
+pub(super) struct PlainDrawer {
     /// The site's number, and to how many points of the sun rays go.
     of: (u64, Option<u32>),
     scene: Scene,
@@ -23,7 +23,7 @@ pub(super) struct Plain {
 ///
 /// # Errors
 /// What ray casting says.
-pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]>, Drawn), ShadowError> {
+pub(super) fn draw(kept: &mut Option<PlainDrawer>, wish: &Wish) -> Result<(Vec<[u8; 4]>, Drawn), ShadowError> {
     let sun_samples = wish.way.settings.sun_samples;
     let site = &*wish.site;
     let new = || {
@@ -31,7 +31,7 @@ pub(super) fn draw(kept: &mut Option<Plain>, wish: &Wish) -> Result<(Vec<[u8; 4]
         let receivers = site.mesh.of_components(&site.receives);
         let scene = Scene { casters, receivers, ground: site.ground.level };
         let rays = RayCast::new(scene.clone(), far_view(&scene), sun_samples);
-        Plain { of: (wish.number, sun_samples), scene, rays }
+        PlainDrawer { of: (wish.number, sun_samples), scene, rays }
     };
     let at_hand = kept.take().filter(|plain| plain.of == (wish.number, sun_samples));
     let plain = kept.insert(at_hand.unwrap_or_else(new));

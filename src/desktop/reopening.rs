@@ -49,7 +49,7 @@ pub fn open_with(
     };
     let mut event_loop = event_loop::new(&mut options(false)).map_err(unopened)?;
     let (mut app, mut context) = (None, None);
-    let mut ways = Ways::default();
+    let mut ways = Reopening::default();
     loop {
         let mut is_open = false;
         let (is_there, slot, egui, on_frame) = (&mut is_open, &mut app, &mut context, &mut *on_frame);
@@ -65,7 +65,7 @@ pub fn open_with(
                 app.notice = note;
             }
             *is_there = true;
-            Ok(Box::new(Held { app, on_frame }))
+            Ok(Box::new(AppWindow { app, on_frame }))
         });
         let window = eframe::create_native("gnomon", options(ways.software), create, &event_loop);
         let panic = event_loop::show(&mut event_loop, window).map_err(unopened)?;
@@ -79,7 +79,7 @@ pub fn open_with(
 
 /// On what the window is opened next.
 #[derive(Default)]
-struct Ways {
+struct Reopening {
     /// On the processor.
     software: bool,
     /// When devices were lost.
@@ -90,7 +90,7 @@ struct Ways {
     note: Option<String>,
 }
 
-impl Ways {
+impl Reopening {
     /// A device was lost.
     fn note_loss(&mut self, why: String) -> anyhow::Result<()> {
         self.losses.retain(|at| at.elapsed() < MOMENT);
@@ -177,12 +177,12 @@ fn create_new() -> WgpuSetupCreateNew {
 }
 
 /// An app in the window of this time.
-struct Held<'a> {
+struct AppWindow<'a> {
     app: &'a mut App,
     on_frame: &'a mut dyn FnMut(&mut App, &egui::Context),
 }
 
-impl eframe::App for Held<'_> {
+impl eframe::App for AppWindow<'_> {
     fn logic(&mut self, context: &egui::Context, frame: &mut Frame) {
         // a window that is opened again asks nothing when it closes
         if !self.app.leaves_device(context) {

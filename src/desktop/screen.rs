@@ -9,7 +9,7 @@ use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState,
 use wgpu::*;
 
 /// What draws them; one for the window, kept where egui's renderer finds it.
-struct Screen {
+struct ScreenPipelines {
     shows: RenderPipeline,
     fills: RenderPipeline,
     colour: Buffer,
@@ -67,7 +67,7 @@ pub(super) fn set_up(render: &RenderState) {
         min_filter: FilterMode::Linear,
         ..SamplerDescriptor::default()
     });
-    let screen = Screen { shows, fills, colour, filled, sampler };
+    let screen = ScreenPipelines { shows, fills, colour, filled, sampler };
     render.renderer.write().callback_resources.insert(screen);
 }
 
@@ -79,7 +79,7 @@ impl Print {
     /// Of a texture, which may be drawn anew at any time.
     pub(super) fn of(texture: &Texture, render: &RenderState) -> Option<Print> {
         let renderer = render.renderer.read();
-        let screen: &Screen = renderer.callback_resources.get()?;
+        let screen: &ScreenPipelines = renderer.callback_resources.get()?;
         let view = texture.create_view(&TextureViewDescriptor::default());
         let entries = [
             BindGroupEntry { binding: 1, resource: BindingResource::TextureView(&view) },
@@ -100,7 +100,7 @@ impl Print {
 
 impl CallbackTrait for Print {
     fn paint(&self, _: PaintCallbackInfo, pass: &mut RenderPass<'static>, resources: &CallbackResources) {
-        if let Some(screen) = resources.get::<Screen>() {
+        if let Some(screen) = resources.get::<ScreenPipelines>() {
             pass.set_pipeline(&screen.shows);
             pass.set_bind_group(0, &self.0, &[]);
             pass.draw(0..3, 0..1);
@@ -109,14 +109,14 @@ impl CallbackTrait for Print {
 }
 
 /// The colour on which a frame's panels stand.
-struct Ground(Color32);
+struct PanelColour(Color32);
 
 /// Fills a rectangle, the frame's first: one colour a frame.
 pub(super) fn ground(rect: Rect, colour: Color32) -> PaintCallback {
-    Callback::new_paint_callback(rect, Ground(colour))
+    Callback::new_paint_callback(rect, PanelColour(colour))
 }
 
-impl CallbackTrait for Ground {
+impl CallbackTrait for PanelColour {
     fn prepare(
         &self,
         _: &Device,
@@ -125,7 +125,7 @@ impl CallbackTrait for Ground {
         _: &mut CommandEncoder,
         resources: &mut CallbackResources,
     ) -> Vec<CommandBuffer> {
-        if let Some(screen) = resources.get::<Screen>() {
+        if let Some(screen) = resources.get::<ScreenPipelines>() {
             let colour = self.0.to_normalized_gamma_f32();
             queue.write_buffer(&screen.colour, 0, bytemuck::bytes_of(&colour));
         }
@@ -133,7 +133,7 @@ impl CallbackTrait for Ground {
     }
 
     fn paint(&self, _: PaintCallbackInfo, pass: &mut RenderPass<'static>, resources: &CallbackResources) {
-        if let Some(screen) = resources.get::<Screen>() {
+        if let Some(screen) = resources.get::<ScreenPipelines>() {
             pass.set_pipeline(&screen.fills);
             pass.set_bind_group(0, &screen.filled, &[]);
             pass.draw(0..3, 0..1);

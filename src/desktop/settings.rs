@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// Everything that undo brings back: the site as it is written, how its shadows are shown, what is
 /// hidden, and what it is compared with.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Settings {
+pub(super) struct WindowSettings {
     /// What the site file says.
     pub(super) site: SiteFile,
     /// How its shadows are shown.
@@ -45,9 +45,9 @@ pub(super) struct ShadowSettings {
 /// The settings that were, and those that were undone.
 #[derive(Default)]
 pub(super) struct History {
-    past: Vec<Settings>,
-    future: Vec<Settings>,
-    last: Settings,
+    past: Vec<WindowSettings>,
+    future: Vec<WindowSettings>,
+    last: WindowSettings,
 }
 
 impl History {
@@ -55,12 +55,12 @@ impl History {
     const MOST: usize = 200;
 
     /// Begins anew with another site.
-    pub(super) fn restart(&mut self, now: &Settings) {
+    pub(super) fn restart(&mut self, now: &WindowSettings) {
         *self = History { last: now.clone(), ..History::default() };
     }
 
     /// Takes note of settings that a person has come to.
-    pub(super) fn note(&mut self, now: &Settings) {
+    pub(super) fn note(&mut self, now: &WindowSettings) {
         if *now != self.last {
             self.past.push(std::mem::replace(&mut self.last, now.clone()));
             self.future.clear();
@@ -71,14 +71,14 @@ impl History {
     }
 
     /// The settings before.
-    pub(super) fn undo(&mut self) -> Option<Settings> {
+    pub(super) fn undo(&mut self) -> Option<WindowSettings> {
         let before = self.past.pop()?;
         self.future.push(std::mem::replace(&mut self.last, before.clone()));
         Some(before)
     }
 
     /// The settings that were undone last.
-    pub(super) fn redo(&mut self) -> Option<Settings> {
+    pub(super) fn redo(&mut self) -> Option<WindowSettings> {
         let after = self.future.pop()?;
         self.past.push(std::mem::replace(&mut self.last, after.clone()));
         Some(after)

@@ -6,8 +6,8 @@
 
 use super::easel::Easel;
 use super::hours::StudyResult;
-use super::plain::{self, Plain};
-use super::words::Labels;
+use super::plain::{self, PlainDrawer};
+use super::words::PanelWords;
 use crate::export::figure::{Colours, Diagram};
 use crate::gpu::{Gpu, readback};
 use crate::message::Worded;
@@ -173,7 +173,7 @@ struct StageCache {
     /// The picture as it is drawn, and as the window has it.
     target: Option<[wgpu::Texture; 2]>,
     /// What draws without a device.
-    plain: Option<Plain>,
+    plain: Option<PlainDrawer>,
 }
 
 impl Shared {
@@ -223,17 +223,17 @@ impl Shared {
                 Err(error) => error,
             };
             *its = StageCache::default();
-            let Some(lost) = error.lost_device() else { return Err(error.in_words(&Labels)) };
+            let Some(lost) = error.lost_device() else { return Err(error.in_words(&PanelWords)) };
             // nothing of it can be used again
             *kept = Default::default();
             drop(device);
             failures += 1;
             gpu = self.easel.replace(lost, failures);
         }
-        self.draw_plain(&mut kept[usize::from(wish.quick)].plain, wish).map_err(|error| error.in_words(&Labels))
+        self.draw_plain(&mut kept[usize::from(wish.quick)].plain, wish).map_err(|error| error.in_words(&PanelWords))
     }
 
-    fn draw_plain(&self, kept: &mut Option<Plain>, wish: &Wish) -> Result<StagePicture, ShadowError> {
+    fn draw_plain(&self, kept: &mut Option<PlainDrawer>, wish: &Wish) -> Result<StagePicture, ShadowError> {
         let started = Instant::now();
         let (pixels, drawn) = plain::draw(kept, wish)?;
         let size = wish.view.size();

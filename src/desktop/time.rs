@@ -3,7 +3,7 @@
 use super::clock::{Clock, Play};
 use super::look::{self, SUN};
 use super::typed::refused;
-use super::words::Labels;
+use super::words::PanelWords;
 use crate::message::Worded;
 use crate::site::typed::{self, TypedError};
 use crate::sun::{Day, Reading, Zone};
@@ -94,7 +94,7 @@ impl Clock {
         if response.lost_focus()
             && let Some(text) = self.typed[which].take()
         {
-            self.fault = self.read(which, &text).err().map(|error| error.in_words(&Labels));
+            self.fault = self.read(which, &text).err().map(|error| error.in_words(&PanelWords));
         }
     }
 

@@ -1,7 +1,7 @@
 //! Fields that are typed into: what stands in one is read when it is finished, as people write it. What cannot be read
 //! changes nothing, and is told under its field.
 
-use super::words::Labels;
+use super::words::PanelWords;
 use crate::message::Worded;
 use crate::site::typed::{self, Axis, Degrees, TypedError};
 use eframe::egui::{self, DragValue, Id, Response, Ui, emath};
@@ -19,7 +19,7 @@ pub(super) struct Typed {
 }
 
 /// What a field of a number takes, and how it shows it.
-pub(super) struct Number<'a> {
+pub(super) struct NumberField<'a> {
     /// By how much it changes when it is dragged by a point.
     pub(super) speed: f64,
     /// What it takes.
@@ -62,7 +62,13 @@ impl Typed {
     }
 
     /// A field of a number, which can be dragged, too.
-    pub(super) fn number(&mut self, ui: &mut Ui, field: (&str, Id), value: &mut f64, number: &Number<'_>) -> Response {
+    pub(super) fn number(
+        &mut self,
+        ui: &mut Ui,
+        field: (&str, Id),
+        value: &mut f64,
+        number: &NumberField<'_>,
+    ) -> Response {
         self.read_number(ui, field, value, number, |text| typed::within(text, number.range.clone(), number.unit))
     }
 
@@ -71,7 +77,7 @@ impl Typed {
         ui: &mut Ui,
         (name, label): (&str, Id),
         value: &mut f64,
-        number: &Number<'_>,
+        number: &NumberField<'_>,
         read: impl Fn(&str) -> Result<f64, TypedError>,
     ) -> Response {
         let before = *value;
@@ -119,7 +125,7 @@ impl Typed {
             }
         };
         let range = -axis.most()..=axis.most();
-        let number = Number { speed: 0.01, range, unit: "degrees", suffix: "°", decimals: 4..=6 };
+        let number = NumberField { speed: 0.01, range, unit: "degrees", suffix: "°", decimals: 4..=6 };
         let response = self.read_number(ui, field, value, &number, read);
         (response.changed(), place.take())
     }
@@ -133,7 +139,7 @@ impl Typed {
 
     fn keep(&mut self, name: &str, said: &str, fault: Option<&TypedError>) {
         match fault {
-            Some(fault) => self.faults.insert(name.to_owned(), (said.to_owned(), fault.in_words(&Labels))),
+            Some(fault) => self.faults.insert(name.to_owned(), (said.to_owned(), fault.in_words(&PanelWords))),
             None => self.faults.remove(name),
         };
     }

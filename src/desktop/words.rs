@@ -4,15 +4,15 @@ use crate::message::{Field, Words};
 
 /// The words of what is set in the panel: keys are labels.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Labels;
+pub(super) struct PanelWords;
 
 /// The words of what files say: keys are keys.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Keys;
+pub(super) struct FileWords;
 
-impl Words for Labels {
+impl Words for PanelWords {
     fn name(&self, field: Field) -> Option<&'static str> {
-        Keys.name(field)
+        FileWords.name(field)
     }
 
     fn key(&self, field: Field) -> &'static str {
@@ -40,13 +40,13 @@ impl Words for Labels {
             ("[study]", "to") => "Window, to",
             ("[study]", "step") => "Study date, step",
             ("[study]", "technique") => "Technique",
-            _ => return Keys.at(file, table, key),
+            _ => return FileWords.at(file, table, key),
         };
         label.to_owned()
     }
 }
 
-impl Words for Keys {
+impl Words for FileWords {
     fn name(&self, field: Field) -> Option<&'static str> {
         Some(match field {
             Field::Technique => "Technique",

@@ -1,6 +1,6 @@
 //! Work that goes on beside the window.
 
-use super::words::Keys;
+use super::words::FileWords;
 use crate::fault;
 use crate::study::{Event, OnEvent};
 use eframe::egui;
@@ -50,7 +50,7 @@ impl<T: Send + 'static> Work<T> {
                 if heard.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             // who gave it up listens no more
-            let _ = tell.send(answer.map_err(|error| fault::line(error.as_ref(), &Keys)));
+            let _ = tell.send(answer.map_err(|error| fault::line(error.as_ref(), &FileWords)));
             context.request_repaint();
         });
         Work { progress, note, cancelled, result }

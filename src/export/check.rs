@@ -1,7 +1,7 @@
 //! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the places
 //! that matter most.
 
-use super::places::{self, Kind};
+use super::places::{self, DefectKind};
 use super::{ExportError, report};
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
@@ -96,8 +96,8 @@ pub fn table(
         return table;
     }
     dirty.sort_by(|one, other| faulty_m(other).total_cmp(&faulty_m(one)));
-    let sum = |kind: &Kind| dirty.iter().map(|component| (kind.count)(component)).sum::<usize>();
-    let kinds: Vec<&Kind> = places::KINDS.iter().filter(|kind| sum(kind) > 0).collect();
+    let sum = |kind: &DefectKind| dirty.iter().map(|component| (kind.count)(component)).sum::<usize>();
+    let kinds: Vec<&DefectKind> = places::KINDS.iter().filter(|kind| sum(kind) > 0).collect();
     rows(&mut table, &dirty, &kinds, words);
     let clean = components.len() - dirty.len();
     let _ = writeln!(table, "\n{} not clean, {clean} clean; where: {}", dirty.len(), places::frame(frame));
@@ -132,7 +132,7 @@ fn shadows(mesh: &Mesh) -> String {
 }
 
 /// A line a component, the worst first.
-fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&Kind], words: &dyn Words) {
+fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&DefectKind], words: &dyn Words) {
     let most = MOST_ROWS.saturating_sub(FIXED_ROWS + kinds.len() * (1 + PLACES_A_KIND));
     let shown = &dirty[..dirty.len().min(most)];
     let width = shown.iter().map(|component| plain(&component.name).chars().count()).max().unwrap_or(0).max(9);

@@ -20,7 +20,7 @@ struct CompareReport<'a> {
     cleared_m2: f64,
     sun_lost: ChangeReport,
     sun_gained: ChangeReport,
-    sun_at_least: Vec<SunReport>,
+    sun_at_least: Vec<SunlightChange>,
     #[serde(flatten)]
     head: DrawnReport<'a>,
 }
@@ -40,7 +40,7 @@ struct AreaReport {
 }
 
 #[derive(Serialize)]
-struct SunReport {
+struct SunlightChange {
     hours: f64,
     before_m2: f64,
     after_m2: f64,
@@ -88,7 +88,7 @@ pub fn json(
     let thresholds = thresholds(comparison, track);
     let sun = |secs| {
         let [before_m2, after_m2] = comparison.sun_at_least_m2(secs);
-        SunReport { hours: hours(secs), before_m2, after_m2 }
+        SunlightChange { hours: hours(secs), before_m2, after_m2 }
     };
     report::json(&CompareReport {
         before: &names[0],

@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde_json::{Map, Value, json};
 
 /// One thing that can be wrong.
-pub(super) struct Kind {
+pub(super) struct DefectKind {
     /// Its word.
     pub(super) head: &'static str,
     /// How often a component has it.
@@ -17,14 +17,14 @@ pub(super) struct Kind {
     pub(super) places: fn(&Places, usize) -> Vec<(f64, String)>,
 }
 
-pub(super) const KINDS: [Kind; 6] = [
-    Kind {
+pub(super) const KINDS: [DefectKind; 6] = [
+    DefectKind {
         head: "open",
         count: |part| part.open_edges,
         meaning: "edges with one face: the part bounds no solid, something may be missing",
         places: |places, most| places.open.iter().take(most).map(|place| (place.length_m, open(place))).collect(),
     },
-    Kind {
+    DefectKind {
         head: "T-junction",
         count: |part| part.t_junctions,
         meaning: "corners within an open edge that is not split there: the faces only seem to meet",
@@ -35,7 +35,7 @@ pub(super) const KINDS: [Kind; 6] = [
             found.map(|found| (found.edge.length_m, words(found.at, &found.edge))).collect()
         },
     },
-    Kind {
+    DefectKind {
         head: "crowded",
         count: |part| part.crowded_edges,
         meaning: "edges with more than two faces: walls meet inside of the part",
@@ -44,7 +44,7 @@ pub(super) const KINDS: [Kind; 6] = [
             places.crowded.iter().take(most).map(|edge| (edge.length_m, words(edge))).collect()
         },
     },
-    Kind {
+    DefectKind {
         head: "flipped",
         count: |part| part.flipped_edges,
         meaning: "edges whose two faces look to different sides: one is wound wrongly",
@@ -52,13 +52,13 @@ pub(super) const KINDS: [Kind; 6] = [
             places.flipped.iter().take(most).map(|edge| (edge.length_m, line("edge", edge))).collect()
         },
     },
-    Kind {
+    DefectKind {
         head: "degenerate",
         count: |part| part.degenerate_triangles,
         meaning: "triangles without area",
         places: |places, most| places.degenerate.iter().take(most).map(triangle).collect(),
     },
-    Kind {
+    DefectKind {
         head: "duplicate",
         count: |part| part.duplicate_triangles,
         meaning: "triangles that lie on another one",

@@ -31,13 +31,13 @@ struct ProbeReport<'a> {
     point: [f64; 3],
     normal: Option<[f64; 3]>,
     below_ground_m: Option<f64>,
-    days: Vec<DayReport>,
+    days: Vec<ProbeDayReport>,
     seconds: i64,
     longest_seconds: i64,
 }
 
 #[derive(Serialize)]
-struct DayReport {
+struct ProbeDayReport {
     date: String,
     sunrise: Option<String>,
     sunset: Option<String>,
@@ -70,7 +70,7 @@ struct IntervalReport {
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
 pub fn json(sunlight: &Sunlight, place: &Place, ground: &Ground, notes: &[String]) -> Result<String, ExportError> {
-    let day = |(day, intervals): (&SunDay, &Vec<Interval>)| DayReport {
+    let day = |(day, intervals): (&SunDay, &Vec<Interval>)| ProbeDayReport {
         date: day.window.day.date.to_string(),
         sunrise: day.window.day.sunrise.as_ref().map(stamp),
         sunset: day.window.day.sunset.as_ref().map(stamp),

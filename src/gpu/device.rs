@@ -19,7 +19,7 @@ pub struct Gpu {
     pub limits: wgpu::Limits,
     name: String,
     software: bool,
-    fault: Arc<Mutex<Option<Fault>>>,
+    fault: Arc<Mutex<Option<DeviceFault>>>,
     /// Where passes are timed.
     pub(super) timers: OnceLock<Timers>,
 }
@@ -102,15 +102,15 @@ fn plain(reason: &str) -> String {
 
 /// What a device has reported beside the calls that caused it.
 #[derive(Clone)]
-struct Fault {
+struct DeviceFault {
     reason: String,
     /// The device itself is gone.
     lost: bool,
 }
 
-impl Fault {
-    fn untold() -> Fault {
-        Fault { reason: "an error could not be told".to_owned(), lost: false }
+impl DeviceFault {
+    fn untold() -> DeviceFault {
+        DeviceFault { reason: "an error could not be told".to_owned(), lost: false }
     }
 }
 
@@ -174,15 +174,15 @@ impl Gpu {
 
     /// A device that is open already: from now on what it reports is heard.
     pub fn opened(adapter: &Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Gpu {
-        let fault = Arc::new(Mutex::new(None::<Fault>));
+        let fault = Arc::new(Mutex::new(None::<DeviceFault>));
         let heard = Arc::clone(&fault);
         let hear = move |reason: String, lost: bool| {
             if let Ok(mut fault) = heard.lock() {
                 match &mut *fault {
                     // what follows from the loss may be told before it
-                    Some(first) if lost && !first.lost => *first = Fault { reason, lost },
+                    Some(first) if lost && !first.lost => *first = DeviceFault { reason, lost },
                     Some(_) => {}
-                    none => *none = Some(Fault { reason, lost }),
+                    none => *none = Some(DeviceFault { reason, lost }),
                 }
             }
         };
@@ -227,7 +227,7 @@ impl Gpu {
         if is_to_be_lost() {
             self.device.destroy();
         }
-        let fault = || self.fault.lock().map_or_else(|_| Some(Fault::untold()), |fault| fault.clone());
+        let fault = || self.fault.lock().map_or_else(|_| Some(DeviceFault::untold()), |fault| fault.clone());
         if fault().is_none() {
             return Ok(());
         }

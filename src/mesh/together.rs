@@ -26,23 +26,24 @@ pub(super) struct Together {
     /// What is welded each for itself; none where all is one.
     welded: Option<Clusters>,
     /// The group that is meant: most of the triangles, above all of those near the place.
-    home: Group,
+    home: CornerGroup,
 }
 
 /// The corners that stand together: a box around them, and how many they are.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Group {
+pub(super) struct CornerGroup {
     pub(super) low: DVec3,
     pub(super) high: DVec3,
     pub(super) corners: usize,
     triangles: u64,
 }
 
-impl Group {
-    const NONE: Group = Group { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, corners: 0, triangles: 0 };
+impl CornerGroup {
+    const NONE: CornerGroup = CornerGroup { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, corners: 0, triangles: 0 };
 
     fn add(&mut self, corner: DVec3) {
-        *self = Group { low: self.low.min(corner), high: self.high.max(corner), corners: self.corners + 1, ..*self };
+        *self =
+            CornerGroup { low: self.low.min(corner), high: self.high.max(corner), corners: self.corners + 1, ..*self };
     }
 
     /// From corner to corner of its box, metres.
@@ -67,7 +68,7 @@ impl Together {
         let high = points().reduce(|| DVec3::NEG_INFINITY, DVec3::max);
         // neighbouring cells at most
         let are_one = |cell_m: f64| (high - low).max_element() <= cell_m;
-        let home = if are_one(HOME_CELL_M) { Group { low, high, ..Group::NONE } } else { home(parts) };
+        let home = if are_one(HOME_CELL_M) { CornerGroup { low, high, ..CornerGroup::NONE } } else { home(parts) };
         let clusters = (!are_one(WELD_CELL_M)).then(|| Clusters::of(parts, WELD_CELL_M, false));
         Together { welded: clusters.filter(|clusters| !clusters.is_one()), home }
     }
@@ -83,10 +84,10 @@ impl Together {
     }
 
     /// The groups in which a part has corners that are welded; and per corner which of them it is in, where there are several.
-    pub(super) fn in_part(&self, part: &Part) -> (Vec<Group>, Option<Vec<u32>>) {
-        let mut groups: Vec<Group> = Vec::new();
+    pub(super) fn in_part(&self, part: &Part) -> (Vec<CornerGroup>, Option<Vec<u32>>) {
+        let mut groups: Vec<CornerGroup> = Vec::new();
         let Some(clusters) = &self.welded else {
-            let mut group = Group::NONE;
+            let mut group = CornerGroup::NONE;
             part.positions.iter().for_each(|&corner| group.add(corner));
             groups.push(group);
             return (groups, None);
@@ -95,7 +96,7 @@ impl Together {
         let mut of_corner = Vec::with_capacity(part.positions.len());
         for (group, &corner) in clusters.of_corners(part).zip(&part.positions) {
             let number = *numbers.entry(group).or_insert_with(|| {
-                groups.push(Group::NONE);
+                groups.push(CornerGroup::NONE);
                 groups.len() as u32 - 1
             });
             groups[number as usize].add(corner);
@@ -108,16 +109,16 @@ impl Together {
 
 /// The group that is at home. One triangle may reach from it to a stray: a group's triangles are those of which no corner
 /// lies elsewhere, and only where no group has one do triangles join what they reach.
-fn home(parts: &[Part]) -> Group {
-    let groups = |joined: bool| -> Vec<Group> {
+fn home(parts: &[Part]) -> CornerGroup {
+    let groups = |joined: bool| -> Vec<CornerGroup> {
         let clusters = Clusters::of(parts, HOME_CELL_M, joined);
-        let mut groups: BTreeMap<u32, Group> = BTreeMap::new(); // in the file's order
+        let mut groups: BTreeMap<u32, CornerGroup> = BTreeMap::new(); // in the file's order
         for part in parts {
             let of_corner: Vec<u32> = clusters.of_corners(part).collect();
             for triangle in &part.triangles {
                 let [a, b, c] = triangle.map(|corner| of_corner[corner as usize]);
                 if a == b && b == c {
-                    let group = groups.entry(a).or_insert(Group::NONE);
+                    let group = groups.entry(a).or_insert(CornerGroup::NONE);
                     triangle.iter().for_each(|&corner| group.add(part.positions[corner as usize]));
                     group.triangles += 1;
                 }
@@ -129,10 +130,13 @@ fn home(parts: &[Part]) -> Group {
     if found.is_empty() {
         found = groups(true);
     }
-    let better = |one: &Group, other: &Group| {
+    let better = |one: &CornerGroup, other: &CornerGroup| {
         one.weight().cmp(&other.weight()).then(other.distance().total_cmp(&one.distance())).is_gt()
     };
-    found.into_iter().reduce(|best, group| if better(&group, &best) { group } else { best }).unwrap_or(Group::NONE)
+    found
+        .into_iter()
+        .reduce(|best, group| if better(&group, &best) { group } else { best })
+        .unwrap_or(CornerGroup::NONE)
 }
 
 /// Per occupied cell of a grid its group: cells that are neighbours, and on.

@@ -1,7 +1,7 @@
 //! Corners that lie on each other become one vertex.
 
 use super::Part;
-use super::together::{Group, Together};
+use super::together::{CornerGroup, Together};
 use glam::{DVec3, UVec3, Vec3};
 use rustc_hash::FxHashMap;
 
@@ -29,7 +29,7 @@ pub(super) struct Welded {
 /// A part's vertices around the origin, and its faces. What stands far from each other is welded each for itself.
 pub(super) fn weld(part: &Part, origin: DVec3, together: &Together) -> Welded {
     let local = |position: DVec3| (position - origin).as_vec3();
-    let welder = |group: &Group| Welder::new(local(group.low), tolerance(group.size()) as f32, group.corners);
+    let welder = |group: &CornerGroup| Welder::new(local(group.low), tolerance(group.size()) as f32, group.corners);
     let (groups, group_of) = together.in_part(part);
     let mut welders: Vec<Welder> = groups.iter().map(welder).collect();
     let mut vertex_of: Vec<u32> = match &group_of {

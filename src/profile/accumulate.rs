@@ -16,7 +16,7 @@ use wgpu::*;
 /// first, some of one weight together, and added then.
 pub struct Sum {
     running: Running,
-    counted: Counted,
+    counted: BitCounts,
     /// How many seconds may be in the running words.
     secs: u32,
     /// What was poured over.
@@ -33,15 +33,15 @@ enum Running {
 /// How often cells were in shadow at some instants of one weight. Each word's 64 cells count in parallel: the first of its
 /// planes holds the lowest digits of their numbers.
 #[derive(Default)]
-struct Counted {
-    planes: Vec<[u64; Counted::PLANES]>,
+struct BitCounts {
+    planes: Vec<[u64; BitCounts::PLANES]>,
     width: u32,
     /// The instants, and how many seconds each stands for.
     instants: u32,
     secs: u32,
 }
 
-impl Counted {
+impl BitCounts {
     const PLANES: usize = 4;
     /// So many instants can be counted.
     const MOST: u32 = (1 << Self::PLANES) - 1;
@@ -116,7 +116,7 @@ impl Sum {
             None => Running::Memory(vec![0; width as usize * height as usize]),
             Some(gpu) => Running::Texture(Box::new(GpuSum::new(gpu, width, height))),
         };
-        Sum { running, counted: Counted::default(), secs: 0, poured: None }
+        Sum { running, counted: BitCounts::default(), secs: 0, poured: None }
     }
 
     /// Goes on from a sum over so many seconds.
@@ -153,7 +153,7 @@ impl Sum {
             (Running::Memory(sum), DrawnMask::Memory(mask)) => add(sum, &mask.share, secs),
             (Running::Memory(sum), DrawnMask::Bits(bits)) => {
                 let counted = &mut self.counted;
-                if counted.secs != secs || counted.instants == Counted::MOST {
+                if counted.secs != secs || counted.instants == BitCounts::MOST {
                     counted.add_to(sum);
                     counted.secs = secs;
                 }

@@ -92,7 +92,7 @@ const PAD: u64 = 2;
 
 /// Why a line passes between two cells.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Between {
+enum Parting {
     /// Their numbers part.
     Open,
     /// Something else parts them.
@@ -103,11 +103,11 @@ enum Between {
 
 /// Where a line passes between two cells.
 #[derive(Clone, Copy)]
-struct Crossing {
+struct LineCrossing {
     point: [f64; 2],
     /// Between these: below the threshold, and above it.
     sides: [[f64; 2]; 2],
-    between: Between,
+    between: Parting,
 }
 
 struct Walk<'a> {
@@ -166,7 +166,7 @@ impl Walk<'_> {
         sum > 4 * u128::from(self.threshold) + 2
     }
 
-    fn crossing(&self, pair: u64) -> Crossing {
+    fn crossing(&self, pair: u64) -> LineCrossing {
         let (column, row, south) = (pair / 2 % self.pitch, pair / 2 / self.pitch, pair % 2);
         let ends = [[column, row], [column + 1 - south, row + south]];
         let centre = |[column, row]: [u64; 2]| {
@@ -177,20 +177,20 @@ impl Walk<'_> {
         let (Some(a), Some(b)) = (self.cell(ends[0][0], ends[0][1]), self.cell(ends[1][0], ends[1][1])) else {
             // the one outside is as far away as the border, and so is the one that stands in
             let point = centres[usize::from(self.cell(ends[0][0], ends[0][1]).is_none())];
-            return Crossing { point, sides: [point; 2], between: Between::Border };
+            return LineCrossing { point, sides: [point; 2], between: Parting::Border };
         };
-        let between = if (self.field.open)(a, b) { Between::Open } else { Between::Wall };
+        let between = if (self.field.open)(a, b) { Parting::Open } else { Parting::Wall };
         let sides = if (self.field.value)(a) > self.threshold { [centres[1], centres[0]] } else { centres };
-        Crossing { point: mix(centres[0], centres[1], 0.5), sides, between }
+        LineCrossing { point: mix(centres[0], centres[1], 0.5), sides, between }
     }
 }
 
 /// A ring of crossings with the corners that it needs.
-fn straightened(mut ring: Vec<Crossing>) -> Contour {
+fn straightened(mut ring: Vec<LineCrossing>) -> Contour {
     let count = ring.len();
-    let is_drawn = |ring: &[Crossing], at: usize| {
+    let is_drawn = |ring: &[LineCrossing], at: usize| {
         let ends = [ring[at % count].between, ring[(at + 1) % count].between];
-        ends.contains(&Between::Open) && !ends.contains(&Between::Border)
+        ends.contains(&Parting::Open) && !ends.contains(&Parting::Border)
     };
     // what is drawn begins and ends with points of its own
     let change = (1..count).find(|&at| is_drawn(&ring, at - 1) != is_drawn(&ring, at));
@@ -212,7 +212,7 @@ fn straightened(mut ring: Vec<Crossing>) -> Contour {
 }
 
 /// Pulls crossings towards the straight way between others before and behind them, as far as their sides let them.
-fn pull(ring: &mut [Crossing]) {
+fn pull(ring: &mut [LineCrossing]) {
     let last = ring.len() - 1;
     for away in [128, 64, 32, 16, 8, 4, 2, 1] {
         for at in 1..last {
@@ -222,11 +222,11 @@ fn pull(ring: &mut [Crossing]) {
                 continue;
             }
             let [before, behind] = [ring[at - away].point, ring[at + away].point];
-            let Crossing { sides: [low, high], between, .. } = ring[at];
+            let LineCrossing { sides: [low, high], between, .. } = ring[at];
             let along = sub(behind, before);
             let [left, right] = [low, high].map(|side| cross(along, sub(side, before)));
             // from the back a line passes between no cells
-            if between != Between::Border && right - left > 1e-9 {
+            if between != Parting::Border && right - left > 1e-9 {
                 let share = left / (left - right);
                 ring[at].point = mix(low, high, share.clamp(2.0 * CLEAR, 1.0 - 2.0 * CLEAR));
             }
@@ -235,7 +235,7 @@ fn pull(ring: &mut [Crossing]) {
 }
 
 /// How many crossings on a straight line from the first one may end: found by leaps that double, and then halve.
-fn reach(ring: &[Crossing]) -> usize {
+fn reach(ring: &[LineCrossing]) -> usize {
     let last = ring.len() - 1;
     let (mut reach, mut leap) = (1, 1);
     while reach + leap <= last && is_straight(&ring[..=reach + leap]) {
@@ -252,7 +252,7 @@ fn reach(ring: &[Crossing]) -> usize {
 }
 
 /// Whether the straight line from the first to the last passes between the same cells, in the same order and direction.
-fn is_straight(ring: &[Crossing]) -> bool {
+fn is_straight(ring: &[LineCrossing]) -> bool {
     let [first, between @ .., last] = ring else { return true };
     let along = sub(last.point, first.point);
     let square = dot(along, along);
@@ -262,7 +262,7 @@ fn is_straight(ring: &[Crossing]) -> bool {
     let mut before = 0.0;
     between.iter().all(|crossing| {
         let [low, high] = crossing.sides.map(|side| sub(side, first.point));
-        let hit = if crossing.between == Between::Border {
+        let hit = if crossing.between == Parting::Border {
             if cross(along, low).abs() > 1e-9 * square.sqrt() {
                 return false;
             }

@@ -11,7 +11,7 @@ use crate::volume::layers_bound;
 use wgpu::CommandEncoder;
 
 /// Walls, and the most that they count.
-pub(super) type Found<'a> = (&'a dyn Walls, u32);
+pub(super) type CountedWalls<'a> = (&'a dyn Walls, u32);
 
 /// Casters, their walls, and their halves where they are too many. Walls and halves are made when first needed.
 pub(super) struct Batch {
@@ -48,7 +48,7 @@ impl Batch {
         sought: WallQuery,
         most_counted: u32,
         encoder: &mut CommandEncoder,
-        found: &mut Vec<Found<'a>>,
+        found: &mut Vec<CountedWalls<'a>>,
     ) -> Result<(), GpuError> {
         let halved = self.even && !sought.with_cap;
         let faces = self.mesh.faces.len() as u32;

@@ -10,7 +10,7 @@
 //!
 //! It is wrong where a caster, or a gap, is so thin that the four texels around it miss it together.
 
-use super::counting::{Bits, Counting};
+use super::counting::{StencilBits, VolumeCounter};
 use super::light_view::Smoothies;
 use super::map::{DepthMap, compared_layout};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
@@ -23,7 +23,7 @@ use wgpu::*;
 
 /// The technique, made for one scene and one view.
 pub struct Hybrid {
-    counting: Counting,
+    counting: VolumeCounter,
     map: DepthMap,
     compared: BindGroup,
     decided: RenderPipeline,
@@ -31,7 +31,7 @@ pub struct Hybrid {
 }
 
 /// Every cell counts until the map decides it.
-const ALL_COUNT: LoadOp<u32> = LoadOp::Clear(Bits::MASK);
+const ALL_COUNT: LoadOp<u32> = LoadOp::Clear(StencilBits::MASK);
 
 impl Hybrid {
     /// Draws what is seen, uploads the casters, builds the pipelines; the map has `map_size` texels a side.
@@ -42,7 +42,7 @@ impl Hybrid {
         silhouettes: impl Into<Silhouettes>,
         map_size: u32,
     ) -> Result<Hybrid, ShadowError> {
-        let counting = Counting::new(Arc::clone(&gpu), scene, view, silhouettes.into(), Bits::BelowMask)?;
+        let counting = VolumeCounter::new(Arc::clone(&gpu), scene, view, silhouettes.into(), StencilBits::BelowMask)?;
         let map = DepthMap::new(&counting.scene, &counting.surface, map_size, 0.0)?;
         let group = compared_layout(&gpu, &[]);
         let compared = gpu.bind("hybrid", &group, &[(0, BindingResource::TextureView(&whole(&map.depth)))]);
@@ -51,7 +51,7 @@ impl Hybrid {
             format: COUNTED,
             depth_write_enabled: Some(false),
             depth_compare: Some(CompareFunction::Always),
-            stencil: StencilState { front: drop_bit, back: drop_bit, read_mask: 0, write_mask: Bits::MASK },
+            stencil: StencilState { front: drop_bit, back: drop_bit, read_mask: 0, write_mask: StencilBits::MASK },
             bias: DepthBiasState::default(),
         };
         let stages = Stages {
@@ -131,12 +131,13 @@ impl Technique for Hybrid {
         let mut encoder = self.counting.surface.encoder();
         let everywhere = Operations { load: ALL_COUNT, store: StoreOp::Discard };
         let all = self.counting.find(to_sun, &mut encoder)?.fragments(encoder, Some(everywhere))?;
-        let decided = bits.iter().zip(&share).map(|(bits, share)| match (*bits >= Bits::MASK as u8, *share > 0) {
-            (true, true) => Decided::VolumeLight,
-            (true, false) => Decided::VolumeShadow,
-            (false, true) => Decided::MapLight,
-            (false, false) => Decided::MapShadow,
-        });
+        let decided =
+            bits.iter().zip(&share).map(|(bits, share)| match (*bits >= StencilBits::MASK as u8, *share > 0) {
+                (true, true) => Decided::VolumeLight,
+                (true, false) => Decided::VolumeShadow,
+                (false, true) => Decided::MapLight,
+                (false, false) => Decided::MapShadow,
+            });
         let (width, height) = self.counting.view.size();
         let all = all.iter().map(|&fragments| u64::from(fragments)).sum();
         Ok(Some(FragmentCounts { width, height, reached, all, decided: Some(decided.collect()) }))

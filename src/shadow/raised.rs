@@ -143,7 +143,7 @@ impl Raised {
             for &face in faces.iter().flat_map(|bands| &bands[band]) {
                 let vertices = self.faces.faces[face as usize];
                 let corner = |vertex: u32| places[vertex as usize].extend(tops[vertex as usize].z);
-                if let Some(falling) = Falling::new(vertices, vertices.map(corner)) {
+                if let Some(falling) = FallingFace::new(vertices, vertices.map(corner)) {
                     sorted.hold_against(&buckets, &falling, &mut shaded);
                 }
             }
@@ -260,7 +260,7 @@ impl Sorted {
     }
 
     /// Marks the points that a face covers and is higher than.
-    fn hold_against(&self, buckets: &Buckets, face: &Falling, shaded: &mut [u8]) {
+    fn hold_against(&self, buckets: &Buckets, face: &FallingFace, shaded: &mut [u8]) {
         let last = (self.first + buckets.band_rows).min(buckets.rows) - 1;
         let rows = buckets.row(face.low.y).max(self.first)..=buckets.row(face.high.y).min(last);
         let is_small = rows.clone().count() <= 2;
@@ -287,7 +287,7 @@ impl Sorted {
 }
 
 /// A caster's face as the sun sees it.
-struct Falling {
+struct FallingFace {
     corners: [DVec3; 3],
     low: DVec3,
     high: DVec3,
@@ -297,9 +297,9 @@ struct Falling {
     height: DVec3,
 }
 
-impl Falling {
+impl FallingFace {
     /// None where the sun sees it from its edge: then it shades nothing.
-    fn new(vertices: [u32; 3], corners: [DVec3; 3]) -> Option<Falling> {
+    fn new(vertices: [u32; 3], corners: [DVec3; 3]) -> Option<FallingFace> {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
         if normal.z == 0.0 {
@@ -314,7 +314,7 @@ impl Falling {
             if is_turned == (normal.z > 0.0) { -line } else { line }
         };
         let slope = -normal.xy() / normal.z;
-        Some(Falling {
+        Some(FallingFace {
             corners,
             low: a.min(b).min(c),
             high: a.max(b).max(c),

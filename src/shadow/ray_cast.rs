@@ -129,7 +129,7 @@ impl Shear {
 
 /// Where a cell's ray from the viewer ends.
 #[derive(Clone, Copy)]
-pub(super) struct Seen {
+pub(super) struct RayEnd {
     /// A face of the receivers, or [`Surface::GROUND`], or [`Surface::SKY`].
     pub(super) face: u32,
     /// Along the cell's ray, metres.
@@ -142,7 +142,7 @@ pub struct RayCast {
     rays: Rays,
     receivers: RayCaster,
     casters: RayCaster,
-    seen: Vec<Seen>,
+    seen: Vec<RayEnd>,
     mask: Mask,
     sun_samples: Option<u32>,
 }
@@ -190,7 +190,7 @@ impl RayCast {
     fn look_at_part(&mut self, view: View, (first, [width, height]): ([u32; 2], [u32; 2])) {
         self.rays = Rays { first, ..Rays::new(&self.scene, view) };
         let RayCast { scene, rays, receivers, seen, mask, .. } = self;
-        *seen = vec![Seen { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
+        *seen = vec![RayEnd { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
         seen.par_chunks_mut(width as usize).enumerate().for_each(|(row, cells)| {
             for (column, cell) in cells.iter_mut().enumerate() {
                 *cell = look(scene, receivers, rays.of(column as u32, row as u32));
@@ -200,7 +200,7 @@ impl RayCast {
     }
 
     /// What the cells see, row 0 first.
-    pub(super) fn seen(&self) -> &[Seen] {
+    pub(super) fn seen(&self) -> &[RayEnd] {
         &self.seen
     }
 
@@ -218,7 +218,7 @@ impl RayCast {
     /// Which share of those a cell sees.
     pub(super) fn share(&self, at: usize, suns: &[(DVec3, Shear)]) -> u8 {
         let RayCast { rays, casters, seen, mask, .. } = self;
-        let Seen { face, distance } = seen[at];
+        let RayEnd { face, distance } = seen[at];
         // nor is cut earth asked
         if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
             return 255;
@@ -245,7 +245,7 @@ impl RayCast {
     /// How many rays a mask takes: one for each point of the sun and each cell whose seen side it shines on.
     pub fn rays(&self, to_sun: DVec3) -> usize {
         let suns = self.suns(to_sun);
-        let of_cell = |seen: &Seen| {
+        let of_cell = |seen: &RayEnd| {
             if seen.face == Surface::SKY {
                 return 0;
             }
@@ -266,7 +266,7 @@ impl RayCast {
         let (from, along) = rays.of(column, row);
         let faces = hits(&scene.receivers, from, &Shear::along(along));
         let first = faces.into_iter().min_by(|(_, one), (_, other)| one.total_cmp(other));
-        let Seen { face, distance } = seen(scene, (from, along), first);
+        let RayEnd { face, distance } = seen(scene, (from, along), first);
         if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
             return 255;
         }
@@ -336,24 +336,24 @@ impl Rays {
     }
 }
 
-fn look(scene: &Scene, receivers: &RayCaster, ray: (DVec3, DVec3)) -> Seen {
+fn look(scene: &Scene, receivers: &RayCaster, ray: (DVec3, DVec3)) -> RayEnd {
     seen(scene, ray, receivers.first_hit(ray.0, ray.1))
 }
 
 /// What a ray sees whose first face that is.
-fn seen(scene: &Scene, (origin, direction): (DVec3, DVec3), first_hit: Option<(u32, f64)>) -> Seen {
+fn seen(scene: &Scene, (origin, direction): (DVec3, DVec3), first_hit: Option<(u32, f64)>) -> RayEnd {
     // a level ray that begins below the ground sees the earth that is cut there
     if direction.z == 0.0 && origin.z + scene.casters.origin.z < scene.ground {
-        return Seen { face: Surface::GROUND, distance: 0.0 };
+        return RayEnd { face: Surface::GROUND, distance: 0.0 };
     }
     let to_ground = (scene.ground - scene.casters.origin.z - origin.z) / direction.z;
     let ground = if to_ground > 0.0 && to_ground.is_finite() {
-        Seen { face: Surface::GROUND, distance: to_ground }
+        RayEnd { face: Surface::GROUND, distance: to_ground }
     } else {
-        Seen { face: Surface::SKY, distance: f64::INFINITY }
+        RayEnd { face: Surface::SKY, distance: f64::INFINITY }
     };
     match first_hit {
-        Some((face, distance)) if distance <= ground.distance => Seen { face, distance },
+        Some((face, distance)) if distance <= ground.distance => RayEnd { face, distance },
         _ => ground,
     }
 }
@@ -399,7 +399,7 @@ impl Technique for RayCast {
 
     fn surface(&self) -> Result<Surface, ShadowError> {
         let Mask { width, height, .. } = self.mask;
-        let height_of = |(at, seen): (usize, &Seen)| {
+        let height_of = |(at, seen): (usize, &RayEnd)| {
             let (origin, direction) = self.rays.of(at as u32 % width, at as u32 / width);
             if seen.face == Surface::SKY {
                 f32::NAN

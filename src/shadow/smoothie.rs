@@ -39,7 +39,7 @@ pub struct Smoothie {
     finder: Box<dyn SilhouetteFinder>,
     asked: Smoothies,
     /// What receives and does not cast, where there is any.
-    receivers: Option<Receivers>,
+    receivers: Option<SmoothieReceivers>,
     smoothies: Layer,
     edges: Buffer,
     /// What is uploaded; kept for its memory.
@@ -51,7 +51,7 @@ pub struct Smoothie {
 }
 
 /// What receives and does not cast, and the smoothies on what lies behind it.
-struct Receivers {
+struct SmoothieReceivers {
     triangles: Triangles,
     depth: Texture,
     beyond: Layer,
@@ -117,7 +117,7 @@ impl Smoothie {
             ),
         };
         let smoothies = layer("alpha");
-        let receivers = (!triangles.is_empty()).then(|| Receivers {
+        let receivers = (!triangles.is_empty()).then(|| SmoothieReceivers {
             triangles,
             depth: depth(&gpu, "smoothie.receivers", map_size),
             beyond: layer("alpha_beyond"),
@@ -195,7 +195,7 @@ impl Smoothie {
         map.aim(local_light, asked);
         let mut encoder = surface.encoder();
         map.draw(surface, &mut encoder);
-        if let Some(Receivers { triangles, depth, .. }) = &self.receivers {
+        if let Some(SmoothieReceivers { triangles, depth, .. }) = &self.receivers {
             map.draw_triangles(surface, &mut encoder, depth, triangles);
         }
         let layers = [Some(&self.smoothies), self.receivers.as_ref().map(|receivers| &receivers.beyond)];

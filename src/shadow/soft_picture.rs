@@ -10,7 +10,7 @@
 //! picture that is: patches too thin for a texel (curved bodies), what is not seen from its outer side, and a ground on
 //! which shadows are too long.
 
-use super::ray_cast::{RayCast, Seen};
+use super::ray_cast::{RayCast, RayEnd};
 use super::soft_texture::{Choice, Fill, Painter, Sample, SoftTexture};
 use super::{DrawnMask, Scene, ShadowError, Technique};
 use crate::mesh::patches::{MOST_PAGE, MOST_TEXELS, Patch, Patches, Texel};
@@ -28,7 +28,7 @@ pub struct SoftPicture {
     samples: u32,
     /// Of all receivers, with every texel.
     patches: Patches,
-    looks: Vec<Look>,
+    looks: Vec<PixelTarget>,
     mask: Mask,
     /// Pixels of the last mask that rays judged as there is no texture.
     by_rays: usize,
@@ -36,7 +36,7 @@ pub struct SoftPicture {
 
 /// What a pixel sees, and so how it is judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Look {
+enum PixelTarget {
     Sky,
     /// What has no texture.
     Bare,
@@ -47,7 +47,7 @@ enum Look {
 }
 
 /// A texel: its patch, row and column.
-type Place = (u32, u16, u16);
+type TexelIndex = (u32, u16, u16);
 
 impl SoftPicture {
     /// Finds what the pixels see, and the patches.
@@ -82,7 +82,7 @@ impl SoftPicture {
         let more = (high - low) * 0.1 + 1.0;
         let within = |at: &DVec2| at.cmpge(low - more).all() && at.cmple(high + more).all();
         let [low, high] = bounds(self.looks.iter().filter_map(|look| match look {
-            Look::Ground(at) => Some(*at).filter(within),
+            PixelTarget::Ground(at) => Some(*at).filter(within),
             _ => None,
         }));
         (low.x <= high.x).then_some([low, high])
@@ -115,7 +115,7 @@ impl SoftPicture {
     }
 
     /// The texels around a place of a patch, each with how much it weighs, as far as they are judged.
-    fn around(&self, patch: u32, at: DVec2, ground: Option<&Patch>) -> impl Iterator<Item = (Place, f64)> {
+    fn around(&self, patch: u32, at: DVec2, ground: Option<&Patch>) -> impl Iterator<Item = (TexelIndex, f64)> {
         let size = match self.patches.list.get(patch as usize) {
             Some(patch) => [patch.width, patch.height],
             None => ground.map_or([0; 2], |ground| [ground.width, ground.height]),
@@ -133,14 +133,14 @@ impl SoftPicture {
     }
 
     /// Whether a texel lies in its patch.
-    fn is_judged(&self, (patch, row, column): Place) -> bool {
+    fn is_judged(&self, (patch, row, column): TexelIndex) -> bool {
         let Some(patch) = self.patches.list.get(patch as usize) else { return true };
         let texels = &self.patches.texels[patch.texels.start as usize..patch.texels.end as usize];
         texels.binary_search_by_key(&(row, column), |texel| (texel.row, texel.column)).is_ok()
     }
 
     /// How many points of the disc each of these texels sees; sorted by patch.
-    fn counts(&self, places: &[Place], ground: Option<&Patch>, to_sun: DVec3) -> Result<Vec<u32>, ShadowError> {
+    fn counts(&self, places: &[TexelIndex], ground: Option<&Patch>, to_sun: DVec3) -> Result<Vec<u32>, ShadowError> {
         let mut seen = Patches { list: Vec::new(), texels: Vec::new(), faces: Vec::new(), ..self.patches.clone() };
         for of_patch in places.chunk_by(|one, other| one.0 == other.0) {
             let Some(patch) = self.patches.list.get(of_patch[0].0 as usize).or(ground) else { continue };
@@ -163,17 +163,17 @@ impl Technique for SoftPicture {
         let ground = shaded.and_then(|shaded| self.ground(shaded));
         let of_ground = self.patches.list.len() as u32;
         // where a pixel looks for texels; none where rays are cast
-        let look = |look: &Look| match *look {
-            Look::Sky | Look::Bare => None,
-            Look::Patch(patch, at) => Some((patch, at)),
-            Look::Ground(at) => {
+        let look = |look: &PixelTarget| match *look {
+            PixelTarget::Sky | PixelTarget::Bare => None,
+            PixelTarget::Patch(patch, at) => Some((patch, at)),
+            PixelTarget::Ground(at) => {
                 let from_corner = (at - ground.as_ref()?.corner.truncate()) / self.patches.cell;
                 Some((of_ground, DVec2::new(from_corner.x, -from_corner.y)))
             }
         };
         let around =
-            |seen: &Look| look(seen).into_iter().flat_map(|(patch, at)| self.around(patch, at, ground.as_ref()));
-        let mut places: Vec<Place> = self.looks.par_iter().flat_map_iter(around).map(|(place, _)| place).collect();
+            |seen: &PixelTarget| look(seen).into_iter().flat_map(|(patch, at)| self.around(patch, at, ground.as_ref()));
+        let mut places: Vec<TexelIndex> = self.looks.par_iter().flat_map_iter(around).map(|(place, _)| place).collect();
         places.par_sort_unstable();
         places.dedup();
         let counts = self.counts(&places, ground.as_ref(), to_sun)?;
@@ -191,8 +191,8 @@ impl Technique for SoftPicture {
                 }
             }
             match self.looks[at] {
-                Look::Sky => (255, false),
-                Look::Ground(at) if !is_shaded(at) => (255, false),
+                PixelTarget::Sky => (255, false),
+                PixelTarget::Ground(at) if !is_shaded(at) => (255, false),
                 _ if weights > 0.0 && most - least > self.samples / 2 => (self.cast.share(at, &suns), false),
                 _ if weights > 0.0 => ((255.0 * sum / (weights * f64::from(self.samples))).round() as u8, false),
                 _ => (self.cast.share(at, &suns), true),
@@ -209,7 +209,7 @@ impl Technique for SoftPicture {
     }
 
     fn note(&self) -> Option<String> {
-        let seen = self.looks.iter().filter(|look| **look != Look::Sky).count();
+        let seen = self.looks.iter().filter(|look| **look != PixelTarget::Sky).count();
         let percent = 100.0 * self.by_rays as f64 / seen.max(1) as f64;
         let part = if percent < 0.1 { "less than 0.1%".to_owned() } else { format!("{percent:.1}%") };
         (self.by_rays > 0).then(|| {
@@ -222,7 +222,7 @@ impl Technique for SoftPicture {
 }
 
 /// What the pixels see.
-fn looks(scene: &Scene, cast: &RayCast, patches: &Patches, width: u32) -> Vec<Look> {
+fn looks(scene: &Scene, cast: &RayCast, patches: &Patches, width: u32) -> Vec<PixelTarget> {
     let mut patch_of = vec![u32::MAX; scene.receivers.faces.len()];
     for (number, patch) in (0..).zip(&patches.list) {
         for &face in &patches.faces[patch.faces.start as usize..patch.faces.end as usize] {
@@ -230,21 +230,21 @@ fn looks(scene: &Scene, cast: &RayCast, patches: &Patches, width: u32) -> Vec<Lo
         }
     }
     let look = |at: usize| {
-        let Seen { face, distance } = cast.seen()[at];
+        let RayEnd { face, distance } = cast.seen()[at];
         let (from, along) = cast.ray(at as u32 % width, at as u32 / width);
         let point = from + along * distance;
         match face {
-            Surface::SKY => Look::Sky,
-            Surface::GROUND => Look::Ground(point.truncate()),
+            Surface::SKY => PixelTarget::Sky,
+            Surface::GROUND => PixelTarget::Ground(point.truncate()),
             _ => {
                 let number = patch_of[face as usize];
-                let Some(patch) = patches.list.get(number as usize) else { return Look::Bare };
+                let Some(patch) = patches.list.get(number as usize) else { return PixelTarget::Bare };
                 let is_outer = !patch.two_sided && patch.normal().dot(along) < 0.0;
                 if !is_outer || patch.alone.is_some() {
-                    return Look::Bare;
+                    return PixelTarget::Bare;
                 }
                 let from_corner = (point - patch.corner) / patches.cell;
-                Look::Patch(number, DVec2::new(from_corner.dot(patch.right), from_corner.dot(patch.down)))
+                PixelTarget::Patch(number, DVec2::new(from_corner.dot(patch.right), from_corner.dot(patch.down)))
             }
         }
     };

@@ -5,7 +5,7 @@
 //!
 //! Deviation from seed 004: the general rule of [`crate::silhouette`] instead of well-wound closed meshes alone.
 
-use super::counting::{Bits, Counting};
+use super::counting::{StencilBits, VolumeCounter};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
@@ -16,7 +16,7 @@ use wgpu::*;
 
 /// The technique, made for one scene and one view.
 pub struct Stencil {
-    counting: Counting,
+    counting: VolumeCounter,
     facing: RenderPipeline,
     mask: Texture,
 }
@@ -29,7 +29,7 @@ impl Stencil {
         view: View,
         silhouettes: impl Into<Silhouettes>,
     ) -> Result<Stencil, ShadowError> {
-        let counting = Counting::new(Arc::clone(&gpu), scene, view, silhouettes.into(), Bits::All)?;
+        let counting = VolumeCounter::new(Arc::clone(&gpu), scene, view, silhouettes.into(), StencilBits::All)?;
         let mask = counting.surface.mask("stencil.mask");
         let always = DepthStencilState {
             format: COUNTED,

@@ -27,9 +27,9 @@ pub const PAPER_DEPTH: u32 = 4;
 #[derive(Clone, Debug)]
 pub struct Hextree {
     /// Centres the mesh and scales it to radius 1: else n·p drowns n, and all duals crowd at w = ±1.
-    frame: Frame,
+    frame: DualFrame,
     /// The root first; the children of a node in a row.
-    nodes: Vec<Node>,
+    nodes: Vec<HextreeNode>,
     /// Edges of the mesh, grouped by node.
     edges: Vec<u32>,
     /// Edges with one face or more than two.
@@ -37,7 +37,7 @@ pub struct Hextree {
 }
 
 #[derive(Clone, Debug)]
-struct Node {
+struct HextreeNode {
     low: DVec4,
     size: f64,
     edges: Range<u32>,
@@ -56,7 +56,7 @@ const MARGIN: f64 = 1e-9;
 impl Hextree {
     /// Builds the tree, at most `depth` levels below its root ([`DEEPEST`] at the most).
     pub fn new(mesh: &Mesh, depth: u32) -> Hextree {
-        let frame = Frame::around(mesh);
+        let frame = DualFrame::around(mesh);
         let mut always = Vec::new();
         let mut duals = Vec::new();
         for edge in 0..mesh.edges.len() as u32 {
@@ -68,7 +68,7 @@ impl Hextree {
                 always.push(edge);
             }
         }
-        let root = Node { low: DVec4::splat(-1.0), size: 2.0, edges: 0..duals.len() as u32, children: 0..0 };
+        let root = HextreeNode { low: DVec4::splat(-1.0), size: 2.0, edges: 0..duals.len() as u32, children: 0..0 };
         let mut tree = Hextree { frame, nodes: vec![root], edges: Vec::new(), always };
         tree.split(0, &mut duals, depth.min(DEEPEST));
         tree.edges = duals.iter().map(|dual| dual.edge).collect();
@@ -77,7 +77,7 @@ impl Hextree {
 
     /// Keeps in a node the edges that straddle its children, and hands down the others.
     fn split(&mut self, node: usize, duals: &mut [DualEdge], depth: u32) {
-        let Node { low, size, ref edges, .. } = self.nodes[node];
+        let HextreeNode { low, size, ref edges, .. } = self.nodes[node];
         let whole = edges.start as usize..edges.end as usize;
         if depth == 0 || whole.len() < 2 {
             return;
@@ -100,7 +100,12 @@ impl Hextree {
                 None => self.nodes[node].edges = edges,
                 Some(index) => {
                     let corner = DVec4::from_array([0, 1, 2, 3].map(|axis| f64::from(index >> axis & 1)));
-                    self.nodes.push(Node { low: low + corner * size / 2.0, size: size / 2.0, edges, children: 0..0 });
+                    self.nodes.push(HextreeNode {
+                        low: low + corner * size / 2.0,
+                        size: size / 2.0,
+                        edges,
+                        children: 0..0,
+                    });
                 }
             }
         }
@@ -116,7 +121,7 @@ impl Hextree {
 
     /// Bytes that the tree takes.
     pub fn bytes(&self) -> usize {
-        self.nodes.len() * size_of::<Node>() + (self.edges.len() + self.always.len()) * size_of::<u32>()
+        self.nodes.len() * size_of::<HextreeNode>() + (self.edges.len() + self.always.len()) * size_of::<u32>()
     }
 }
 
@@ -156,20 +161,20 @@ impl SilhouetteFinder for Hextree {
 
 /// The frame in which planes become points of the hypercube [−1, 1]⁴: the mesh centred, and of radius 1.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(super) struct DualFrame {
     centre: DVec3,
     radius: f64,
 }
 
-impl Frame {
+impl DualFrame {
     /// The frame of planes with w = 0, which suns alone ask.
-    pub(super) const OF_SUNS: Frame = Frame { centre: DVec3::ZERO, radius: 1.0 };
+    pub(super) const OF_SUNS: DualFrame = DualFrame { centre: DVec3::ZERO, radius: 1.0 };
 
     /// The frame of a mesh, around its origin.
-    pub(super) fn around(mesh: &Mesh) -> Frame {
+    pub(super) fn around(mesh: &Mesh) -> DualFrame {
         let (low, high) = mesh.bounds().unwrap_or_default();
         let radius = ((high - low).length() / 2.0).max(f64::MIN_POSITIVE);
-        Frame { centre: (low + high) / 2.0 - mesh.origin, radius }
+        DualFrame { centre: (low + high) / 2.0 - mesh.origin, radius }
     }
 
     /// A plane as a point of length 1; 0 where a face has no area.

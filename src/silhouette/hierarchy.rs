@@ -11,7 +11,7 @@
 //!
 //! Suns and lamps have a hierarchy each, built when first asked.
 
-use super::hextree::Frame;
+use super::hextree::DualFrame;
 use super::{DirectedEdge, Looked, SilhouetteFinder, append};
 use crate::mesh::{Mesh, plane_faces};
 use glam::{DVec4, Vec4};
@@ -57,17 +57,17 @@ impl SilhouetteFinder for Hierarchy {
 /// The edges of one mesh, grouped by what decides whether they are silhouette.
 #[derive(Debug)]
 pub struct Classes {
-    frame: Frame,
+    frame: DualFrame,
     /// Distinct planes; for suns, distinct normals, with w = 0.
     planes: Vec<DVec4>,
     /// The root first.
-    nodes: Vec<Node>,
+    nodes: Vec<HierarchyNode>,
     /// In the order of the leaves.
-    pairs: Vec<Pair>,
+    pairs: Vec<PlanePair>,
     /// The dual of each pair, beside it.
     segments: Vec<[Vec4; 2]>,
     /// Classes that no segment stands for; every query tests them.
-    sums: Vec<Sum>,
+    sums: Vec<PlaneSum>,
     /// Grouped by class.
     edges: Vec<DirectedEdge>,
 }
@@ -83,7 +83,7 @@ pub struct ClassEdges {
 
 /// Edges between two planes: each plane's sum of directions is `times`, or `turned` for the second its opposite.
 #[derive(Clone, Copy, Debug)]
-struct Pair {
+struct PlanePair {
     planes: [u32; 2],
     times: i32,
     turned: bool,
@@ -93,7 +93,7 @@ struct Pair {
 
 /// Edges with any faces: the sum of directions in each plane.
 #[derive(Debug)]
-struct Sum {
+struct PlaneSum {
     terms: Vec<(u32, i32)>,
     edges: Range<u32>,
 }
@@ -101,7 +101,7 @@ struct Sum {
 /// Eight children: a box around the segments of each, and a sphere in the same middle. Their numbers lie side by side,
 /// as the processor takes them.
 #[derive(Clone, Copy, Debug)]
-struct Node {
+struct HierarchyNode {
     centre: [[f32; WIDTH]; 4],
     half: [[f32; WIDTH]; 4],
     /// Below every distance where there is no child.
@@ -151,19 +151,19 @@ impl Classes {
         of_pairs.par_sort_unstable();
         of_sums.par_sort_unstable();
 
-        let frame = if of_suns { Frame::OF_SUNS } else { Frame::around(mesh) };
+        let frame = if of_suns { DualFrame::OF_SUNS } else { DualFrame::around(mesh) };
         let mut edges = Vec::with_capacity(of_pairs.len() + of_sums.len());
         let mut pairs = Vec::new();
         for group in of_pairs.chunk_by(|a, b| (a.0, a.1, a.2) == (b.0, b.1, b.2)) {
             let (planes, times, turned, _) = group[0];
-            pairs.push(Pair { planes, times, turned, first_edge: edges.len() as u32, edges: group.len() as u32 });
+            pairs.push(PlanePair { planes, times, turned, first_edge: edges.len() as u32, edges: group.len() as u32 });
             edges.extend(group.iter().map(|class| class.3));
         }
         let mut sums = Vec::new();
         for group in of_sums.chunk_by(|a, b| a.0 == b.0) {
             let first = edges.len() as u32;
             edges.extend(group.iter().map(|class| class.1));
-            sums.push(Sum { terms: group[0].0.clone(), edges: first..edges.len() as u32 });
+            sums.push(PlaneSum { terms: group[0].0.clone(), edges: first..edges.len() as u32 });
         }
         let mut classes = Classes { frame, planes, nodes: Vec::new(), pairs, segments: Vec::new(), sums, edges };
         classes.bound();
@@ -173,7 +173,7 @@ impl Classes {
     /// Builds the hierarchy over the pairs, and brings them into the order of its leaves.
     fn bound(&mut self) {
         let duals: Vec<DVec4> = self.planes.iter().map(|&plane| self.frame.dual(plane)).collect();
-        let dual = |pair: &Pair| {
+        let dual = |pair: &PlanePair| {
             let [one, other] = pair.planes.map(|plane| duals[plane as usize].as_vec4());
             Segment { ends: [one, if pair.turned { other } else { -other }], pair: *pair }
         };
@@ -210,7 +210,7 @@ impl Classes {
             }
         }
         for (pair, certain, before_first) in crossed {
-            let Pair { planes, times, turned, first_edge, edges } = self.pairs[pair];
+            let PlanePair { planes, times, turned, first_edge, edges } = self.pairs[pair];
             let multiplicity = if certain {
                 // the ends lie on two sides: both planes' sums have the first one's sign
                 if before_first { 2 * times } else { -2 * times }
@@ -237,7 +237,7 @@ impl Classes {
             black_box(level.iter().map(|&at| self.nodes[at as usize].touched()).sum::<f32>());
             let mut below = Vec::new();
             for at in level {
-                let node: &Node = &self.nodes[at as usize];
+                let node: &HierarchyNode = &self.nodes[at as usize];
                 for (child, distance) in node.distances(light).into_iter().enumerate() {
                     visited += usize::from(node.radius[child] >= 0.0);
                     if distance > MARGIN {
@@ -279,9 +279,9 @@ impl Classes {
     pub fn bytes(&self) -> usize {
         let terms: usize = self.sums.iter().map(|sum| sum.terms.len()).sum();
         self.planes.len() * size_of::<DVec4>()
-            + self.nodes.len() * size_of::<Node>()
-            + self.pairs.len() * (size_of::<Pair>() + size_of::<[Vec4; 2]>())
-            + self.sums.len() * size_of::<Sum>()
+            + self.nodes.len() * size_of::<HierarchyNode>()
+            + self.pairs.len() * (size_of::<PlanePair>() + size_of::<[Vec4; 2]>())
+            + self.sums.len() * size_of::<PlaneSum>()
             + terms * size_of::<(u32, i32)>()
             + self.edges.len() * size_of::<DirectedEdge>()
     }
@@ -291,10 +291,10 @@ impl Classes {
 #[derive(Clone, Copy)]
 struct Segment {
     ends: [Vec4; 2],
-    pair: Pair,
+    pair: PlanePair,
 }
 
-impl Node {
+impl HierarchyNode {
     /// Something of each 64 bytes.
     fn touched(&self) -> f32 {
         self.centre[0][0] + self.centre[2][0] + self.half[0][0] + self.half[2][0] + self.radius[0]
@@ -315,10 +315,10 @@ impl Node {
 }
 
 /// Appends the node over some segments and those below it, and brings the segments into the order of the leaves.
-fn bound(segments: &mut [Segment], first: u32, nodes: &mut Vec<Node>) {
+fn bound(segments: &mut [Segment], first: u32, nodes: &mut Vec<HierarchyNode>) {
     let nothing = [0.0; WIDTH];
     let index = nodes.len();
-    nodes.push(Node {
+    nodes.push(HierarchyNode {
         centre: [nothing; 4],
         half: [nothing; 4],
         radius: [f32::NEG_INFINITY; WIDTH],

@@ -63,7 +63,7 @@ pub(super) fn few(mut items: Vec<String>) -> String {
 }
 
 /// A list of names, once it is known which of them there are.
-struct List<'a> {
+struct NameList<'a> {
     /// Those that are meant; where there are none, all are.
     wanted: FxHashSet<Cow<'a, str>>,
     /// Those that are not.
@@ -86,7 +86,7 @@ impl Names {
             Names::All(all) => return vec![*all; components.len()],
             Names::Some(names) => names,
         };
-        let List { wanted, unwanted, is_closed, .. } = list(names, components);
+        let NameList { wanted, unwanted, is_closed, .. } = list(names, components);
         let has = |of: &Component, names: &FxHashSet<Cow<str>>| {
             !names.is_empty() && all_names(of).any(|name| names.contains(&composed(name)))
         };
@@ -103,7 +103,7 @@ impl Names {
     }
 }
 
-fn list<'a>(names: &'a [String], components: &[Component]) -> List<'a> {
+fn list<'a>(names: &'a [String], components: &[Component]) -> NameList<'a> {
     let texts: Vec<Cow<str>> = names.iter().map(|name| composed(name)).collect();
     let negated = |text: &Cow<'a, str>| text.strip_prefix('!').map(|name| Cow::Owned(name.to_owned()));
     // whether there is a component of that name
@@ -131,7 +131,7 @@ fn list<'a>(names: &'a [String], components: &[Component]) -> List<'a> {
             unknown = unknown.or(Some(name.as_str()));
         }
     }
-    List { wanted, unwanted, is_closed, unknown }
+    NameList { wanted, unwanted, is_closed, unknown }
 }
 
 /// All names by which a component may be meant.

@@ -33,7 +33,7 @@ pub(super) struct Buried {
 
 /// What a node comes to, in points: its components, one for each of its materials, together.
 #[derive(Clone, Copy, Default)]
-struct Count {
+struct PointCounts {
     faces: usize,
     covered: usize,
     seen: usize,
@@ -50,7 +50,7 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> 
     let mut highest = vec![(f64::NEG_INFINITY, 0); columns * rows];
     let mut last = vec![usize::MAX; columns * rows];
     let node_of = nodes(&mesh.components);
-    let mut of_nodes = vec![Count::default(); node_of.last().map_or(0, |last| last + 1)];
+    let mut of_nodes = vec![PointCounts::default(); node_of.last().map_or(0, |last| last + 1)];
     let (mut buried, mut seen) = (vec![0; mesh.components.len()], vec![0; mesh.components.len()]);
     for (index, (component, &node)) in mesh.components.iter().zip(&node_of).enumerate() {
         for face in component.faces.clone() {
@@ -83,7 +83,7 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> 
         of_nodes[node_of[component]].seen += 1;
         of_nodes[node_of[component]].buried += is_buried;
     }
-    let of_all = |of: fn(&Count) -> usize| of_nodes.iter().map(of).sum::<usize>();
+    let of_all = |of: fn(&PointCounts) -> usize| of_nodes.iter().map(of).sum::<usize>();
     let (all, hidden) = (of_all(|count| count.seen).max(1), of_all(|count| count.buried));
     let (node, most) = of_nodes.iter().enumerate().max_by_key(|(_, count)| count.buried)?;
     let component = (0..buried.len()).filter(|&at| node_of[at] == node).max_by_key(|&at| buried[at])?;

@@ -2,7 +2,7 @@
 
 use super::again::persist;
 use super::machine::{choose, not_surfaces};
-use super::{Event, Look, OnEvent, StudyError, judged, night, note_models, tell, tiles};
+use super::{Event, OnEvent, SiteView, StudyError, judged, night, note_models, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::profile::Drawn;
@@ -71,7 +71,7 @@ fn from(
     if let View::Plan(grid) = view {
         tiles::at_once(grid, site.receivers, &machine)?;
     }
-    let look = Look { site, machine: &machine, view, receivers: judged(site, &view) };
+    let look = SiteView { site, machine: &machine, view, receivers: judged(site, &view) };
     let mut technique = look.technique()?;
     let surface = look.surface(&*technique)?;
     let (surface_mesh, drawn) = (look.surface_mesh(), machine.drawn());

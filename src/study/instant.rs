@@ -2,7 +2,7 @@
 
 use super::again::persist;
 use super::machine::{choose, counting, not_surfaces, stencil_alone};
-use super::{Event, InstantOutcome, InstantWants, Look, NOTHING_COUNTED, OnEvent, Stopwatch, StudyError};
+use super::{Event, InstantOutcome, InstantWants, NOTHING_COUNTED, OnEvent, SiteView, Stopwatch, StudyError};
 use super::{judged, night, note_models, tell, tiles};
 use crate::gpu::Gpu;
 use crate::message::{Field, aside, message};
@@ -48,7 +48,7 @@ fn once(
         (false, None) => choose(gpu, site, &view, on_event)?,
     };
     let receivers = judged(site, &view);
-    let look = Look { site, machine: &machine, view, receivers };
+    let look = SiteView { site, machine: &machine, view, receivers };
     let tiles = match view {
         View::Plan(grid) => tiles::of_instant(grid, receivers, &machine),
         View::Camera(_) | View::Elevation(_) => Vec::new(),
@@ -117,7 +117,7 @@ fn once(
 
 /// The plan's mask, tile by tile; `technique` is the first one's.
 fn in_tiles(
-    look: &Look<'_>,
+    look: &SiteView<'_>,
     technique: &mut dyn Technique,
     tiles: &[Tile],
     instant: &Instant,

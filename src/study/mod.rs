@@ -366,14 +366,14 @@ pub fn day_and_night(track: &SunTrack) -> (u32, u32) {
 }
 
 /// One view of a site, by one machine.
-struct Look<'a> {
+struct SiteView<'a> {
     site: &'a Site,
     machine: &'a Machine,
     view: View,
     receivers: Receivers,
 }
 
-impl Look<'_> {
+impl SiteView<'_> {
     fn technique(&self) -> Result<Box<dyn Technique>, StudyError> {
         self.machine.technique(self.scene(), self.view)
     }

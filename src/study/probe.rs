@@ -21,7 +21,7 @@ use rayon::prelude::*;
 /// [`StudyError`].
 pub fn probe(asked: &Probing, on_event: &mut OnEvent<'_>) -> Result<Sunlight, StudyError> {
     note_models(&asked.notes, on_event)?;
-    let search = Search::new(asked);
+    let search = ProbeSearch::new(asked);
     let empty = |probe: &Probe| Probed { probe: probe.clone(), days: Vec::new() };
     let mut sunlight = Sunlight {
         step_secs: asked.step_secs,
@@ -47,7 +47,7 @@ pub fn probe(asked: &Probing, on_event: &mut OnEvent<'_>) -> Result<Sunlight, St
 }
 
 /// What a day is searched with.
-struct Search<'a> {
+struct ProbeSearch<'a> {
     place: &'a Place,
     probes: &'a [Probe],
     step: TimeDelta,
@@ -58,12 +58,12 @@ struct Search<'a> {
     rays: RayCaster,
 }
 
-impl Search<'_> {
-    fn new(asked: &Probing) -> Search<'_> {
+impl ProbeSearch<'_> {
+    fn new(asked: &Probing) -> ProbeSearch<'_> {
         let casters = asked.mesh.of_components(&asked.casts);
         let reach = asked.probes.iter().map(|probe| (probe.point - casters.origin).abs().max_element());
         let rays = RayCaster::new(&casters, reach.fold(0.0, f64::max) + JUDGED_ABOVE_M);
-        Search {
+        ProbeSearch {
             place: &asked.place,
             probes: &asked.probes,
             step: TimeDelta::seconds(asked.step_secs.into()),

@@ -2,7 +2,7 @@
 
 use super::again::persist;
 use super::machine::{Machine, choose, counting, not_surfaces};
-use super::{CountingPurpose, Event, Look, OnEvent, Outcome, Stopwatch, StudyError, Wants};
+use super::{CountingPurpose, Event, OnEvent, Outcome, SiteView, Stopwatch, StudyError, Wants};
 use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -188,7 +188,7 @@ fn once(
     let study = tiled.wants.keep_every.map_or(0, |_| tiled.number());
     let TiledStudy { site, wants, machine, tiles, mut watch, .. } = tiled;
     let (day_secs, night_secs) = day_and_night(&site.track);
-    let look = Look { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
+    let look = SiteView { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
     let instants = &site.track.instants;
     let count = tiles.len() * instants.len();
     let mut statistics = wants.statistics.then(Statistics::default);

@@ -5,7 +5,7 @@
 
 use super::again::persist;
 use super::machine::{Machine, not_surfaces, opened};
-use super::{Event, Look, OnEvent, StudyError, day_and_night, note_models, subject, tell, tiles};
+use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_models, subject, tell, tiles};
 use crate::choice::{Engine, Method, MethodRow, Promise, Receivers, TABLE, Truth};
 use crate::gpu::Gpu;
 use crate::mesh::report;
@@ -78,7 +78,7 @@ fn trials(gpu: &Arc<Gpu>, site: &Site, on_event: &mut OnEvent<'_>) -> Result<Vec
                 Engine::Auto | Engine::Cpu => Machine::on_processor(row.method, site),
             };
             tiles::at_once(site.grid, site.receivers, &machine)?;
-            let technique = Look { site, machine: &machine, view, receivers: site.receivers }.technique()?;
+            let technique = SiteView { site, machine: &machine, view, receivers: site.receivers }.technique()?;
             let MethodRow { against, promise, .. } = *row;
             trials.push(Trial { drawn: machine.drawn(), against, promise, technique });
         }
@@ -159,7 +159,7 @@ impl Cast {
     fn new(site: &Site, sun_samples: Option<u32>) -> Cast {
         let machine = Machine::rays(sun_samples);
         let view = View::Plan(site.grid);
-        let scene = Look { site, machine: &machine, view, receivers: site.receivers }.scene();
+        let scene = SiteView { site, machine: &machine, view, receivers: site.receivers }.scene();
         Cast {
             machine,
             view,

@@ -76,7 +76,7 @@ pub fn solids(mesh: &Mesh, casts: &[bool], to_sun: DVec3, ground: f64) -> Result
     let of = |&component: &usize| {
         let caster = &mesh.components[component];
         let half = half_that_casts(mesh, caster);
-        let mut cut = Cut::new(mesh, ground);
+        let mut cut = CutFaces::new(mesh, ground);
         for face in caster.faces.clone() {
             let towards = facing[face as usize];
             let edge_on = mesh.planes()[face as usize].dot(light).abs() <= EDGE_ON;
@@ -111,7 +111,7 @@ fn half_that_casts(mesh: &Mesh, component: &Component) -> Option<bool> {
 }
 
 /// Faces turned to the sun, cut at the ground. What is cut at one edge is cut in one point.
-struct Cut<'a> {
+struct CutFaces<'a> {
     mesh: &'a Mesh,
     ground: f64,
     /// In the world frame, none below the ground.
@@ -121,10 +121,10 @@ struct Cut<'a> {
     triangles: Vec<[u32; 3]>,
 }
 
-impl<'a> Cut<'a> {
+impl<'a> CutFaces<'a> {
     fn new(mesh: &'a Mesh, ground: f64) -> Self {
         let (of_vertex, of_edge) = Default::default();
-        Cut { mesh, ground, points: Vec::new(), of_vertex, of_edge, triangles: Vec::new() }
+        CutFaces { mesh, ground, points: Vec::new(), of_vertex, of_edge, triangles: Vec::new() }
     }
 
     /// Adds what of a face is above the ground; a face in the ground throws no shadow on it.

@@ -22,13 +22,13 @@ const MOST_BYTES: u64 = 500;
 
 /// Folders that are locked until this is dropped.
 pub struct Workplace {
-    held: Vec<Held>,
+    held: Vec<FolderLock>,
     /// Those on disks that know no locks, and what the system said.
     unlocked: Vec<(PathBuf, io::Error)>,
 }
 
 /// A lock. It ends with the file.
-struct Held {
+struct FolderLock {
     folder: PathBuf,
     file: File,
 }
@@ -54,7 +54,7 @@ impl Workplace {
                 continue;
             }
             match lock(&folder, asked, who)? {
-                Ok(file) => place.held.push(Held { folder, file }),
+                Ok(file) => place.held.push(FolderLock { folder, file }),
                 Err(error) => place.unlocked.push((asked.to_owned(), error)),
             }
         }
@@ -85,7 +85,7 @@ impl Workplace {
     }
 }
 
-impl Drop for Held {
+impl Drop for FolderLock {
     fn drop(&mut self) {
         let path = self.folder.join(NAME);
         // where somebody made the folder anew the file there is another's

@@ -23,7 +23,7 @@ impl Counts {
     }
 
     pub(super) fn palette(self) -> Palette {
-        let mut colours: Vec<Counted> = self.0.into_iter().collect();
+        let mut colours: Vec<ColourCount> = self.0.into_iter().collect();
         // a map's order is not the same everywhere
         colours.sort_unstable();
         let mut boxes = vec![Box::of(colours)];
@@ -39,11 +39,11 @@ impl Counts {
     }
 }
 
-type Counted = (Rgb, u64);
+type ColourCount = (Rgb, u64);
 
 /// Some colours that are near each other.
 struct Box {
-    colours: Vec<Counted>,
+    colours: Vec<ColourCount>,
     /// In which part they differ most, and its mean.
     part: usize,
     mean: f64,
@@ -52,7 +52,7 @@ struct Box {
 }
 
 impl Box {
-    fn of(colours: Vec<Counted>) -> Box {
+    fn of(colours: Vec<ColourCount>) -> Box {
         let pixels = colours.iter().map(|(_, count)| *count as f64).sum::<f64>().max(1.0);
         let of_part = |part: usize| {
             let sum = |value: &dyn Fn(f64) -> f64| {

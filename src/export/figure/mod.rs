@@ -219,14 +219,14 @@ fn instant_as<T>(
 }
 
 /// Through what a picture is seen, and where it is true to scale its pixel's side, metres; the sheet says of a side which.
-fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::Lens, Option<f64>), ExportError> {
+fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::PixelRays, Option<f64>), ExportError> {
     match view {
         View::Plan(_) => Err(ExportError::encode("drawing", "a plan has no lens")),
-        View::Camera(camera) => Ok((perspective::Lens::new(camera), None)),
+        View::Camera(camera) => Ok((perspective::PixelRays::new(camera), None)),
         View::Elevation(side) => {
             panel.facts.push(("Seen", words::side(side)));
             panel.north_up = false;
-            Ok((perspective::Lens::of_side(side), Some(side.cell)))
+            Ok((perspective::PixelRays::of_side(side), Some(side.cell)))
         }
     }
 }

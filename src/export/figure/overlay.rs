@@ -1,6 +1,6 @@
 //! Volumes and silhouette over a finished picture: translucent yellow, and black lines above it.
 
-use super::picture::{Between, Picture, Span, spans};
+use super::picture::{CellBorder, CellSpan, PagePicture, spans};
 use super::scale::{Rgb, mix};
 use crate::look::LOOK;
 use crate::view::Overlay;
@@ -17,12 +17,12 @@ pub(super) fn volume_tone(ground: Rgb) -> Rgb {
 }
 
 /// Lays the overlay over the picture, averaged by area.
-pub(super) fn lay(picture: &mut Picture, overlay: &Overlay) {
+pub(super) fn lay(picture: &mut PagePicture, overlay: &Overlay) {
     let opacities: [f32; 256] = std::array::from_fn(|layers| opacity(layers as u8) as f32);
     let (width, height) = (picture.width as usize, picture.height as usize);
-    let columns = spans(overlay.width as usize, width, Between::Sharp);
-    let rows = spans(overlay.height as usize, height, Between::Sharp);
-    let average = |values: &Option<Vec<u8>>, columns: &Span, rows: &Span, worth: &dyn Fn(u8) -> f32| {
+    let columns = spans(overlay.width as usize, width, CellBorder::Sharp);
+    let rows = spans(overlay.height as usize, height, CellBorder::Sharp);
+    let average = |values: &Option<Vec<u8>>, columns: &CellSpan, rows: &CellSpan, worth: &dyn Fn(u8) -> f32| {
         let Some(values) = values else { return 0.0 };
         let (mut sum, mut total) = (0.0, 0.0);
         for row in rows.cells.clone() {

@@ -1,7 +1,7 @@
 //! The sheet: A3 landscape, the picture as large as it can be, the panel beside or below it.
 
 use super::panel::{self, COLUMN, Panel};
-use super::picture::{Fit, Picture, Pixels};
+use super::picture::{Fit, PagePicture, Pixels};
 use super::svg::{Block, GRAY, HAIR, hex};
 use super::{fonts, scale::Rgb};
 use crate::export::{ExportError, raster};
@@ -27,7 +27,7 @@ const PAD: f64 = 44.0;
 const GAP: f64 = 30.0;
 
 /// Where everything goes.
-struct Layout {
+struct PageLayout {
     fit: Fit,
     /// The picture's north-west corner, whole pixels.
     corner: (u32, u32),
@@ -55,7 +55,7 @@ pub(super) fn page<P: Pixels, T>(
     // the frame and all that is said lie around the picture
     let around = [[0, 0, WIDTH, top], [0, top, left, bottom], [right, top, WIDTH, bottom], [0, bottom, WIDTH, HEIGHT]];
     let around = around.into_iter().filter(|[west, north, east, south]| west < east && north < south);
-    let mut pieces = around.map(Piece::blank).collect::<Result<Vec<_>, _>>()?;
+    let mut pieces = around.map(SheetPart::blank).collect::<Result<Vec<_>, _>>()?;
     letter(&layout.overlay, &mut pieces)?;
     finish(&Sheet { pieces, picture: Some(((left, top), &picture)) })
 }
@@ -77,7 +77,7 @@ pub(super) fn whole(panel: &Panel, cells: (u32, u32), cell_m: f64, draw: impl Fn
 pub(super) fn chart(
     panel: &Panel,
     [left, top, right, bottom]: [f64; 4],
-    draw: impl FnOnce((u32, u32)) -> (Picture, Block),
+    draw: impl FnOnce((u32, u32)) -> (PagePicture, Block),
 ) -> Result<Vec<u8>, ExportError> {
     let [x, y, width, height] = BESIDE;
     let field = [x + left, y + top, width - left - right, height - top - bottom];
@@ -85,7 +85,7 @@ pub(super) fn chart(
     stand_beside(panel, None, &mut layout.overlay);
     let (picture, over) = draw(layout.fit.pixels);
     layout.overlay.place(layout.corner.0.into(), layout.corner.1.into(), &over);
-    let mut sheet = Piece::blank([0, 0, WIDTH, HEIGHT])?;
+    let mut sheet = SheetPart::blank([0, 0, WIDTH, HEIGHT])?;
     sheet.lay(layout.corner, &picture);
     let mut pieces = vec![sheet];
     letter(&layout.overlay, &mut pieces)?;
@@ -96,7 +96,7 @@ pub(super) fn chart(
 const WORTH_IT: f64 = 1.12;
 
 /// The panel stands beside the picture, or below a wide one.
-fn beside_or_below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
+fn beside_or_below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     let beside = beside(panel, cells, cell_m);
     let below = below(panel, cells, cell_m);
     if below.fit.scale() > beside.fit.scale() * WORTH_IT { below } else { beside }
@@ -108,7 +108,7 @@ const SHEET: [f64; 4] = [MARGIN, MARGIN, WIDTH as f64 - 2.0 * MARGIN, HEIGHT as 
 /// What a panel leaves beside it.
 const BESIDE: [f64; 4] = [SHEET[0], SHEET[1], SHEET[2] - COLUMN - 2.0 * PAD, SHEET[3]];
 
-fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
+fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     let mut layout = with_picture(BESIDE, cells);
     stand_beside(panel, cell_m.map(|cell_m| cell_m / layout.fit.scale()), &mut layout.overlay);
     layout
@@ -151,7 +151,7 @@ fn stand_beside(panel: &Panel, metres_a_pixel: Option<f64>, overlay: &mut Block)
     }
 }
 
-fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
+fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     const COLUMNS: f64 = 4.0;
     /// A legend that is longer stands closer.
     const LEGEND: f64 = 475.0;
@@ -183,7 +183,7 @@ fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Layout {
 }
 
 /// The picture in the middle of its field; the sheet is framed.
-fn with_picture(field: [f64; 4], cells: (u32, u32)) -> Layout {
+fn with_picture(field: [f64; 4], cells: (u32, u32)) -> PageLayout {
     const AROUND: f64 = 36.0;
     let room = (field[2] - 2.0 * AROUND, field[3] - 2.0 * AROUND);
     let fit = Fit::within(cells, room);
@@ -192,34 +192,34 @@ fn with_picture(field: [f64; 4], cells: (u32, u32)) -> Layout {
     let corner = (middle(field[0], field[2], fit.pixels.0), middle(field[1], field[3], fit.pixels.1));
     let mut overlay = Block::default();
     overlay.frame(SHEET, 2.0, HAIR);
-    Layout { fit, corner, overlay }
+    PageLayout { fit, corner, overlay }
 }
 
 /// A line around the picture.
-fn frame(layout: &mut Layout) {
-    let Layout { fit, corner, overlay } = layout;
+fn frame(layout: &mut PageLayout) {
+    let PageLayout { fit, corner, overlay } = layout;
     overlay.frame([corner.0, corner.1, fit.pixels.0, fit.pixels.1].map(f64::from), 3.0, GRAY);
 }
 
 /// A part of the sheet that has lines and letters.
-struct Piece {
+struct SheetPart {
     /// West, north, east and south on the page.
     place: [u32; 4],
     pixels: Pixmap,
 }
 
-impl Piece {
+impl SheetPart {
     /// Paper.
-    fn blank(place: [u32; 4]) -> Result<Piece, ExportError> {
+    fn blank(place: [u32; 4]) -> Result<SheetPart, ExportError> {
         let [west, north, east, south] = place;
         let mut pixels = Pixmap::new(east - west, south - north).ok_or_else(|| failed("the page is too large"))?;
         let [r, g, b] = PAPER;
         pixels.fill(Color::from_rgba8(r, g, b, 255));
-        Ok(Piece { place, pixels })
+        Ok(SheetPart { place, pixels })
     }
 
     /// A picture upon it; the piece is the page.
-    fn lay(&mut self, (left, top): (u32, u32), picture: &Picture) {
+    fn lay(&mut self, (left, top): (u32, u32), picture: &PagePicture) {
         let lines = self.pixels.data_mut().chunks_exact_mut(WIDTH as usize * 4).skip(top as usize);
         for (line, row) in lines.zip(picture.pixels.chunks_exact(picture.width as usize)) {
             for (to, [r, g, b]) in line.as_chunks_mut::<4>().0.iter_mut().skip(left as usize).zip(row) {
@@ -242,7 +242,7 @@ impl Piece {
 }
 
 /// Everything that is lines and letters, over what is there.
-fn letter(overlay: &Block, pieces: &mut [Piece]) -> Result<(), ExportError> {
+fn letter(overlay: &Block, pieces: &mut [SheetPart]) -> Result<(), ExportError> {
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"{}\">{}</svg>",
         fonts::FAMILY,
@@ -275,7 +275,7 @@ const BAND: usize = 64;
 
 /// All that is on a page, before it becomes a file. Its picture is drawn band by band.
 pub(super) struct Sheet<'a> {
-    pieces: Vec<Piece>,
+    pieces: Vec<SheetPart>,
     /// With its north-west corner.
     picture: Option<((u32, u32), &'a dyn Pixels)>,
 }
@@ -283,7 +283,7 @@ pub(super) struct Sheet<'a> {
 impl Sheet<'_> {
     /// Of lines and letters alone.
     pub(super) fn of(sheet: &Block) -> Result<Sheet<'static>, ExportError> {
-        let mut pieces = vec![Piece::blank([0, 0, WIDTH, HEIGHT])?];
+        let mut pieces = vec![SheetPart::blank([0, 0, WIDTH, HEIGHT])?];
         letter(sheet, &mut pieces)?;
         Ok(Sheet { pieces, picture: None })
     }

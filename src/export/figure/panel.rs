@@ -1,7 +1,7 @@
 //! What stands beside the picture: title, facts, the sun's table, legend, scale and north.
 
 use super::scale::Rgb;
-use super::svg::{ACCENT, Anchor, Block, GRAY, HAIR, INK, Style};
+use super::svg::{ACCENT, Anchor, Block, GRAY, HAIR, INK, LetterStyle};
 use super::text;
 
 /// The panel's column, page pixels.
@@ -35,19 +35,19 @@ pub(super) fn title(panel: &Panel) -> Block {
     let mut block = Block::default();
     block.fill([0.0, 4.0, 84.0, 10.0], ACCENT);
     block.height = 38.0;
-    wrapped(&mut block, 0.0, Style::KICKER, &panel.kicker, 1);
+    wrapped(&mut block, 0.0, LetterStyle::KICKER, &panel.kicker, 1);
     block.height += 8.0;
-    let lines = |style: Style, most| text::wrap(&panel.title, style.weight, style.size, COLUMN, most);
+    let lines = |style: LetterStyle, most| text::wrap(&panel.title, style.weight, style.size, COLUMN, most);
     // A long name is set smaller before it is cut.
-    let large = lines(Style::TITLE, 2);
+    let large = lines(LetterStyle::TITLE, 2);
     if large.iter().any(|line| line.ends_with('…')) {
-        block.lines(0.0, Style::LONG_TITLE, &lines(Style::LONG_TITLE, 3));
+        block.lines(0.0, LetterStyle::LONG_TITLE, &lines(LetterStyle::LONG_TITLE, 3));
     } else {
-        block.lines(0.0, Style::TITLE, &large);
+        block.lines(0.0, LetterStyle::TITLE, &large);
     }
     block.height += 14.0;
     for line in &panel.lead {
-        wrapped(&mut block, 0.0, Style::LEAD, line, 2);
+        wrapped(&mut block, 0.0, LetterStyle::LEAD, line, 2);
     }
     block
 }
@@ -58,16 +58,16 @@ const FACT_LINES: usize = 3;
 
 /// Whether a fact's value stands whole.
 pub(super) fn holds(value: &str) -> bool {
-    let lines = text::wrap(value, Style::BODY.weight, Style::BODY.size, COLUMN - INDENT, FACT_LINES);
+    let lines = text::wrap(value, LetterStyle::BODY.weight, LetterStyle::BODY.size, COLUMN - INDENT, FACT_LINES);
     lines.join(" ") == value
 }
 
 pub(super) fn facts(panel: &Panel) -> Block {
     let mut block = Block::default();
     for (label, value) in &panel.facts {
-        let baseline = block.height + Style::LABEL.size;
-        block.text(0.0, baseline, Anchor::Start, Style::LABEL, label);
-        wrapped(&mut block, INDENT, Style::BODY, value, FACT_LINES);
+        let baseline = block.height + LetterStyle::LABEL.size;
+        block.text(0.0, baseline, Anchor::Start, LetterStyle::LABEL, label);
+        wrapped(&mut block, INDENT, LetterStyle::BODY, value, FACT_LINES);
         block.height += 7.0;
     }
     block.height -= 7.0;
@@ -78,7 +78,7 @@ pub(super) fn sun_table(panel: &Panel) -> Block {
     const RIGHT: [f64; 3] = [370.0, 580.0, COLUMN];
     const PITCH: f64 = 46.0;
     let mut block = Block::default();
-    let mut row = |cells: [&str; 4], first: Style, rest: Style| {
+    let mut row = |cells: [&str; 4], first: LetterStyle, rest: LetterStyle| {
         let baseline = block.height + first.size;
         block.text(0.0, baseline, Anchor::Start, first, cells[0]);
         for (cell, right) in cells[1..].iter().zip(RIGHT) {
@@ -86,9 +86,9 @@ pub(super) fn sun_table(panel: &Panel) -> Block {
         }
         block.height += PITCH;
     };
-    row(["Sun", "time", "azimuth", "altitude"], Style::HEAD, Style::LABEL);
+    row(["Sun", "time", "azimuth", "altitude"], LetterStyle::HEAD, LetterStyle::LABEL);
     for [what, time, azimuth, altitude] in &panel.sun {
-        row([what, time, azimuth, altitude], Style::LABEL, Style::BODY);
+        row([what, time, azimuth, altitude], LetterStyle::LABEL, LetterStyle::BODY);
     }
     block.height -= 10.0;
     block
@@ -108,7 +108,8 @@ const KEYS_GAP: f64 = 14.0;
 /// Rows of the legend: more short entries than `most` stand in two columns.
 fn legend_rows(entries: &[(Rgb, String)], most: usize) -> usize {
     let room = COLUMN - HALF - SWATCH - SWATCH_GAP;
-    let short = |(_, label): &(Rgb, String)| text::width(label, Style::BODY.weight, Style::BODY.size) <= room;
+    let short =
+        |(_, label): &(Rgb, String)| text::width(label, LetterStyle::BODY.weight, LetterStyle::BODY.size) <= room;
     if entries.len() > most && entries.iter().all(short) { entries.len().div_ceil(2) } else { entries.len() }
 }
 
@@ -119,12 +120,13 @@ pub(super) fn legend(panel: &Panel, room: f64) -> Block {
     let key_rows = legend_rows(&panel.keys, 4);
     let keys_gap = if panel.keys.is_empty() { 0.0 } else { KEYS_GAP };
     let mut block = Block::default();
-    wrapped(&mut block, 0.0, Style::HEAD, &panel.legend_head, 1);
+    wrapped(&mut block, 0.0, LetterStyle::HEAD, &panel.legend_head, 1);
     let pitch = ((room - HEAD - keys_gap) / (rows + key_rows).max(1) as f64).floor().clamp(36.0, 52.0);
     let said = |block: &mut Block, x: f64, y: f64, label: &str| {
-        let baseline = y + pitch / 2.0 + Style::BODY.size * 0.36;
-        let label = text::wrap(label, Style::BODY.weight, Style::BODY.size, COLUMN - x - SWATCH - SWATCH_GAP, 1);
-        block.text(x + SWATCH + SWATCH_GAP, baseline, Anchor::Start, Style::BODY, &label.concat());
+        let baseline = y + pitch / 2.0 + LetterStyle::BODY.size * 0.36;
+        let label =
+            text::wrap(label, LetterStyle::BODY.weight, LetterStyle::BODY.size, COLUMN - x - SWATCH - SWATCH_GAP, 1);
+        block.text(x + SWATCH + SWATCH_GAP, baseline, Anchor::Start, LetterStyle::BODY, &label.concat());
     };
     for (column, entries) in panel.legend.chunks(rows.max(1)).enumerate() {
         let x = column as f64 * HALF;
@@ -163,10 +165,10 @@ pub(super) fn scale_and_north(panel: &Panel, metres_a_pixel: f64) -> Block {
         block.fill([dark * part, y, part, thick], INK);
     }
     block.frame([1.0, y + 1.0, bar.pixels - 2.0, thick - 2.0], 2.0, INK);
-    block.text(0.0, y - 18.0, Anchor::Start, Style::BODY, "0");
-    block.text(bar.pixels / 2.0, y - 18.0, Anchor::Middle, Style::BODY, &bar.half_label());
-    block.text(bar.pixels, y - 18.0, Anchor::Middle, Style::BODY, &bar.label());
-    block.text(0.0, y + 66.0, Anchor::Start, Style::FINE, &paper_scale(metres_a_pixel));
+    block.text(0.0, y - 18.0, Anchor::Start, LetterStyle::BODY, "0");
+    block.text(bar.pixels / 2.0, y - 18.0, Anchor::Middle, LetterStyle::BODY, &bar.half_label());
+    block.text(bar.pixels, y - 18.0, Anchor::Middle, LetterStyle::BODY, &bar.label());
+    block.text(0.0, y + 66.0, Anchor::Start, LetterStyle::FINE, &paper_scale(metres_a_pixel));
 
     if !panel.north_up {
         return block;
@@ -176,7 +178,7 @@ pub(super) fn scale_and_north(panel: &Panel, metres_a_pixel: f64) -> Block {
     let (tip, tail, wing) = (middle - radius + 6.0, middle + 44.0, 30.0);
     block.polygon(&[[x, tip], [x - wing, tail], [x, tail - 20.0]], ACCENT);
     block.polygon(&[[x, tip], [x + wing, tail], [x, tail - 20.0]], INK);
-    block.text(x, middle - radius - 9.0, Anchor::Middle, Style::HEAD, "N");
+    block.text(x, middle - radius - 9.0, Anchor::Middle, LetterStyle::HEAD, "N");
     block
 }
 
@@ -257,11 +259,11 @@ pub(super) fn footer(panel: &Panel) -> Block {
     let mut block = Block::default();
     let by = format!("Gnomon {}, tz {}", env!("CARGO_PKG_VERSION"), panel.tz);
     let said = by + " — computed from the model as given; check with your authority";
-    wrapped(&mut block, 0.0, Style::FINE, &said, 2);
+    wrapped(&mut block, 0.0, LetterStyle::FINE, &said, 2);
     block
 }
 
-fn wrapped(block: &mut Block, x: f64, style: Style, said: &str, most: usize) {
+fn wrapped(block: &mut Block, x: f64, style: LetterStyle, said: &str, most: usize) {
     let lines = text::wrap(said, style.weight, style.size, COLUMN - x, most);
     block.lines(x, style, &lines);
 }

@@ -2,7 +2,7 @@
 
 use super::FigureContext;
 use super::components::Components;
-use super::picture::{Between, Fit, Pen, Picture, compose};
+use super::picture::{CellBorder, Fit, PagePicture, Pen, compose};
 use super::scale::Rgb;
 use crate::choice::Receivers;
 use crate::look::LOOK;
@@ -22,17 +22,17 @@ pub(super) struct Painted<'a> {
 /// Sun and shadow at one instant, as the camera sees them; of matt card where nothing is painted.
 pub(super) fn instant(
     scene: &FigureContext,
-    lens: &Lens,
+    lens: &PixelRays,
     mask: &Mask,
     to_sun: DVec3,
     Painted { components, of_cells }: Painted<'_>,
     fit: Fit,
-) -> Picture {
+) -> PagePicture {
     if let Some(of_cells) = of_cells {
         // lines would be taken for cells
         return painted(scene, lens, of_cells, false, fit);
     }
-    let light = Light::new(to_sun);
+    let light = SurfaceLight::new(to_sun);
     let ground_only = scene.receivers == Receivers::Ground;
     let width = lens.width();
     let colours: Vec<Rgb> = (0..scene.surface.face.len())
@@ -62,23 +62,29 @@ pub(super) fn instant(
     // colours tell parts from each other, and lines upon lines would hide the colours of fine parts
     let strength = if components.is_some() { LOOK.tinted_lines } else { 1.0 };
     let quieter = |pen: Pen| Pen { strength: pen.strength * strength, ..pen };
-    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, lens, a, b).map(quieter))
+    compose(fit, CellBorder::Smooth, &colours, |a, b| pen(scene, lens, a, b).map(quieter))
 }
 
 /// Cells in the colours given, with or without lines, under the sky of a day; that of the sky's cells is not asked.
-pub(super) fn painted(scene: &FigureContext, lens: &Lens, of_cells: &[Rgb], with_lines: bool, fit: Fit) -> Picture {
+pub(super) fn painted(
+    scene: &FigureContext,
+    lens: &PixelRays,
+    of_cells: &[Rgb],
+    with_lines: bool,
+    fit: Fit,
+) -> PagePicture {
     let width = lens.width();
     let colour = |(pixel, &colour): (usize, &Rgb)| match scene.surface.face[pixel] {
         Surface::SKY => display(sky(lens.ray(pixel % width, pixel / width))),
         _ => colour,
     };
     let colours: Vec<Rgb> = of_cells.par_iter().enumerate().map(colour).collect();
-    compose(fit, Between::Smooth, &colours, |a, b| pen(scene, lens, a, b).filter(|_| with_lines))
+    compose(fit, CellBorder::Smooth, &colours, |a, b| pen(scene, lens, a, b).filter(|_| with_lines))
 }
 
 /// The colours of level ground in the sun and in the shade, for the legend.
 pub(super) fn ground_tones(to_sun: DVec3) -> [Rgb; 2] {
-    let light = Light::new(to_sun);
+    let light = SurfaceLight::new(to_sun);
     [1.0, 0.0].map(|share| display(at_night(to_sun, LOOK.ground * light.on(DVec3::Z, share))))
 }
 
@@ -88,7 +94,7 @@ fn at_night(to_sun: DVec3, colour: DVec3) -> DVec3 {
 }
 
 /// The camera's axes, scaled so that a pixel's ray is a sum of them.
-pub(super) struct Lens {
+pub(super) struct PixelRays {
     forward: DVec3,
     right: DVec3,
     up: DVec3,
@@ -100,15 +106,15 @@ pub(super) struct Lens {
     side: Option<(DVec3, f64)>,
 }
 
-impl Lens {
-    pub(super) fn new(camera: &Camera) -> Lens {
+impl PixelRays {
+    pub(super) fn new(camera: &Camera) -> PixelRays {
         let sight = camera.target - camera.eye;
         let forward = sight.try_normalize().unwrap_or(DVec3::NEG_Z);
         // A camera that looks along its own up still needs a right.
         let right = forward.cross(camera.up).try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
         let size = [f64::from(camera.width.max(1)), f64::from(camera.height.max(1))];
         let tall = (0.5 * camera.fov_rad).tan();
-        Lens {
+        PixelRays {
             forward,
             right: right * (tall * size[0] / size[1]),
             up: right.cross(forward) * tall,
@@ -120,10 +126,10 @@ impl Lens {
     }
 
     /// Of a side along parallel rays.
-    pub(super) fn of_side(side: &Elevation) -> Lens {
+    pub(super) fn of_side(side: &Elevation) -> PixelRays {
         let [right, up, forward] = side.axes();
         let half = side.half_size();
-        Lens {
+        PixelRays {
             forward,
             right: right * half.x,
             up: up * half.y,
@@ -180,16 +186,16 @@ pub(super) fn facing(scene: &FigureContext, face: u32, viewer: DVec4) -> DVec4 {
 }
 
 /// What falls on a surface: sky from above, the sun where it is seen.
-struct Light {
+struct SurfaceLight {
     to_sun: DVec3,
     sun: f64,
 }
 
-impl Light {
+impl SurfaceLight {
     /// Exposed so that level ground in the sun is nearly the paper's white, even at a low sun.
-    fn new(to_sun: DVec3) -> Light {
+    fn new(to_sun: DVec3) -> SurfaceLight {
         let sun = (LOOK.exposure - LOOK.sky - LOOK.sky_slope) / to_sun.z.max(LOOK.least_height);
-        Light { to_sun, sun }
+        SurfaceLight { to_sun, sun }
     }
 
     fn on(&self, normal: DVec3, share: f64) -> DVec3 {
@@ -216,7 +222,7 @@ fn display(colour: DVec3) -> Rgb {
     [soft(colour.x), soft(colour.y), soft(colour.z)]
 }
 
-fn pen(scene: &FigureContext, lens: &Lens, a: usize, b: usize) -> Option<Pen> {
+fn pen(scene: &FigureContext, lens: &PixelRays, a: usize, b: usize) -> Option<Pen> {
     let (from, to) = (scene.surface.face[a], scene.surface.face[b]);
     if from == to {
         return None;

@@ -35,7 +35,7 @@ pub(super) trait Pixels: Sync {
 }
 
 /// A picture that is held.
-pub(super) struct Picture {
+pub(super) struct PagePicture {
     /// Columns.
     pub width: u32,
     /// Rows.
@@ -44,7 +44,7 @@ pub(super) struct Picture {
     pub pixels: Vec<Rgb>,
 }
 
-impl Pixels for Picture {
+impl Pixels for PagePicture {
     fn size(&self) -> (u32, u32) {
         (self.width, self.height)
     }
@@ -81,7 +81,7 @@ impl Fit {
 
 /// What lies between cells that are larger than pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Between {
+pub(super) enum CellBorder {
     /// A border: a cell is one judgement, and the legend's colours stay exact.
     Sharp,
     /// A blend, as between a photograph's pixels.
@@ -187,24 +187,24 @@ impl Cells {
 /// A raster of cells that is drawn when it is asked for: `tell` tells of some rows of cells.
 pub(super) struct Composed<F> {
     fit: Fit,
-    columns: Vec<Span>,
-    rows: Vec<Span>,
+    columns: Vec<CellSpan>,
+    rows: Vec<CellSpan>,
     tell: F,
 }
 
 impl<F: Fn(Range<usize>, &mut Cells) + Sync> Composed<F> {
-    pub(super) fn new(fit: Fit, between: Between, tell: F) -> Composed<F> {
+    pub(super) fn new(fit: Fit, between: CellBorder, tell: F) -> Composed<F> {
         let columns = spans(fit.cells.0 as usize, fit.pixels.0 as usize, between);
         let rows = spans(fit.cells.1 as usize, fit.pixels.1 as usize, between);
         Composed { fit, columns, rows, tell }
     }
 
     /// All of it.
-    fn picture(&self) -> Picture {
+    fn picture(&self) -> PagePicture {
         let (width, height) = self.fit.pixels;
         let mut pixels = vec![LOOK.line; width as usize * height as usize];
         pixels.par_chunks_mut(BAND * width as usize).enumerate().for_each(|(band, rows)| self.draw(band * BAND, rows));
-        Picture { width, height, pixels }
+        PagePicture { width, height, pixels }
     }
 
     /// Rows of pixels whose cells are looked at in one go: no more cells than are worth it, or one row's.
@@ -274,10 +274,10 @@ pub(super) fn task_bytes(fit: &Fit) -> u64 {
 /// Draws `colours`, one a cell, with the line that `pen` gives for each pair of neighbours (west, east or north, south).
 pub(super) fn compose(
     fit: Fit,
-    between: Between,
+    between: CellBorder,
     colours: &[Rgb],
     pen: impl Fn(usize, usize) -> Option<Pen> + Sync,
-) -> Picture {
+) -> PagePicture {
     let width = fit.cells.0 as usize;
     let tell = |rows: Range<usize>, cells: &mut Cells| {
         let first = rows.start * width;
@@ -293,15 +293,15 @@ fn rgb(packed: u32) -> Rgb {
 }
 
 /// The cells that a pixel covers along one axis: from, to (exclusive), and the shares of the first and the last.
-pub(super) struct Span {
+pub(super) struct CellSpan {
     pub cells: Range<usize>,
     first: f32,
     last: f32,
 }
 
-pub(super) fn spans(cells: usize, pixels: usize, between: Between) -> Vec<Span> {
+pub(super) fn spans(cells: usize, pixels: usize, between: CellBorder) -> Vec<CellSpan> {
     let scale = cells as f64 / pixels as f64;
-    if between == Between::Smooth && scale < 1.0 {
+    if between == CellBorder::Smooth && scale < 1.0 {
         return (0..pixels).map(|pixel| blended(cells, (pixel as f64 + 0.5) * scale - 0.5)).collect();
     }
     (0..pixels)
@@ -310,7 +310,7 @@ pub(super) fn spans(cells: usize, pixels: usize, between: Between) -> Vec<Span> 
             let start = (from as usize).min(cells - 1);
             // A sliver below a thousandth of a cell is rounding.
             let end = ((to - 1e-3).ceil().max(0.0) as usize).clamp(start + 1, cells);
-            Span {
+            CellSpan {
                 cells: start..end,
                 first: (((start + 1) as f64).min(to) - from) as f32,
                 last: (to - ((end - 1) as f64).max(from)) as f32,
@@ -320,14 +320,14 @@ pub(super) fn spans(cells: usize, pixels: usize, between: Between) -> Vec<Span> 
 }
 
 /// The two cells whose centres `at` lies between, each by its nearness.
-fn blended(cells: usize, at: f64) -> Span {
+fn blended(cells: usize, at: f64) -> CellSpan {
     let at = at.clamp(0.0, (cells - 1) as f64);
     let start = at as usize;
     let last = (at - start as f64) as f32;
-    Span { cells: start..(start + 2).min(cells), first: 1.0 - last, last }
+    CellSpan { cells: start..(start + 2).min(cells), first: 1.0 - last, last }
 }
 
-impl Span {
+impl CellSpan {
     /// The share of a cell that the pixel covers.
     pub(super) fn weight(&self, cell: usize) -> f32 {
         if cell == self.cells.start {
@@ -340,7 +340,7 @@ impl Span {
     }
 }
 
-fn average<'a>(of_row: impl Fn(usize) -> &'a [u32], columns: &Span, rows: &Span) -> Rgb {
+fn average<'a>(of_row: impl Fn(usize) -> &'a [u32], columns: &CellSpan, rows: &CellSpan) -> Rgb {
     let first = of_row(rows.cells.start)[columns.cells.start];
     if rows.cells.clone().all(|row| of_row(row)[columns.cells.clone()].iter().all(|colour| *colour == first)) {
         return rgb(first);

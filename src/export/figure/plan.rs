@@ -1,7 +1,7 @@
 //! The plan's colours and lines: ground and roofs seen from above.
 
 use super::FigureContext;
-use super::picture::{Between, Cells, Composed, Fit, Pen, Picture, Pixels, compose};
+use super::picture::{CellBorder, Cells, Composed, Fit, PagePicture, Pen, Pixels, compose};
 use super::scale::{Bands, Rgb, mix};
 use crate::choice::Receivers;
 use crate::look::LOOK;
@@ -57,8 +57,8 @@ pub(super) fn instant(scene: &FigureContext, cell_m: f64, mask: &Mask, fit: Fit)
 }
 
 /// Colours of the cells, with neither relief nor lines, which would be taken for cells.
-pub(super) fn painted(of_cells: &[Rgb], fit: Fit) -> Picture {
-    compose(fit, Between::Sharp, of_cells, |_, _| None)
+pub(super) fn painted(of_cells: &[Rgb], fit: Fit) -> PagePicture {
+    compose(fit, CellBorder::Sharp, of_cells, |_, _| None)
 }
 
 /// Hours of shadow after minus those before; what is gone keeps its lines.
@@ -105,7 +105,7 @@ fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
 ) -> impl Pixels {
     let light = relief_light(scene);
     let width = fit.cells.0 as usize;
-    Composed::new(fit, Between::Sharp, move |rows: Range<usize>, cells: &mut Cells| {
+    Composed::new(fit, CellBorder::Sharp, move |rows: Range<usize>, cells: &mut Cells| {
         let surface = &scene.surface.rows(rows.clone());
         let mesh = scene.mesh;
         let value = values(rows.start * width..rows.end * width);

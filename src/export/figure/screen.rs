@@ -2,7 +2,7 @@
 
 use super::components::Components;
 use super::page::{HEIGHT, Sheet, WIDTH};
-use super::perspective::{self, Lens, Painted};
+use super::perspective::{self, Painted, PixelRays};
 use super::picture::{Fit, Pixels};
 use super::scale::Rgb;
 use super::{FigureContext, PictureExtras, instant_as, plan};
@@ -74,8 +74,8 @@ pub fn bare(scene: &FigureContext, view: &View, mask: &Mask, to_sun: DVec3, show
             plan::instant(scene, grid.cell, mask, fit).draw(0, &mut pixels);
             return pixels;
         }
-        View::Camera(camera) => Lens::new(camera),
-        View::Elevation(side) => Lens::of_side(side),
+        View::Camera(camera) => PixelRays::new(camera),
+        View::Elevation(side) => PixelRays::of_side(side),
     };
     let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
     let painted = Painted { components: components.as_ref(), of_cells: None };

@@ -1,7 +1,7 @@
 //! The model coloured by hours of sun, as the camera sees it, or from a side.
 
 use super::panel::{Panel, thousands};
-use super::perspective::{Lens, facing};
+use super::perspective::{PixelRays, facing};
 use super::scale::{NO_SUN, Rgb};
 use super::{FigureContext, check_surface, lens, page, panel, perspective, words};
 use crate::export::ExportError;
@@ -62,7 +62,7 @@ pub fn legend(surfaces: &Surfaces) -> (String, Vec<(Rgb, String)>) {
 }
 
 /// Per pixel its colour; the sky's is not looked at.
-fn painted(scene: &FigureContext, lens: &Lens, surfaces: &Surfaces) -> Vec<Rgb> {
+fn painted(scene: &FigureContext, lens: &PixelRays, surfaces: &Surfaces) -> Vec<Rgb> {
     let (patches, bands, samples) = (surfaces.patches, surfaces.bands(), surfaces.hours.samples);
     // the scene's faces are those of the components that receive
     let atlas = Atlas::of(surfaces);

@@ -1,7 +1,7 @@
 //! A block of the page: SVG in its own coordinates, and how tall it is.
 
 use super::scale::Rgb;
-use super::text::{self, Weight};
+use super::text::{self, FontWeight};
 use std::fmt::Write;
 
 /// Ink for text, for what stands behind it, for hair lines, and the one accent.
@@ -12,22 +12,22 @@ pub(super) const ACCENT: Rgb = [190, 82, 44];
 
 /// How a line of text looks.
 #[derive(Clone, Copy)]
-pub(super) struct Style {
+pub(super) struct LetterStyle {
     /// Page pixels.
     pub size: f64,
-    pub weight: Weight,
+    pub weight: FontWeight,
     pub colour: Rgb,
 }
 
-impl Style {
-    pub(super) const KICKER: Style = Style { size: 36.0, weight: Weight::Bold, colour: ACCENT };
-    pub(super) const TITLE: Style = Style { size: 70.0, weight: Weight::Bold, colour: INK };
-    pub(super) const LONG_TITLE: Style = Style { size: 52.0, weight: Weight::Bold, colour: INK };
-    pub(super) const LEAD: Style = Style { size: 40.0, weight: Weight::Regular, colour: INK };
-    pub(super) const HEAD: Style = Style { size: 33.0, weight: Weight::Bold, colour: INK };
-    pub(super) const BODY: Style = Style { size: 32.0, weight: Weight::Regular, colour: INK };
-    pub(super) const LABEL: Style = Style { size: 32.0, weight: Weight::Regular, colour: GRAY };
-    pub(super) const FINE: Style = Style { size: 30.0, weight: Weight::Regular, colour: GRAY };
+impl LetterStyle {
+    pub(super) const KICKER: LetterStyle = LetterStyle { size: 36.0, weight: FontWeight::Bold, colour: ACCENT };
+    pub(super) const TITLE: LetterStyle = LetterStyle { size: 70.0, weight: FontWeight::Bold, colour: INK };
+    pub(super) const LONG_TITLE: LetterStyle = LetterStyle { size: 52.0, weight: FontWeight::Bold, colour: INK };
+    pub(super) const LEAD: LetterStyle = LetterStyle { size: 40.0, weight: FontWeight::Regular, colour: INK };
+    pub(super) const HEAD: LetterStyle = LetterStyle { size: 33.0, weight: FontWeight::Bold, colour: INK };
+    pub(super) const BODY: LetterStyle = LetterStyle { size: 32.0, weight: FontWeight::Regular, colour: INK };
+    pub(super) const LABEL: LetterStyle = LetterStyle { size: 32.0, weight: FontWeight::Regular, colour: GRAY };
+    pub(super) const FINE: LetterStyle = LetterStyle { size: 30.0, weight: FontWeight::Regular, colour: GRAY };
 
     /// From one baseline to the next.
     pub(super) fn leading(&self) -> f64 {
@@ -53,15 +53,15 @@ pub(super) struct Block {
 
 impl Block {
     /// One line; `y` is its baseline.
-    pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, style: Style, line: &str) {
+    pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, style: LetterStyle, line: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
         let weight = match style.weight {
-            Weight::Regular => 400,
-            Weight::Bold => 700,
+            FontWeight::Regular => 400,
+            FontWeight::Bold => 700,
         };
         self.push(format_args!(
             "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{}\" font-weight=\"{weight}\" text-anchor=\"{anchor}\" fill=\"{}\">{}</text>",
@@ -72,7 +72,7 @@ impl Block {
     }
 
     /// Lines below what is there already, each at x; the block grows.
-    pub(super) fn lines(&mut self, x: f64, style: Style, lines: &[String]) {
+    pub(super) fn lines(&mut self, x: f64, style: LetterStyle, lines: &[String]) {
         for line in lines {
             let baseline = self.height + style.size;
             self.text(x, baseline, Anchor::Start, style, line);

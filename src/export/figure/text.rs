@@ -5,16 +5,16 @@ use skrifa::{FontRef, MetadataProvider};
 
 /// Regular or bold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Weight {
+pub(super) enum FontWeight {
     Regular,
     Bold,
 }
 
 /// How wide a line is, in the unit of `size`; kerning, which only tightens, is left out.
-pub(super) fn width(text: &str, weight: Weight, size: f64) -> f64 {
+pub(super) fn width(text: &str, weight: FontWeight, size: f64) -> f64 {
     let face = match weight {
-        Weight::Regular => notosans::REGULAR_TTF,
-        Weight::Bold => notosans::BOLD_TTF,
+        FontWeight::Regular => notosans::REGULAR_TTF,
+        FontWeight::Bold => notosans::BOLD_TTF,
     };
     let letters = text.chars();
     // What the face lacks, another one draws, or it is a box: about as wide as the widest letters.
@@ -37,7 +37,7 @@ pub(super) fn clean(text: &str) -> String {
 }
 
 /// The text in at most `most` lines of `room`; what does not fit ends in an ellipsis.
-pub(super) fn wrap(text: &str, weight: Weight, size: f64, room: f64, most: usize) -> Vec<String> {
+pub(super) fn wrap(text: &str, weight: FontWeight, size: f64, room: f64, most: usize) -> Vec<String> {
     let fits = |line: &str| width(line, weight, size) <= room;
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
@@ -59,7 +59,7 @@ pub(super) fn wrap(text: &str, weight: Weight, size: f64, room: f64, most: usize
 }
 
 /// The line if it fits, else as much of it as does, and an ellipsis.
-fn ellipsis(line: &str, weight: Weight, size: f64, room: f64) -> String {
+fn ellipsis(line: &str, weight: FontWeight, size: f64, room: f64) -> String {
     if width(line, weight, size) <= room {
         return line.to_owned();
     }

@@ -4,14 +4,14 @@
 //! what is right is right. Level patches, and those that take less than half of the texels so (a strut that leans), have
 //! their rows along their longest border, turned to where level rows or the east would be.
 
-use super::gather::Flat;
+use super::gather::FlatPatch;
 use super::{LEVEL, Mesh};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// A patch's directions, and the rectangle along them that holds it.
-pub(super) struct Frame {
+pub(super) struct PatchFrame {
     pub(super) right: DVec3,
     pub(super) down: DVec3,
     /// A point in the patch's plane, around the mesh's origin.
@@ -24,8 +24,8 @@ pub(super) struct Frame {
 /// More texels than this along a side say that the cell is too small.
 const MOST_COUNTED: f64 = 1e9;
 
-impl Frame {
-    fn along(mesh: &Mesh, flat: &Flat, right: DVec3) -> Frame {
+impl PatchFrame {
+    fn along(mesh: &Mesh, flat: &FlatPatch, right: DVec3) -> PatchFrame {
         let down = right.cross(flat.plane.truncate());
         let anchor = flat.plane.truncate() * -flat.plane.w;
         let places = || {
@@ -34,7 +34,7 @@ impl Frame {
         };
         let low = places().fold(DVec2::INFINITY, DVec2::min);
         let high = places().fold(DVec2::NEG_INFINITY, DVec2::max);
-        Frame { right, down, anchor, low, high }
+        PatchFrame { right, down, anchor, low, high }
     }
 
     /// Columns and rows of so many metres.
@@ -58,16 +58,16 @@ impl Frame {
 }
 
 /// The frames of all patches, for texels of about so many metres.
-pub(super) fn of_all(mesh: &Mesh, flats: &[Flat], cell: f64) -> Vec<Frame> {
+pub(super) fn of_all(mesh: &Mesh, flats: &[FlatPatch], cell: f64) -> Vec<PatchFrame> {
     flats.par_iter().map(|flat| of(mesh, flat, cell)).collect()
 }
 
-fn of(mesh: &Mesh, flat: &Flat, cell: f64) -> Frame {
+fn of(mesh: &Mesh, flat: &FlatPatch, cell: f64) -> PatchFrame {
     let normal = flat.plane.truncate();
     let level = DVec3::Z.cross(normal);
     let is_level = level.length() < LEVEL;
     let meant = if is_level { DVec3::X } else { level.normalize() };
-    let frame = (!is_level).then(|| Frame::along(mesh, flat, meant));
+    let frame = (!is_level).then(|| PatchFrame::along(mesh, flat, meant));
     let along = longest_border(mesh, flat);
     let along = (along - normal * along.dot(normal)).try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
     let aside = normal.cross(along);
@@ -77,7 +77,7 @@ fn of(mesh: &Mesh, flat: &Flat, cell: f64) -> Frame {
             [right, best] = [way; 2];
         }
     }
-    let turned = Frame::along(mesh, flat, right);
+    let turned = PatchFrame::along(mesh, flat, right);
     match frame {
         Some(frame) if frame.cost(cell) <= 2.0 * turned.cost(cell) => frame,
         _ => turned,
@@ -85,7 +85,7 @@ fn of(mesh: &Mesh, flat: &Flat, cell: f64) -> Frame {
 }
 
 /// The longest edge that the patch's faces do not share.
-fn longest_border(mesh: &Mesh, flat: &Flat) -> DVec3 {
+fn longest_border(mesh: &Mesh, flat: &FlatPatch) -> DVec3 {
     let mut count: FxHashMap<[u32; 2], u32> = FxHashMap::default();
     for &face in &flat.faces {
         let [a, b, c] = mesh.faces[face as usize];

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 /// A patch before it has texels.
 #[derive(Clone, Debug)]
-pub(super) struct Flat {
+pub(super) struct FlatPatch {
     pub(super) component: u32,
     pub(super) faces: Vec<u32>,
     /// Around the mesh's origin, to the side that is judged.
@@ -23,7 +23,7 @@ pub(super) fn area_vector(mesh: &Mesh, face: u32) -> DVec3 {
 }
 
 /// The patches of all components that receive, in the components' order and the larger ones first.
-pub(super) fn gather(mesh: &Mesh, receives: &[bool]) -> Vec<Flat> {
+pub(super) fn gather(mesh: &Mesh, receives: &[bool]) -> Vec<FlatPatch> {
     let edges = planes::sides(mesh);
     let spacing = Spacing::of(mesh);
     let receiving: Vec<(u32, &Component)> =
@@ -42,9 +42,9 @@ fn of_component(
     index: u32,
     component: &Component,
     edges: &[[u32; 3]],
-    seen: &[seen_side::Seen],
+    seen: &[seen_side::SeenSide],
     spacing: &Spacing,
-) -> Vec<Flat> {
+) -> Vec<FlatPatch> {
     let first = component.faces.start;
     let mut largest_first: Vec<(f64, u32)> =
         component.faces.clone().map(|face| (area_vector(mesh, face).length(), face)).collect();
@@ -65,7 +65,7 @@ fn of_component(
         joined[(seed - first) as usize] = true;
         let tolerance = FLAT_M.max(2.0 * spacing.at(&mesh.corners(seed as usize)));
         let two_sided = seen[(seed - first) as usize].both;
-        let mut flat = Flat { component: index, faces: vec![seed], plane, two_sided, area_m2: 0.0 };
+        let mut flat = FlatPatch { component: index, faces: vec![seed], plane, two_sided, area_m2: 0.0 };
         let mut at = 0;
         while at < flat.faces.len() {
             let face = flat.faces[at];

@@ -1,11 +1,11 @@
 //! Where the patches lie in the pages of the atlas: in shelves, the highest first.
 
-use super::frame::Frame;
+use super::frame::PatchFrame;
 use super::{GUTTER, MOST_PAGE, Patches};
 
 /// The cell at which the atlas has no more than `most` texels and every patch fits a page, and the page's side. A patch
 /// has at least one texel, so that there may be more where there are more patches.
-pub(super) fn fitting_cell(frames: &[Frame], asked: f64, most: usize) -> (f64, u32) {
+pub(super) fn fitting_cell(frames: &[PatchFrame], asked: f64, most: usize) -> (f64, u32) {
     let mut cell = asked;
     loop {
         let (mut total, mut longest) = (0.0, 1);

@@ -20,7 +20,7 @@ use glam::{DVec3, Vec3};
 
 /// How one face is judged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Seen {
+pub(super) struct SeenSide {
     /// On the back of its winding.
     pub(super) turned: bool,
     /// On both sides.
@@ -40,7 +40,7 @@ const CLEARLY: f64 = 0.5;
 
 /// Faces that hang together by edges of two faces.
 #[derive(Default)]
-struct Piece {
+struct FacePiece {
     faces: Vec<u32>,
     /// No two of its neighbours can be turned one way.
     twisted: bool,
@@ -52,7 +52,7 @@ struct Piece {
     high: Vec3,
 }
 
-impl Piece {
+impl FacePiece {
     /// Whether it is closed and flat: a sheet whose front and back are both in the file.
     fn bounds_nothing(&self) -> bool {
         self.volume.abs() <= NO_VOLUME * self.area * f64::from(self.low.distance(self.high))
@@ -60,9 +60,9 @@ impl Piece {
 }
 
 /// How the faces of a component are judged, in their order; `edges` are the three of each face of the mesh.
-pub(super) fn of_faces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]]) -> Vec<Seen> {
+pub(super) fn of_faces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]]) -> Vec<SeenSide> {
     let first = component.faces.start;
-    let mut seen = vec![Seen::default(); component.faces.len()];
+    let mut seen = vec![SeenSide::default(); component.faces.len()];
     let (mut pieces, piece_of) = pieces(mesh, component, edges, &mut seen);
     find_open(mesh, component, &piece_of, &seen, &mut pieces);
     for piece in &mut pieces {
@@ -72,7 +72,7 @@ pub(super) fn of_faces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]]) -
     let closed = || pieces.iter().filter(|piece| !piece.open && !piece.twisted);
     let largest = closed().max_by(|one, other| one.volume.abs().total_cmp(&other.volume.abs()));
     let hand = largest.map_or(1.0, |largest| 1.0f64.copysign(largest.volume));
-    let holds = |outer: &Piece, inner: &Piece| {
+    let holds = |outer: &FacePiece, inner: &FacePiece| {
         outer.volume * hand > -inner.volume * hand
             && outer.low.cmple(inner.low).all()
             && outer.high.cmpge(inner.high).all()
@@ -100,7 +100,7 @@ pub(super) fn of_faces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]]) -
 }
 
 /// The pieces, and per face which it is in. Turns each face as its piece's first.
-fn pieces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]], seen: &mut [Seen]) -> (Vec<Piece>, Vec<u32>) {
+fn pieces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]], seen: &mut [SeenSide]) -> (Vec<FacePiece>, Vec<u32>) {
     let first = component.faces.start;
     let mut piece_of = vec![u32::MAX; component.faces.len()];
     let mut pieces = Vec::new();
@@ -109,7 +109,7 @@ fn pieces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]], seen: &mut [Se
             continue;
         }
         let number = pieces.len() as u32;
-        let mut piece = Piece { faces: vec![seed], ..Piece::default() };
+        let mut piece = FacePiece { faces: vec![seed], ..FacePiece::default() };
         piece_of[(seed - first) as usize] = number;
         let mut at = 0;
         while at < piece.faces.len() {
@@ -136,7 +136,7 @@ fn pieces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]], seen: &mut [Se
 }
 
 /// Marks pieces with an edge along which their faces do not cancel.
-fn find_open(mesh: &Mesh, component: &Component, piece_of: &[u32], seen: &[Seen], pieces: &mut [Piece]) {
+fn find_open(mesh: &Mesh, component: &Component, piece_of: &[u32], seen: &[SeenSide], pieces: &mut [FacePiece]) {
     let first = component.faces.start;
     for edge in component.edges.clone() {
         let faces = mesh.faces_at(edge as usize);
@@ -154,8 +154,8 @@ fn find_open(mesh: &Mesh, component: &Component, piece_of: &[u32], seen: &[Seen]
 }
 
 /// Turns a piece to the side that most of its area has as its winding's, and measures it.
-fn measure(mesh: &Mesh, piece: &mut Piece, first: u32, seen: &mut [Seen]) {
-    let area = |turned: bool, seen: &[Seen]| -> f64 {
+fn measure(mesh: &Mesh, piece: &mut FacePiece, first: u32, seen: &mut [SeenSide]) {
+    let area = |turned: bool, seen: &[SeenSide]| -> f64 {
         let of = piece.faces.iter().filter(|face| seen[(**face - first) as usize].turned == turned);
         of.map(|&face| area_vector(mesh, face).length()).sum()
     };
@@ -178,7 +178,7 @@ fn measure(mesh: &Mesh, piece: &mut Piece, first: u32, seen: &mut [Seen]) {
 
 /// Whether an open piece looks up as it is turned, or down; nothing where that is not clear, or where walls stand higher than
 /// what looks up.
-fn upwards(mesh: &Mesh, piece: &Piece, first: u32, seen: &[Seen]) -> Option<bool> {
+fn upwards(mesh: &Mesh, piece: &FacePiece, first: u32, seen: &[SeenSide]) -> Option<bool> {
     let (mut roofs, mut up) = (0.0, 0.0);
     // area, and area times height, of what is level and of what is steep
     let (mut level, mut steep) = ([0.0; 2], [0.0; 2]);

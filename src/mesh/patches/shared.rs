@@ -60,7 +60,7 @@ struct Others<'a> {
 }
 
 /// What of a patch counts.
-struct Counted {
+struct CountedArea {
     area_m2: f64,
     uncounted: Vec<u32>,
     left_out: LeftOut,
@@ -96,7 +96,7 @@ impl Patches {
         let boxes: Vec<Aabb> = list.iter().map(|other| around(mesh, other.faces)).collect();
         let tree = build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut Duration::default());
         let others = Others { list, boxes, tree };
-        let counted: Vec<Counted> =
+        let counted: Vec<CountedArea> =
             (0..self.list.len()).into_par_iter().map(|number| self.counted(mesh, &others, number)).collect();
         for (patch, counted) in self.list.iter_mut().zip(counted) {
             (patch.area_m2, patch.uncounted) = (counted.area_m2, counted.uncounted);
@@ -109,7 +109,7 @@ impl Patches {
         &self.faces[patch.faces.start as usize..patch.faces.end as usize]
     }
 
-    fn counted(&self, mesh: &Mesh, others: &Others, number: usize) -> Counted {
+    fn counted(&self, mesh: &Mesh, others: &Others, number: usize) -> CountedArea {
         let patch = &self.list[number];
         let once = self.covered_once(mesh, patch);
         let mut area_m2 = if once < 1.0 { patch.area_m2 * once } else { patch.area_m2 };
@@ -117,7 +117,7 @@ impl Patches {
         let mut uncounted = Vec::new();
         let (again, touching) = others.sharing(patch, number);
         if again.is_empty() && touching.is_empty() {
-            return Counted { area_m2, uncounted, left_out };
+            return CountedArea { area_m2, uncounted, left_out };
         }
         let again = self.covered_by(mesh, patch, &again, -ONE_PLANE_M);
         let touching = self.covered_by(mesh, patch, &touching, -BEHIND_M);
@@ -139,7 +139,7 @@ impl Patches {
             left_out.touching_m2 += of_texels(touched);
             area_m2 = of_texels(patch.texels.len() as u32 - doubled - touched);
         }
-        Counted { area_m2, uncounted, left_out }
+        CountedArea { area_m2, uncounted, left_out }
     }
 
     /// Which part of its faces' area a patch has, where they do not lie over each other: 1 as a rule.

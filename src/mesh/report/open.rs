@@ -64,7 +64,7 @@ pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacin
 
 /// Open edges that hang together at vertices.
 #[derive(Clone, Debug, Default)]
-struct Group {
+struct EdgeGroup {
     edges: Vec<u32>,
     /// Vertices with one open edge.
     ends: Vec<u32>,
@@ -94,7 +94,7 @@ pub(super) fn places(mesh: &Mesh, open: &[u32], junctions: &[(u32, u32)]) -> Vec
             above[one.max(other) as usize] = one.min(other);
         }
     }
-    let mut groups = vec![Group { is_oriented: true, ..Group::default() }; open.len()];
+    let mut groups = vec![EdgeGroup { is_oriented: true, ..EdgeGroup::default() }; open.len()];
     for (at, &edge) in open.iter().enumerate() {
         groups[adjacency::lowest(&mut above, at as u32) as usize].edges.push(edge);
     }
@@ -112,7 +112,7 @@ pub(super) fn places(mesh: &Mesh, open: &[u32], junctions: &[(u32, u32)]) -> Vec
     })
 }
 
-fn place(mesh: &Mesh, group: &Group) -> OpenPlace {
+fn place(mesh: &Mesh, group: &EdgeGroup) -> OpenPlace {
     let edges: Vec<_> = group.edges.iter().map(|&at| edge(mesh, at)).collect();
     let length_m: f64 = edges.iter().map(|edge| edge.length_m).sum();
     let longest = edges.iter().reduce(|most, edge| if edge.length_m > most.length_m { edge } else { most });
@@ -143,7 +143,7 @@ const SHEET: f64 = 0.9;
 
 /// Hole, rim or seam. The area within a ring, run around as its faces do, looks to the side of their front where they
 /// lie inside the ring, and away from it where they lie around it.
-fn ring(mesh: &Mesh, group: &Group, middle: DVec3, length_m: f64) -> OpenKind {
+fn ring(mesh: &Mesh, group: &EdgeGroup, middle: DVec3, length_m: f64) -> OpenKind {
     if !group.is_oriented {
         return OpenKind::Hole;
     }

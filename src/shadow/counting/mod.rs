@@ -15,7 +15,7 @@
 
 mod ways;
 
-use super::batch::{Batch, Found};
+use super::batch::{Batch, CountedWalls};
 use super::near_clip::needs_z_fail;
 use super::walls::borders::Borders;
 use super::walls::{Maker, WallQuery};
@@ -25,92 +25,92 @@ use crate::gpu::{Gpu, readback};
 use crate::view::View;
 use glam::DVec3;
 use std::sync::Arc;
-use ways::{Way, Ways, covered};
+use ways::{CountPipelines, CountWays, covered};
 use wgpu::*;
 
 /// What of the stencil counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Bits {
+pub(super) enum StencilBits {
     /// All of it, in every cell.
     All,
     /// The low seven bits, in the cells whose top bit is set; the top bit is never written.
     BelowMask,
 }
 
-impl Bits {
+impl StencilBits {
     /// The top bit.
     pub(super) const MASK: u32 = 0x80;
 
     /// The bits that count, and so the most that is counted without passing through 0.
     fn most(self) -> u32 {
         match self {
-            Bits::All => 0xff,
-            Bits::BelowMask => 0x7f,
+            StencilBits::All => 0xff,
+            StencilBits::BelowMask => 0x7f,
         }
     }
 
     /// What the stencil is compared with, by the bits that are compared.
     fn reference(self) -> u32 {
         match self {
-            Bits::All => 0,
-            Bits::BelowMask => Self::MASK,
+            StencilBits::All => 0,
+            StencilBits::BelowMask => Self::MASK,
         }
     }
 
     /// Which cells count.
     fn face(self, pass_op: StencilOperation, depth_fail_op: StencilOperation) -> StencilFaceState {
         let compare = match self {
-            Bits::All => CompareFunction::Always,
-            Bits::BelowMask => CompareFunction::Equal,
+            StencilBits::All => CompareFunction::Always,
+            StencilBits::BelowMask => CompareFunction::Equal,
         };
         StencilFaceState { compare, pass_op, depth_fail_op, fail_op: StencilOperation::Keep }
     }
 }
 
 /// What counts one scene's volumes in one view.
-pub(super) struct Counting {
+pub(super) struct VolumeCounter {
     pub(super) scene: Scene,
     pub(super) view: View,
     pub(super) surface: GpuSurface,
     /// The depth at which cells are judged, and the stencil.
     pub(super) judged: Texture,
     judging: RenderPipeline,
-    bits: Bits,
+    bits: StencilBits,
     casters: Vec<Batch>,
     /// Every caster is among what is seen, so that z-pass needs no light cap.
     casters_are_seen: bool,
     /// Each vertex twice: where it is, and where its wall ends.
     vertices: Buffer,
     maker: Maker,
-    ways: Ways,
+    ways: CountWays,
     /// The same, adding up fragments instead; made when first sought.
-    adding: Option<Ways>,
+    adding: Option<CountWays>,
     covered: RenderPipeline,
     forced_z_fail: Option<bool>,
 }
 
 /// The volumes of one sun, ready to be drawn.
-pub(super) struct Count<'a> {
-    bits: Bits,
-    found: Vec<Found<'a>>,
+pub(super) struct VolumeCount<'a> {
+    bits: StencilBits,
+    found: Vec<CountedWalls<'a>>,
     with_cap: bool,
     surface: &'a GpuSurface,
     judged: &'a Texture,
     vertices: &'a Buffer,
-    way: &'a Way,
-    adding: Option<&'a Way>,
+    way: &'a CountPipelines,
+    adding: Option<&'a CountPipelines>,
     covered: &'a RenderPipeline,
 }
 
-impl Counting {
+impl VolumeCounter {
     /// Draws what is seen, uploads the casters, builds the pipelines.
     pub(super) fn new(
         gpu: Arc<Gpu>,
         scene: Scene,
         view: View,
         silhouettes: Silhouettes,
-        bits: Bits,
-    ) -> Result<Counting, ShadowError> {
+        bits: StencilBits,
+    ) -> Result<VolumeCounter, ShadowError> {
         let surface = GpuSurface::draw(Arc::clone(&gpu), &scene, view)?;
         let judging = surface.judging();
         let judged = surface.judged(&judging);
@@ -122,12 +122,12 @@ impl Counting {
             .collect();
         let vertices = gpu.uploaded("counting.casters", BufferUsages::VERTEX, &twice)?;
         let maker = Maker::new(&gpu, silhouettes);
-        let ways = Ways::counting(&surface, &maker, bits);
+        let ways = CountWays::counting(&surface, &maker, bits);
         let covered = covered(&surface, bits);
         let casters_are_seen = holds_all(&scene);
         let casters = Batch::of(&scene.casters);
         gpu.check()?;
-        Ok(Counting {
+        Ok(VolumeCounter {
             scene,
             view,
             surface,
@@ -159,20 +159,20 @@ impl Counting {
         self.forced_z_fail = Some(z_fail);
     }
 
-    /// Also makes what adds up fragments, for [`Count::fragments`].
+    /// Also makes what adds up fragments, for [`VolumeCount::fragments`].
     ///
     /// # Errors
     /// Where the adapter cannot blend what is added up.
     pub(super) fn prepare_adding(&mut self) -> Result<(), ShadowError> {
         if self.adding.is_none() {
             self.surface.gpu.blends_float32("overdraw is added up")?;
-            self.adding = Some(Ways::adding(&self.surface, &self.maker, self.bits));
+            self.adding = Some(CountWays::adding(&self.surface, &self.maker, self.bits));
         }
         Ok(())
     }
 
     /// Sets the sun, and finds its volumes; what the adapter has to do for that goes into `encoder`.
-    pub(super) fn find(&mut self, to_sun: DVec3, encoder: &mut CommandEncoder) -> Result<Count<'_>, ShadowError> {
+    pub(super) fn find(&mut self, to_sun: DVec3, encoder: &mut CommandEncoder) -> Result<VolumeCount<'_>, ShadowError> {
         let z_fail = match &self.view {
             View::Plan(_) | View::Elevation(_) => false,
             View::Camera(camera) => self.forced_z_fail.unwrap_or_else(|| needs_z_fail(camera, to_sun, &self.scene)),
@@ -193,7 +193,7 @@ impl Counting {
         for batch in &mut self.casters {
             batch.find(&self.maker, sought, self.bits.most(), encoder, &mut found)?;
         }
-        Ok(Count {
+        Ok(VolumeCount {
             bits: self.bits,
             found,
             with_cap: sought.with_cap,
@@ -213,7 +213,7 @@ fn holds_all(scene: &Scene) -> bool {
     scene.casters.faces.iter().all(|face| received.contains(face))
 }
 
-impl Count<'_> {
+impl VolumeCount<'_> {
     /// A pass over the view's cells that starts with `first` in the target, and `stencil` in the stencil where it is not
     /// kept from an earlier pass.
     pub(super) fn pass<'e>(

@@ -1,6 +1,6 @@
 //! The pipelines that count, and that show what they would count.
 
-use super::Bits;
+use super::StencilBits;
 use crate::gpu::shaders;
 use crate::gpu::targets::{COUNTED, SHARE, SUMMED, Stages};
 use crate::shadow::GpuSurface;
@@ -9,13 +9,13 @@ use crate::view::View;
 use wgpu::*;
 
 /// The pipelines of the three ways to count.
-pub(super) struct Ways {
-    plan: Way,
-    z_pass: Way,
-    z_fail: Way,
+pub(super) struct CountWays {
+    plan: CountPipelines,
+    z_pass: CountPipelines,
+    z_fail: CountPipelines,
 }
 
-pub(super) struct Way {
+pub(super) struct CountPipelines {
     pub(super) wall: RenderPipeline,
     pub(super) cap: RenderPipeline,
 }
@@ -30,8 +30,8 @@ struct Trace<'a> {
     camera: [&'a str; 3],
 }
 
-impl Ways {
-    pub(super) fn of(&self, view: &View, z_fail: bool) -> &Way {
+impl CountWays {
+    pub(super) fn of(&self, view: &View, z_fail: bool) -> &CountPipelines {
         match view {
             View::Plan(_) => &self.plan,
             View::Camera(_) if z_fail => &self.z_fail,
@@ -39,7 +39,7 @@ impl Ways {
         }
     }
 
-    pub(super) fn counting(surface: &GpuSurface, maker: &Maker, bits: Bits) -> Ways {
+    pub(super) fn counting(surface: &GpuSurface, maker: &Maker, bits: StencilBits) -> CountWays {
         use StencilOperation::{DecrementWrap, IncrementWrap, Keep};
         let trace = Trace {
             label: "counting",
@@ -58,10 +58,10 @@ impl Ways {
         };
         let passing = || state(bits.face(IncrementWrap, Keep), bits.face(DecrementWrap, Keep));
         let failing = || state(bits.face(Keep, DecrementWrap), bits.face(Keep, IncrementWrap));
-        Ways::new(surface, maker, &trace, passing, failing)
+        CountWays::new(surface, maker, &trace, passing, failing)
     }
 
-    pub(super) fn adding(surface: &GpuSurface, maker: &Maker, bits: Bits) -> Ways {
+    pub(super) fn adding(surface: &GpuSurface, maker: &Maker, bits: StencilBits) -> CountWays {
         let sum = BlendComponent {
             src_factor: BlendFactor::One,
             dst_factor: BlendFactor::One,
@@ -82,7 +82,7 @@ impl Ways {
             stencil: StencilState { front: face, back: face, read_mask: bits.reference(), write_mask: 0 },
             bias: DepthBiasState::default(),
         };
-        Ways::new(surface, maker, &trace, state, state)
+        CountWays::new(surface, maker, &trace, state, state)
     }
 
     fn new(
@@ -91,7 +91,7 @@ impl Ways {
         trace: &Trace<'_>,
         passing: impl Fn() -> DepthStencilState,
         failing: impl Fn() -> DepthStencilState,
-    ) -> Ways {
+    ) -> CountWays {
         let gpu = &surface.gpu;
         let module = gpu.shader("stencil", shaders::STENCIL);
         let layout = surface.seeing_layout(&[]);
@@ -128,9 +128,9 @@ impl Ways {
                     }
                 };
                 let cap = Stages { vertex: cap, fragment: cap_fragment, ..base };
-                Way { wall, cap: pipeline(&format!("{}.{name}.cap", trace.label), cap, state()) }
+                CountPipelines { wall, cap: pipeline(&format!("{}.{name}.cap", trace.label), cap, state()) }
             };
-        Ways {
+        CountWays {
             plan: way("plan", "lowest", trace.plan, &passing),
             z_pass: way("z_pass", "lowest", trace.camera, &passing),
             z_fail: way("z_fail", "infinity", trace.camera, &failing),
@@ -139,7 +139,7 @@ impl Ways {
 }
 
 /// Draws 0 where the count is not 0, and sets it to 0.
-pub(super) fn covered(surface: &GpuSurface, bits: Bits) -> RenderPipeline {
+pub(super) fn covered(surface: &GpuSurface, bits: StencilBits) -> RenderPipeline {
     let gpu = &surface.gpu;
     let face = StencilFaceState {
         compare: CompareFunction::NotEqual,

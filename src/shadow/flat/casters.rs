@@ -17,36 +17,36 @@ pub(super) struct Casters {
     normals: Vec<DVec3>,
     edges: Vec<Edge>,
     /// Where faces go through the plane, from where they go down to where they go up.
-    sections: Vec<([u32; 2], Side)>,
+    sections: Vec<([u32; 2], FaceSide)>,
     /// Where the points fall: column and row.
     places: Vec<DVec2>,
-    /// Per group and direction (`Side`) what a face turned to the sun adds.
+    /// Per group and direction (`FaceSide`) what a face turned to the sun adds.
     signs: Vec<i8>,
 }
 
 /// An edge with two of its faces; one with more stands as often as is needed.
 struct Edge {
     ends: [u32; 2],
-    sides: [Side; 2],
+    sides: [FaceSide; 2],
 }
 
 /// The group of a face, and which way the face runs along the edge: in the lowest bit, 1 against it.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) struct Side(u32);
+pub(super) struct FaceSide(u32);
 
-impl Side {
-    fn new(group: u32, against: bool) -> Side {
-        Side(group << 1 | u32::from(against))
+impl FaceSide {
+    fn new(group: u32, against: bool) -> FaceSide {
+        FaceSide(group << 1 | u32::from(against))
     }
 
-    fn is_other_side_of(self, other: Side) -> bool {
+    fn is_other_side_of(self, other: FaceSide) -> bool {
         self.0 ^ 1 == other.0
     }
 }
 
 /// An edge of the silhouette as it falls: from where to where, and what the sum changes by where it is crossed, if it is
 /// run from lower rows to higher ones.
-pub(super) struct Falling {
+pub(super) struct FallingEdge {
     pub(super) from: DVec2,
     pub(super) to: DVec2,
     pub(super) change: i32,
@@ -57,7 +57,7 @@ impl Casters {
         let points = mesh.vertices.par_iter().map(|vertex| raster_from_local.transform_point3(vertex.as_dvec3()));
         let mut points: Vec<DVec3> = points.collect();
         let (group_of, normals) = groups(mesh);
-        let no_side = Side::new(normals.len() as u32, false);
+        let no_side = FaceSide::new(normals.len() as u32, false);
         let runs = (0..mesh.edges.len().div_ceil(RUN)).into_par_iter().map(|run| {
             let run = run * RUN..((run + 1) * RUN).min(mesh.edges.len());
             Above::cut(mesh, &points, run, |face| group_of[face as usize], no_side)
@@ -77,7 +77,7 @@ impl Casters {
         meets.par_sort_unstable();
         let sections = meets.chunks_exact(2).map(|meet| {
             let [(face, _, down), (_, _, up)] = [meet[0], meet[1]];
-            ([down, up], Side::new(group_of[face as usize], false))
+            ([down, up], FaceSide::new(group_of[face as usize], false))
         });
         let sections = sections.collect();
         let places = vec![DVec2::ZERO; points.len()];
@@ -112,20 +112,20 @@ impl Casters {
     }
 
     /// Where faces go through the plane, whatever the sun: each as an edge with what its side's sign is to be multiplied by.
-    pub(super) fn sections(&self) -> impl Iterator<Item = (Falling, Side)> {
+    pub(super) fn sections(&self) -> impl Iterator<Item = (FallingEdge, FaceSide)> {
         self.sections.iter().map(|&(ends, side)| {
             let [from, to] = ends.map(|end| self.points[end as usize].xy());
-            (Falling { from, to, change: 1 }, side)
+            (FallingEdge { from, to, change: 1 }, side)
         })
     }
 
     /// What a face on a side adds under the sun of the last projection.
-    pub(super) fn sign(&self, side: Side) -> i32 {
+    pub(super) fn sign(&self, side: FaceSide) -> i32 {
         i32::from(self.signs[side.0 as usize])
     }
 
     /// Tells the silhouette in a run of the edges.
-    pub(super) fn silhouette(&self, run: Range<usize>, mut tell: impl FnMut(Falling)) {
+    pub(super) fn silhouette(&self, run: Range<usize>, mut tell: impl FnMut(FallingEdge)) {
         const AT_ONCE: usize = 128;
         let change = |edge: &Edge| -> i32 { edge.sides.map(|side| self.sign(side)).iter().sum() };
         for edges in self.edges[run].chunks(AT_ONCE) {
@@ -138,7 +138,7 @@ impl Casters {
             for at in &found[..count] {
                 let edge = &edges[usize::from(*at)];
                 let [from, to] = edge.ends.map(|end| self.places[end as usize]);
-                tell(Falling { from, to, change: change(edge) });
+                tell(FallingEdge { from, to, change: change(edge) });
             }
         }
     }
@@ -158,7 +158,13 @@ struct Above {
 }
 
 impl Above {
-    fn cut(mesh: &Mesh, points: &[DVec3], run: Range<usize>, group_of: impl Fn(u32) -> u32, no_side: Side) -> Above {
+    fn cut(
+        mesh: &Mesh,
+        points: &[DVec3],
+        run: Range<usize>,
+        group_of: impl Fn(u32) -> u32,
+        no_side: FaceSide,
+    ) -> Above {
         let mut above = Above { edges: Vec::with_capacity(run.len()), ..Above::default() };
         for at in run {
             let mut ends = mesh.edges[at];
@@ -167,7 +173,7 @@ impl Above {
                 continue;
             }
             let faces = mesh.faces_at(at);
-            let side = |face: Incidence| Side::new(group_of(face.face()), face.direction() < 0);
+            let side = |face: Incidence| FaceSide::new(group_of(face.face()), face.direction() < 0);
             if first != last {
                 // in the plane every sun's shadow of it is itself
                 let cut = (points.len() + above.cuts.len()) as u32;

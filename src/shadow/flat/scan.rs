@@ -1,6 +1,6 @@
 //! Silhouettes → rows of bits: each edge marks where it crosses the rows, and sums run along them.
 
-use super::casters::{Casters, Falling, Side};
+use super::casters::{Casters, FaceSide, FallingEdge};
 use crate::view::Bits;
 use rayon::prelude::*;
 use std::cell::RefCell;
@@ -10,15 +10,15 @@ use std::cell::RefCell;
 /// Where an edge crosses a row depends on the edge and the row alone, so that a part of a raster is drawn as the whole is.
 pub(super) struct Scan {
     bits: Bits,
-    part: Part,
+    part: RasterPart,
     /// Per band where faces end in the plane: the same under every sun, but for whether it sees them.
-    sections: Vec<Vec<(Crossing, Side)>>,
+    sections: Vec<Vec<(EdgeCrossing, FaceSide)>>,
     /// Per task and band which edges of the silhouette cross it. Kept, so that no sun allocates anything.
-    crossings: Vec<Vec<Vec<Crossing>>>,
+    crossings: Vec<Vec<Vec<EdgeCrossing>>>,
 }
 
 /// Where an edge crosses some rows of a band.
-struct Crossing {
+struct EdgeCrossing {
     /// In the first of them, counted from the bits' first column.
     at: Fixed,
     /// Columns a row.
@@ -73,7 +73,7 @@ impl Scan {
         let rows = (BAND_BYTES / size_of::<i32>() / width.max(1) as usize).clamp(1, MOST_ROWS);
         let rows_log = rows.ilog2();
         let right = f64::from(first[0]) + f64::from(width) - 1.0;
-        let part = Part { first, right, end: first[1] + height, rows_log };
+        let part = RasterPart { first, right, end: first[1] + height, rows_log };
         let mut sections = Vec::new();
         sections.resize_with((height as usize).div_ceil(1 << rows_log), Vec::new);
         for (section, side) in casters.sections() {
@@ -125,7 +125,7 @@ impl Scan {
 }
 
 /// What of a raster is drawn.
-struct Part {
+struct RasterPart {
     first: [u32; 2],
     /// The last column, and the row beyond the last.
     right: f64,
@@ -134,10 +134,10 @@ struct Part {
     rows_log: u32,
 }
 
-impl Falling {
+impl FallingEdge {
     /// Tells the bands that the edge crosses.
-    fn cross(&self, part: &Part, mut tell: impl FnMut(usize, Crossing)) {
-        let Part { first: [left, top], right, end, rows_log } = *part;
+    fn cross(&self, part: &RasterPart, mut tell: impl FnMut(usize, EdgeCrossing)) {
+        let RasterPart { first: [left, top], right, end, rows_log } = *part;
         let is_up = self.from.y > self.to.y;
         let ends = [self.from, self.to];
         let [upper, lower] = [ends[usize::from(is_up)], ends[usize::from(!is_up)]];
@@ -153,7 +153,7 @@ impl Falling {
         let mut tell_rows = |row: u32, count: u32, at: Fixed, slope: Fixed| {
             let row = row - top;
             let (band, first) = (row >> rows_log, row & ((1 << rows_log) - 1));
-            tell(band as usize, Crossing { at, slope, first: first as u16, count: count as u16, change });
+            tell(band as usize, EdgeCrossing { at, slope, first: first as u16, count: count as u16, change });
         };
         if upper.x.abs().max(lower.x.abs()) > Fixed::FARTHEST {
             for row in start..end {
@@ -182,11 +182,11 @@ fn ceil(number: f64) -> u32 {
 }
 
 thread_local! {
-    static SUMS: RefCell<Sums> = const { RefCell::new(Sums { width: 0, in_row: 0, changes: Vec::new(), marked: Vec::new() }) };
+    static SUMS: RefCell<BandSums> = const { RefCell::new(BandSums { width: 0, in_row: 0, changes: Vec::new(), marked: Vec::new() }) };
 }
 
 /// What changes in the cells of a band. All is 0 between bands.
-struct Sums {
+struct BandSums {
     width: usize,
     /// Words of a row.
     in_row: usize,
@@ -196,7 +196,7 @@ struct Sums {
     marked: Vec<u64>,
 }
 
-impl Sums {
+impl BandSums {
     fn fit(&mut self, width: usize, rows: usize) {
         self.width = width;
         self.in_row = width.div_ceil(64);
@@ -205,7 +205,7 @@ impl Sums {
     }
 
     /// Changes sums where an edge crosses the rows, so many times as much as it says.
-    fn mark(&mut self, crossing: &Crossing, times: i32) {
+    fn mark(&mut self, crossing: &EdgeCrossing, times: i32) {
         let first = usize::from(crossing.first);
         let mut place = crossing.at;
         let change = crossing.change * times;

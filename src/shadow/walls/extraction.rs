@@ -45,11 +45,11 @@ pub struct Extraction {
     extract: ComputePipeline,
     most: u64,
     faces: Faces,
-    runs: Vec<Run>,
+    runs: Vec<EdgeRun>,
 }
 
 /// A run of edges.
-struct Run {
+struct EdgeRun {
     count: u32,
     edges: Buffer,
     /// Faces at crowded edges.
@@ -58,11 +58,11 @@ struct Run {
     most_walls: u64,
     arguments: Buffer,
     /// Made when first sought, and again where more is sought.
-    list: Option<List>,
+    list: Option<WallList>,
 }
 
 /// Where a run's walls are written.
-struct List {
+struct WallList {
     indices: Buffer,
     bound: BindGroup,
 }
@@ -100,7 +100,7 @@ impl Gathered {
         edges.max(crowds).max(list) <= most
     }
 
-    fn uploaded(self, gpu: &Gpu, most: u64) -> Result<Run, GpuError> {
+    fn uploaded(self, gpu: &Gpu, most: u64) -> Result<EdgeRun, GpuError> {
         let edges_size = size_of_val(&self.edges[..]) as u64;
         let edges = gpu.storage("extraction.edges", edges_size, most, BufferUsages::COPY_DST)?;
         let crowds_size = size_of_val(&self.crowds[..]) as u64;
@@ -111,7 +111,7 @@ impl Gathered {
         gpu.queue.write_buffer(&edges, 0, bytemuck::cast_slice(&self.edges));
         gpu.queue.write_buffer(&crowds, 0, bytemuck::cast_slice(&self.crowds));
         let Gathered { edges: gathered, most_walls, .. } = self;
-        Ok(Run { count: gathered.len() as u32, edges, crowds, most_walls, arguments, list: None })
+        Ok(EdgeRun { count: gathered.len() as u32, edges, crowds, most_walls, arguments, list: None })
     }
 }
 
@@ -158,7 +158,7 @@ impl Extraction {
     }
 }
 
-impl Run {
+impl EdgeRun {
     /// Makes the list as long as it can become.
     fn make_list(&mut self, extraction: &Extraction, sought: &WallQuery) -> Result<(), GpuError> {
         let gpu = &extraction.gpu;
@@ -181,7 +181,7 @@ impl Run {
                 (5, self.arguments.as_entire_binding()),
             ],
         );
-        self.list = Some(List { indices, bound });
+        self.list = Some(WallList { indices, bound });
         Ok(())
     }
 }

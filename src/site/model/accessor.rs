@@ -23,7 +23,7 @@ pub(super) struct Accessors<'a, 'file> {
 }
 
 /// Where elements lie, as the file says it.
-struct Span {
+struct ElementSpan {
     view: usize,
     offset: u64,
     count: u64,
@@ -69,7 +69,7 @@ fn open<'a>(
     let (component, shape) = (component.0, *shape);
     let element_bytes = (component.size() * shape.multiplicity()) as u64;
     let locate = |view: usize, offset: u64, count: u64, element_bytes: u64| {
-        let span = Span { view, offset, count, element_bytes };
+        let span = ElementSpan { view, offset, count, element_bytes };
         strided(document, buffers, index, &span)
     };
     let USize64(count) = accessor.count;
@@ -109,7 +109,12 @@ fn open<'a>(
 }
 
 /// The bytes of a span, from its first element on; all of its elements lie within the view and the buffer.
-fn strided<'a>(document: &Document, buffers: &'a Buffers, accessor: usize, span: &Span) -> Result<Strided<'a>, Fault> {
+fn strided<'a>(
+    document: &Document,
+    buffers: &'a Buffers,
+    accessor: usize,
+    span: &ElementSpan,
+) -> Result<Strided<'a>, Fault> {
     let index = span.view;
     let Some(view) = document.buffer_views.get(index) else {
         return Err(Fault::NoSuch {

@@ -6,7 +6,7 @@ use super::coarse;
 use super::document::Document;
 use super::instances::Instances;
 use super::pose::{Pose, Skins};
-use super::primitive::{self, Group, Surface, Surfaces};
+use super::primitive::{self, MaterialGroup, MeshTriangles, PrimitiveTriangles};
 use super::scene::Placed;
 use super::{Fault, MAX_COMPONENTS, MAX_MOVES, MAX_TRIANGLES, SeeThrough};
 use crate::mesh::Part;
@@ -34,7 +34,7 @@ pub(super) fn build(
 ) -> Result<Built, Fault> {
     let mut accessors = Accessors::new(document, buffers);
     // Many nodes may share a mesh; what it says is read once.
-    let mut known: Vec<Option<Surfaces>> = document.meshes.iter().map(|_| None).collect();
+    let mut known: Vec<Option<MeshTriangles>> = document.meshes.iter().map(|_| None).collect();
     let mut skins = Skins::new(document, world_from_model);
     let mut builder = Builder::default();
     let (mut triangles, mut moves) = (0_u64, 0_u64);
@@ -122,7 +122,7 @@ impl Builder {
     /// All instances of a group; there is a pose for each of its surfaces.
     fn part(
         &mut self,
-        group: &Group,
+        group: &MaterialGroup,
         poses: &[Pose],
         instances: &Instances,
         world_from_node: DAffine3,
@@ -141,7 +141,7 @@ impl Builder {
     fn append(
         &mut self,
         part: &mut Part,
-        surface: &Surface,
+        surface: &PrimitiveTriangles,
         pose: &Pose,
         world_from_mesh: DAffine3,
     ) -> Result<(), Fault> {
@@ -183,7 +183,7 @@ impl Builder {
     /// A vertex's number in the part, to which the primitive's are added from `first` on.
     fn number(&mut self, vertex: u32, first: u32) -> u32 {
         let Some(number) = self.numbers.get_mut(vertex as usize) else {
-            return first; // `Surface::corners` has checked the vertex.
+            return first; // `PrimitiveTriangles::corners` has checked the vertex.
         };
         if *number == ABSENT {
             *number = first + self.used.len() as u32;

@@ -61,7 +61,7 @@ pub(super) struct Document {
     /// The default scene.
     pub scene: Option<usize>,
     #[serde(default)]
-    pub scenes: Vec<Scene>,
+    pub scenes: Vec<DocumentScene>,
     #[serde(default)]
     pub nodes: Vec<Node>,
     #[serde(default)]
@@ -90,7 +90,7 @@ struct Asset {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Scene {
+pub(super) struct DocumentScene {
     #[serde(default, deserialize_with = "text")]
     name: Option<String>,
     #[serde(default)]

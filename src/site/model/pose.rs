@@ -6,7 +6,7 @@
 use super::Fault;
 use super::accessor::Accessors;
 use super::document::Document;
-use super::primitive::{Surface, fault};
+use super::primitive::{PrimitiveTriangles, fault};
 use super::reader::Reader;
 use super::scene::{Placed, Worlds, affine};
 use glam::{DAffine3, DVec3};
@@ -42,7 +42,7 @@ impl<'a> Pose<'a> {
         accessors: &mut Accessors<'a, '_>,
         skins: &mut Skins<'a>,
         place: &Placed,
-        surface: &Surface<'a>,
+        surface: &PrimitiveTriangles<'a>,
     ) -> Result<Self, Fault> {
         let weights = document.weights(place.node, place.mesh);
         let mesh = document.meshes.get(surface.mesh);
@@ -127,7 +127,7 @@ impl Skinned<'_> {
 /// The morph targets whose weight is not 0. A target that says nothing of positions moves none.
 fn targets<'a>(
     accessors: &mut Accessors<'a, '_>,
-    surface: &Surface,
+    surface: &PrimitiveTriangles,
     primitive: &Primitive,
     weights: &[f32],
 ) -> Result<Vec<(f64, Reader<'a>)>, Fault> {
@@ -157,7 +157,7 @@ fn has_joints(primitive: &Primitive) -> bool {
 /// All sets of joints and weights of a primitive.
 fn sets<'a>(
     accessors: &mut Accessors<'a, '_>,
-    surface: &Surface,
+    surface: &PrimitiveTriangles,
     primitive: &Primitive,
 ) -> Result<Vec<(Reader<'a>, Reader<'a>)>, Fault> {
     let fault = |problem: String| fault(surface.mesh, surface.primitive, problem);
@@ -181,7 +181,7 @@ fn sets<'a>(
     Ok(sets)
 }
 
-fn check_count(what: &str, reader: &Reader, surface: &Surface) -> Result<(), Fault> {
+fn check_count(what: &str, reader: &Reader, surface: &PrimitiveTriangles) -> Result<(), Fault> {
     let (has, needs) = (reader.count, surface.positions.count);
     if has == needs {
         return Ok(());

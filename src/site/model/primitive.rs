@@ -13,25 +13,25 @@ use std::ops::Range;
 const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// The triangles of a mesh, checked but for the values of its indices and positions.
-pub(super) struct Surfaces<'a> {
+pub(super) struct MeshTriangles<'a> {
     /// In the order in which the materials appear; those without triangles are left out.
-    pub groups: Vec<Group<'a>>,
+    pub groups: Vec<MaterialGroup<'a>>,
     /// Whether the mesh has one material, be it with triangles or without.
     pub one_material: bool,
 }
 
 /// The primitives of one mesh and material.
-pub(super) struct Group<'a> {
+pub(super) struct MaterialGroup<'a> {
     /// Its number, where it has one.
     pub material: Option<usize>,
     /// Whether the colours of its vertices have an alpha.
     pub has_faded_vertices: bool,
     /// One or more, each with triangles.
-    pub surfaces: Vec<Surface<'a>>,
+    pub surfaces: Vec<PrimitiveTriangles<'a>>,
 }
 
 /// A primitive with triangles.
-pub(super) struct Surface<'a> {
+pub(super) struct PrimitiveTriangles<'a> {
     /// The mesh's number.
     pub mesh: usize,
     /// The primitive's number in it.
@@ -44,7 +44,7 @@ pub(super) struct Surface<'a> {
     mode: Mode,
 }
 
-impl Group<'_> {
+impl MaterialGroup<'_> {
     /// How many triangles all its primitives have.
     pub(super) fn triangles(&self) -> u64 {
         self.surfaces.iter().map(|surface| surface.triangles as u64).sum()
@@ -56,8 +56,8 @@ pub(super) fn surfaces<'a>(
     document: &Document,
     accessors: &mut Accessors<'a, '_>,
     index: usize,
-) -> Result<Surfaces<'a>, Fault> {
-    let mut groups: Vec<Group> = Vec::new();
+) -> Result<MeshTriangles<'a>, Fault> {
+    let mut groups: Vec<MaterialGroup> = Vec::new();
     let mut group_of = BTreeMap::new();
     let primitives = document.meshes.get(index).map_or(&[][..], |mesh| &mesh.primitives);
     for (number, primitive) in primitives.iter().enumerate() {
@@ -79,7 +79,7 @@ pub(super) fn surfaces<'a>(
             });
         }
         let group = *group_of.entry(material).or_insert_with(|| {
-            groups.push(Group { material, has_faded_vertices: false, surfaces: Vec::new() });
+            groups.push(MaterialGroup { material, has_faded_vertices: false, surfaces: Vec::new() });
             groups.len() - 1
         });
         let surface = surface(document, accessors, (index, number), primitive, mode)?;
@@ -89,7 +89,7 @@ pub(super) fn surfaces<'a>(
         }
     }
     groups.retain(|group| !group.surfaces.is_empty());
-    Ok(Surfaces { groups, one_material: group_of.len() == 1 })
+    Ok(MeshTriangles { groups, one_material: group_of.len() == 1 })
 }
 
 /// Whether its vertices have colours of four numbers.
@@ -105,7 +105,7 @@ fn surface<'a>(
     (mesh, number): (usize, usize),
     primitive: &Primitive,
     mode: Mode,
-) -> Result<Surface<'a>, Fault> {
+) -> Result<PrimitiveTriangles<'a>, Fault> {
     let fault = |problem| Err(fault(mesh, number, problem));
     let user = || format!("primitive {number} of mesh {mesh}");
     let positions = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
@@ -145,10 +145,10 @@ fn surface<'a>(
         Mode::TriangleStrip | Mode::TriangleFan => corners.saturating_sub(2),
         _ => corners / 3,
     };
-    Ok(Surface { mesh, primitive: number, positions, triangles, indices, mode })
+    Ok(PrimitiveTriangles { mesh, primitive: number, positions, triangles, indices, mode })
 }
 
-impl Surface<'_> {
+impl PrimitiveTriangles<'_> {
     /// The vertices of some of its triangles, counter-clockwise; each is one of `positions`.
     ///
     /// Triangles of a strip that only join what lies before and behind them are left out.

@@ -1,6 +1,6 @@
 //! What lies under the lines: the ground, the buildings, and where something else parts cells than the sun.
 
-use super::{Line, Lines, Scale, fill, group, line, paths, stroke};
+use super::{Line, LineGroup, Scale, fill, group, line, paths, stroke};
 use crate::export::figure::picture::{Cells, Pen};
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::Block;
@@ -108,7 +108,7 @@ impl Base {
 
     /// Around the buildings, where they step up.
     pub(super) fn footprints(&self, scale: Scale) -> Vec<Line> {
-        let Lines { large, small } = scale.lines(&self.footprints);
+        let LineGroup { large, small } = scale.lines(&self.footprints);
         [large, small].concat()
     }
 

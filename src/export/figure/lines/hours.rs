@@ -2,10 +2,10 @@
 
 use super::base::Base;
 use super::labels::{self, Labels, Spot};
-use super::{LineDrawing, Lines, Scale, fill, group, length};
+use super::{LineDrawing, LineGroup, Scale, fill, group, length};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb, mix};
-use crate::export::figure::svg::{Block, Style};
-use crate::export::figure::text::Weight;
+use crate::export::figure::svg::{Block, LetterStyle};
+use crate::export::figure::text::FontWeight;
 use crate::export::figure::{self, FigureContext, plan, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::Profile;
@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The lines, and their hours.
 const LINE: Rgb = [172, 56, 22];
-const LABEL: Style = Style { size: 27.0, weight: Weight::Bold, colour: LINE };
+const LABEL: LetterStyle = LetterStyle { size: 27.0, weight: FontWeight::Bold, colour: LINE };
 /// Page pixels.
 const WIDTH: f64 = 2.6;
 /// Behind letters.
@@ -74,7 +74,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) ->
         if scene.receivers == Receivers::Ground {
             base.fill(&mut block, scale, plan::ROOF_UNJUDGED);
         }
-        let lines: Vec<(u32, Lines)> = drawn.iter().map(|secs| (*secs, scale.lines(&contours[secs]))).collect();
+        let lines: Vec<(u32, LineGroup)> = drawn.iter().map(|secs| (*secs, scale.lines(&contours[secs]))).collect();
         group(&mut block, "iso-hours", |block| {
             for (secs, lines) in &lines {
                 lines.draw(block, WIDTH, LINE, &said(*secs));
@@ -94,7 +94,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) ->
 }
 
 /// The hours on each line that is long enough for them, again and again; beside the longest one where none is.
-fn label(labels: &mut Labels, said: &str, lines: &Lines) {
+fn label(labels: &mut Labels, said: &str, lines: &LineGroup) {
     /// Between a line and letters beside it, pixels.
     const BESIDE: f64 = 10.0;
     let half = labels.half(said);

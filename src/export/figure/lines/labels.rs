@@ -2,7 +2,7 @@
 
 use super::{distance, length};
 use crate::export::figure::scale::Rgb;
-use crate::export::figure::svg::{Block, Style, hex};
+use crate::export::figure::svg::{Block, LetterStyle, hex};
 use crate::export::figure::text;
 
 /// A place for a label: its middle, and the angle of its line of letters, radians clockwise from rightwards.
@@ -17,7 +17,7 @@ pub(super) struct Spot {
 /// The labels of a picture.
 pub(super) struct Labels {
     size: [f64; 2],
-    style: Style,
+    style: LetterStyle,
     columns: usize,
     /// In squares of [`SQUARE`] pixels: how much of lines runs there, and whether letters stand there.
     lines: Vec<f32>,
@@ -34,7 +34,7 @@ const AROUND: f64 = 6.0;
 
 impl Labels {
     /// None yet, on a picture of so many pixels.
-    pub(super) fn new(pixels: (u32, u32), style: Style, apart: f64) -> Labels {
+    pub(super) fn new(pixels: (u32, u32), style: LetterStyle, apart: f64) -> Labels {
         let size = [f64::from(pixels.0), f64::from(pixels.1)];
         let [columns, rows] = size.map(|length| (length / SQUARE).ceil() as usize + 1);
         let (lines, letters) = (vec![0.0; columns * rows], vec![false; columns * rows]);
@@ -118,7 +118,7 @@ impl Labels {
 
     /// Draws them: first what keeps them clear of what they lie on, in `halo`, then the letters.
     pub(super) fn draw(&self, block: &mut Block, halo: Rgb) {
-        let Style { size, .. } = self.style;
+        let LetterStyle { size, .. } = self.style;
         let draw = |block: &mut Block, how: &dyn Fn(Rgb) -> String| {
             for (Spot { at: [x, y], angle, .. }, said, colour) in &self.placed {
                 let angle = angle.to_degrees();
@@ -155,7 +155,7 @@ pub(super) fn along(line: &[[f64; 2]], [from, to]: [f64; 2], width: f64) -> Vec<
     if count < 0.0 {
         return Vec::new();
     }
-    let mut places = Places::new(line);
+    let mut places = LinePoints::new(line);
     let spots = (0..=count as usize).filter_map(|step| {
         let middle = from + step as f64 * PITCH;
         let [a, at, b] = [-0.5, 0.0, 0.5].map(|share| places.at(middle + share * width));
@@ -178,19 +178,19 @@ pub(super) fn along(line: &[[f64; 2]], [from, to]: [f64; 2], width: f64) -> Vec<
 }
 
 /// Points at lengths of a line.
-struct Places<'a> {
+struct LinePoints<'a> {
     line: &'a [[f64; 2]],
     lengths: Vec<f64>,
 }
 
-impl Places<'_> {
-    fn new(line: &[[f64; 2]]) -> Places<'_> {
+impl LinePoints<'_> {
+    fn new(line: &[[f64; 2]]) -> LinePoints<'_> {
         let mut sum = 0.0;
         let to_each = line.windows(2).map(|ends| {
             sum += distance(ends[0], ends[1]);
             sum
         });
-        Places { line, lengths: to_each.collect() }
+        LinePoints { line, lengths: to_each.collect() }
     }
 
     fn at(&mut self, length: f64) -> [f64; 2] {

@@ -57,10 +57,10 @@ impl Scale {
     }
 
     /// What is drawn of contours.
-    fn lines(self, contours: &[Contour]) -> Lines {
+    fn lines(self, contours: &[Contour]) -> LineGroup {
         /// Square pixels.
         const SMALL: f64 = 3000.0;
-        let mut lines = Lines::default();
+        let mut lines = LineGroup::default();
         for contour in contours {
             let is_small = contour.area().abs() * self.0[0] * self.0[1] < SMALL;
             let to = if is_small { &mut lines.small } else { &mut lines.large };
@@ -87,14 +87,14 @@ type Line = Vec<[f64; 2]>;
 
 /// Lines of one kind.
 #[derive(Default)]
-struct Lines {
+struct LineGroup {
     /// The longest first.
     large: Vec<Line>,
     /// Around what is so small that a full line would drown it.
     small: Vec<Line>,
 }
 
-impl Lines {
+impl LineGroup {
     fn all(&self) -> impl Iterator<Item = &Line> {
         self.large.iter().chain(&self.small)
     }
@@ -118,7 +118,7 @@ fn distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
 fn line(data: &mut String, points: impl Iterator<Item = [f64; 2]>) {
     for (at, [x, y]) in points.enumerate() {
         // Writing to a String cannot fail.
-        let _ = write!(data, "{}{} {}", if at == 0 { 'M' } else { 'L' }, Number(x), Number(y));
+        let _ = write!(data, "{}{} {}", if at == 0 { 'M' } else { 'L' }, SvgNumber(x), SvgNumber(y));
     }
 }
 
@@ -134,9 +134,9 @@ fn paths(lines: &[Line]) -> String {
 }
 
 /// To a hundredth of a pixel, without zeros that say nothing.
-struct Number(f64);
+struct SvgNumber(f64);
 
-impl std::fmt::Display for Number {
+impl std::fmt::Display for SvgNumber {
     fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let hundredths = (self.0 * 100.0).round() as i64;
         let sign = if hundredths < 0 { "-" } else { "" };

@@ -2,11 +2,11 @@
 
 use super::base::Base;
 use super::labels::{Labels, Spot};
-use super::{LineDrawing, Lines, Scale, distance, fill, group};
+use super::{LineDrawing, LineGroup, Scale, distance, fill, group};
 use crate::export::figure::picture::Fit;
 use crate::export::figure::scale::{Rgb, mix};
-use crate::export::figure::svg::{Block, Style};
-use crate::export::figure::text::Weight;
+use crate::export::figure::svg::{Block, LetterStyle};
+use crate::export::figure::text::FontWeight;
 use crate::export::figure::{self, FigureContext, UNJUDGED, plan, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::contour::Contour;
@@ -37,7 +37,7 @@ const DARKEST: f64 = 0.55;
 const HALO: Rgb = [255, 255, 255];
 /// Page pixels.
 const WIDTH: f64 = 3.0;
-const LABEL: Style = Style { size: 31.0, weight: Weight::Bold, colour: [0; 3] };
+const LABEL: LetterStyle = LetterStyle { size: 31.0, weight: FontWeight::Bold, colour: [0; 3] };
 /// How often an instant's time stands on its outline at most, where the shadow is how long in comparison with its longest,
 /// and how far apart, pixels.
 const MOST_LABELS: usize = 3;
@@ -69,7 +69,14 @@ pub fn outlines<S: SurfaceRows>(
         let instant = instant.ok_or_else(|| ExportError::encode("outlines", "an instant is not of the track"))?;
         let contours = base.contours(&|cell| u64::from(shadow.contains(cell)), 0);
         let time = words::clock(&instant.time);
-        drawn.push(Drawn { instant, time, colour: colour(at, count), contours, lines: Lines::default(), shadow });
+        drawn.push(DrawnOutline {
+            instant,
+            time,
+            colour: colour(at, count),
+            contours,
+            lines: LineGroup::default(),
+            shadow,
+        });
     }
 
     let mut panel = figure::panel(scene, "Shadow outlines");
@@ -104,7 +111,7 @@ pub fn outlines<S: SurfaceRows>(
         let mut labels = Labels::new(fit.pixels, LABEL, APART);
         base.footprints(scale).iter().for_each(|line| labels.avoid(line));
         group(&mut block, "outlines", |block| {
-            for Drawn { time, colour, contours, lines, .. } in &mut drawn {
+            for DrawnOutline { time, colour, contours, lines, .. } in &mut drawn {
                 *lines = scale.lines(contours);
                 lines.all().for_each(|line| labels.avoid(line));
                 lines.draw(block, WIDTH, *colour, time);
@@ -117,19 +124,19 @@ pub fn outlines<S: SurfaceRows>(
     Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
 }
 
-struct Drawn<'a> {
+struct DrawnOutline<'a> {
     instant: &'a Instant,
     time: String,
     colour: Rgb,
     contours: Vec<Contour>,
     /// Known when the sheet is laid out.
-    lines: Lines,
+    lines: LineGroup,
     shadow: &'a Bits,
 }
 
 /// The time where the shadow reaches farthest, and once or twice more beside long shadows in open sun.
-fn label(labels: &mut Labels, drawn: &[Drawn], at: usize, scale: Scale) {
-    let Drawn { instant, time, colour, lines, shadow, .. } = &drawn[at];
+fn label(labels: &mut Labels, drawn: &[DrawnOutline], at: usize, scale: Scale) {
+    let DrawnOutline { instant, time, colour, lines, shadow, .. } = &drawn[at];
     // rows run southwards
     let away = [-instant.to_sun.x, instant.to_sun.y];
     let length = away[0].hypot(away[1]).max(1e-9);

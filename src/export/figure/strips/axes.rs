@@ -5,14 +5,14 @@ use crate::sun::Zone;
 use chrono::{DateTime, Datelike, NaiveDate, NaiveTime};
 
 /// The hours across, counted from the midnight with which the local date begins; beyond 24 on the next day.
-pub(super) struct Hours {
+pub(super) struct HourAxis {
     pub(super) first: i64,
     pub(super) last: i64,
 }
 
-impl Hours {
+impl HourAxis {
     /// The whole hours around all that the sun does on the days.
-    pub(super) fn of(days: &[SunDay]) -> Hours {
+    pub(super) fn of(days: &[SunDay]) -> HourAxis {
         let times = |day: &SunDay| {
             let of_day = [day.window.day.sunrise, day.window.day.sunset].into_iter().flatten();
             let up = day.up.iter().flat_map(|up| [up.start, up.end]);
@@ -20,10 +20,10 @@ impl Hours {
         };
         let times: Vec<i64> = days.iter().flat_map(times).collect();
         let (Some(low), Some(high)) = (times.iter().min(), times.iter().max()) else {
-            return Hours { first: 0, last: 24 };
+            return HourAxis { first: 0, last: 24 };
         };
         let first = low.div_euclid(3600);
-        Hours { first, last: (high + 3599).div_euclid(3600).max(first + 1) }
+        HourAxis { first, last: (high + 3599).div_euclid(3600).max(first + 1) }
     }
 
     /// Where so many seconds after midnight lie: 0 at the left, 1 at the right.

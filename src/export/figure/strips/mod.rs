@@ -4,9 +4,9 @@ mod axes;
 mod said;
 
 use super::page::{self, PAPER};
-use super::picture::{Between, Fit, Picture, compose};
+use super::picture::{CellBorder, Fit, PagePicture, compose};
 use super::scale::{Rgb, mix};
-use super::svg::{ACCENT, Anchor, Block, GRAY, INK, Style};
+use super::svg::{ACCENT, Anchor, Block, GRAY, INK, LetterStyle};
 use super::text;
 use crate::export::ExportError;
 use crate::export::probe::{clock, counted, lies};
@@ -14,7 +14,7 @@ use crate::message::{Field, Words, message};
 use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, below_ground_m};
 use crate::site::{Ground, metres};
 use crate::sun::{Day, Place, Zone};
-use axes::{Hours, Tick, ticks};
+use axes::{HourAxis, Tick, ticks};
 use chrono::{DateTime, NaiveDate};
 
 /// In the sun, in the shade, without a sun, and where nothing was asked.
@@ -42,7 +42,7 @@ const HIGHEST: f64 = 300.0;
 /// # Errors
 /// [`ExportError::Encode`] where the page cannot be drawn or encoded.
 pub fn strips(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> Result<Vec<u8>, ExportError> {
-    let hours = Hours::of(&sunlight.days);
+    let hours = HourAxis::of(&sunlight.days);
     let left = if sunlight.days.len() > 1 { LEFT } else { RIGHT };
     page::chart(&said::panel(sunlight, place, ground), [left, HOURS, RIGHT, HOURS], |pixels| {
         draw(sunlight, ground, &hours, pixels, words)
@@ -76,13 +76,13 @@ impl Strips {
 fn draw(
     sunlight: &Sunlight,
     ground: &Ground,
-    hours: &Hours,
+    hours: &HourAxis,
     pixels: (u32, u32),
     words: &dyn Words,
-) -> (Picture, Block) {
+) -> (PagePicture, Block) {
     let strips = Strips::within(sunlight, pixels);
     let width = strips.width as usize;
-    let mut picture = Picture { width: pixels.0, height: pixels.1, pixels: vec![PAPER; width * pixels.1 as usize] };
+    let mut picture = PagePicture { width: pixels.0, height: pixels.1, pixels: vec![PAPER; width * pixels.1 as usize] };
     let mut over = Block::default();
     let days: Vec<NaiveDate> = sunlight.days.iter().map(|day| day.window.day.date).collect();
     let row = f64::from(strips.height) / days.len() as f64;
@@ -97,7 +97,7 @@ fn draw(
         curves(&mut lines, sunlight, hours, &strips);
         for tick in &ticks {
             let y = if tick.within { (tick.row as f64 + 0.5) * row + 11.0 } else { tick.row as f64 * row + 30.0 };
-            lines.text(-18.0, y, Anchor::End, Style::LABEL, &tick.label);
+            lines.text(-18.0, y, Anchor::End, LetterStyle::LABEL, &tick.label);
         }
         if let ([day], [intervals]) = (sunlight.days.as_slice(), probed.days.as_slice()) {
             label(&mut lines, sunlight, (day, intervals), hours, &strips);
@@ -109,8 +109,8 @@ fn draw(
     for hour in hours.first..=hours.last {
         let x = hours.at(hour * 3600) * f64::from(strips.width);
         let said = format!("{:02}:00", hour % 24);
-        over.text(x, -14.0, Anchor::Middle, Style::LABEL, &said);
-        over.text(x, bottom + 44.0, Anchor::Middle, Style::LABEL, &said);
+        over.text(x, -14.0, Anchor::Middle, LetterStyle::LABEL, &said);
+        over.text(x, bottom + 44.0, Anchor::Middle, LetterStyle::LABEL, &said);
     }
     if let ([probed], [_]) = (sunlight.probes.as_slice(), days.as_slice())
         && probed.longest().is_some()
@@ -122,19 +122,19 @@ fn draw(
     if strips.count < sunlight.probes.len() {
         let more = format!("and {} more probes", sunlight.probes.len() - strips.count);
         let more = message![more; Field::Csv, " and ", Field::Json, " have all"].in_words(words);
-        over.text(f64::from(strips.width), bottom + 84.0, Anchor::End, Style::LABEL, &more);
+        over.text(f64::from(strips.width), bottom + 84.0, Anchor::End, LetterStyle::LABEL, &more);
     }
     (picture, over)
 }
 
 /// A strip's pixels: a row a day, and the lines of hours and dates.
-fn strip(sunlight: &Sunlight, probed: &Probed, hours: &Hours, ticks: &[Tick], strips: &Strips) -> Vec<Rgb> {
+fn strip(sunlight: &Sunlight, probed: &Probed, hours: &HourAxis, ticks: &[Tick], strips: &Strips) -> Vec<Rgb> {
     let (width, height) = (strips.width as usize, strips.height as usize);
     let rows = sunlight.days.iter().zip(&probed.days);
     let colours: Vec<Rgb> = rows.flat_map(|(day, intervals)| colours(day, intervals, hours, width)).collect();
     let days = sunlight.days.len();
     let fit = Fit { cells: (strips.width, days as u32), pixels: (strips.width, strips.height) };
-    let mut pixels = compose(fit, Between::Sharp, &colours, |_, _| None).pixels;
+    let mut pixels = compose(fit, CellBorder::Sharp, &colours, |_, _| None).pixels;
     let mut line = |pixel: usize| {
         let light = pixels[pixel].iter().map(|part| u32::from(*part)).sum::<u32>() > 330;
         pixels[pixel] = mix(pixels[pixel], if light { INK } else { PAPER }, GRID);
@@ -151,7 +151,7 @@ fn strip(sunlight: &Sunlight, probed: &Probed, hours: &Hours, ticks: &[Tick], st
 }
 
 /// A day's colours, averaged over each column's time.
-fn colours(day: &SunDay, intervals: &[Interval], hours: &Hours, columns: usize) -> Vec<Rgb> {
+fn colours(day: &SunDay, intervals: &[Interval], hours: &HourAxis, columns: usize) -> Vec<Rgb> {
     let mut line = vec![OUTSIDE; columns];
     let mut paint = |from: DateTime<Zone>, to: DateTime<Zone>, colour: Rgb| {
         let [from, to] =
@@ -180,20 +180,20 @@ fn head(lines: &mut Block, sunlight: &Sunlight, ground: &Ground, probed: &Probed
         }
         _ => format!("{} of sun, the longest interval {}", clock(probed.secs()), clock(longest)),
     };
-    lines.text(width, -18.0, Anchor::End, Style::BODY, &sums);
-    let mut room = width - text::width(&sums, Style::BODY.weight, Style::BODY.size) - 40.0;
-    let name = text::wrap(&probed.probe.name, Style::HEAD.weight, Style::HEAD.size, room, 1).concat();
-    lines.text(0.0, -18.0, Anchor::Start, Style::HEAD, &name);
-    let taken = text::width(&name, Style::HEAD.weight, Style::HEAD.size) + 26.0;
+    lines.text(width, -18.0, Anchor::End, LetterStyle::BODY, &sums);
+    let mut room = width - text::width(&sums, LetterStyle::BODY.weight, LetterStyle::BODY.size) - 40.0;
+    let name = text::wrap(&probed.probe.name, LetterStyle::HEAD.weight, LetterStyle::HEAD.size, room, 1).concat();
+    lines.text(0.0, -18.0, Anchor::Start, LetterStyle::HEAD, &name);
+    let taken = text::width(&name, LetterStyle::HEAD.weight, LetterStyle::HEAD.size) + 26.0;
     room -= taken;
     let lies = lies(&probed.probe).replace("(-", "(−").replace(" -", " −");
-    if sunlight.probes.len() > 1 && text::width(&lies, Style::LABEL.weight, Style::LABEL.size) <= room {
-        lines.text(taken, -18.0, Anchor::Start, Style::LABEL, &lies);
+    if sunlight.probes.len() > 1 && text::width(&lies, LetterStyle::LABEL.weight, LetterStyle::LABEL.size) <= room {
+        lines.text(taken, -18.0, Anchor::Start, LetterStyle::LABEL, &lies);
     }
 }
 
 /// Sunrise and sunset over a strip's days.
-fn curves(lines: &mut Block, sunlight: &Sunlight, hours: &Hours, strips: &Strips) {
+fn curves(lines: &mut Block, sunlight: &Sunlight, hours: &HourAxis, strips: &Strips) {
     /// A line goes on where clocks are put forward or back, but not from one midnight to the other: so many hours.
     const FARTHEST: f64 = 3.0;
     let row = f64::from(strips.height) / sunlight.days.len() as f64;
@@ -220,14 +220,14 @@ fn label(
     lines: &mut Block,
     sunlight: &Sunlight,
     (day, intervals): (&SunDay, &[Interval]),
-    hours: &Hours,
+    hours: &HourAxis,
     strips: &Strips,
 ) {
     let width = f64::from(strips.width);
     let x = |time| hours.of_time(day, time) * width;
     let middle = f64::from(strips.height) / 2.0;
     let mut write = |from: f64, to: f64, colour: Rgb, said: &[String]| {
-        let style = Style { colour, ..Style::BODY };
+        let style = LetterStyle { colour, ..LetterStyle::BODY };
         let room = to - from - 16.0;
         if said.iter().all(|line| text::width(line, style.weight, style.size) <= room) {
             let first = middle - style.leading() * (said.len() as f64 / 2.0 - 0.5) + style.size * 0.36;

@@ -2,7 +2,7 @@
 
 use super::{NIGHT, OUTSIDE, SHADE, SUN};
 use crate::export::figure::panel::Panel;
-use crate::export::figure::svg::{ACCENT, Anchor, Block, Style};
+use crate::export::figure::svg::{ACCENT, Anchor, Block, LetterStyle};
 use crate::export::figure::{text, words};
 use crate::export::probe::{clock, facing, triple};
 use crate::export::report;
@@ -110,8 +110,8 @@ pub(super) fn intervals(sunlight: &Sunlight, intervals: &[Interval], room: f64) 
     const LEFT: [f64; 5] = [0.0, 260.0, 520.0, 780.0, 1500.0];
     const PITCH: f64 = 54.0;
     let mut block = Block::default();
-    let mut row = |cells: [&str; 5], style: Style| {
-        let baseline = block.height + Style::BODY.size;
+    let mut row = |cells: [&str; 5], style: LetterStyle| {
+        let baseline = block.height + LetterStyle::BODY.size;
         for (index, (cell, left)) in cells.into_iter().zip(LEFT).enumerate() {
             let width = LEFT.get(index + 1).map_or(700.0, |next| next - left) - 30.0;
             let cell = text::wrap(cell, style.weight, style.size, width, 1).concat();
@@ -120,16 +120,16 @@ pub(super) fn intervals(sunlight: &Sunlight, intervals: &[Interval], room: f64) 
         block.height += PITCH;
         block.height
     };
-    let mut used = row(["start", "end", "duration", "blocked before", "blocked after"], Style::LABEL);
+    let mut used = row(["start", "end", "duration", "blocked before", "blocked after"], LetterStyle::LABEL);
     for (index, interval) in intervals.iter().enumerate() {
         if used + 2.0 * PITCH > room && index + 1 < intervals.len() {
             let more = format!("… and {} more", intervals.len() - index);
-            row([&more, "", "", "", ""], Style::LABEL);
+            row([&more, "", "", "", ""], LetterStyle::LABEL);
             break;
         }
         let [start, end] = [interval.start, interval.end].map(|time| time.format("%H:%M:%S").to_string());
         let [before, after] = [interval.before, interval.after].map(|blocked| sunlight.name(blocked));
-        used = row([&start, &end, &clock(interval.secs()), &before, &after], Style::BODY);
+        used = row([&start, &end, &clock(interval.secs()), &before, &after], LetterStyle::BODY);
     }
     block
 }
