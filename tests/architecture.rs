@@ -1,6 +1,7 @@
 //! The rules of `docs/architecture.md`, as far as a machine can see them: who may know whom, who may print, who may
-//! read files, and how long a file may be.
+//! read files, how types are named, and how long a file may be.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The modules in reading order, and whom each may know. Everybody may know themselves.
@@ -340,6 +341,58 @@ fn drawings_and_reports_are_put_together_in_one_place() {
     assert_eq!(put_together(&files("src", "rs")), ["deliver/parts.rs"; 2], "what a drawing is told, and a report");
     let twin = (PathBuf::from("desktop/hours.rs"), "let scene = figure::FigureContext { place, track };".to_owned());
     assert_eq!(put_together(&[twin]), ["desktop/hours.rs"]);
+}
+
+/// Names that two types have, whoever may see them, and the files that declare them: such a name cannot be searched for.
+fn named_twice(sources: &[(PathBuf, String)]) -> Vec<String> {
+    let mut declared: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (path, source) in sources {
+        let code = without_comments(source);
+        for name in code.lines().filter_map(declared_type) {
+            declared.entry(name.to_owned()).or_default().push(path.display().to_string());
+        }
+    }
+    let twice = declared.into_iter().filter(|(_, files)| files.len() > 1);
+    twice.map(|(name, files)| format!("{name}: {}", files.join(", "))).collect()
+}
+
+/// The type that a line declares. A type within a trait or its `impl`, such as `type Err`, has the trait's name for it.
+fn declared_type(line: &str) -> Option<&str> {
+    let code = line.trim_start();
+    let code = match code.strip_prefix("pub") {
+        Some(rest) if rest.starts_with('(') => rest.split_once(')')?.1.trim_start(),
+        Some(rest) => rest.trim_start(),
+        None => code,
+    };
+    let (keyword, rest) = code.split_once(' ')?;
+    let is_type =
+        matches!(keyword, "struct" | "enum" | "trait" | "union") || keyword == "type" && !line.starts_with(' ');
+    let name = &rest[..rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len())];
+    (is_type && name.starts_with(char::is_uppercase)).then_some(name)
+}
+
+#[test]
+fn no_two_types_have_one_name() {
+    let sources = files("src", "rs");
+    let types = sources.iter().flat_map(|(_, source)| source.lines().filter_map(declared_type)).count();
+    assert!(types > sources.len(), "too few types were found");
+    let twice = named_twice(&sources);
+    assert!(twice.is_empty(), "one name for two types; name each for what it is:\n{}", twice.join("\n"));
+    let file = |path: &str, text: &str| (PathBuf::from(path), text.to_owned());
+    let mesh = || file("mesh/mod.rs", "pub struct Part<'a> {");
+    for twin in [
+        "pub enum Part {",
+        "    pub(super) struct Part;",
+        "pub(in crate::shadow) trait Part: Sync {",
+        "type Part = u32;",
+    ] {
+        assert_eq!(named_twice(&[mesh(), file("view.rs", twin)]), ["Part: mesh/mod.rs, view.rs"], "{twin}");
+    }
+    for other in
+        ["// pub struct Part {", "pub use mesh::Part;", "impl Part {", "    type Part = u32;", "pub struct Parts {"]
+    {
+        assert_eq!(named_twice(&[mesh(), file("view.rs", other)]), Vec::<String>::new(), "{other}");
+    }
 }
 
 #[test]
