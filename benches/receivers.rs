@@ -10,7 +10,7 @@ use glam::{DVec3, DVec4, dvec3};
 use gnomon::gpu::Gpu;
 use gnomon::mesh::patches::{DEFAULT_CELL_M, MOST_TEXELS, Patches};
 use gnomon::mesh::{Mesh, Part};
-use gnomon::shadow::soft_texture::{Choice, Fill, Judged, Painter, Sample, SoftTexture};
+use gnomon::shadow::soft_texture::{Choice, Fill, Painter, PatchJudgements, Sample, SoftTexture};
 use gnomon::site::{Overrides, Site};
 use std::path::Path;
 use std::sync::Arc;
@@ -86,7 +86,7 @@ fn sites(gpu: &Arc<Gpu>) {
         let (mut names, mut sums) = (Vec::new(), Vec::new());
         for ((way, ..), (texture, times)) in ways.into_iter().zip(textures) {
             let millis = median(times);
-            let Judged { textures, faces, rays, texture_texels } = texture.judged();
+            let PatchJudgements { textures, faces, rays, texture_texels } = texture.judged();
             let (bytes, count) = (texture.gpu_bytes(), suns.len() as u64);
             println!(
                 "| {name} | {} | {way} | {millis:.0} | {:.2} | {:.2} | {} | {:.0} | {} | {:.0} |",

@@ -16,7 +16,7 @@ use gnomon::mesh::{Mesh, Part};
 use gnomon::shadow::walls::extraction::{Extraction, ExtractionProgram};
 use gnomon::shadow::walls::{WallQuery, Walls};
 use gnomon::silhouette::hierarchy::Hierarchy;
-use gnomon::silhouette::{DirectedEdge, Looked, ProcessorFinder, SilhouetteFinder, hextree};
+use gnomon::silhouette::{DirectedEdge, ProcessorFinder, QueryCost, SilhouetteFinder, hextree};
 use gnomon::site::{Overrides, Site};
 use std::path::Path;
 use std::sync::Arc;
@@ -92,7 +92,7 @@ fn copied(mesh: &Mesh, copies: usize) -> Mesh {
 }
 
 /// Appends the silhouette; asked for runs alone, nothing.
-type Query = Box<dyn FnMut(&Mesh, DVec4, &mut Vec<DirectedEdge>) -> Looked>;
+type Query = Box<dyn FnMut(&Mesh, DVec4, &mut Vec<DirectedEdge>) -> QueryCost>;
 
 /// A finder with its name, the time it took to build, and its size.
 struct Entry {
@@ -153,7 +153,7 @@ fn entries(gpu: Option<&Machine>, mesh: &Mesh, sun: DVec4) -> Vec<Entry> {
             extraction.find(mesh, &sought, &mut encoder).expect("a list");
             gpu.queue.submit([encoder.finish()]);
             gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter answers");
-            Looked { at: mesh.edges.len(), found: 0 }
+            QueryCost { at: mesh.edges.len(), found: 0 }
         });
         entries.push(entry(&name, built[0], 0, query));
     }

@@ -21,7 +21,7 @@ use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::{Overrides, Site};
-use gnomon::view::{Camera, Decided, FragmentCounts, View};
+use gnomon::view::{Camera, Decider, FragmentCounts, View};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -201,7 +201,7 @@ fn fragments_row(name: &str, map_size: u32, [stencil, hybrid]: &[FragmentCounts;
     let cells = f64::from(stencil.width * stencil.height);
     let reached: u64 = hybrid.reached.iter().map(|&fragments| u64::from(fragments)).sum();
     let decided = hybrid.decided.as_ref().expect("what decided");
-    let by_volumes = |decided: &&Decided| matches!(decided, Decided::VolumeShadow | Decided::VolumeLight);
+    let by_volumes = |decided: &&Decider| matches!(decided, Decider::VolumeShadow | Decider::VolumeLight);
     let silhouette = decided.iter().filter(by_volumes).count();
     format!(
         "| {name} | {map_size} | {:.1} | {:.1}% | {:.2} | {:.1}% |",

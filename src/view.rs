@@ -443,7 +443,7 @@ impl Bits {
 
 /// What decided a cell's share, where a map decides some and volumes the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Decided {
+pub enum Decider {
     /// The map, and the cell is in shadow.
     MapShadow,
     /// The map, and the cell sees the sun.
@@ -466,7 +466,7 @@ pub struct FragmentCounts {
     /// How many would in all cells together, if no mask kept any away.
     pub all: u64,
     /// Per cell what decided it, where a map did too.
-    pub decided: Option<Vec<Decided>>,
+    pub decided: Option<Vec<Decider>>,
 }
 
 /// What a drawing lays over a camera's picture at one instant, in cells finer than the picture's.

@@ -296,7 +296,7 @@ fn of_two_that_lie_over_each_other_in_part_that_part_counts_once() {
     let (areas_of, patches) =
         areas(vec![quad("one", 0.0, 10.1, true), quad("two", 10.1, 17.3, true)], &[true; 2], 0.25);
     assert!(near(areas_of[0], 101.0) && near(areas_of[1], 72.0), "{areas_of:?}");
-    assert_eq!(patches.left_out, gnomon::mesh::patches::LeftOut::default());
+    assert_eq!(patches.left_out, gnomon::mesh::patches::UncountedArea::default());
     assert!(patches.list.iter().all(|patch| patch.uncounted.is_empty()));
     // the same wall again in the same component, cut along its other diagonal
     let mut both = quad("wall", 0.0, 10.0, true);
@@ -354,5 +354,5 @@ fn a_sheet_with_front_and_back_counts_once_and_sheet_metal_has_two_sides() {
     let metal = cuboid("metal", dvec3(0.0, 0.0, 0.0), dvec3(10.0, 0.0005, 10.0));
     let (areas_of, patches) = areas(vec![metal], &[true], 0.25);
     assert!(near(areas_of[0], 200.02), "{areas_of:?}");
-    assert_eq!(patches.left_out, gnomon::mesh::patches::LeftOut::default());
+    assert_eq!(patches.left_out, gnomon::mesh::patches::UncountedArea::default());
 }

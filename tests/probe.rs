@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3, dvec3};
 use gnomon::cli::Options;
 use gnomon::export::figure;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::profile::probe::{Blocked, Interval, Sunlight, longest, secs};
+use gnomon::profile::probe::{Interval, IntervalBound, Sunlight, longest, secs};
 use gnomon::shadow::Technique;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::site::{Ground, Probing, Receivers};
@@ -115,7 +115,7 @@ fn behind_a_wall(on: &str, top: f64, height: f64) -> (DayWindow, Sunlight, Vec<[
 
 #[test]
 fn a_long_wall_hides_the_sun_below_its_edge() {
-    use Blocked::{Component, Horizon};
+    use IntervalBound::{Component, Horizon};
     let wall = Component(0);
     for (on, top, bounds) in [
         ("2026-04-10", 29.5, &[Horizon, wall, wall, Horizon][..]),
@@ -151,7 +151,7 @@ fn a_north_facade_has_sun_early_and_late_in_summer() {
     let intervals = &sunlight.probes[0].days[0];
     same(intervals, &day, &second_by_second(&place, &day, |sun| sun.azimuth_deg.to_radians().cos() > 0.0));
     let bounds: Vec<_> = intervals.iter().flat_map(|interval| [interval.before, interval.after]).collect();
-    assert_eq!(bounds, [Blocked::Horizon, Blocked::Behind, Blocked::Behind, Blocked::Horizon]);
+    assert_eq!(bounds, [IntervalBound::Horizon, IntervalBound::Behind, IntervalBound::Behind, IntervalBound::Horizon]);
     let [early, late] = [intervals[0].secs(), intervals[1].secs()];
     let probed = &sunlight.probes[0];
     assert_eq!((probed.secs(), probed.longest().unwrap().secs()), (early + late, early.max(late)));
@@ -186,7 +186,7 @@ fn components_are_told_from_words() {
     let days = vec![day(&place, "2026-03-21", None)];
     let sunlight = found(&probing(&place, parts, vec![at(DVec3::Z, None)], days));
     assert_eq!(sunlight.name(sunlight.probes[0].days[0][0].after), "window (component)");
-    assert_eq!(sunlight.name(Blocked::Window), "window");
+    assert_eq!(sunlight.name(IntervalBound::Window), "window");
 }
 
 /// How often the mask of ray casting and the intervals disagree about cells of the ground, at a study's instants.
@@ -255,8 +255,8 @@ fn what_is_a_step_long_cannot_be_missed() {
     for begin in 0..30 {
         let intervals = found_with(30, begin);
         let [before, after] = intervals[..] else { panic!("missed from {begin}: {intervals:?}") };
-        assert_eq!([before.after, after.before], [Blocked::Component(0); 2]);
-        assert_eq!([before.before, after.after], [Blocked::Window; 2]);
+        assert_eq!([before.after, after.before], [IntervalBound::Component(0); 2]);
+        assert_eq!([before.before, after.after], [IntervalBound::Window; 2]);
         gaps.push((before.end, after.start));
     }
     gaps.dedup();
@@ -297,7 +297,8 @@ fn polar_days_and_nights() {
     let sunlight = found(&asked);
     let [one, other, night] = &sunlight.probes[0].days[..] else { panic!() };
     for (intervals, day) in [(one, &days[0]), (other, &days[1])] {
-        let whole = Interval { start: day.from, end: day.to, before: Blocked::Window, after: Blocked::Window };
+        let whole =
+            Interval { start: day.from, end: day.to, before: IntervalBound::Window, after: IntervalBound::Window };
         assert_eq!(intervals, &[whole]);
         assert_eq!(secs(intervals), 86_400);
     }
@@ -323,7 +324,8 @@ fn windows_cut_intervals_and_ranges_are_their_days() {
         for (one, other) in together.probes.iter().zip(&alone.probes) {
             assert_eq!(one.days[index], other.days[0]);
         }
-        let whole = Interval { start: day.from, end: day.to, before: Blocked::Window, after: Blocked::Window };
+        let whole =
+            Interval { start: day.from, end: day.to, before: IntervalBound::Window, after: IntervalBound::Window };
         assert_eq!(together.probes[1].days[index], [whole]);
     }
     let night = day(&place, "2026-09-18", Some(["22:00", "7:00"]));
@@ -351,8 +353,9 @@ fn below_the_ground_there_is_no_sun() {
     let house = cuboid("house", dvec3(-5.0, 0.0, -3.0), dvec3(5.0, 9.0, 9.0));
     let wall = |z: f64| at(dvec3(0.0, 0.0, z), Some(DVec3::NEG_Y));
     let mut asked = probing(&place, vec![house], vec![wall(-1.0), wall(0.0), wall(1.0)], vec![day]);
-    let secs =
-        |asked: &Probing| found(asked).probes.iter().map(gnomon::profile::probe::Probed::secs).collect::<Vec<_>>();
+    let secs = |asked: &Probing| {
+        found(asked).probes.iter().map(gnomon::profile::probe::ProbeIntervals::secs).collect::<Vec<_>>()
+    };
     let above = secs(&asked);
     assert!(above[0] == 0 && above[1] > 20_000 && above[1] == above[2], "{above:?}");
     asked.ground.level = -3.0;

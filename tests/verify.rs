@@ -9,13 +9,13 @@ use gnomon::export::verify as told;
 use gnomon::mesh::Mesh;
 use gnomon::profile::Drawn;
 use gnomon::profile::compare::{Difference, Edges, is_edge_cell};
-use gnomon::profile::verify::{HoursOff, Verification};
+use gnomon::profile::verify::{HoursDifference, Verification};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{DrawnMask, ShadowError, Technique};
 use gnomon::site::{Overrides, Site};
 use gnomon::study::verify::{Trial, hold, spread};
 use gnomon::study::{Event, StudyError};
-use gnomon::view::{Decided, FragmentCounts, Mask, Surface, View};
+use gnomon::view::{Decider, FragmentCounts, Mask, Surface, View};
 use serde_json::Value;
 use std::ops::ControlFlow;
 
@@ -65,8 +65,10 @@ fn a_cell_differs_where_more_than_half_the_sun_does() {
 
 #[test]
 fn hours_are_off_in_the_worst_cell_and_in_the_mean() {
-    let off =
-        HoursOff::between(&vec![0_u32, 255 * 3600, 255 * 7200].into(), &vec![0_u32, 255 * 7200, 255 * 1800].into());
+    let off = HoursDifference::between(
+        &vec![0_u32, 255 * 3600, 255 * 7200].into(),
+        &vec![0_u32, 255 * 7200, 255 * 1800].into(),
+    );
     assert_eq!((off.largest, off.mean), (1.5, 2.5 / 3.0));
 }
 
@@ -111,7 +113,7 @@ struct Wrong {
     rays: RayCast,
     mask: Mask,
     cells: Vec<usize>,
-    decided: Decided,
+    decided: Decider,
 }
 
 impl Technique for Wrong {
@@ -137,7 +139,7 @@ fn asked() -> Overrides {
     Overrides { size: Some(60), settings, receivers: Some(Receivers::Ground), ..Overrides::default() }
 }
 
-fn trial(site: &Site, promise: Promise, cells: Vec<usize>, decided: Decided) -> Trial {
+fn trial(site: &Site, promise: Promise, cells: Vec<usize>, decided: Decider) -> Trial {
     let casters = site.mesh.of_components(&site.casts);
     let scene = gnomon::shadow::Scene { receivers: casters.of_components(&[]), casters, ground: site.ground.level };
     let rays = RayCast::new(scene, View::Plan(site.grid), None);
@@ -159,13 +161,13 @@ fn held(site: &Site, trials: Vec<Trial>) -> Verification {
 #[test]
 fn a_wrong_technique_does_not_hold_and_says_how_wrong() {
     let site = load(SITE, &asked()).unwrap();
-    let right = held(&site, vec![trial(&site, Promise::Exact, Vec::new(), Decided::VolumeLight)]);
+    let right = held(&site, vec![trial(&site, Promise::Exact, Vec::new(), Decider::VolumeLight)]);
     assert_eq!((told::failure(&right), right.edge_share, right.clean), (None, 0.005, true));
     assert_eq!((right.rows[0].furthest, right.rows[0].share_off), (None, 0.0));
-    assert_eq!(right.rows[0].hours_off, Some(HoursOff { largest: 0.0, mean: 0.0 }));
+    assert_eq!(right.rows[0].hours_off, Some(HoursDifference { largest: 0.0, mean: 0.0 }));
 
     // the first cell of the first row lies in the sun at every instant
-    let wrong = held(&site, vec![trial(&site, Promise::Exact, vec![0], Decided::VolumeShadow)]);
+    let wrong = held(&site, vec![trial(&site, Promise::Exact, vec![0], Decider::VolumeShadow)]);
     let row = &wrong.rows[0];
     assert_eq!((row.difference.edge_differ, row.difference.other_differ, row.thin), (0, 9, 0));
     assert!(row.furthest > Some(5.0), "{:?}", row.furthest);
@@ -175,7 +177,7 @@ fn a_wrong_technique_does_not_hold_and_says_how_wrong() {
     assert!(failure.starts_with("stencil does not hold: 0 of ") && failure.lines().count() == 1, "{failure}");
     assert!(told::table(&wrong, &site).contains("FAILS"));
     // what decides nothing fails nothing
-    let near = held(&site, vec![trial(&site, Promise::Near, vec![0], Decided::VolumeShadow)]);
+    let near = held(&site, vec![trial(&site, Promise::Near, vec![0], Decider::VolumeShadow)]);
     assert_eq!((told::failure(&near), near.rows[0].difference.differ()), (None, 9));
     let mut trees = near;
     trees.rows[1].difference.other_differ = 1;
@@ -189,7 +191,7 @@ fn what_a_map_missed_counts_apart() {
         let exact = trial(&site, Promise::Exact, Vec::new(), decided);
         held(&site, vec![exact, trial(&site, Promise::ExactButForMap, vec![0, 7], decided)])
     };
-    let [by_map, by_volumes] = [Decided::MapShadow, Decided::VolumeShadow].map(both);
+    let [by_map, by_volumes] = [Decider::MapShadow, Decider::VolumeShadow].map(both);
     assert_eq!((by_map.rows[0].missed, by_map.rows[1].missed, by_map.rows[1].difference.differ()), (None, Some(18), 0));
     assert_eq!((by_volumes.rows[1].missed, by_volumes.rows[1].difference.differ()), (Some(0), 18));
     assert_eq!((by_map.rows[1].furthest, by_map.rows[1].hours_off.unwrap().largest), (None, 4.0));

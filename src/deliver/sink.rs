@@ -2,7 +2,7 @@
 
 use super::disk::workplace::Workplace;
 use crate::export::ExportError;
-use crate::export::file::{self, Beside};
+use crate::export::file::{self, TemporaryFile};
 use std::path::{Path, PathBuf};
 
 /// A file's name, and what is in it.
@@ -43,7 +43,7 @@ pub struct WrittenFiles {
 }
 
 /// A second folder, and the files that are written into it while the work goes on.
-pub(super) struct Also<'a> {
+pub(super) struct SecondFolder<'a> {
     pub(super) folder: &'a Path,
     pub(super) files: Vec<PathBuf>,
 }
@@ -62,7 +62,7 @@ impl<'a> Sink<'a> {
     ///
     /// # Errors
     /// [`ExportError`]: what the file system refuses; where the folder is another study's, or a file an input.
-    pub(super) fn open(self, names: &[PathBuf], also: Option<Also<'_>>) -> Result<OpenSink<'a>, ExportError> {
+    pub(super) fn open(self, names: &[PathBuf], also: Option<SecondFolder<'_>>) -> Result<OpenSink<'a>, ExportError> {
         let workplace = match self {
             Sink::Memory => None,
             Sink::Paths { inputs } => {
@@ -91,8 +91,8 @@ pub(super) struct OpenSink<'a> {
 }
 
 /// A file that is whole, and not in its place yet.
-pub(super) enum Ready {
-    Disk(Beside),
+pub(super) enum WholeFile {
+    Disk(TemporaryFile),
     Memory(NamedFile),
 }
 
@@ -112,24 +112,24 @@ impl OpenSink<'_> {
     }
 
     /// Writes a file beside its place.
-    pub(super) fn ready(&self, (name, bytes): NamedFile) -> Result<Ready, ExportError> {
+    pub(super) fn ready(&self, (name, bytes): NamedFile) -> Result<WholeFile, ExportError> {
         match self.path(&name) {
-            Some(path) => Ok(Ready::Disk(Beside::of(&path, &bytes)?)),
-            None => Ok(Ready::Memory((name, bytes))),
+            Some(path) => Ok(WholeFile::Disk(TemporaryFile::of(&path, &bytes)?)),
+            None => Ok(WholeFile::Memory((name, bytes))),
         }
     }
 
     /// Puts files in their places once all of them are whole, so that files of two studies do not lie side by side.
-    pub(super) fn put(&self, files: Vec<Ready>) -> Result<WrittenFiles, ExportError> {
+    pub(super) fn put(&self, files: Vec<WholeFile>) -> Result<WrittenFiles, ExportError> {
         self.check()?;
         let mut written = WrittenFiles::default();
         for file in files {
             match file {
-                Ready::Disk(beside) => {
+                WholeFile::Disk(beside) => {
                     written.paths.push(beside.path().to_owned());
                     beside.put_in_place()?;
                 }
-                Ready::Memory((name, bytes)) => {
+                WholeFile::Memory((name, bytes)) => {
                     written.paths.push(name.clone());
                     written.files.push((name, bytes));
                 }

@@ -1,18 +1,18 @@
 //! The window's state, and its frame: menus above, panel beside, time below, the picture in the middle.
 
-use super::bare::Bare;
+use super::bare::BareModel;
 use super::change::BeforeState;
 use super::clock::Clock;
 use super::eye::Stand;
-use super::files::{self, Answer, Asking};
+use super::files::{self, DialogAnswer, PathDialog};
 use super::hours::{self, StudyResult};
-use super::loading::{LoadError, Loading, Project, Wanted};
+use super::loading::{LoadError, LoadJob, LoadRequest, Project};
 use super::pick::PickedPoint;
 use super::reopening::devices;
-use super::saving::{Saving, Then};
+use super::saving::{PendingAction, SaveState};
 use super::settings::{History, WindowSettings};
 use super::stage::Stage;
-use super::typed::Typed;
+use super::typed::TypedText;
 use super::unit::Unit;
 use super::view::{ViewRequest, Viewer};
 use super::work::Work;
@@ -76,19 +76,19 @@ pub struct App {
     /// What a person sets.
     pub(super) settings: WindowSettings,
     pub(super) history: History,
-    pub(super) loading: Option<Loading>,
+    pub(super) loading: Option<LoadJob>,
     loaded: u64,
     /// The site is being read again, as its settings have changed.
     pub(super) is_reading: bool,
     /// Settings of which it is known that no site comes of them.
     pub(super) refused: Option<WindowSettings>,
-    pub(super) bare: Option<Bare>,
-    pub(super) asking: Option<Asking>,
+    pub(super) bare: Option<BareModel>,
+    pub(super) asking: Option<PathDialog>,
     pub(super) writing: Option<Work<PathBuf>>,
     /// What is typed into the panel's fields.
-    pub(super) typed: Typed,
+    pub(super) typed: TypedText,
     /// What is saved, and what is asked about what is not.
-    pub(super) saving: Saving,
+    pub(super) saving: SaveState,
     /// What went wrong, as the command would say it.
     pub(super) fault: Option<String>,
     /// What was done.
@@ -128,8 +128,8 @@ impl App {
             bare: None,
             asking: None,
             writing: None,
-            typed: Typed::default(),
-            saving: Saving::default(),
+            typed: TypedText::default(),
+            saving: SaveState::default(),
             fault: None,
             notice: None,
             studies: None,
@@ -137,7 +137,7 @@ impl App {
             had_focus: true,
         };
         if let Some(path) = path {
-            app.load(Wanted::File(path.to_owned()), &cc.egui_ctx);
+            app.load(LoadRequest::File(path.to_owned()), &cc.egui_ctx);
         }
         Ok(app)
     }
@@ -215,18 +215,18 @@ impl App {
         Ok((shown.texture.width(), shown.texture.height(), pixels))
     }
 
-    pub(super) fn load(&mut self, wanted: Wanted, context: &egui::Context) {
+    pub(super) fn load(&mut self, wanted: LoadRequest, context: &egui::Context) {
         if let Some(loading) = self.loading.take() {
             loading.cancel();
         }
         (self.fault, self.notice, self.bare) = (None, None, None);
         self.saving.recovery.let_go();
-        self.loading = Some(Loading::start(wanted, context.clone()));
+        self.loading = Some(LoadJob::start(wanted, context.clone()));
     }
 
     pub(super) fn open_sample(&mut self, name: &str, context: &egui::Context) {
         match files::sample(name) {
-            Ok(path) => self.load(Wanted::File(path), context),
+            Ok(path) => self.load(LoadRequest::File(path), context),
             Err(error) => self.fault = Some(error.to_string()),
         }
     }
@@ -243,14 +243,14 @@ impl App {
         if let Some(note) = notes.into_iter().flatten().next() {
             self.notice = Some(note);
         }
-        if let Some(result) = self.loading.as_ref().and_then(Loading::done) {
+        if let Some(result) = self.loading.as_ref().and_then(LoadJob::done) {
             let opens = self.loading.take().is_none_or(|loading| loading.opens);
             self.is_reading = false;
             match result {
-                Ok(project) if opens => self.go_on_or_ask(Then::Open(Box::new(project)), context),
+                Ok(project) if opens => self.go_on_or_ask(PendingAction::Open(Box::new(project)), context),
                 Ok(project) => self.take(project, false),
                 Err(LoadError::Bare(path)) => {
-                    self.bare = Some(Bare::new(path));
+                    self.bare = Some(BareModel::new(path));
                 }
                 Err(LoadError::Told(fault)) => {
                     self.fault = Some(fault);
@@ -341,7 +341,7 @@ impl App {
                     self.kept.recent.truncate(8);
                 }
                 self.settings = project.settings(&self.settings);
-                self.typed = Typed::default();
+                self.typed = TypedText::default();
                 self.history.restart(&self.settings);
                 let clock = Clock::new(&project.site.place, track.refraction, middle);
                 self.open = Some(Open {
@@ -382,8 +382,8 @@ impl App {
             let mut written = project.written.clone();
             written.site = self.settings.site.clone();
             let hidden = Arc::clone(&self.settings.hidden);
-            let wanted = Wanted::Again(Box::new(written), hidden, Box::new(project.before(false)));
-            self.loading = Some(Loading::start(wanted, context.clone()));
+            let wanted = LoadRequest::Again(Box::new(written), hidden, Box::new(project.before(false)));
+            self.loading = Some(LoadJob::start(wanted, context.clone()));
             self.is_reading = true;
         }
     }
@@ -412,7 +412,7 @@ impl eframe::App for App {
         self.shortcuts(&context);
         let dropped = context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
         if let Some(path) = dropped {
-            self.load(Wanted::File(path), &context);
+            self.load(LoadRequest::File(path), &context);
         }
         ui.painter().add(screen::ground(ui.max_rect(), ui.visuals().panel_fill));
         let on_ground = egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT);
@@ -448,9 +448,9 @@ impl eframe::App for App {
         self.look_for_changes(&context);
         if let Some(mut asking) = self.asking.take() {
             match asking.show(&context) {
-                Answer::None => self.asking = Some(asking),
-                Answer::Nothing => self.give_up_saving(),
-                Answer::Path(purpose, path) => self.answer(purpose, path, &context),
+                DialogAnswer::None => self.asking = Some(asking),
+                DialogAnswer::Nothing => self.give_up_saving(),
+                DialogAnswer::Path(purpose, path) => self.answer(purpose, path, &context),
             }
         }
         self.save_and_ask(&context);

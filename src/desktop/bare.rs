@@ -1,7 +1,7 @@
 //! A bare model is asked for its place.
 
 use super::app::App;
-use super::loading::{Wanted, name_of};
+use super::loading::{LoadRequest, name_of};
 use super::look;
 use super::typed::refused;
 use super::words::PanelWords;
@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 /// A model that says not where it stands.
 #[derive(Clone, Debug)]
-pub(super) struct Bare {
+pub(super) struct BareModel {
     /// The model's file.
     pub(super) path: PathBuf,
     /// What was answered so far, as typed.
@@ -23,10 +23,10 @@ pub(super) struct Bare {
     faults: [Option<String>; 2],
 }
 
-impl Bare {
+impl BareModel {
     /// Nothing is answered yet.
-    pub(super) fn new(path: PathBuf) -> Bare {
-        Bare { path, place: String::new(), north: "0".to_owned(), faults: [None, None] }
+    pub(super) fn new(path: PathBuf) -> BareModel {
+        BareModel { path, place: String::new(), north: "0".to_owned(), faults: [None, None] }
     }
 
     /// Degrees clockwise from the model's north to true north.
@@ -102,7 +102,7 @@ impl App {
             self.bare = None;
         } else if goes && bare.is_read() {
             let bare = bare.clone();
-            self.load(Wanted::Placed(bare), context);
+            self.load(LoadRequest::Placed(bare), context);
         }
     }
 }

@@ -8,7 +8,7 @@ use super::settings::WindowSettings;
 use super::sky;
 use super::unit::Unit;
 use crate::export::figure::scale::Rgb;
-use crate::profile::probe::{Blocked, Sunlight, below_ground_m, secs};
+use crate::profile::probe::{IntervalBound, Sunlight, below_ground_m, secs};
 use crate::site::file::ProbeTable;
 use crate::view::View;
 use eframe::egui::{self, Align2, Color32, Id, Rect, Sense, Ui, Vec2, vec2};
@@ -159,7 +159,7 @@ fn probe(open: &mut Open, settings: &mut WindowSettings, unit: Unit, laid: Optio
     }
 }
 
-fn named(sunlight: &Sunlight, blocked: Blocked) -> String {
+fn named(sunlight: &Sunlight, blocked: IntervalBound) -> String {
     match sunlight.name(blocked).as_str() {
         "horizon" => "the horizon".to_owned(),
         "behind" => "the sun is behind it".to_owned(),

@@ -9,7 +9,7 @@ use crate::export::comparison;
 use crate::export::figure::ChangeColours;
 use crate::picture::HoursRaster;
 use crate::profile::Timings;
-use crate::profile::comparison::Altered;
+use crate::profile::comparison::Alteration;
 use crate::site::{Method, Models, Overrides, Pair, Site, SiteError, Written, model};
 use crate::study::{self, CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
 use eframe::egui;
@@ -157,12 +157,12 @@ impl ChangeResult {
             day - f64::from(profile.hours(cell))
         });
         Some(match comparison.altered(cell) {
-            Altered::No => {
+            Alteration::No => {
                 let gained = -f64::from(comparison.hours(cell)) + 0.0;
                 format!("{before:.2} h of sun before, {after:.2} h after: {gained:+.2} h").replace('-', "−")
             }
-            Altered::Built => format!("new or higher: {after:.2} h of sun after"),
-            Altered::Cleared => format!("gone or lower: {after:.2} h of sun after"),
+            Alteration::Built => format!("new or higher: {after:.2} h of sun after"),
+            Alteration::Cleared => format!("gone or lower: {after:.2} h of sun after"),
         })
     }
 

@@ -37,21 +37,21 @@ pub(super) fn show(
     event_loop: &mut EventLoop<UserEvent>,
     window: EframeWinitApplication<'_>,
 ) -> Result<Option<Panic>, EventLoopError> {
-    let mut guarded = Guarded { window, panic: None };
+    let mut guarded = PanicGuard { window, panic: None };
     event_loop.run_app_on_demand(&mut guarded)?;
-    let Guarded { window, panic } = guarded;
+    let PanicGuard { window, panic } = guarded;
     // what is left of it lies on a device that may be lost
     let dropped = catch_unwind(AssertUnwindSafe(|| drop(window)));
     Ok(panic.or(dropped.err()))
 }
 
 /// A window whose panics end it, and nothing else.
-struct Guarded<'a> {
+struct PanicGuard<'a> {
     window: EframeWinitApplication<'a>,
     panic: Option<Panic>,
 }
 
-impl Guarded<'_> {
+impl PanicGuard<'_> {
     /// Hands an event on, unless the window has ended.
     fn hand_on(&mut self, event_loop: &ActiveEventLoop, event: impl FnOnce(&mut EframeWinitApplication<'_>)) {
         if self.panic.is_none() {
@@ -64,7 +64,7 @@ impl Guarded<'_> {
     }
 }
 
-impl ApplicationHandler<UserEvent> for Guarded<'_> {
+impl ApplicationHandler<UserEvent> for PanicGuard<'_> {
     fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
         self.hand_on(event_loop, |window| window.new_events(event_loop, cause));
     }

@@ -67,7 +67,7 @@ impl Purpose {
 }
 
 /// A path that is being asked for.
-pub(super) struct Asking {
+pub(super) struct PathDialog {
     purpose: Purpose,
     begun: Instant,
     answer: mpsc::Receiver<Option<PathBuf>>,
@@ -84,7 +84,7 @@ pub(super) struct Asking {
 }
 
 /// What an asking came to.
-pub(super) enum Answer {
+pub(super) enum DialogAnswer {
     /// It goes on.
     None,
     /// A path.
@@ -93,10 +93,15 @@ pub(super) enum Answer {
     Nothing,
 }
 
-impl Asking {
+impl PathDialog {
     /// Asks by the system's dialog, beginning with what is proposed; `files` are the names of what will be written into a
     /// folder.
-    pub(super) fn start(purpose: Purpose, proposed: PathBuf, files: Vec<PathBuf>, context: egui::Context) -> Asking {
+    pub(super) fn start(
+        purpose: Purpose,
+        proposed: PathBuf,
+        files: Vec<PathBuf>,
+        context: egui::Context,
+    ) -> PathDialog {
         let (tell, answer) = mpsc::channel();
         let folder = if purpose.reads() { Some(proposed.as_path()) } else { proposed.parent() }.map(Path::to_owned);
         let name = proposed.file_name().map(OsStr::to_owned);
@@ -121,7 +126,7 @@ impl Asking {
             context.request_repaint();
         });
         let begun = Instant::now();
-        Asking { purpose, begun, answer, proposed, files, typed: None, is_met: false, replaces: None }
+        PathDialog { purpose, begun, answer, proposed, files, typed: None, is_met: false, replaces: None }
     }
 
     /// For what it is.
@@ -130,20 +135,20 @@ impl Asking {
     }
 
     /// Looks for the answer; shows the dialog in the window where the system showed none.
-    pub(super) fn show(&mut self, context: &egui::Context) -> Answer {
+    pub(super) fn show(&mut self, context: &egui::Context) -> DialogAnswer {
         /// Nobody answers so soon: there was no dialog.
         const AT_ONCE: Duration = Duration::from_millis(400);
         match self.answer.try_recv() {
             Ok(Some(path)) if self.purpose.is_folder() => return self.choose(path),
-            Ok(Some(path)) => return Answer::Path(self.purpose, path),
-            Ok(None) if self.begun.elapsed() > AT_ONCE => return Answer::Nothing,
+            Ok(Some(path)) => return DialogAnswer::Path(self.purpose, path),
+            Ok(None) if self.begun.elapsed() > AT_ONCE => return DialogAnswer::Nothing,
             Ok(None) => self.typed = Some(self.proposed.display().to_string()),
             Err(_) => {}
         }
         if self.replaces.is_some() {
             return self.ask_replacing(context);
         }
-        let Some(typed) = &mut self.typed else { return Answer::None };
+        let Some(typed) = &mut self.typed else { return DialogAnswer::None };
         let mut chosen = None;
         let mut closes = false;
         let modal = look::modal(context, "path").show(context, |ui| {
@@ -176,14 +181,14 @@ impl Asking {
             });
         });
         match chosen {
-            _ if closes || modal.should_close() => Answer::Nothing,
+            _ if closes || modal.should_close() => DialogAnswer::Nothing,
             Some(path) => self.choose(path),
-            None => Answer::None,
+            None => DialogAnswer::None,
         }
     }
 
     /// A path was chosen; what is there already is not replaced without a question.
-    fn choose(&mut self, path: PathBuf) -> Answer {
+    fn choose(&mut self, path: PathBuf) -> DialogAnswer {
         let is_there = |file: &PathBuf| file.is_file();
         let there = match self.purpose {
             purpose if purpose.reads() => None,
@@ -191,13 +196,13 @@ impl Asking {
             purpose if purpose.is_folder() => self.files.iter().map(|name| path.join(name)).find(is_there),
             _ => Some(path.clone()).filter(is_there),
         };
-        let Some(there) = there else { return Answer::Path(self.purpose, path) };
+        let Some(there) = there else { return DialogAnswer::Path(self.purpose, path) };
         self.replaces = Some((path, there));
-        Answer::None
+        DialogAnswer::None
     }
 
-    fn ask_replacing(&mut self, context: &egui::Context) -> Answer {
-        let Some((path, there)) = &self.replaces else { return Answer::None };
+    fn ask_replacing(&mut self, context: &egui::Context) -> DialogAnswer {
+        let Some((path, there)) = &self.replaces else { return DialogAnswer::None };
         let name = there.file_name().unwrap_or_default().to_string_lossy();
         let others = if self.purpose.is_folder() { " Files of the same names are replaced." } else { "" };
         let question = Question {
@@ -208,12 +213,12 @@ impl Asking {
             first: 1,
         };
         match question.show(context) {
-            None => Answer::None,
-            Some(0) => Answer::Path(self.purpose, path.clone()),
+            None => DialogAnswer::None,
+            Some(0) => DialogAnswer::Path(self.purpose, path.clone()),
             // back to the path, where that was typed here
             Some(_) => {
                 (self.replaces, self.is_met) = (None, false);
-                if self.typed.is_some() { Answer::None } else { Answer::Nothing }
+                if self.typed.is_some() { DialogAnswer::None } else { DialogAnswer::Nothing }
             }
         }
     }

@@ -2,11 +2,11 @@
 
 use super::app::{App, Open};
 use super::clock::Play;
+use super::export;
 use super::eye::Stand;
 use super::files::{self, Purpose};
-use super::handing;
 use super::hours::Findings;
-use super::loading::{Wanted, name_of};
+use super::loading::{LoadRequest, name_of};
 use super::look;
 use super::time::steps;
 use super::unit::Unit;
@@ -123,7 +123,7 @@ impl App {
                         for path in self.kept.recent.clone() {
                             let name = name_of(&path);
                             if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                                self.load(Wanted::File(path), &context);
+                                self.load(LoadRequest::File(path), &context);
                             }
                         }
                     });
@@ -260,7 +260,7 @@ impl App {
                 (self.loading, self.is_reading) = (None, false);
             }
         }
-        if self.writing.as_ref().is_some_and(|writing| handing::progress(writing, ui)) {
+        if self.writing.as_ref().is_some_and(|writing| export::progress(writing, ui)) {
             self.writing = None;
         }
         if let Some(name) = &self.changed {

@@ -2,8 +2,8 @@
 //! the window.
 
 use super::change::ChangeResult;
+use super::export::WHO;
 use super::facades::{self, Facades};
-use super::handing::WHO;
 use super::loading::Project;
 use super::pick::PickedPoint;
 use super::settings::WindowSettings;

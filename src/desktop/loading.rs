@@ -1,6 +1,6 @@
 //! A site is loaded beside the window, which shows how far it is and can give it up.
 
-use super::bare::Bare;
+use super::bare::BareModel;
 use super::settings::{Hidden, WindowSettings};
 use super::words::{FileWords, PanelWords};
 use crate::export::figure::component_colours;
@@ -37,7 +37,7 @@ pub(super) struct Project {
 }
 
 /// What an open site is made of.
-pub(super) struct Before {
+pub(super) struct LoadedSite {
     path: Option<PathBuf>,
     /// None where they are to be read anew.
     models: Option<Models>,
@@ -54,19 +54,19 @@ pub(super) enum LoadError {
 }
 
 /// What is to be loaded.
-pub(super) enum Wanted {
+pub(super) enum LoadRequest {
     /// What somebody opens.
     File(PathBuf),
     /// A bare model, where it stands.
-    Placed(Bare),
+    Placed(BareModel),
     /// What a window that has ended had open: its site file, and what was read of it.
     Left(Option<PathBuf>, Box<Written>),
     /// The open site, as it is written now, what of it is hidden, and what may still do.
-    Again(Box<Written>, Hidden, Box<Before>),
+    Again(Box<Written>, Hidden, Box<LoadedSite>),
 }
 
 /// Work that goes on beside the window.
-pub(super) struct Loading {
+pub(super) struct LoadJob {
     /// What is loaded, in a word.
     pub(super) name: String,
     /// Whether the site is opened, and not the open one read again.
@@ -78,19 +78,19 @@ pub(super) struct Loading {
     result: mpsc::Receiver<Result<Project, LoadError>>,
 }
 
-impl Loading {
+impl LoadJob {
     /// Begins.
-    pub(super) fn start(wanted: Wanted, context: egui::Context) -> Loading {
+    pub(super) fn start(wanted: LoadRequest, context: egui::Context) -> LoadJob {
         let path = match &wanted {
-            Wanted::File(path) => path.clone(),
-            Wanted::Placed(bare) => bare.path.clone(),
-            Wanted::Left(_, written) | Wanted::Again(written, ..) => PathBuf::from(&written.file),
+            LoadRequest::File(path) => path.clone(),
+            LoadRequest::Placed(bare) => bare.path.clone(),
+            LoadRequest::Left(_, written) | LoadRequest::Again(written, ..) => PathBuf::from(&written.file),
         };
         let (tell, result) = mpsc::channel();
         let stage = Arc::new(Mutex::new((0.0, "Reading".to_owned())));
         let cancelled = Arc::new(AtomicBool::new(false));
-        let opens = !matches!(wanted, Wanted::Again(..));
-        let reads = !matches!(&wanted, Wanted::Again(_, _, before) if before.models.is_some());
+        let opens = !matches!(wanted, LoadRequest::Again(..));
+        let reads = !matches!(&wanted, LoadRequest::Again(_, _, before) if before.models.is_some());
         let progress = LoadProgress { stage: Arc::clone(&stage), cancelled: Arc::clone(&cancelled), context };
         std::thread::spawn(move || {
             let project = project(wanted, &progress);
@@ -98,7 +98,7 @@ impl Loading {
             let _ = tell.send(project);
             progress.context.request_repaint();
         });
-        Loading { name: name_of(&path), opens, reads, stage, cancelled, result }
+        LoadJob { name: name_of(&path), opens, reads, stage, cancelled, result }
     }
 
     /// How far it is, 0 to 1, and what is being done.
@@ -148,9 +148,9 @@ pub(super) fn name_of(path: &Path) -> String {
     }
 }
 
-fn project(wanted: Wanted, progress: &LoadProgress) -> Result<Project, LoadError> {
+fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, LoadError> {
     let (path, written) = match wanted {
-        Wanted::File(path) => match Written::read(&path, &Overrides::default()) {
+        LoadRequest::File(path) => match Written::read(&path, &Overrides::default()) {
             Err(SiteError::NoPlaceForModel { .. }) => {
                 // a model that cannot be read is told before its place is asked
                 crate::site::load_mesh(&path, &Overrides::default()).map_err(|error| told(&error, &FileWords))?;
@@ -162,7 +162,7 @@ fn project(wanted: Wanted, progress: &LoadProgress) -> Result<Project, LoadError
             }
             Err(error) => return Err(told(&error, &FileWords)),
         },
-        Wanted::Placed(bare) => {
+        LoadRequest::Placed(bare) => {
             let asked = Overrides { place: Some(bare.place.clone()), ..Overrides::default() };
             let mut written = Written::read(&bare.path, &asked).map_err(|error| told(&error, &FileWords))?;
             if let Some(table) = written.site.model.first_mut() {
@@ -171,9 +171,9 @@ fn project(wanted: Wanted, progress: &LoadProgress) -> Result<Project, LoadError
             }
             (None, written)
         }
-        Wanted::Left(path, written) => (path, *written),
+        LoadRequest::Left(path, written) => (path, *written),
         // what is left out of the open site by hand is told, and not filled in
-        Wanted::Again(written, hidden, before) => {
+        LoadRequest::Again(written, hidden, before) => {
             return read(before.path.clone(), *written, hidden, Some(&before), progress);
         }
     };
@@ -187,7 +187,7 @@ fn read(
     path: Option<PathBuf>,
     written: Written,
     hidden: Hidden,
-    before: Option<&Before>,
+    before: Option<&LoadedSite>,
     progress: &LoadProgress,
 ) -> Result<Project, LoadError> {
     let known = before.and_then(|before| before.models.as_ref()).filter(|models| models.are_those_of(&written));
@@ -273,8 +273,8 @@ fn told(error: &(dyn std::error::Error + 'static), words: &dyn Words) -> LoadErr
 
 impl Project {
     /// What of it may do for the site as it is written now; `anew` its models may not.
-    pub(super) fn before(&self, anew: bool) -> Before {
-        Before {
+    pub(super) fn before(&self, anew: bool) -> LoadedSite {
+        LoadedSite {
             path: self.path.clone(),
             models: (!anew).then(|| self.models.clone()),
             visible: Arc::clone(&self.visible),

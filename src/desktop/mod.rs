@@ -3,21 +3,21 @@
 //! One thread draws the window and never waits. A second one (`stage`) draws the picture and takes the newest wish, on a
 //! device of its own; others load sites and add up hours.
 
-mod acts;
 mod app;
 mod bare;
 mod cards;
 mod change;
 mod clock;
+mod commands;
 mod components;
 mod easel;
 mod event_loop;
+mod export;
 mod eye;
 mod facades;
 mod files;
 mod found;
 mod frame;
-mod handing;
 mod hours;
 mod loading;
 mod look;

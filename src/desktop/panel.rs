@@ -2,7 +2,7 @@
 
 use super::app::App;
 use super::eye::Stand;
-use super::typed::{NumberField, Typed};
+use super::typed::{NumberField, TypedText};
 use super::unit::Unit;
 use super::{cards, components, found, look, view};
 use crate::choice::{Method, Promise, TABLE};
@@ -175,7 +175,7 @@ fn place(app: &mut App, ui: &mut Ui) {
 }
 
 /// The ground's height as the site file says it, or as it was found; and what is to be known of it.
-fn ground(ui: &mut Ui, typed: &mut Typed, level: &mut Option<f64>, found: &Ground, unit: Unit) {
+fn ground(ui: &mut Ui, typed: &mut TypedText, level: &mut Option<f64>, found: &Ground, unit: Unit) {
     row(ui, "Ground", |ui, label| {
         let mut value = level.unwrap_or(found.level) / unit.metres;
         let range = -10_000.0 / unit.metres..=10_000.0 / unit.metres;

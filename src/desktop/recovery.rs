@@ -1,9 +1,9 @@
 //! What is not saved is kept beside the window's own data, and offered after a crash or a kill.
 
 use super::app::App;
-use super::loading::{Wanted, name_of};
+use super::loading::{LoadRequest, name_of};
 use super::question::Question;
-use crate::export::recovery::{Slot, Unsaved, left_behind};
+use crate::export::recovery::{Slot, UnsavedSite, left_behind};
 use crate::site::file::SiteFile;
 use crate::site::{Method, Written};
 use eframe::egui;
@@ -29,7 +29,7 @@ pub(super) struct Recovery {
     /// What was seen last that the slot has not, since when there is such, and since when it is this.
     seen: Option<(State, Instant, Instant)>,
     /// What windows that have ended had not saved.
-    left: Vec<(Slot, Unsaved)>,
+    left: Vec<(Slot, UnsavedSite)>,
     /// What of it is being opened.
     restoring: Option<(Slot, SiteFile)>,
     /// It was told that nothing can be kept.
@@ -97,7 +97,7 @@ impl App {
         }
         let mut written = Written { site: site.clone(), ..open.project.written.clone() };
         written.site.study.technique = Some(method.word().to_owned());
-        let unsaved = Unsaved { path: open.project.path.clone(), written };
+        let unsaved = UnsavedSite { path: open.project.path.clone(), written };
         // what cannot be kept now is tried again with the next change
         recovery.kept = Some(state);
         let kept = recovery.slot.take().map_or_else(|| Slot::new(folder), Ok);
@@ -138,8 +138,8 @@ impl App {
     }
 
     /// Opens the site as its file was, and sets what was not saved: a change like any other, which undo takes back.
-    fn restore(&mut self, slot: Slot, unsaved: Unsaved, context: &egui::Context) {
-        let Unsaved { path, written } = unsaved;
+    fn restore(&mut self, slot: Slot, unsaved: UnsavedSite, context: &egui::Context) {
+        let UnsavedSite { path, written } = unsaved;
         let set = written.site.clone();
         let site = match written.text.as_str() {
             // a bare model stands where it was put
@@ -152,7 +152,7 @@ impl App {
                 }
             },
         };
-        self.load(Wanted::Left(path, Box::new(Written { site, ..written })), context);
+        self.load(LoadRequest::Left(path, Box::new(Written { site, ..written })), context);
         self.saving.recovery.restoring = Some((slot, set));
     }
 

@@ -1,8 +1,8 @@
 //! The site file is saved, and what is not saved is asked about before it would be lost.
 
 use super::app::App;
+use super::export;
 use super::files::{self, Purpose};
-use super::handing;
 use super::loading::{Project, name_of};
 use super::question::Question;
 use super::recovery::Recovery;
@@ -14,12 +14,12 @@ use std::path::{Path, PathBuf};
 
 /// What is saved, and what is asked about what is not.
 #[derive(Default)]
-pub(super) struct Saving {
+pub(super) struct SaveState {
     /// What the site file says, and by which technique; none yet for a bare model.
     saved: Option<(SiteFile, Method)>,
     question: Option<SaveQuestion>,
     /// What goes on once it is saved.
-    then: Option<Then>,
+    then: Option<PendingAction>,
     /// Ctrl+S, or the window's own way to close: once the fields have what is typed.
     pub(super) saves: bool,
     closes: bool,
@@ -32,13 +32,13 @@ pub(super) struct Saving {
 /// What is asked.
 enum SaveQuestion {
     /// What becomes of what is not saved.
-    Unsaved(Then),
+    Unsaved(PendingAction),
     /// Whether the site file, which is not what was read any more, is replaced.
     Replaced(PathBuf),
 }
 
 /// What would lose what is not saved.
-pub(super) enum Then {
+pub(super) enum PendingAction {
     /// The window closes.
     Close,
     /// Another site is open.
@@ -47,7 +47,7 @@ pub(super) enum Then {
     Reload,
 }
 
-impl Saving {
+impl SaveState {
     /// Another window has no title yet.
     pub(super) fn forget_title(&mut self) {
         self.title.clear();
@@ -133,7 +133,7 @@ impl App {
         let then = self.saving.then.take();
         self.notice = None;
         let Some(open) = &mut self.open else { return };
-        let mut written = handing::written(&open.project, &self.settings, &open.viewer.eye, &path);
+        let mut written = export::written(&open.project, &self.settings, &open.viewer.eye, &path);
         // a model is no site file, whatever was answered
         let models = file::check_inputs(&open.project.written.model_files(), std::slice::from_ref(&path));
         let text = models.map_err(anyhow::Error::from).and_then(|()| Ok(written.site.to_toml_in(&written.text)?));
@@ -142,7 +142,7 @@ impl App {
                 written.text = text;
                 // what undo brings back is read from the new place, too
                 let from = open.project.written.folder.clone();
-                self.history.change_all(|site| handing::move_models(site, &from, &written.folder));
+                self.history.change_all(|site| export::move_models(site, &from, &written.folder));
                 self.notice = Some(format!("Written: {}", path.display()));
                 open.project.path = Some(path);
                 let is_read = open.project.written.site == self.settings.site;
@@ -156,7 +156,7 @@ impl App {
                 // what was not read to its end, or was set in this very frame, is read from the settings
                 if loading.is_some() || !is_read {
                     written.site.clone_from(&open.project.written.site);
-                    handing::move_models(&mut written.site, &from, &written.folder);
+                    export::move_models(&mut written.site, &from, &written.folder);
                 }
                 open.project.written = written;
                 self.history.note(&self.settings);
@@ -174,7 +174,7 @@ impl App {
     }
 
     /// Goes on, where that loses nothing; else asks first.
-    pub(super) fn go_on_or_ask(&mut self, then: Then, context: &egui::Context) {
+    pub(super) fn go_on_or_ask(&mut self, then: PendingAction, context: &egui::Context) {
         if self.is_unsaved() {
             self.question_unsaved(then);
         } else {
@@ -183,20 +183,20 @@ impl App {
     }
 
     /// Asks what becomes of what is not saved; what was to follow an earlier question does not any more.
-    fn question_unsaved(&mut self, then: Then) {
+    fn question_unsaved(&mut self, then: PendingAction) {
         self.give_up_saving();
         self.saving.question = Some(SaveQuestion::Unsaved(then));
     }
 
-    fn go_on(&mut self, then: Then, context: &egui::Context) {
+    fn go_on(&mut self, then: PendingAction, context: &egui::Context) {
         match then {
-            Then::Close => {
+            PendingAction::Close => {
                 self.saving.is_left = true;
                 self.keep_unsaved(context);
                 context.send_viewport_cmd(ViewportCommand::Close);
             }
-            Then::Open(project) => self.take(*project, true),
-            Then::Reload => self.reload_now(context),
+            PendingAction::Open(project) => self.take(*project, true),
+            PendingAction::Reload => self.reload_now(context),
         }
     }
 
@@ -229,7 +229,7 @@ impl App {
             self.saving.closes = true;
         } else if self.is_unsaved() {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.question_unsaved(Then::Close);
+            self.question_unsaved(PendingAction::Close);
             if is_hidden {
                 context.send_viewport_cmd(ViewportCommand::Minimized(false));
                 context.send_viewport_cmd(ViewportCommand::Focus);
@@ -246,7 +246,7 @@ impl App {
             self.save_site(context);
         }
         if std::mem::take(&mut self.saving.closes) {
-            self.go_on_or_ask(Then::Close, context);
+            self.go_on_or_ask(PendingAction::Close, context);
         }
         match self.saving.question.take() {
             Some(SaveQuestion::Unsaved(then)) => self.ask_unsaved(then, context),
@@ -260,12 +260,12 @@ impl App {
         }
     }
 
-    fn ask_unsaved(&mut self, then: Then, context: &egui::Context) {
+    fn ask_unsaved(&mut self, then: PendingAction, context: &egui::Context) {
         let name = self.file_name().unwrap_or_default();
         let what = match &then {
-            Then::Close => "before the window closes",
-            Then::Open(_) => "before another site takes its place",
-            Then::Reload => "before the file, which has changed on the disk, takes its place",
+            PendingAction::Close => "before the window closes",
+            PendingAction::Open(_) => "before another site takes its place",
+            PendingAction::Reload => "before the file, which has changed on the disk, takes its place",
         };
         let answer = Question {
             heading: "Save what was set?",

@@ -11,7 +11,7 @@ use std::ops::RangeInclusive;
 
 /// What is typed, and what of it could not be read.
 #[derive(Default)]
-pub(super) struct Typed {
+pub(super) struct TypedText {
     /// The field that is typed into, and what stands in it.
     now: Option<(String, String)>,
     /// What a field said when something else was typed into it, and why that is not taken.
@@ -32,7 +32,7 @@ pub(super) struct NumberField<'a> {
     pub(super) decimals: RangeInclusive<usize>,
 }
 
-impl Typed {
+impl TypedText {
     /// A field of text, and what was read of it when it was finished.
     pub(super) fn text<T>(
         &mut self,

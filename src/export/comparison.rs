@@ -3,7 +3,7 @@
 use super::ExportError;
 use super::figure::{ChangeBands, duration};
 use super::report::{self, DrawnReport, ReportContext};
-use crate::profile::comparison::{Altered, Change, Comparison};
+use crate::profile::comparison::{Alteration, Change, Comparison};
 use crate::sun::{Place, SunTrack};
 use serde::Serialize;
 use std::fmt::Write;
@@ -93,9 +93,9 @@ pub fn json(
     report::json(&CompareReport {
         before: &names[0],
         after: &names[1],
-        compared_m2: comparison.altered_m2(Altered::No),
-        built_m2: comparison.altered_m2(Altered::Built),
-        cleared_m2: comparison.altered_m2(Altered::Cleared),
+        compared_m2: comparison.altered_m2(Alteration::No),
+        built_m2: comparison.altered_m2(Alteration::Built),
+        cleared_m2: comparison.altered_m2(Alteration::Cleared),
         sun_lost: change(comparison, Change::SunLost, &thresholds),
         sun_gained: change(comparison, Change::SunGained, &thresholds),
         sun_at_least: sun_rows(comparison).into_iter().map(sun).collect(),
@@ -128,10 +128,10 @@ pub fn rows(comparison: &Comparison, track: &SunTrack) -> Vec<[String; 3]> {
 
 /// How much of the plan was compared, in a sentence without its stop.
 pub fn extent(comparison: &Comparison) -> String {
-    let [built, cleared] = [Altered::Built, Altered::Cleared].map(|altered| comparison.altered_m2(altered));
+    let [built, cleared] = [Alteration::Built, Alteration::Cleared].map(|altered| comparison.altered_m2(altered));
     format!(
         "{:.0} m² compared; not compared: {built:.0} m² with something new or higher, {cleared:.0} m² where it is gone",
-        comparison.altered_m2(Altered::No)
+        comparison.altered_m2(Alteration::No)
     )
 }
 

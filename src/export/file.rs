@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// [`ExportError::NoFileName`] where the path ends in no name; [`ExportError::Write`] where the file system refuses.
 /// On an error the old file, if any, is untouched and nothing is left beside it.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    Beside::of(path, bytes)?.put_in_place()
+    TemporaryFile::of(path, bytes)?.put_in_place()
 }
 
 /// Writes files, by their names in a folder. Where one of them cannot be written none is put in its place, so that files
@@ -25,25 +25,25 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
 /// # Errors
 /// As [`write()`].
 pub fn write_all(folder: &Path, files: &[(&str, Vec<u8>)]) -> Result<(), ExportError> {
-    let beside = files.iter().map(|(name, bytes)| Beside::of(&folder.join(name), bytes));
+    let beside = files.iter().map(|(name, bytes)| TemporaryFile::of(&folder.join(name), bytes));
     let beside = beside.collect::<Result<Vec<_>, _>>()?;
-    beside.into_iter().try_for_each(Beside::put_in_place)
+    beside.into_iter().try_for_each(TemporaryFile::put_in_place)
 }
 
 /// What is done while bytes go out.
 pub(super) const WRITING: &str = "writing a temporary file in its folder";
 
 /// A file that is written beside its place. It is gone again unless it is put there.
-pub struct Beside {
+pub struct TemporaryFile {
     pub(super) file: File,
     beside: Cleanup,
     target: PathBuf,
     asked: PathBuf,
 }
 
-impl Beside {
+impl TemporaryFile {
     /// Missing parent folders are created.
-    pub(super) fn open(asked: &Path) -> Result<Beside, ExportError> {
+    pub(super) fn open(asked: &Path) -> Result<TemporaryFile, ExportError> {
         let failed = |doing, source| failed(asked, doing, source);
         // through a link to what it leads to; a device, a pipe or a folder is nothing to be replaced by a drawing
         let target = asked.canonicalize().unwrap_or_else(|_| asked.to_owned());
@@ -60,15 +60,15 @@ impl Beside {
 
         let opened = open_new(folder, name);
         let (file, beside) = opened.map_err(|error| failed("opening a temporary file in its folder", error))?;
-        Ok(Beside { file, beside: Cleanup(beside), target, asked: asked.to_owned() })
+        Ok(TemporaryFile { file, beside: Cleanup(beside), target, asked: asked.to_owned() })
     }
 
     /// Some bytes, which are on the disk.
     ///
     /// # Errors
     /// As [`write()`].
-    pub fn of(asked: &Path, bytes: &[u8]) -> Result<Beside, ExportError> {
-        let mut beside = Beside::open(asked)?;
+    pub fn of(asked: &Path, bytes: &[u8]) -> Result<TemporaryFile, ExportError> {
+        let mut beside = TemporaryFile::open(asked)?;
         let written = beside.file.write_all(bytes);
         written.map_err(|error| failed(asked, WRITING, error))?;
         beside.sync()?;

@@ -3,7 +3,7 @@
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, figure, report};
 use crate::message::{Field, Words, aside, message};
-use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, below_ground_m, longest, secs};
+use crate::profile::probe::{Interval, ProbeIntervals, SunDay, Sunlight, below_ground_m, longest, secs};
 use crate::site::{Ground, metres};
 use crate::sun::{Place, Polar, Zone};
 use crate::view::Probe;
@@ -226,7 +226,7 @@ fn why_none(day: &SunDay, is_buried: bool) -> &'static str {
     }
 }
 
-fn range_table(table: &mut String, sunlight: &Sunlight, probed: &Probed) {
+fn range_table(table: &mut String, sunlight: &Sunlight, probed: &ProbeIntervals) {
     // Writing to a String cannot fail.
     let _ = writeln!(table, "\n  {:<10}  {:>8}  {:>8}  {:>9}", "date", "sun", "longest", "intervals");
     for (day, intervals) in sunlight.days.iter().zip(&probed.days) {

@@ -1,6 +1,6 @@
 //! Bare numbers: the hours of shadow as a GeoTIFF, a mask as an 8-bit gray PNG.
 
-use super::file::{self, Beside};
+use super::file::{self, TemporaryFile};
 use super::{ExportError, check_size};
 use crate::profile::comparison::Comparison;
 use crate::profile::{Profile, ShadedCells, hours};
@@ -34,9 +34,13 @@ pub fn geotiff<S: ShadedCells>(profile: &Profile<S>, place: &Place) -> Result<Ve
 ///
 /// # Errors
 /// As [`geotiff`]; [`ExportError::Write`] where the file system refuses.
-pub fn geotiff_file<S: ShadedCells>(profile: &Profile<S>, place: &Place, path: &Path) -> Result<Beside, ExportError> {
+pub fn geotiff_file<S: ShadedCells>(
+    profile: &Profile<S>,
+    place: &Place,
+    path: &Path,
+) -> Result<TemporaryFile, ExportError> {
     check_profile(profile)?;
-    let mut beside = Beside::open(path)?;
+    let mut beside = TemporaryFile::open(path)?;
     let mut file = BufWriter::with_capacity(1 << 20, &mut beside.file);
     let written = write_geotiff(profile, place, &mut file).and_then(|()| Ok(file.flush()?));
     drop(file);

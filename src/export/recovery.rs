@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// A site that is not saved as it is set.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unsaved {
+pub struct UnsavedSite {
     /// Its site file; a bare model has none yet.
     pub path: Option<PathBuf>,
     /// As it is set; its text is that of the site file when it was read.
@@ -79,7 +79,7 @@ impl Slot {
     ///
     /// # Errors
     /// As [`file::write`]; what TOML and JSON cannot hold.
-    pub fn keep(&self, unsaved: &Unsaved) -> Result<(), ExportError> {
+    pub fn keep(&self, unsaved: &UnsavedSite) -> Result<(), ExportError> {
         let what = "file of what is not saved";
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let Written { file, folder, site, text } = &unsaved.written;
@@ -96,11 +96,11 @@ impl Slot {
     }
 
     /// What is kept; none where it cannot be read, as by an older Gnomon.
-    fn kept(&self) -> Option<Unsaved> {
+    fn kept(&self) -> Option<UnsavedSite> {
         let record: Record = serde_json::from_slice(&fs::read(&self.file).ok()?).ok()?;
         let Record { path, file, folder, text, site, .. } = record;
         let site = SiteFile::parse(&file, &site).ok()?;
-        Some(Unsaved { path, written: Written { file, folder, site, text } })
+        Some(UnsavedSite { path, written: Written { file, folder, site, text } })
     }
 
     /// All is saved, or nobody wants it: nothing is kept any more.
@@ -126,7 +126,7 @@ fn clear(folder: &Path) {
 }
 
 /// What windows that have ended had not saved, the newest first; their slots are this window's until it drops them.
-pub fn left_behind(folder: &Path) -> Vec<(Slot, Unsaved)> {
+pub fn left_behind(folder: &Path) -> Vec<(Slot, UnsavedSite)> {
     clear(folder);
     let Ok(entries) = folder.read_dir() else { return Vec::new() };
     let is_kept = |path: &PathBuf| path.extension().is_some_and(|is| is == "json");

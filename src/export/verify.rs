@@ -2,7 +2,7 @@
 
 use super::{ExportError, report};
 use crate::choice::{Engine, Finder, Promise, Truth};
-use crate::profile::verify::{HoursOff, Row, Verification};
+use crate::profile::verify::{HoursDifference, Row, Verification};
 use crate::site::Site;
 use crate::sun::{Place, SunTrack};
 use serde::Serialize;
@@ -219,7 +219,7 @@ pub fn table(verification: &Verification, site: &Site) -> String {
 fn line(table: &mut String, row: &Row, holds: Option<bool>) {
     let difference = &row.difference;
     let or_dash = |number: Option<String>| number.unwrap_or_else(|| "-".to_owned());
-    let hours = |of: fn(&HoursOff) -> f64, digits: usize| {
+    let hours = |of: fn(&HoursDifference) -> f64, digits: usize| {
         or_dash(row.hours_off.as_ref().map(|off| format!("{:.digits$}", of(off))))
     };
     // Writing to a String cannot fail.

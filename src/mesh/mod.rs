@@ -18,8 +18,8 @@ use glam::{DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
-use together::Together;
-use weld::Welded;
+use together::CornerGroups;
+use weld::WeldedPart;
 
 /// One component as a model file gives it: triangles of one node and one material, before welding.
 #[derive(Clone, Debug, Default)]
@@ -33,12 +33,12 @@ pub struct Part {
     /// Counter-clockwise seen from outside (mirroring transforms already undone).
     pub triangles: Vec<[u32; 3]>,
     /// Where the file's own numbers are coarser than a millimetre.
-    pub coarse: Vec<Coarse>,
+    pub coarse: Vec<CornerPrecision>,
 }
 
 /// A run of corners, and how coarse the numbers are that a file writes them with.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coarse {
+pub struct CornerPrecision {
     /// Of the part's positions.
     pub corners: Range<u32>,
     /// From one number to the next, metres in the world.
@@ -63,7 +63,7 @@ pub struct Component {
     /// How many of those have three corners apart in the file: welding has changed what the file says.
     pub flattened: usize,
     /// The coarsest of its corners, but for strays that lie far off; none where the file writes all of them finely.
-    pub coarse: Option<Coarse>,
+    pub coarse: Option<CornerPrecision>,
 }
 
 /// A face at an edge: which one, and whether it runs along the edge (from its first vertex to its second) or against it.
@@ -140,7 +140,7 @@ impl Mesh {
         if triangles.max(corners / 3) > Self::MOST_FACES {
             return Err(MeshError::TooLarge(triangles));
         }
-        let together = Together::of(&parts);
+        let together = CornerGroups::of(&parts);
         let home = together.home().unwrap_or_default();
         let origin = ((home.0 + home.1) / 2.0).round();
         let reach = |part: &Part| {
@@ -155,7 +155,7 @@ impl Mesh {
         }
 
         let weld = |part: Part| of_part(part, origin, &together);
-        let welded: Vec<(Component, Welded)> = parts.into_par_iter().map(weld).collect();
+        let welded: Vec<(Component, WeldedPart)> = parts.into_par_iter().map(weld).collect();
         let (mut vertices, mut faces) = (Vec::new(), Vec::new());
         let mut components = Vec::with_capacity(welded.len());
         let corners: usize = welded.iter().map(|(_, welded)| welded.vertices.len()).sum();
@@ -310,10 +310,10 @@ impl Mesh {
 }
 
 /// A welded part, and the component that it becomes once all are welded.
-fn of_part(part: Part, origin: DVec3, together: &Together) -> (Component, Welded) {
+fn of_part(part: Part, origin: DVec3, together: &CornerGroups) -> (Component, WeldedPart) {
     let welded = weld::weld(&part, origin, together);
     let Part { name, aliases, positions, coarse, .. } = part;
-    let is_at_home = |run: &Coarse| {
+    let is_at_home = |run: &CornerPrecision| {
         let corners = &positions[run.corners.start as usize..run.corners.end as usize];
         corners.iter().any(|&corner| together.is_home(corner))
     };

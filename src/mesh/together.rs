@@ -22,7 +22,7 @@ const NEAR_M: f64 = 20_000.0;
 const NEAR_COUNTS: u64 = 1000;
 
 /// The parts' corners in groups that stand together.
-pub(super) struct Together {
+pub(super) struct CornerGroups {
     /// What is welded each for itself; none where all is one.
     welded: Option<Clusters>,
     /// The group that is meant: most of the triangles, above all of those near the place.
@@ -61,8 +61,8 @@ impl CornerGroup {
     }
 }
 
-impl Together {
-    pub(super) fn of(parts: &[Part]) -> Together {
+impl CornerGroups {
+    pub(super) fn of(parts: &[Part]) -> CornerGroups {
         let points = || parts.par_iter().flat_map(|part| part.positions.par_iter().copied());
         let low = points().reduce(|| DVec3::INFINITY, DVec3::min);
         let high = points().reduce(|| DVec3::NEG_INFINITY, DVec3::max);
@@ -70,7 +70,7 @@ impl Together {
         let are_one = |cell_m: f64| (high - low).max_element() <= cell_m;
         let home = if are_one(HOME_CELL_M) { CornerGroup { low, high, ..CornerGroup::NONE } } else { home(parts) };
         let clusters = (!are_one(WELD_CELL_M)).then(|| Clusters::of(parts, WELD_CELL_M, false));
-        Together { welded: clusters.filter(|clusters| !clusters.is_one()), home }
+        CornerGroups { welded: clusters.filter(|clusters| !clusters.is_one()), home }
     }
 
     /// A box around what stands at home; none where there are no corners.

@@ -1,7 +1,7 @@
 //! Corners that lie on each other become one vertex.
 
 use super::Part;
-use super::together::{CornerGroup, Together};
+use super::together::{CornerGroup, CornerGroups};
 use glam::{DVec3, UVec3, Vec3};
 use rustc_hash::FxHashMap;
 
@@ -17,7 +17,7 @@ pub(super) fn tolerance(size: f64) -> f64 {
 }
 
 /// A welded part; its vertices are counted from its own first one.
-pub(super) struct Welded {
+pub(super) struct WeldedPart {
     pub(super) vertices: Vec<Vec3>,
     pub(super) faces: Vec<[u32; 3]>,
     /// The triangles that collapsed, as two of their corners became one, each as the line that is left.
@@ -27,7 +27,7 @@ pub(super) struct Welded {
 }
 
 /// A part's vertices around the origin, and its faces. What stands far from each other is welded each for itself.
-pub(super) fn weld(part: &Part, origin: DVec3, together: &Together) -> Welded {
+pub(super) fn weld(part: &Part, origin: DVec3, together: &CornerGroups) -> WeldedPart {
     let local = |position: DVec3| (position - origin).as_vec3();
     let welder = |group: &CornerGroup| Welder::new(local(group.low), tolerance(group.size()) as f32, group.corners);
     let (groups, group_of) = together.in_part(part);
@@ -53,7 +53,7 @@ pub(super) fn weld(part: &Part, origin: DVec3, together: &Together) -> Welded {
         vertices = welder.vertices;
     }
     let mut welded =
-        Welded { vertices, faces: Vec::with_capacity(part.triangles.len()), collapsed: Vec::new(), flattened: 0 };
+        WeldedPart { vertices, faces: Vec::with_capacity(part.triangles.len()), collapsed: Vec::new(), flattened: 0 };
     for triangle in &part.triangles {
         let face @ [a, b, c] = triangle.map(|corner| vertex_of[corner as usize]);
         if a == b || b == c || c == a {

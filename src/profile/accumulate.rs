@@ -15,7 +15,7 @@ use wgpu::*;
 /// It runs in words of 32 bits, and is poured over into 64 before one of them could overflow. Masks of bits are counted
 /// first, some of one weight together, and added then.
 pub struct Sum {
-    running: Running,
+    running: RunningSum,
     counted: BitCounts,
     /// How many seconds may be in the running words.
     secs: u32,
@@ -23,7 +23,7 @@ pub struct Sum {
     poured: Option<Vec<u64>>,
 }
 
-enum Running {
+enum RunningSum {
     /// For masks in the processor's memory.
     Memory(Vec<u32>),
     /// For masks on the GPU.
@@ -113,8 +113,8 @@ impl Sum {
     /// All zero; on the GPU where masks are drawn there.
     pub fn new(gpu: Option<Arc<Gpu>>, width: u32, height: u32) -> Sum {
         let running = match gpu {
-            None => Running::Memory(vec![0; width as usize * height as usize]),
-            Some(gpu) => Running::Texture(Box::new(GpuSum::new(gpu, width, height))),
+            None => RunningSum::Memory(vec![0; width as usize * height as usize]),
+            Some(gpu) => RunningSum::Texture(Box::new(GpuSum::new(gpu, width, height))),
         };
         Sum { running, counted: BitCounts::default(), secs: 0, poured: None }
     }
@@ -122,7 +122,7 @@ impl Sum {
     /// Goes on from a sum over so many seconds.
     pub fn begin_with(&mut self, shaded: &Shaded, secs: u32) {
         match (&mut self.running, shaded.in_one_word()) {
-            (Running::Memory(running), Some(cells)) if secs <= MOST_SECS => {
+            (RunningSum::Memory(running), Some(cells)) if secs <= MOST_SECS => {
                 running.copy_from_slice(cells);
                 self.secs = secs;
             }
@@ -149,9 +149,9 @@ impl Sum {
 
     fn add_to_running(&mut self, mask: &DrawnMask<'_>, secs: u32) -> Result<(), ShadowError> {
         match (&mut self.running, mask) {
-            (Running::Texture(sum), DrawnMask::Texture(_, texture)) => sum.add(texture, secs),
-            (Running::Memory(sum), DrawnMask::Memory(mask)) => add(sum, &mask.share, secs),
-            (Running::Memory(sum), DrawnMask::Bits(bits)) => {
+            (RunningSum::Texture(sum), DrawnMask::Texture(_, texture)) => sum.add(texture, secs),
+            (RunningSum::Memory(sum), DrawnMask::Memory(mask)) => add(sum, &mask.share, secs),
+            (RunningSum::Memory(sum), DrawnMask::Bits(bits)) => {
                 let counted = &mut self.counted;
                 if counted.secs != secs || counted.instants == BitCounts::MOST {
                     counted.add_to(sum);
@@ -159,15 +159,15 @@ impl Sum {
                 }
                 counted.count(bits);
             }
-            (Running::Memory(sum), mask) => add(sum, &mask.read()?.share, secs),
-            (Running::Texture(sum), mask) => sum.add(&sum.bring(&mask.read()?), secs),
+            (RunningSum::Memory(sum), mask) => add(sum, &mask.read()?.share, secs),
+            (RunningSum::Texture(sum), mask) => sum.add(&sum.bring(&mask.read()?), secs),
         }
         Ok(())
     }
 
     /// Adds what was only counted so far.
     fn settle(&mut self) {
-        if let Running::Memory(sum) = &mut self.running {
+        if let RunningSum::Memory(sum) = &mut self.running {
             self.counted.add_to(sum);
         }
     }
@@ -178,8 +178,8 @@ impl Sum {
         self.poured = Some(self.larger()?);
         self.secs = 0;
         match &mut self.running {
-            Running::Memory(sum) => sum.fill(0),
-            Running::Texture(sum) => sum.clear(),
+            RunningSum::Memory(sum) => sum.fill(0),
+            RunningSum::Texture(sum) => sum.clear(),
         }
         Ok(())
     }
@@ -188,8 +188,8 @@ impl Sum {
     fn larger(&self) -> Result<Vec<u64>, ShadowError> {
         let read;
         let running = match &self.running {
-            Running::Memory(sum) => sum,
-            Running::Texture(sum) => {
+            RunningSum::Memory(sum) => sum,
+            RunningSum::Texture(sum) => {
                 read = sum.read()?;
                 &read
             }
@@ -204,8 +204,8 @@ impl Sum {
     pub fn so_far(&mut self) -> Result<Shaded, ShadowError> {
         self.settle();
         match (&self.running, &self.poured) {
-            (Running::Memory(sum), None) => Ok(sum.clone().into()),
-            (Running::Texture(sum), None) => Ok(sum.read()?.into()),
+            (RunningSum::Memory(sum), None) => Ok(sum.clone().into()),
+            (RunningSum::Texture(sum), None) => Ok(sum.read()?.into()),
             _ => Ok(self.larger()?.into()),
         }
     }
@@ -214,7 +214,7 @@ impl Sum {
     pub fn finish(mut self) -> Result<Shaded, ShadowError> {
         self.settle();
         match self {
-            Sum { running: Running::Memory(sum), poured: None, .. } => Ok(sum.into()),
+            Sum { running: RunningSum::Memory(sum), poured: None, .. } => Ok(sum.into()),
             mut sum => sum.so_far(),
         }
     }

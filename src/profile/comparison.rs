@@ -12,7 +12,7 @@ const ONE_SURFACE_M: f32 = 0.05;
 
 /// How what a cell sees has altered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Altered {
+pub enum Alteration {
     /// It has not.
     No,
     /// It sees something new above what was there.
@@ -21,14 +21,14 @@ pub enum Altered {
     Cleared,
 }
 
-impl Altered {
+impl Alteration {
     /// Per cell, of two surfaces on one grid.
-    pub fn between(before: &Surface, after: &Surface) -> Vec<Altered> {
+    pub fn between(before: &Surface, after: &Surface) -> Vec<Alteration> {
         let heights = before.height_m.iter().zip(&after.height_m);
         let altered = |(before, after): (&f32, &f32)| match after - before {
-            higher if higher > ONE_SURFACE_M => Altered::Built,
-            higher if higher < -ONE_SURFACE_M => Altered::Cleared,
-            _ => Altered::No,
+            higher if higher > ONE_SURFACE_M => Alteration::Built,
+            higher if higher < -ONE_SURFACE_M => Alteration::Cleared,
+            _ => Alteration::No,
         };
         heights.map(altered).collect()
     }
@@ -39,7 +39,7 @@ impl Altered {
 pub struct Comparison {
     before: Profile,
     after: Profile,
-    altered: Vec<Altered>,
+    altered: Vec<Alteration>,
 }
 
 /// A direction of change.
@@ -53,7 +53,7 @@ pub enum Change {
 
 /// The cell that changes most.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Most {
+pub struct GreatestChange {
     /// The first such cell, row by row from the north-west.
     pub cell: usize,
     /// Hours by which it changes, above 0.
@@ -67,7 +67,7 @@ impl Comparison {
     ///
     /// # Panics
     /// Where they do not lie on one grid with one daylight, or a raster has other cells.
-    pub fn new(before: Profile, after: Profile, altered: Vec<Altered>) -> Comparison {
+    pub fn new(before: Profile, after: Profile, altered: Vec<Alteration>) -> Comparison {
         assert_eq!((before.grid, before.day_secs), (after.grid, after.day_secs));
         assert_eq!([before.shaded.len(), after.shaded.len(), altered.len()], [before.grid.cells(); 3]);
         Comparison { before, after, altered }
@@ -94,7 +94,7 @@ impl Comparison {
     }
 
     /// How what a cell sees has altered.
-    pub fn altered(&self, cell: usize) -> Altered {
+    pub fn altered(&self, cell: usize) -> Alteration {
         self.altered[cell]
     }
 
@@ -102,7 +102,7 @@ impl Comparison {
     pub fn change(&self, cell: usize) -> Option<i64> {
         // sums of ten years are below 2^37
         let change = || self.after.shaded.of(cell) as i64 - self.before.shaded.of(cell) as i64;
-        (self.altered[cell] == Altered::No).then(change)
+        (self.altered[cell] == Alteration::No).then(change)
     }
 
     /// The same in hours; NaN where the cell is altered.
@@ -111,7 +111,7 @@ impl Comparison {
     }
 
     /// Square metres that are so.
-    pub fn altered_m2(&self, altered: Altered) -> f64 {
+    pub fn altered_m2(&self, altered: Alteration) -> f64 {
         self.area(self.altered.iter().filter(|it| **it == altered).count())
     }
 
@@ -125,7 +125,7 @@ impl Comparison {
     pub fn sun_at_least_m2(&self, secs: u32) -> [f64; 2] {
         [&self.before, &self.after].map(|profile| {
             let most = u64::from(profile.day_secs.saturating_sub(secs)) * 255;
-            let has = |cell: &usize| self.altered[*cell] == Altered::No && profile.shaded.of(*cell) <= most;
+            let has = |cell: &usize| self.altered[*cell] == Alteration::No && profile.shaded.of(*cell) <= most;
             let enough = secs <= profile.day_secs;
             self.area((0..self.cells()).filter(|cell| enough && has(cell)).count())
         })
@@ -138,7 +138,7 @@ impl Comparison {
     }
 
     /// Where it changes most; none where it nowhere does.
-    pub fn most(&self, change: Change) -> Option<Most> {
+    pub fn most(&self, change: Change) -> Option<GreatestChange> {
         let first = self.changes(change).fold(None, |most: Option<(usize, i64)>, (cell, change)| match most {
             Some((_, largest)) if largest >= change => most,
             _ => Some((cell, change)),
@@ -146,7 +146,7 @@ impl Comparison {
         first.filter(|(_, change)| *change > 0).map(|(cell, change)| {
             let width = self.grid().width as usize;
             let at = self.grid().centre((cell % width) as u32, (cell / width) as u32);
-            Most { cell, hours: hours(change), at: at.to_array() }
+            GreatestChange { cell, hours: hours(change), at: at.to_array() }
         })
     }
 

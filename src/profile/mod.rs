@@ -12,7 +12,7 @@ pub mod verify;
 pub use shaded::{Shaded, ShadedCells, ShadedPart};
 
 use crate::choice::{Engine, Finder, Method, Settings};
-use crate::view::{Decided, FragmentCounts, Grid};
+use crate::view::{Decider, FragmentCounts, Grid};
 
 /// The raster of shaded time.
 ///
@@ -92,7 +92,7 @@ impl Statistics {
         self.fragments += counted.reached.iter().map(|&fragments| u64::from(fragments)).sum::<u64>();
         self.fragments_without_mask += counted.all;
         if let Some(decided) = &counted.decided {
-            let by_volumes = |it: &&Decided| matches!(it, Decided::VolumeShadow | Decided::VolumeLight);
+            let by_volumes = |it: &&Decider| matches!(it, Decider::VolumeShadow | Decider::VolumeLight);
             *self.silhouette_cells.get_or_insert(0) += decided.iter().filter(by_volumes).count() as u64;
         }
     }

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 /// What bounds an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Blocked {
+pub enum IntervalBound {
     /// Nothing: the window asked begins or ends.
     Window,
     /// The sun is down.
@@ -29,9 +29,9 @@ pub struct Interval {
     /// The first second no longer in it.
     pub end: DateTime<Zone>,
     /// What blocks one second before the start.
-    pub before: Blocked,
+    pub before: IntervalBound,
     /// What blocks at the end.
-    pub after: Blocked,
+    pub after: IntervalBound,
 }
 
 impl Interval {
@@ -52,7 +52,7 @@ pub struct Sunlight {
     /// The days in their order.
     pub days: Vec<SunDay>,
     /// The probes in their order.
-    pub probes: Vec<Probed>,
+    pub probes: Vec<ProbeIntervals>,
     /// The names of the components that cast.
     pub components: Vec<String>,
 }
@@ -68,7 +68,7 @@ pub struct SunDay {
 
 /// One probe's intervals.
 #[derive(Clone, Debug)]
-pub struct Probed {
+pub struct ProbeIntervals {
     /// Which probe.
     pub probe: Probe,
     /// For each day its intervals, in time's order. A sun that shines on over midnight has one on either day.
@@ -77,13 +77,13 @@ pub struct Probed {
 
 impl Sunlight {
     /// What blocks, in a word or by the component's name. A component that is named as one of the words is told from it.
-    pub fn name(&self, blocked: Blocked) -> String {
+    pub fn name(&self, blocked: IntervalBound) -> String {
         match blocked {
-            Blocked::Window => "window".to_owned(),
-            Blocked::Horizon => "horizon".to_owned(),
-            Blocked::Behind => "behind".to_owned(),
-            Blocked::Ground => "ground".to_owned(),
-            Blocked::Component(component) => match self.components.get(component).map_or("", String::as_str) {
+            IntervalBound::Window => "window".to_owned(),
+            IntervalBound::Horizon => "horizon".to_owned(),
+            IntervalBound::Behind => "behind".to_owned(),
+            IntervalBound::Ground => "ground".to_owned(),
+            IntervalBound::Component(component) => match self.components.get(component).map_or("", String::as_str) {
                 word @ ("window" | "horizon" | "behind" | "ground") => format!("{word} (component)"),
                 name => name.to_owned(),
             },
@@ -91,7 +91,7 @@ impl Sunlight {
     }
 
     /// The dates with the least and with the most sun for a probe, the first of equals; seconds beside them.
-    pub fn least_and_most(&self, probed: &Probed) -> Option<[(NaiveDate, i64); 2]> {
+    pub fn least_and_most(&self, probed: &ProbeIntervals) -> Option<[(NaiveDate, i64); 2]> {
         let days = || self.days.iter().zip(&probed.days).map(|(day, found)| (day.window.day.date, secs(found)));
         let least = days().min_by_key(|(_, secs)| *secs)?;
         let most = days().min_by_key(|(_, secs)| -*secs)?;
@@ -109,7 +109,7 @@ pub fn below_ground_m(probe: &Probe, ground: f64) -> Option<f64> {
     Some(ground - judged(probe).z).filter(|below| *below > 0.0)
 }
 
-impl Probed {
+impl ProbeIntervals {
     /// How long the probe lies in the sun on all days, seconds.
     pub fn secs(&self) -> i64 {
         self.days.iter().map(|day| secs(day)).sum()

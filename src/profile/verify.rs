@@ -62,7 +62,7 @@ pub struct Row {
     /// By how much the share is off, 0 to 1, in the mean of all cells.
     pub share_off: f64,
     /// By how many hours the profile is off; absent where the instants have no weight.
-    pub hours_off: Option<HoursOff>,
+    pub hours_off: Option<HoursDifference>,
     /// How long an instant took until the mask was in memory, seconds; the first one, which also builds, counts only
     /// where it is alone.
     pub secs: f64,
@@ -70,19 +70,22 @@ pub struct Row {
 
 /// How two profiles differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HoursOff {
+pub struct HoursDifference {
     /// In the worst cell, hours.
     pub largest: f64,
     /// In the mean of all cells, hours.
     pub mean: f64,
 }
 
-impl HoursOff {
+impl HoursDifference {
     /// Between sums of shaded time in 1/255 s.
-    pub fn between(drawn: &Shaded, truth: &Shaded) -> HoursOff {
+    pub fn between(drawn: &Shaded, truth: &Shaded) -> HoursDifference {
         let off = || drawn.iter().zip(truth.iter()).map(|(drawn, truth)| drawn.abs_diff(truth));
         let hours = |sum: u64| sum as f64 / (255.0 * 3600.0);
-        HoursOff { largest: hours(off().max().unwrap_or(0)), mean: hours(off().sum()) / drawn.len().max(1) as f64 }
+        HoursDifference {
+            largest: hours(off().max().unwrap_or(0)),
+            mean: hours(off().sum()) / drawn.len().max(1) as f64,
+        }
     }
 }
 
@@ -182,7 +185,7 @@ impl Tally {
             secs: self.secs(),
             difference: self.difference,
             hours_off: truth
-                .map(|truth| Ok::<_, ShadowError>(HoursOff::between(&self.sum.finish()?, truth)))
+                .map(|truth| Ok::<_, ShadowError>(HoursDifference::between(&self.sum.finish()?, truth)))
                 .transpose()?,
         })
     }

@@ -4,7 +4,7 @@
 //! are halved until a bound shows that no count of a half can reach that ([`layers_bound`]). What is found tells its
 //! bound, so that as much as fits is counted together before the mask takes the trace.
 
-use super::walls::{Maker, WallQuery, Walls};
+use super::walls::{WallMaker, WallQuery, Walls};
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::volume::layers_bound;
@@ -44,7 +44,7 @@ impl Batch {
     /// number, and 0 where the count is. That is so for any winding, and saves half of the walls.
     pub(super) fn find<'a>(
         &'a mut self,
-        maker: &Maker,
+        maker: &WallMaker,
         sought: WallQuery,
         most_counted: u32,
         encoder: &mut CommandEncoder,

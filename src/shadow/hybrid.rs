@@ -16,7 +16,7 @@ use super::map::{DepthMap, compared_layout};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
-use crate::view::{Decided, FragmentCounts, Surface, View};
+use crate::view::{Decider, FragmentCounts, Surface, View};
 use glam::DVec3;
 use std::sync::Arc;
 use wgpu::*;
@@ -133,10 +133,10 @@ impl Technique for Hybrid {
         let all = self.counting.find(to_sun, &mut encoder)?.fragments(encoder, Some(everywhere))?;
         let decided =
             bits.iter().zip(&share).map(|(bits, share)| match (*bits >= StencilBits::MASK as u8, *share > 0) {
-                (true, true) => Decided::VolumeLight,
-                (true, false) => Decided::VolumeShadow,
-                (false, true) => Decided::MapLight,
-                (false, false) => Decided::MapShadow,
+                (true, true) => Decider::VolumeLight,
+                (true, false) => Decider::VolumeShadow,
+                (false, true) => Decider::MapLight,
+                (false, false) => Decider::MapShadow,
             });
         let (width, height) = self.counting.view.size();
         let all = all.iter().map(|&fragments| u64::from(fragments)).sum();

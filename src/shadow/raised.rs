@@ -17,7 +17,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU8, Ordering};
 
 /// The cells of a plan, or of a tile of it, that see something above the ground.
-pub(super) struct Raised {
+pub(super) struct RaisedCells {
     /// The judged points: column, row, height.
     points: Vec<DVec3>,
     /// Per point its column in the tile, and which of the normals is its face's.
@@ -35,10 +35,10 @@ pub(super) struct Raised {
 /// As many bands as keep all processors busy to the end, and their buckets in the cache.
 const BANDS: usize = 128;
 
-impl Raised {
+impl RaisedCells {
     /// No cell.
-    pub(super) fn none(faces: Mesh) -> Raised {
-        Raised {
+    pub(super) fn none(faces: Mesh) -> RaisedCells {
+        RaisedCells {
             points: Vec::new(),
             columns: Vec::new(),
             normal_of: Vec::new(),
@@ -50,10 +50,10 @@ impl Raised {
     }
 
     /// Looks down on the receivers; `raster_from_local` as the ground's shadow has it.
-    pub(super) fn new(scene: &Scene, tile: Tile, raster_from_local: &DAffine3) -> Raised {
+    pub(super) fn new(scene: &Scene, tile: Tile, raster_from_local: &DAffine3) -> RaisedCells {
         let Scene { casters, receivers, ground } = scene;
         let mut number = vec![u32::MAX; receivers.faces.len()];
-        let mut raised = Raised::none(casters.clone());
+        let mut raised = RaisedCells::none(casters.clone());
         if receivers.faces.is_empty() {
             return raised;
         }
@@ -135,7 +135,7 @@ impl Raised {
             })
             .collect();
         (0..BANDS).into_par_iter().for_each(|band| {
-            let sorted = Sorted::new(&buckets, band, points.iter().map(|bands| &bands[band][..]));
+            let sorted = SortedPoints::new(&buckets, band, points.iter().map(|bands| &bands[band][..]));
             if sorted.heights.is_empty() {
                 return;
             }
@@ -216,7 +216,7 @@ impl Buckets {
 }
 
 /// The points of a band, bucket by bucket.
-struct Sorted {
+struct SortedPoints {
     /// The band's first row of buckets.
     first: usize,
     /// Where each bucket's points begin, row after row; one longer.
@@ -227,8 +227,12 @@ struct Sorted {
     numbers: Vec<u32>,
 }
 
-impl Sorted {
-    fn new<'a>(buckets: &Buckets, band: usize, points: impl Iterator<Item = &'a [(DVec3, u32)]> + Clone) -> Sorted {
+impl SortedPoints {
+    fn new<'a>(
+        buckets: &Buckets,
+        band: usize,
+        points: impl Iterator<Item = &'a [(DVec3, u32)]> + Clone,
+    ) -> SortedPoints {
         let first = band * buckets.band_rows;
         let bucket = |at: DVec3| (buckets.row(at.y) - first) * buckets.columns + buckets.column(at.x);
         let mut begins = vec![0_u32; buckets.band_rows * buckets.columns + 1];
@@ -249,7 +253,7 @@ impl Sorted {
             *slot -= 1;
             sorted[*slot as usize] = (*at, *number);
         }
-        Sorted {
+        SortedPoints {
             first,
             begins,
             columns: sorted.iter().map(|(at, _)| at.x).collect(),

@@ -30,7 +30,7 @@ pub struct Raster {
 
 /// The projection onto a raster, for one light.
 #[derive(Clone, Copy, Debug)]
-pub struct Registered {
+pub struct RasterProjection {
     /// Homogeneous column of a vertex (v, 1), such that centres are whole numbers.
     pub column: DVec4,
     /// Homogeneous row.
@@ -53,10 +53,10 @@ pub struct ProjectedVertex {
 /// A lamp's own height is cut off where w comes so near to 0: what lies there falls nowhere that can be told.
 pub const LEAST_W: f64 = 1e-6;
 
-impl Registered {
+impl RasterProjection {
     /// For the homogeneous light (sun: w = 0, lamp: w = 1) around the raster's origin; none where it is not in front of the
     /// plane.
-    pub fn new(raster: &Raster, light: DVec4) -> Option<Registered> {
+    pub fn new(raster: &Raster, light: DVec4) -> Option<RasterProjection> {
         let front = raster.plane.dot(light);
         if front.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
             return None;
@@ -68,7 +68,7 @@ impl Registered {
             let fallen = axis.extend(0.0) - height * (axis.dot(light.truncate()) / front);
             (fallen - w * axis.dot(raster.corner)) / raster.cell - w * (0.5 + tie)
         };
-        Some(Registered { column: along(raster.right, TIE.x), row: along(raster.down, -TIE.y), w, height })
+        Some(RasterProjection { column: along(raster.right, TIE.x), row: along(raster.down, -TIE.y), w, height })
     }
 
     /// Where a vertex is.

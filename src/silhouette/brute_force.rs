@@ -1,6 +1,6 @@
 //! One pass over all edges: the reference that other finders are held against.
 
-use super::{DirectedEdge, Looked, SilhouetteFinder, append, multiplicity};
+use super::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
 use crate::mesh::Mesh;
 use glam::DVec4;
 use rayon::prelude::*;
@@ -13,7 +13,7 @@ pub struct BruteForce;
 const RUN: usize = 1 << 15;
 
 impl SilhouetteFinder for BruteForce {
-    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked {
+    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> QueryCost {
         let facing = mesh.facing(local_light);
         let runs = mesh.edges.par_chunks(RUN).enumerate().map(|(run, edges)| {
             let mut of_run = (Vec::new(), 0);
@@ -29,6 +29,6 @@ impl SilhouetteFinder for BruteForce {
             silhouette.extend(edges);
             found += count;
         }
-        Looked { at: mesh.edges.len(), found }
+        QueryCost { at: mesh.edges.len(), found }
     }
 }

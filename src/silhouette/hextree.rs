@@ -13,7 +13,7 @@
 //! Where it fails: an edge whose ends lie on two sides of a cell border near the root is tested by almost every query.
 //! Buildings, with their right angles, are made of such edges; [`super::hierarchy`] does better.
 
-use super::{DirectedEdge, Looked, SilhouetteFinder, append, multiplicity};
+use super::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
 use crate::mesh::{Mesh, plane_faces};
 use glam::{DVec3, DVec4};
 use std::ops::Range;
@@ -126,11 +126,11 @@ impl Hextree {
 }
 
 impl SilhouetteFinder for Hextree {
-    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked {
+    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> QueryCost {
         let light = self.frame.light(local_light);
         // per axis, whether a cell's corner most against the light is the upper one
         let against = DVec4::select(light.cmplt(DVec4::ZERO), DVec4::ONE, DVec4::ZERO);
-        let mut looked = Looked::default();
+        let mut looked = QueryCost::default();
         let mut test = |edges: &[u32]| {
             looked.at += edges.len();
             for &edge in edges {

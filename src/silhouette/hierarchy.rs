@@ -12,7 +12,7 @@
 //! Suns and lamps have a hierarchy each, built when first asked.
 
 use super::hextree::DualFrame;
-use super::{DirectedEdge, Looked, SilhouetteFinder, append};
+use super::{DirectedEdge, QueryCost, SilhouetteFinder, append};
 use crate::mesh::{Mesh, plane_faces};
 use glam::{DVec4, Vec4};
 use rayon::prelude::*;
@@ -37,7 +37,7 @@ impl Hierarchy {
 }
 
 impl SilhouetteFinder for Hierarchy {
-    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked {
+    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> QueryCost {
         let classes = self.classes(mesh, local_light);
         let mut runs = Vec::new();
         let looked = classes.ask(local_light, &mut runs);
@@ -186,7 +186,7 @@ impl Classes {
     }
 
     /// The classes that are silhouette for a light around the mesh's origin.
-    pub fn ask(&self, local_light: DVec4, runs: &mut Vec<ClassEdges>) -> Looked {
+    pub fn ask(&self, local_light: DVec4, runs: &mut Vec<ClassEdges>) -> QueryCost {
         let before = runs.len();
         for sum in &self.sums {
             let facing = |plane| self.facing(plane, local_light);
@@ -197,7 +197,7 @@ impl Classes {
         }
         let light = self.frame.light(local_light).as_vec4();
         let (leaves, visited) = self.leaves(light);
-        let mut looked = Looked { at: self.sums.len() + visited, found: 0 };
+        let mut looked = QueryCost { at: self.sums.len() + visited, found: 0 };
         let mut crossed = Vec::new();
         for leaf in leaves {
             looked.at += leaf.len();

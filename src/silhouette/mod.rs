@@ -23,12 +23,12 @@ pub type DirectedEdge = [u32; 2];
 /// Finds silhouettes of the mesh for which it was made. All finders give the same edges, in any order.
 pub trait SilhouetteFinder: Send {
     /// Appends the silhouette of `mesh` for a light around the mesh's origin (sun: w = 0, lamp: w = 1).
-    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked;
+    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> QueryCost;
 }
 
 /// How much a query looked at for what it found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Looked {
+pub struct QueryCost {
     /// Nodes of a tree and edges (or classes of edges) that were tested.
     pub at: usize,
     /// Edges (or classes) of them that are silhouette.

@@ -4,7 +4,7 @@ use super::Receivers;
 use super::asked::{Overrides, refuse};
 use super::error::{At, SiteError};
 use super::extent::Bounds;
-use super::terrain::{self, Buried};
+use super::terrain::{self, BuriedShare};
 use super::written::Written;
 use crate::mesh::Mesh;
 use crate::message::{Field, message};
@@ -25,7 +25,7 @@ pub struct Ground {
     /// The models' lowest point, metres.
     pub lowest: f64,
     /// What of their upper side the plane hides; where the models' own zero would have hidden terrain, that.
-    buried: Option<Buried>,
+    buried: Option<BuriedShare>,
 }
 
 /// Who says how high the ground lies.
@@ -109,7 +109,7 @@ impl Ground {
     /// What a person has to know of it beside its height: that it was found where it could lie elsewhere, and what of the
     /// components of a mesh it hides from what is judged.
     pub fn notes(&self, mesh: &Mesh, receivers: Receivers) -> Vec<String> {
-        let name = |buried: Buried| mesh.components.get(buried.component).map_or("", |component| &component.name);
+        let name = |buried: BuriedShare| mesh.components.get(buried.component).map_or("", |component| &component.name);
         let mut notes = Vec::new();
         match (self.from, self.buried) {
             (GroundFrom::Lowest, Some(terrain)) => notes.push(format!(

@@ -62,7 +62,7 @@ const PLUMB: f64 = 0.087;
 /// The areas of a model's faces, square metres, and a box around them. Axes are the file's own, turned upright: east,
 /// north, up for a file that is y up, which has its z to the south.
 #[derive(Clone, Copy, Debug)]
-struct Measured {
+struct ModelMeasures {
     low: DVec3,
     high: DVec3,
     area: f64,
@@ -76,8 +76,8 @@ struct Measured {
     faces: usize,
 }
 
-impl Measured {
-    const NOTHING: Measured = Measured {
+impl ModelMeasures {
+    const NOTHING: ModelMeasures = ModelMeasures {
         low: DVec3::INFINITY,
         high: DVec3::NEG_INFINITY,
         area: 0.0,
@@ -115,9 +115,9 @@ impl Measured {
         }
     }
 
-    fn and(self, other: &Measured) -> Measured {
+    fn and(self, other: &ModelMeasures) -> ModelMeasures {
         let sum = |one: [DVec3; 2], other: [DVec3; 2]| [one[0] + other[0], one[1] + other[1]];
-        Measured {
+        ModelMeasures {
             low: self.low.min(other.low),
             high: self.high.max(other.high),
             area: self.area + other.area,
@@ -177,7 +177,7 @@ pub(super) fn of(
         upright_from_world * (world - placement.position)
     };
     let of_faces = |faces: &[[u32; 3]], only_home: bool| {
-        let mut measured = Measured::NOTHING;
+        let mut measured = ModelMeasures::NOTHING;
         for face in faces.iter().filter(|face| !only_home || face.iter().all(|&vertex| mesh.is_at_home(vertex))) {
             measured.add(face.map(corner));
         }
@@ -185,7 +185,7 @@ pub(super) fn of(
     };
     // what is added up side by side is added in order, so that it comes out the same every time
     let measure = |only_home: bool| {
-        components.iter().fold(Measured::NOTHING, |sum, component| {
+        components.iter().fold(ModelMeasures::NOTHING, |sum, component| {
             let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
             let parts: Vec<_> = faces.par_chunks(AT_ONCE).map(|faces| of_faces(faces, only_home)).collect();
             parts.iter().fold(sum, |sum, part| sum.and(part))

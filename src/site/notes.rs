@@ -1,7 +1,7 @@
 //! What the user should know of where models stand, of what is asked far from them, and of the numbers that they are written with.
 
 use super::likeness::{self, Mend};
-use crate::mesh::{Coarse, Component, Mesh};
+use crate::mesh::{Component, CornerPrecision, Mesh};
 use crate::message::Message;
 use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
@@ -113,7 +113,7 @@ fn away_m(mesh: &Mesh, vertex: u32) -> f64 {
 /// How coarse the numbers are that a model is written with.
 fn rounded(model: &str, components: &[Component]) -> Option<String> {
     let coarse = components.iter().filter_map(|component| Some((component, component.coarse.as_ref()?)));
-    let (component, Coarse { step_m, is_float, .. }) =
+    let (component, CornerPrecision { step_m, is_float, .. }) =
         coarse.max_by(|(_, one), (_, other)| one.step_m.total_cmp(&other.step_m))?;
     let (name, step) = (&component.name, metres(*step_m));
     Some(match is_float {

@@ -9,12 +9,12 @@ use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window,
 use chrono::NaiveDate;
 
 /// A text and where it was written.
-struct Said<'a> {
+struct LocatedText<'a> {
     text: &'a str,
     at: At,
 }
 
-impl Said<'_> {
+impl LocatedText<'_> {
     fn fault(&self, error: SunError) -> SiteError {
         SiteError::sun(self.at.clone(), error)
     }
@@ -52,7 +52,7 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
                 return Err(refuse(At::Field(field), message));
             }
         }
-        let said = Said { text, at: At::Field(Field::At) };
+        let said = LocatedText { text, at: At::Field(Field::At) };
         let reading = said.reading()?;
         // A reading with its own date does not ask the site file for one.
         let date = date_asked.or(date_written.filter(|_| reading.date.is_none()));
@@ -70,7 +70,7 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
     let (Some(from), Some(to), Some(step), true) = (&from, &to, &step, dated) else {
         return Err(no_study(written, [dated, from.is_some(), to.is_some(), step.is_some()]));
     };
-    let [from, to, step] = [from, to, step].map(|(text, at)| Said { text, at: at.clone() });
+    let [from, to, step] = [from, to, step].map(|(text, at)| LocatedText { text, at: at.clone() });
 
     let reading = from.reading()?;
     // `--from` with its own date is asked later than the date in the file, and goes before it.

@@ -20,7 +20,7 @@ const OVERLAP_SHARE: f64 = 0.1;
 
 /// What of the models' upper side lies below a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Buried {
+pub(super) struct BuriedShare {
     /// The component of which most does.
     pub(super) component: usize,
     /// Which part of all that is seen from above.
@@ -41,7 +41,7 @@ struct PointCounts {
 }
 
 /// What a plane at a level hides of what is seen from above of all models; none where that is next to nothing.
-pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> {
+pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<BuriedShare> {
     let low = bounds.low.truncate();
     let size = bounds.high.truncate() - low;
     let apart = size.max_element() / POINTS;
@@ -93,7 +93,7 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<Buried> 
     // a block of earth has an underside, as a cellar has, but that lies below the plane as a whole
     let is_in_part = share(most.buried, most.seen) <= 1.0 - OVERLAP_SHARE;
     let is_sheet = layers <= 1.0 + OVERLAP_SHARE || is_in_part && layers <= 2.0 + OVERLAP_SHARE;
-    (of_plan >= LEAST_SHARE).then(|| Buried {
+    (of_plan >= LEAST_SHARE).then(|| BuriedShare {
         component,
         of_plan,
         of_component: share(buried[component], seen[component]),

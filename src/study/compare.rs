@@ -3,7 +3,7 @@
 use super::{Event, OnEvent, Outcome, StudyError, Wants, not_surfaces, run, tell};
 use crate::mesh::Mesh;
 use crate::profile::Drawn;
-use crate::profile::comparison::{Altered, Comparison};
+use crate::profile::comparison::{Alteration, Comparison};
 use crate::shadow::plan_surface;
 use crate::site::{Pair, Receivers, Site};
 use crate::view::Surface;
@@ -45,8 +45,8 @@ pub fn compare_with(pair: &Pair, before: Outcome, on_event: &mut OnEvent<'_>) ->
     let [seen_before, seen_after] = [(&before, &pair.before), (&after, &pair.after)]
         .map(|(outcome, site)| plan_surface(&outcome.surface_mesh, site.ground.level, &site.grid));
     let altered = match pair.before.receivers {
-        Receivers::Ground => vec![Altered::No; pair.before.grid.cells()],
-        _ => Altered::between(&seen_before, &seen_after),
+        Receivers::Ground => vec![Alteration::No; pair.before.grid.cells()],
+        _ => Alteration::between(&seen_before, &seen_after),
     };
     let Outcome { profile: of_before, drawn: drawn_before, surface_mesh: mesh_before, .. } = before;
     let Outcome { profile: of_after, drawn: drawn_after, surface_mesh: mesh_after, .. } = after;

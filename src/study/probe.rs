@@ -6,7 +6,7 @@
 
 use super::{Event, OnEvent, StudyError, note_models, tell};
 use crate::mesh::Mesh;
-use crate::profile::probe::{Blocked, Interval, Probed, SunDay, Sunlight, below_ground_m, judged};
+use crate::profile::probe::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, below_ground_m, judged};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::Probing;
@@ -22,7 +22,7 @@ use rayon::prelude::*;
 pub fn probe(asked: &Probing, on_event: &mut OnEvent<'_>) -> Result<Sunlight, StudyError> {
     note_models(&asked.notes, on_event)?;
     let search = ProbeSearch::new(asked);
-    let empty = |probe: &Probe| Probed { probe: probe.clone(), days: Vec::new() };
+    let empty = |probe: &Probe| ProbeIntervals { probe: probe.clone(), days: Vec::new() };
     let mut sunlight = Sunlight {
         step_secs: asked.step_secs,
         refraction: asked.refraction,
@@ -79,7 +79,7 @@ impl ProbeSearch<'_> {
         let delta_t_secs = delta_t_secs(window.from.to_utc())?;
         let sky = Sky { place: self.place, delta_t_secs, air: self.air };
         let grid = self.grid(window, &sky)?;
-        let up = intervals(&grid, &sky, |instant| instant.night.then_some(Blocked::Horizon))?;
+        let up = intervals(&grid, &sky, |instant| instant.night.then_some(IntervalBound::Horizon))?;
         let of_probe = |probe| intervals(&grid, &sky, |instant| self.blocked(probe, instant));
         Ok((up, self.probes.iter().map(of_probe).collect::<Result<_, _>>()?))
     }
@@ -101,18 +101,18 @@ impl ProbeSearch<'_> {
     }
 
     /// What keeps the sun from a probe; nothing in sunlight.
-    fn blocked(&self, probe: &Probe, instant: &Instant) -> Option<Blocked> {
+    fn blocked(&self, probe: &Probe, instant: &Instant) -> Option<IntervalBound> {
         if instant.night {
-            return Some(Blocked::Horizon);
+            return Some(IntervalBound::Horizon);
         }
         if probe.normal.is_some_and(|normal| normal.dot(instant.to_sun) <= 0.0) {
-            return Some(Blocked::Behind);
+            return Some(IntervalBound::Behind);
         }
         if below_ground_m(probe, self.ground).is_some() {
-            return Some(Blocked::Ground);
+            return Some(IntervalBound::Ground);
         }
         let (face, _) = self.rays.first_hit(judged(probe) - self.casters.origin, instant.to_sun)?;
-        Some(Blocked::Component(self.casters.components.partition_point(|component| component.faces.end <= face)))
+        Some(IntervalBound::Component(self.casters.components.partition_point(|component| component.faces.end <= face)))
     }
 }
 
@@ -121,16 +121,16 @@ impl ProbeSearch<'_> {
 fn intervals(
     grid: &[Instant],
     sky: &Sky<'_>,
-    blocked: impl Fn(&Instant) -> Option<Blocked>,
+    blocked: impl Fn(&Instant) -> Option<IntervalBound>,
 ) -> Result<Vec<Interval>, SunError> {
     let mut found = Vec::new();
     // since when there is sun, and what blocked before
     let mut open = None;
-    let mut before: Option<(DateTime<Zone>, Option<Blocked>)> = None;
+    let mut before: Option<(DateTime<Zone>, Option<IntervalBound>)> = None;
     for instant in grid {
         let now = (instant.time, blocked(instant));
         match before {
-            None => open = now.1.is_none().then_some((now.0, Blocked::Window)),
+            None => open = now.1.is_none().then_some((now.0, IntervalBound::Window)),
             Some((time, state)) if state.is_none() != now.1.is_none() => {
                 let (mut low, mut high) = ((time, state), now);
                 while high.0 - low.0 > TimeDelta::seconds(1) {
@@ -152,7 +152,7 @@ fn intervals(
     if let (Some((start, why)), Some((end, _))) = (open, before)
         && start < end
     {
-        found.push(Interval { start, end, before: why, after: Blocked::Window });
+        found.push(Interval { start, end, before: why, after: IntervalBound::Window });
     }
     Ok(found)
 }

@@ -10,7 +10,7 @@ use crate::mesh::patches::{MOST_TEXELS, Patches};
 use crate::profile::surfaces::SurfaceHours;
 use crate::profile::{Drawn, Timings};
 use crate::shadow::ray_cast::RayCast;
-use crate::shadow::soft_texture::{Choice, Fill, Judged, Painter, Sample, SoftTexture};
+use crate::shadow::soft_texture::{Choice, Fill, Painter, PatchJudgements, Sample, SoftTexture};
 use crate::shadow::{JUDGED_ABOVE_M, Scene, Technique};
 use crate::site::Site;
 use crate::sun::{Instant, disc};
@@ -26,7 +26,7 @@ pub struct SurfaceOutcome {
     /// Their time in the sun.
     pub hours: SurfaceHours,
     /// How they were judged.
-    pub judged: Judged,
+    pub judged: PatchJudgements,
     /// What drew it.
     pub drawn: Drawn,
     /// Bytes of the graphics adapter's memory that were taken; 0 where it was not used.

@@ -16,7 +16,7 @@ use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{ShadowError, Technique};
 use crate::site::Site;
 use crate::sun::Instant;
-use crate::view::{Decided, Mask, View};
+use crate::view::{Decider, Mask, View};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time;
@@ -102,8 +102,8 @@ pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Resu
     let instants = by_day(site)?;
     let (day_secs, _) = day_and_night(&site.track);
     let sun_samples = site.settings.sun_samples.unwrap_or(SUN_SAMPLES);
-    let mut centre = Cast::new(site, None);
-    let mut disc = Cast::new(site, Some(sun_samples));
+    let mut centre = TruthCaster::new(site, None);
+    let mut disc = TruthCaster::new(site, Some(sun_samples));
     let mut held: Vec<_> = trials.into_iter().map(|trial| (trial, Tally::new(&site.grid))).collect();
     let mut trees = Tally::new(&site.grid);
 
@@ -147,7 +147,7 @@ fn by_day(site: &Site) -> Result<Vec<&Instant>, StudyError> {
 }
 
 /// Ray casting as the truth.
-struct Cast {
+struct TruthCaster {
     machine: Machine,
     view: View,
     rays: RayCast,
@@ -155,12 +155,12 @@ struct Cast {
     tally: Tally,
 }
 
-impl Cast {
-    fn new(site: &Site, sun_samples: Option<u32>) -> Cast {
+impl TruthCaster {
+    fn new(site: &Site, sun_samples: Option<u32>) -> TruthCaster {
         let machine = Machine::rays(sun_samples);
         let view = View::Plan(site.grid);
         let scene = SiteView { site, machine: &machine, view, receivers: site.receivers }.scene();
-        Cast {
+        TruthCaster {
             machine,
             view,
             rays: RayCast::new(scene, view, sun_samples),
@@ -180,7 +180,7 @@ impl Cast {
 fn compare(
     trial: &mut Trial,
     tally: &mut Tally,
-    truth: &mut Cast,
+    truth: &mut TruthCaster,
     instant: &Instant,
     exact: Option<&Mask>,
 ) -> Result<Mask, ShadowError> {
@@ -197,7 +197,7 @@ fn compare(
         && let Some(decided) = trial.technique.counted(instant.to_sun)?.and_then(|counted| counted.decided)
     {
         for (cell, decided) in decided.into_iter().enumerate() {
-            let by_map = matches!(decided, Decided::MapShadow | Decided::MapLight);
+            let by_map = matches!(decided, Decider::MapShadow | Decider::MapLight);
             if by_map && mask.share[cell] != exact.share[cell] {
                 judged.share[cell] = truth.mask.share[cell];
                 missed += 1;
@@ -215,8 +215,8 @@ fn compare(
 }
 
 /// Holds some cells of ray casting against every face.
-fn without_trees(cast: &Cast, instant: &Instant, cells: &[(u32, u32)], tally: &mut Tally) {
-    let Cast { rays, mask, .. } = cast;
+fn without_trees(cast: &TruthCaster, instant: &Instant, cells: &[(u32, u32)], tally: &mut Tally) {
+    let TruthCaster { rays, mask, .. } = cast;
     let share = |&(column, row): &(u32, u32)| rays.share_without_trees(column, row, instant.to_sun);
     let truth: Vec<u8> = cells.par_iter().map(share).collect();
     let shares: Vec<u8> = cells.iter().map(|&(column, row)| mask.share[(row * mask.width + column) as usize]).collect();

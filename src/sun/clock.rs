@@ -62,7 +62,7 @@ impl FromStr for Reading {
 }
 
 /// When a reading is on one date: an instant, or why there is none.
-pub(super) enum When {
+pub(super) enum ReadingTime {
     /// One instant.
     At(DateTime<Zone>),
     /// A sunrise or sunset that does not happen: what stands for it in a window, and the error where nothing can.
@@ -79,8 +79,8 @@ impl Reading {
     /// a sunrise or sunset that does not happen.
     pub fn at(&self, place: &Place, date: NaiveDate) -> Result<DateTime<Zone>, SunError> {
         match self.when(place, date)? {
-            When::At(time) => Ok(time),
-            When::Instead(_, error) | When::Not(_, error) => Err(error),
+            ReadingTime::At(time) => Ok(time),
+            ReadingTime::Instead(_, error) | ReadingTime::Not(_, error) => Err(error),
         }
     }
 
@@ -100,22 +100,22 @@ impl Reading {
             return Ok(time);
         }
         match self.when(place, date)? {
-            When::At(time) | When::Instead(time, _) => Ok(time),
-            When::Not(_, error) => Err(error),
+            ReadingTime::At(time) | ReadingTime::Instead(time, _) => Ok(time),
+            ReadingTime::Not(_, error) => Err(error),
         }
     }
 
     /// As [`Reading::at`], but keeps what stands for an event, and what an impossible clock time could have meant.
-    pub(super) fn when(&self, place: &Place, date: NaiveDate) -> Result<When, SunError> {
+    pub(super) fn when(&self, place: &Place, date: NaiveDate) -> Result<ReadingTime, SunError> {
         let date = self.date.unwrap_or(date);
         let event = |event, shift_secs, of: fn(&Day) -> Option<DateTime<Zone>>| {
             let day = Day::of(place, date)?;
             Ok(match of(&day) {
                 // Shifts are at most 366 days and years four digits: no overflow.
-                Some(time) => When::At(time + TimeDelta::seconds(shift_secs)),
+                Some(time) => ReadingTime::At(time + TimeDelta::seconds(shift_secs)),
                 None => {
                     let (why, reading) = (day.why_absent(), self.text.clone());
-                    When::Instead(day.instead(place, self.time), SunError::NoEvent { event, date, why, reading })
+                    ReadingTime::Instead(day.instead(place, self.time), SunError::NoEvent { event, date, why, reading })
                 }
             })
         };
@@ -128,7 +128,7 @@ impl Reading {
 }
 
 /// The instant of a local clock time in a zone.
-fn local(zone: Zone, local: NaiveDateTime, offset: Option<FixedOffset>) -> When {
+fn local(zone: Zone, local: NaiveDateTime, offset: Option<FixedOffset>) -> ReadingTime {
     let readings = match zone.readings(local) {
         Ok(readings) => readings,
         Err(jump) => return gap(zone, local, &jump),
@@ -136,8 +136,8 @@ fn local(zone: Zone, local: NaiveDateTime, offset: Option<FixedOffset>) -> When 
     let [earlier, later] = readings;
     let twice = earlier != later;
     match offset {
-        None if !twice => When::At(earlier),
-        None => When::Not(
+        None if !twice => ReadingTime::At(earlier),
+        None => ReadingTime::Not(
             readings,
             SunError::TwoReadings {
                 local,
@@ -148,8 +148,8 @@ fn local(zone: Zone, local: NaiveDateTime, offset: Option<FixedOffset>) -> When 
             },
         ),
         Some(offset) => match readings.into_iter().find(|time| time.offset().fix() == offset) {
-            Some(time) => When::At(time),
-            None => When::Not(
+            Some(time) => ReadingTime::At(time),
+            None => ReadingTime::Not(
                 readings,
                 SunError::WrongOffset {
                     local,
@@ -167,7 +167,7 @@ fn local(zone: Zone, local: NaiveDateTime, offset: Option<FixedOffset>) -> When 
 }
 
 /// A local time that clocks jump over: both ways to read it, and the jump itself.
-fn gap(zone: Zone, local: NaiveDateTime, jump: &Jump) -> When {
+fn gap(zone: Zone, local: NaiveDateTime, jump: &Jump) -> ReadingTime {
     let by = |offset: FixedOffset| zone.from_utc_datetime(&(local - offset));
     let [before, after] = [jump.before, jump.after].map(|offset| jump.at + offset);
     // where a whole day is left out, the clock alone says nothing
@@ -176,7 +176,7 @@ fn gap(zone: Zone, local: NaiveDateTime, jump: &Jump) -> When {
         [before, after].map(|clock| if two_dates { format!("{clock:?}") } else { clock.time().to_string() });
     // by the new clock it is before the jump, by the old one after it
     let meant = [by(jump.after), by(jump.before)];
-    When::Not(
+    ReadingTime::Not(
         meant,
         SunError::NoSuchTime { local, zone, before, after, earlier: written(meant[0]), later: written(meant[1]) },
     )

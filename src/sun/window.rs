@@ -1,6 +1,6 @@
 //! A study's window: its instants and how many seconds each stands for.
 
-use super::clock::When;
+use super::clock::ReadingTime;
 use super::day::{light, midnight};
 use super::position::{Air, check_year, delta_t_secs};
 use super::{Day, Instant, Place, Polar, Reading, Sky, SunError, SunTrack, TimeOfDay, Zone};
@@ -48,7 +48,7 @@ impl Window {
         }
         if self.to.date.is_some() {
             let when = self.to.when(place, date)?;
-            let may_be_empty = matches!(when, When::Instead(..));
+            let may_be_empty = matches!(when, ReadingTime::Instead(..));
             let to = self.to.bound(place, date)?;
             return match to.cmp(&from) {
                 Ordering::Less => Err(SunError::Backwards { from, to }),
@@ -57,20 +57,20 @@ impl Window {
             };
         }
         match self.to.when(place, date)? {
-            When::At(to) if to > from => return Ok([from, to]),
-            When::At(to) if to == from => return Err(self.empty(date)),
-            When::Instead(to, _) if to >= from => return Ok([from, to]),
+            ReadingTime::At(to) if to > from => return Ok([from, to]),
+            ReadingTime::At(to) if to == from => return Err(self.empty(date)),
+            ReadingTime::Instead(to, _) if to >= from => return Ok([from, to]),
             // The hour that clocks skip or repeat matters only where the window ends in it.
-            When::Not(meant, error) if meant.iter().any(|to| *to >= from) => return Err(error),
-            When::At(_) | When::Instead(..) | When::Not(..) => {}
+            ReadingTime::Not(meant, error) if meant.iter().any(|to| *to >= from) => return Err(error),
+            ReadingTime::At(_) | ReadingTime::Instead(..) | ReadingTime::Not(..) => {}
         }
         let next = date.succ_opt().unwrap_or(date);
         match self.to.when(place, next)? {
-            When::At(to) if to > from => Ok([from, to]),
-            When::At(to) => Err(SunError::Backwards { from, to }),
+            ReadingTime::At(to) if to > from => Ok([from, to]),
+            ReadingTime::At(to) => Err(SunError::Backwards { from, to }),
             // the next day's light is that day's
-            When::Instead(..) => Ok([from, midnight(place, next).max(from)]),
-            When::Not(_, error) => Err(error),
+            ReadingTime::Instead(..) => Ok([from, midnight(place, next).max(from)]),
+            ReadingTime::Not(_, error) => Err(error),
         }
     }
 

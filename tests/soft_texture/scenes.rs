@@ -5,7 +5,7 @@ use crate::shared::dense::{cuboid, prism, to_sun};
 use glam::{DVec3, DVec4, dvec3};
 use gnomon::mesh::Part;
 use gnomon::shadow::JUDGED_ABOVE_M;
-use gnomon::shadow::registered::{Raster, Registered};
+use gnomon::shadow::registered::{Raster, RasterProjection};
 use gnomon::shadow::soft_texture::{Choice, Fill, Painter, Sample};
 
 const EVERY: [Choice; 2] = [Choice::Texture, Choice::Auto];
@@ -160,7 +160,7 @@ fn samples_register() {
         [dvec3(9.0, -7.0, 4.0).extend(1.0), dvec3(9.0, -7.5, 11.0).extend(1.0), dvec3(0.7, -0.7, 0.1).extend(0.0)]
     {
         let light = if plane.dot(light) > 0.0 { light } else { DVec4::from((-light.truncate(), light.w)) };
-        let onto = Registered::new(&raster, light).expect("a light in front");
+        let onto = RasterProjection::new(&raster, light).expect("a light in front");
         for (columns, rows) in [(0.0, 0.0), (40.0, 0.0), (40.0, 12.0), (0.0, 12.0)] {
             let place = onto.place(corner + right * (columns * 0.25) + down * (rows * 0.25));
             assert!((place.at.z - 1.0).abs() < 1e-12 && place.height.abs() < 1e-12);
@@ -168,7 +168,7 @@ fn samples_register() {
             assert!((place.at.x - (columns - 0.5)).abs() < 2e-4 && (place.at.y - (rows - 0.5)).abs() < 2e-4);
         }
     }
-    assert!(Registered::new(&raster, -normal.extend(0.0)).is_none(), "a light behind the receiver");
+    assert!(RasterProjection::new(&raster, -normal.extend(0.0)).is_none(), "a light behind the receiver");
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn the_projection_is_herfs() {
     let plane = normal.extend(-normal.dot(b));
     let cell = 0.5;
     let raster = Raster { corner: b, right: e_x.normalize(), down: e_y.normalize(), cell, plane };
-    let onto = Registered::new(&raster, a.extend(1.0)).expect("a lamp in front");
+    let onto = RasterProjection::new(&raster, a.extend(1.0)).expect("a lamp in front");
     for point in [dvec3(2.0, 1.0, 3.0), dvec3(-4.0, 2.0, 5.0), dvec3(7.0, 7.0, 7.0), dvec3(1.0, 2.0, -1.0)] {
         let w = alpha_w * n_w.dot(point - a);
         let x = alpha_x * n_x.dot(point - b) / w * e_x.length() / cell;

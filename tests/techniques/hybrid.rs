@@ -13,7 +13,7 @@ use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::Receivers;
-use gnomon::view::{Camera, Decided, FragmentCounts, Mask, View};
+use gnomon::view::{Camera, Decider, FragmentCounts, Mask, View};
 
 /// A sun's masks, and what decided.
 struct Pair {
@@ -22,8 +22,8 @@ struct Pair {
     counted: FragmentCounts,
 }
 
-fn by_volumes(decided: Decided) -> bool {
-    matches!(decided, Decided::VolumeShadow | Decided::VolumeLight)
+fn by_volumes(decided: Decider) -> bool {
+    matches!(decided, Decider::VolumeShadow | Decider::VolumeLight)
 }
 
 impl Pair {
@@ -123,7 +123,7 @@ fn the_count_is_never_wrong_at_128() {
                         by_map.len()
                     );
                     let decided = pair.counted.decided.as_ref().unwrap();
-                    let dark = decided.iter().filter(|&&it| it == Decided::VolumeShadow).count();
+                    let dark = decided.iter().filter(|&&it| it == Decider::VolumeShadow).count();
                     assert!(dark > 8, "{what}: {dark} cells were counted dark");
                 }
             }
@@ -181,7 +181,7 @@ fn what_is_counted_lies_behind_the_mask_and_adds_up() {
         assert_eq!(unmasked.all, *all);
         // walls that cover a cell, in the plan: a wall's fragments are where its area is
         assert!(unmasked.reached.iter().any(|reached| *reached > 2));
-        let light = |it: Decided| matches!(it, Decided::MapLight | Decided::VolumeLight);
+        let light = |it: Decider| matches!(it, Decider::MapLight | Decider::VolumeLight);
         let same = decided.iter().zip(&pair.hybrid.share).all(|(it, share)| light(*it) == (*share == 255));
         assert!(same, "what is said to be lit is");
     }

@@ -10,25 +10,25 @@ use glam::{DVec3, dvec3};
 use gnomon::gpu::Gpu;
 use gnomon::shadow::Technique;
 use gnomon::shadow::shadow_map::Filter;
-use gnomon::view::{Decided, FragmentCounts, Mask, View};
+use gnomon::view::{Decider, FragmentCounts, Mask, View};
 use std::sync::Arc;
 
 /// The paper's colours.
-fn colour_of(decided: &Decided) -> Rgb {
+fn colour_of(decided: &Decider) -> Rgb {
     match decided {
-        Decided::MapShadow => [186, 52, 44],
-        Decided::MapLight => [132, 166, 214],
-        Decided::VolumeShadow => [0, 0, 0],
-        Decided::VolumeLight => [88, 214, 74],
+        Decider::MapShadow => [186, 52, 44],
+        Decider::MapLight => [132, 166, 214],
+        Decider::VolumeShadow => [0, 0, 0],
+        Decider::VolumeLight => [88, 214, 74],
     }
 }
 
 fn colours() -> Vec<(Rgb, String)> {
     vec![
-        (colour_of(&Decided::MapShadow), "map: shadow".into()),
-        (colour_of(&Decided::MapLight), "map: light".into()),
-        (colour_of(&Decided::VolumeShadow), "volumes: shadow".into()),
-        (colour_of(&Decided::VolumeLight), "volumes: light".into()),
+        (colour_of(&Decider::MapShadow), "map: shadow".into()),
+        (colour_of(&Decider::MapLight), "map: light".into()),
+        (colour_of(&Decider::VolumeShadow), "volumes: shadow".into()),
+        (colour_of(&Decider::VolumeLight), "volumes: light".into()),
     ]
 }
 
@@ -46,7 +46,7 @@ fn decided(counted: &FragmentCounts) -> Result<Picture> {
 }
 
 pub(crate) fn silhouette_share(counted: &FragmentCounts) -> f64 {
-    let by_volumes = |decided: &&Decided| matches!(decided, Decided::VolumeShadow | Decided::VolumeLight);
+    let by_volumes = |decided: &&Decider| matches!(decided, Decider::VolumeShadow | Decider::VolumeLight);
     let decided = counted.decided.iter().flatten();
     decided.clone().filter(by_volumes).count() as f64 / decided.count().max(1) as f64
 }

@@ -248,13 +248,13 @@ fn main() -> Result<std::process::ExitCode, Box<dyn std::error::Error>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gnomon::silhouette::Looked;
+    use gnomon::silhouette::QueryCost;
 
     /// A finder that loses, turns or doubles an edge.
     struct Wrong(fn(&mut Vec<DirectedEdge>));
 
     impl SilhouetteFinder for Wrong {
-        fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> Looked {
+        fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> QueryCost {
             let looked = ProcessorFinder::BruteForce.build(mesh).find(mesh, local_light, silhouette);
             (self.0)(silhouette);
             looked

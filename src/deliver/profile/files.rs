@@ -5,7 +5,7 @@ use super::{DRAWING, ProfileRequest, RASTER, REPORT};
 use crate::deliver::DeliverError;
 use crate::deliver::disk::bits;
 use crate::deliver::parts::{DrawnView, figure_context, report_context};
-use crate::deliver::sink::{OpenSink, Ready};
+use crate::deliver::sink::{OpenSink, WholeFile};
 use crate::export::{ExportError, figure, raster, report};
 use crate::profile::{Profile, Shaded, Timings};
 use crate::shadow::PlanSurface;
@@ -17,7 +17,7 @@ use std::time::Instant;
 
 /// All files, whole and not yet in their places.
 pub(super) struct Pieces {
-    pub(super) ready: Vec<Ready>,
+    pub(super) ready: Vec<WholeFile>,
     /// `profile.json`
     pub(super) report: String,
     pub(super) range: Range,
@@ -84,12 +84,12 @@ pub(super) fn make(
 }
 
 /// The raster is written beside its place as it is made.
-fn raster_of(site: &Site, hours: &Hours, open: &OpenSink<'_>) -> Result<Ready, ExportError> {
+fn raster_of(site: &Site, hours: &Hours, open: &OpenSink<'_>) -> Result<WholeFile, ExportError> {
     match open.path(Path::new(RASTER)) {
         Some(path) => {
             let beside = raster::geotiff_file(&hours.profile, &site.place, &path)?;
             beside.sync()?;
-            Ok(Ready::Disk(beside))
+            Ok(WholeFile::Disk(beside))
         }
         None => open.ready((RASTER.into(), raster::geotiff(&hours.profile, &site.place)?)),
     }

@@ -1,7 +1,7 @@
 //! The hours of shadow on a plan, as a study finds them.
 
 use super::ProfileRequest;
-use super::keeping::Keeping;
+use super::keeping::StudyStore;
 use super::sums::Sums;
 use crate::deliver::DeliverError;
 use crate::export::ExportError;
@@ -42,15 +42,15 @@ pub struct Range {
 }
 
 /// Finds them. What the study left in the folder when it was stopped is gone on with; what is left there now goes when
-/// [`Keeping`] finishes.
+/// [`StudyStore`] finishes.
 pub(super) fn find<'a>(
     site: &Site,
     asked: &ProfileRequest<'a>,
     folder: Option<&'a Path>,
     on_event: &mut OnEvent<'_>,
-) -> Result<(Hours, Keeping<'a>), DeliverError> {
+) -> Result<(Hours, StudyStore<'a>), DeliverError> {
     let study = TiledStudy::new(site, &asked.wants(site, folder.is_some()), on_event)?;
-    let mut keeping = Keeping::new(site, asked, folder, &study)?;
+    let mut keeping = StudyStore::new(site, asked, folder, &study)?;
     keeping.look_around(on_event)?;
     let begun = keeping.begun(&study, site, on_event)?;
     let worked = study::in_tiles(study, begun, &mut |event| keeping.hear(event, site, on_event));

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What is written while the study goes on: in a folder, from which it can go on another time; or in memory alone.
-pub(super) struct Keeping<'a> {
+pub(super) struct StudyStore<'a> {
     folder: Option<&'a Path>,
     /// The study's number.
     study: u64,
@@ -50,20 +50,20 @@ pub(super) struct Keeping<'a> {
     fault: Option<DeliverError>,
 }
 
-impl Keeping<'_> {
+impl StudyStore<'_> {
     pub(super) fn new<'a>(
         site: &Site,
         asked: &ProfileRequest<'a>,
         folder: Option<&'a Path>,
         study: &TiledStudy<'_>,
-    ) -> Result<Keeping<'a>, ExportError> {
+    ) -> Result<StudyStore<'a>, ExportError> {
         let number = folder.map_or(0, |_| study.number());
         let bits = |folder| BitsFile::new(folder, number, site.grid, site.receivers, &site.track);
         let count = |before: &mut usize, instant: &Instant| {
             *before += usize::from(!instant.night);
             Some(*before)
         };
-        Ok(Keeping {
+        Ok(StudyStore {
             with_sun: iter::once(0).chain(site.track.instants.iter().scan(0, count)).collect(),
             folder,
             study: number,

@@ -14,7 +14,7 @@ pub use sums::Sums;
 use super::disk::{bits, unfinished};
 use super::lines::Lines;
 use super::parts::{note, note_letters};
-use super::sink::Also;
+use super::sink::SecondFolder;
 use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::export::figure;
 use crate::profile::{Drawn, Statistics};
@@ -198,10 +198,10 @@ impl<'a> ProfileRequest<'a> {
         kinds.chain(self.lines.iter().flat_map(|lines| lines.names())).map(PathBuf::from).collect()
     }
 
-    fn mask_files(&self, site: &Site) -> Option<Also<'a>> {
+    fn mask_files(&self, site: &Site) -> Option<SecondFolder<'a>> {
         let folder = self.masks?;
         let files = (0..site.track.instants.len()).map(|index| mask_path(folder, index)).collect();
-        Some(Also { folder, files })
+        Some(SecondFolder { folder, files })
     }
 
     /// Whether each instant's shadow is needed when all is done.

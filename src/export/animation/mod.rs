@@ -10,7 +10,7 @@ use super::figure::Screen;
 use super::{ExportError, file};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use image::ImageFormat;
-use older::Older;
+use older::OldFrames;
 use palette::{Counts, Palette};
 use std::borrow::Cow;
 use std::fs;
@@ -29,7 +29,7 @@ const SAMPLED: usize = 64;
 pub struct Frames {
     folder: PathBuf,
     count: usize,
-    older: Older,
+    older: OldFrames,
     done: usize,
     counts: Counts,
 }
@@ -40,7 +40,7 @@ impl Frames {
     /// # Errors
     /// [`ExportError::OtherFrame`] where a file is called as such a frame is, and is not known to be one.
     pub fn new(folder: &Path, count: usize) -> Result<Frames, ExportError> {
-        let older = Older::find(folder, count)?;
+        let older = OldFrames::find(folder, count)?;
         Ok(Frames { folder: folder.to_owned(), count, older, done: 0, counts: Counts::default() })
     }
 
@@ -85,7 +85,7 @@ impl Frames {
     pub fn gif(self, delay: u16) -> Result<Gif, ExportError> {
         let path = self.folder.join(GIF);
         let palette = self.counts.palette();
-        let beside = file::Beside::open(&path)?;
+        let beside = file::TemporaryFile::open(&path)?;
         let file = beside.file.try_clone().map_err(|error| file::failed(&path, file::WRITING, error))?;
         let first = read(&self.folder, 0)?;
         let size = (side(first.width)?, side(first.height)?);
@@ -102,14 +102,14 @@ impl Frames {
 /// A GIF that is being made of frames that are there. Where it is not finished, there is none.
 pub struct Gif {
     folder: PathBuf,
-    older: Older,
+    older: OldFrames,
     path: PathBuf,
     delay: u16,
     size: (u16, u16),
     palette: Palette,
     // closed before the file is removed
     encoder: Encoder<BufWriter<fs::File>>,
-    beside: file::Beside,
+    beside: file::TemporaryFile,
 }
 
 impl Gif {

@@ -15,14 +15,14 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 /// Frames of the older animation, and what is in them.
-pub(super) struct Older(Vec<(PathBuf, u64)>);
+pub(super) struct OldFrames(Vec<(PathBuf, u64)>);
 
-impl Older {
+impl OldFrames {
     /// The frames in a folder beyond so many, which must all be those of the GIF there.
     ///
     /// # Errors
     /// [`ExportError::OtherFrame`] where one is not.
-    pub(super) fn find(folder: &Path, count: usize) -> Result<Older, ExportError> {
+    pub(super) fn find(folder: &Path, count: usize) -> Result<OldFrames, ExportError> {
         let frames = beyond(folder, count);
         let known = if frames.is_empty() { Vec::new() } else { of_gif(folder, &frames).unwrap_or_default() };
         let mut found = Vec::with_capacity(frames.len());
@@ -32,7 +32,7 @@ impl Older {
                 None => return Err(ExportError::OtherFrame { path, count }),
             }
         }
-        Ok(Older(found))
+        Ok(OldFrames(found))
     }
 
     /// What the user should know.

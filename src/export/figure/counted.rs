@@ -1,7 +1,7 @@
 //! What counting took, as colours of cells: seed 000, figures 3-5 and 3-9.
 
 use super::scale::{Rgb, mix};
-use crate::view::{Decided, FragmentCounts};
+use crate::view::{Decider, FragmentCounts};
 
 /// Which picture of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,14 +53,14 @@ impl Colours {
     }
 }
 
-fn of_mask(decided: &[Decided]) -> Colours {
-    let colour = |decided: &Decided| match decided {
-        Decided::MapShadow => MAP_SHADOW,
-        Decided::MapLight => MAP_LIGHT,
-        Decided::VolumeShadow => VOLUME_SHADOW,
-        Decided::VolumeLight => VOLUME_LIGHT,
+fn of_mask(decided: &[Decider]) -> Colours {
+    let colour = |decided: &Decider| match decided {
+        Decider::MapShadow => MAP_SHADOW,
+        Decider::MapLight => MAP_LIGHT,
+        Decider::VolumeShadow => VOLUME_SHADOW,
+        Decider::VolumeLight => VOLUME_LIGHT,
     };
-    let volumes = decided.iter().filter(|it| matches!(it, Decided::VolumeShadow | Decided::VolumeLight)).count();
+    let volumes = decided.iter().filter(|it| matches!(it, Decider::VolumeShadow | Decider::VolumeLight)).count();
     let legend = [
         (MAP_LIGHT, "sun, by the map"),
         (MAP_SHADOW, "shadow, by the map"),

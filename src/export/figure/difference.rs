@@ -3,7 +3,7 @@
 use super::scale::{NO_SHADOW, Rgb, band_secs, mix};
 use super::{FigureContext, cells, check_surface, page, panel, plan, text, words};
 use crate::export::{ExportError, check_size};
-use crate::profile::comparison::{Altered, Change, Comparison};
+use crate::profile::comparison::{Alteration, Change, Comparison};
 use crate::site::Receivers;
 use crate::view::Surface;
 
@@ -81,7 +81,7 @@ pub struct ChangeColours {
     /// Each colour and what it means: the most sun gained first.
     pub legend: Vec<(Rgb, String)>,
     /// How what each cell sees is drawn as altered.
-    altered: Vec<Altered>,
+    altered: Vec<Alteration>,
 }
 
 impl ChangeColours {
@@ -95,14 +95,14 @@ impl ChangeColours {
         let ground_only = receivers == Receivers::Ground;
         let bands = ChangeBands::of(comparison, step_secs);
         // under a ground that is judged alone buildings are drawn by what stands there
-        let altered: Vec<Altered> = match ground_only {
-            true => Altered::between(before, after),
+        let altered: Vec<Alteration> = match ground_only {
+            true => Alteration::between(before, after),
             false => (0..comparison.cells()).map(|cell| comparison.altered(cell)).collect(),
         };
         let roof = |cell: usize| after.face[cell] < Surface::GROUND;
-        let colour = |(cell, altered): (usize, &Altered)| match (altered, comparison.change(cell)) {
-            (Altered::Built, _) => BUILT,
-            (Altered::Cleared, None) => CLEARED,
+        let colour = |(cell, altered): (usize, &Alteration)| match (altered, comparison.change(cell)) {
+            (Alteration::Built, _) => BUILT,
+            (Alteration::Cleared, None) => CLEARED,
             _ if ground_only && roof(cell) => plan::ROOF_UNJUDGED,
             (_, change) => bands.colour(change.unwrap_or(0)),
         };

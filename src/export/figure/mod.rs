@@ -205,7 +205,7 @@ fn instant_as<T>(
             panel.facts.push(("Picture", format!("{} × {}", size.0, size.1)));
             let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
             show(&mut panel, shown, tones[0], components.as_ref());
-            let painted = perspective::Painted { components: components.as_ref(), of_cells };
+            let painted = perspective::OwnColours { components: components.as_ref(), of_cells };
             let draw = |fit| {
                 let mut picture = perspective::instant(scene, &lens, mask, now.to_sun, painted, fit);
                 if let Some(overlay) = shown.overlay {

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 /// What has colours of its own.
 #[derive(Clone, Copy)]
-pub(super) struct Painted<'a> {
+pub(super) struct OwnColours<'a> {
     /// Components, in sun and shadow.
     pub(super) components: Option<&'a Components>,
     /// Cells, instead of sun and shadow; not the sky.
@@ -25,7 +25,7 @@ pub(super) fn instant(
     lens: &PixelRays,
     mask: &Mask,
     to_sun: DVec3,
-    Painted { components, of_cells }: Painted<'_>,
+    OwnColours { components, of_cells }: OwnColours<'_>,
     fit: Fit,
 ) -> PagePicture {
     if let Some(of_cells) = of_cells {

@@ -185,18 +185,18 @@ impl Cells {
 }
 
 /// A raster of cells that is drawn when it is asked for: `tell` tells of some rows of cells.
-pub(super) struct Composed<F> {
+pub(super) struct LazyRaster<F> {
     fit: Fit,
     columns: Vec<CellSpan>,
     rows: Vec<CellSpan>,
     tell: F,
 }
 
-impl<F: Fn(Range<usize>, &mut Cells) + Sync> Composed<F> {
-    pub(super) fn new(fit: Fit, between: CellBorder, tell: F) -> Composed<F> {
+impl<F: Fn(Range<usize>, &mut Cells) + Sync> LazyRaster<F> {
+    pub(super) fn new(fit: Fit, between: CellBorder, tell: F) -> LazyRaster<F> {
         let columns = spans(fit.cells.0 as usize, fit.pixels.0 as usize, between);
         let rows = spans(fit.cells.1 as usize, fit.pixels.1 as usize, between);
-        Composed { fit, columns, rows, tell }
+        LazyRaster { fit, columns, rows, tell }
     }
 
     /// All of it.
@@ -214,7 +214,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> Composed<F> {
     }
 }
 
-impl<F: Fn(Range<usize>, &mut Cells) + Sync> Pixels for Composed<F> {
+impl<F: Fn(Range<usize>, &mut Cells) + Sync> Pixels for LazyRaster<F> {
     fn size(&self) -> (u32, u32) {
         self.fit.pixels
     }
@@ -241,7 +241,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> Pixels for Composed<F> {
     }
 }
 
-impl<F> Composed<F> {
+impl<F> LazyRaster<F> {
     /// A row of pixels without its lines; the cells' rows begin with `first`.
     fn paint(&self, row: usize, first: usize, cells: &Cells, line: &mut [Rgb]) {
         let span = &self.rows[row];
@@ -266,7 +266,7 @@ impl<F> Composed<F> {
 /// What a task takes at the most to draw so many cells, bytes: what they see, its heights, hours and colours.
 pub(super) fn task_bytes(fit: &Fit) -> u64 {
     let rows_a_pixel = f64::from(fit.cells.1) / f64::from(fit.pixels.1.max(1));
-    let at_once = Composed::<fn(Range<usize>, &mut Cells)>::at_once(fit).min(BAND + 2 * REACH);
+    let at_once = LazyRaster::<fn(Range<usize>, &mut Cells)>::at_once(fit).min(BAND + 2 * REACH);
     let rows = (at_once as f64 * rows_a_pixel).ceil() as u64 + 2;
     rows * u64::from(fit.cells.0) * 32
 }
@@ -284,7 +284,7 @@ pub(super) fn compose(
         cells.paint(colours[first..rows.end * width].iter().copied());
         cells.border(rows.len(), |a, b| pen(first + a, first + b));
     };
-    Composed::new(fit, between, tell).picture()
+    LazyRaster::new(fit, between, tell).picture()
 }
 
 fn rgb(packed: u32) -> Rgb {

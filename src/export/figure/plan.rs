@@ -1,12 +1,12 @@
 //! The plan's colours and lines: ground and roofs seen from above.
 
 use super::FigureContext;
-use super::picture::{CellBorder, Cells, Composed, Fit, PagePicture, Pen, Pixels, compose};
+use super::picture::{CellBorder, Cells, Fit, LazyRaster, PagePicture, Pen, Pixels, compose};
 use super::scale::{Bands, Rgb, mix};
 use crate::choice::Receivers;
 use crate::look::LOOK;
 use crate::mesh::Mesh;
-use crate::profile::comparison::Altered;
+use crate::profile::comparison::Alteration;
 use crate::profile::{Profile, ShadedCells};
 use crate::view::{Mask, Surface, SurfaceRows};
 use glam::DVec3;
@@ -65,7 +65,7 @@ pub(super) fn painted(of_cells: &[Rgb], fit: Fit) -> PagePicture {
 pub(super) fn difference<'a>(
     scenes: &'a [FigureContext; 2],
     of_cells: &'a [Rgb],
-    altered: &'a [Altered],
+    altered: &'a [Alteration],
     cell_m: f64,
     fit: Fit,
 ) -> impl Pixels + 'a {
@@ -75,7 +75,7 @@ pub(super) fn difference<'a>(
         let gone = &altered[rows.start * width..rows.end * width];
         let surface = &before.surface.rows(rows.clone());
         cells.border(rows.len(), |a, b| {
-            let is_gone = [a, b].map(|cell| gone[cell] == Altered::Cleared) != [false; 2];
+            let is_gone = [a, b].map(|cell| gone[cell] == Alteration::Cleared) != [false; 2];
             let parts = is_gone && surface.face[a] != surface.face[b];
             if parts { pen(before.mesh, surface, cell_m, a, b) } else { None }
         });
@@ -105,7 +105,7 @@ fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
 ) -> impl Pixels {
     let light = relief_light(scene);
     let width = fit.cells.0 as usize;
-    Composed::new(fit, CellBorder::Sharp, move |rows: Range<usize>, cells: &mut Cells| {
+    LazyRaster::new(fit, CellBorder::Sharp, move |rows: Range<usize>, cells: &mut Cells| {
         let surface = &scene.surface.rows(rows.clone());
         let mesh = scene.mesh;
         let value = values(rows.start * width..rows.end * width);

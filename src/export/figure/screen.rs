@@ -2,7 +2,7 @@
 
 use super::components::Components;
 use super::page::{HEIGHT, Sheet, WIDTH};
-use super::perspective::{self, Painted, PixelRays};
+use super::perspective::{self, OwnColours, PixelRays};
 use super::picture::{Fit, Pixels};
 use super::scale::Rgb;
 use super::{FigureContext, PictureExtras, instant_as, plan};
@@ -78,6 +78,6 @@ pub fn bare(scene: &FigureContext, view: &View, mask: &Mask, to_sun: DVec3, show
         View::Elevation(side) => PixelRays::of_side(side),
     };
     let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
-    let painted = Painted { components: components.as_ref(), of_cells: None };
+    let painted = OwnColours { components: components.as_ref(), of_cells: None };
     perspective::instant(scene, &lens, mask, to_sun, painted, fit).pixels
 }

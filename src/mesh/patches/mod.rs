@@ -13,7 +13,7 @@ mod seen_side;
 mod shared;
 mod texels;
 
-pub use shared::LeftOut;
+pub use shared::UncountedArea;
 
 use super::{Component, Mesh};
 use glam::{DVec3, DVec4};
@@ -59,7 +59,7 @@ pub struct Patches {
     /// How many pages the atlas has.
     pub pages: u32,
     /// How much of their area counts in no sum, once that was asked ([`Patches::leave_out_shared`]).
-    pub left_out: LeftOut,
+    pub left_out: UncountedArea,
 }
 
 /// One flat patch. Positions are around [`Patches::origin`].
@@ -153,7 +153,7 @@ impl Patches {
             texels: Vec::new(),
             page_size,
             pages: 0,
-            left_out: LeftOut::default(),
+            left_out: UncountedArea::default(),
         };
         for (flat, frame) in flats.iter().zip(&frames) {
             let first = patches.faces.len() as u32;

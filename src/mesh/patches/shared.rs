@@ -33,7 +33,7 @@ const BESIDE: DVec2 = DVec2::new(0.012_345_67, 0.007_891_01);
 
 /// How much of the patches' area counts in no sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LeftOut {
+pub struct UncountedArea {
     /// What is there again, square metres.
     pub doubled_m2: f64,
     /// What lies between parts that touch, on both sides, square metres.
@@ -41,7 +41,7 @@ pub struct LeftOut {
 }
 
 /// A flat surface with which a patch may share its place.
-struct Other<'a> {
+struct FlatSurface<'a> {
     component: u32,
     /// Its outer side is not known, and all around it other faces stand before it and behind it.
     between: bool,
@@ -53,8 +53,8 @@ struct Other<'a> {
 }
 
 /// All of them, and where they lie.
-struct Others<'a> {
-    list: Vec<Other<'a>>,
+struct FlatSurfaces<'a> {
+    list: Vec<FlatSurface<'a>>,
     boxes: Vec<Aabb>,
     tree: Bvh2,
 }
@@ -63,7 +63,7 @@ struct Others<'a> {
 struct CountedArea {
     area_m2: f64,
     uncounted: Vec<u32>,
-    left_out: LeftOut,
+    left_out: UncountedArea,
 }
 
 impl Patches {
@@ -74,7 +74,7 @@ impl Patches {
         let edges = planes::sides(mesh);
         let between =
             |faces: &[u32], plane: DVec4, two_sided: bool| two_sided && is_between(mesh, &edges, faces, plane);
-        let received = self.list.iter().map(|patch| Other {
+        let received = self.list.iter().map(|patch| FlatSurface {
             component: patch.component,
             between: between(self.faces_of(patch), patch.plane, patch.two_sided),
             plane: patch.plane,
@@ -83,7 +83,7 @@ impl Patches {
             receives: true,
             faces: self.faces_of(patch),
         });
-        let passed = beside.iter().map(|flat| Other {
+        let passed = beside.iter().map(|flat| FlatSurface {
             component: flat.component,
             between: between(&flat.faces, flat.plane, flat.two_sided),
             plane: flat.plane,
@@ -92,10 +92,10 @@ impl Patches {
             receives: false,
             faces: &flat.faces,
         });
-        let list: Vec<Other> = received.chain(passed).collect();
+        let list: Vec<FlatSurface> = received.chain(passed).collect();
         let boxes: Vec<Aabb> = list.iter().map(|other| around(mesh, other.faces)).collect();
         let tree = build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut Duration::default());
-        let others = Others { list, boxes, tree };
+        let others = FlatSurfaces { list, boxes, tree };
         let counted: Vec<CountedArea> =
             (0..self.list.len()).into_par_iter().map(|number| self.counted(mesh, &others, number)).collect();
         for (patch, counted) in self.list.iter_mut().zip(counted) {
@@ -109,11 +109,11 @@ impl Patches {
         &self.faces[patch.faces.start as usize..patch.faces.end as usize]
     }
 
-    fn counted(&self, mesh: &Mesh, others: &Others, number: usize) -> CountedArea {
+    fn counted(&self, mesh: &Mesh, others: &FlatSurfaces, number: usize) -> CountedArea {
         let patch = &self.list[number];
         let once = self.covered_once(mesh, patch);
         let mut area_m2 = if once < 1.0 { patch.area_m2 * once } else { patch.area_m2 };
-        let mut left_out = LeftOut { doubled_m2: patch.area_m2 - area_m2, touching_m2: 0.0 };
+        let mut left_out = UncountedArea { doubled_m2: patch.area_m2 - area_m2, touching_m2: 0.0 };
         let mut uncounted = Vec::new();
         let (again, touching) = others.sharing(patch, number);
         if again.is_empty() && touching.is_empty() {
@@ -164,7 +164,7 @@ impl Patches {
 
     /// Which texels lie wholly in other surfaces, told at four places around their centres: each of these must be covered.
     /// Of surfaces only what lies no lower than `least` above the patch's plane.
-    fn covered_by(&self, mesh: &Mesh, patch: &Patch, others: &[&Other], least: f64) -> Vec<Coverage> {
+    fn covered_by(&self, mesh: &Mesh, patch: &Patch, others: &[&FlatSurface], least: f64) -> Vec<Coverage> {
         // where a patch is judged if no centre lies in it
         let aside = patch.alone.map_or(DVec2::ZERO, |point| {
             let texel = self.texels[patch.texels.start as usize];
@@ -185,9 +185,9 @@ impl Patches {
     }
 }
 
-impl Others<'_> {
+impl FlatSurfaces<'_> {
     /// What may share its place with a patch: what the patch is there again of, and what may touch it.
-    fn sharing(&self, patch: &Patch, number: usize) -> (Vec<&Other<'_>>, Vec<&Other<'_>>) {
+    fn sharing(&self, patch: &Patch, number: usize) -> (Vec<&FlatSurface<'_>>, Vec<&FlatSurface<'_>>) {
         let least_cosine = FLAT_ANGLE_DEG.to_radians().cos();
         let (mut again, mut touching) = (Vec::new(), Vec::new());
         self.tree.aabb_traverse(self.boxes[number], |tree, node| {

@@ -18,7 +18,7 @@ mod ways;
 use super::batch::{Batch, CountedWalls};
 use super::near_clip::needs_z_fail;
 use super::walls::borders::Borders;
-use super::walls::{Maker, WallQuery};
+use super::walls::{WallMaker, WallQuery};
 use super::{GpuSurface, Scene, ShadowError, Silhouettes};
 use crate::gpu::targets::{SUMMED, whole};
 use crate::gpu::{Gpu, readback};
@@ -81,7 +81,7 @@ pub(super) struct VolumeCounter {
     casters_are_seen: bool,
     /// Each vertex twice: where it is, and where its wall ends.
     vertices: Buffer,
-    maker: Maker,
+    maker: WallMaker,
     ways: CountWays,
     /// The same, adding up fragments instead; made when first sought.
     adding: Option<CountWays>,
@@ -121,7 +121,7 @@ impl VolumeCounter {
             .flat_map(|vertex| [vertex.extend(1.0).to_array(), vertex.extend(0.0).to_array()])
             .collect();
         let vertices = gpu.uploaded("counting.casters", BufferUsages::VERTEX, &twice)?;
-        let maker = Maker::new(&gpu, silhouettes);
+        let maker = WallMaker::new(&gpu, silhouettes);
         let ways = CountWays::counting(&surface, &maker, bits);
         let covered = covered(&surface, bits);
         let casters_are_seen = holds_all(&scene);

@@ -4,7 +4,7 @@ use super::StencilBits;
 use crate::gpu::shaders;
 use crate::gpu::targets::{COUNTED, SHARE, SUMMED, Stages};
 use crate::shadow::GpuSurface;
-use crate::shadow::walls::Maker;
+use crate::shadow::walls::WallMaker;
 use crate::view::View;
 use wgpu::*;
 
@@ -39,7 +39,7 @@ impl CountWays {
         }
     }
 
-    pub(super) fn counting(surface: &GpuSurface, maker: &Maker, bits: StencilBits) -> CountWays {
+    pub(super) fn counting(surface: &GpuSurface, maker: &WallMaker, bits: StencilBits) -> CountWays {
         use StencilOperation::{DecrementWrap, IncrementWrap, Keep};
         let trace = Trace {
             label: "counting",
@@ -61,7 +61,7 @@ impl CountWays {
         CountWays::new(surface, maker, &trace, passing, failing)
     }
 
-    pub(super) fn adding(surface: &GpuSurface, maker: &Maker, bits: StencilBits) -> CountWays {
+    pub(super) fn adding(surface: &GpuSurface, maker: &WallMaker, bits: StencilBits) -> CountWays {
         let sum = BlendComponent {
             src_factor: BlendFactor::One,
             dst_factor: BlendFactor::One,
@@ -87,7 +87,7 @@ impl CountWays {
 
     fn new(
         surface: &GpuSurface,
-        maker: &Maker,
+        maker: &WallMaker,
         trace: &Trace<'_>,
         passing: impl Fn() -> DepthStencilState,
         failing: impl Fn() -> DepthStencilState,

@@ -60,9 +60,9 @@ impl Casters {
         let no_side = FaceSide::new(normals.len() as u32, false);
         let runs = (0..mesh.edges.len().div_ceil(RUN)).into_par_iter().map(|run| {
             let run = run * RUN..((run + 1) * RUN).min(mesh.edges.len());
-            Above::cut(mesh, &points, run, |face| group_of[face as usize], no_side)
+            EdgesAbove::cut(mesh, &points, run, |face| group_of[face as usize], no_side)
         });
-        let runs: Vec<Above> = runs.collect();
+        let runs: Vec<EdgesAbove> = runs.collect();
         let whole = points.len() as u32;
         let mut edges = Vec::with_capacity(runs.iter().map(|run| run.edges.len()).sum());
         let mut meets = Vec::new();
@@ -149,7 +149,7 @@ const RUN: usize = 1 << 13;
 
 /// What of a run of edges is above the plane.
 #[derive(Default)]
-struct Above {
+struct EdgesAbove {
     edges: Vec<Edge>,
     /// Where they meet the plane; these follow the mesh's vertices.
     cuts: Vec<DVec3>,
@@ -157,15 +157,15 @@ struct Above {
     meets: Vec<(u32, bool, u32)>,
 }
 
-impl Above {
+impl EdgesAbove {
     fn cut(
         mesh: &Mesh,
         points: &[DVec3],
         run: Range<usize>,
         group_of: impl Fn(u32) -> u32,
         no_side: FaceSide,
-    ) -> Above {
-        let mut above = Above { edges: Vec::with_capacity(run.len()), ..Above::default() };
+    ) -> EdgesAbove {
+        let mut above = EdgesAbove { edges: Vec::with_capacity(run.len()), ..EdgesAbove::default() };
         for at in run {
             let mut ends = mesh.edges[at];
             let [first, last] = ends.map(|end| points[end as usize].z > 0.0);

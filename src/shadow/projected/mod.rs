@@ -12,7 +12,7 @@ pub use on_gpu::ProjectedOnGpu;
 
 use super::flat::FlatShadow;
 use super::plan_surface::highest;
-use super::raised::Raised;
+use super::raised::RaisedCells;
 use super::ray_cast::TIE;
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique};
 use crate::view::{Grid, Surface, Tile};
@@ -21,7 +21,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 /// The technique, made for one scene and one plan, or a tile of it.
 pub struct Projected {
     shadow: FlatShadow,
-    raised: Raised,
+    raised: RaisedCells,
     scene: Scene,
     raster_from_local: DAffine3,
     tile: Tile,
@@ -33,7 +33,7 @@ impl Projected {
         let tile: Tile = tile.into();
         let raster_from_local = raster_from_local(scene, &tile.plan);
         let shadow = FlatShadow::new(&scene.casters, raster_from_local, tile.first, tile.size);
-        let raised = Raised::new(scene, tile, &raster_from_local);
+        let raised = RaisedCells::new(scene, tile, &raster_from_local);
         Projected { shadow, raised, scene: scene.clone(), raster_from_local, tile }
     }
 }
@@ -53,8 +53,8 @@ impl Technique for Projected {
         }
         self.shadow.turn_to(tile.first, tile.size);
         // what the last tile took goes before the next one's
-        self.raised = Raised::none(self.scene.casters.clone());
-        self.raised = Raised::new(&self.scene, tile, &self.raster_from_local);
+        self.raised = RaisedCells::none(self.scene.casters.clone());
+        self.raised = RaisedCells::new(&self.scene, tile, &self.raster_from_local);
         self.tile = tile;
         Ok(true)
     }

@@ -14,7 +14,7 @@ use super::Fill;
 use super::occluders::Occluders;
 use crate::mesh::Mesh;
 use crate::mesh::scan::{Coverage, TriangleSide};
-use crate::shadow::registered::{self, ClippedFace, ProjectedVertex, Registered};
+use crate::shadow::registered::{self, ClippedFace, ProjectedVertex, RasterProjection};
 use glam::DVec2;
 
 /// The sides of each face: twice the edge, and 1 where the face runs against it.
@@ -53,17 +53,17 @@ impl Scratch {
 }
 
 /// Which cells something lies before.
-pub(super) enum Covered<'a> {
+pub(super) enum CoveredCells<'a> {
     Bits(Coverage),
     /// Layers, row by row of one cell more than the patch is wide.
     Layers(&'a [i32], usize),
 }
 
-impl Covered<'_> {
+impl CoveredCells<'_> {
     pub(super) fn at(&self, column: u32, row: u32) -> bool {
         match self {
-            Covered::Bits(bits) => bits.get(column, row),
-            Covered::Layers(layers, in_row) => layers[row as usize * in_row + column as usize] != 0,
+            CoveredCells::Bits(bits) => bits.get(column, row),
+            CoveredCells::Layers(layers, in_row) => layers[row as usize * in_row + column as usize] != 0,
         }
     }
 }
@@ -80,27 +80,32 @@ impl Casting<'_> {
     pub(super) fn covered<'a>(
         &self,
         fill: Fill,
-        onto: &Registered,
+        onto: &RasterProjection,
         (width, height): (u32, u32),
         scratch: &'a mut Scratch,
-    ) -> Covered<'a> {
+    ) -> CoveredCells<'a> {
         match fill {
             Fill::Faces => {
                 let mut bits = Coverage::empty(width, height);
                 for &at in &scratch.found {
                     registered::part(self.places(onto, at)).cover(&mut bits);
                 }
-                Covered::Bits(bits)
+                CoveredCells::Bits(bits)
             }
             Fill::Silhouettes => self.layers(onto, (width, height), scratch),
         }
     }
 
-    fn places(&self, onto: &Registered, at: u32) -> [ProjectedVertex; 3] {
+    fn places(&self, onto: &RasterProjection, at: u32) -> [ProjectedVertex; 3] {
         self.occluders.corners[at as usize].map(|corner| onto.place(corner.as_dvec3()))
     }
 
-    fn layers<'a>(&self, onto: &Registered, (width, height): (u32, u32), scratch: &'a mut Scratch) -> Covered<'a> {
+    fn layers<'a>(
+        &self,
+        onto: &RasterProjection,
+        (width, height): (u32, u32),
+        scratch: &'a mut Scratch,
+    ) -> CoveredCells<'a> {
         let in_row = width as usize + 1;
         let Scratch { found, multiplicity, touched, events, .. } = scratch;
         events.clear();
@@ -143,7 +148,7 @@ impl Casting<'_> {
                 *cell = layers;
             }
         }
-        Covered::Layers(events, in_row)
+        CoveredCells::Layers(events, in_row)
     }
 }
 

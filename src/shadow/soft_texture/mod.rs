@@ -20,7 +20,7 @@ mod on_gpu;
 pub use factor::unoccluded;
 
 use super::ray_cast::{RayCaster, Shear, TIE};
-use super::registered::{Raster, Registered};
+use super::registered::{Raster, RasterProjection};
 use super::{JUDGED_ABOVE_M, ShadowError};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -28,7 +28,7 @@ use crate::mesh::patches::{Patch, Patches, Texel};
 use fill::{Casting, Scratch};
 use glam::{DVec3, DVec4};
 use occluders::Occluders;
-use on_gpu::Drawer;
+use on_gpu::AdapterDrawer;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -73,7 +73,7 @@ pub enum Choice {
 
 /// How patches were judged, over all samples that stand in front of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Judged {
+pub struct PatchJudgements {
     /// Textures filled: patches times samples.
     pub textures: u64,
     /// Texels in them.
@@ -104,7 +104,7 @@ pub struct SoftTexture {
     culling: bool,
     /// Per texel the weights of the samples it sees: those that the processor added.
     sums: Vec<u32>,
-    drawer: Option<Drawer>,
+    drawer: Option<AdapterDrawer>,
     counts: [AtomicU64; 4],
 }
 
@@ -132,7 +132,7 @@ impl SoftTexture {
             sides: fill::face_sides(&casters),
             occluders: Occluders::new(&casters),
             rays: RayCaster::new(&casters, reach),
-            drawer: gpu.map(|gpu| Drawer::new(gpu, &casters, &patches, choice)).transpose()?,
+            drawer: gpu.map(|gpu| AdapterDrawer::new(gpu, &casters, &patches, choice)).transpose()?,
             casters,
             sums: vec![0; patches.texels.len()],
             patches,
@@ -161,7 +161,7 @@ impl SoftTexture {
             self;
         let sought = OccluderQuery { patches, occluders, culling: *culling, choice: *choice };
         let casting = Casting { mesh: casters, sides, occluders };
-        let judge = Judge { sought, rays, casting, fill: *fill, counts };
+        let judge = PatchJudge { sought, rays, casting, fill: *fill, counts };
         // those that the adapter leaves to rays
         let mut left = vec![Vec::new(); if drawer.is_some() { samples.len() } else { 0 }];
         if let Some(drawer) = drawer {
@@ -195,14 +195,14 @@ impl SoftTexture {
     }
 
     /// How patches were judged so far.
-    pub fn judged(&self) -> Judged {
+    pub fn judged(&self) -> PatchJudgements {
         let [textures, texture_texels, faces, rays] = [0, 1, 2, 3].map(|at| self.counts[at].load(Ordering::Relaxed));
-        Judged { textures, texture_texels, faces, rays }
+        PatchJudgements { textures, texture_texels, faces, rays }
     }
 
     /// Bytes of the graphics adapter's memory that are taken; 0 without one.
     pub fn gpu_bytes(&self) -> u64 {
-        self.drawer.as_ref().map_or(0, Drawer::bytes)
+        self.drawer.as_ref().map_or(0, AdapterDrawer::bytes)
     }
 
     /// Per texel of [`Patches::texels`] the weights of the samples that it sees.
@@ -220,8 +220,8 @@ impl SoftTexture {
     }
 }
 
-fn count(counts: &[AtomicU64; 4], judged: Judged) {
-    let Judged { textures, texture_texels, faces, rays } = judged;
+fn count(counts: &[AtomicU64; 4], judged: PatchJudgements) {
+    let PatchJudgements { textures, texture_texels, faces, rays } = judged;
     for (count, more) in counts.iter().zip([textures, texture_texels, faces, rays]) {
         count.fetch_add(more, Ordering::Relaxed);
     }
@@ -247,7 +247,7 @@ struct OccluderQuery<'a> {
 
 impl OccluderQuery<'_> {
     /// Finds what stands between a patch and a light; false where rays are to be cast instead.
-    fn find(&self, patch: &Patch, onto: &Registered, waiting: &mut Vec<u32>, found: &mut Vec<u32>) -> bool {
+    fn find(&self, patch: &Patch, onto: &RasterProjection, waiting: &mut Vec<u32>, found: &mut Vec<u32>) -> bool {
         let most = match self.choice {
             _ if patch.alone.is_some() => return false,
             Choice::Rays => return false,
@@ -275,7 +275,7 @@ fn raster(patch: &Patch, cell: f64, light: DVec4) -> Option<Raster> {
 }
 
 /// What judges patches on the processor.
-struct Judge<'a> {
+struct PatchJudge<'a> {
     sought: OccluderQuery<'a>,
     rays: &'a RayCaster,
     casting: Casting<'a>,
@@ -283,20 +283,20 @@ struct Judge<'a> {
     counts: &'a [AtomicU64; 4],
 }
 
-impl Judge<'_> {
+impl PatchJudge<'_> {
     /// Adds a sample's weight to the texels of a patch that see it.
     fn add(&self, patch: &Patch, sample: &Sample, sums: &mut [u32], scratch: &mut Scratch) {
         let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
-        let Some(onto) = Registered::new(&raster, sample.light) else { return };
+        let Some(onto) = RasterProjection::new(&raster, sample.light) else { return };
         if !self.sought.find(patch, &onto, &mut scratch.waiting, &mut scratch.found) {
             self.cast(patch, sample, sums);
             return;
         }
-        let judged = Judged {
+        let judged = PatchJudgements {
             textures: 1,
             texture_texels: sums.len() as u64,
             faces: scratch.found.len() as u64,
-            ..Judged::default()
+            ..PatchJudgements::default()
         };
         count(self.counts, judged);
         if scratch.found.is_empty() {
@@ -318,7 +318,7 @@ impl Judge<'_> {
     /// The same by rays.
     fn cast(&self, patch: &Patch, sample: &Sample, sums: &mut [u32]) {
         let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
-        count(self.counts, Judged { rays: sums.len() as u64, ..Judged::default() });
+        count(self.counts, PatchJudgements { rays: sums.len() as u64, ..PatchJudgements::default() });
         // as where textures are filled; a point that stands alone is judged where it is
         let tie = (raster.right * TIE.x - raster.down * TIE.y) * raster.cell;
         let tie = if patch.alone.is_some() { DVec3::ZERO } else { tie };

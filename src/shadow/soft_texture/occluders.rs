@@ -5,7 +5,7 @@
 //! coordinates each side is one linear form.
 
 use crate::mesh::Mesh;
-use crate::shadow::registered::Registered;
+use crate::shadow::registered::RasterProjection;
 use glam::{DVec3, DVec4, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
@@ -26,7 +26,7 @@ pub(super) struct Occluders {
 struct Sides([DVec4; 6]);
 
 impl Sides {
-    fn of(onto: &Registered, width: u32, height: u32) -> Sides {
+    fn of(onto: &RasterProjection, width: u32, height: u32) -> Sides {
         let last = |count: u32| f64::from(count - 1);
         Sides([
             onto.height,
@@ -67,7 +67,7 @@ impl Occluders {
     /// of all there are); false as soon as they are more than `most`.
     pub(super) fn before(
         &self,
-        onto: &Registered,
+        onto: &RasterProjection,
         (width, height): (u32, u32),
         culling: bool,
         most: usize,

@@ -5,14 +5,14 @@
 //! adapter; nothing comes back before the end.
 
 use super::occluders::Occluders;
-use super::{Choice, Judged, OccluderQuery, Sample, is_drawn, raster};
+use super::{Choice, OccluderQuery, PatchJudgements, Sample, is_drawn, raster};
 use crate::gpu::layout::TexelRunUniforms;
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
 use crate::mesh::Mesh;
 use crate::mesh::patches::Patches;
 use crate::shadow::ShadowError;
-use crate::shadow::registered::{LEAST_W, Registered};
+use crate::shadow::registered::{LEAST_W, RasterProjection};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec4, Vec3};
 use rayon::prelude::*;
@@ -33,7 +33,7 @@ const DEPTH_A_METRE: f64 = 1e-7;
 struct Onto([[f32; 4]; 4]);
 
 /// The adapter's side of the technique.
-pub(super) struct Drawer {
+pub(super) struct AdapterDrawer {
     gpu: Arc<Gpu>,
     /// Patches that are drawn, page after page.
     drawn: Vec<u32>,
@@ -61,15 +61,20 @@ struct Page {
 }
 
 /// A patch's occluders for one sample.
-struct Occluded {
+struct PatchOccluders {
     onto: Onto,
     indices: Vec<u32>,
     /// Faces that culling left.
     found: usize,
 }
 
-impl Drawer {
-    pub(super) fn new(gpu: Arc<Gpu>, casters: &Mesh, patches: &Patches, choice: Choice) -> Result<Drawer, ShadowError> {
+impl AdapterDrawer {
+    pub(super) fn new(
+        gpu: Arc<Gpu>,
+        casters: &Mesh,
+        patches: &Patches,
+        choice: Choice,
+    ) -> Result<AdapterDrawer, ShadowError> {
         let is_drawn = |at: &u32| is_drawn(&patches.list[*at as usize], choice);
         let mut drawn: Vec<u32> = (0..patches.list.len() as u32).filter(is_drawn).collect();
         drawn.sort_by_key(|&at| patches.list[at as usize].page);
@@ -131,7 +136,21 @@ impl Drawer {
         let buffers = [&places, &patch_of, &sums, &weights, &ontos, &vertices, &indices];
         let bytes = buffers.map(Buffer::size).iter().sum::<u64>() + u64::from(side) * u64::from(side);
         gpu.check()?;
-        Ok(Drawer { gpu, drawn, pages, texels, mask, vertices, indices, ontos, weights, sums, occluder, add, bytes })
+        Ok(AdapterDrawer {
+            gpu,
+            drawn,
+            pages,
+            texels,
+            mask,
+            vertices,
+            indices,
+            ontos,
+            weights,
+            sums,
+            occluder,
+            add,
+            bytes,
+        })
     }
 
     pub(super) fn bytes(&self) -> u64 {
@@ -144,9 +163,9 @@ impl Drawer {
         sought: &OccluderQuery<'_>,
         casters: &Mesh,
         sample: &Sample,
-    ) -> Result<(Judged, Vec<u32>), ShadowError> {
+    ) -> Result<(PatchJudgements, Vec<u32>), ShadowError> {
         let patches = sought.patches;
-        let (mut judged, mut left) = (Judged::default(), Vec::new());
+        let (mut judged, mut left) = (PatchJudgements::default(), Vec::new());
         let mut weights = vec![0; self.drawn.len()];
         for page in &self.pages {
             let mut canvas = Canvas { drawer: self, patches, cleared: false, indices: Vec::new(), draws: Vec::new() };
@@ -154,7 +173,7 @@ impl Drawer {
                 let slots = first..page.patches.end.min(first + PATCHES_AT_ONCE);
                 let find = |(waiting, found): &mut (Vec<u32>, Vec<u32>), slot: usize| {
                     let patch = &patches.list[self.drawn[slot] as usize];
-                    let onto = Registered::new(&raster(patch, patches.cell, sample.light)?, sample.light)?;
+                    let onto = RasterProjection::new(&raster(patch, patches.cell, sample.light)?, sample.light)?;
                     if !sought.find(patch, &onto, waiting, found) {
                         return Some(Err(self.drawn[slot]));
                     }
@@ -164,7 +183,7 @@ impl Drawer {
                     let drawn = found.iter().filter(|at| corners[**at as usize].into_iter().any(above));
                     let indices = drawn.flat_map(|at| casters.faces[faces[*at as usize] as usize]).collect();
                     let onto = in_viewport(&onto, (patch.width, patch.height), sample.light);
-                    Some(Ok(Occluded { onto, indices, found: found.len() }))
+                    Some(Ok(PatchOccluders { onto, indices, found: found.len() }))
                 };
                 let found: Vec<_> = slots.clone().into_par_iter().map_init(Default::default, find).collect();
                 for (slot, occluded) in slots.zip(found) {
@@ -221,7 +240,7 @@ impl Drawer {
 
 /// What waits to be drawn into a page.
 struct Canvas<'a> {
-    drawer: &'a Drawer,
+    drawer: &'a AdapterDrawer,
     patches: &'a Patches,
     cleared: bool,
     indices: Vec<u32>,
@@ -229,7 +248,7 @@ struct Canvas<'a> {
 }
 
 impl Canvas<'_> {
-    fn draw(&mut self, slot: usize, occluded: &Occluded) {
+    fn draw(&mut self, slot: usize, occluded: &PatchOccluders) {
         let mut rest = occluded.indices.as_slice();
         while !rest.is_empty() {
             if self.indices.len() == INDICES_AT_ONCE {
@@ -244,7 +263,7 @@ impl Canvas<'_> {
     }
 
     fn flush(&mut self) {
-        let Drawer { gpu, mask, vertices, indices, ontos, occluder, drawn, .. } = self.drawer;
+        let AdapterDrawer { gpu, mask, vertices, indices, ontos, occluder, drawn, .. } = self.drawer;
         gpu.queue.write_buffer(indices, 0, bytemuck::cast_slice(&self.indices));
         let matrices: Vec<Onto> = self.draws.iter().map(|(_, onto, _)| *onto).collect();
         gpu.queue.write_buffer(ontos, 0, bytemuck::cast_slice(&matrices));
@@ -280,7 +299,7 @@ impl Canvas<'_> {
 }
 
 /// The projection in the viewport of a patch: −1 to 1, upwards.
-fn in_viewport(onto: &Registered, (width, height): (u32, u32), light: DVec4) -> Onto {
+fn in_viewport(onto: &RasterProjection, (width, height): (u32, u32), light: DVec4) -> Onto {
     let across = (onto.column + onto.w * 0.5) * (2.0 / f64::from(width)) - onto.w;
     let up = onto.w - (onto.row + onto.w * 0.5) * (2.0 / f64::from(height));
     // depth runs from 0 in the plane to w just below a lamp

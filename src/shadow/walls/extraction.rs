@@ -69,13 +69,13 @@ struct WallList {
 
 /// A run on its way to the GPU.
 #[derive(Default)]
-struct Gathered {
+struct EdgeRunData {
     edges: Vec<layout::EdgeRecord>,
     crowds: Vec<u32>,
     most_walls: u64,
 }
 
-impl Gathered {
+impl EdgeRunData {
     fn add(&mut self, mesh: &Mesh, edge: usize) {
         let [first, second] = mesh.edges[edge];
         let faces = mesh.faces_at(edge);
@@ -110,7 +110,7 @@ impl Gathered {
         let arguments = gpu.storage("extraction.arguments", arguments_size, most, usage)?;
         gpu.queue.write_buffer(&edges, 0, bytemuck::cast_slice(&self.edges));
         gpu.queue.write_buffer(&crowds, 0, bytemuck::cast_slice(&self.crowds));
-        let Gathered { edges: gathered, most_walls, .. } = self;
+        let EdgeRunData { edges: gathered, most_walls, .. } = self;
         Ok(EdgeRun { count: gathered.len() as u32, edges, crowds, most_walls, arguments, list: None })
     }
 }
@@ -120,7 +120,7 @@ impl Extraction {
     pub fn new(program: &ExtractionProgram, mesh: &Mesh, most: u64) -> Result<Extraction, GpuError> {
         let gpu = Arc::clone(&program.faces.gpu);
         let mut runs = Vec::new();
-        let mut run = Gathered::default();
+        let mut run = EdgeRunData::default();
         for edge in 0..mesh.edges.len() {
             if !run.edges.is_empty() && !run.has_room(mesh.faces_at(edge).len(), most) {
                 runs.push(std::mem::take(&mut run).uploaded(&gpu, most)?);

@@ -15,7 +15,7 @@ use extraction::Extraction;
 use glam::{DVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
 use quadrilaterals::Quadrilaterals;
 use std::sync::Arc;
-use uploaded::Uploaded;
+use uploaded::UploadedWalls;
 use wgpu::{BindGroupLayout, CommandEncoder, RenderPass, ShaderModule};
 
 /// Who finds the silhouettes.
@@ -80,33 +80,33 @@ pub trait Walls {
 }
 
 /// Makes walls for meshes, in the way that was chosen.
-pub(super) enum Maker {
+pub(super) enum WallMaker {
     OnProcessor(Arc<Gpu>, ProcessorFinder),
     OnGpu(extraction::ExtractionProgram),
     InVertexShader(quadrilaterals::QuadrilateralProgram),
 }
 
-impl Maker {
-    pub(super) fn new(gpu: &Arc<Gpu>, silhouettes: Silhouettes) -> Maker {
+impl WallMaker {
+    pub(super) fn new(gpu: &Arc<Gpu>, silhouettes: Silhouettes) -> WallMaker {
         match silhouettes {
-            Silhouettes::OnProcessor(kind) => Maker::OnProcessor(Arc::clone(gpu), kind),
-            Silhouettes::OnGpu => Maker::OnGpu(extraction::ExtractionProgram::new(gpu)),
-            Silhouettes::InVertexShader => Maker::InVertexShader(quadrilaterals::QuadrilateralProgram::new(gpu)),
+            Silhouettes::OnProcessor(kind) => WallMaker::OnProcessor(Arc::clone(gpu), kind),
+            Silhouettes::OnGpu => WallMaker::OnGpu(extraction::ExtractionProgram::new(gpu)),
+            Silhouettes::InVertexShader => WallMaker::InVertexShader(quadrilaterals::QuadrilateralProgram::new(gpu)),
         }
     }
 
     pub(super) fn walls(&self, mesh: &Mesh) -> Result<Box<dyn Walls>, GpuError> {
         Ok(match self {
-            Maker::OnProcessor(gpu, kind) => Box::new(Uploaded::new(Arc::clone(gpu), *kind, mesh)?),
-            Maker::OnGpu(program) => Box::new(Extraction::new(program, mesh, program.faces.gpu.most_storage())?),
-            Maker::InVertexShader(program) => Box::new(Quadrilaterals::new(program, mesh)?),
+            WallMaker::OnProcessor(gpu, kind) => Box::new(UploadedWalls::new(Arc::clone(gpu), *kind, mesh)?),
+            WallMaker::OnGpu(program) => Box::new(Extraction::new(program, mesh, program.faces.gpu.most_storage())?),
+            WallMaker::InVertexShader(program) => Box::new(Quadrilaterals::new(program, mesh)?),
         })
     }
 
     /// Where the vertex shader decides the edges: its module, and the layout of what it reads of them.
     pub(super) fn in_vertex_shader(&self) -> Option<(&ShaderModule, &BindGroupLayout)> {
         match self {
-            Maker::InVertexShader(program) => Some((&program.module, &program.layout)),
+            WallMaker::InVertexShader(program) => Some((&program.module, &program.layout)),
             _ => None,
         }
     }

@@ -8,7 +8,7 @@ use crate::volume::Volume;
 use std::sync::Arc;
 use wgpu::{Buffer, BufferUsages, CommandEncoder, IndexFormat, RenderPass};
 
-pub(super) struct Uploaded {
+pub(super) struct UploadedWalls {
     gpu: Arc<Gpu>,
     finder: Box<dyn SilhouetteFinder>,
     indices: Buffer,
@@ -18,10 +18,10 @@ pub(super) struct Uploaded {
     of_walls: u32,
 }
 
-impl Uploaded {
-    pub(super) fn new(gpu: Arc<Gpu>, kind: ProcessorFinder, mesh: &Mesh) -> Result<Uploaded, GpuError> {
+impl UploadedWalls {
+    pub(super) fn new(gpu: Arc<Gpu>, kind: ProcessorFinder, mesh: &Mesh) -> Result<UploadedWalls, GpuError> {
         let indices = buffer(&gpu, 4)?;
-        Ok(Uploaded { gpu, finder: kind.build(mesh), indices, upload: Vec::new(), of_walls: 0 })
+        Ok(UploadedWalls { gpu, finder: kind.build(mesh), indices, upload: Vec::new(), of_walls: 0 })
     }
 }
 
@@ -41,7 +41,7 @@ fn append(upload: &mut Vec<u32>, mesh: &Mesh, wall: DirectedEdge, sought: &WallQ
     }
 }
 
-impl Walls for Uploaded {
+impl Walls for UploadedWalls {
     fn find(&mut self, mesh: &Mesh, sought: &WallQuery, _: &mut CommandEncoder) -> Result<bool, GpuError> {
         let volume = Volume::find(mesh, &mut *self.finder, sought.local_light, sought.with_cap);
         self.upload.clear();

@@ -3,7 +3,7 @@
 use super::Fault;
 use super::buffers::Buffers;
 use super::document::Document;
-use super::reader::{Reader, Sparse, Strided};
+use super::reader::{Reader, Sparse, StridedElements};
 use gltf::json;
 use gltf::json::validation::{Checked, USize64};
 
@@ -114,7 +114,7 @@ fn strided<'a>(
     buffers: &'a Buffers,
     accessor: usize,
     span: &ElementSpan,
-) -> Result<Strided<'a>, Fault> {
+) -> Result<StridedElements<'a>, Fault> {
     let index = span.view;
     let Some(view) = document.buffer_views.get(index) else {
         return Err(Fault::NoSuch {
@@ -138,7 +138,7 @@ fn strided<'a>(
         ));
     }
     let Some(last) = span.count.checked_sub(1) else {
-        return Ok(Strided { bytes: &[], stride: 0 });
+        return Ok(StridedElements { bytes: &[], stride: 0 });
     };
     let reach = stride.saturating_mul(last).saturating_add(span.element_bytes);
     let USize64(view_bytes) = view.byte_length;
@@ -158,7 +158,7 @@ fn strided<'a>(
     let end = start.saturating_add(reach);
     let within = |start: u64, end: u64| bytes.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?);
     match (within(start, end), usize::try_from(stride)) {
-        (Some(bytes), Ok(stride)) => Ok(Strided { bytes, stride }),
+        (Some(bytes), Ok(stride)) => Ok(StridedElements { bytes, stride }),
         _ => Err(range(start, end, format!("buffer {buffer}"), bytes.len() as u64)),
     }
 }

@@ -7,7 +7,7 @@ use super::document::Document;
 use super::instances::Instances;
 use super::pose::{Pose, Skins};
 use super::primitive::{self, MaterialGroup, MeshTriangles, PrimitiveTriangles};
-use super::scene::Placed;
+use super::scene::PlacedNode;
 use super::{Fault, MAX_COMPONENTS, MAX_MOVES, MAX_TRIANGLES, SeeThrough};
 use crate::mesh::Part;
 use glam::DAffine3;
@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 const ABSENT: u32 = u32::MAX;
 
 /// What stands there.
-pub(super) struct Built {
+pub(super) struct BuiltScene {
     /// One part per node and material, in the order of the scene.
     pub parts: Vec<Part>,
     /// Each name once.
@@ -29,9 +29,9 @@ pub(super) struct Built {
 pub(super) fn build(
     document: &Document,
     buffers: &Buffers,
-    placed: &[Placed],
+    placed: &[PlacedNode],
     world_from_model: DAffine3,
-) -> Result<Built, Fault> {
+) -> Result<BuiltScene, Fault> {
     let mut accessors = Accessors::new(document, buffers);
     // Many nodes may share a mesh; what it says is read once.
     let mut known: Vec<Option<MeshTriangles>> = document.meshes.iter().map(|_| None).collect();
@@ -90,7 +90,7 @@ pub(super) fn build(
         }
     }
     let see_through = see_through.into_iter().map(|(material, parts)| SeeThrough { material, parts }).collect();
-    Ok(Built { parts, see_through })
+    Ok(BuiltScene { parts, see_through })
 }
 
 /// The names by which a part may be meant, each once.

@@ -1,7 +1,7 @@
 //! How coarse the numbers are that a file's corners are written with, where that is more than a millimetre.
 
 use super::reader::Reader;
-use crate::mesh::Coarse;
+use crate::mesh::CornerPrecision;
 use glam::{DAffine3, DVec3};
 use gltf::json::accessor::ComponentType;
 
@@ -16,12 +16,12 @@ pub(super) fn corners(
     world_from_mesh: &DAffine3,
     points: &[DVec3],
     first: u32,
-) -> Vec<Coarse> {
+) -> Vec<CornerPrecision> {
     let matrix = world_from_mesh.matrix3;
     let metres = DVec3::new(matrix.x_axis.length(), matrix.y_axis.length(), matrix.z_axis.length());
     if let Some(step) = positions.whole_step() {
         let step_m = step * metres.max_element();
-        let all = Coarse { corners: first..first + used.len() as u32, step_m, is_float: false };
+        let all = CornerPrecision { corners: first..first + used.len() as u32, step_m, is_float: false };
         return if step_m > TOLD_M { vec![all] } else { Vec::new() };
     }
     // how large the numbers can be at most is told by where the corners stand; nearly always that is enough
@@ -34,14 +34,14 @@ pub(super) fn corners(
     if (largest * metres).max_element() * f64::from(f32::EPSILON) <= TOLD_M && largest.is_finite() {
         return Vec::new();
     }
-    let mut found: Vec<Coarse> = Vec::new();
+    let mut found: Vec<CornerPrecision> = Vec::new();
     for (corner, &vertex) in (first..).zip(used) {
         let steps = positions.vec3(vertex as usize).to_array().map(step);
         let step_m = (DVec3::from_array(steps) * metres).max_element();
         match found.last_mut() {
             _ if step_m.is_nan() || step_m <= TOLD_M => (),
             Some(last) if last.corners.end == corner && last.step_m == step_m => last.corners.end += 1,
-            _ => found.push(Coarse { corners: corner..corner + 1, step_m, is_float: true }),
+            _ => found.push(CornerPrecision { corners: corner..corner + 1, step_m, is_float: true }),
         }
     }
     found

@@ -126,7 +126,8 @@ fn read(path: &Path, placement: &Placement) -> Result<Model, Fault> {
     let standing = scene::place(&document, world_from_model, placement.scene.as_ref())?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let buffers = buffers::Buffers::new(&document, container.binary, folder);
-    let build::Built { parts, see_through } = build::build(&document, &buffers, &standing.placed, world_from_model)?;
+    let build::BuiltScene { parts, see_through } =
+        build::build(&document, &buffers, &standing.placed, world_from_model)?;
     if parts.is_empty() {
         let scene = if is_asked { "that scene" } else { "its default scene" };
         return Err(Fault::Empty { scene, way_out: notes::way_out(&document, &standing) });

@@ -1,11 +1,11 @@
 //! What the user should know of how a file was read: what was left out, and what was read past.
 
 use super::document::Document;
-use super::scene::{Standing, scenes};
+use super::scene::{SceneContents, scenes};
 use crate::site::names::few;
 
 /// A sentence each, without its stop, whose subject is the file. `is_asked` says that the user has chosen the scene.
-pub(super) fn of(document: &Document, standing: &Standing, is_asked: bool) -> Vec<String> {
+pub(super) fn of(document: &Document, standing: &SceneContents, is_asked: bool) -> Vec<String> {
     let mut notes = Vec::new();
     let others = |number: usize| (0..document.scenes.len()).filter(move |&other| other != number);
     if let Some(number) = standing.scene.filter(|&number| !is_asked && others(number).next().is_some()) {
@@ -34,7 +34,7 @@ pub(super) fn of(document: &Document, standing: &Standing, is_asked: bool) -> Ve
 }
 
 /// What to do where nothing stands there.
-pub(super) fn way_out(document: &Document, standing: &Standing) -> String {
+pub(super) fn way_out(document: &Document, standing: &SceneContents) -> String {
     let is_other = |&other: &usize| Some(other) != standing.scene;
     let mut others = (0..document.scenes.len()).filter(is_other).peekable();
     if standing.hidden > 0 {

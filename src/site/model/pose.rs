@@ -8,7 +8,7 @@ use super::accessor::Accessors;
 use super::document::Document;
 use super::primitive::{PrimitiveTriangles, fault};
 use super::reader::Reader;
-use super::scene::{Placed, Worlds, affine};
+use super::scene::{NodeTransforms, PlacedNode, affine};
 use glam::{DAffine3, DVec3};
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::{Primitive, Semantic};
@@ -41,7 +41,7 @@ impl<'a> Pose<'a> {
         document: &Document,
         accessors: &mut Accessors<'a, '_>,
         skins: &mut Skins<'a>,
-        place: &Placed,
+        place: &PlacedNode,
         surface: &PrimitiveTriangles<'a>,
     ) -> Result<Self, Fault> {
         let weights = document.weights(place.node, place.mesh);
@@ -193,7 +193,7 @@ fn check_count(what: &str, reader: &Reader, surface: &PrimitiveTriangles) -> Res
 pub(super) struct Skins<'a> {
     document: &'a Document,
     world_from_model: DAffine3,
-    worlds: Option<Worlds<'a>>,
+    worlds: Option<NodeTransforms<'a>>,
     known: Vec<Option<Joints>>,
 }
 
@@ -235,7 +235,7 @@ impl<'a> Skins<'a> {
         }
         let worlds = match &mut self.worlds {
             Some(worlds) => worlds,
-            None => self.worlds.insert(Worlds::new(self.document, self.world_from_model)?),
+            None => self.worlds.insert(NodeTransforms::new(self.document, self.world_from_model)?),
         };
         let mut joints = Vec::with_capacity(skin.joints.len());
         for (number, &joint) in skin.joints.iter().enumerate() {

@@ -23,14 +23,14 @@ pub(super) struct Reader<'a> {
     /// Whether whole numbers stand for 0 to 1, or −1 to 1.
     pub normalized: bool,
     /// Where its elements lie; nowhere where they are zero.
-    pub base: Option<Strided<'a>>,
+    pub base: Option<StridedElements<'a>>,
     /// What stands for some of them.
     pub sparse: Option<Sparse<'a>>,
 }
 
 /// Elements that lie `stride` bytes apart.
 #[derive(Clone, Copy)]
-pub(super) struct Strided<'a> {
+pub(super) struct StridedElements<'a> {
     pub bytes: &'a [u8],
     pub stride: usize,
 }
@@ -43,11 +43,11 @@ pub(super) struct Sparse<'a> {
     /// Of the indices: u8, u16 or u32.
     pub component: ComponentType,
     /// Strictly increasing.
-    pub indices: Strided<'a>,
-    pub values: Strided<'a>,
+    pub indices: StridedElements<'a>,
+    pub values: StridedElements<'a>,
 }
 
-impl Strided<'_> {
+impl StridedElements<'_> {
     /// The first bytes of some elements.
     fn each<const N: usize>(&self, elements: Range<usize>) -> impl Iterator<Item = [u8; N]> {
         let from = elements.start.checked_mul(self.stride).and_then(|start| self.bytes.get(start..));
@@ -105,14 +105,14 @@ impl Reader<'_> {
     }
 
     /// Where element `index` lies, and as which; nowhere where it is zero.
-    fn source(&self, index: usize) -> (Option<Strided<'_>>, usize) {
+    fn source(&self, index: usize) -> (Option<StridedElements<'_>>, usize) {
         match self.sparse.and_then(|sparse| Some((sparse, sparse.find(index)?))) {
             Some((sparse, entry)) => (Some(sparse.values), entry),
             None => (self.base, index),
         }
     }
 
-    fn number(&self, source: &Strided, index: usize, lane: usize) -> Option<f64> {
+    fn number(&self, source: &StridedElements, index: usize, lane: usize) -> Option<f64> {
         let offset = lane * self.component.size();
         let (value, most) = match self.component {
             ComponentType::I8 => (i8::from_le_bytes(source.at(index, offset)?).into(), f64::from(i8::MAX)),

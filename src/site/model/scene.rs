@@ -7,7 +7,7 @@ use crate::site::names::{composed, few};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// A node with a mesh, and where it stands.
-pub(super) struct Placed {
+pub(super) struct PlacedNode {
     /// The node's number.
     pub node: usize,
     /// The mesh's number; there is such a mesh.
@@ -19,9 +19,9 @@ pub(super) struct Placed {
 }
 
 /// What stands in a scene, and what is hidden there (KHR_node_visibility).
-pub(super) struct Standing {
+pub(super) struct SceneContents {
     /// The nodes with a mesh that are seen, parents before children and siblings in the file's order.
-    pub placed: Vec<Placed>,
+    pub placed: Vec<PlacedNode>,
     /// How many nodes with a mesh are hidden.
     pub hidden: usize,
     /// The nodes that say so of themselves and all below them.
@@ -35,7 +35,7 @@ pub(super) fn place(
     document: &Document,
     world_from_model: DAffine3,
     asked: Option<&SceneName>,
-) -> Result<Standing, Fault> {
+) -> Result<SceneContents, Fault> {
     let parents = parents(document)?;
     check_cycles(&parents)?;
     let scene = number(document, asked)?;
@@ -44,7 +44,7 @@ pub(super) fn place(
     for root in roots(document, &parents, scene)?.into_iter().rev() {
         open.push((root, world_from_model, None));
     }
-    let mut standing = Standing { placed: Vec::new(), hidden: 0, hiding: Vec::new(), scene };
+    let mut standing = SceneContents { placed: Vec::new(), hidden: 0, hiding: Vec::new(), scene };
     // Each node has at most one parent and no tree bites its tail, so each is met once.
     while let Some((index, world_from_parent, hiding)) = open.pop() {
         let Some(node) = document.nodes.get(index) else {
@@ -62,7 +62,7 @@ pub(super) fn place(
                 });
             }
             match hiding {
-                None => standing.placed.push(Placed { node: index, mesh, skin: node.skin, world_from_node }),
+                None => standing.placed.push(PlacedNode { node: index, mesh, skin: node.skin, world_from_node }),
                 Some(hiding) => {
                     standing.hidden += 1;
                     // what hangs below one node comes in one run
@@ -78,14 +78,14 @@ pub(super) fn place(
 }
 
 /// Where single nodes stand, be they in the scene or not.
-pub(super) struct Worlds<'a> {
+pub(super) struct NodeTransforms<'a> {
     document: &'a Document,
     parents: Vec<Option<usize>>,
     world_from_model: DAffine3,
     known: Vec<Option<DAffine3>>,
 }
 
-impl<'a> Worlds<'a> {
+impl<'a> NodeTransforms<'a> {
     /// Of a document of which [`place`] has found the scene.
     pub(super) fn new(document: &'a Document, world_from_model: DAffine3) -> Result<Self, Fault> {
         let parents = parents(document)?;

@@ -11,7 +11,7 @@ use super::text;
 use crate::export::ExportError;
 use crate::export::probe::{clock, counted, lies};
 use crate::message::{Field, Words, message};
-use crate::profile::probe::{Interval, Probed, SunDay, Sunlight, below_ground_m};
+use crate::profile::probe::{Interval, ProbeIntervals, SunDay, Sunlight, below_ground_m};
 use crate::site::{Ground, metres};
 use crate::sun::{Day, Place, Zone};
 use axes::{HourAxis, Tick, ticks};
@@ -128,7 +128,7 @@ fn draw(
 }
 
 /// A strip's pixels: a row a day, and the lines of hours and dates.
-fn strip(sunlight: &Sunlight, probed: &Probed, hours: &HourAxis, ticks: &[Tick], strips: &Strips) -> Vec<Rgb> {
+fn strip(sunlight: &Sunlight, probed: &ProbeIntervals, hours: &HourAxis, ticks: &[Tick], strips: &Strips) -> Vec<Rgb> {
     let (width, height) = (strips.width as usize, strips.height as usize);
     let rows = sunlight.days.iter().zip(&probed.days);
     let colours: Vec<Rgb> = rows.flat_map(|(day, intervals)| colours(day, intervals, hours, width)).collect();
@@ -168,7 +168,7 @@ fn colours(day: &SunDay, intervals: &[Interval], hours: &HourAxis, columns: usiz
 }
 
 /// Above a strip: which probe it is, and how much sun it has.
-fn head(lines: &mut Block, sunlight: &Sunlight, ground: &Ground, probed: &Probed, width: f64) {
+fn head(lines: &mut Block, sunlight: &Sunlight, ground: &Ground, probed: &ProbeIntervals, width: f64) {
     let longest = probed.longest().map_or(0, Interval::secs);
     let sums = match (probed.days.as_slice(), longest) {
         (_, 0) => match below_ground_m(&probed.probe, ground.level) {

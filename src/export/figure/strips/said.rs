@@ -6,7 +6,7 @@ use crate::export::figure::svg::{ACCENT, Anchor, Block, LetterStyle};
 use crate::export::figure::{text, words};
 use crate::export::probe::{clock, facing, triple};
 use crate::export::report;
-use crate::profile::probe::{Interval, Probed, SunDay, Sunlight};
+use crate::profile::probe::{Interval, ProbeIntervals, SunDay, Sunlight};
 use crate::site::Ground;
 use crate::sun::{Air, Place, Zone, delta_t_secs, position};
 use chrono::DateTime;
@@ -19,7 +19,7 @@ pub(super) fn panel(sunlight: &Sunlight, place: &Place, ground: &Ground) -> Pane
     }
     facts.push(("Elevation", words::metres(place.elevation_m)));
     facts.push(("Ground", words::ground(ground)));
-    if let [Probed { probe, .. }] = sunlight.probes.as_slice() {
+    if let [ProbeIntervals { probe, .. }] = sunlight.probes.as_slice() {
         facts.push(("Point", format!("{} m", triple(probe.point).replace('-', "−"))));
         facts.push(("Normal", probe.normal.map_or_else(|| "none: free on all sides".to_owned(), facing)));
     } else {
@@ -58,7 +58,7 @@ fn is_cut(day: &SunDay) -> bool {
 }
 
 /// A probe's total, its longest interval, and of several days those with the least and the most.
-fn sums(facts: &mut Vec<(&'static str, String)>, sunlight: &Sunlight, probed: &Probed) {
+fn sums(facts: &mut Vec<(&'static str, String)>, sunlight: &Sunlight, probed: &ProbeIntervals) {
     facts.push(("Total", clock(probed.secs())));
     let several = sunlight.days.len() > 1;
     let on =

@@ -1,4 +1,4 @@
-//! What is handed in, as the command makes it: the site file, drawings, hours and animations.
+//! Export: writes the site file, drawings, hours and animations, as the command makes them.
 
 use super::eye::{Eye, Stand};
 use super::hours::StudyResult;

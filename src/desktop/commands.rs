@@ -1,10 +1,10 @@
-//! What a person asks of the window: to open, to write, to copy, to see all.
+//! The commands of the window: open, write, copy, show all.
 
 use super::app::App;
-use super::files::{self, Asking, Purpose};
-use super::handing;
-use super::loading::{Loading, Project, Wanted, name_of};
-use super::saving::Then;
+use super::export;
+use super::files::{self, PathDialog, Purpose};
+use super::loading::{LoadJob, LoadRequest, Project, name_of};
+use super::saving::PendingAction;
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ impl App {
                 Purpose::Lines(lines) => lines.names().map(PathBuf::from).to_vec(),
                 _ => Vec::new(),
             };
-            self.asking = Some(Asking::start(purpose, proposed, files, context.clone()));
+            self.asking = Some(PathDialog::start(purpose, proposed, files, context.clone()));
         }
     }
 
@@ -39,7 +39,7 @@ impl App {
     pub(super) fn reload(&mut self, context: &egui::Context) {
         let Some(open) = &self.open else { return };
         if open.project.path.as_ref().is_some_and(|path| open.project.written.has_changed_at(path)) {
-            self.go_on_or_ask(Then::Reload, context);
+            self.go_on_or_ask(PendingAction::Reload, context);
         } else {
             self.reload_now(context);
         }
@@ -53,8 +53,8 @@ impl App {
                 let is_of_file = written.text != open.project.written.text;
                 self.settings.site = written.site.clone();
                 let hidden = Arc::clone(&self.settings.hidden);
-                let wanted = Wanted::Again(Box::new(written), hidden, Box::new(open.project.before(true)));
-                self.loading = Some(Loading::start(wanted, context.clone()));
+                let wanted = LoadRequest::Again(Box::new(written), hidden, Box::new(open.project.before(true)));
+                self.loading = Some(LoadJob::start(wanted, context.clone()));
                 self.is_reading = true;
                 if is_of_file {
                     let technique = self.settings.site.study.technique.as_deref();
@@ -79,7 +79,7 @@ impl App {
     pub(super) fn answer(&mut self, purpose: Purpose, path: PathBuf, context: &egui::Context) {
         self.notice = None;
         match purpose {
-            Purpose::Open => return self.load(Wanted::File(path), context),
+            Purpose::Open => return self.load(LoadRequest::File(path), context),
             Purpose::Compare => return self.compare_with(&path, context),
             Purpose::SaveSite => return self.write_site(path, context),
             _ => {}
@@ -93,21 +93,21 @@ impl App {
             Purpose::Open | Purpose::Compare | Purpose::SaveSite => {}
             Purpose::Drawing => {
                 let (eye, time) = (open.viewer.eye, open.clock.now.time);
-                self.writing = Some(handing::drawing(&open.project, &self.settings, eye, time, path, context.clone()));
+                self.writing = Some(export::drawing(&open.project, &self.settings, eye, time, path, context.clone()));
             }
             Purpose::Animation => {
                 let eye = open.viewer.eye;
-                self.writing = Some(handing::animation(&open.project, &self.settings, eye, path, context.clone()));
+                self.writing = Some(export::animation(&open.project, &self.settings, eye, path, context.clone()));
             }
             Purpose::Hours => {
                 if let Some(laid) = open.laid.clone() {
-                    let work = handing::found(&open.project, &self.settings, laid, None, path, context.clone());
+                    let work = export::found(&open.project, &self.settings, laid, None, path, context.clone());
                     self.writing = Some(work);
                 }
             }
             Purpose::Lines(lines) => {
                 if let Some(laid) = open.laid.clone() {
-                    let work = handing::found(&open.project, &self.settings, laid, Some(lines), path, context.clone());
+                    let work = export::found(&open.project, &self.settings, laid, Some(lines), path, context.clone());
                     self.writing = Some(work);
                 }
             }
