@@ -62,7 +62,7 @@ pub struct Picture {
     look: Buffer,
     origin: DVec3,
     uploaded: Option<Texture>,
-    hours: Option<HoursOverlay>,
+    hours: Option<HoursTextures>,
     tints: Option<Texture>,
     overlay: [Option<Texture>; 2],
     cells: Option<Texture>,
@@ -71,7 +71,7 @@ pub struct Picture {
 }
 
 /// What lies over the scene.
-enum HoursOverlay {
+enum HoursTextures {
     /// The plan's cells (corner and cell): their colours, and how high they lie.
     Plan([f32; 3], [Texture; 2]),
     /// Flat patches.
@@ -162,7 +162,7 @@ impl Picture {
             let colours = self.upload("picture.hours", hours.size, COLOURS, bytemuck::cast_slice(&texels));
             let format = TextureFormat::R32Float;
             let heights = self.upload("picture.heights", hours.size, format, bytemuck::cast_slice(&heights));
-            HoursOverlay::Plan(corner, [colours, heights])
+            HoursTextures::Plan(corner, [colours, heights])
         });
     }
 
@@ -172,7 +172,7 @@ impl Picture {
     /// Where the adapter cannot hold them.
     pub fn lay_patches(&mut self, colours: &PatchColours<'_>) -> Result<(), ShadowError> {
         self.hours = None;
-        self.hours = Some(HoursOverlay::Patches(textures(&self.surface.gpu, colours, self.origin)?));
+        self.hours = Some(HoursTextures::Patches(textures(&self.surface.gpu, colours, self.origin)?));
         Ok(())
     }
 
@@ -217,8 +217,8 @@ impl Picture {
         let is = |there: bool| f32::from(u8::from(there));
         let ([west, north, cell], over, plan, patches) = match &self.hours {
             None => ([0.0, 0.0, 1.0], 0.0, None, None),
-            Some(HoursOverlay::Plan(corner, textures)) => (*corner, 1.0, Some(textures), None),
-            Some(HoursOverlay::Patches(textures)) => ([0.0, 0.0, 1.0], 2.0, None, Some(textures)),
+            Some(HoursTextures::Plan(corner, textures)) => (*corner, 1.0, Some(textures), None),
+            Some(HoursTextures::Patches(textures)) => ([0.0, 0.0, 1.0], 2.0, None, Some(textures)),
         };
         let shown = PictureUniforms {
             hours_corner: [west, north],

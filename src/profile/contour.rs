@@ -92,7 +92,7 @@ const PAD: u64 = 2;
 
 /// Why a line passes between two cells.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Parting {
+enum LineCause {
     /// Their numbers part.
     Open,
     /// Something else parts them.
@@ -107,7 +107,7 @@ struct LineCrossing {
     point: [f64; 2],
     /// Between these: below the threshold, and above it.
     sides: [[f64; 2]; 2],
-    between: Parting,
+    between: LineCause,
 }
 
 struct Walk<'a> {
@@ -177,9 +177,9 @@ impl Walk<'_> {
         let (Some(a), Some(b)) = (self.cell(ends[0][0], ends[0][1]), self.cell(ends[1][0], ends[1][1])) else {
             // the one outside is as far away as the border, and so is the one that stands in
             let point = centres[usize::from(self.cell(ends[0][0], ends[0][1]).is_none())];
-            return LineCrossing { point, sides: [point; 2], between: Parting::Border };
+            return LineCrossing { point, sides: [point; 2], between: LineCause::Border };
         };
-        let between = if (self.field.open)(a, b) { Parting::Open } else { Parting::Wall };
+        let between = if (self.field.open)(a, b) { LineCause::Open } else { LineCause::Wall };
         let sides = if (self.field.value)(a) > self.threshold { [centres[1], centres[0]] } else { centres };
         LineCrossing { point: mix(centres[0], centres[1], 0.5), sides, between }
     }
@@ -190,7 +190,7 @@ fn straightened(mut ring: Vec<LineCrossing>) -> Contour {
     let count = ring.len();
     let is_drawn = |ring: &[LineCrossing], at: usize| {
         let ends = [ring[at % count].between, ring[(at + 1) % count].between];
-        ends.contains(&Parting::Open) && !ends.contains(&Parting::Border)
+        ends.contains(&LineCause::Open) && !ends.contains(&LineCause::Border)
     };
     // what is drawn begins and ends with points of its own
     let change = (1..count).find(|&at| is_drawn(&ring, at - 1) != is_drawn(&ring, at));
@@ -226,7 +226,7 @@ fn pull(ring: &mut [LineCrossing]) {
             let along = sub(behind, before);
             let [left, right] = [low, high].map(|side| cross(along, sub(side, before)));
             // from the back a line passes between no cells
-            if between != Parting::Border && right - left > 1e-9 {
+            if between != LineCause::Border && right - left > 1e-9 {
                 let share = left / (left - right);
                 ring[at].point = mix(low, high, share.clamp(2.0 * CLEAR, 1.0 - 2.0 * CLEAR));
             }
@@ -262,7 +262,7 @@ fn is_straight(ring: &[LineCrossing]) -> bool {
     let mut before = 0.0;
     between.iter().all(|crossing| {
         let [low, high] = crossing.sides.map(|side| sub(side, first.point));
-        let hit = if crossing.between == Parting::Border {
+        let hit = if crossing.between == LineCause::Border {
             if cross(along, low).abs() > 1e-9 * square.sqrt() {
                 return false;
             }
