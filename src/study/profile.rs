@@ -11,6 +11,7 @@ use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::plan_surface;
 use crate::site::Site;
+use crate::sun;
 use crate::view::{Surface, Tile, View};
 use std::cell::{OnceCell, RefCell};
 use std::fmt;
@@ -119,6 +120,26 @@ impl<'a> Tiled<'a> {
     /// Its tiles, in their order.
     pub fn tiles(&self) -> &[Tile] {
         &self.tiles
+    }
+
+    /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
+    /// instants, whoever has found them. Sums of instants that make up the track add up to the tile's own to the bit, and
+    /// [`paste`] puts tiles together. Where the device fails, so does this.
+    ///
+    /// # Errors
+    /// [`StudyError::Shadow`], where drawing failed.
+    pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<Shaded, StudyError> {
+        let mut technique = self.look().technique_of(tile)?;
+        let mut sum = Sum::new(self.machine.gpu(), tile.size[0], tile.size[1]);
+        for instant in instants.iter().filter(|instant| !instant.night) {
+            sum.add(&technique.draw(instant.to_sun)?, instant.weight_secs)?;
+        }
+        Ok(sum.finish()?)
+    }
+
+    fn look(&self) -> Look<'_> {
+        let Tiled { site, machine, .. } = self;
+        Look { site, machine, view: View::Plan(site.grid), receivers: site.receivers }
     }
 
     /// Whether that was left by this study.
