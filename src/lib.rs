@@ -8,8 +8,47 @@
 //! The modules, in the order in which they are best read; each knows only those above it, and a test says so.
 //! The whole flow is one function, [`study::run`].
 //!
+//! # Three doors
+//!
+//! For programs that use Gnomon as a library. All three run from the repository: `cargo run --example site-in-memory`.
+//! [`chrono`] and [`glam`], whose types they speak in, are exported. Without the feature `desktop` there is no window to build.
+//!
+//! ## A site made in memory
+//!
+//! [`site::Site::in_memory`] takes a place, a mesh of named parts, the instants and the plan. A mesh takes the middle of its
+//! parts as its origin; [`mesh::Mesh::build_around`] takes another one.
+//!
+//! ```no_run
+#![doc = include_str!("../examples/site-in-memory.rs")]
+//! ```
+//!
+//! ## A study and its sums
+//!
+//! [`study::run`] gives the [`profile::Profile`]: [`profile::Shaded::in_one_word`] is the slice, [`view::Grid::transform`]
+//! where it lies. To share a study out, [`study::TiledStudy::sum`] does one tile at some instants, whose fields are plain
+//! data ([`sun::Instant`]); [`study::TiledStudy::number`] is the study's fingerprint, the same wherever it is built and
+//! runs.
+//!
+//! ```no_run
+#![doc = include_str!("../examples/sums-of-a-study.rs")]
+//! ```
+//!
+//! ## One sun, one mask
+//!
+//! A [`shadow::Technique`] is made for a [`shadow::Scene`] and a [`view::View`], and draws a [`view::Mask`] for any direction of
+//! the sun above the horizon. [`shadow::ray_cast`] and [`shadow::projected`] need no graphics adapter, the others take an open
+//! [`gpu::Gpu`].
+//!
+//! ```no_run
+#![doc = include_str!("../examples/mask-of-one-sun.rs")]
+//! ```
+//!
+//! # Frame and units
+//!
 //! World frame: x east, y north, z up, metres, right-handed. Geometry is `f32` around [`mesh::Mesh::origin`];
 //! time, sun and map coordinates are `f64`.
+
+pub use {chrono, glam};
 
 pub mod message;
 

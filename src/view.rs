@@ -37,6 +37,12 @@ impl Grid {
         [self.west, self.south(), self.east(), self.north]
     }
 
+    /// From columns and rows to metres, in GDAL's order: x = t₀ + column · t₁ + row · t₂, y = t₃ + column · t₄ + row · t₅.
+    /// Columns count from the west edge, rows from the north edge.
+    pub fn transform(&self) -> [f64; 6] {
+        [self.west, self.cell, 0.0, self.north, 0.0, -self.cell]
+    }
+
     /// The centre of a cell, metres east and north.
     pub fn centre(&self, column: u32, row: u32) -> DVec2 {
         DVec2::new(self.west + (f64::from(column) + 0.5) * self.cell, self.north - (f64::from(row) + 0.5) * self.cell)

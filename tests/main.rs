@@ -1,5 +1,6 @@
 //! All tests in one binary, which links once.
 
+mod api;
 mod architecture;
 mod choice;
 mod clock;

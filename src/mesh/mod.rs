@@ -36,6 +36,18 @@ pub struct Part {
     pub coarse: Vec<CornerPrecision>,
 }
 
+impl Part {
+    /// Errs where a corner is no point, or a triangle has one that is not there.
+    fn check(&self) -> Result<(), MeshError> {
+        if !self.positions.par_iter().all(|corner| corner.is_finite()) {
+            return Err(MeshError::NoPoint(self.name.clone()));
+        }
+        let corners = self.positions.len();
+        let missing = self.triangles.par_iter().flatten_iter().find_any(|corner| **corner as usize >= corners);
+        missing.map_or(Ok(()), |&corner| Err(MeshError::NoCorner { name: self.name.clone(), corner, corners }))
+    }
+}
+
 /// A run of corners, and how coarse the numbers are that a file writes them with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerPrecision {
@@ -89,7 +101,7 @@ impl Incidence {
 /// Welded triangles with planes and adjacency, `f32` around `origin`. A copy shares all that is large.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    /// World position of the local origin, whole metres.
+    /// World position of the local origin; whole metres, unless it was given.
     pub origin: DVec3,
     /// Metres around `origin`; shared by the meshes that were taken from this one.
     pub vertices: Arc<Vec<Vec3>>,
@@ -124,6 +136,29 @@ pub enum MeshError {
         /// How far.
         km: f64,
     },
+    /// `f32` around the origin that was given cannot hold it.
+    #[error(
+        "'{name}' reaches {km:.0} km from the given origin, where half a metre is lost; give an origin near the parts"
+    )]
+    FarFromOrigin {
+        /// The component that reaches farthest.
+        name: String,
+        /// How far; infinite where the origin is no point.
+        km: f64,
+    },
+    /// A coordinate is infinite or no number.
+    #[error("'{0}' has a corner that is no point; give finite coordinates in metres")]
+    NoPoint(String),
+    /// A triangle names a corner that its part does not have.
+    #[error("'{name}' has a triangle with corner {corner}, and only {corners} corners, counted from 0")]
+    NoCorner {
+        /// The part.
+        name: String,
+        /// The corner that is not there.
+        corner: u32,
+        /// How many there are.
+        corners: usize,
+    },
 }
 
 impl Mesh {
@@ -133,25 +168,47 @@ impl Mesh {
     /// coarse, but a model so large has that in its file already.
     pub const FARTHEST_M: f64 = 8.0e6;
 
-    /// Welds the parts, each for itself, and finds planes and adjacency.
+    /// Welds the parts, each for itself, and finds planes and adjacency. The origin is the middle of what stands together.
+    ///
+    /// # Errors
+    /// [`MeshError`]
     pub fn build(parts: Vec<Part>) -> Result<Mesh, MeshError> {
+        Self::built(parts, None)
+    }
+
+    /// As [`Mesh::build`], around an origin that is given, such as another mesh's. Positions keep what `f32` holds of their
+    /// distance from it: 1 km away that is 0.06 mm. Whole metres lose nothing themselves.
+    ///
+    /// # Errors
+    /// [`MeshError`]; [`MeshError::FarFromOrigin`] beyond [`Mesh::FARTHEST_M`].
+    pub fn build_around(parts: Vec<Part>, origin: DVec3) -> Result<Mesh, MeshError> {
+        Self::built(parts, Some(origin))
+    }
+
+    fn built(parts: Vec<Part>, given: Option<DVec3>) -> Result<Mesh, MeshError> {
         let triangles: usize = parts.iter().map(|part| part.triangles.len()).sum();
         let corners: usize = parts.iter().map(|part| part.positions.len()).sum();
         if triangles.max(corners / 3) > Self::MOST_FACES {
             return Err(MeshError::TooLarge(triangles));
         }
+        parts.iter().try_for_each(Part::check)?;
         let together = CornerGroups::of(&parts);
         let home = together.home().unwrap_or_default();
-        let origin = ((home.0 + home.1) / 2.0).round();
+        let origin = given.unwrap_or(((home.0 + home.1) / 2.0).round());
         let reach = |part: &Part| {
             let reach = |&corner: &DVec3| (corner - origin).abs().max_element();
-            part.positions.par_iter().map(reach).reduce(|| 0.0, f64::max)
+            let reach = part.positions.par_iter().map(reach).reduce(|| 0.0, f64::max);
+            if origin.is_finite() { reach } else { f64::INFINITY }
         };
         let reaches = parts.iter().map(|part| (reach(part), &part.name));
         if let Some((reach, name)) = reaches.max_by(|one, other| one.0.total_cmp(&other.0))
             && reach > Self::FARTHEST_M
         {
-            return Err(MeshError::TooWide { name: name.clone(), km: reach / 1000.0 });
+            let (name, km) = (name.clone(), reach / 1000.0);
+            return Err(match given {
+                Some(_) => MeshError::FarFromOrigin { name, km },
+                None => MeshError::TooWide { name, km },
+            });
         }
 
         let weld = |part: Part| of_part(part, origin, &together);

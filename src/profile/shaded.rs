@@ -89,11 +89,19 @@ impl Shaded {
         (0..self.len()).map(|cell| self.of(cell))
     }
 
-    /// The cells, where one word is enough for each.
+    /// The cells, where one word is enough for each; else [`Shaded::in_two_words`] has them.
     pub fn in_one_word(&self) -> Option<&[u32]> {
         match &self.0 {
             ShadedPart::One(cells) => Some(cells),
             ShadedPart::Two(_) => None,
+        }
+    }
+
+    /// The cells, where one word is not enough for some.
+    pub fn in_two_words(&self) -> Option<&[u64]> {
+        match &self.0 {
+            ShadedPart::One(_) => None,
+            ShadedPart::Two(cells) => Some(cells),
         }
     }
 }

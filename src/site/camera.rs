@@ -67,14 +67,11 @@ pub(super) fn camera(
     let [target, eye] = [vector("target", table.target)?, vector("eye", table.eye)?];
     // Before a side that only an option asks for, what is written is the perspective's.
     let [target, eye] = if side.is_none() || table.side.is_some() { [target, eye] } else { [None, None] };
-    let back = direction_to_eye(written, track);
+    let latitude = written.site.place.as_ref().and_then(|place| place.latitude);
+    let back = direction_to_eye(latitude, track);
     let target = target.unwrap_or_else(|| match side {
         Some(side) => side.around(above(bounds, ground), WIDTH_BY_HEIGHT).0,
-        // Between the models and the middle of the picture's ground, so that neither is at its edge.
-        None => {
-            let (centre, middle) = (bounds.centre(), (shadows[0] + shadows[1]) / 2.0);
-            ((centre.truncate() + middle) / 2.0).extend(centre.z)
-        }
+        None => middle(bounds, shadows),
     });
     let eye = eye.unwrap_or_else(|| {
         let far = match side {
@@ -95,12 +92,26 @@ pub(super) fn camera(
     Ok(Camera { eye, target, up, fov_rad, width: WIDTH, height: HEIGHT })
 }
 
+/// The perspective where nothing is asked of it.
+pub(super) fn found(latitude: f64, bounds: Bounds, shadows: [DVec2; 2], ground: f64, track: &SunTrack) -> Camera {
+    let (target, fov_rad) = (middle(bounds, shadows), FOV_DEG.to_radians());
+    let back = direction_to_eye(Some(latitude), track);
+    let eye = target + back * distance(back, target, fov_rad, bounds, shadows, ground);
+    Camera { eye, target, up: DVec3::Z, fov_rad, width: WIDTH, height: HEIGHT }
+}
+
+/// Between the models and the middle of the picture's ground, so that neither is at its edge.
+fn middle(bounds: Bounds, shadows: [DVec2; 2]) -> DVec3 {
+    let (centre, middle) = (bounds.centre(), (shadows[0] + shadows[1]) / 2.0);
+    ((centre.truncate() + middle) / 2.0).extend(centre.z)
+}
+
 /// From the target to the default eye, unit length.
-fn direction_to_eye(written: &Written, track: &SunTrack) -> DVec3 {
+fn direction_to_eye(latitude: Option<f64>, track: &SunTrack) -> DVec3 {
     let day = track.instants.iter().filter(|instant| !instant.night);
     let sun: DVec2 = day.map(|instant| instant.to_sun.truncate()).sum();
     // Without a sun, or one from all sides, look from where it stands at noon.
-    let southern = written.site.place.as_ref().and_then(|place| place.latitude).is_some_and(|latitude| latitude < 0.0);
+    let southern = latitude.is_some_and(|latitude| latitude < 0.0);
     let noon_side = if southern { DVec2::Y } else { DVec2::NEG_Y };
     let sunlit = sun.try_normalize().unwrap_or(noon_side);
     // Towards the east: counter-clockwise seen from above where the sun stands in the south.

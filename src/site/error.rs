@@ -137,6 +137,8 @@ pub enum SiteError {
         /// As the user named it.
         file: String,
     },
+    /// A mesh in memory holds nothing.
+    EmptyMesh,
     /// A model file cannot be read.
     Model(#[from] ModelError),
     /// The parts make no mesh.
@@ -190,6 +192,9 @@ impl Worded for SiteError {
                 format!("{file}: the models hold no triangles, so nothing casts a shadow");
                 "check what was exported"
             ],
+            SiteError::EmptyMesh => {
+                message!["the mesh holds no triangles, so nothing casts a shadow"; "give it parts that do"]
+            }
             SiteError::Model(error) => error.to_string().into(),
             SiteError::Mesh(error) => error.to_string().into(),
         }

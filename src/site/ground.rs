@@ -163,10 +163,18 @@ pub(super) fn level(written: &Written, asked: &Overrides) -> Result<Option<f64>,
         (None, Some(level)) => (level, written.key("ground", "level")),
         (None, None) => return Ok(None),
     };
+    checked(level, at).map(Some)
+}
+
+/// A ground's height that is one.
+///
+/// # Errors
+/// [`SiteError::Value`] where it is none.
+pub(super) fn checked(level: f64, at: At) -> Result<f64, SiteError> {
     // a NaN is not within either
     if level.abs() <= FARTHEST_M {
         // −0 is 0
-        return Ok(Some(level + 0.0));
+        return Ok(level + 0.0);
     }
     let what = format!("{level} is no height of a ground");
     Err(refuse(at, message![what; "write metres above the place's point, for example 0.0"]))

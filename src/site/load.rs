@@ -20,7 +20,7 @@ use std::path::Path;
 /// 4.3 is the length at an altitude of 13°.
 pub(super) const SHADOW_CUT: f64 = 4.3;
 /// As [`SHADOW_CUT`], for what the default camera must see.
-const VIEW_CUT: f64 = 1.5;
+pub(super) const VIEW_CUT: f64 = 1.5;
 
 /// The place and its sun alone; the models are not read.
 ///

@@ -10,6 +10,7 @@ mod error;
 mod extent;
 pub mod file;
 mod ground;
+mod in_memory;
 mod inputs;
 mod key_table;
 mod keys;

@@ -86,6 +86,26 @@ pub(super) fn grid(
     })
 }
 
+/// Errs where a grid that is given cannot be a plan.
+pub(super) fn check(grid: &Grid) -> Result<(), SiteError> {
+    let Grid { west, north, cell, width, height } = *grid;
+    let cells = f64::from(width) * f64::from(height);
+    if !(1.0..=MOST_CELLS).contains(&cells) {
+        let what = format!("{width} × {height} cells are no plan");
+        return Err(refuse(At::Field(Field::Size), message![what; "take at least one cell, and at most 2³¹"]));
+    }
+    // A NaN is not that large either.
+    if !(cell.is_finite() && cell >= LEAST_CELL_M) {
+        let hint = format!("take metres, at least {LEAST_CELL_M}");
+        return Err(refuse(At::Field(Field::Cell), message![format!("{cell} is no side of a cell"); hint]));
+    }
+    if !(west.is_finite() && north.is_finite()) {
+        let what = format!("({west}, {north}) is no north-west corner");
+        return Err(refuse(At::Field(Field::Region), message![what; "give metres from the place"]));
+    }
+    Ok(())
+}
+
 fn region(
     written: &Written,
     asked: &Overrides,

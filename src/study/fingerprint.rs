@@ -1,40 +1,112 @@
 //! Which study it is: a number of all that its result depends on, so that another one does not go on from its sum.
+//!
+//! What is hashed is written here, field by field with their names and as little-endian bytes, by SipHash-1-3 with the
+//! keys 0: every compiler and machine comes to the same number.
 
 use super::Wants;
 use crate::choice::{Filter, Finder, Settings};
 use crate::profile::Drawn;
 use crate::site::Site;
-use crate::view::Tile;
-use rustc_hash::FxBuildHasher;
+use crate::view::{Grid, Tile};
 use siphasher::sip::SipHasher13;
-use std::hash::{BuildHasher, Hash, Hasher};
+use std::hash::Hasher;
+
+/// The fields so far.
+struct Fields(SipHasher13);
+
+impl Fields {
+    /// A field: how long its name is, and that; how many bytes it has, and those.
+    fn bytes(&mut self, name: &str, bytes: &[u8]) {
+        for part in [name.as_bytes(), bytes] {
+            self.0.write(&(part.len() as u64).to_le_bytes());
+            self.0.write(part);
+        }
+    }
+
+    /// A field of numbers, which may be none.
+    fn numbers<const N: usize>(&mut self, name: &str, numbers: impl IntoIterator<Item = [u8; N]>) {
+        let numbers: Vec<[u8; N]> = numbers.into_iter().collect();
+        self.bytes(name, numbers.as_flattened());
+    }
+
+    fn flags(&mut self, name: &str, flags: &[bool]) {
+        self.numbers(name, flags.iter().map(|&flag| [u8::from(flag)]));
+    }
+
+    /// A field of text that is left out where there is none.
+    fn text(&mut self, name: &str, text: Option<&str>) {
+        if let Some(text) = text {
+            self.bytes(name, text.as_bytes());
+        }
+    }
+}
 
 /// Of a study that a machine draws in tiles. The same for the same request, and for another one another.
 pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile], wants: &Wants) -> u64 {
-    let mut hasher = SipHasher13::new();
-    let Site { mesh, casts, receives, ground, track, grid, receivers, settings, hextree_depth, .. } = site;
-    env!("CARGO_PKG_VERSION").hash(&mut hasher);
-    let numbers = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<u64>>();
-    numbers(&mesh.origin.to_array()).hash(&mut hasher);
-    bytemuck::cast_slice::<_, u8>(&mesh.vertices).hash(&mut hasher);
-    bytemuck::cast_slice::<_, u8>(&mesh.faces).hash(&mut hasher);
-    mesh.components.iter().for_each(|component| component.faces.hash(&mut hasher));
-    (casts, receives, receivers.word(), hextree_depth).hash(&mut hasher);
-    numbers(&[ground.level, grid.west, grid.north, grid.cell]).hash(&mut hasher);
-    (grid.width, grid.height).hash(&mut hasher);
-    tiles.iter().for_each(|tile| (tile.first, tile.size).hash(&mut hasher));
-    for instant in &track.instants {
-        (instant.time.timestamp(), instant.weight_secs, instant.night).hash(&mut hasher);
-        numbers(&instant.to_sun.to_array()).hash(&mut hasher);
-    }
-    // what is written while it goes on is not there for instants that were drawn without it
-    let masks_in = FxBuildHasher.hash_one(&wants.masks_in);
-    (wants.masks, wants.bits, masks_in, wants.statistics, wants.keep_every.is_some()).hash(&mut hasher);
+    let mut fields = Fields(SipHasher13::new());
+    // another version may draw otherwise
+    fields.text("gnomon", Some(env!("CARGO_PKG_VERSION")));
+    add_scene(&mut fields, site);
+    add_plan(&mut fields, &site.grid, tiles);
+    add_instants(&mut fields, site);
+    add_wants(&mut fields, wants);
     // what is asked of techniques, and what that came to
-    for Settings { map_size, filter, smoothie_width_m, sun_samples } in [settings, &drawn.settings] {
-        (map_size, filter.map(Filter::word), smoothie_width_m.map(f64::to_bits), sun_samples).hash(&mut hasher);
+    add_settings(&mut fields, "asked", &site.settings);
+    add_settings(&mut fields, "drawn", &drawn.settings);
+    let Drawn { technique, finder, engine, adapter, settings: _ } = drawn;
+    fields.text("technique", Some(technique.word()));
+    fields.text("finder", finder.map(Finder::word));
+    fields.text("engine", Some(engine.word()));
+    fields.text("adapter", adapter.as_deref());
+    fields.0.finish()
+}
+
+fn add_scene(fields: &mut Fields, site: &Site) {
+    let mesh = &site.mesh;
+    fields.numbers("origin", mesh.origin.to_array().map(f64::to_le_bytes));
+    fields.numbers("vertices", mesh.vertices.iter().flat_map(|vertex| vertex.to_array()).map(f32::to_le_bytes));
+    fields.numbers("faces", mesh.faces.as_flattened().iter().map(|corner| corner.to_le_bytes()));
+    let runs = mesh.components.iter().flat_map(|component| [component.faces.start, component.faces.end]);
+    fields.numbers("components", runs.map(u32::to_le_bytes));
+    fields.flags("casts", &site.casts);
+    fields.flags("receives", &site.receives);
+    fields.text("receivers", Some(site.receivers.word()));
+    fields.numbers("ground", [site.ground.level.to_le_bytes()]);
+    fields.numbers("hextree depth", site.hextree_depth.map(u32::to_le_bytes));
+}
+
+fn add_plan(fields: &mut Fields, grid: &Grid, tiles: &[Tile]) {
+    let Grid { west, north, cell, width, height } = *grid;
+    fields.numbers("west, north, cell", [west, north, cell].map(f64::to_le_bytes));
+    fields.numbers("width, height", [width, height].map(u32::to_le_bytes));
+    let tiles = tiles.iter().flat_map(|tile| [tile.first, tile.size].concat());
+    fields.numbers("tiles", tiles.map(u32::to_le_bytes));
+}
+
+fn add_instants(fields: &mut Fields, site: &Site) {
+    let instants = &site.track.instants;
+    fields.numbers("times", instants.iter().map(|instant| instant.time.timestamp().to_le_bytes()));
+    fields.numbers("to sun", instants.iter().flat_map(|instant| instant.to_sun.to_array()).map(f64::to_le_bytes));
+    fields.numbers("weights", instants.iter().map(|instant| instant.weight_secs.to_le_bytes()));
+    fields.numbers("nights", instants.iter().map(|instant| [u8::from(instant.night)]));
+}
+
+/// What is written while it goes on is not there for instants that were drawn without it.
+fn add_wants(fields: &mut Fields, wants: &Wants) {
+    // the budget is in the tiles, and of lines and surface nothing is kept
+    let Wants { masks, bits, masks_in, lines: _, surface: _, statistics, keep_every, budget: _ } = wants;
+    fields.flags("masks, bits, statistics, kept", &[*masks, *bits, *statistics, keep_every.is_some()]);
+    if let Some(folder) = masks_in {
+        // a name in Unicode is UTF-8, and any other one at least tells folders apart
+        fields.bytes("masks in", folder.as_os_str().as_encoded_bytes());
     }
-    let Drawn { technique, finder, engine, adapter, .. } = drawn;
-    (technique.word(), finder.map(Finder::word), engine.word(), adapter).hash(&mut hasher);
-    hasher.finish()
+}
+
+fn add_settings(fields: &mut Fields, whose: &str, settings: &Settings) {
+    let Settings { map_size, filter, smoothie_width_m, sun_samples } = settings;
+    fields.text("settings", Some(whose));
+    fields.numbers("map size", map_size.map(u32::to_le_bytes));
+    fields.text("filter", filter.map(Filter::word));
+    fields.numbers("smoothie width", smoothie_width_m.map(f64::to_le_bytes));
+    fields.numbers("sun samples", sun_samples.map(u32::to_le_bytes));
 }

@@ -11,6 +11,7 @@ use crate::profile::accumulate::Sum;
 use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::plan_surface;
 use crate::site::Site;
+use crate::sun;
 use crate::view::{Surface, Tile, View};
 use std::cell::{OnceCell, RefCell};
 use std::fmt;
@@ -121,6 +122,26 @@ impl<'a> TiledStudy<'a> {
         &self.tiles
     }
 
+    /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
+    /// instants, whoever has found them. Sums of instants that make up the track add up to the tile's own to the bit, and
+    /// [`paste`] puts tiles together. Where the device fails, so does this.
+    ///
+    /// # Errors
+    /// [`StudyError::Shadow`], where drawing failed.
+    pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<Shaded, StudyError> {
+        let mut technique = self.look().technique_of(tile)?;
+        let mut sum = Sum::new(self.machine.gpu(), tile.size[0], tile.size[1]);
+        for instant in instants.iter().filter(|instant| !instant.night) {
+            sum.add(&technique.draw(instant.to_sun)?, instant.weight_secs)?;
+        }
+        Ok(sum.finish()?)
+    }
+
+    fn look(&self) -> SiteView<'_> {
+        let TiledStudy { site, machine, .. } = self;
+        SiteView { site, machine, view: View::Plan(site.grid), receivers: site.receivers }
+    }
+
     /// Whether that was left by this study.
     pub fn is_of(&self, begun: &Unfinished) -> bool {
         let count = self.tiles.len() * self.site.track.instants.len();
@@ -141,7 +162,11 @@ impl<'a> TiledStudy<'a> {
 
 impl fmt::Debug for TiledStudy<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("Tiled").field("wants", &self.wants).field("tiles", &self.tiles).finish_non_exhaustive()
+        formatter
+            .debug_struct("TiledStudy")
+            .field("wants", &self.wants)
+            .field("tiles", &self.tiles)
+            .finish_non_exhaustive()
     }
 }
 

@@ -1,0 +1,63 @@
+//! A site without a file: what a program puts together itself.
+
+use super::asked::refuse;
+use super::error::{At, SiteError};
+use super::extent::{Bounds, with_shadows};
+use super::load::VIEW_CUT;
+use super::{Engine, Finder, Ground, Method, Receivers, Settings, Site, camera, ground, notes, plan};
+use crate::mesh::Mesh;
+use crate::mesh::patches::DEFAULT_CELL_M;
+use crate::message::{Field, message};
+use crate::sun::{Place, SunTrack};
+use crate::view::Grid;
+
+impl Site {
+    /// A site of a mesh in the world frame, as a file would describe it that says no more. Everything casts and receives,
+    /// technique and engine are chosen for the machine, and the camera sees all of it: set the fields to have it otherwise.
+    ///
+    /// Without a height the ground is found as for a file: at the mesh's own zero, or at its lowest point.
+    ///
+    /// # Errors
+    /// A mesh without a triangle, a height that is none, a track without an instant, a grid that is no plan.
+    pub fn in_memory(
+        place: Place,
+        mesh: Mesh,
+        ground: Option<f64>,
+        track: SunTrack,
+        grid: Grid,
+    ) -> Result<Site, SiteError> {
+        let bounds = Bounds::of(&mesh).ok_or(SiteError::EmptyMesh)?;
+        let level = ground.map(|level| ground::checked(level, At::Field(Field::Ground))).transpose()?;
+        if track.instants.is_empty() {
+            return Err(refuse(At::Field(Field::From), message!["the track has no instant"; "give it one"]));
+        }
+        plan::check(&grid)?;
+        let ground = Ground::of(&mesh, bounds, level);
+        let all = vec![true; mesh.components.len()];
+        let shadows = with_shadows(&mesh, bounds, &all, ground.level, &track, VIEW_CUT);
+        let camera = camera::found(place.latitude_deg, bounds, shadows, ground.level, &track);
+        let receivers = Receivers::default();
+        let of_mesh = notes::of_all(&mesh).into_iter().chain(ground.notes(&mesh, receivers));
+        let notes = of_mesh.chain(track.notes()).chain(notes::on_view(&mesh, &grid, None)).collect();
+        Ok(Site {
+            place,
+            mesh,
+            notes,
+            likenesses: Vec::new(),
+            casts: all.clone(),
+            receives: all,
+            ground,
+            track,
+            grid,
+            camera,
+            side: None,
+            receivers,
+            patch_cell: DEFAULT_CELL_M,
+            method: Method::default(),
+            finder: Finder::default(),
+            hextree_depth: None,
+            engine: Engine::default(),
+            settings: Settings::NONE,
+        })
+    }
+}

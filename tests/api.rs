@@ -1,0 +1,243 @@
+//! What other programs use: the three doors that the library's front page shows, and what they promise.
+
+#[path = "../examples/mask-of-one-sun.rs"]
+mod mask_of_one_sun;
+#[path = "../examples/site-in-memory.rs"]
+mod site_in_memory;
+#[path = "../examples/sums-of-a-study.rs"]
+mod sums_of_a_study;
+
+use crate::model::Model;
+use crate::shared::scenes::cuboid;
+use chrono::{NaiveDate, TimeZone};
+use glam::{DVec3, dvec3};
+use gnomon::mesh::{Mesh, MeshError, Part};
+use gnomon::profile::Shaded;
+use gnomon::site::{Engine, Method, Overrides, Site, SiteError};
+use gnomon::study::{self, Budget, TiledStudy, Wants, paste};
+use gnomon::sun::{Instant, Place, SunTrack, Window};
+use gnomon::view::Grid;
+use serde_json::json;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+#[test]
+fn examples_run() {
+    site_in_memory::main().unwrap();
+    sums_of_a_study::main().unwrap();
+    mask_of_one_sun::main().unwrap();
+}
+
+const GRID: Grid = Grid { west: -40.0, north: 40.0, cell: 1.0, width: 80, height: 80 };
+
+fn vienna() -> Place {
+    Place::new("Vienna", 48.2082, 16.3738, 170.0, Some("Europe/Vienna")).unwrap()
+}
+
+fn track() -> SunTrack {
+    let date = NaiveDate::from_ymd_opt(2026, 3, 21);
+    let window = Window { date, from: "9:00".parse().unwrap(), to: "17:00".parse().unwrap(), step_secs: 1200 };
+    SunTrack::window(&vienna(), &window, true).unwrap()
+}
+
+/// A box on whole metres, of which `f32` loses nothing.
+fn tower() -> Part {
+    cuboid("tower", dvec3(-6.0, -4.0, 0.0), dvec3(7.0, 5.0, 21.0))
+}
+
+fn site_of(mesh: Mesh) -> Site {
+    let site = Site::in_memory(vienna(), mesh, None, track(), GRID).unwrap();
+    Site { engine: Engine::Cpu, ..site }
+}
+
+fn sums(site: &Site) -> Shaded {
+    study::run(site, &Wants::default(), &mut |_| ControlFlow::Continue(())).unwrap().profile.shaded
+}
+
+/// The part as a file has it: its y is up.
+fn glb(part: &Part) -> Vec<u8> {
+    let mut model = Model::new();
+    let turned = part.positions.iter().flat_map(|corner| [corner.x, corner.z, -corner.y].map(|at| at as f32));
+    let positions = model.f32s("VEC3", &turned.collect::<Vec<f32>>());
+    let corners: Vec<u8> = part.triangles.as_flattened().iter().flat_map(|corner| corner.to_le_bytes()).collect();
+    let corners = model.accessor("SCALAR", crate::model::U32, part.triangles.len() * 3, &corners);
+    let primitive = json!({"attributes": {"POSITION": positions}, "indices": corners});
+    model.json["meshes"] = json!([{"primitives": [primitive]}]);
+    model.json["nodes"] = json!([{"mesh": 0, "name": part.name}]);
+    model.glb()
+}
+
+#[test]
+fn a_box_in_memory_is_the_box_of_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("tower.glb"), glb(&tower())).unwrap();
+    let text = r#"
+[place]
+name = "Vienna"
+latitude = 48.2082
+longitude = 16.3738
+elevation = 170.0
+time_zone = "Europe/Vienna"
+[[model]]
+path = "tower.glb"
+[study]
+date = 2026-03-21
+from = "9:00"
+to = "17:00"
+step = "20min"
+[plan]
+region = [-40, -40, 40, 40]
+cell = 1.0
+"#;
+    std::fs::write(folder.path().join("site.toml"), text).unwrap();
+    let asked = Overrides { engine: Some(Engine::Cpu), ..Overrides::default() };
+    let of_file = Site::load(folder.path(), &asked).unwrap();
+    let in_memory = site_of(Mesh::build(vec![tower()]).unwrap());
+
+    assert_eq!(in_memory.place, of_file.place);
+    assert_eq!(in_memory.track, of_file.track);
+    assert_eq!(in_memory.mesh.origin, of_file.mesh.origin);
+    // a file's vertices are numbered as its triangles use them
+    let corners = |mesh: &Mesh| (0..mesh.faces.len()).map(|face| mesh.corners(face)).collect::<Vec<_>>();
+    assert_eq!(corners(&in_memory.mesh), corners(&of_file.mesh));
+    assert_eq!((in_memory.ground, in_memory.grid), (of_file.ground, of_file.grid));
+    assert_eq!((in_memory.camera, &in_memory.notes), (of_file.camera, &of_file.notes));
+    let found = sums(&in_memory);
+    assert!(found.iter().any(|shaded| shaded > 0), "the box has a shadow");
+    assert_eq!(found, sums(&of_file));
+    assert_ne!(found, sums(&Site { casts: vec![false], ..in_memory }), "what does not cast has none");
+}
+
+#[test]
+fn an_origin_can_be_given() {
+    let middle = Mesh::build(vec![tower()]).unwrap();
+    let origin = dvec3(100.0, -50.0, 7.0);
+    let given = Mesh::build_around(vec![tower()], origin).unwrap();
+    assert_eq!(given.origin, origin);
+    assert_ne!(given.origin, middle.origin);
+    assert_eq!(given.bounds(), middle.bounds());
+    assert_eq!(sums(&site_of(given)), sums(&site_of(middle)));
+
+    for origin in [DVec3::X * 1.01 * Mesh::FARTHEST_M, DVec3::splat(f64::NAN)] {
+        let error = Mesh::build_around(vec![tower()], origin).unwrap_err();
+        assert!(matches!(error, MeshError::FarFromOrigin { .. }), "{error}");
+    }
+    assert!(Mesh::build_around(vec![tower()], DVec3::X * 0.99 * Mesh::FARTHEST_M).is_ok());
+}
+
+#[test]
+fn parts_and_plans_that_are_none_are_refused() {
+    let mut part = tower();
+    part.positions[3].y = f64::NAN;
+    assert!(matches!(Mesh::build(vec![part]), Err(MeshError::NoPoint(name)) if name == "tower"));
+    let mut part = tower();
+    let corners = part.positions.len();
+    part.triangles[2][1] = corners as u32;
+    assert!(matches!(Mesh::build(vec![part]), Err(MeshError::NoCorner { corner, .. }) if corner as usize == corners));
+
+    let mesh = || Mesh::build(vec![tower()]).unwrap();
+    let refused = |mesh, ground, track, grid| Site::in_memory(vienna(), mesh, ground, track, grid).unwrap_err();
+    let error = refused(Mesh::build(Vec::new()).unwrap(), None, track(), GRID);
+    assert!(matches!(error, SiteError::EmptyMesh), "{error}");
+    let no_instant = SunTrack { instants: Vec::new(), ..track() };
+    let plans = [
+        Grid { cell: 0.0, ..GRID },
+        Grid { cell: f64::NAN, ..GRID },
+        Grid { width: 0, ..GRID },
+        Grid { width: 1 << 16, height: 1 << 16, ..GRID },
+        Grid { west: f64::INFINITY, ..GRID },
+    ];
+    let of_plans = plans.map(|grid| refused(mesh(), None, track(), grid));
+    let others = [refused(mesh(), Some(f64::NAN), track(), GRID), refused(mesh(), None, no_instant, GRID)];
+    for error in of_plans.into_iter().chain(others) {
+        assert!(matches!(error, SiteError::Value { .. }), "{error}");
+    }
+}
+
+#[test]
+fn tiles_and_instants_put_together_are_the_study() {
+    let site = site_of(Mesh::build(vec![tower()]).unwrap());
+    let wants = Wants { budget: Some(Budget { bytes: 250_000, drawing: 0 }), ..Wants::default() };
+    for method in [Method::Projected, Method::RayCast] {
+        let site = Site { method, ..site.clone() };
+        let study = TiledStudy::new(&site, &wants, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert!(method == Method::RayCast || study.tiles().len() > 2, "{} tiles", study.tiles().len());
+        let mut whole = Arc::default();
+        for tile in study.tiles() {
+            let mut sums = vec![0u64; tile.cells()];
+            for instants in site.track.instants.chunks(7) {
+                let part = study.sum(*tile, instants).unwrap();
+                sums.iter_mut().zip(part.iter()).for_each(|(sum, shaded)| *sum += shaded);
+            }
+            whole = paste(&whole, tile, &Arc::new(Shaded::from(sums)));
+        }
+        assert_eq!(*whole, self::sums(&site));
+    }
+}
+
+#[test]
+fn instants_pass_through_plain_numbers() {
+    for instant in track().instants {
+        let Instant { time, to_sun, azimuth_rad, altitude_rad, weight_secs, night } = instant.clone();
+        let (seconds, to_sun) = (time.timestamp(), to_sun.to_array());
+        let time = vienna().time_zone.timestamp_opt(seconds, 0).unwrap();
+        let to_sun = DVec3::from_array(to_sun);
+        assert_eq!(Instant { time, to_sun, azimuth_rad, altitude_rad, weight_secs, night }, instant);
+    }
+}
+
+#[test]
+fn sums_are_a_slice_of_either_width_and_a_plan_has_a_transform() {
+    let (short, long) = (Shaded::from(vec![1u32, 2]), Shaded::from(vec![1u64, 1 << 40]));
+    assert_eq!((short.in_one_word(), short.in_two_words()), (Some(&[1, 2][..]), None));
+    assert_eq!((long.in_one_word(), long.in_two_words()), (None, Some(&[1, 1 << 40][..])));
+    let t = GRID.transform();
+    for (column, row) in [(0, 0), (79, 0), (3, 61)] {
+        let [across, down] = [column, row].map(|cell| f64::from(cell) + 0.5);
+        let at = [t[0] + across * t[1] + down * t[2], t[3] + across * t[4] + down * t[5]];
+        assert_eq!(at, GRID.centre(column, row).to_array());
+    }
+}
+
+/// One triangle, one instant: all that is hashed is written here.
+fn smallest() -> Site {
+    let positions = vec![DVec3::ZERO, dvec3(10.0, 0.0, 0.0), dvec3(0.0, 10.0, 4.0)];
+    let part = Part { name: "sail".into(), positions, triangles: vec![[0, 1, 2]], ..Part::default() };
+    let mesh = Mesh::build_around(vec![part], DVec3::ZERO).unwrap();
+    let instant = Instant {
+        time: vienna().time_zone.timestamp_opt(1_774_090_800, 0).unwrap(),
+        to_sun: dvec3(0.0, -0.6, 0.8),
+        weight_secs: 1800,
+        ..track().instants[0]
+    };
+    let track = SunTrack { instants: vec![instant], ..track() };
+    let grid = Grid { west: -8.0, north: 12.0, cell: 2.0, width: 10, height: 8 };
+    let site = Site::in_memory(vienna(), mesh, Some(0.0), track, grid).unwrap();
+    Site { engine: Engine::Cpu, method: Method::RayCast, ..site }
+}
+
+#[test]
+fn a_fingerprint_is_the_same_for_every_compiler() {
+    let number =
+        |site: &Site, wants: &Wants| TiledStudy::new(site, wants, &mut |_| ControlFlow::Continue(())).unwrap().number();
+    let (site, wants) = (smallest(), Wants::default());
+    assert_eq!(env!("CARGO_PKG_VERSION"), "0.1.0", "a new version has another fingerprint, which belongs here");
+    // found by another program (CPython's SipHash-1-3) from the bytes that src/study/fingerprint.rs describes
+    assert_eq!(number(&site, &wants), 0x8504_3567_6601_1aba);
+
+    let mut later = site.clone();
+    later.track.instants[0].weight_secs += 1;
+    let others = [
+        Site { casts: vec![false], ..site.clone() },
+        Site { grid: Grid { west: -7.0, ..site.grid }, ..site.clone() },
+        Site { method: Method::Projected, ..site.clone() },
+        later,
+    ];
+    let in_folder = |folder: &str| Wants { masks: true, masks_in: Some(folder.into()), ..Wants::default() };
+    let mut numbers: Vec<u64> = others.iter().map(|other| number(other, &wants)).collect();
+    numbers.extend([number(&site, &wants), number(&site, &in_folder("one")), number(&site, &in_folder("other"))]);
+    let count = numbers.len();
+    numbers.sort_unstable();
+    numbers.dedup();
+    assert_eq!(numbers.len(), count, "another study has another number");
+}
