@@ -6,7 +6,7 @@ use gnomon::export::figure::{self, PictureExtras};
 use gnomon::gpu::readback;
 use gnomon::look::LOOK;
 use gnomon::picture::{Picture, Style};
-use gnomon::profile::Drawn;
+use gnomon::profile::Provenance;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{DrawnMask, Scene, Technique};
 use gnomon::site::{Overrides, Site};
@@ -61,7 +61,7 @@ fn pair(site: &Site, view: View, is_tinted: bool) -> Pair {
     let target = Picture::target(&gpu(), &view);
     picture.draw(&DrawnMask::Memory(&mask), instant.to_sun, &style, &target).expect("a picture");
 
-    let drawn = Drawn {
+    let drawn = Provenance {
         technique: Method::RayCast,
         finder: None,
         engine: Engine::Cpu,

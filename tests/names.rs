@@ -4,7 +4,7 @@
 use crate::model::poses::{morphing, skinned};
 use crate::model::{Model, push};
 use crate::site::{SITE, folder, tower};
-use gnomon::site::{Engine, Models, Overrides, Receivers, Site, Written};
+use gnomon::site::{Engine, Models, Overrides, Receivers, Site, WrittenSite};
 use gnomon::study::{self, Wants};
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -81,7 +81,7 @@ fn files_are_found_however_their_names_are_composed() {
         let models = folder.path().join(on_disk);
         std::fs::create_dir(&models).unwrap();
         std::fs::write(models.join(format!("{on_disk}.glb")), "").unwrap();
-        let read = Written::read(folder.path(), &Overrides::default()).unwrap();
+        let read = WrittenSite::read(folder.path(), &Overrides::default()).unwrap();
         let models = Models::read(&read, tower).unwrap();
         assert!(models.are_those_of(&read));
         assert_eq!(models.changed_file(), None);
@@ -135,7 +135,7 @@ fn a_scene_is_named_in_the_site_file() {
 #[test]
 fn models_are_read_again_for_another_scene() {
     let folder = folder(SITE);
-    let mut written = Written::read(folder.path(), &Overrides::default()).unwrap();
+    let mut written = WrittenSite::read(folder.path(), &Overrides::default()).unwrap();
     let models = Models::read(&written, tower).unwrap();
     written.site.model[0].scene = Some(gnomon::site::file::SceneName::Number(1));
     assert!(!models.are_those_of(&written));

@@ -13,7 +13,7 @@ use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::probe::{Interval, IntervalBound, Sunlight, longest, secs};
 use gnomon::shadow::Technique;
 use gnomon::shadow::ray_cast::RayCast;
-use gnomon::site::{Ground, Probing, Receivers};
+use gnomon::site::{Ground, ProbeSite, Receivers};
 use gnomon::study::StudyError;
 use gnomon::study::probe::probe;
 use gnomon::sun::{Air, DayWindow, Place, Position, Reading, Sky, Zone, delta_t_secs, position};
@@ -43,14 +43,14 @@ fn at(point: DVec3, normal: Option<DVec3>) -> Probe {
     Probe { name: "probe".to_owned(), point, normal }
 }
 
-fn probing(place: &Place, parts: Vec<Part>, probes: Vec<Probe>, days: Vec<DayWindow>) -> Probing {
+fn probing(place: &Place, parts: Vec<Part>, probes: Vec<Probe>, days: Vec<DayWindow>) -> ProbeSite {
     let mesh = Mesh::build(parts).unwrap();
     let casts = vec![true; mesh.components.len()];
     let (place, notes, ground) = (place.clone(), Vec::new(), Ground::asked(0.0));
-    Probing { place, mesh, notes, casts, ground, probes, days, step_secs: 60, refraction: true }
+    ProbeSite { place, mesh, notes, casts, ground, probes, days, step_secs: 60, refraction: true }
 }
 
-fn found(asked: &Probing) -> Sunlight {
+fn found(asked: &ProbeSite) -> Sunlight {
     probe(asked, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
@@ -173,7 +173,7 @@ fn the_nearest_component_blocks() {
         assert_eq!([before.after, after.before].map(|blocked| sunlight.name(blocked)), ["near", "far"]);
         // what does not cast is looked through
         let casts = asked.mesh.components.iter().map(|component| component.name == "far").collect();
-        let sunlight = found(&Probing { casts, ..asked });
+        let sunlight = found(&ProbeSite { casts, ..asked });
         assert_eq!(sunlight.name(sunlight.probes[0].days[0][0].after), "far");
     }
 }
@@ -224,7 +224,7 @@ fn probes_agree_with_the_masks_of_ray_casting() {
             at(centre.extend(0.0), Some(DVec3::Z))
         });
         // a step that divides the instants of the masks, so that all of them are of the search's grid
-        let asked = Probing { step_secs: 420, ..probing(&place, parts, probes.collect(), vec![day.clone()]) };
+        let asked = ProbeSite { step_secs: 420, ..probing(&place, parts, probes.collect(), vec![day.clone()]) };
         let mut sunlight = found(&asked);
         assert_eq!(disagreements(&asked.mesh, view, &day, &sunlight, &cells), 0, "{name}");
         // an interval less is seen
@@ -249,7 +249,7 @@ fn what_is_a_step_long_cannot_be_missed() {
         let [from, to] = [begin - 3600, begin + 3600].map(|shift| noon + TimeDelta::seconds(shift));
         let window = DayWindow { from, to, ..day(&place, "2026-03-21", None) };
         let asked = probing(&place, vec![post.clone()], vec![at(dvec3(0.0, 0.0, 1.0), None)], vec![window]);
-        found(&Probing { step_secs, ..asked }).probes[0].days[0].clone()
+        found(&ProbeSite { step_secs, ..asked }).probes[0].days[0].clone()
     };
     let mut gaps = Vec::new();
     for begin in 0..30 {
@@ -353,7 +353,7 @@ fn below_the_ground_there_is_no_sun() {
     let house = cuboid("house", dvec3(-5.0, 0.0, -3.0), dvec3(5.0, 9.0, 9.0));
     let wall = |z: f64| at(dvec3(0.0, 0.0, z), Some(DVec3::NEG_Y));
     let mut asked = probing(&place, vec![house], vec![wall(-1.0), wall(0.0), wall(1.0)], vec![day]);
-    let secs = |asked: &Probing| {
+    let secs = |asked: &ProbeSite| {
         found(asked).probes.iter().map(gnomon::profile::probe::ProbeIntervals::secs).collect::<Vec<_>>()
     };
     let above = secs(&asked);

@@ -6,7 +6,7 @@ use gnomon::mesh::Part;
 use gnomon::message::Worded;
 use gnomon::site::file::SiteFile;
 use gnomon::site::model::{Model, ModelError, Placement};
-use gnomon::site::{Engine, Method, Models, Overrides, Receivers, Site, SiteError, Written, load_sun};
+use gnomon::site::{Engine, Method, Models, Overrides, Receivers, Site, SiteError, WrittenSite, load_sun};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -328,7 +328,7 @@ fn notes_of_models_are_told() {
     run.unwrap();
     assert_eq!(heard, site.notes);
     let before = folder(SITE);
-    let [before, after] = [before.path(), before.path()].map(|path| Written::read(path, &asked).unwrap());
+    let [before, after] = [before.path(), before.path()].map(|path| WrittenSite::read(path, &asked).unwrap());
     let pair = gnomon::site::Pair::of(&before, &after, &asked, noted).unwrap();
     assert_eq!(pair.notes(), site.notes, "told once of both");
     assert!(load(SITE, &asked).unwrap().notes.is_empty());
@@ -338,10 +338,10 @@ fn notes_of_models_are_told() {
 #[test]
 fn models_are_read_once_as_long_as_they_stay() {
     let folder = folder(SITE);
-    let written = Written::read(folder.path(), &Overrides::default()).unwrap();
+    let written = WrittenSite::read(folder.path(), &Overrides::default()).unwrap();
     let models = Models::read(&written, tower).unwrap();
     assert_eq!(models.component_counts(), [2]);
-    let mut other = Written::read(folder.path(), &Overrides::default()).unwrap();
+    let mut other = WrittenSite::read(folder.path(), &Overrides::default()).unwrap();
     other.site.model[0].casts = gnomon::site::file::Names::Some(vec!["yard".to_owned()]);
     other.site.study.step = some("1h");
     assert!(models.are_those_of(&other));

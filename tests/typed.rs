@@ -3,7 +3,7 @@
 use gnomon::cli::Options;
 use gnomon::message::Worded;
 use gnomon::site::typed::{Axis, Degrees, TypedError, clock, date, degrees, number, place, step, within};
-use gnomon::site::{Overrides, Written};
+use gnomon::site::{Overrides, WrittenSite};
 use gnomon::sun::SunError;
 use std::path::Path;
 
@@ -189,7 +189,7 @@ fn place_of_the_command_is_read_alike() {
     let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites/tower/tower.glb");
     let read = |place: &str| {
         let asked = Overrides { place: Some(place.to_owned()), ..Overrides::default() };
-        let table = Written::read(&model, &asked).map(|written| written.site.place);
+        let table = WrittenSite::read(&model, &asked).map(|written| written.site.place);
         table.map(|place| place.map(|place| (place.latitude.unwrap(), place.longitude.unwrap())))
     };
     for text in ["48.2082,16.3738", "48,2082; 16,3738", "48.2082° N, 16.3738° E"] {

@@ -7,7 +7,7 @@ use glam::{DVec3, dvec3};
 use gnomon::choice::{Engine, Method, Promise, Receivers, Settings, Truth};
 use gnomon::export::verify as told;
 use gnomon::mesh::Mesh;
-use gnomon::profile::Drawn;
+use gnomon::profile::Provenance;
 use gnomon::profile::compare::{Difference, Edges, is_edge_cell};
 use gnomon::profile::verify::{HoursDifference, Verification};
 use gnomon::shadow::ray_cast::RayCast;
@@ -144,7 +144,7 @@ fn trial(site: &Site, promise: Promise, cells: Vec<usize>, decided: Decider) -> 
     let scene = gnomon::shadow::Scene { receivers: casters.of_components(&[]), casters, ground: site.ground.level };
     let rays = RayCast::new(scene, View::Plan(site.grid), None);
     let mask = Mask { width: 0, height: 0, share: Vec::new() };
-    let drawn = Drawn {
+    let drawn = Provenance {
         technique: Method::Stencil,
         finder: None,
         engine: Engine::Cpu,

@@ -10,7 +10,7 @@ use crate::deliver::{Sink, WrittenFiles};
 use crate::export::figure::Diagram;
 use crate::export::{check, file, report};
 use crate::mesh::report as mesh_report;
-use crate::profile::{Drawn, Statistics};
+use crate::profile::{Provenance, Statistics};
 use crate::site::{Ground, LoadedMesh, Method, Site, inputs, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
 use std::fmt::Write;
@@ -135,7 +135,7 @@ pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
 }
 
 /// What drew, and on which ground: two lines, the last without its end.
-pub(super) fn drawn_by(drawn: &Drawn, ground: &Ground) -> String {
+pub(super) fn drawn_by(drawn: &Provenance, ground: &Ground) -> String {
     let mut line = format!("{} on the {}", drawn.technique, drawn.engine);
     if let Some(adapter) = &drawn.adapter {
         let _ = write!(line, " ({adapter})");

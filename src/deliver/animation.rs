@@ -5,7 +5,7 @@ use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::export::animation::{Frames, MOST_FRAMES};
 use crate::export::figure::{self, PictureExtras};
 use crate::export::report;
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::site::Site;
 use crate::study::{self, Event, Frame, OnEvent, Stopwatch, tell};
 use crate::view::View;
@@ -39,7 +39,7 @@ pub struct AnimationAnswer {
     /// All in JSON.
     pub report: String,
     /// What drew.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
 }
 
 /// Draws every instant of the site's study into a folder. Beside the study's events the stage `gif` is told as each of the
@@ -87,7 +87,7 @@ fn draw(
     asked: &AnimationRequest,
     folder: &Path,
     on_event: &mut OnEvent<'_>,
-) -> Result<(Drawn, Frames), DeliverError> {
+) -> Result<(Provenance, Frames), DeliverError> {
     let mut frames = Frames::new(folder, site.track.instants.len())?;
     note(frames.note(), on_event)?;
     let drawn = study::frames(site, asked.view, on_event, &mut |frame| -> Result<(), DeliverError> {

@@ -5,7 +5,7 @@ use super::sink::OpenSink;
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::report::ReportContext;
 use crate::export::{comparison, figure, raster};
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::site::Pair;
 use crate::study::{self, CompareOutcome, Event, OnEvent, Stopwatch, tell};
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ pub struct ComparisonAnswer {
     /// `compare.json`
     pub report: String,
     /// What drew the state after.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// The areas, in lines for people.
     pub table: String,
 }

@@ -4,7 +4,7 @@ use super::parts::{DrawnView, figure_context, note, note_letters, report_context
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::figure::{self, Diagram, PictureExtras};
 use crate::export::{raster, report};
-use crate::profile::{Drawn, Statistics};
+use crate::profile::{Provenance, Statistics};
 use crate::site::Site;
 use crate::study::{self, CountingPurpose, Event, InstantOutcome, InstantWants, OnEvent, Stopwatch, tell};
 use crate::view::{Surface, View};
@@ -48,7 +48,7 @@ pub struct InstantAnswer {
     /// All in JSON.
     pub report: String,
     /// What drew.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// What counting took, where that was asked and there is a sun.
     pub statistics: Option<Statistics>,
 }

@@ -3,7 +3,7 @@
 use crate::export::figure;
 use crate::export::report::ReportContext;
 use crate::mesh::Mesh;
-use crate::profile::{Drawn, Statistics, Timings};
+use crate::profile::{Provenance, Statistics, Timings};
 use crate::site::{Receivers, Site};
 use crate::study::{Event, OnEvent, StudyError, tell};
 
@@ -17,7 +17,7 @@ pub struct DrawnView<'a, S> {
     /// Whose faces those are.
     pub mesh: &'a Mesh,
     /// What drew.
-    pub drawn: &'a Drawn,
+    pub drawn: &'a Provenance,
 }
 
 /// What a drawing of a site needs beside the answer.
@@ -38,7 +38,7 @@ pub fn figure_context<'a, S>(site: &'a Site, seen: DrawnView<'a, S>) -> figure::
 pub(super) fn report_context<'a>(
     site: &'a Site,
     receivers: Receivers,
-    drawn: &'a Drawn,
+    drawn: &'a Provenance,
     timings: &'a Timings,
     statistics: Option<&'a Statistics>,
 ) -> ReportContext<'a> {

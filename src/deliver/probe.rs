@@ -5,7 +5,7 @@ use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::{figure, probe as encode};
 use crate::message::Words;
 use crate::profile::probe::Sunlight;
-use crate::site::Probing;
+use crate::site::ProbeSite;
 use crate::study::{self, Event, OnEvent, tell};
 use std::path::PathBuf;
 
@@ -34,7 +34,7 @@ pub struct ProbeAnswer {
 /// # Errors
 /// [`DeliverError`]; what cannot be written, before anything is searched.
 pub fn probe(
-    probing: &Probing,
+    probing: &ProbeSite,
     asked: &ProbeRequest,
     sink: Sink<'_>,
     on_event: &mut OnEvent<'_>,

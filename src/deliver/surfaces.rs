@@ -5,7 +5,7 @@ use super::sink::OpenSink;
 use super::{DeliverError, NamedFile, Sink, WrittenFiles};
 use crate::export::surfaces::{self, Surfaces};
 use crate::export::{figure, report};
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::site::{Receivers, Site};
 use crate::study::{self, Event, OnEvent, Stopwatch, SurfaceOutcome, tell};
 use std::path::PathBuf;
@@ -38,7 +38,7 @@ pub struct SurfacesAnswer {
     /// `profile.json`, whether it is one of the files or not.
     pub report: String,
     /// What drew.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// The hours of each component, in lines for people.
     pub summary: String,
 }

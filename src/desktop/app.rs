@@ -19,7 +19,7 @@ use super::work::Work;
 use super::{cards, look, panel, screen};
 use crate::export::figure::Colours;
 use crate::gpu::{Gpu, readback};
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::profile::probe::Sunlight;
 use crate::site::file::SiteFile;
 use crate::view::{Probe, View};
@@ -195,7 +195,7 @@ impl App {
     }
 
     /// What drew the picture.
-    pub fn drawn(&self) -> Option<&Drawn> {
+    pub fn drawn(&self) -> Option<&Provenance> {
         Some(&self.open.as_ref()?.viewer.shown()?.drawn)
     }
 

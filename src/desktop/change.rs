@@ -10,7 +10,7 @@ use crate::export::figure::ChangeColours;
 use crate::picture::HoursRaster;
 use crate::profile::Timings;
 use crate::profile::comparison::Alteration;
-use crate::site::{Method, Models, Overrides, Pair, Site, SiteError, Written, model};
+use crate::site::{Method, Models, Overrides, Pair, Site, SiteError, WrittenSite, model};
 use crate::study::{self, CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
 use eframe::egui;
 use glam::DVec3;
@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// A change that was found.
 pub(super) struct ChangeResult {
     /// The state before, as it was asked.
-    pub(super) before: Arc<Written>,
+    pub(super) before: Arc<WrittenSite>,
     /// What stands there before.
     pub(super) models: Models,
     /// Both states, without their models.
@@ -35,7 +35,7 @@ pub(super) struct ChangeResult {
 #[derive(Clone)]
 pub(super) struct BeforeState {
     /// As it was written.
-    pub(super) before: Arc<Written>,
+    pub(super) before: Arc<WrittenSite>,
     /// Its models. Those of a kept state stay as they were, whatever becomes of their files; those of another file are that
     /// file's.
     pub(super) models: Models,
@@ -69,14 +69,14 @@ impl BeforeState {
 ///
 /// # Errors
 /// As the command reads it.
-pub(super) fn read(path: &Path, project: &Project) -> Result<Written, SiteError> {
-    Written::read_beside(path, &project.written, &Overrides::default())
+pub(super) fn read(path: &Path, project: &Project) -> Result<WrittenSite, SiteError> {
+    WrittenSite::read_beside(path, &project.written, &Overrides::default())
 }
 
 /// Finds what changes from `before` to the open site: over the study and on the plan of the latter.
 pub(super) fn find(
     project: &Project,
-    before: Arc<Written>,
+    before: Arc<WrittenSite>,
     known: Option<BeforeState>,
     method: Method,
     number: u64,
@@ -91,7 +91,7 @@ pub(super) fn find(
         // the picture lies on this ground
         after.site.ground.level = Some(site.ground.level);
         let asked = Overrides { technique: Some(method), ..Overrides::default() };
-        let mut first = Written::clone(&before);
+        let mut first = WrittenSite::clone(&before);
         first.site.study = after.site.study.clone();
         first.site.plan = after.site.plan.clone();
         first.site.camera = after.site.camera.clone();
@@ -195,7 +195,7 @@ impl ChangeResult {
 }
 
 /// A path that a state came from, as people call it.
-pub(super) fn name_of(before: &Written) -> String {
+pub(super) fn name_of(before: &WrittenSite) -> String {
     let named = before.site.place.as_ref().and_then(|place| place.name.clone());
     named.filter(|name| !name.trim().is_empty()).unwrap_or_else(|| super::loading::name_of(Path::new(&before.file)))
 }

@@ -11,7 +11,7 @@ use crate::deliver::instant::{InstantRequest, Show, instant};
 use crate::deliver::lines::Lines;
 use crate::deliver::{Folder, Sink};
 use crate::site::file::{CameraTable, SiteFile};
-use crate::site::{Method, Models, Overrides, Site, SiteError, Written, model};
+use crate::site::{Method, Models, Overrides, Site, SiteError, WrittenSite, model};
 use crate::study::{Event, Stopwatch};
 use crate::sun::Zone;
 use crate::view::View;
@@ -54,7 +54,7 @@ pub(super) fn move_models(site: &mut SiteFile, from: &Path, to: &Path) {
 }
 
 /// What a site file at a path is to say, so that it reopens to the same view.
-pub(super) fn written(project: &Project, settings: &WindowSettings, eye: &Eye, path: &Path) -> Written {
+pub(super) fn written(project: &Project, settings: &WindowSettings, eye: &Eye, path: &Path) -> WrittenSite {
     let mut site = settings.site.clone();
     site.camera = camera(eye, &site.camera);
     site.study.technique = match settings.shown.method {
@@ -63,18 +63,18 @@ pub(super) fn written(project: &Project, settings: &WindowSettings, eye: &Eye, p
     };
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     move_models(&mut site, &project.written.folder, &folder);
-    Written { file: path.display().to_string(), folder, site, text: project.written.text.clone() }
+    WrittenSite { file: path.display().to_string(), folder, site, text: project.written.text.clone() }
 }
 
 /// The site as the eye sees it: the command draws from the saved camera, and so the same drawing.
-fn seen_from(project: &Project, settings: &WindowSettings, eye: &Eye) -> Written {
-    let mut written = Written { site: settings.site.clone(), ..project.written.clone() };
+fn seen_from(project: &Project, settings: &WindowSettings, eye: &Eye) -> WrittenSite {
+    let mut written = WrittenSite { site: settings.site.clone(), ..project.written.clone() };
     written.site.camera = camera(eye, &written.site.camera);
     written
 }
 
 /// What is handed in is what is seen: of the models that are open, whatever their files have become.
-fn site_of(written: &Written, asked: &Overrides, models: Option<Models>) -> Result<Site, SiteError> {
+fn site_of(written: &WrittenSite, asked: &Overrides, models: Option<Models>) -> Result<Site, SiteError> {
     Site::with_models(written, asked, || models.map_or_else(|| Models::read(written, model::load), Ok))
 }
 

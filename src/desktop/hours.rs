@@ -19,7 +19,7 @@ use crate::profile::probe::Sunlight;
 use crate::profile::{Profile, Shaded, hours as hours_of};
 use crate::shadow::{ShadowError, plan_surface};
 use crate::site::file::SiteFile;
-use crate::site::{Method, Probing, Site};
+use crate::site::{Method, ProbeSite, Site};
 use crate::study::{OnEvent, Outcome, Stopwatch, StudyError};
 use crate::sun::DayWindow;
 use crate::view::{Grid, Probe, Surface};
@@ -291,7 +291,7 @@ pub(super) fn probe(project: &Project, probe: Probe, date: NaiveDate, context: e
     let site = Arc::clone(&project.site);
     Work::start(context, move |on_event| {
         let day = DayWindow::on(&site.place, date, None, None).map_err(StudyError::from)?;
-        let probing = Probing {
+        let probing = ProbeSite {
             ground: site.ground,
             place: site.place.clone(),
             mesh: site.mesh.clone(),

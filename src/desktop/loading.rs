@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 use crate::message::Words;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::file::{PlaceTable, SiteFile, Text};
-use crate::site::{Models, Overrides, Site, SiteError, Written, model};
+use crate::site::{Models, Overrides, Site, SiteError, WrittenSite, model};
 use eframe::egui;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub(super) struct Project {
     /// Where its site file lies; none yet for a bare model.
     pub(super) path: Option<PathBuf>,
     /// As it is written.
-    pub(super) written: Written,
+    pub(super) written: WrittenSite,
     /// As it is meant.
     pub(super) site: Arc<Site>,
     /// What the picture leaves out.
@@ -60,9 +60,9 @@ pub(super) enum LoadRequest {
     /// A bare model, where it stands.
     Placed(BareModel),
     /// What a window that has ended had open: its site file, and what was read of it.
-    Left(Option<PathBuf>, Box<Written>),
+    Left(Option<PathBuf>, Box<WrittenSite>),
     /// The open site, as it is written now, what of it is hidden, and what may still do.
-    Again(Box<Written>, Hidden, Box<LoadedSite>),
+    Again(Box<WrittenSite>, Hidden, Box<LoadedSite>),
 }
 
 /// Work that goes on beside the window.
@@ -150,7 +150,7 @@ pub(super) fn name_of(path: &Path) -> String {
 
 fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, LoadError> {
     let (path, written) = match wanted {
-        LoadRequest::File(path) => match Written::read(&path, &Overrides::default()) {
+        LoadRequest::File(path) => match WrittenSite::read(&path, &Overrides::default()) {
             Err(SiteError::NoPlaceForModel { .. }) => {
                 // a model that cannot be read is told before its place is asked
                 crate::site::load_mesh(&path, &Overrides::default()).map_err(|error| told(&error, &FileWords))?;
@@ -164,7 +164,7 @@ fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, Load
         },
         LoadRequest::Placed(bare) => {
             let asked = Overrides { place: Some(bare.place.clone()), ..Overrides::default() };
-            let mut written = Written::read(&bare.path, &asked).map_err(|error| told(&error, &FileWords))?;
+            let mut written = WrittenSite::read(&bare.path, &asked).map_err(|error| told(&error, &FileWords))?;
             if let Some(table) = written.site.model.first_mut() {
                 let north = bare.north().map_err(|error| told(&error, &FileWords))?;
                 table.north = Some(north).filter(|north| *north != 0.0);
@@ -185,7 +185,7 @@ fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, Load
 /// The site as it is written, with what the window needs of it. What an open site has, and still does, is not made again.
 fn read(
     path: Option<PathBuf>,
-    written: Written,
+    written: WrittenSite,
     hidden: Hidden,
     before: Option<&LoadedSite>,
     progress: &LoadProgress,
@@ -238,7 +238,7 @@ fn visible(site: &Arc<Site>, hidden: &Hidden) -> Arc<Site> {
     Arc::new(Site { receives, ..Site::clone(site) })
 }
 
-fn read_models(written: &Written, progress: &LoadProgress) -> Result<Models, SiteError> {
+fn read_models(written: &WrittenSite, progress: &LoadProgress) -> Result<Models, SiteError> {
     progress.tell(0.15, "Reading the models");
     let count = written.site.model.len().max(1) as f32;
     let done = Cell::new(0.0);
@@ -283,12 +283,12 @@ impl Project {
     }
 
     /// Its models, for a site as it is written, where they are those of that.
-    pub(super) fn models_of(&self, written: &Written) -> Option<Models> {
+    pub(super) fn models_of(&self, written: &WrittenSite) -> Option<Models> {
         self.models.are_those_of(written).then(|| self.models.clone())
     }
 
     /// The files that it is read from, and those of the state that it is compared with.
-    pub(super) fn inputs(&self, before: Option<&Written>) -> Vec<PathBuf> {
+    pub(super) fn inputs(&self, before: Option<&WrittenSite>) -> Vec<PathBuf> {
         let of_before = before.map(|before| [vec![PathBuf::from(&before.file)], before.model_files()].concat());
         let files = self.path.iter().cloned().chain(self.written.model_files());
         files.chain(of_before.unwrap_or_default()).collect()
@@ -304,10 +304,10 @@ impl Project {
     ///
     /// # Errors
     /// What is wrong with its file.
-    pub(super) fn on_disk(&self, now: &SiteFile) -> Result<Written, SiteError> {
-        let of_window = || Written { site: now.clone(), ..self.written.clone() };
+    pub(super) fn on_disk(&self, now: &SiteFile) -> Result<WrittenSite, SiteError> {
+        let of_window = || WrittenSite { site: now.clone(), ..self.written.clone() };
         let Some(path) = &self.path else { return Ok(of_window()) };
-        let mut read = Written::read(path, &Overrides::default())?;
+        let mut read = WrittenSite::read(path, &Overrides::default())?;
         if read.text == self.written.text {
             return Ok(of_window());
         }

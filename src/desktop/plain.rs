@@ -5,7 +5,7 @@ use crate::choice::{Engine, Method, Receivers, Settings};
 use crate::deliver::instant::seen_casts;
 use crate::deliver::{DrawnView, figure_context};
 use crate::export::figure::{self, PictureExtras};
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{Scene, ShadowError, Technique};
 use crate::study::live::far_view;
@@ -23,7 +23,7 @@ pub(super) struct PlainDrawer {
 ///
 /// # Errors
 /// What ray casting says.
-pub(super) fn draw(kept: &mut Option<PlainDrawer>, wish: &Wish) -> Result<(Vec<[u8; 4]>, Drawn), ShadowError> {
+pub(super) fn draw(kept: &mut Option<PlainDrawer>, wish: &Wish) -> Result<(Vec<[u8; 4]>, Provenance), ShadowError> {
     let sun_samples = wish.way.settings.sun_samples;
     let site = &*wish.site;
     let new = || {
@@ -43,7 +43,7 @@ pub(super) fn draw(kept: &mut Option<PlainDrawer>, wish: &Wish) -> Result<(Vec<[
         true => plain.rays.draw(wish.to_sun)?.read()?,
         false => Mask { width, height, share: vec![0; width as usize * height as usize] },
     };
-    let drawn = Drawn {
+    let drawn = Provenance {
         technique: Method::RayCast,
         finder: None,
         engine: Engine::Cpu,

@@ -5,7 +5,7 @@ use super::loading::{LoadRequest, name_of};
 use super::question::Question;
 use crate::export::recovery::{Slot, UnsavedSite, left_behind};
 use crate::site::file::SiteFile;
-use crate::site::{Method, Written};
+use crate::site::{Method, WrittenSite};
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -95,7 +95,7 @@ impl App {
             recovery.seen = Some((state, first, last));
             return;
         }
-        let mut written = Written { site: site.clone(), ..open.project.written.clone() };
+        let mut written = WrittenSite { site: site.clone(), ..open.project.written.clone() };
         written.site.study.technique = Some(method.word().to_owned());
         let unsaved = UnsavedSite { path: open.project.path.clone(), written };
         // what cannot be kept now is tried again with the next change
@@ -152,7 +152,7 @@ impl App {
                 }
             },
         };
-        self.load(LoadRequest::Left(path, Box::new(Written { site, ..written })), context);
+        self.load(LoadRequest::Left(path, Box::new(WrittenSite { site, ..written })), context);
         self.saving.recovery.restoring = Some((slot, set));
     }
 

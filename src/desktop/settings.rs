@@ -2,7 +2,7 @@
 
 use crate::export::figure::Diagram;
 use crate::site::file::SiteFile;
-use crate::site::{Method, Written};
+use crate::site::{Method, WrittenSite};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub(super) struct WindowSettings {
     /// The components that the picture leaves out, by name.
     pub(super) hidden: Hidden,
     /// The state that it is compared with.
-    pub(super) before: Option<Arc<Written>>,
+    pub(super) before: Option<Arc<WrittenSite>>,
 }
 
 /// Names of components that the window's picture leaves out, whatever they do.

@@ -12,7 +12,7 @@ use crate::export::figure::{Colours, Diagram};
 use crate::gpu::{Gpu, readback};
 use crate::message::Worded;
 use crate::picture::{COLOURS, Picture, Style};
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::shadow::ShadowError;
 use crate::site::Site;
 use crate::study::StudyError;
@@ -72,7 +72,7 @@ pub(super) struct StagePicture {
     /// What was wished.
     pub(super) wish: Wish,
     /// What drew it.
-    pub(super) drawn: Drawn,
+    pub(super) drawn: Provenance,
     /// It is without what lies over sun and shadow.
     pub(super) plain: bool,
     /// How long that took until the adapter had all of it, seconds: what a size of the picture has a say in. How long the

@@ -4,7 +4,7 @@
 //! window knows whether another one is still at work on what it finds.
 
 use super::{ExportError, file};
-use crate::site::Written;
+use crate::site::WrittenSite;
 use crate::site::file::SiteFile;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions};
@@ -16,7 +16,7 @@ pub struct UnsavedSite {
     /// Its site file; a bare model has none yet.
     pub path: Option<PathBuf>,
     /// As it is set; its text is that of the site file when it was read.
-    pub written: Written,
+    pub written: WrittenSite,
 }
 
 /// The same in a file.
@@ -82,7 +82,7 @@ impl Slot {
     pub fn keep(&self, unsaved: &UnsavedSite) -> Result<(), ExportError> {
         let what = "file of what is not saved";
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        let Written { file, folder, site, text } = &unsaved.written;
+        let WrittenSite { file, folder, site, text } = &unsaved.written;
         let record = Record {
             gnomon: env!("CARGO_PKG_VERSION").to_owned(),
             path: unsaved.path.as_deref().map(absolute),
@@ -100,7 +100,7 @@ impl Slot {
         let record: Record = serde_json::from_slice(&fs::read(&self.file).ok()?).ok()?;
         let Record { path, file, folder, text, site, .. } = record;
         let site = SiteFile::parse(&file, &site).ok()?;
-        Some(UnsavedSite { path, written: Written { file, folder, site, text } })
+        Some(UnsavedSite { path, written: WrittenSite { file, folder, site, text } })
     }
 
     /// All is saved, or nobody wants it: nothing is kept any more.

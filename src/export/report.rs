@@ -6,7 +6,7 @@ use super::ExportError;
 use super::surfaces::Surfaces;
 use crate::choice::{Filter, Finder, Receivers, Settings};
 use crate::profile::surfaces::Exposure;
-use crate::profile::{Drawn, Profile, Statistics, Timings};
+use crate::profile::{Profile, Provenance, Statistics, Timings};
 use crate::site::Ground;
 use crate::sun::{Air, Day, Instant, Place, Polar, SunTrack, Zone};
 use crate::view::{Grid, View};
@@ -166,7 +166,7 @@ pub struct ReportContext<'a> {
     /// The ground plane.
     pub ground: Ground,
     /// What drew.
-    pub drawn: &'a Drawn,
+    pub drawn: &'a Provenance,
     /// How long that took.
     pub timings: &'a Timings,
     /// What counting took, where that was asked.

@@ -58,7 +58,7 @@ pub struct Unfinished {
 
 /// What drew an answer: never [`Method::Auto`], [`Finder::Auto`] or [`Engine::Auto`], always the choice that was made.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drawn {
+pub struct Provenance {
     /// The technique.
     pub technique: Method,
     /// Who found silhouettes; absent where nobody did.

@@ -2,7 +2,7 @@
 
 use super::accumulate::Sum;
 use super::compare::{Difference, Edges};
-use super::{Drawn, Shaded};
+use super::{Provenance, Shaded};
 use crate::choice::{Promise, Truth};
 use crate::shadow::{DrawnMask, ShadowError};
 use crate::view::{Grid, Mask};
@@ -46,7 +46,7 @@ impl Verification {
 #[derive(Clone, Debug)]
 pub struct Row {
     /// What drew it.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// What it was held against.
     pub against: Truth,
     /// What it promises.
@@ -169,7 +169,7 @@ impl Tally {
     /// None for masks in memory.
     pub fn row(
         self,
-        drawn: Drawn,
+        drawn: Provenance,
         against: Truth,
         promise: Promise,
         truth: Option<&Shaded>,

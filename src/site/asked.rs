@@ -1,6 +1,6 @@
 //! What a face asks beside the site file, and the reading of its values.
 
-use super::error::{At, SiteError};
+use super::error::{FieldLocation, SiteError};
 use super::model::Up;
 use super::{Engine, Finder, Method, Receivers, Settings};
 use crate::message::{Field, Message, Words, message};
@@ -74,11 +74,11 @@ pub(super) fn numbers<const N: usize>(field: Field, text: &str, example: &'stati
         text.split(',').map(|number| number.trim().parse().ok().filter(|number: &f64| number.is_finite())).collect();
     read.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| {
         let what = format!("\"{text}\" is not {N} numbers with commas between them");
-        refuse(At::Field(field), message![what; "write for example ", (field, example)])
+        refuse(FieldLocation::Field(field), message![what; "write for example ", (field, example)])
     })
 }
 
 /// A value that cannot be taken.
-pub(super) fn refuse(at: At, message: impl Into<Message>) -> SiteError {
+pub(super) fn refuse(at: FieldLocation, message: impl Into<Message>) -> SiteError {
     SiteError::Value { at, message: Box::new(message.into()) }
 }

@@ -5,7 +5,7 @@ use super::asked::{Overrides, refuse};
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::keys;
-use super::written::Written;
+use super::written::WrittenSite;
 use crate::choice::ChoiceError;
 use crate::message::message;
 use crate::sun::SunTrack;
@@ -24,7 +24,7 @@ const ASIDE_DEG: f64 = 35.0;
 const MARGIN: f64 = 1.06;
 
 /// The side that is seen instead of the perspective, as asked or as written.
-pub(super) fn side(written: &Written, asked: &Overrides) -> Result<Option<Side>, SiteError> {
+pub(super) fn side(written: &WrittenSite, asked: &Overrides) -> Result<Option<Side>, SiteError> {
     match (asked.side, &written.site.camera.side) {
         (None, Some(word)) => {
             let read = word.parse().map(Some);
@@ -37,7 +37,7 @@ pub(super) fn side(written: &Written, asked: &Overrides) -> Result<Option<Side>,
 /// The camera, or the one that sees as much as a side is to show; `shadows` are the south-west and north-east corner of
 /// what should be in view on the ground.
 pub(super) fn camera(
-    written: &Written,
+    written: &WrittenSite,
     side: Option<Side>,
     bounds: Bounds,
     shadows: [DVec2; 2],

@@ -1,35 +1,38 @@
 //! Several days, as asked: of the command line, or of the study.
 
 use super::asked::{Overrides, refuse};
-use super::error::{At, SiteError};
+use super::error::{FieldLocation, SiteError};
 use super::study::date_of;
-use super::written::Written;
+use super::written::WrittenSite;
 use crate::message::{Field, Message, message};
 use crate::sun::{MOST_DAYS, Reading, SunError};
 use chrono::NaiveDate;
 
 /// The days of `--from-date` and `--to-date`, or else of the study's `dates` where the command line names no date of its
 /// own, and where they are asked; none where a single day is.
-pub(super) fn several(written: &Written, asked: &Overrides) -> Result<Option<(Vec<NaiveDate>, At)>, SiteError> {
-    let date = |field, text: &Option<String>| date_of(text.clone().map(|text| (text, At::Field(field))));
+pub(super) fn several(
+    written: &WrittenSite,
+    asked: &Overrides,
+) -> Result<Option<(Vec<NaiveDate>, FieldLocation)>, SiteError> {
+    let date = |field, text: &Option<String>| date_of(text.clone().map(|text| (text, FieldLocation::Field(field))));
     match (date(Field::FromDate, &asked.from_date)?, date(Field::ToDate, &asked.to_date)?) {
         (Some(first), Some(last)) => {
             if asked.date.is_some() {
                 let message =
                     message!["says nothing beside ", Field::FromDate, " and ", Field::ToDate; "leave one out"];
-                return Err(refuse(At::Field(Field::Date), message));
+                return Err(refuse(FieldLocation::Field(Field::Date), message));
             }
             let before = message![format!("{last} is before "), (Field::FromDate, first.to_string()); "exchange them"];
-            let dates = between(first, last, At::Field(Field::ToDate), before)?;
-            return Ok(Some((dates, At::Field(Field::FromDate))));
+            let dates = between(first, last, FieldLocation::Field(Field::ToDate), before)?;
+            return Ok(Some((dates, FieldLocation::Field(Field::FromDate))));
         }
         (Some(_), None) => {
             let message = message!["needs ", Field::ToDate, ", the last of the days"];
-            return Err(refuse(At::Field(Field::FromDate), message));
+            return Err(refuse(FieldLocation::Field(Field::FromDate), message));
         }
         (None, Some(_)) => {
             let message = message!["needs ", Field::FromDate, ", the first of the days"];
-            return Err(refuse(At::Field(Field::ToDate), message));
+            return Err(refuse(FieldLocation::Field(Field::ToDate), message));
         }
         (None, None) => {}
     }
@@ -50,7 +53,7 @@ pub(super) fn several(written: &Written, asked: &Overrides) -> Result<Option<(Ve
     Ok(Some((dates, at())))
 }
 
-fn between(first: NaiveDate, last: NaiveDate, at: At, before: Message) -> Result<Vec<NaiveDate>, SiteError> {
+fn between(first: NaiveDate, last: NaiveDate, at: FieldLocation, before: Message) -> Result<Vec<NaiveDate>, SiteError> {
     let days = (last - first).num_days() + 1;
     if days < 1 {
         return Err(refuse(at, before));
@@ -62,7 +65,7 @@ fn between(first: NaiveDate, last: NaiveDate, at: At, before: Message) -> Result
 }
 
 /// A reading that is meant for each day.
-pub(super) fn of_each_day(text: &str, at: At) -> Result<Reading, SiteError> {
+pub(super) fn of_each_day(text: &str, at: FieldLocation) -> Result<Reading, SiteError> {
     let reading: Reading = text.parse().map_err(|error| SiteError::sun(at.clone(), error))?;
     if reading.date.is_some() {
         let what = format!("{text} has a date, but is meant for each day");

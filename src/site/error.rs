@@ -7,7 +7,7 @@ use crate::sun::SunError;
 
 /// Where something was asked.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum At {
+pub enum FieldLocation {
     /// In a site file.
     Key {
         /// The file, as the user named it.
@@ -21,19 +21,19 @@ pub enum At {
     Field(Field),
 }
 
-impl At {
+impl FieldLocation {
     fn piece(&self) -> Piece {
         match self.clone() {
-            At::Key { file, table, key } => Piece::At { file, table, key },
-            At::Field(field) => field.into(),
+            FieldLocation::Key { file, table, key } => Piece::At { file, table, key },
+            FieldLocation::Field(field) => field.into(),
         }
     }
 
     /// What is said of it: of a site file its fields are keys.
     fn tells(&self, message: Message) -> Message {
         match self {
-            At::Key { .. } => message.of_keys().of(self.piece()),
-            At::Field(_) => message.of(self.piece()),
+            FieldLocation::Key { .. } => message.of_keys().of(self.piece()),
+            FieldLocation::Field(_) => message.of(self.piece()),
         }
     }
 }
@@ -84,7 +84,7 @@ pub enum SiteError {
     /// A table or key that does not exist.
     Unknown {
         /// The table or key.
-        at: At,
+        at: FieldLocation,
         /// The nearest one, with its table.
         nearest: String,
     },
@@ -100,14 +100,14 @@ pub enum SiteError {
     /// A value that cannot be taken.
     Value {
         /// Where it was asked.
-        at: At,
+        at: FieldLocation,
         /// What is wrong, and the way out.
         message: Box<Message>,
     },
     /// A place, reading or window that cannot be taken.
     Sun {
         /// Where it was asked.
-        at: At,
+        at: FieldLocation,
         /// Why.
         error: Box<SunError>,
     },
@@ -126,7 +126,7 @@ pub enum SiteError {
     /// A name in `casts` or `receives` that no component has.
     UnknownName {
         /// Where it was asked.
-        at: At,
+        at: FieldLocation,
         /// As written.
         name: String,
         /// The nearest name in that model.
@@ -218,7 +218,7 @@ fn no_study(file: &str, missing: &[(Field, &'static str)]) -> Message {
 
 impl SiteError {
     /// A fault of place or time, where it was asked.
-    pub(super) fn sun(at: At, error: SunError) -> SiteError {
+    pub(super) fn sun(at: FieldLocation, error: SunError) -> SiteError {
         SiteError::Sun { at, error: Box::new(error) }
     }
 
@@ -226,7 +226,7 @@ impl SiteError {
     pub fn is_wrong_use(&self) -> bool {
         match self {
             SiteError::NoPlaceForModel { .. } | SiteError::NoStudy { .. } | SiteError::NoProbe { .. } => true,
-            SiteError::Value { at, .. } | SiteError::Sun { at, .. } => matches!(at, At::Field(_)),
+            SiteError::Value { at, .. } | SiteError::Sun { at, .. } => matches!(at, FieldLocation::Field(_)),
             _ => false,
         }
     }

@@ -1,7 +1,7 @@
 //! The site file as written: TOML → [`SiteFile`]. What it means is found in [`crate::site::Site::load`].
 
 use super::asked::refuse;
-use super::error::{At, SiteError};
+use super::error::{FieldLocation, SiteError};
 use super::keys;
 use crate::message::message;
 use serde::de::{DeserializeOwned, Error as _};
@@ -281,7 +281,7 @@ fn typed<T: DeserializeOwned>(file: &str, name: &str, brackets: &str, value: &Va
         let key = text.rsplit_once("in `").map_or("", |(_, key)| key.trim_end().trim_end_matches('`'));
         let key = key.split('.').next().unwrap_or_default();
         let what = error.message().replace("f64", "a number");
-        let at = At::Key { file: file.to_owned(), table: brackets.to_owned(), key: key.to_owned() };
+        let at = FieldLocation::Key { file: file.to_owned(), table: brackets.to_owned(), key: key.to_owned() };
         refuse(at, message![what; format!("write for example {}", keys::example(name, key))])
     })
 }

@@ -2,10 +2,10 @@
 
 use super::Receivers;
 use super::asked::{Overrides, refuse};
-use super::error::{At, SiteError};
+use super::error::{FieldLocation, SiteError};
 use super::extent::Bounds;
 use super::terrain::{self, BuriedShare};
-use super::written::Written;
+use super::written::WrittenSite;
 use crate::mesh::Mesh;
 use crate::message::{Field, message};
 
@@ -157,9 +157,9 @@ fn percent(share: f64) -> String {
 ///
 /// # Errors
 /// [`SiteError::Value`] where it is no height.
-pub(super) fn level(written: &Written, asked: &Overrides) -> Result<Option<f64>, SiteError> {
+pub(super) fn level(written: &WrittenSite, asked: &Overrides) -> Result<Option<f64>, SiteError> {
     let (level, at) = match (asked.ground, written.site.ground.level) {
-        (Some(level), _) => (level, At::Field(Field::Ground)),
+        (Some(level), _) => (level, FieldLocation::Field(Field::Ground)),
         (None, Some(level)) => (level, written.key("ground", "level")),
         (None, None) => return Ok(None),
     };
@@ -170,7 +170,7 @@ pub(super) fn level(written: &Written, asked: &Overrides) -> Result<Option<f64>,
 ///
 /// # Errors
 /// [`SiteError::Value`] where it is none.
-pub(super) fn checked(level: f64, at: At) -> Result<f64, SiteError> {
+pub(super) fn checked(level: f64, at: FieldLocation) -> Result<f64, SiteError> {
     // a NaN is not within either
     if level.abs() <= FARTHEST_M {
         // −0 is 0

@@ -1,7 +1,7 @@
 //! A site without a file: what a program puts together itself.
 
 use super::asked::refuse;
-use super::error::{At, SiteError};
+use super::error::{FieldLocation, SiteError};
 use super::extent::{Bounds, with_shadows};
 use super::load::VIEW_CUT;
 use super::{Engine, Finder, Ground, Method, Receivers, Settings, Site, camera, ground, notes, plan};
@@ -27,9 +27,9 @@ impl Site {
         grid: Grid,
     ) -> Result<Site, SiteError> {
         let bounds = Bounds::of(&mesh).ok_or(SiteError::EmptyMesh)?;
-        let level = ground.map(|level| ground::checked(level, At::Field(Field::Ground))).transpose()?;
+        let level = ground.map(|level| ground::checked(level, FieldLocation::Field(Field::Ground))).transpose()?;
         if track.instants.is_empty() {
-            return Err(refuse(At::Field(Field::From), message!["the track has no instant"; "give it one"]));
+            return Err(refuse(FieldLocation::Field(Field::From), message!["the track has no instant"; "give it one"]));
         }
         plan::check(&grid)?;
         let ground = Ground::of(&mesh, bounds, level);

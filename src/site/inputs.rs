@@ -2,7 +2,7 @@
 
 use super::models::placed;
 use super::names::on_disk;
-use super::written::Written;
+use super::written::WrittenSite;
 use super::{SiteError, model};
 use std::iter;
 use std::path::{Path, PathBuf};
@@ -14,12 +14,12 @@ use std::path::{Path, PathBuf};
 /// What cannot be read, and what is wrong with a site file's form.
 pub fn inputs(path: &Path) -> Result<Vec<PathBuf>, SiteError> {
     let path = &*on_disk(path);
-    let written = Written::read_as_it_is(path, true)?;
+    let written = WrittenSite::read_as_it_is(path, true)?;
     let file = if path.is_dir() { path.join("site.toml") } else { path.to_owned() };
     Ok(iter::once(file).chain(written.model_files()).collect())
 }
 
-impl Written {
+impl WrittenSite {
     /// Its models, and what those name beside them: buffers, and pictures, too, though they are not read.
     pub fn model_files(&self) -> Vec<PathBuf> {
         let models = (0..self.site.model.len()).filter_map(|index| Some(on_disk(&placed(self, index).ok()?.0)));

@@ -1,7 +1,7 @@
 //! Holds a site file to the keys that there are, and says what to do about one that is not among them.
 
 use super::asked::refuse;
-use super::error::{At, SiteError};
+use super::error::{FieldLocation, SiteError};
 use super::key_table::{SITE_KEYS, SITE_TABLES, SiteKey};
 use toml::{Table, Value};
 
@@ -36,7 +36,7 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
             }
             _ if known => {
                 let brackets = bracketed(name);
-                let at = At::Key { file: file.to_owned(), table: brackets.clone(), key: String::new() };
+                let at = FieldLocation::Key { file: file.to_owned(), table: brackets.clone(), key: String::new() };
                 let what = format!("write {brackets} on a line of its own, and its keys on the lines below it");
                 return Err(refuse(at, what));
             }
@@ -60,7 +60,7 @@ fn check_keys(file: &str, name: &str, brackets: &str, table: &Table) -> Result<(
     for key in table.keys() {
         if !SITE_KEYS.iter().any(|known| known.table == name && known.key == key) {
             return Err(SiteError::Unknown {
-                at: At::Key { file: file.to_owned(), table: brackets.to_owned(), key: key.clone() },
+                at: FieldLocation::Key { file: file.to_owned(), table: brackets.to_owned(), key: key.clone() },
                 nearest: nearest_key(key, name),
             });
         }
@@ -70,7 +70,7 @@ fn check_keys(file: &str, name: &str, brackets: &str, table: &Table) -> Result<(
 
 /// A name before any table: a misspelt table, or a key that lacks its table.
 fn unknown_name(file: &str, name: &str, is_table: bool) -> SiteError {
-    let at = |table: String, key: &str| At::Key { file: file.to_owned(), table, key: key.to_owned() };
+    let at = |table: String, key: &str| FieldLocation::Key { file: file.to_owned(), table, key: key.to_owned() };
     if is_table {
         let tables = SITE_TABLES.iter().map(|(table, ..)| *table);
         let nearest = crate::choice::nearest(name, tables).unwrap_or("place");

@@ -1,12 +1,12 @@
 //! The request as written → as meant.
 
 use super::asked::{Overrides, refuse};
-use super::error::{At, SiteError};
+use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
 use super::model::{self, Model, ModelError, Placement};
 use super::models::{Models, note_see_through};
 use super::names::on_disk;
-use super::written::Written;
+use super::written::WrittenSite;
 use super::{Finder, Ground, Method, Receivers, Site, camera, ground, likeness, notes, plan, study};
 use crate::choice::ChoiceError;
 use crate::mesh::Mesh;
@@ -27,7 +27,7 @@ pub(super) const VIEW_CUT: f64 = 1.5;
 /// # Errors
 /// Everything that can be wrong with a site file's form, its place and its study.
 pub fn load_sun(path: &Path, asked: &Overrides) -> Result<(Place, SunTrack), SiteError> {
-    let written = Written::read(path, asked)?;
+    let written = WrittenSite::read(path, asked)?;
     let place = written.place(asked)?;
     let track = study::track(&place, &written, asked)?;
     Ok((place, track))
@@ -74,7 +74,7 @@ pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError
         notes.extend(of_model.iter().map(|note| note.in_words(words)));
         return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes });
     }
-    let written = Written::read(path, &Overrides { up, ..Overrides::default() })?;
+    let written = WrittenSite::read(path, &Overrides { up, ..Overrides::default() })?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
     let notes = models.notes(&written, &casts, words);
@@ -100,7 +100,7 @@ impl Site {
         asked: &Overrides,
         read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
     ) -> Result<Site, SiteError> {
-        Self::of(&Written::read(path, asked)?, asked, read_model)
+        Self::of(&WrittenSite::read(path, asked)?, asked, read_model)
     }
 
     /// As [`Site::load_with`], of a request that is in memory.
@@ -108,7 +108,7 @@ impl Site {
     /// # Errors
     /// As [`Site::load`].
     pub fn of(
-        written: &Written,
+        written: &WrittenSite,
         asked: &Overrides,
         read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
     ) -> Result<Site, SiteError> {
@@ -120,7 +120,7 @@ impl Site {
     /// # Errors
     /// As [`Site::load`].
     pub fn with_models(
-        written: &Written,
+        written: &WrittenSite,
         asked: &Overrides,
         models: impl FnOnce() -> Result<Models, SiteError>,
     ) -> Result<Site, SiteError> {
@@ -133,7 +133,7 @@ impl Site {
                 "is the depth of the paper's hextree";
                 "say ", (Field::Silhouette, "hextree"), " with it, or leave it out"
             ];
-            return Err(refuse(At::Field(Field::HextreeDepth), message));
+            return Err(refuse(FieldLocation::Field(Field::HextreeDepth), message));
         }
         // a NaN is not above zero either
         if let Some(width) = asked.settings.smoothie_width_m.filter(|width| !(width.is_finite() && *width > 0.0)) {
@@ -141,7 +141,7 @@ impl Site {
                 format!("{width} is no width");
                 "write metres above 0, for example ", (Field::SmoothieWidth, "0.5")
             ];
-            return Err(refuse(At::Field(Field::SmoothieWidth), message));
+            return Err(refuse(FieldLocation::Field(Field::SmoothieWidth), message));
         }
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
@@ -181,7 +181,7 @@ impl Site {
     }
 }
 
-fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {
+fn method(written: &WrittenSite, asked: &Overrides) -> Result<Method, SiteError> {
     match (asked.technique, &written.site.study.technique) {
         (Some(method), _) => Ok(method),
         (None, Some(word)) => {
@@ -193,7 +193,7 @@ fn method(written: &Written, asked: &Overrides) -> Result<Method, SiteError> {
 
 /// Metres of a texel on surfaces.
 fn patch_cell(receivers: Receivers, asked: &Overrides) -> Result<f64, SiteError> {
-    let at = At::Field(Field::PatchCell);
+    let at = FieldLocation::Field(Field::PatchCell);
     match asked.patch_cell {
         None => Ok(DEFAULT_CELL_M),
         Some(_) if receivers != Receivers::Surfaces => {

@@ -30,7 +30,7 @@ pub mod typed;
 mod written;
 
 pub use asked::Overrides;
-pub use error::{At, SiteError};
+pub use error::{FieldLocation, SiteError};
 pub use ground::{Ground, GroundFrom, metres};
 pub use inputs::inputs;
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
@@ -38,8 +38,8 @@ pub use likeness::{Likeness, Mend};
 pub use load::{CoordinateFrame, LoadedMesh, load_mesh, load_sun};
 pub use models::Models;
 pub use pair::Pair;
-pub use probe::{Probing, load_probes};
-pub use written::Written;
+pub use probe::{ProbeSite, load_probes};
+pub use written::WrittenSite;
 
 pub use crate::choice::{Engine, Finder, Method, Receivers, Settings};
 

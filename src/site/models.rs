@@ -10,7 +10,7 @@ use super::likeness::{self, Likeness};
 use super::model::{Fault, Model, ModelError, Placement, SeeThrough, Up};
 use super::names::{few, on_disk};
 use super::notes;
-use super::written::Written;
+use super::written::WrittenSite;
 use crate::choice::ChoiceError;
 use crate::mesh::{Component, Mesh};
 use crate::message::{Message, Words, message};
@@ -54,7 +54,7 @@ impl Models {
     /// # Errors
     /// Everything that can be wrong with a site file's models.
     pub fn read(
-        written: &Written,
+        written: &WrittenSite,
         read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
     ) -> Result<Models, SiteError> {
         if written.site.model.is_empty() {
@@ -98,7 +98,7 @@ impl Models {
     }
 
     /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.
-    pub fn are_those_of(&self, written: &Written) -> bool {
+    pub fn are_those_of(&self, written: &WrittenSite) -> bool {
         let is_it = |(index, source): (usize, &Source)| {
             placed(written, index).is_ok_and(|(file, placement)| file == source.file && placement == source.placement)
         };
@@ -127,7 +127,7 @@ impl Models {
     }
 
     /// Per component whether it casts, and whether it receives, as a request says it.
-    pub(super) fn roles(&self, written: &Written) -> Result<[Vec<bool>; 2], SiteError> {
+    pub(super) fn roles(&self, written: &WrittenSite) -> Result<[Vec<bool>; 2], SiteError> {
         let mut roles = [Vec::new(), Vec::new()];
         for (index, (table, of_model)) in written.site.model.iter().zip(&self.of_model).enumerate() {
             let components = &self.mesh.components[of_model.clone()];
@@ -139,7 +139,7 @@ impl Models {
 
     /// What the user should know of how they were read, and of what casts; each a sentence without its stop that names the
     /// model.
-    pub(super) fn notes(&self, written: &Written, casts: &[bool], words: &dyn Words) -> Vec<String> {
+    pub(super) fn notes(&self, written: &WrittenSite, casts: &[bool], words: &dyn Words) -> Vec<String> {
         let mut notes: Vec<String> = self.notes.iter().map(|note| note.in_words(words)).collect();
         for (index, (of_model, materials)) in self.of_model.iter().zip(&self.see_through).enumerate() {
             let casts = &casts[of_model.clone()];
@@ -169,7 +169,7 @@ pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Opti
 
 /// Reads one of the models.
 fn model(
-    written: &Written,
+    written: &WrittenSite,
     index: usize,
     read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
 ) -> Result<Model, SiteError> {
@@ -185,7 +185,7 @@ fn model(
 }
 
 /// What people call a model: as the site file does.
-fn name(written: &Written, index: usize) -> &str {
+fn name(written: &WrittenSite, index: usize) -> &str {
     written.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default()
 }
 
@@ -216,7 +216,7 @@ fn no_file(path: &str, file: &Path) -> Message {
     }
 }
 
-fn sources(written: &Written) -> Result<Vec<Source>, SiteError> {
+fn sources(written: &WrittenSite) -> Result<Vec<Source>, SiteError> {
     let source = |index| {
         let (file, placement) = placed(written, index)?;
         Ok(Source { stamp: stamp(&file), file, placement })
@@ -230,7 +230,7 @@ fn stamp(file: &Path) -> Option<(SystemTime, u64)> {
 }
 
 /// Where one of the models lies, and where it stands.
-pub(super) fn placed(written: &Written, index: usize) -> Result<(PathBuf, Placement), SiteError> {
+pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Placement), SiteError> {
     let table = &written.site.model[index];
     let at = |key: &str| written.model_key(index, key);
     let Some(path) = &table.path else {
@@ -272,7 +272,7 @@ pub(super) fn placed(written: &Written, index: usize) -> Result<(PathBuf, Placem
 
 /// Per component, whether a list of names (or all) means it.
 fn chosen(
-    written: &Written,
+    written: &WrittenSite,
     index: usize,
     key: &str,
     names: &Names,

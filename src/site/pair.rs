@@ -7,7 +7,7 @@ use super::load::SHADOW_CUT;
 use super::model::{self, Model, ModelError, Placement};
 use super::models::Models;
 use super::names::composed;
-use super::written::Written;
+use super::written::WrittenSite;
 use super::{Ground, GroundFrom, Site, metres, plan};
 use crate::message::message;
 use std::path::Path;
@@ -35,8 +35,8 @@ impl Pair {
     /// # Errors
     /// As [`Site::load`]; and where `after` says another place, time zone or ground.
     pub fn load(before: &Path, after: &Path, asked: &Overrides) -> Result<Pair, SiteError> {
-        let before = Written::read(before, asked)?;
-        let after = Written::read_beside(after, &before, asked)?;
+        let before = WrittenSite::read(before, asked)?;
+        let after = WrittenSite::read_beside(after, &before, asked)?;
         Self::of(&before, &after, asked, model::load)
     }
 
@@ -45,12 +45,12 @@ impl Pair {
     /// # Errors
     /// As [`Pair::load`].
     pub fn of(
-        before: &Written,
-        after: &Written,
+        before: &WrittenSite,
+        after: &WrittenSite,
         asked: &Overrides,
         read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
     ) -> Result<Pair, SiteError> {
-        let read = |written: &Written| Models::read(written, &read_model);
+        let read = |written: &WrittenSite| Models::read(written, &read_model);
         Self::with_models(before, after, asked, read, read)
     }
 
@@ -59,11 +59,11 @@ impl Pair {
     /// # Errors
     /// As [`Pair::load`].
     pub fn with_models(
-        before: &Written,
-        after: &Written,
+        before: &WrittenSite,
+        after: &WrittenSite,
         asked: &Overrides,
-        models_before: impl FnOnce(&Written) -> Result<Models, SiteError>,
-        models_after: impl FnOnce(&Written) -> Result<Models, SiteError>,
+        models_before: impl FnOnce(&WrittenSite) -> Result<Models, SiteError>,
+        models_after: impl FnOnce(&WrittenSite) -> Result<Models, SiteError>,
     ) -> Result<Pair, SiteError> {
         let after_name = same_place(before, after, asked)?;
         let mut second = after.clone();
@@ -124,7 +124,7 @@ impl Pair {
 }
 
 /// The name of the place of `after`; or why it is another place than that of `before`.
-fn same_place(before: &Written, after: &Written, asked: &Overrides) -> Result<String, SiteError> {
+fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> Result<String, SiteError> {
     let (here, there) = (before.place(asked)?, after.place(asked)?);
     let north = (there.latitude_deg - here.latitude_deg) * DEGREE_M;
     let turned = (there.longitude_deg - here.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;

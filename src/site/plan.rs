@@ -1,8 +1,8 @@
 //! The plan's grid as asked, or around the models and their shadows.
 
 use super::asked::{Overrides, numbers, refuse};
-use super::error::{At, SiteError};
-use super::written::Written;
+use super::error::{FieldLocation, SiteError};
+use super::written::WrittenSite;
 use crate::message::{Field, message};
 use crate::view::Grid;
 use glam::DVec2;
@@ -19,7 +19,7 @@ const MARGIN: f64 = 0.02;
 
 /// The grid: the asked region, or the one around `models_and_shadows` (south-west and north-east corner).
 pub(super) fn grid(
-    written: &Written,
+    written: &WrittenSite,
     asked: &Overrides,
     models_and_shadows: impl FnOnce() -> [DVec2; 2],
 ) -> Result<Grid, SiteError> {
@@ -28,21 +28,21 @@ pub(super) fn grid(
     let (cell, at) = match (asked.cell, asked.size, written.site.plan.cell) {
         (Some(_), Some(_), _) => {
             return Err(refuse(
-                At::Field(Field::Size),
+                FieldLocation::Field(Field::Size),
                 message!["says the cells' size once more beside ", Field::Cell; "leave one of the two out"],
             ));
         }
-        (Some(cell), None, _) => (cell, At::Field(Field::Cell)),
+        (Some(cell), None, _) => (cell, FieldLocation::Field(Field::Cell)),
         (None, Some(0), _) => {
             return Err(refuse(
-                At::Field(Field::Size),
+                FieldLocation::Field(Field::Size),
                 message![
                     "no cells at all";
                     "write how many lie along the longer side, for example ", (Field::Size, "2048")
                 ],
             ));
         }
-        (None, Some(size), _) => (longer / f64::from(size), At::Field(Field::Size)),
+        (None, Some(size), _) => (longer / f64::from(size), FieldLocation::Field(Field::Size)),
         (None, None, Some(cell)) => (cell, written.key("plan", "cell")),
         (None, None, None) => ((longer / f64::from(DEFAULT_SIZE)).max(LEAST_CELL_M), written.key("plan", "region")),
     };
@@ -92,28 +92,31 @@ pub(super) fn check(grid: &Grid) -> Result<(), SiteError> {
     let cells = f64::from(width) * f64::from(height);
     if !(1.0..=MOST_CELLS).contains(&cells) {
         let what = format!("{width} × {height} cells are no plan");
-        return Err(refuse(At::Field(Field::Size), message![what; "take at least one cell, and at most 2³¹"]));
+        return Err(refuse(
+            FieldLocation::Field(Field::Size),
+            message![what; "take at least one cell, and at most 2³¹"],
+        ));
     }
     // A NaN is not that large either.
     if !(cell.is_finite() && cell >= LEAST_CELL_M) {
         let hint = format!("take metres, at least {LEAST_CELL_M}");
-        return Err(refuse(At::Field(Field::Cell), message![format!("{cell} is no side of a cell"); hint]));
+        return Err(refuse(FieldLocation::Field(Field::Cell), message![format!("{cell} is no side of a cell"); hint]));
     }
     if !(west.is_finite() && north.is_finite()) {
         let what = format!("({west}, {north}) is no north-west corner");
-        return Err(refuse(At::Field(Field::Region), message![what; "give metres from the place"]));
+        return Err(refuse(FieldLocation::Field(Field::Region), message![what; "give metres from the place"]));
     }
     Ok(())
 }
 
 fn region(
-    written: &Written,
+    written: &WrittenSite,
     asked: &Overrides,
     models_and_shadows: impl FnOnce() -> [DVec2; 2],
 ) -> Result<[f64; 4], SiteError> {
     const EXAMPLE: &str = "-300,-300,300,300";
     let (region, at) = match (&asked.region, written.site.plan.region) {
-        (Some(text), _) => (numbers(Field::Region, text, EXAMPLE)?, At::Field(Field::Region)),
+        (Some(text), _) => (numbers(Field::Region, text, EXAMPLE)?, FieldLocation::Field(Field::Region)),
         (None, Some(region)) => (region, written.key("plan", "region")),
         (None, None) => return Ok(around(models_and_shadows())),
     };

@@ -3,14 +3,14 @@
 use super::Receivers;
 use super::asked::{Overrides, numbers, refuse};
 use super::dates::{of_each_day, own_date, several};
-use super::error::{At, SiteError};
+use super::error::{FieldLocation, SiteError};
 use super::ground::{self, Ground};
 use super::model;
 use super::models::Models;
 use super::names::composed;
 use super::notes::on_probes;
 use super::study::{date_of, no_study};
-use super::written::Written;
+use super::written::WrittenSite;
 use crate::mesh::Mesh;
 use crate::message::{Field, message};
 use crate::sun::{DayWindow, Place, SunError, Zone, parse_duration_secs};
@@ -25,7 +25,7 @@ const STEP: &str = "1min";
 
 /// The checked request of `gnomon probe`: place, models, points, days.
 #[derive(Clone, Debug)]
-pub struct Probing {
+pub struct ProbeSite {
     /// Where on earth.
     pub place: Place,
     /// All models, welded, in the world frame.
@@ -51,8 +51,8 @@ pub struct Probing {
 ///
 /// # Errors
 /// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
-pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError> {
-    let written = Written::read(path, asked)?;
+pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteError> {
+    let written = WrittenSite::read(path, asked)?;
     let place = written.place(asked)?;
     let probes = probes(&written, asked)?;
     let days = days(&place, &written, asked)?;
@@ -60,7 +60,7 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
         Ok(0) => Err(SunError::ZeroStep),
         step => step,
     }
-    .map_err(|error| SiteError::sun(At::Field(Field::Step), error))?;
+    .map_err(|error| SiteError::sun(FieldLocation::Field(Field::Step), error))?;
     let level = ground::level(&written, asked)?;
     let models = Models::read(&written, model::load)?;
     let [casts, _] = models.roles(&written)?;
@@ -72,22 +72,22 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<Probing, SiteError>
     notes.extend(days.last().and_then(|day| Zone::doubt(&day.to)));
     notes.extend(on_probes(&probes));
     let refraction = !asked.no_refraction;
-    Ok(Probing { place, mesh, notes, casts, ground, probes, days, step_secs, refraction })
+    Ok(ProbeSite { place, mesh, notes, casts, ground, probes, days, step_secs, refraction })
 }
 
 /// The point of the command line, or else those of the file.
-fn probes(written: &Written, asked: &Overrides) -> Result<Vec<Probe>, SiteError> {
+fn probes(written: &WrittenSite, asked: &Overrides) -> Result<Vec<Probe>, SiteError> {
     if let Some(point) = &asked.point {
         let point = DVec3::from_array(numbers(Field::Point, point, "12,-3,4.5")?);
         let normal = match &asked.normal {
-            Some(text) => Some(unit(numbers(Field::Normal, text, "0,-1,0")?, || At::Field(Field::Normal))?),
+            Some(text) => Some(unit(numbers(Field::Normal, text, "0,-1,0")?, || FieldLocation::Field(Field::Normal))?),
             None => None,
         };
         return Ok(vec![Probe { name: "point".to_owned(), point, normal }]);
     }
     if asked.normal.is_some() {
         let message = message!["belongs to ", Field::Point; "add that, or leave it out"];
-        return Err(refuse(At::Field(Field::Normal), message));
+        return Err(refuse(FieldLocation::Field(Field::Normal), message));
     }
     if written.site.probe.is_empty() {
         return Err(SiteError::NoProbe { file: written.file.clone() });
@@ -118,7 +118,7 @@ fn probes(written: &Written, asked: &Overrides) -> Result<Vec<Probe>, SiteError>
 }
 
 /// A normal's direction, whatever its length.
-fn unit(normal: [f64; 3], at: impl Fn() -> At) -> Result<DVec3, SiteError> {
+fn unit(normal: [f64; 3], at: impl Fn() -> FieldLocation) -> Result<DVec3, SiteError> {
     let normal = DVec3::from_array(normal);
     // Brought near 1 first, so that no square overflows.
     let unit = (normal / normal.abs().max_element()).normalize();
@@ -130,9 +130,10 @@ fn unit(normal: [f64; 3], at: impl Fn() -> At) -> Result<DVec3, SiteError> {
 }
 
 /// The days asked, each with the part of it that is.
-fn days(place: &Place, written: &Written, asked: &Overrides) -> Result<Vec<DayWindow>, SiteError> {
-    let reading =
-        |field, text: &Option<String>| text.as_ref().map(|text| of_each_day(text, At::Field(field))).transpose();
+fn days(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Vec<DayWindow>, SiteError> {
+    let reading = |field, text: &Option<String>| {
+        text.as_ref().map(|text| of_each_day(text, FieldLocation::Field(field))).transpose()
+    };
     let (from, to) = (reading(Field::From, &asked.from)?, reading(Field::To, &asked.to)?);
     let (dates, dates_at) = dates(written, asked)?;
     dates
@@ -142,8 +143,8 @@ fn days(place: &Place, written: &Written, asked: &Overrides) -> Result<Vec<DayWi
                 let fails = |from| DayWindow::on(place, date, from, None).is_err();
                 let at = match to {
                     _ if fails(None) => dates_at.clone(),
-                    Some(_) if !fails(from.as_ref()) => At::Field(Field::To),
-                    _ => At::Field(Field::From),
+                    Some(_) if !fails(from.as_ref()) => FieldLocation::Field(Field::To),
+                    _ => FieldLocation::Field(Field::From),
                 };
                 SiteError::sun(at, error)
             })
@@ -152,12 +153,12 @@ fn days(place: &Place, written: &Written, asked: &Overrides) -> Result<Vec<DayWi
 }
 
 /// One date, of the command line or of the study, or a range of them, and where they are asked.
-fn dates(written: &Written, asked: &Overrides) -> Result<(Vec<NaiveDate>, At), SiteError> {
+fn dates(written: &WrittenSite, asked: &Overrides) -> Result<(Vec<NaiveDate>, FieldLocation), SiteError> {
     if let Some(dates) = several(written, asked)? {
         return Ok(dates);
     }
     let study = &written.site.study;
-    let at = || At::Field(Field::Date);
+    let at = || FieldLocation::Field(Field::Date);
     if let Some(date) = date_of(asked.date.clone().map(|text| (text, at())))? {
         return Ok((vec![date], at()));
     }

@@ -2,8 +2,8 @@
 
 use super::asked::{Overrides, refuse};
 use super::dates::{of_each_day, own_date, several};
-use super::error::{At, SiteError};
-use super::written::Written;
+use super::error::{FieldLocation, SiteError};
+use super::written::WrittenSite;
 use crate::message::{Field, message};
 use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_date, parse_duration_secs};
 use chrono::NaiveDate;
@@ -11,7 +11,7 @@ use chrono::NaiveDate;
 /// A text and where it was written.
 struct LocatedText<'a> {
     text: &'a str,
-    at: At,
+    at: FieldLocation,
 }
 
 impl LocatedText<'_> {
@@ -25,7 +25,7 @@ impl LocatedText<'_> {
 }
 
 /// The instants asked: `--at` alone, or the study's window with the command line before the file.
-pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Result<SunTrack, SiteError> {
+pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
     if let Some(time) = asked.instant {
         let time = time.with_timezone(&place.time_zone);
@@ -34,7 +34,7 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
     }
     let study = &written.site.study;
     let file = |key: &str, text: Option<&'_ str>| text.map(|text| (text.to_owned(), written.key("study", key)));
-    let said = |field, text: &Option<String>| text.clone().map(|text| (text, At::Field(field)));
+    let said = |field, text: &Option<String>| text.clone().map(|text| (text, FieldLocation::Field(field)));
     let date_asked = said(Field::Date, &asked.date);
     let date_written = file("date", study.date.as_ref().map(|date| date.0.as_str()));
 
@@ -49,10 +49,10 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
         for (field, given) in given {
             if given.is_some() {
                 let message = message!["says nothing beside ", Field::At; "leave one of the two out"];
-                return Err(refuse(At::Field(field), message));
+                return Err(refuse(FieldLocation::Field(field), message));
             }
         }
-        let said = LocatedText { text, at: At::Field(Field::At) };
+        let said = LocatedText { text, at: FieldLocation::Field(Field::At) };
         let reading = said.reading()?;
         // A reading with its own date does not ask the site file for one.
         let date = date_asked.or(date_written.filter(|_| reading.date.is_none()));
@@ -94,17 +94,18 @@ pub(super) fn track(place: &Place, written: &Written, asked: &Overrides) -> Resu
 /// A window on each of several days; without `from` and `to` the whole of them.
 fn each_day(
     place: &Place,
-    written: &Written,
-    (dates, dates_at): (&[NaiveDate], At),
-    [from, to, step]: [Option<(String, At)>; 3],
+    written: &WrittenSite,
+    (dates, dates_at): (&[NaiveDate], FieldLocation),
+    [from, to, step]: [Option<(String, FieldLocation)>; 3],
     refraction: bool,
 ) -> Result<SunTrack, SiteError> {
     let Some((step, step_at)) = step else {
         return Err(no_study(written, [true, true, true, false]));
     };
     let step_secs = parse_duration_secs(&step).map_err(|error| SiteError::sun(step_at.clone(), error))?;
-    let reading =
-        |said: &Option<(String, At)>| said.as_ref().map(|(text, at)| of_each_day(text, at.clone())).transpose();
+    let reading = |said: &Option<(String, FieldLocation)>| {
+        said.as_ref().map(|(text, at)| of_each_day(text, at.clone())).transpose()
+    };
     let each = EachDay { from: reading(&from)?, to: reading(&to)? };
     SunTrack::days(place, dates, each.clone(), step_secs, refraction).map_err(|error| {
         let fails = |from: Option<&Reading>| dates.iter().any(|date| DayWindow::on(place, *date, from, None).is_err());
@@ -118,12 +119,12 @@ fn each_day(
     })
 }
 
-pub(super) fn date_of(said: Option<(String, At)>) -> Result<Option<NaiveDate>, SiteError> {
+pub(super) fn date_of(said: Option<(String, FieldLocation)>) -> Result<Option<NaiveDate>, SiteError> {
     said.map(|(text, at)| parse_date(&text).map_err(|error| SiteError::sun(at, error))).transpose()
 }
 
 /// Which of date, from, to and step nobody said.
-pub(super) fn no_study(written: &Written, said: [bool; 4]) -> SiteError {
+pub(super) fn no_study(written: &WrittenSite, said: [bool; 4]) -> SiteError {
     const EXAMPLES: [(Field, &str); 4] =
         [(Field::Date, "2026-03-21"), (Field::From, "9:00"), (Field::To, "17:00"), (Field::Step, "1h")];
     let unsaid = EXAMPLES.into_iter().zip(said).filter(|(_, said)| !said);

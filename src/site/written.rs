@@ -1,7 +1,7 @@
 //! From the user's path to a site file's contents: a site file, a folder, or a model with its place.
 
 use super::asked::{Overrides, refuse};
-use super::error::{At, SiteError};
+use super::error::{FieldLocation, SiteError};
 use super::file::{ModelTable, PlaceTable, SiteFile};
 use super::keys;
 use super::names::on_disk;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// A request as written, and where it was written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Written {
+pub struct WrittenSite {
     /// The file, as the user named it.
     pub file: String,
     /// What relative paths are relative to.
@@ -44,24 +44,24 @@ fn text_of(file: &str, bytes: Vec<u8>) -> Result<String, SiteError> {
     }
 }
 
-impl Written {
+impl WrittenSite {
     /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model together with `--place`.
     ///
     /// # Errors
     /// What cannot be read, and what is wrong with a site file's form.
-    pub fn read(path: &Path, asked: &Overrides) -> Result<Written, SiteError> {
+    pub fn read(path: &Path, asked: &Overrides) -> Result<WrittenSite, SiteError> {
         let mut written = Self::read_as_it_is(path, asked.place.is_some())?;
         written.turn_up(asked);
         if let Some(place) = &asked.place {
             if written.site.place.is_some() {
                 return Err(refuse(
-                    At::Field(Field::Place),
+                    FieldLocation::Field(Field::Place),
                     message![format!("{} has its own [place]", written.file); "leave one of the two out"],
                 ));
             }
             let read = typed::place(place).map_err(|error| match error {
-                TypedError::Sun(error) => SiteError::sun(At::Field(Field::Place), error),
-                error => refuse(At::Field(Field::Place), error.message()),
+                TypedError::Sun(error) => SiteError::sun(FieldLocation::Field(Field::Place), error),
+                error => refuse(FieldLocation::Field(Field::Place), error.message()),
             });
             let [latitude, longitude] = read?;
             written.site.place =
@@ -70,11 +70,11 @@ impl Written {
         Ok(written)
     }
 
-    /// As [`Written::read`], of the other state of a site: what names no place stands in that of `first`.
+    /// As [`WrittenSite::read`], of the other state of a site: what names no place stands in that of `first`.
     ///
     /// # Errors
-    /// As [`Written::read`].
-    pub fn read_beside(path: &Path, first: &Written, asked: &Overrides) -> Result<Written, SiteError> {
+    /// As [`WrittenSite::read`].
+    pub fn read_beside(path: &Path, first: &WrittenSite, asked: &Overrides) -> Result<WrittenSite, SiteError> {
         let mut written = Self::read_as_it_is(path, true)?;
         written.turn_up(asked);
         if written.site.place.is_none() {
@@ -91,7 +91,7 @@ impl Written {
     }
 
     /// A model is `placed` where somebody says its place.
-    pub(super) fn read_as_it_is(path: &Path, placed: bool) -> Result<Written, SiteError> {
+    pub(super) fn read_as_it_is(path: &Path, placed: bool) -> Result<WrittenSite, SiteError> {
         let path = &*on_disk(path);
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
@@ -103,12 +103,12 @@ impl Written {
         }
     }
 
-    fn read_file(path: &Path) -> Result<Written, SiteError> {
+    fn read_file(path: &Path) -> Result<WrittenSite, SiteError> {
         let file = path.display().to_string();
         let bytes = std::fs::read(path)
             .map_err(|error| SiteError::Unreadable { path: file.clone(), why: error.to_string() })?;
         let text = text_of(&file, bytes)?;
-        Ok(Written {
+        Ok(WrittenSite {
             site: SiteFile::parse(&file, &text)?,
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
             file,
@@ -121,7 +121,7 @@ impl Written {
         std::fs::read(path).is_ok_and(|bytes| bytes != self.text.as_bytes())
     }
 
-    fn of_model(path: &Path, placed: bool) -> Result<Written, SiteError> {
+    fn of_model(path: &Path, placed: bool) -> Result<WrittenSite, SiteError> {
         let file = path.display().to_string();
         // A mistyped name is a better complaint than a missing place.
         if let Err(error) = std::fs::metadata(path) {
@@ -131,7 +131,7 @@ impl Written {
             return Err(SiteError::NoPlaceForModel { path: file });
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Written {
+        Ok(WrittenSite {
             file,
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
             site: SiteFile {
@@ -143,13 +143,13 @@ impl Written {
     }
 
     /// Where a key of this file stands.
-    pub(super) fn key(&self, table: &str, key: &str) -> At {
-        At::Key { file: self.file.clone(), table: keys::bracketed(table), key: key.to_owned() }
+    pub(super) fn key(&self, table: &str, key: &str) -> FieldLocation {
+        FieldLocation::Key { file: self.file.clone(), table: keys::bracketed(table), key: key.to_owned() }
     }
 
     /// Where a key of one of the models stands.
-    pub(super) fn model_key(&self, index: usize, key: &str) -> At {
-        At::Key {
+    pub(super) fn model_key(&self, index: usize, key: &str) -> FieldLocation {
+        FieldLocation::Key {
             file: self.file.clone(),
             table: keys::numbered("model", index, self.site.model.len()),
             key: key.to_owned(),
@@ -157,8 +157,8 @@ impl Written {
     }
 
     /// Where a key of one of the probes stands.
-    pub(super) fn probe_key(&self, index: usize, key: &str) -> At {
-        At::Key {
+    pub(super) fn probe_key(&self, index: usize, key: &str) -> FieldLocation {
+        FieldLocation::Key {
             file: self.file.clone(),
             table: keys::numbered("probe", index, self.site.probe.len()),
             key: key.to_owned(),
@@ -190,7 +190,7 @@ impl Written {
         )
         .map_err(|error| {
             let at = match asked.place {
-                Some(_) => At::Field(Field::Place),
+                Some(_) => FieldLocation::Field(Field::Place),
                 None => self.key("place", ""),
             };
             SiteError::sun(at, error)

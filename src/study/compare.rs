@@ -2,7 +2,7 @@
 
 use super::{Event, OnEvent, Outcome, StudyError, Wants, not_surfaces, run, tell};
 use crate::mesh::Mesh;
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::profile::comparison::{Alteration, Comparison};
 use crate::shadow::plan_surface;
 use crate::site::{Pair, Receivers, Site};
@@ -14,7 +14,7 @@ pub struct CompareOutcome {
     /// Both profiles, cell by cell.
     pub comparison: Comparison,
     /// What drew them, before and after.
-    pub drawn: [Drawn; 2],
+    pub drawn: [Provenance; 2],
     /// What the cells see before and after: under [`Receivers::Ground`] with the models.
     pub surfaces: [Surface; 2],
     /// Whose faces those count.

@@ -5,7 +5,7 @@
 
 use super::Wants;
 use crate::choice::{Filter, Finder, Settings};
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::site::Site;
 use crate::view::{Grid, Tile};
 use siphasher::sip::SipHasher13;
@@ -42,7 +42,7 @@ impl Fields {
 }
 
 /// Of a study that a machine draws in tiles. The same for the same request, and for another one another.
-pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile], wants: &Wants) -> u64 {
+pub(super) fn of(site: &Site, drawn: &Provenance, tiles: &[Tile], wants: &Wants) -> u64 {
     let mut fields = Fields(SipHasher13::new());
     // another version may draw otherwise
     fields.text("gnomon", Some(env!("CARGO_PKG_VERSION")));
@@ -53,7 +53,7 @@ pub(super) fn of(site: &Site, drawn: &Drawn, tiles: &[Tile], wants: &Wants) -> u
     // what is asked of techniques, and what that came to
     add_settings(&mut fields, "asked", &site.settings);
     add_settings(&mut fields, "drawn", &drawn.settings);
-    let Drawn { technique, finder, engine, adapter, settings: _ } = drawn;
+    let Provenance { technique, finder, engine, adapter, settings: _ } = drawn;
     fields.text("technique", Some(technique.word()));
     fields.text("finder", finder.map(Finder::word));
     fields.text("engine", Some(engine.word()));

@@ -5,7 +5,7 @@ use super::machine::{choose, not_surfaces};
 use super::{Event, OnEvent, SiteView, StudyError, judged, night, note_models, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::site::{Receivers, Site};
 use crate::sun::SunTrack;
 use crate::view::{Mask, Surface, View};
@@ -25,7 +25,7 @@ pub struct Frame<'a> {
     /// Which surfaces were judged.
     pub receivers: Receivers,
     /// What drew it.
-    pub drawn: &'a Drawn,
+    pub drawn: &'a Provenance,
 }
 
 /// As [`super::instant`] for every instant of the study, with what is kept from one to the next. Returns what drew them.
@@ -37,7 +37,7 @@ pub fn frames<E: From<StudyError>>(
     view: View,
     on_event: &mut OnEvent<'_>,
     on_frame: &mut dyn FnMut(&Frame<'_>) -> Result<(), E>,
-) -> Result<Drawn, E> {
+) -> Result<Provenance, E> {
     not_surfaces(site)?;
     note_models(&site.notes, on_event)?;
     // each frame says itself what drew it: those that were given out stay
@@ -66,7 +66,7 @@ fn from(
     view: View,
     on_event: &mut OnEvent<'_>,
     on_frame: &mut dyn FnMut(&Frame<'_>) -> Result<(), StudyError>,
-) -> Result<Drawn, StudyError> {
+) -> Result<Provenance, StudyError> {
     let machine = choose(gpu, site, &view, on_event)?;
     if let View::Plan(grid) = view {
         tiles::at_once(grid, site.receivers, &machine)?;

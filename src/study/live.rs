@@ -8,7 +8,7 @@ use crate::choice::{Method, Receivers, Settings};
 use crate::gpu::Gpu;
 use crate::picture::overlay::VolumePicture;
 use crate::picture::{Picture, Style};
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{DrawnMask, Scene, Technique};
 use crate::site::Site;
@@ -122,7 +122,7 @@ impl Live {
         to_sun: DVec3,
         style: &Style,
         target: &wgpu::Texture,
-    ) -> Result<Drawn, StudyError> {
+    ) -> Result<Provenance, StudyError> {
         let machine = self.machine(way)?;
         let drawn = machine.drawn();
         let is_night = to_sun.z <= 0.0;

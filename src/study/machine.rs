@@ -4,7 +4,7 @@ use super::{Event, OnEvent, StudyError, Wants, judged, subject, tell};
 use crate::choice::{Engine, Finder, Method, MethodRow, Misfit, Receivers, Settings, Subject};
 use crate::gpu::{Gpu, GpuError};
 use crate::message::{Field, message};
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::shadow::hybrid::Hybrid;
 use crate::shadow::projected::{Projected, ProjectedOnGpu};
 use crate::shadow::ray_cast::RayCast;
@@ -61,13 +61,13 @@ impl Machine {
         self.gpu.clone()
     }
 
-    pub(super) fn drawn(&self) -> Drawn {
+    pub(super) fn drawn(&self) -> Provenance {
         let finder = self.silhouettes.map(|silhouettes| match silhouettes {
             Silhouettes::OnProcessor(ProcessorFinder::BruteForce) => Finder::Brute,
             Silhouettes::OnProcessor(ProcessorFinder::Hextree { .. } | ProcessorFinder::Hierarchy) => Finder::Hextree,
             Silhouettes::OnGpu | Silhouettes::InVertexShader => Finder::Gpu,
         });
-        Drawn {
+        Provenance {
             technique: self.method,
             finder,
             engine: if self.gpu.is_some() { Engine::Gpu } else { Engine::Cpu },

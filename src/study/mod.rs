@@ -32,7 +32,7 @@ use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use crate::picture::overlay::VolumePicture;
-use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
+use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
 use crate::site::{Receivers, Site};
@@ -163,7 +163,7 @@ pub struct Outcome {
     /// The shaded time.
     pub profile: Profile,
     /// What drew it.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// What the cells see, where wanted: also under [`Receivers::Ground`] with the models.
     pub surface: Option<Surface>,
     /// Whose faces [`Surface::face`] counts.
@@ -180,7 +180,7 @@ pub struct InstantOutcome {
     /// Which part of the sun each cell sees.
     pub mask: Mask,
     /// What drew it.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// What the cells see, where wanted.
     pub surface: Option<Surface>,
     /// Volumes and silhouette, where wanted and where there is a camera and a sun.

@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 use crate::profile::probe::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, below_ground_m, judged};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
-use crate::site::Probing;
+use crate::site::ProbeSite;
 use crate::sun::{Air, DayWindow, Instant, Place, Sky, SunError, Zone, delta_t_secs};
 use crate::view::Probe;
 use chrono::{DateTime, TimeDelta};
@@ -19,7 +19,7 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn probe(asked: &Probing, on_event: &mut OnEvent<'_>) -> Result<Sunlight, StudyError> {
+pub fn probe(asked: &ProbeSite, on_event: &mut OnEvent<'_>) -> Result<Sunlight, StudyError> {
     note_models(&asked.notes, on_event)?;
     let search = ProbeSearch::new(asked);
     let empty = |probe: &Probe| ProbeIntervals { probe: probe.clone(), days: Vec::new() };
@@ -59,7 +59,7 @@ struct ProbeSearch<'a> {
 }
 
 impl ProbeSearch<'_> {
-    fn new(asked: &Probing) -> ProbeSearch<'_> {
+    fn new(asked: &ProbeSite) -> ProbeSearch<'_> {
         let casters = asked.mesh.of_components(&asked.casts);
         let reach = asked.probes.iter().map(|probe| (probe.point - casters.origin).abs().max_element());
         let rays = RayCaster::new(&casters, reach.fold(0.0, f64::max) + JUDGED_ABOVE_M);

@@ -8,7 +8,7 @@ use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::message::{Field, aside, message};
 use crate::profile::accumulate::Sum;
-use crate::profile::{Drawn, Profile, Shaded, Statistics, Timings, Unfinished};
+use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::plan_surface;
 use crate::site::Site;
 use crate::sun;
@@ -23,7 +23,7 @@ use std::time::Instant;
 #[derive(Clone, Debug)]
 pub struct TiledOutcome {
     /// What drew.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// Seconds of the window with the sun above the horizon, and without.
     pub day_and_night_secs: (u32, u32),
     /// What the cells see, where wanted.

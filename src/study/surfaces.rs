@@ -8,7 +8,7 @@ use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::mesh::patches::{MOST_TEXELS, Patches};
 use crate::profile::surfaces::SurfaceHours;
-use crate::profile::{Drawn, Timings};
+use crate::profile::{Provenance, Timings};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::soft_texture::{Choice, Fill, Painter, PatchJudgements, Sample, SoftTexture};
 use crate::shadow::{JUDGED_ABOVE_M, Scene, Technique};
@@ -28,7 +28,7 @@ pub struct SurfaceOutcome {
     /// How they were judged.
     pub judged: PatchJudgements,
     /// What drew it.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// Bytes of the graphics adapter's memory that were taken; 0 where it was not used.
     pub gpu_bytes: u64,
     /// `prepare` and `shadows`.
@@ -72,7 +72,7 @@ fn light(
     on_event: &mut OnEvent<'_>,
 ) -> Result<SurfaceOutcome, StudyError> {
     let (day_secs, night_secs) = day_and_night(&site.track);
-    let drawn = Drawn {
+    let drawn = Provenance {
         technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture },
         finder: None,
         engine: if matches!(painter, Painter::OnGpu(_)) { Engine::Gpu } else { Engine::Cpu },

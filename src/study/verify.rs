@@ -9,7 +9,7 @@ use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_models, su
 use crate::choice::{Engine, Method, MethodRow, Promise, Receivers, TABLE, Truth};
 use crate::gpu::Gpu;
 use crate::mesh::report;
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::profile::compare::{Difference, is_edge_cell};
 use crate::profile::verify::{Row, Tally, Verification};
 use crate::shadow::ray_cast::RayCast;
@@ -35,7 +35,7 @@ const EDGE_SHARE: f64 = 0.01;
 /// A technique that is to be held against the truth.
 pub struct Trial {
     /// What draws.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// What it is held against.
     pub against: Truth,
     /// What it promises.

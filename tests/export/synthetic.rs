@@ -5,7 +5,7 @@ use glam::DVec3;
 use gnomon::choice::{Engine, Finder, Method, Receivers, Settings};
 use gnomon::export::figure::FigureContext;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::profile::{Drawn, Profile};
+use gnomon::profile::{Profile, Provenance};
 use gnomon::site::Ground;
 use gnomon::sun::{Day, Instant, Place, SunTrack, Zone, ZoneRules};
 use gnomon::view::{Grid, Mask, Surface};
@@ -15,7 +15,7 @@ pub(super) struct Town {
     pub place: Place,
     pub track: SunTrack,
     pub mesh: Mesh,
-    pub drawn: Drawn,
+    pub drawn: Provenance,
 }
 
 impl Town {
@@ -31,7 +31,7 @@ impl Town {
             },
             track: track(from, to, step),
             mesh: mesh(scale),
-            drawn: Drawn {
+            drawn: Provenance {
                 technique: Method::Stencil,
                 finder: Some(Finder::Brute),
                 engine: Engine::Gpu,

@@ -7,7 +7,7 @@ use crate::deliver::DeliverError;
 use crate::export::ExportError;
 use crate::export::figure::Outline;
 use crate::mesh::Mesh;
-use crate::profile::{Drawn, Profile, Shaded, ShadedCells, Statistics, Timings};
+use crate::profile::{Profile, Provenance, Shaded, ShadedCells, Statistics, Timings};
 use crate::site::Site;
 use crate::study::{self, OnEvent, TiledOutcome, TiledStudy};
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ pub struct Hours {
     /// Shaded time.
     pub profile: Profile<Sums>,
     /// What drew.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// Whose faces the plan's cells see.
     pub surface_mesh: Mesh,
     /// What counting took, where that was asked.

@@ -17,7 +17,7 @@ use super::parts::{note, note_letters};
 use super::sink::SecondFolder;
 use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::export::figure;
-use crate::profile::{Drawn, Statistics};
+use crate::profile::{Provenance, Statistics};
 use crate::site::Site;
 use crate::study::{Budget, Event, OnEvent, Stopwatch, Wants, tell};
 use files::Pieces;
@@ -68,7 +68,7 @@ pub struct ProfileAnswer {
     /// `profile.json`, whether it is one of the files or not.
     pub report: String,
     /// What drew.
-    pub drawn: Drawn,
+    pub drawn: Provenance,
     /// What counting took, where that was asked.
     pub statistics: Option<Statistics>,
     /// The least and the most hours.

@@ -37,7 +37,7 @@ pub(super) use words::duration;
 use super::{ExportError, check_size, report};
 use crate::look::LOOK;
 use crate::mesh::Mesh;
-use crate::profile::{Drawn, Profile, ShadedCells};
+use crate::profile::{Profile, Provenance, ShadedCells};
 use crate::site::{Ground, Receivers};
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{FragmentCounts, Grid, Mask, Overlay, Surface, SurfaceRows, View};
@@ -62,7 +62,7 @@ pub struct FigureContext<'a, S = Surface> {
     /// The ground plane.
     pub ground: Ground,
     /// What drew.
-    pub drawn: &'a Drawn,
+    pub drawn: &'a Provenance,
 }
 
 /// What a camera's picture shows besides sun and shadow.

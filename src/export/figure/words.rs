@@ -1,7 +1,7 @@
 //! How a drawing says things: places, times, durations, techniques.
 
 use crate::choice::{Finder, Receivers, Settings};
-use crate::profile::Drawn;
+use crate::profile::Provenance;
 use crate::site::{self, Ground, GroundFrom};
 use crate::sun::{Air, Day, EachDay, Instant, Place, Polar, SunTrack, Zone};
 use crate::view::Elevation;
@@ -157,7 +157,7 @@ pub(super) fn day(day: &Day) -> String {
 }
 
 /// What drew, in words: technique, silhouettes, machine.
-pub(super) fn technique(drawn: &Drawn) -> String {
+pub(super) fn technique(drawn: &Provenance) -> String {
     let technique = drawn.technique.row().name;
     let silhouettes = drawn.finder.map(|finder| match finder {
         Finder::Brute => ", silhouettes by brute force",
