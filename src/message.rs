@@ -277,7 +277,7 @@ impl fmt::Display for Message {
     }
 }
 
-/// An error that speaks of fields. Its `Display` says it in [`PlainWords`] words.
+/// An error that speaks of fields. Its `Display` says it in [`PlainWords`].
 pub trait Worded {
     /// What is wrong, and what can be done.
     fn message(&self) -> Message;
