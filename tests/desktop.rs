@@ -2,9 +2,9 @@
 
 mod changing;
 mod comparing;
+mod exporting;
 mod facades;
 mod fitting;
-mod handing_in;
 mod hiding;
 mod keeping;
 mod killed;

@@ -1,6 +1,6 @@
 //! What is changed while something else goes on, and after it.
 
-use super::handing_in::{answer, command, menu};
+use super::exporting::{answer, command, menu};
 use super::*;
 use gnomon::site::file::Names;
 use gnomon::site::{Overrides, Site};

@@ -1,6 +1,6 @@
 //! Two states of a site: what a change does to the sun.
 
-use super::handing_in::{answer, command, menu, name};
+use super::exporting::{answer, command, menu, name};
 use super::*;
 use gnomon::export::comparison;
 use gnomon::export::figure::ChangeColours;

@@ -1,6 +1,6 @@
 //! Hours of sun on façades and roofs, over the model.
 
-use super::handing_in::{answer, command, menu};
+use super::exporting::{answer, command, menu};
 use super::*;
 use gnomon::export::surfaces::{Atlas, Surfaces};
 use gnomon::shadow::ray_cast::RayCast;

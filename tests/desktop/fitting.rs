@@ -1,6 +1,6 @@
 //! Nothing is cut off, at any scale of the interface; the panel keeps the width that a person gave it.
 
-use super::handing_in::answer;
+use super::exporting::answer;
 use super::*;
 use egui::accesskit::Role;
 

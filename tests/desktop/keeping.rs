@@ -1,7 +1,7 @@
 //! What is kept from one start to the next.
 
 use super::*;
-use crate::desktop::handing_in::menu;
+use crate::desktop::exporting::menu;
 use std::collections::HashMap;
 
 /// eframe's file of what is kept, in memory.

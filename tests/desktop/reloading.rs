@@ -1,7 +1,7 @@
 //! Files that change on the disk while they are open.
 
 use super::comparing::{compared, not_told};
-use super::handing_in::{answer, command, menu};
+use super::exporting::{answer, command, menu};
 use super::*;
 
 /// The window loses the focus, and gets it back.

@@ -1,6 +1,6 @@
 //! What is saved, what is asked about what is not, and what is offered of windows that have ended.
 
-use super::handing_in::{answer, menu, name};
+use super::exporting::{answer, menu, name};
 use super::*;
 use egui::{ViewportCommand, ViewportEvent, ViewportId};
 

@@ -1,6 +1,6 @@
 //! Where the eye stands and what lies over the picture; and what can be shown instead of sun and shadow.
 
-use super::handing_in::{answer, menu};
+use super::exporting::{answer, menu};
 use super::*;
 use glam::DVec3;
 use gnomon::export::figure;

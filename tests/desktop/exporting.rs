@@ -1,4 +1,4 @@
-//! The hours, and what is handed in: the same as by the command.
+//! The hours, and what is exported: the same as by the command.
 
 use super::*;
 use std::process::Command;
