@@ -80,14 +80,17 @@ impl Misfit {
         }
     }
 
-    /// What the technique would draw, where it does not draw what was asked.
-    fn draws_instead(&self) -> Option<(Method, &'static [Subject])> {
-        let (method, instead) = match *self {
-            Misfit::Technique { method, .. } => (method, either(method.row())),
-            Misfit::Engine { method, engine: Engine::Gpu, .. } => (method, method.row().on_gpu),
-            Misfit::Engine { method, .. } => (method, method.row().on_cpu),
+    /// What the technique would draw, where it does not draw what was asked: what is chosen in the same way, since a
+    /// command that draws a plan need not have views.
+    fn draws_instead(&self) -> Option<(Method, Vec<Subject>)> {
+        let (method, asked, instead) = match *self {
+            Misfit::Technique { method, subject } => (method, subject, either(method.row())),
+            Misfit::Engine { method, engine: Engine::Gpu, subject } => (method, subject, method.row().on_gpu),
+            Misfit::Engine { method, subject, .. } => (method, subject, method.row().on_cpu),
             Misfit::Setting { .. } | Misfit::Finder { .. } => return None,
         };
+        let is_alike = |subject: &&Subject| subject.choice().0 == asked.choice().0;
+        let instead: Vec<Subject> = instead.iter().filter(is_alike).copied().collect();
         (!instead.is_empty()).then_some((method, instead))
     }
 }

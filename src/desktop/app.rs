@@ -373,8 +373,9 @@ impl App {
         let Some(open) = &self.open else { return };
         let project = &open.project;
         let changed = project.written.site != self.settings.site || project.hidden != self.settings.hidden;
-        if !changed && self.refused.take().is_some() {
-            // the open site is asked for again, and what was refused is past
+        let is_past = |refused: &WindowSettings| !changed && refused.site != self.settings.site;
+        if self.refused.take_if(|refused| is_past(refused)).is_some() {
+            // the open site is asked for again
             self.fault = None;
         }
         let is_refused = self.refused.as_ref().is_some_and(|refused| refused.site == self.settings.site);

@@ -51,6 +51,11 @@ impl CornerGroup {
         if self.low.x <= self.high.x { (self.high - self.low).length() } else { 0.0 }
     }
 
+    /// The largest coordinate, metres.
+    pub(super) fn reach(&self) -> f64 {
+        self.low.abs().max(self.high.abs()).max_element()
+    }
+
     /// How far it is from the place, along the ground.
     fn distance(&self) -> f64 {
         DVec3::ZERO.clamp(self.low, self.high).truncate().length()

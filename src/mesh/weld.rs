@@ -11,9 +11,15 @@ const TOLERANCE: f64 = 1e-6;
 /// And never farther, metres: a receiver is judged so far above itself, and nobody models less.
 const MOST_M: f64 = 0.001;
 
-/// How far apart corners may lie and still be one vertex, where so much of a component stands together; metres.
-pub(super) fn tolerance(size: f64) -> f64 {
-    (size * TOLERANCE).min(MOST_M)
+/// And at least so many steps of `f32` at the largest coordinate: one either way on each axis is what files round.
+const LEAST_STEPS: f64 = 2.0;
+
+/// How far apart corners may lie and still be one vertex, where so much of a component stands together, and no coordinate is
+/// larger than `reach`; metres.
+pub(super) fn tolerance(size: f64, reach: f64) -> f64 {
+    let reach = reach as f32;
+    let step = f64::from(reach.next_up() - reach);
+    (size * TOLERANCE).max(LEAST_STEPS * step).min(MOST_M)
 }
 
 /// A welded part; its vertices are counted from its own first one.
@@ -29,7 +35,9 @@ pub(super) struct WeldedPart {
 /// A part's vertices around the origin, and its faces. What stands far from each other is welded each for itself.
 pub(super) fn weld(part: &Part, origin: DVec3, together: &CornerGroups) -> WeldedPart {
     let local = |position: DVec3| (position - origin).as_vec3();
-    let welder = |group: &CornerGroup| Welder::new(local(group.low), tolerance(group.size()) as f32, group.corners);
+    let welder = |group: &CornerGroup| {
+        Welder::new(local(group.low), tolerance(group.size(), group.reach()) as f32, group.corners)
+    };
     let (groups, group_of) = together.in_part(part);
     let mut welders: Vec<Welder> = groups.iter().map(welder).collect();
     let mut vertex_of: Vec<u32> = match &group_of {

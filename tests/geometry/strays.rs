@@ -88,6 +88,21 @@ fn corners_at_both_sides_of_a_border_of_cells_are_welded() {
     assert_eq!(mesh.vertices.len(), 16);
 }
 
+/// A shed so large that no two of its corners lie in neighbouring cells, from a file that rounds each corner either way.
+#[test]
+fn corners_that_stand_alone_are_welded_as_exactly_as_the_file_holds_them() {
+    for (size, at) in [(271.0, dvec3(240.0, 240.0, 0.0)), (600.0, DVec3::ZERO), (1200.0, dvec3(-300.0, 90.0, 0.0))] {
+        let mut shed = unjoined(&cuboid("shed", at, at + dvec3(size, size, 6.0)));
+        for (number, corner) in shed.positions.iter_mut().enumerate() {
+            let rounded = corner.to_array().map(|at| if number % 2 == 0 { at as f32 } else { (at as f32).next_up() });
+            *corner = DVec3::from(rounded.map(f64::from));
+        }
+        let mesh = Mesh::build(vec![shed]).unwrap();
+        assert_eq!(mesh.vertices.len(), 8, "{size} m");
+        assert!(report::components(&mesh)[0].closed, "{size} m");
+    }
+}
+
 #[test]
 fn a_triangle_from_home_to_far_away_joins_nothing() {
     let home = || pergola(DVec3::ZERO);

@@ -143,11 +143,20 @@ pub fn find_hours(
         }
     };
     let folder = open.as_ref().and(shelf).map(|folder| folder.path);
-    let found = hours::find(site, asked, folder, on_event).and_then(|(hours, keeping)| {
+    let find = |folder, on_event: &mut OnEvent<'_>| {
+        let (hours, keeping) = hours::find(site, asked, folder, on_event)?;
         let hours = hours.in_memory()?;
-        keeping.finish()?;
+        // what stays there is another time's to remove
+        let _ = keeping.finish();
         Ok(hours)
-    });
+    };
+    let mut found = find(folder, on_event);
+    if let (Err(DeliverError::Export(error)), Some(_)) = (&found, folder) {
+        // the shelf is for the case that the work is stopped; that it is full must not stop the work
+        note(Some(format!("{error}; the work is done again, and what is done is not kept")), on_event)?;
+        tell(on_event, Event::Anew)?;
+        found = find(None, on_event);
+    }
     if let Some(folder) = folder {
         unfinished::keep_newest(folder, MOST_KEPT);
     }

@@ -22,7 +22,7 @@ pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacin
         return Vec::new();
     };
     // a vertex between two others is rounded, too
-    let welded = weld::tolerance(low.distance(high));
+    let welded = weld::tolerance(low.distance(high), low.abs().max(high.abs()).max_element());
     let tolerance = |points: &[Vec3]| welded.max(2.0 * spacing.at(points));
     let point = |vertex: u32| Vec3A::from(mesh.vertices[vertex as usize]);
     let around = |vertex: u32| {
