@@ -113,8 +113,10 @@ say "lints"
 "$CARGO" clippy --all-targets -- -D warnings
 say "the command without its window"
 "$CARGO" check --no-default-features
+# tools and examples are compiled by the lints, and need not be linked
 say "tests"
-"$CARGO" test
+"$CARGO" test --lib --bins --test all
+"$CARGO" test --doc
 say "documentation"
 RUSTDOCFLAGS="${RUSTDOCFLAGS:-} -D warnings" "$CARGO" doc --no-deps
 say "all is well"
