@@ -133,7 +133,12 @@ pub(crate) fn left(folder: &Path) -> PathBuf {
 pub(crate) fn stopped(folder: &Path, arguments: &str, when: &str) -> String {
     use std::io::{BufRead, BufReader, Write};
     use std::process::Stdio;
-    let mut child = command(folder, arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    let asked = command(folder, arguments);
+    // on a busy machine it gives way to who stops it
+    let mut study = Command::new("nice");
+    study.args(["-n", "5"]).arg(asked.get_program()).args(asked.get_args()).current_dir(folder);
+    study.envs(asked.get_envs().filter_map(|(name, value)| Some((name, value?))));
+    let mut child = study.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
     // it waits already: starting it takes as long as some hundred instants
     let kill = format!("read line && kill -INT {}", child.id());
     let mut killer = Command::new("sh").args(["-c", &kill]).stdin(Stdio::piped()).spawn().unwrap();
