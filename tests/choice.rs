@@ -3,7 +3,7 @@
 use crate::site::{SITE, load};
 use gnomon::choice::{Engine, Filter, Finder, Method, Misfit, Promise, Setting, Settings, Subject, TABLE};
 use gnomon::cli::Options;
-use gnomon::message::Words;
+use gnomon::message::{Worded, Words};
 use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, InstantWants, StudyError};
 use gnomon::view::{Camera, View};
@@ -131,6 +131,13 @@ fn what_does_not_fit_names_the_choice_and_the_way_out() {
         "engine: soft-texture draws a camera's picture on the cpu alone; \
          leave it out, or take stencil, shadow-map, hybrid or smoothie with gpu"
     );
+    // what would go with it is asked in the same way: a command that draws a plan has no view to choose
+    let options =
+        |method: Method, engine, subject| method.row().fit(engine, subject).expect_err("a misfit").in_words(&Options);
+    let of_plan = options(Method::SoftTexture, Engine::Auto, Subject::Top);
+    assert!(of_plan.ends_with("; soft-texture goes with --receivers surfaces"), "{of_plan}");
+    let of_camera = options(Method::Projected, Engine::Auto, Subject::Camera);
+    assert!(of_camera.starts_with("--technique: ") && !of_camera.contains("goes with"), "{of_camera}");
     let check = |method: Method, finder, settings| told(method.row().check(finder, &settings, Subject::Top));
     let map = Settings { map_size: Some(512), ..Settings::NONE };
     assert_eq!(

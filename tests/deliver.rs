@@ -119,6 +119,34 @@ fn hours_go_on_from_their_shelf() {
     assert_eq!(read(&shelf).count(), 0, "nothing stays of a study that is done");
 }
 
+/// The shelf is for work that is stopped: where nothing can be kept on it, hours are found all the same, and that is told.
+#[test]
+fn shelf_that_cannot_be_used_stops_no_study() {
+    let folder = site();
+    let site = loaded(folder.path(), "20min");
+    let shelf = folder.path().join("studies");
+    let asked = ProfileRequest::of(Stopwatch::start());
+    let whole = find_hours(&site, &asked, None, &mut |_| Continue(())).unwrap();
+    let stopped = find_hours(&site, &asked, Some(inside(&shelf)), &mut |event| match event {
+        Event::Drawn { .. } => Break(()),
+        _ => Continue(()),
+    });
+    assert!(stopped.is_err_and(|error| error.is_interrupted()));
+    // where its file would lie there is a folder
+    let [file] = read(&shelf).map(|(path, _)| path).collect::<Vec<_>>().try_into().unwrap();
+    std::fs::remove_file(&file).unwrap();
+    std::fs::create_dir(&file).unwrap();
+    let mut notes = Vec::new();
+    let found = find_hours(&site, &asked, Some(inside(&shelf)), &mut |event| {
+        if let Event::Note(note) = event {
+            notes.push(note);
+        }
+        Continue(())
+    });
+    assert!(found.unwrap().shaded() == whole.shaded());
+    assert!(notes.iter().any(|note| note.ends_with("what is done is not kept")), "{notes:?}");
+}
+
 /// Of stopped studies the newest are kept.
 #[test]
 fn shelf_holds_so_many_studies() {
