@@ -1,9 +1,10 @@
 //! A site that is made in memory, of a place, named triangles, a window and a grid; and the hours of shadow there.
 
+use gnomon::choice::Engine;
 use gnomon::chrono::NaiveDate;
 use gnomon::glam::dvec3;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::site::{Engine, Site};
+use gnomon::site::Site;
 use gnomon::study::{self, Wants};
 use gnomon::sun::{Place, SunTrack, Window};
 use gnomon::view::Grid;

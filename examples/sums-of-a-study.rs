@@ -1,8 +1,9 @@
 //! The sums of a study as a slice, with the transform of its plan; and the same study in two parts, as two machines would
 //! share it.
 
+use gnomon::choice::Engine;
 use gnomon::profile::{Shaded, hours};
-use gnomon::site::{Engine, Overrides, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, TiledStudy, Wants};
 use std::ops::ControlFlow;
 use std::path::Path;

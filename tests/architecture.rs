@@ -308,7 +308,7 @@ fn checker_finds_each_kind_of_fault() {
     }
     let good = [
         ("gpu/device.rs", "/// Knows no [`crate::sun`].\nuse crate::gpu::layout; // not crate::sun"),
-        ("export/figure/words.rs", "use super::super::report;\nuse crate::{site::Receivers, sun::Place};"),
+        ("export/figure/words.rs", "use super::super::report;\nuse crate::{choice::Receivers, sun::Place};"),
         ("cli.rs", "eprintln!(\"{}\", crate::study::run());"),
         ("study.rs", "let started = std::time::Instant::now();"),
         ("cli.rs", "let what = \"take a longer --step\";"),

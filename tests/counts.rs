@@ -2,14 +2,14 @@
 //! comes to look at twice as much is found out on a machine that is busy with something else.
 
 use crate::shared::drawing::gpu;
-use gnomon::choice::MAP_SIZE;
+use gnomon::choice::{MAP_SIZE, Receivers};
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::model;
-use gnomon::site::{Overrides, Receivers, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::view::View;
 use std::cell::Cell;
 use std::path::Path;

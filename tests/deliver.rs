@@ -1,6 +1,7 @@
 //! Deliverables as a program takes them that uses the library: in memory as in a folder, and from where they were stopped.
 
 use crate::shared::program::site;
+use gnomon::choice::{Engine, Receivers};
 use gnomon::deliver::comparison::comparison;
 use gnomon::deliver::disk::workplace::Workplace;
 use gnomon::deliver::instant::{InstantRequest, Show, instant};
@@ -10,7 +11,7 @@ use gnomon::deliver::profile::{ProfileAnswer, ProfileRequest, find_hours, profil
 use gnomon::deliver::surfaces::{SurfacesRequest, surfaces};
 use gnomon::deliver::volumes::volumes;
 use gnomon::deliver::{Folder, NamedFile, Sink, WrittenFiles};
-use gnomon::site::{Engine, Overrides, Pair, Receivers, Site, load_probes};
+use gnomon::site::{Overrides, Pair, Site, load_probes};
 use gnomon::study::{Event, Stopwatch};
 use gnomon::view::View;
 use std::collections::BTreeMap;

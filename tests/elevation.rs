@@ -3,11 +3,12 @@
 use crate::shared::dense::cuboid;
 use crate::shared::drawing::{gpu, to_sun};
 use glam::{DVec3, dvec3};
+use gnomon::choice::{Method, Settings};
 use gnomon::export::figure;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{GpuSurface, Scene, Technique};
-use gnomon::site::{Method, Overrides, Settings, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::live::{Live, LiveMethod};
 use gnomon::study::{self, InstantWants};
 use gnomon::view::{Elevation, Surface, View};

@@ -8,13 +8,14 @@ pub(crate) mod dirty;
 use crate::shared::drawing::{day, gpu, plan, scene_of, to_sun};
 use crate::shared::scenes::*;
 use glam::{DVec3, dvec3};
+use gnomon::choice::Receivers;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::compare::Difference;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::ProcessorFinder;
-use gnomon::site::{Overrides, Receivers, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::view::{Camera, Mask, View};
 
 /// For each sun the stencil's mask, the truth's, and how they differ.

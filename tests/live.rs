@@ -1,9 +1,10 @@
 //! The view that is drawn again and again is drawn as the single instant is.
 
 use crate::shared::drawing::gpu;
+use gnomon::choice::{Method, Settings};
 use gnomon::gpu::readback;
 use gnomon::picture::{Picture, Style};
-use gnomon::site::{Ground, Method, Overrides, Settings, Site};
+use gnomon::site::{Ground, Overrides, Site};
 use gnomon::study::live::{Live, LiveMethod};
 use gnomon::view::{Camera, Grid, View};
 use std::path::Path;

@@ -1,9 +1,10 @@
 //! A graphics device that is lost in the midst of a study: all is done again, and comes to the same.
 
+use gnomon::choice::{Engine, Method, Receivers};
 use gnomon::deliver::profile::{ProfileRequest, profile};
 use gnomon::deliver::{Folder, Sink};
 use gnomon::gpu::{Gpu, GpuError, lose_after, readback};
-use gnomon::site::{Engine, Method, Overrides, Receivers, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::again::persist;
 use gnomon::study::{self, Event, InstantWants, Stopwatch, StudyError, TiledStudy, Wants};
 use gnomon::view::View;

@@ -4,7 +4,8 @@
 use crate::model::poses::{morphing, skinned};
 use crate::model::{Model, push};
 use crate::site::{SITE, folder, tower};
-use gnomon::site::{Engine, Models, Overrides, Receivers, Site, WrittenSite};
+use gnomon::choice::{Engine, Receivers};
+use gnomon::site::{Models, Overrides, Site, WrittenSite};
 use gnomon::study::{self, Wants};
 use serde_json::json;
 use std::ops::ControlFlow;

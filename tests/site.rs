@@ -1,12 +1,13 @@
 //! Site files and options → the checked request: what is meant, and what every mistake is told.
 
 use glam::DVec3;
+use gnomon::choice::{Engine, Method, Receivers};
 use gnomon::cli::Options;
 use gnomon::mesh::Part;
 use gnomon::message::Worded;
 use gnomon::site::file::SiteFile;
 use gnomon::site::model::{Model, ModelError, Placement};
-use gnomon::site::{Engine, Method, Models, Overrides, Receivers, Site, SiteError, WrittenSite, load_sun};
+use gnomon::site::{Models, Overrides, Site, SiteError, WrittenSite, load_sun};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 

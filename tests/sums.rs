@@ -2,11 +2,12 @@
 
 use crate::shared::drawing::gpu;
 use crate::site::{SITE, load};
+use gnomon::choice::{Engine, Receivers};
 use gnomon::gpu::Gpu;
 use gnomon::profile::Profile;
 use gnomon::profile::accumulate::Sum;
 use gnomon::shadow::DrawnMask;
-use gnomon::site::{Engine, Overrides, Receivers, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, Event, Wants};
 use gnomon::view::{Bits, Grid, Mask};
 use proptest::prelude::*;

@@ -9,8 +9,9 @@ mod smoothie;
 mod tiles;
 
 use glam::DVec3;
+use gnomon::choice::Receivers;
 use gnomon::shadow::{Scene, Technique};
-use gnomon::site::{Overrides, Receivers, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::view::{Mask, View};
 use std::path::Path;
 

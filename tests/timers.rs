@@ -3,10 +3,10 @@
 use crate::shared::drawing::{plan, scene_of, to_sun};
 use crate::shared::scenes::cuboid;
 use glam::dvec3;
+use gnomon::choice::Receivers;
 use gnomon::gpu::Gpu;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::{Silhouettes, Technique, hybrid::Hybrid};
-use gnomon::site::Receivers;
 use std::sync::Arc;
 
 #[test]

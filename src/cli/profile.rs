@@ -4,9 +4,10 @@ use super::arguments::{ProfileArgs, ProfileFile};
 use super::commands::{drawn_by, lines, took};
 use super::progress::Progress;
 use super::{say, surfaces, who};
+use crate::choice::Receivers;
 use crate::deliver::profile::{ProfileAnswer, ProfileRequest, profile as deliver};
 use crate::deliver::{Folder, Sink};
-use crate::site::{Receivers, Site, inputs};
+use crate::site::{Site, inputs};
 use crate::study::Stopwatch;
 use std::fmt::Write;
 

@@ -1,10 +1,11 @@
 //! What every deliverable is put together from: what a drawing is told, what a report is told, and the notes on both.
 
+use crate::choice::Receivers;
 use crate::export::figure;
 use crate::export::report::ReportContext;
 use crate::mesh::Mesh;
 use crate::profile::{Provenance, Statistics, Timings};
-use crate::site::{Receivers, Site};
+use crate::site::Site;
 use crate::study::{Event, OnEvent, StudyError, tell};
 
 /// What of a site was drawn, and by what.

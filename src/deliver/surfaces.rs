@@ -3,10 +3,11 @@
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::sink::OpenSink;
 use super::{DeliverError, NamedFile, Sink, WrittenFiles};
+use crate::choice::Receivers;
 use crate::export::surfaces::{self, Surfaces};
 use crate::export::{figure, report};
 use crate::profile::Provenance;
-use crate::site::{Receivers, Site};
+use crate::site::Site;
 use crate::study::{self, Event, OnEvent, Stopwatch, SurfaceOutcome, tell};
 use std::path::PathBuf;
 

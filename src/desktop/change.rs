@@ -3,6 +3,7 @@
 use super::hours::{Findings, StudyResult, cell_at, raster};
 use super::loading::Project;
 use super::work::Work;
+use crate::choice::Method;
 use crate::deliver::Sink;
 use crate::deliver::comparison::write_comparison;
 use crate::export::comparison;
@@ -10,7 +11,7 @@ use crate::export::figure::ChangeColours;
 use crate::picture::HoursRaster;
 use crate::profile::Timings;
 use crate::profile::comparison::Alteration;
-use crate::site::{Method, Models, Overrides, Pair, Site, SiteError, WrittenSite, model};
+use crate::site::{Models, Overrides, Pair, Site, SiteError, WrittenSite, model};
 use crate::study::{self, CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
 use eframe::egui;
 use glam::DVec3;

@@ -3,9 +3,10 @@
 use super::app::App;
 use super::loading::{LoadRequest, name_of};
 use super::question::Question;
+use crate::choice::Method;
 use crate::export::recovery::{Slot, UnsavedSite, left_behind};
+use crate::site::WrittenSite;
 use crate::site::file::SiteFile;
-use crate::site::{Method, WrittenSite};
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

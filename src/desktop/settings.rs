@@ -1,8 +1,9 @@
 //! What a person sets, as one small value; and its history.
 
+use crate::choice::Method;
 use crate::export::figure::Diagram;
+use crate::site::WrittenSite;
 use crate::site::file::SiteFile;
-use crate::site::{Method, WrittenSite};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

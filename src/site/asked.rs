@@ -2,7 +2,7 @@
 
 use super::error::{FieldLocation, SiteError};
 use super::model::Up;
-use super::{Engine, Finder, Method, Receivers, Settings};
+use crate::choice::{Engine, Finder, Method, Receivers, Settings};
 use crate::message::{Field, Message, Words, message};
 use crate::sun::Zone;
 use crate::view::Side;

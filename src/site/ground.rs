@@ -1,11 +1,11 @@
 //! The ground's height: as it is said, or as it is found from the models.
 
-use super::Receivers;
 use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::extent::Bounds;
 use super::terrain::{self, BuriedShare};
 use super::written::WrittenSite;
+use crate::choice::Receivers;
 use crate::mesh::Mesh;
 use crate::message::{Field, message};
 

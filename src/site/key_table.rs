@@ -1,7 +1,7 @@
 //! Every key that a site file may have. The reader refuses all others, errors take their examples from here, and
 //! `docs/site-file.md` is written from it.
 
-use super::Method;
+use crate::choice::Method;
 use crate::view::Side;
 
 /// One key of the site file.

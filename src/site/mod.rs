@@ -41,8 +41,7 @@ pub use pair::Pair;
 pub use probe::{ProbeSite, load_probes};
 pub use written::WrittenSite;
 
-pub use crate::choice::{Engine, Finder, Method, Receivers, Settings};
-
+use crate::choice::{Engine, Finder, Method, Receivers, Settings};
 use crate::mesh::Mesh;
 use crate::sun::{Place, SunTrack};
 use crate::view::{Camera, Grid, Side, View};

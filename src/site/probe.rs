@@ -1,6 +1,5 @@
 //! What is asked of probes: which points, on which days.
 
-use super::Receivers;
 use super::asked::{Overrides, numbers, refuse};
 use super::dates::{of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};
@@ -11,6 +10,7 @@ use super::names::composed;
 use super::notes::on_probes;
 use super::study::{date_of, no_study};
 use super::written::WrittenSite;
+use crate::choice::Receivers;
 use crate::mesh::Mesh;
 use crate::message::{Field, message};
 use crate::sun::{DayWindow, Place, SunError, Zone, parse_duration_secs};

@@ -1,11 +1,12 @@
 //! The study of two states of a site: what a change does to the shadow.
 
 use super::{Event, OnEvent, Outcome, StudyError, Wants, not_surfaces, run, tell};
+use crate::choice::Receivers;
 use crate::mesh::Mesh;
 use crate::profile::Provenance;
 use crate::profile::comparison::{Alteration, Comparison};
 use crate::shadow::plan_surface;
-use crate::site::{Pair, Receivers, Site};
+use crate::site::{Pair, Site};
 use crate::view::Surface;
 
 /// The answer to a study of two states.

@@ -3,10 +3,11 @@
 use super::again::persist;
 use super::machine::{choose, not_surfaces};
 use super::{Event, OnEvent, SiteView, StudyError, judged, night, note_models, tell, tiles};
+use crate::choice::Receivers;
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::profile::Provenance;
-use crate::site::{Receivers, Site};
+use crate::site::Site;
 use crate::sun::SunTrack;
 use crate::view::{Mask, Surface, View};
 use std::sync::Arc;

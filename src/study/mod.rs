@@ -27,7 +27,7 @@ pub use stopwatch::Stopwatch;
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 pub use tiles::Budget;
 
-use crate::choice::{Misfit, Subject};
+use crate::choice::{Misfit, Receivers, Subject};
 use crate::gpu::GpuError;
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
@@ -35,7 +35,7 @@ use crate::picture::overlay::VolumePicture;
 use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
-use crate::site::{Receivers, Site};
+use crate::site::Site;
 use crate::sun::{SunError, SunTrack, Zone};
 use crate::view::{Bits, Camera, FragmentCounts, Mask, Overlay, Surface, Tile, View};
 use chrono::DateTime;

@@ -2,8 +2,9 @@
 
 use super::machine::Machine;
 use super::{Event, OnEvent, StudyError, Wants, tell};
+use crate::choice::Receivers;
 use crate::profile::accumulate::MOST_SECS;
-use crate::site::{Receivers, Site};
+use crate::site::Site;
 use crate::view::{Grid, Tile};
 
 /// Memory for all that grows with the raster: sums, masks, what cells see and what the drawing takes, on the adapter too.

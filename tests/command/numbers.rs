@@ -2,7 +2,8 @@
 
 use crate::model::{I16, Model, U32};
 use crate::shared::program::{done, gnomon, stderr};
-use gnomon::site::{Engine, Overrides, Receivers, Site};
+use gnomon::choice::{Engine, Receivers};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, InstantWants, Wants};
 use gnomon::view::View;
 use serde_json::{Value, json};

@@ -2,10 +2,11 @@
 
 use super::exporting::{answer, command, menu};
 use super::*;
+use gnomon::choice::Receivers;
 use gnomon::export::surfaces::{Atlas, Surfaces};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{Scene, Technique};
-use gnomon::site::{Overrides, Receivers, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, SurfaceOutcome};
 use gnomon::view::{Camera, Surface, View};
 use std::ops::ControlFlow;

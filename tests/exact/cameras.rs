@@ -3,6 +3,7 @@
 use crate::shared::drawing::{crossing, gpu, scene_of, to_sun};
 use crate::shared::scenes::sheet;
 use glam::{DVec3, dvec3};
+use gnomon::choice::Receivers;
 use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Difference;
 use gnomon::shadow::near_clip::near_clip_volume_touched;
@@ -10,7 +11,6 @@ use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::ProcessorFinder;
-use gnomon::site::Receivers;
 use gnomon::view::{Camera, View};
 
 fn camera(eye: DVec3, target: DVec3) -> Camera {

@@ -3,11 +3,11 @@
 use crate::shared::drawing::{plan, scene_of, to_sun};
 use crate::shared::scenes::cuboid;
 use glam::{DVec3, dvec3};
+use gnomon::choice::Receivers;
 use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Difference;
 use gnomon::shadow::Technique;
 use gnomon::shadow::ray_cast::RayCast;
-use gnomon::site::Receivers;
 use gnomon::view::{Camera, Mask, View};
 
 #[test]

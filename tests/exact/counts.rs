@@ -4,10 +4,10 @@ use super::masks;
 use crate::shared::drawing::{plan, scene_of, to_sun};
 use crate::shared::scenes::stack;
 use glam::{DVec3, dvec3};
+use gnomon::choice::Receivers;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::Technique;
 use gnomon::shadow::ray_cast::RayCast;
-use gnomon::site::Receivers;
 use gnomon::view::{Camera, Surface, View};
 
 /// Around the powers of two that a count, twice a count and half a count pass.

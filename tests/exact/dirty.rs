@@ -4,10 +4,10 @@ use super::{agree, masks};
 use crate::shared::drawing::{scene_of, to_sun};
 use crate::shared::scenes::{cuboid, joined, sheet, small};
 use glam::{DVec3, dvec3};
+use gnomon::choice::Receivers;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::profile::compare::Difference;
 use gnomon::shadow::Scene;
-use gnomon::site::Receivers;
 use gnomon::view::{Camera, View};
 use proptest::prelude::*;
 

@@ -1,7 +1,8 @@
 //! Contours against the cells that they part, one by one.
 
+use gnomon::choice::{Engine, Receivers};
 use gnomon::profile::contour::{Contour, ScalarField, contours};
-use gnomon::site::{Engine, Overrides, Receivers, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, Wants};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;

@@ -3,10 +3,10 @@
 use super::camera;
 use super::synthetic::{self, Town};
 use glam::DVec3;
+use gnomon::choice::Receivers;
 use gnomon::export::figure::scale::{self, Bands};
 use gnomon::export::figure::{self, PictureExtras, ScaleBar};
 use gnomon::profile::Profile;
-use gnomon::site::Receivers;
 use gnomon::sun::ZoneRules;
 use gnomon::view::{Camera, Mask, Overlay, Surface, View};
 

@@ -1,9 +1,10 @@
 //! The reports' keys and words.
 
 use super::synthetic::{self, Town};
+use gnomon::choice::Receivers;
 use gnomon::export::report::{self, ReportContext};
 use gnomon::profile::{Profile, Timings};
-use gnomon::site::{Ground, Receivers};
+use gnomon::site::Ground;
 use gnomon::sun::Polar;
 use serde_json::Value;
 

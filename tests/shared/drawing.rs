@@ -3,10 +3,10 @@
 pub(crate) use super::dense::to_sun;
 use super::scenes::{cuboid, sheet};
 use glam::{DVec3, dvec3};
+use gnomon::choice::Receivers;
 use gnomon::gpu::Gpu;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::Scene;
-use gnomon::site::Receivers;
 use gnomon::view::{Grid, View};
 use std::sync::{Arc, OnceLock};
 

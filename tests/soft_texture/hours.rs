@@ -2,10 +2,11 @@
 
 use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};
+use gnomon::choice::{Engine, Finder, Method};
 use gnomon::cli::Options;
 use gnomon::mesh::Mesh;
 use gnomon::message::Worded;
-use gnomon::site::{Engine, Finder, Method, Overrides, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::{Event, StudyError, SurfaceOutcome, surfaces};
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -2,13 +2,14 @@
 
 use crate::shared::dense::{cuboid, prism, to_sun};
 use glam::{DVec3, dvec3};
+use gnomon::choice::{Engine, Method};
 use gnomon::cli::Options;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::message::Worded;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::soft_picture::SoftPicture;
 use gnomon::shadow::{Scene, Technique};
-use gnomon::site::{Engine, Method, Site};
+use gnomon::site::Site;
 use gnomon::study::{InstantWants, instant};
 use gnomon::view::{Camera, Mask, View};
 use std::ops::ControlFlow;

@@ -1,9 +1,10 @@
 //! The sample sites: every way against rays, cell by cell, at three instants.
 
 use super::Scene;
+use gnomon::choice::{Engine, Method};
 use gnomon::mesh::patches::{DEFAULT_CELL_M, MOST_TEXELS, Patches};
 use gnomon::shadow::soft_texture::{Choice, Sample};
-use gnomon::site::{Engine, Method, Overrides, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::study::{SurfaceOutcome, surfaces};
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -4,6 +4,7 @@ use super::{draw, site};
 use crate::shared::drawing::{crossing, day, gpu, plan, scene_of, to_sun};
 use crate::shared::scenes::{sheet, small, stack};
 use glam::{DVec3, dvec3};
+use gnomon::choice::Receivers;
 use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Edges;
 use gnomon::shadow::hybrid::Hybrid;
@@ -12,7 +13,6 @@ use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::ProcessorFinder;
-use gnomon::site::Receivers;
 use gnomon::view::{Camera, Decider, FragmentCounts, Mask, View};
 
 /// A sun's masks, and what decided.

@@ -7,12 +7,12 @@ use crate::shared::drawing::{day, plan, scene_of, to_sun};
 use crate::shared::scenes::{cuboid, sheet, small, stack};
 use crate::shared::{dense, dome};
 use glam::{DVec3, dvec2, dvec3};
+use gnomon::choice::Receivers;
 use gnomon::gpu::Gpu;
 use gnomon::mesh::{Mesh, Part};
 use gnomon::shadow::projected::{Projected, ProjectedOnGpu};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{PlanSurface, Scene, Technique, plan_surface};
-use gnomon::site::Receivers;
 use gnomon::view::{Grid, Mask, Surface, SurfaceRows, View};
 use std::sync::Arc;
 

@@ -5,14 +5,13 @@ use crate::shared::drawing::{gpu, plan, scene_of, to_sun};
 use crate::shared::far_wrong::far_wrong;
 use crate::shared::scenes::{cuboid, sheet};
 use glam::{DVec3, dvec3};
-use gnomon::choice::MAP_SIZE;
+use gnomon::choice::{MAP_SIZE, Receivers};
 use gnomon::cli::Options;
 use gnomon::mesh::Mesh;
 use gnomon::message::Worded;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::{Scene, ShadowError};
-use gnomon::site::Receivers;
 use gnomon::view::{Grid, View};
 use std::collections::BTreeSet;
 

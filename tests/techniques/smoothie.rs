@@ -5,13 +5,13 @@ use super::{draw, site};
 use crate::shared::drawing::{gpu, scene_of, to_sun};
 use crate::shared::scenes::{cuboid, joined, sheet};
 use glam::{DVec2, DVec3, dvec2, dvec3};
+use gnomon::choice::Receivers;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::{DrawnMask, Scene};
 use gnomon::silhouette::ProcessorFinder;
-use gnomon::site::Receivers;
 use gnomon::sun::SUN_DISC_RAD;
 use gnomon::view::{Grid, Mask, View};
 

@@ -7,6 +7,7 @@
 //! The tests include this file to see that its comparisons can fail.
 
 use glam::{DVec3, DVec4, dvec4};
+use gnomon::choice::Receivers;
 use gnomon::gpu::{Gpu, GpuError};
 use gnomon::mesh::Mesh;
 use gnomon::profile::compare::Difference;
@@ -17,7 +18,7 @@ use gnomon::shadow::walls::{WallQuery, Walls};
 use gnomon::shadow::{Scene, ShadowError, Technique};
 use gnomon::silhouette::hextree::{DEEPEST, PAPER_DEPTH};
 use gnomon::silhouette::{DirectedEdge, ProcessorFinder, SilhouetteFinder};
-use gnomon::site::{Overrides, Receivers, Site};
+use gnomon::site::{Overrides, Site};
 use gnomon::view::View;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

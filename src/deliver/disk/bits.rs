@@ -14,10 +14,10 @@
 //! It is written instant by instant, for each tile of the plan, beside its place, and renamed when it is whole.
 
 use super::unfinished::bits_path;
+use crate::choice::Receivers;
 use crate::export::checksum::Checksum;
 use crate::export::report::{InstantReport, instant_report};
 use crate::export::{ExportError, file};
-use crate::site::Receivers;
 use crate::sun::SunTrack;
 use crate::view::{Bits, Grid, Tile};
 use serde::Serialize;

@@ -2,9 +2,9 @@
 
 use super::scale::{NO_SHADOW, Rgb, band_secs, mix};
 use super::{FigureContext, cells, check_surface, page, panel, plan, text, words};
+use crate::choice::Receivers;
 use crate::export::{ExportError, check_size};
 use crate::profile::comparison::{Alteration, Change, Comparison};
-use crate::site::Receivers;
 use crate::view::Surface;
 
 /// More shadow, from a little to the most; darker in print without colours, too.

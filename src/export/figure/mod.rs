@@ -35,10 +35,11 @@ pub use text::without_middle;
 pub(super) use words::duration;
 
 use super::{ExportError, check_size, report};
+use crate::choice::Receivers;
 use crate::look::LOOK;
 use crate::mesh::Mesh;
 use crate::profile::{Profile, Provenance, ShadedCells};
-use crate::site::{Ground, Receivers};
+use crate::site::Ground;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{FragmentCounts, Grid, Mask, Overlay, Surface, SurfaceRows, View};
 use components::Components;

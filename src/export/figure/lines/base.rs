@@ -1,12 +1,12 @@
 //! What lies under the lines: the ground, the buildings, and where something else parts cells than the sun.
 
 use super::{Line, LineGroup, Scale, fill, group, line, paths, stroke};
+use crate::choice::Receivers;
 use crate::export::figure::picture::{Cells, Pen};
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::Block;
 use crate::export::figure::{FigureContext, plan};
 use crate::profile::contour::{Contour, ScalarField, contours};
-use crate::site::Receivers;
 use crate::view::{Grid, Surface, SurfaceRows};
 use rayon::prelude::*;
 

@@ -3,6 +3,7 @@
 use super::base::Base;
 use super::labels::{self, Labels, Spot};
 use super::{LineDrawing, LineGroup, Scale, fill, group, length};
+use crate::choice::Receivers;
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb, mix};
 use crate::export::figure::svg::{Block, LetterStyle};
 use crate::export::figure::text::FontWeight;
@@ -10,7 +11,6 @@ use crate::export::figure::{self, FigureContext, plan, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::Profile;
 use crate::profile::contour::Contour;
-use crate::site::Receivers;
 use crate::view::SurfaceRows;
 use std::collections::{BTreeMap, BTreeSet};
 
