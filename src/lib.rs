@@ -53,6 +53,7 @@ pub use {chrono, glam};
 pub mod message;
 
 pub mod choice;
+pub mod contour;
 pub mod look;
 pub mod mesh;
 pub mod sun;
@@ -69,6 +70,9 @@ pub mod shadow;
 pub mod picture;
 
 pub mod profile;
+pub mod sunlight;
+pub mod verification;
+
 pub mod study;
 
 pub mod export;

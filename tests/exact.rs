@@ -10,12 +10,12 @@ use crate::shared::scenes::*;
 use glam::{DVec3, dvec3};
 use gnomon::choice::Receivers;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::profile::compare::Difference;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::{Overrides, Site};
+use gnomon::verification::Difference;
 use gnomon::view::{Camera, Mask, View};
 
 /// For each sun the stencil's mask, the truth's, and how they differ.

@@ -4,8 +4,8 @@ use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::patches::{DEFAULT_CELL_M, FLAT_M, MOST_TEXELS, Patch, Patches};
 use gnomon::mesh::{Mesh, Part};
-use gnomon::profile::surfaces::SurfaceHours;
 use gnomon::site::{Overrides, Site};
+use gnomon::sunlight::SurfaceHours;
 use std::path::Path;
 
 fn patches(parts: Vec<Part>, cell: f64) -> (Mesh, Patches) {

@@ -11,13 +11,13 @@ use gnomon::choice::Receivers;
 use gnomon::cli::Options;
 use gnomon::export::figure;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::profile::probe::{Interval, IntervalBound, Sunlight, longest, secs};
 use gnomon::shadow::Technique;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::site::{Ground, ProbeSite};
 use gnomon::study::StudyError;
 use gnomon::study::probe::probe;
 use gnomon::sun::{Air, DayWindow, Place, Position, Reading, Sky, Zone, delta_t_secs, position};
+use gnomon::sunlight::{Interval, IntervalBound, Sunlight, longest, secs};
 use gnomon::view::{Probe, View};
 use std::ops::ControlFlow;
 
@@ -354,9 +354,8 @@ fn below_the_ground_there_is_no_sun() {
     let house = cuboid("house", dvec3(-5.0, 0.0, -3.0), dvec3(5.0, 9.0, 9.0));
     let wall = |z: f64| at(dvec3(0.0, 0.0, z), Some(DVec3::NEG_Y));
     let mut asked = probing(&place, vec![house], vec![wall(-1.0), wall(0.0), wall(1.0)], vec![day]);
-    let secs = |asked: &ProbeSite| {
-        found(asked).probes.iter().map(gnomon::profile::probe::ProbeIntervals::secs).collect::<Vec<_>>()
-    };
+    let secs =
+        |asked: &ProbeSite| found(asked).probes.iter().map(gnomon::sunlight::ProbeIntervals::secs).collect::<Vec<_>>();
     let above = secs(&asked);
     assert!(above[0] == 0 && above[1] > 20_000 && above[1] == above[2], "{above:?}");
     asked.ground.level = -3.0;

@@ -4,9 +4,9 @@ use super::parts::note_letters;
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::{figure, probe as encode};
 use crate::message::Words;
-use crate::profile::probe::Sunlight;
 use crate::site::ProbeSite;
 use crate::study::{self, Event, OnEvent, tell};
+use crate::sunlight::Sunlight;
 use std::path::PathBuf;
 
 /// What is asked beside the answer itself.

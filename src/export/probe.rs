@@ -3,9 +3,9 @@
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, figure, report};
 use crate::message::{Field, Words, aside, message};
-use crate::profile::probe::{Interval, ProbeIntervals, SunDay, Sunlight, below_ground_m, longest, secs};
 use crate::site::{Ground, metres};
 use crate::sun::{Place, Polar, Zone};
+use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight, below_ground_m, longest, secs};
 use crate::view::Probe;
 use chrono::DateTime;
 use glam::DVec3;

@@ -5,10 +5,10 @@
 use super::ExportError;
 use super::surfaces::Surfaces;
 use crate::choice::{Filter, Finder, Receivers, Settings};
-use crate::profile::surfaces::Exposure;
 use crate::profile::{Profile, Provenance, Statistics, Timings};
 use crate::site::Ground;
 use crate::sun::{Air, Day, Instant, Place, Polar, SunTrack, Zone};
+use crate::sunlight::Exposure;
 use crate::view::{Grid, View};
 use chrono::{DateTime, Offset, SecondsFormat};
 use serde::Serialize;

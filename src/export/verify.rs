@@ -2,9 +2,9 @@
 
 use super::{ExportError, report};
 use crate::choice::{Engine, Finder, Promise, Truth};
-use crate::profile::verify::{HoursDifference, Row, Verification};
 use crate::site::Site;
 use crate::sun::{Place, SunTrack};
+use crate::verification::{HoursDifference, Row, Verification};
 use serde::Serialize;
 use std::fmt::Write;
 

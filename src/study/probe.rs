@@ -6,11 +6,11 @@
 
 use super::{Event, OnEvent, StudyError, note_models, tell};
 use crate::mesh::Mesh;
-use crate::profile::probe::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, below_ground_m, judged};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::ProbeSite;
 use crate::sun::{Air, DayWindow, Instant, Place, Sky, SunError, Zone, delta_t_secs};
+use crate::sunlight::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, below_ground_m, judged};
 use crate::view::Probe;
 use chrono::{DateTime, TimeDelta};
 use rayon::prelude::*;

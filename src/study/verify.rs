@@ -10,12 +10,11 @@ use crate::choice::{Engine, Method, MethodRow, Promise, Receivers, TABLE, Truth}
 use crate::gpu::Gpu;
 use crate::mesh::report;
 use crate::profile::Provenance;
-use crate::profile::compare::{Difference, is_edge_cell};
-use crate::profile::verify::{Row, Tally, Verification};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{ShadowError, Technique};
 use crate::site::Site;
 use crate::sun::Instant;
+use crate::verification::{Difference, Row, Tally, Verification, is_edge_cell};
 use crate::view::{Decider, Mask, View};
 use rayon::prelude::*;
 use std::sync::Arc;

@@ -5,12 +5,12 @@ use crate::shared::scenes::sheet;
 use glam::{DVec3, dvec3};
 use gnomon::choice::Receivers;
 use gnomon::mesh::Mesh;
-use gnomon::profile::compare::Difference;
 use gnomon::shadow::near_clip::near_clip_volume_touched;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::ProcessorFinder;
+use gnomon::verification::Difference;
 use gnomon::view::{Camera, View};
 
 fn camera(eye: DVec3, target: DVec3) -> Camera {

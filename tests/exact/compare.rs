@@ -5,9 +5,9 @@ use crate::shared::scenes::cuboid;
 use glam::{DVec3, dvec3};
 use gnomon::choice::Receivers;
 use gnomon::mesh::Mesh;
-use gnomon::profile::compare::Difference;
 use gnomon::shadow::Technique;
 use gnomon::shadow::ray_cast::RayCast;
+use gnomon::verification::Difference;
 use gnomon::view::{Camera, Mask, View};
 
 #[test]

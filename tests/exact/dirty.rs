@@ -6,8 +6,8 @@ use crate::shared::scenes::{cuboid, joined, sheet, small};
 use glam::{DVec3, dvec3};
 use gnomon::choice::Receivers;
 use gnomon::mesh::{Mesh, Part};
-use gnomon::profile::compare::Difference;
 use gnomon::shadow::Scene;
+use gnomon::verification::Difference;
 use gnomon::view::{Camera, View};
 use proptest::prelude::*;
 

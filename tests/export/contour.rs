@@ -1,7 +1,7 @@
 //! Contours against the cells that they part, one by one.
 
 use gnomon::choice::{Engine, Receivers};
-use gnomon::profile::contour::{Contour, ScalarField, contours};
+use gnomon::contour::{Contour, ScalarField, contours};
 use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, Wants};
 use std::collections::BTreeMap;

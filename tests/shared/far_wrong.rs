@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 use gnomon::gpu::Gpu;
-use gnomon::profile::compare::Edges;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::{Scene, ShadowError, Technique};
+use gnomon::verification::Edges;
 use gnomon::view::{Mask, View};
 use std::sync::Arc;
 

@@ -6,13 +6,13 @@ use crate::shared::scenes::{sheet, small, stack};
 use glam::{DVec3, dvec3};
 use gnomon::choice::Receivers;
 use gnomon::mesh::Mesh;
-use gnomon::profile::compare::Edges;
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::near_clip::near_clip_volume_touched;
 use gnomon::shadow::shadow_map::{Filter, ShadowMap};
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::ProcessorFinder;
+use gnomon::verification::Edges;
 use gnomon::view::{Camera, Decider, FragmentCounts, Mask, View};
 
 /// A sun's masks, and what decided.

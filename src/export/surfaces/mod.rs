@@ -12,8 +12,8 @@ use super::figure::scale::Bands;
 use super::probe::{field, plain};
 use crate::mesh::Mesh;
 use crate::mesh::patches::{Patch, Patches};
-use crate::profile::surfaces::{Exposure, SurfaceHours};
 use crate::sun::{Place, SunTrack};
+use crate::sunlight::{Exposure, SurfaceHours};
 use std::fmt::Write;
 
 /// The answer on surfaces, and what it is about.

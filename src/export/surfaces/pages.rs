@@ -4,7 +4,7 @@
 use super::Surfaces;
 use crate::export::figure::scale::{Bands, NO_SUN, Rgb};
 use crate::mesh::patches::{GUTTER, Patch, Patches};
-use crate::profile::surfaces::SurfaceHours;
+use crate::sunlight::SurfaceHours;
 use glam::DVec3;
 use std::collections::VecDeque;
 

@@ -2,11 +2,11 @@
 
 use super::{Line, LineGroup, Scale, fill, group, line, paths, stroke};
 use crate::choice::Receivers;
+use crate::contour::{Contour, ScalarField, contours};
 use crate::export::figure::picture::{Cells, Pen};
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::Block;
 use crate::export::figure::{FigureContext, plan};
-use crate::profile::contour::{Contour, ScalarField, contours};
 use crate::view::{Grid, Surface, SurfaceRows};
 use rayon::prelude::*;
 

@@ -4,13 +4,13 @@ use super::base::Base;
 use super::labels::{self, Labels, Spot};
 use super::{LineDrawing, LineGroup, Scale, fill, group, length};
 use crate::choice::Receivers;
+use crate::contour::Contour;
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb, mix};
 use crate::export::figure::svg::{Block, LetterStyle};
 use crate::export::figure::text::FontWeight;
 use crate::export::figure::{self, FigureContext, plan, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::Profile;
-use crate::profile::contour::Contour;
 use crate::view::SurfaceRows;
 use std::collections::{BTreeMap, BTreeSet};
 

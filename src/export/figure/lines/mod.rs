@@ -15,8 +15,8 @@ use super::page::{self, Sheet};
 use super::picture::Fit;
 use super::scale::Rgb;
 use super::svg::{Block, hex};
+use crate::contour::Contour;
 use crate::export::ExportError;
-use crate::profile::contour::Contour;
 use std::fmt::Write;
 
 /// A line drawing on its sheet.

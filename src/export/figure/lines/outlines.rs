@@ -4,13 +4,13 @@ use super::base::Base;
 use super::labels::{Labels, Spot};
 use super::{LineDrawing, LineGroup, Scale, distance, fill, group};
 use crate::choice::Receivers;
+use crate::contour::Contour;
 use crate::export::figure::picture::Fit;
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::{Block, LetterStyle};
 use crate::export::figure::text::FontWeight;
 use crate::export::figure::{self, FigureContext, UNJUDGED, plan, words};
 use crate::export::{ExportError, check_size};
-use crate::profile::contour::Contour;
 use crate::sun::Instant;
 use crate::view::{Bits, Grid, SurfaceRows};
 

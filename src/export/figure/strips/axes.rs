@@ -1,7 +1,7 @@
 //! The chart's axes: whole hours of the local clock across, and which days have a line and a label.
 
-use crate::profile::probe::SunDay;
 use crate::sun::Zone;
+use crate::sunlight::SunDay;
 use chrono::{DateTime, Datelike, NaiveDate, NaiveTime};
 
 /// The hours across, counted from the midnight with which the local date begins; beyond 24 on the next day.

@@ -11,9 +11,9 @@ use super::text;
 use crate::export::ExportError;
 use crate::export::probe::{clock, counted, lies};
 use crate::message::{Field, Words, message};
-use crate::profile::probe::{Interval, ProbeIntervals, SunDay, Sunlight, below_ground_m};
 use crate::site::{Ground, metres};
 use crate::sun::{Day, Place, Zone};
+use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight, below_ground_m};
 use axes::{HourAxis, Tick, ticks};
 use chrono::{DateTime, NaiveDate};
 

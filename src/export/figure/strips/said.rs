@@ -6,9 +6,9 @@ use crate::export::figure::svg::{ACCENT, Anchor, Block, LetterStyle};
 use crate::export::figure::{text, words};
 use crate::export::probe::{clock, facing, triple};
 use crate::export::report;
-use crate::profile::probe::{Interval, ProbeIntervals, SunDay, Sunlight};
 use crate::site::Ground;
 use crate::sun::{Air, Place, Zone, delta_t_secs, position};
+use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight};
 use chrono::DateTime;
 
 pub(super) fn panel(sunlight: &Sunlight, place: &Place, ground: &Ground) -> Panel {

@@ -1,0 +1,23 @@
+//! What drew an answer, and how long it took.
+
+use crate::choice::{Engine, Finder, Method, Settings};
+
+/// What drew an answer: never [`Method::Auto`], [`Finder::Auto`] or [`Engine::Auto`], always the choice that was made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Provenance {
+    /// The technique.
+    pub technique: Method,
+    /// Who found silhouettes; absent where nobody did.
+    pub finder: Option<Finder>,
+    /// The machine.
+    pub engine: Engine,
+    /// The graphics adapter's own name; absent where none was used.
+    pub adapter: Option<String>,
+    /// How it was set, each absent where the technique does not use it. Without [`Settings::sun_samples`] the sun was its
+    /// centre; [`Settings::smoothie_width_m`] is there where it was set by hand.
+    pub settings: Settings,
+}
+
+/// How long each stage took, in seconds and in the order of the work; the last one is `total`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Timings(pub Vec<(&'static str, f64)>);

@@ -1,0 +1,139 @@
+//! Why there is no answer.
+
+use super::tiles;
+use crate::choice::Misfit;
+use crate::gpu::GpuError;
+use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
+use crate::shadow::ShadowError;
+use crate::sun::SunError;
+
+/// Why there is no answer. One line each.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// Two choices that exclude each other.
+    Conflict {
+        /// What does not fit.
+        field: Field,
+        /// Why, and the way out.
+        message: Message,
+    },
+    /// Technique, engine and settings that do not go together, or not with what is drawn.
+    Misfit(#[from] Misfit),
+    /// The plan does not fit the memory that there is for it.
+    LittleMemory {
+        /// What there is, bytes.
+        asked: u64,
+        /// What the smallest tile takes, bytes.
+        least: u64,
+        /// Columns of the plan.
+        width: u32,
+    },
+    /// The plan is drawn at once, and has too many cells for that.
+    TooManyCells {
+        /// Columns of the plan.
+        width: u32,
+        /// Its rows.
+        height: u32,
+    },
+    /// Time on surfaces is summed in 32 bits.
+    TooLong {
+        /// Seconds of the window with the sun above the horizon.
+        day_secs: u32,
+        /// How many can be summed.
+        most_secs: u32,
+    },
+    /// Nothing that receives has an area.
+    NoSurface,
+    /// The track has no instant.
+    NoInstant,
+    /// No adapter, or not a good one.
+    Gpu(#[from] GpuError),
+    /// Volumes and silhouettes are the stencil's alone.
+    NoVolumes(String),
+    /// Techniques are held against ray casting where they draw.
+    NoVerification(String),
+    /// Every device failed on which what is asked was tried, and nothing else can do it.
+    NoDevice(String),
+    /// All instants are at night.
+    NoDay,
+    /// The sun's position at a time cannot be found.
+    Sun(#[from] SunError),
+    /// Drawing failed.
+    Shadow(#[from] ShadowError),
+    /// As asked by the listener.
+    Interrupted,
+}
+
+plain_display!(StudyError);
+
+impl Worded for StudyError {
+    fn message(&self) -> Message {
+        const DRIVER: &str = "install a driver (on Linux mesa-vulkan-drivers draws in software)";
+        match self {
+            StudyError::Conflict { field, message } => message.clone().of((*field).into()),
+            StudyError::Misfit(misfit) => misfit.message(),
+            StudyError::LittleMemory { asked, least, width } => message![
+                Field::Memory,
+                format!(": {} is too little for rows of {width} cells", tiles::amount(*asked));
+                format!("take at least {}, or larger cells", tiles::amount(*least)), aside(Field::Cell)
+            ],
+            StudyError::TooManyCells { width, height } => message![
+                format!("{width} × {height} cells are more than can be drawn at once");
+                "choose larger cells",
+                aside(Field::Cell),
+                Piece::Where(Field::Size, pieces![" or fewer", aside(Field::Size)])
+            ],
+            StudyError::TooLong { day_secs, most_secs } => message![
+                format!(
+                    "the study has {} hours of daylight, and surfaces sum at most {}",
+                    day_secs / 3600,
+                    most_secs / 3600
+                );
+                "ask for fewer days or a shorter window"
+            ],
+            StudyError::NoSurface => {
+                message!["no component that receives has a surface"; "see `receives` in the site file"]
+            }
+            StudyError::NoInstant => message!["there is no instant to draw"],
+            StudyError::Gpu(error) => error.message(),
+            StudyError::NoVolumes(why) => message![
+                Field::Volumes,
+                format!(": volumes and silhouette are drawn on a graphics adapter, and {why}");
+                DRIVER, " or leave them out"
+            ],
+            StudyError::NoVerification(why) => message![
+                format!("verify draws with every technique on a graphics adapter, and {why}");
+                DRIVER
+            ],
+            StudyError::NoDevice(why) => message![
+                why.clone(), ", after another device had failed, and what is asked is drawn on a graphics adapter alone";
+                "update its driver, close what else draws on it, take larger cells, or install a driver that draws in \
+                 software (on Linux mesa-vulkan-drivers)"
+            ],
+            StudyError::NoDay => message![
+                "there is no sun at any of the study's instants, and nothing to compare";
+                "take a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
+            ],
+            StudyError::Sun(error) => error.message(),
+            StudyError::Shadow(error) => error.message(),
+            StudyError::Interrupted => message!["interrupted"],
+        }
+    }
+}
+
+impl StudyError {
+    /// Whether the command line was wrong (exit status 2).
+    pub fn is_wrong_use(&self) -> bool {
+        use StudyError::{Conflict, LittleMemory, Misfit, TooManyCells};
+        matches!(self, Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. })
+    }
+
+    /// What a graphics device failed of, where it did while working: on another one the work can be done.
+    pub fn lost_device(&self) -> Option<&GpuError> {
+        match self {
+            StudyError::Gpu(error) | StudyError::Shadow(ShadowError::Gpu(error)) => Some(error),
+            _ => None,
+        }
+        .filter(|error| matches!(error, GpuError::Lost { .. }))
+    }
+}

@@ -1,0 +1,82 @@
+//! What happens on the way, and who hears it.
+
+use super::{StudyError, TiledStudy};
+use crate::profile::{Shaded, Unfinished};
+use crate::sun::Zone;
+use crate::view::{Bits, Mask, Tile};
+use chrono::DateTime;
+use std::cell::RefCell;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+/// What happens on the way.
+#[derive(Clone, Debug)]
+pub enum Event<'a> {
+    /// Something that the user should know.
+    Note(String),
+    /// A graphics adapter failed, and the work is done again: what was told of it is void, but for notes.
+    Anew,
+    /// The same study is done again: whoever keeps what was done so far ([`Event::Kept`]) can put it here, and the study
+    /// goes on from there.
+    Resumes {
+        /// The study.
+        study: &'a TiledStudy<'a>,
+        /// What is to be gone on from.
+        begun: &'a RefCell<Option<Unfinished>>,
+    },
+    /// All is prepared; drawing begins.
+    Started {
+        /// How many instants there are, those of each tile counted.
+        instants: usize,
+        /// How many tiles there are.
+        tiles: usize,
+    },
+    /// So many of them were done before, and are not drawn again.
+    GoesOn {
+        /// How many.
+        done: usize,
+    },
+    /// A tile of the plan begins, or goes on: the next instants are its.
+    Tile(Tile),
+    /// The tile's sums, once all of its instants are done.
+    Summed(Arc<Shaded>),
+    /// One instant is done, in time's order for each tile.
+    Drawn {
+        /// From 0.
+        index: usize,
+        /// Of how many.
+        count: usize,
+        /// Local clock time of the place.
+        time: DateTime<Zone>,
+        /// Its mask, where masks are wanted.
+        mask: Option<&'a Mask>,
+        /// Which cells are in shadow, where that is wanted and there is a sun.
+        bits: Option<&'a Bits>,
+    },
+    /// What is done so far, to be kept: with it the study can go on another time.
+    Kept(&'a Unfinished),
+    /// The study is done, and of what is made of it another stage is.
+    Stage(&'static str),
+}
+
+/// Hears what happens; [`ControlFlow::Break`] ends the work with [`StudyError::Interrupted`].
+pub type OnEvent<'a> = dyn FnMut(Event<'_>) -> ControlFlow<()> + 'a;
+
+/// Tells what happens.
+///
+/// # Errors
+/// [`StudyError::Interrupted`] as asked by the listener.
+pub fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> {
+    match on_event(event) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(StudyError::Interrupted),
+    }
+}
+
+/// Tells what the user should know of the models: how they were read, how exact they are, and where they stand.
+///
+/// # Errors
+/// [`StudyError::Interrupted`] as asked by the listener.
+pub fn note_models(notes: &[String], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
+}

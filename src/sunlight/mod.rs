@@ -1,0 +1,7 @@
+//! Time in the sun where there is no raster: the intervals of single points, and hours on flat patches.
+
+mod patches;
+mod probes;
+
+pub use patches::{Exposure, SurfaceHours};
+pub use probes::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, below_ground_m, judged, longest, secs};

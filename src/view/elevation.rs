@@ -1,0 +1,93 @@
+//! A side, seen along level, parallel rays.
+
+use glam::{DVec2, DVec3};
+
+/// One of four sides: what is seen from there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// From the north.
+    North,
+    /// From the east.
+    East,
+    /// From the south.
+    South,
+    /// From the west.
+    West,
+}
+
+/// What stays free on both sides of all that a side shows, below it and above it, a share of the picture.
+const BESIDE: f64 = 0.04;
+const BELOW: f64 = 0.16;
+const ABOVE: f64 = 0.10;
+/// The least that a side shows from foot to head, metres.
+const LEAST: f64 = 0.1;
+
+impl Side {
+    /// The level unit vector towards the viewer.
+    pub fn to_viewer(self) -> DVec3 {
+        match self {
+            Side::North => DVec3::Y,
+            Side::East => DVec3::X,
+            Side::South => DVec3::NEG_Y,
+            Side::West => DVec3::NEG_X,
+        }
+    }
+
+    /// The middle of the picture of that proportion that holds a box whole, and how much it shows from foot to head,
+    /// metres. The box stands low in it: below the ground's line there is only cut earth.
+    pub fn around(self, (low, high): (DVec3, DVec3), width_by_height: f64) -> (DVec3, f64) {
+        let size = high - low;
+        let width = size.dot(self.right().abs()) / (1.0 - 2.0 * BESIDE);
+        let height = (width / width_by_height).max(size.z / (1.0 - BELOW - ABOVE)).max(LEAST);
+        (((low + high) / 2.0).with_z(low.z + height * (0.5 - BELOW)), height)
+    }
+
+    /// How much a picture of that proportion about a point must show from foot to head, metres, to hold a box whole.
+    pub fn height_about(self, middle: DVec3, (low, high): (DVec3, DVec3), width_by_height: f64) -> f64 {
+        let [low, high] = [low - middle, high - middle];
+        let aside = low.dot(self.right()).abs().max(high.dot(self.right()).abs());
+        let across = aside / (0.5 - BESIDE) / width_by_height;
+        across.max(-low.z / (0.5 - BELOW)).max(high.z / (0.5 - ABOVE)).max(LEAST)
+    }
+
+    fn right(self) -> DVec3 {
+        DVec3::Z.cross(self.to_viewer())
+    }
+}
+
+/// A picture of one side: level, along parallel rays, true to scale. What lies below the ground is behind the earth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elevation {
+    /// The point in the middle of the picture, metres.
+    pub target: DVec3,
+    /// The level unit vector towards the viewer.
+    pub to_viewer: DVec3,
+    /// Side of a pixel, metres.
+    pub cell: f64,
+    /// Picture width, pixels.
+    pub width: u32,
+    /// Picture height, pixels.
+    pub height: u32,
+}
+
+impl Elevation {
+    /// Rightwards, upwards and forwards in the picture: unit vectors in the world frame.
+    pub fn axes(&self) -> [DVec3; 3] {
+        let forward = -self.to_viewer;
+        [forward.cross(DVec3::Z), DVec3::Z, forward]
+    }
+
+    /// Half the picture's width and height, metres.
+    pub fn half_size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.width), f64::from(self.height)) * self.cell / 2.0
+    }
+
+    /// Where a pixel's centre lies in the plane of the picture, which goes through the target.
+    pub fn centre(&self, column: u32, row: u32) -> DVec3 {
+        let [right, up, _] = self.axes();
+        let half = self.half_size();
+        let x = (f64::from(column) + 0.5) * self.cell - half.x;
+        let y = half.y - (f64::from(row) + 0.5) * self.cell;
+        self.target + right * x + up * y
+    }
+}

@@ -1,0 +1,84 @@
+//! The share of the sun that each cell sees: a byte a cell, or a bit.
+
+use super::Tile;
+use rayon::prelude::*;
+
+/// Which part of the sun each cell sees at one instant: 255 the whole of it, 0 none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mask {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Per cell the share of the sun that is seen, in 1/255, row 0 first.
+    pub share: Vec<u8>,
+}
+
+/// Which cells are in shadow, where the sun is a point: one bit a cell.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bits {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// 1 in shadow, 0 where the sun is seen; each row begins a word of its own, and its first cell is the lowest bit. What a
+    /// row leaves over of its last word is 0.
+    pub words: Vec<u64>,
+}
+
+impl Bits {
+    /// No cell is in shadow.
+    pub fn new(width: u32, height: u32) -> Bits {
+        let words = vec![0; width.div_ceil(64) as usize * height as usize];
+        Bits { width, height, words }
+    }
+
+    /// Of a mask: in shadow is where at most half of the sun is seen.
+    pub fn of(mask: &Mask) -> Bits {
+        let mut bits = Bits::new(mask.width, mask.height);
+        let in_row = bits.in_row();
+        let rows = bits.words.par_chunks_mut(in_row).zip(mask.share.par_chunks(mask.width as usize));
+        rows.for_each(|(words, shares)| {
+            for (word, shares) in words.iter_mut().zip(shares.chunks(64)) {
+                let set = |word: u64, (at, share): (usize, &u8)| word | u64::from(*share <= 127) << at;
+                *word = shares.iter().enumerate().fold(0, set);
+            }
+        });
+        bits
+    }
+
+    /// Puts a tile's cells in their place on the plan. A tile's first column is a multiple of 64.
+    pub fn paste(&mut self, tile: &Tile, part: &Bits) {
+        let [left, top] = tile.first.map(|first| first as usize);
+        let in_row = self.in_row();
+        for (row, words) in part.words.chunks(part.in_row()).enumerate() {
+            let first = (top + row) * in_row + left / 64;
+            self.words[first..first + words.len()].copy_from_slice(words);
+        }
+    }
+
+    /// Whether a cell, counted along the rows, is in shadow.
+    pub fn contains(&self, cell: usize) -> bool {
+        let (row, column) = (cell / self.width as usize, cell % self.width as usize);
+        self.words[row * self.in_row() + column / 64] >> (column % 64) & 1 == 1
+    }
+
+    /// Words of a row.
+    pub fn in_row(&self) -> usize {
+        self.width.div_ceil(64) as usize
+    }
+
+    /// The same with a byte a cell.
+    pub fn mask(&self) -> Mask {
+        let mut share = vec![0; self.width as usize * self.height as usize];
+        let rows = share.par_chunks_mut(self.width as usize).zip(self.words.par_chunks(self.in_row()));
+        rows.for_each(|(shares, words)| {
+            for (shares, word) in shares.chunks_mut(64).zip(words) {
+                for (at, share) in shares.iter_mut().enumerate() {
+                    *share = if word >> at & 1 == 1 { 0 } else { 255 };
+                }
+            }
+        });
+        Mask { width: self.width, height: self.height, share }
+    }
+}

@@ -1,0 +1,55 @@
+//! What is looked at, and what comes of it.
+//!
+//! A [`View`] is the plan's [`Grid`] of cells, a [`Camera`] or an [`Elevation`]; a [`Probe`] is a single point. Of a view each cell
+//! sees a [`Surface`], and for one sun there is a [`Mask`].
+
+mod camera;
+mod counts;
+mod elevation;
+mod grid;
+mod mask;
+mod overlay;
+mod probe;
+mod surface;
+
+pub use camera::{Camera, Lens};
+pub use counts::{Decider, FragmentCounts};
+pub use elevation::{Elevation, Side};
+pub use grid::{Grid, Tile};
+pub use mask::{Bits, Mask};
+pub use overlay::Overlay;
+pub use probe::Probe;
+pub use surface::{Surface, SurfaceRows};
+
+use glam::DVec4;
+
+/// What a mask is drawn for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum View {
+    /// Straight down on the grid's cells.
+    Plan(Grid),
+    /// A perspective picture.
+    Camera(Camera),
+    /// A side, as drawings have it.
+    Elevation(Elevation),
+}
+
+impl View {
+    /// Columns and rows of the raster.
+    pub fn size(&self) -> (u32, u32) {
+        match self {
+            View::Plan(grid) => (grid.width, grid.height),
+            View::Camera(camera) => (camera.width, camera.height),
+            View::Elevation(side) => (side.width, side.height),
+        }
+    }
+
+    /// From whence everything is seen, homogeneous: the eye, or the direction straight up or level towards the viewer.
+    pub fn viewer(&self) -> DVec4 {
+        match self {
+            View::Plan(_) => DVec4::Z,
+            View::Camera(camera) => camera.eye.extend(1.0),
+            View::Elevation(side) => side.to_viewer.extend(0.0),
+        }
+    }
+}
