@@ -7,9 +7,10 @@
 mod far_wrong;
 
 use glam::DVec3;
+use gnomon::choice::Filter;
 use gnomon::gpu::Gpu;
 use gnomon::shadow::Scene;
-use gnomon::shadow::shadow_map::Filter;
+
 use gnomon::site::{Overrides, Site};
 use gnomon::view::View;
 use std::path::Path;

@@ -12,10 +12,11 @@ mod timing;
 
 use dense::Dense;
 use glam::{DVec3, dvec3};
+use gnomon::choice::Filter;
 use gnomon::gpu::Gpu;
 use gnomon::mesh::Mesh;
 use gnomon::shadow::hybrid::Hybrid;
-use gnomon::shadow::shadow_map::{Filter, ShadowMap};
+use gnomon::shadow::shadow_map::ShadowMap;
 use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Silhouettes, Technique};

@@ -5,12 +5,12 @@
 //!                             └─► SunTrack ─────────────────────┴─► Technique ─► Mask ─► Profile ─► drawings, data
 //! ```
 //!
-//! The modules, in the order in which they are best read; each knows only those above it, and a test says so.
-//! The whole flow is one function, [`study::run`].
+//! The whole flow is one function, [`study::run`]. What is documented here is for programs that use Gnomon as a library, and
+//! holds from one version to the next of the same number; all else that is public serves the program's own parts and tests.
 //!
 //! # Three doors
 //!
-//! For programs that use Gnomon as a library. All three run from the repository: `cargo run --example site-in-memory`.
+//! All three run from the repository: `cargo run --example site-in-memory`.
 //! [`chrono`] and [`glam`], whose types they speak in, are exported. Without the feature `desktop` there is no window to build.
 //!
 //! ## A site made in memory
@@ -50,10 +50,16 @@
 
 pub use {chrono, glam};
 
+// The modules in the order in which they are best read; each knows only those above it, and a test says so. Those that are
+// no part of a door are hidden in the documentation; `docs/architecture.md` has all of them.
+
+#[doc(hidden)]
 pub mod message;
 
 pub mod choice;
+#[doc(hidden)]
 pub mod contour;
+#[doc(hidden)]
 pub mod look;
 pub mod mesh;
 pub mod sun;
@@ -62,25 +68,34 @@ pub mod view;
 pub mod site;
 
 pub mod silhouette;
+#[doc(hidden)]
 pub mod volume;
 
 pub mod gpu;
 pub mod shadow;
 
+#[doc(hidden)]
 pub mod picture;
 
 pub mod profile;
+#[doc(hidden)]
 pub mod sunlight;
+#[doc(hidden)]
 pub mod verification;
 
 pub mod study;
 
+#[doc(hidden)]
 pub mod export;
 
+#[doc(hidden)]
 pub mod deliver;
+#[doc(hidden)]
 pub mod fault;
 
+#[doc(hidden)]
 pub mod cli;
 
 #[cfg(feature = "desktop")]
+#[doc(hidden)]
 pub mod desktop;

@@ -11,6 +11,7 @@ mod deliver;
 #[cfg(feature = "desktop")]
 mod desktop;
 mod documents;
+mod doors;
 mod elevation;
 mod exact;
 mod export;

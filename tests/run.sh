@@ -11,7 +11,7 @@ usage() {
     cat <<'EOF'
 usage: tests/run.sh [--fast]
 
-Without an option: format, lints, the command without its window, all tests, documentation.
+Without an option: format, lints (also of the command without its window), all tests, documentation.
 
 --fast: format, and the tests that are quick (under a minute once they are built). It leaves out
   - lints (cargo clippy), the build without the window, and the documentation;
@@ -24,7 +24,7 @@ EOF
 
 # The modules of the quick tests. A word here that names no test is an error.
 QUICK=(
-    architecture:: clock:: documents:: export::contour:: export::raster:: export::report:: far::
+    architecture:: clock:: documents:: doors:: export::contour:: export::raster:: export::report:: far::
     geometry:: mistakes:: model:: probe:: references:: shaders:: site:: sun:: typed:: volumes::
 )
 
@@ -111,8 +111,9 @@ if $fast; then
 fi
 say "lints"
 "$CARGO" clippy --all-targets -- -D warnings
-say "the command without its window"
-"$CARGO" check --no-default-features
+# as users build it, where nothing is for tests alone: with its window, and the command without
+"$CARGO" clippy -- -D warnings
+"$CARGO" clippy --no-default-features -- -D warnings
 # tools and examples are compiled by the lints, and need not be linked
 say "tests"
 "$CARGO" test --lib --bins --test all

@@ -9,7 +9,10 @@ mod table;
 mod words;
 
 pub use fit::Misfit;
-pub use table::{MAP_SIZE, Method, MethodRow, Promise, Setting, Subject, TABLE, Truth};
+#[doc(hidden)]
+pub use table::{MAP_SIZE, MethodRow, Promise, TABLE, Truth};
+pub use table::{Method, Setting, Subject};
+#[doc(hidden)]
 pub use words::{ChoiceError, listed};
 pub(crate) use words::{find, nearest, read, words};
 

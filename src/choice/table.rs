@@ -295,6 +295,7 @@ techniques! {
 
 impl Method {
     /// Its row.
+    #[doc(hidden)]
     pub fn row(self) -> &'static MethodRow {
         // the table and the enum are made of the same list
         &TABLE[self as usize]

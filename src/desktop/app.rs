@@ -19,13 +19,10 @@ use super::work::Work;
 use super::{cards, look, panel, screen};
 use crate::export::figure::Colours;
 use crate::gpu::{Gpu, readback};
-use crate::profile::Provenance;
-use crate::site::file::SiteFile;
 use crate::sunlight::Sunlight;
-use crate::view::{Probe, View};
+use crate::view::Probe;
 use eframe::egui::{self, Ui};
 use eframe::egui_wgpu::RenderState;
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -155,53 +152,6 @@ impl App {
     /// What the colours of the shown diagram mean.
     pub(super) fn legend(&self) -> Option<&Colours> {
         self.open.as_ref()?.viewer.shown()?.legend.as_ref()
-    }
-
-    /// Whether nothing is on its way: no site, no picture, no hours.
-    pub fn is_settled(&self) -> bool {
-        let open = self.open.as_ref();
-        self.loading.is_none()
-            && self.writing.is_none()
-            && !self.stage.is_busy()
-            && open.is_none_or(|open| open.adding.is_none() && open.probing.is_none() && open.viewer.is_settled())
-    }
-
-    /// Whether hours are being added up.
-    pub fn is_adding(&self) -> bool {
-        self.open.as_ref().is_some_and(|open| open.adding.is_some())
-    }
-
-    /// What went wrong, and what else is told.
-    pub fn told(&self) -> [Option<&str>; 2] {
-        let of_picture = self.open.as_ref().and_then(|open| open.viewer.fault.as_deref());
-        [self.fault.as_deref().or(of_picture), self.notice.as_deref()]
-    }
-
-    /// Whether a picture is being drawn.
-    pub fn is_drawing(&self) -> bool {
-        self.stage.is_busy()
-    }
-
-    /// What the picture shows: the view, and the unit vector to the sun.
-    pub fn shown(&self) -> Option<(View, DVec3)> {
-        let wish = &self.open.as_ref()?.viewer.shown()?.wish;
-        Some((wish.view, wish.to_sun))
-    }
-
-    /// What was asked for at the last frame: the view at its full size, and the unit vector to the sun.
-    pub fn asked(&self) -> Option<(View, DVec3)> {
-        let wish = self.open.as_ref()?.viewer.asked()?;
-        Some((wish.view, wish.to_sun))
-    }
-
-    /// What drew the picture.
-    pub fn drawn(&self) -> Option<&Provenance> {
-        Some(&self.open.as_ref()?.viewer.shown()?.drawn)
-    }
-
-    /// The site as it is set, as a site file would say it.
-    pub fn site_file(&self) -> &SiteFile {
-        &self.settings.site
     }
 
     /// The picture that is shown, read back: columns, rows and pixels.

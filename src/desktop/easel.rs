@@ -2,7 +2,9 @@
 //! where that fails; and none where that fails again and again.
 
 use crate::gpu::{Gpu, GpuError};
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+#[cfg(feature = "test-hooks")]
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The device at hand, and where the next one comes from.
@@ -13,7 +15,8 @@ pub(super) struct Easel {
     software: AtomicBool,
     given_up: AtomicBool,
     note: Mutex<Option<String>>,
-    /// For tests: so many devices are to be lost as soon as they are opened.
+    /// So many devices are to be lost as soon as they are opened.
+    #[cfg(feature = "test-hooks")]
     to_lose: AtomicU32,
 }
 
@@ -22,7 +25,15 @@ impl Easel {
     pub(super) fn new(adapter: wgpu::Adapter) -> Easel {
         let software = AtomicBool::new(adapter.get_info().device_type == wgpu::DeviceType::Cpu);
         let (gpu, note) = (Mutex::new(None), Mutex::new(None));
-        Easel { adapter, gpu, software, given_up: AtomicBool::new(false), note, to_lose: AtomicU32::new(0) }
+        Easel {
+            adapter,
+            gpu,
+            software,
+            given_up: AtomicBool::new(false),
+            note,
+            #[cfg(feature = "test-hooks")]
+            to_lose: AtomicU32::new(0),
+        }
     }
 
     /// Whether pictures are drawn by the processor: by an adapter that is a program, or without any.
@@ -98,13 +109,15 @@ impl Easel {
 
     fn take(&self, at_hand: &mut Option<Arc<Gpu>>, gpu: Gpu) -> Arc<Gpu> {
         self.software.store(gpu.software(), Ordering::Release);
+        #[cfg(feature = "test-hooks")]
         if self.to_lose.fetch_update(Ordering::AcqRel, Ordering::Acquire, |left| left.checked_sub(1)).is_ok() {
             gpu.device.destroy();
         }
         Arc::clone(at_hand.insert(Arc::new(gpu)))
     }
 
-    /// For tests: takes the device away, as a driver that is reset would, and further ones as soon as they are opened.
+    /// Takes the device away, as a driver that is reset would, and further ones as soon as they are opened.
+    #[cfg(feature = "test-hooks")]
     pub(super) fn lose(&self, further: u32) {
         self.to_lose.store(further, Ordering::Release);
         if let Some(gpu) = &*locked(&self.gpu) {

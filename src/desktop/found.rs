@@ -68,7 +68,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 }
 
 /// Begins to find what is asked.
-fn find(open: &mut Open, settings: &WindowSettings, studies: Option<PathBuf>, context: &egui::Context) {
+pub(super) fn find(open: &mut Open, settings: &WindowSettings, studies: Option<PathBuf>, context: &egui::Context) {
     open.answers += 1;
     let (method, number, context) = (settings.shown.method, open.answers, context.clone());
     open.adding = Some(match &settings.before {
@@ -131,13 +131,6 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
 }
 
 impl App {
-    /// Begins to find the hours of the open site, as its button does.
-    pub fn find_hours(&mut self, context: &egui::Context) {
-        if let Some(open) = &mut self.open {
-            find(open, &self.settings, self.studies.clone(), context);
-        }
-    }
-
     /// The same window, which keeps studies in a folder that are stopped: they go on when the same is asked again.
     pub fn keeping_studies_in(mut self, folder: &Path) -> App {
         self.studies = Some(folder.to_owned());

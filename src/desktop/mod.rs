@@ -18,6 +18,8 @@ mod facades;
 mod files;
 mod found;
 mod frame;
+#[cfg(feature = "test-hooks")]
+mod hooks;
 mod hours;
 mod loading;
 mod look;
@@ -40,4 +42,6 @@ mod words;
 mod work;
 
 pub use app::App;
-pub use reopening::{open, open_with, setup};
+#[cfg(feature = "test-hooks")]
+pub use reopening::setup;
+pub use reopening::{open, open_with};

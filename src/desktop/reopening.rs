@@ -165,6 +165,7 @@ fn options(software: bool) -> NativeOptions {
 }
 
 /// How the window's own device is to be asked for.
+#[cfg(feature = "test-hooks")]
 pub fn setup() -> WgpuSetup {
     WgpuSetup::CreateNew(create_new())
 }
@@ -262,21 +263,5 @@ impl App {
         let why = is_lost.then(|| self.gpu.heard())?.map(|error| error.why())?;
         self.notice = Some(format!("{why}; the window was opened again on a new device"));
         Some(why)
-    }
-
-    /// For tests: takes the window's device away, as a driver that is reset would.
-    pub fn lose_window(&self) {
-        self.gpu.device.destroy();
-    }
-
-    /// For tests: takes it away while this frame is painted.
-    pub fn lose_window_in_painting(&self, context: &egui::Context) {
-        let device = self.gpu.device.clone();
-        context.on_end_pass("lose", Arc::new(move |_: &mut egui::Ui| device.destroy()));
-    }
-
-    /// For tests: takes the device away that pictures are drawn on, and further ones as soon as they are opened.
-    pub fn lose_pictures(&self, further: u32) {
-        self.stage.lose_devices(further);
     }
 }

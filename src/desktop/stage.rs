@@ -136,6 +136,7 @@ impl Stage {
     }
 
     /// Whether it draws, or is about to.
+    #[cfg(feature = "test-hooks")]
     pub(super) fn is_busy(&self) -> bool {
         self.shared.is_busy()
     }
@@ -145,7 +146,8 @@ impl Stage {
         self.shared.easel.is_software()
     }
 
-    /// For tests: takes its device away, and further ones.
+    /// Takes its device away, and further ones.
+    #[cfg(feature = "test-hooks")]
     pub(super) fn lose_devices(&self, further: u32) {
         self.shared.easel.lose(further);
     }

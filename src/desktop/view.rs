@@ -102,11 +102,13 @@ impl Viewer {
     }
 
     /// The best picture of what was asked at the last frame.
+    #[cfg(feature = "test-hooks")]
     pub(super) fn asked(&self) -> Option<&Wish> {
         self.best.as_ref()
     }
 
     /// Whether what is shown is the best picture of what is asked.
+    #[cfg(feature = "test-hooks")]
     pub(super) fn is_settled(&self) -> bool {
         let both = self.shown.as_ref().zip(self.best.as_ref());
         both.is_some_and(|(shown, best)| shown.wish.is_same(best))

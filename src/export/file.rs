@@ -19,17 +19,6 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     TemporaryFile::of(path, bytes)?.put_in_place()
 }
 
-/// Writes files, by their names in a folder. Where one of them cannot be written none is put in its place, so that files
-/// of two studies do not lie side by side.
-///
-/// # Errors
-/// As [`write()`].
-pub fn write_all(folder: &Path, files: &[(&str, Vec<u8>)]) -> Result<(), ExportError> {
-    let beside = files.iter().map(|(name, bytes)| TemporaryFile::of(&folder.join(name), bytes));
-    let beside = beside.collect::<Result<Vec<_>, _>>()?;
-    beside.into_iter().try_for_each(TemporaryFile::put_in_place)
-}
-
 /// What is done while bytes go out.
 pub(super) const WRITING: &str = "writing a temporary file in its folder";
 

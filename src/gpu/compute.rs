@@ -6,6 +6,7 @@ use wgpu::*;
 /// Invocations of a workgroup, as the shaders write it.
 const GROUP: u32 = 256;
 
+#[doc(hidden)]
 impl Gpu {
     /// A compute pipeline, its layout derived from the shader.
     pub fn compute(&self, label: &str, module: &ShaderModule, entry: &str) -> ComputePipeline {

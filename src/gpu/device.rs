@@ -1,9 +1,9 @@
 //! One adapter, opened with all that it can do.
 
+#[cfg(feature = "test-hooks")]
 use super::timers::Timers;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
-use std::cell::Cell;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex};
 use wgpu::{
     Adapter, Backends, DeviceDescriptor, Features, Instance, InstanceDescriptor, PollType, PowerPreference,
     RequestAdapterOptions,
@@ -21,7 +21,8 @@ pub struct Gpu {
     software: bool,
     fault: Arc<Mutex<Option<DeviceFault>>>,
     /// Where passes are timed.
-    pub(super) timers: OnceLock<Timers>,
+    #[cfg(feature = "test-hooks")]
+    pub(super) timers: std::sync::OnceLock<Timers>,
 }
 
 /// Why the GPU gives no answer.
@@ -163,6 +164,7 @@ impl Gpu {
     }
 
     /// How a device is to be asked of an adapter, so that all techniques draw on it: for whoever opens it elsewhere.
+    #[doc(hidden)]
     pub fn description(adapter: &Adapter) -> DeviceDescriptor<'static> {
         DeviceDescriptor {
             label: Some("gnomon"),
@@ -173,6 +175,7 @@ impl Gpu {
     }
 
     /// A device that is open already: from now on what it reports is heard.
+    #[doc(hidden)]
     pub fn opened(adapter: &Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Gpu {
         let fault = Arc::new(Mutex::new(None::<DeviceFault>));
         let heard = Arc::clone(&fault);
@@ -194,7 +197,16 @@ impl Gpu {
         });
         let info = adapter.get_info();
         let (name, software) = (info.name, info.device_type == wgpu::DeviceType::Cpu);
-        Gpu { device, queue, limits: adapter.limits(), name, software, fault, timers: OnceLock::new() }
+        Gpu {
+            device,
+            queue,
+            limits: adapter.limits(),
+            name,
+            software,
+            fault,
+            #[cfg(feature = "test-hooks")]
+            timers: std::sync::OnceLock::new(),
+        }
     }
 
     /// The adapter's name, as its driver says it.
@@ -211,6 +223,7 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::Failed`]
+    #[doc(hidden)]
     pub fn blends_float32(&self, what: &str) -> Result<(), GpuError> {
         match self.device.features().contains(Features::FLOAT32_BLENDABLE) {
             true => Ok(()),
@@ -223,8 +236,10 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::Lost`]
+    #[doc(hidden)]
     pub fn check(&self) -> Result<(), GpuError> {
-        if is_to_be_lost() {
+        #[cfg(feature = "test-hooks")]
+        if super::losing::is_to_be_lost() {
             self.device.destroy();
         }
         let fault = || self.fault.lock().map_or_else(|_| Some(DeviceFault::untold()), |fault| fault.clone());
@@ -237,6 +252,7 @@ impl Gpu {
     }
 
     /// What was reported since the last time it was asked for: for whoever goes on after a fault.
+    #[doc(hidden)]
     pub fn heard(&self) -> Option<GpuError> {
         let fault = self.fault.lock().ok()?.take()?;
         Some(self.lost(fault.reason))
@@ -248,31 +264,16 @@ impl Gpu {
     }
 
     /// The error with the adapter's name, where something went wrong on the device.
+    #[doc(hidden)]
     pub fn lost(&self, reason: impl ToString) -> GpuError {
         GpuError::Lost { adapter: self.name.clone(), reason: reason.to_string() }
     }
 
     /// The error with the adapter's name, where something is asked that the adapter cannot.
+    #[doc(hidden)]
     pub fn failed(&self, reason: impl ToString) -> GpuError {
         GpuError::Failed { adapter: self.name.clone(), reason: reason.to_string() }
     }
-}
-
-thread_local! {
-    /// So many checks of a device from now on this thread a device is lost.
-    static TO_BE_LOST: Cell<Option<u32>> = const { Cell::new(None) };
-}
-
-/// For tests of what comes after: takes away the device that is checked on this thread after so many other checks, as a
-/// driver that is reset would.
-pub fn lose_after(checks: u32) {
-    TO_BE_LOST.set(Some(checks));
-}
-
-fn is_to_be_lost() -> bool {
-    let left = TO_BE_LOST.get();
-    TO_BE_LOST.set(left.and_then(|left| left.checked_sub(1)));
-    left == Some(0)
 }
 
 /// Whether an adapter has what is needed.

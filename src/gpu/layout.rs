@@ -1,7 +1,6 @@
 //! The structs that shaders share with us, field for field. A test compares them with the shaders' own.
 
 use bytemuck::{Pod, Zeroable};
-use std::mem::offset_of;
 
 /// `ViewUniforms` of `shaders/common/view.wgsl`.
 #[repr(C)]
@@ -220,6 +219,7 @@ pub struct DrawArguments {
 /// `Quadrilateral` of `shaders/quadrilaterals.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[cfg(feature = "test-hooks")]
 pub struct Quadrilateral {
     /// One vertex, metres around the mesh's origin.
     pub first: [f32; 3],
@@ -252,6 +252,7 @@ pub struct TexelRunUniforms {
 }
 
 /// A struct as Rust lays it out.
+#[cfg(feature = "test-hooks")]
 pub struct StructLayout {
     /// Its name, in Rust and in WGSL.
     pub name: &'static str,
@@ -261,17 +262,19 @@ pub struct StructLayout {
     pub fields: &'static [(&'static str, usize)],
 }
 
+#[cfg(feature = "test-hooks")]
 macro_rules! layout {
     ($name:ident: $($field:ident),+) => {
         StructLayout {
             name: stringify!($name),
             size: size_of::<$name>(),
-            fields: &[$((stringify!($field), offset_of!($name, $field))),+],
+            fields: &[$((stringify!($field), std::mem::offset_of!($name, $field))),+],
         }
     };
 }
 
 /// All structs that shaders share with us.
+#[cfg(feature = "test-hooks")]
 pub const ALL: &[StructLayout] = &[
     layout!(ViewUniforms: clip_from_local, viewer, right, up, forward, ground_z, lowest_z, judged_above, depth_scale, size, unused),
     layout!(LightUniforms: towards),

@@ -1,11 +1,23 @@
 //! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, computing, readback, timers.
 
+#[doc(hidden)]
 pub mod compute;
 mod device;
+#[doc(hidden)]
 pub mod layout;
+#[cfg(feature = "test-hooks")]
+mod losing;
+#[doc(hidden)]
 pub mod readback;
+#[doc(hidden)]
 pub mod shaders;
+#[doc(hidden)]
 pub mod targets;
+#[cfg(feature = "test-hooks")]
 mod timers;
+#[cfg(not(feature = "test-hooks"))]
+mod untimed;
 
-pub use device::{Gpu, GpuError, lose_after};
+pub use device::{Gpu, GpuError};
+#[cfg(feature = "test-hooks")]
+pub use losing::lose_after;

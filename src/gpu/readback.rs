@@ -9,7 +9,10 @@ use wgpu::{
 /// The most that is copied at once, bytes: a large raster comes in strips, so that no second copy of it is needed.
 const STRIP: u64 = 64 << 20;
 
-/// The values of a buffer (with `COPY_SRC`). For tests: nothing that is drawn waits for an answer.
+/// The values of a buffer (with `COPY_SRC`).
+///
+/// # Errors
+/// [`GpuError::Lost`]
 pub fn values<T: bytemuck::Pod>(gpu: &Gpu, buffer: &Buffer) -> Result<Vec<T>, GpuError> {
     let copy = gpu.buffer("gpu.readback", buffer.size(), BufferUsages::COPY_DST | BufferUsages::MAP_READ)?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -10,6 +10,7 @@ macro_rules! shaders {
         pub const $constant: &str = concat!($(include_str!(concat!("../../shaders/", $part, ".wgsl")), "\n"),+);)+
 
         /// All shaders, by name.
+        #[cfg(feature = "test-hooks")]
         pub const ALL: &[(&str, &str)] = &[$(($name, $constant)),+];
     };
 }
@@ -49,6 +50,7 @@ shaders! {
     SOFT_TEXTURE "soft_texture": "soft_texture";
 }
 
+#[doc(hidden)]
 impl Gpu {
     /// Compiles a shader.
     pub fn shader(&self, label: &str, text: &str) -> ShaderModule {

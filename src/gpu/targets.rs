@@ -14,6 +14,7 @@ pub const SUMMED: TextureFormat = TextureFormat::R32Float;
 /// Masks.
 pub const SHARE: TextureFormat = TextureFormat::R8Unorm;
 
+#[doc(hidden)]
 impl Gpu {
     /// A texture for one use a cell.
     pub fn texture(

@@ -5,9 +5,12 @@
 //! the rule in [`crate::volume`].
 
 mod adjacency;
+#[doc(hidden)]
 pub mod patches;
 mod planes;
+#[doc(hidden)]
 pub mod report;
+#[doc(hidden)]
 pub mod scan;
 mod together;
 mod weld;
@@ -381,6 +384,7 @@ fn of_part(part: Part, origin: DVec3, together: &CornerGroups) -> (Component, We
 }
 
 /// Whether a light is on the front side of a plane or in it: the one place where that is decided.
+#[doc(hidden)]
 pub fn plane_faces(plane: DVec4, local_light: DVec4) -> bool {
     plane.dot(local_light) >= 0.0
 }

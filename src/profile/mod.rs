@@ -1,6 +1,8 @@
 //! The answer on the plan: shaded time per cell, and where it lies on the ground.
 
+#[doc(hidden)]
 pub mod accumulate;
+#[doc(hidden)]
 pub mod comparison;
 mod provenance;
 mod shaded;
@@ -8,7 +10,9 @@ mod statistics;
 mod unfinished;
 
 pub use provenance::{Provenance, Timings};
-pub use shaded::{Shaded, ShadedCells, ShadedPart};
+pub use shaded::Shaded;
+#[doc(hidden)]
+pub use shaded::{ShadedCells, ShadedPart};
 pub use statistics::Statistics;
 pub use unfinished::Unfinished;
 

@@ -69,6 +69,7 @@ impl Hybrid {
     }
 
     /// As for the stencil: z-fail (`true`) or z-pass (`false`), right or wrong.
+    #[cfg(feature = "test-hooks")]
     pub fn force_z_fail(&mut self, z_fail: bool) {
         self.counting.force_z_fail(z_fail);
     }

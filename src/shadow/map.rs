@@ -12,7 +12,7 @@ use super::{GpuSurface, Scene, ShadowError};
 use crate::gpu::targets::{DEPTH, Stages, whole};
 use crate::gpu::{Gpu, layout, shaders};
 use crate::mesh::Mesh;
-use glam::{DVec3, DVec4};
+use glam::DVec4;
 use std::sync::Arc;
 use wgpu::*;
 
@@ -89,7 +89,8 @@ impl DepthMap {
     }
 
     /// How large a texel is across the rays of that sun, metres along the map's axes.
-    pub(super) fn texel_m(&self, to_sun: DVec3) -> [f32; 2] {
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn texel_m(&self, to_sun: glam::DVec3) -> [f32; 2] {
         self.extents.along_sun(to_sun).uniform(&self.extents, self.size, 0.0, Smoothies::default()).texel
     }
 

@@ -9,19 +9,25 @@ mod flat;
 mod frame;
 pub mod hybrid;
 mod light_view;
+#[doc(hidden)]
 pub mod map;
+#[doc(hidden)]
 pub mod near_clip;
 mod plan_surface;
 pub mod projected;
 mod raised;
 pub mod ray_cast;
+#[doc(hidden)]
 pub mod registered;
 pub mod shadow_map;
 pub mod smoothie;
+#[doc(hidden)]
 pub mod soft_picture;
+#[doc(hidden)]
 pub mod soft_texture;
 pub mod stencil;
 pub(crate) mod surface;
+#[doc(hidden)]
 pub mod walls;
 
 use crate::gpu::{Gpu, GpuError, readback};
@@ -30,7 +36,9 @@ use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plai
 use crate::view::{Bits, FragmentCounts, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
 
+#[doc(hidden)]
 pub use plan_surface::{PlanSurface, plan_surface};
+#[doc(hidden)]
 pub use surface::GpuSurface;
 pub use walls::Silhouettes;
 
@@ -172,6 +180,7 @@ impl Worded for ShadowError {
 /// The unit normal of the side that is seen, zero where a face has no area; `plane` and `viewer` around one origin.
 ///
 /// A surface whose seen side faces away from the sun, or is edge-on to it, is in shadow, whatever its winding.
+#[doc(hidden)]
 pub fn seen_normal(plane: DVec4, viewer: DVec4) -> DVec3 {
     if plane.dot(viewer) < 0.0 { -plane.truncate() } else { plane.truncate() }
 }

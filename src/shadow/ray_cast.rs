@@ -19,6 +19,7 @@ use rayon::prelude::*;
 use std::time::Duration;
 
 /// Casts rays at one mesh. Points and directions are around the mesh's origin.
+#[doc(hidden)]
 pub struct RayCaster {
     tree: Option<CwBvh>,
     /// Corners of the faces in the tree's order, and which faces they are.
@@ -76,6 +77,7 @@ impl RayCaster {
     }
 
     /// How many faces lie along a ray: the count that a shadow volume must have at its origin.
+    #[cfg(feature = "test-hooks")]
     pub fn crossings(&self, origin: DVec3, direction: DVec3) -> usize {
         let shear = Shear::along(direction);
         self.corners.iter().filter(|corners| shear.hit(origin, corners).is_some()).count()
@@ -88,6 +90,7 @@ fn ray(origin: DVec3, direction: DVec3) -> Ray {
 }
 
 /// The frame in which a direction is an axis, the same for all parallel rays.
+#[doc(hidden)]
 pub struct Shear {
     direction: DVec3,
     axes: [usize; 3],
@@ -171,6 +174,7 @@ impl RayCast {
     }
 
     /// The face that each cell sees, as in [`Surface::face`].
+    #[doc(hidden)]
     pub fn faces(&self) -> Vec<u32> {
         self.seen.par_iter().map(|seen| seen.face).collect()
     }
@@ -243,6 +247,7 @@ impl RayCast {
     }
 
     /// How many rays a mask takes: one for each point of the sun and each cell whose seen side it shines on.
+    #[cfg(feature = "test-hooks")]
     pub fn rays(&self, to_sun: DVec3) -> usize {
         let suns = self.suns(to_sun);
         let of_cell = |seen: &RayEnd| {
@@ -257,6 +262,7 @@ impl RayCast {
 
     /// Which share of the sun's centre a cell sees, found without the trees: every face is asked. Slow; by this the trees
     /// themselves are proven.
+    #[doc(hidden)]
     pub fn share_without_trees(&self, column: u32, row: u32, to_sun: DVec3) -> u8 {
         let RayCast { scene, rays, .. } = self;
         let hits = |mesh: &Mesh, from: DVec3, shear: &Shear| -> Vec<(u32, f64)> {

@@ -14,7 +14,7 @@ use glam::DVec3;
 use std::sync::Arc;
 use wgpu::*;
 
-pub use crate::choice::Filter;
+use crate::choice::Filter;
 
 /// The technique, made for one scene and one view.
 pub struct ShadowMap {
@@ -71,6 +71,7 @@ impl ShadowMap {
     }
 
     /// How large a texel is across the rays of that sun, metres along the map's axes.
+    #[cfg(feature = "test-hooks")]
     pub fn texel_m(&self, to_sun: DVec3) -> [f32; 2] {
         self.map.texel_m(to_sun)
     }

@@ -6,7 +6,7 @@
 //!
 //! Deviations, for the sun and for clean corners:
 //! - The penumbra d metres behind an edge is 2·d·tan(θ/2) wide, θ = 0.533°; the paper's 1 − b/r is a lamp's, and is kept
-//!   for lamps ([`Smoothie::draw_lamp`]).
+//!   for lamps (`Smoothie::draw_lamp`, a hook for tests).
 //! - A smoothie is as wide as its own penumbra can become on the lowest receiver, instead of one width for all.
 //! - It is one rectangle around its edge, longer than it by its width at both ends, and alpha is the distance to the edge
 //!   (beyond its ends, to the vertex). With minimum blending that is the union of what the paper draws as edges, as
@@ -154,6 +154,7 @@ impl Smoothie {
 
     /// Leaves alpha as it is drawn (`true`): every penumbra as wide as its smoothie, wherever it falls. To compare with, as in
     /// the paper's figures 4-4 and 4-10.
+    #[cfg(feature = "test-hooks")]
     pub fn force_linear(&mut self, linear: bool) {
         self.asked.linear = linear;
     }
@@ -164,6 +165,7 @@ impl Smoothie {
     ///
     /// # Errors
     /// As [`Technique::draw`].
+    #[cfg(feature = "test-hooks")]
     pub fn draw_lamp(&mut self, lamp: DVec3, width: f64) -> Result<DrawnMask<'_>, ShadowError> {
         self.draw_light(self.scene.casters.local_light(lamp.extend(1.0)), Smoothies { width_m: width, ..self.asked })
     }

@@ -53,6 +53,7 @@ impl Stencil {
 
     /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong: z-fail always is right, and z-pass must be
     /// seen to fail where it is not chosen.
+    #[cfg(feature = "test-hooks")]
     pub fn force_z_fail(&mut self, z_fail: bool) {
         self.counting.force_z_fail(z_fail);
     }

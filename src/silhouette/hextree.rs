@@ -21,6 +21,7 @@ use std::ops::Range;
 /// The deepest tree: 16⁸ cells are more than there are edges.
 pub const DEEPEST: u32 = 8;
 /// The paper's depth.
+#[cfg(feature = "test-hooks")]
 pub const PAPER_DEPTH: u32 = 4;
 
 /// The tree over the edges of one mesh.
@@ -120,6 +121,7 @@ impl Hextree {
     }
 
     /// Bytes that the tree takes.
+    #[cfg(feature = "test-hooks")]
     pub fn bytes(&self) -> usize {
         self.nodes.len() * size_of::<HextreeNode>() + (self.edges.len() + self.always.len()) * size_of::<u32>()
     }

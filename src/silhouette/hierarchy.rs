@@ -75,7 +75,7 @@ pub struct Classes {
 /// The answer of a class: its edges, and how often each stands in the silhouette, negative against its direction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassEdges {
-    /// Of [`Classes::edges`].
+    /// Of the edges of [`Classes`], grouped by class.
     pub edges: Range<u32>,
     /// As [`super::multiplicity`].
     pub multiplicity: i32,
@@ -265,17 +265,14 @@ impl Classes {
         if plane_faces(self.planes[plane as usize], local_light) { 1 } else { -1 }
     }
 
-    /// The edges, grouped by class.
-    pub fn edges(&self) -> &[DirectedEdge] {
-        &self.edges
-    }
-
     /// How many classes there are.
+    #[cfg(feature = "test-hooks")]
     pub fn count(&self) -> usize {
         self.pairs.len() + self.sums.len()
     }
 
     /// Bytes that hierarchy, classes and edges take.
+    #[cfg(feature = "test-hooks")]
     pub fn bytes(&self) -> usize {
         let terms: usize = self.sums.iter().map(|sum| sum.terms.len()).sum();
         self.planes.len() * size_of::<DVec4>()

@@ -6,8 +6,11 @@
 //! faces this is the classic rule of seed 004, section 4, counted for both halves of the surface.)
 //! It is right for every mesh, since it only adds up the prisms that the single faces cut out of the light.
 
+#[doc(hidden)]
 pub mod brute_force;
+#[doc(hidden)]
 pub mod hextree;
+#[doc(hidden)]
 pub mod hierarchy;
 
 use crate::mesh::{Incidence, Mesh};
@@ -18,9 +21,11 @@ use hierarchy::Hierarchy;
 
 /// A silhouette edge, from vertex to vertex: the face it bounds lies on its left, seen from the light.
 /// An edge of multiplicity ±n stands n times in a row in a silhouette.
+#[doc(hidden)]
 pub type DirectedEdge = [u32; 2];
 
 /// Finds silhouettes of the mesh for which it was made. All finders give the same edges, in any order.
+#[doc(hidden)]
 pub trait SilhouetteFinder: Send {
     /// Appends the silhouette of `mesh` for a light around the mesh's origin (sun: w = 0, lamp: w = 1).
     fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> QueryCost;
@@ -28,6 +33,7 @@ pub trait SilhouetteFinder: Send {
 
 /// How much a query looked at for what it found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[doc(hidden)]
 pub struct QueryCost {
     /// Nodes of a tree and edges (or classes of edges) that were tested.
     pub at: usize,
@@ -51,6 +57,7 @@ pub enum ProcessorFinder {
 
 impl ProcessorFinder {
     /// Makes the finder for a mesh.
+    #[doc(hidden)]
     pub fn build(self, mesh: &Mesh) -> Box<dyn SilhouetteFinder> {
         match self {
             ProcessorFinder::BruteForce => Box::new(BruteForce),
@@ -62,6 +69,7 @@ impl ProcessorFinder {
 
 /// The sum of the directions of an edge's faces, each turned towards the light: positive from the edge's first vertex
 /// to its second.
+#[doc(hidden)]
 pub fn multiplicity(faces: &[Incidence], facing: impl Fn(Incidence) -> bool) -> i32 {
     faces.iter().map(|&face| if facing(face) { face.direction() } else { -face.direction() }).sum()
 }

@@ -95,6 +95,7 @@ impl Site {
     ///
     /// # Errors
     /// As [`Site::load`].
+    #[doc(hidden)]
     pub fn load_with(
         path: &Path,
         asked: &Overrides,
@@ -107,6 +108,7 @@ impl Site {
     ///
     /// # Errors
     /// As [`Site::load`].
+    #[doc(hidden)]
     pub fn of(
         written: &WrittenSite,
         asked: &Overrides,
@@ -119,6 +121,7 @@ impl Site {
     ///
     /// # Errors
     /// As [`Site::load`].
+    #[doc(hidden)]
     pub fn with_models(
         written: &WrittenSite,
         asked: &Overrides,

@@ -8,6 +8,7 @@ mod choice;
 mod dates;
 mod error;
 mod extent;
+#[doc(hidden)]
 pub mod file;
 mod ground;
 mod in_memory;
@@ -16,6 +17,7 @@ mod key_table;
 mod keys;
 mod likeness;
 mod load;
+#[doc(hidden)]
 pub mod model;
 mod models;
 mod names;
@@ -26,19 +28,29 @@ mod probe;
 mod rewrite;
 mod study;
 mod terrain;
+#[doc(hidden)]
 pub mod typed;
 mod written;
 
 pub use asked::Overrides;
 pub use error::{FieldLocation, SiteError};
-pub use ground::{Ground, GroundFrom, metres};
+#[doc(hidden)]
+pub use ground::metres;
+pub use ground::{Ground, GroundFrom};
+#[doc(hidden)]
 pub use inputs::inputs;
+#[doc(hidden)]
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
 pub use likeness::{Likeness, Mend};
+#[doc(hidden)]
 pub use load::{CoordinateFrame, LoadedMesh, load_mesh, load_sun};
+#[doc(hidden)]
 pub use models::Models;
+#[doc(hidden)]
 pub use pair::Pair;
+#[doc(hidden)]
 pub use probe::{ProbeSite, load_probes};
+#[doc(hidden)]
 pub use written::WrittenSite;
 
 use crate::choice::{Engine, Finder, Method, Receivers, Settings};

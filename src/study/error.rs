@@ -1,6 +1,5 @@
 //! Why there is no answer.
 
-use super::tiles;
 use crate::choice::Misfit;
 use crate::gpu::GpuError;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
@@ -74,8 +73,8 @@ impl Worded for StudyError {
             StudyError::Misfit(misfit) => misfit.message(),
             StudyError::LittleMemory { asked, least, width } => message![
                 Field::Memory,
-                format!(": {} is too little for rows of {width} cells", tiles::amount(*asked));
-                format!("take at least {}, or larger cells", tiles::amount(*least)), aside(Field::Cell)
+                format!(": {} is too little for rows of {width} cells", amount(*asked));
+                format!("take at least {}, or larger cells", amount(*least)), aside(Field::Cell)
             ],
             StudyError::TooManyCells { width, height } => message![
                 format!("{width} × {height} cells are more than can be drawn at once");
@@ -136,4 +135,12 @@ impl StudyError {
         }
         .filter(|error| matches!(error, GpuError::Lost { .. }))
     }
+}
+
+/// So much memory as `--memory` takes it, no less than that.
+fn amount(bytes: u64) -> String {
+    if bytes < 10 << 20 {
+        return format!("{}KiB", bytes.div_ceil(1 << 10));
+    }
+    format!("{}MiB", bytes.div_ceil(1 << 20))
 }

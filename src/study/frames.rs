@@ -29,7 +29,7 @@ pub struct Frame<'a> {
     pub drawn: &'a Provenance,
 }
 
-/// As [`super::instant`] for every instant of the study, with what is kept from one to the next. Returns what drew them.
+/// As `study::instant` for every instant of the study, with what is kept from one to the next. Returns what drew them.
 ///
 /// # Errors
 /// [`StudyError`], and what `on_frame` says.

@@ -1,6 +1,6 @@
 //! A site that is looked at: one view after another, one sun after another, on an adapter that is open already.
 //!
-//! The same techniques draw as in [`super::instant`]; what is kept between two pictures is the only difference.
+//! The same techniques draw as in `study::instant`; what is kept between two pictures is the only difference.
 
 use super::machine::{Machine, choose};
 use super::{StudyError, night};

@@ -65,7 +65,9 @@ impl Machine {
         let finder = self.silhouettes.map(|silhouettes| match silhouettes {
             Silhouettes::OnProcessor(ProcessorFinder::BruteForce) => Finder::Brute,
             Silhouettes::OnProcessor(ProcessorFinder::Hextree { .. } | ProcessorFinder::Hierarchy) => Finder::Hextree,
-            Silhouettes::OnGpu | Silhouettes::InVertexShader => Finder::Gpu,
+            Silhouettes::OnGpu => Finder::Gpu,
+            #[cfg(feature = "test-hooks")]
+            Silhouettes::InVertexShader => Finder::Gpu,
         });
         Provenance {
             technique: self.method,

@@ -1,10 +1,12 @@
 //! The flow: a checked request in, its shadow profile out.
 //!
-//! [`run`] and [`in_tiles`] read as the whole program does; [`instant`] is the same for one instant, seen from above or by a camera;
-//! [`surfaces()`] is the study on facades and roofs; [`compare()`] is the study of two states of a site; [`verify`] holds
-//! every technique against ray casting; [`probe`] finds when single points lie in the sun; [`frames()`] is every instant
-//! as a picture; [`live`] draws one picture after another for whoever looks.
+//! [`run`] and [`in_tiles`] read as the whole program does. [`TiledStudy`] is for a program that shares a study out.
 
+// Beside them is what the deliverables call: `instant` is one instant's shadows, `frames` every instant as a picture,
+// `surfaces` the study on facades and roofs, `compare` that of two states of a site. `verify` holds every technique against
+// ray casting, `probe` finds when single points lie in the sun, and `live` draws one picture after another for the window.
+
+#[doc(hidden)]
 pub mod again;
 mod compare;
 mod daylight;
@@ -13,31 +15,47 @@ mod event;
 mod fingerprint;
 mod frames;
 mod instant;
+#[doc(hidden)]
 pub mod live;
 mod machine;
 mod outcome;
+#[doc(hidden)]
 pub mod probe;
 mod profile;
 mod site_view;
 mod stopwatch;
 mod surfaces;
 mod tiles;
+#[doc(hidden)]
 pub mod verify;
 mod wants;
 
+#[doc(hidden)]
 pub use compare::{CompareOutcome, compare, compare_with};
+#[doc(hidden)]
 pub use daylight::day_and_night;
 pub use error::StudyError;
-pub use event::{Event, OnEvent, note_models, tell};
+pub use event::{Event, OnEvent};
+#[doc(hidden)]
+pub use event::{note_models, tell};
+#[doc(hidden)]
 pub use frames::{Frame, frames};
+#[doc(hidden)]
 pub use instant::instant;
-pub use outcome::{InstantOutcome, Outcome};
+#[doc(hidden)]
+pub use outcome::InstantOutcome;
+pub use outcome::Outcome;
 pub use profile::{TiledOutcome, TiledStudy, in_tiles, paste, run};
+#[doc(hidden)]
 pub use site_view::judged;
+#[doc(hidden)]
 pub use stopwatch::Stopwatch;
+#[doc(hidden)]
 pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
 pub use tiles::Budget;
-pub use wants::{CountingPurpose, InstantWants, Wants};
+pub use wants::Wants;
+#[doc(hidden)]
+pub use wants::{CountingPurpose, InstantWants};
 
 use machine::not_surfaces;
 use site_view::{SiteView, night, subject};

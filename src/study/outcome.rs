@@ -11,7 +11,7 @@ pub struct Outcome {
     pub profile: Profile,
     /// What drew it.
     pub drawn: Provenance,
-    /// What the cells see, where wanted: also under [`Receivers::Ground`] with the models.
+    /// What the cells see, where wanted: also under [`Receivers::Ground`](crate::choice::Receivers::Ground) with the models.
     pub surface: Option<Surface>,
     /// Whose faces [`Surface::face`] counts.
     pub surface_mesh: Mesh,

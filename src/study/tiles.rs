@@ -25,14 +25,6 @@ const ALIGNED: u32 = 64;
 /// What one instant's plan takes at once, bytes: on an adapter 8192 × 8192 cells are still one tile.
 const INSTANT_BYTES: u64 = 4 << 30;
 
-/// So much memory as `--memory` takes it, no less than that.
-pub(super) fn amount(bytes: u64) -> String {
-    if bytes < 10 << 20 {
-        return format!("{}KiB", bytes.div_ceil(1 << 10));
-    }
-    format!("{}MiB", bytes.div_ceil(1 << 20))
-}
-
 /// The tiles of a site's plan, row after row; one where all of it can be done at once.
 pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -> Result<Vec<Tile>, StudyError> {
     let grid = site.grid;

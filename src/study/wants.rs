@@ -8,9 +8,9 @@ use std::time::Duration;
 /// What is made beside the profile.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wants {
-    /// Every instant's mask, in [`Event::Drawn`].
+    /// Every instant's mask, in [`Event::Drawn`](super::Event::Drawn).
     pub masks: bool,
-    /// Of every instant with a sun which cells are in shadow, in [`Event::Drawn`].
+    /// Of every instant with a sun which cells are in shadow, in [`Event::Drawn`](super::Event::Drawn).
     pub bits: bool,
     /// The folder to which whoever asks writes the masks, by its canonical name: a study that writes them elsewhere is
     /// another study.
@@ -21,7 +21,7 @@ pub struct Wants {
     pub surface: bool,
     /// What counting took.
     pub statistics: bool,
-    /// What is done so far, in [`Event::Kept`]: each time that so long has passed, and when the work is ended.
+    /// What is done so far, in [`Event::Kept`](super::Event::Kept): each time that so long has passed, and when the work is ended.
     pub keep_every: Option<Duration>,
     /// What memory there is for rasters; without one as much as they take.
     pub budget: Option<Budget>,

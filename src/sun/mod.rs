@@ -14,16 +14,28 @@ mod sky;
 mod window;
 mod zone;
 
-pub use clock::{Reading, TimeOfDay, parse_date, parse_duration_secs};
+pub use clock::{Reading, TimeOfDay};
+#[doc(hidden)]
+pub use clock::{parse_date, parse_duration_secs};
+#[doc(hidden)]
 pub use day_window::DayWindow;
 pub use days::EachDay;
+#[doc(hidden)]
 pub use disc::{SUN_DISC_RAD, disc};
 pub use error::SunError;
+#[doc(hidden)]
 pub use place::zone_at;
-pub use position::{Air, Position, delta_t_secs, position};
-pub use rules::{TzVersion, ZoneRules, zone_names};
+pub use position::Position;
+#[doc(hidden)]
+pub use position::{Air, delta_t_secs, position};
+pub use rules::TzVersion;
+#[doc(hidden)]
+pub use rules::{ZoneRules, zone_names};
+#[doc(hidden)]
 pub use sky::{HorizonCrossings, Sky};
-pub use window::{MOST_DAYS, Window};
+#[doc(hidden)]
+pub use window::MOST_DAYS;
+pub use window::Window;
 pub use zone::{Zone, ZoneOffset};
 
 use chrono::{DateTime, NaiveDate};
@@ -144,6 +156,7 @@ impl SunTrack {
     }
 
     /// How long the window is, seconds: the sum of the weights.
+    #[cfg(feature = "test-hooks")]
     pub fn window_secs(&self) -> u64 {
         self.instants.iter().map(|instant| u64::from(instant.weight_secs)).sum()
     }

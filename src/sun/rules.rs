@@ -64,6 +64,7 @@ impl ZoneRules {
     }
 
     /// The rules that came with the program.
+    #[cfg(feature = "test-hooks")]
     pub fn bundled() -> &'static ZoneRules {
         static BUNDLED: LazyLock<ZoneRules> = LazyLock::new(|| ZoneRules::of(bundled_version(), None));
         &BUNDLED

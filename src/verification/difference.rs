@@ -29,6 +29,7 @@ pub struct Difference {
 
 impl Difference {
     /// Counts where `drawn` differs from `truth`, a mask of the same size.
+    #[cfg(feature = "test-hooks")]
     pub fn between(drawn: &Mask, truth: &Mask) -> Difference {
         Difference::in_all(drawn, truth, |share, truth| share != truth)
     }

@@ -50,6 +50,7 @@ impl Camera {
     }
 
     /// What the directions of all pixels have in common.
+    #[doc(hidden)]
     pub fn lens(&self) -> Lens {
         Lens {
             axes: self.axes(),

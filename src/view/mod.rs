@@ -12,14 +12,20 @@ mod overlay;
 mod probe;
 mod surface;
 
-pub use camera::{Camera, Lens};
+pub use camera::Camera;
+#[doc(hidden)]
+pub use camera::Lens;
 pub use counts::{Decider, FragmentCounts};
 pub use elevation::{Elevation, Side};
 pub use grid::{Grid, Tile};
 pub use mask::{Bits, Mask};
+#[doc(hidden)]
 pub use overlay::Overlay;
+#[doc(hidden)]
 pub use probe::Probe;
-pub use surface::{Surface, SurfaceRows};
+pub use surface::Surface;
+#[doc(hidden)]
+pub use surface::SurfaceRows;
 
 use glam::DVec4;
 

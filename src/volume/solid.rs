@@ -291,6 +291,7 @@ impl Solid {
     }
 
     /// The corners of a triangle, metres of the world frame.
+    #[cfg(feature = "test-hooks")]
     pub fn corners(&self, triangle: usize) -> [DVec3; 3] {
         self.triangles[triangle].map(|corner| self.origin + self.vertices[corner as usize].as_dvec3())
     }

@@ -2,9 +2,10 @@
 //! Shared by the tests and the benchmark of the bias.
 
 use glam::DVec3;
+use gnomon::choice::Filter;
 use gnomon::gpu::Gpu;
 use gnomon::shadow::ray_cast::RayCast;
-use gnomon::shadow::shadow_map::{Filter, ShadowMap};
+use gnomon::shadow::shadow_map::ShadowMap;
 use gnomon::shadow::{Scene, ShadowError, Technique};
 use gnomon::verification::Edges;
 use gnomon::view::{Mask, View};

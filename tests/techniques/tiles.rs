@@ -2,10 +2,11 @@
 
 use super::{draw, site};
 use glam::DVec3;
+use gnomon::choice::Filter;
 use gnomon::gpu::Gpu;
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::ray_cast::RayCast;
-use gnomon::shadow::shadow_map::{Filter, ShadowMap};
+use gnomon::shadow::shadow_map::ShadowMap;
 use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::{Scene, ShadowError, Technique};
 use gnomon::silhouette::ProcessorFinder;

@@ -6,9 +6,10 @@ use crate::sheet::{Panel, Row, Sheet};
 use crate::stage::{Stage, camera};
 use anyhow::Result;
 use glam::{DVec3, dvec3};
+use gnomon::choice::Filter;
 use gnomon::gpu::Gpu;
 use gnomon::shadow::Technique;
-use gnomon::shadow::shadow_map::Filter;
+
 use std::sync::Arc;
 
 /// The house from the yard, in the afternoon.

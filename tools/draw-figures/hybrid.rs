@@ -7,9 +7,10 @@ use crate::sheet::{Panel, Row, Sheet};
 use crate::stage::Stage;
 use anyhow::{Context as _, Result};
 use glam::{DVec3, dvec3};
+use gnomon::choice::Filter;
 use gnomon::gpu::Gpu;
 use gnomon::shadow::Technique;
-use gnomon::shadow::shadow_map::Filter;
+
 use gnomon::view::{Decider, FragmentCounts, Mask, View};
 use std::sync::Arc;
 

@@ -7,9 +7,10 @@ use crate::sheet::{Panel, Row, Sheet};
 use crate::stage::{DISC_POINTS, Stage, camera, plan};
 use anyhow::Result;
 use glam::dvec3;
+use gnomon::choice::Filter;
 use gnomon::gpu::Gpu;
 use gnomon::shadow::Technique;
-use gnomon::shadow::shadow_map::Filter;
+
 use gnomon::view::{Mask, View};
 use std::sync::Arc;
 

@@ -3,11 +3,12 @@
 use crate::picture::{Part, Picture, Rgb};
 use anyhow::Result;
 use glam::{DVec3, DVec4, dvec3};
+use gnomon::choice::Filter;
 use gnomon::gpu::Gpu;
 use gnomon::mesh::{self, Mesh};
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::ray_cast::RayCast;
-use gnomon::shadow::shadow_map::{Filter, ShadowMap};
+use gnomon::shadow::shadow_map::ShadowMap;
 use gnomon::shadow::smoothie::Smoothie;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique, seen_normal};

@@ -233,6 +233,7 @@ fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::PixelRays, Optio
 }
 
 /// The colours of level ground in the sun and in the shade, before a camera.
+#[cfg(feature = "test-hooks")]
 pub fn ground_tones(to_sun: glam::DVec3) -> [scale::Rgb; 2] {
     perspective::ground_tones(to_sun)
 }

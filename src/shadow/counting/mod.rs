@@ -155,6 +155,7 @@ impl VolumeCounter {
 
     /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong: z-fail always is right, and z-pass must be
     /// seen to fail where it is not chosen.
+    #[cfg(feature = "test-hooks")]
     pub(super) fn force_z_fail(&mut self, z_fail: bool) {
         self.forced_z_fail = Some(z_fail);
     }

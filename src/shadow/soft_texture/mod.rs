@@ -7,16 +7,18 @@
 //!
 //! What we changed: sums are integers with a weight for each sample; faces are culled for each patch by a tree of boxes; a
 //! patch is judged a millimetre above itself, so that it never shades itself and takes no light through a wall that stands
-//! on it; the paper's factor of an unoccluded light ([`unoccluded`]) is apart from all that, and hours do without it.
+//! on it; the paper's factor of an unoccluded light (`unoccluded`, a hook for tests) is apart from all that, and hours do without it.
 //!
 //! Where it fails: a texel's value is that of its centre; and where patches are many and tiny, rays cost less
 //! ([`Choice::Auto`]).
 
+#[cfg(feature = "test-hooks")]
 mod factor;
 mod fill;
 mod occluders;
 mod on_gpu;
 
+#[cfg(feature = "test-hooks")]
 pub use factor::unoccluded;
 
 use super::ray_cast::{RayCaster, Shear, TIE};
@@ -144,6 +146,7 @@ impl SoftTexture {
     }
 
     /// Fills every face for every patch, as the paper does: for measurements.
+    #[cfg(feature = "test-hooks")]
     pub fn without_culling(mut self) -> SoftTexture {
         self.culling = false;
         self

@@ -2,13 +2,13 @@
 //! drawn, and nothing comes back.
 //!
 //! The twin of [`crate::silhouette::brute_force`]. (Seed 003 extracts in the vertex shader, for want of compute passes:
-//! [`super::Silhouettes::InVertexShader`]. Here only silhouette edges become vertices.) Facing is a bit of
+//! `Silhouettes::InVertexShader`, which tests and benches compare with. Here only silhouette edges become vertices.) Facing is a bit of
 //! [`super::faces`]. Edges come in runs, each so short that its buffers fit the adapter's bindings however many of its
 //! edges are silhouette.
 
 use super::faces::{self, Faces, GROUP};
 use super::{NO_FACE, WallQuery, Walls, along, packed};
-use crate::gpu::{Gpu, GpuError, layout, readback, shaders};
+use crate::gpu::{Gpu, GpuError, layout, shaders};
 use crate::mesh::Mesh;
 use std::sync::Arc;
 use wgpu::{
@@ -136,23 +136,25 @@ impl Extraction {
     }
 
     /// In how many runs the edges are asked.
+    #[cfg(feature = "test-hooks")]
     pub fn runs(&self) -> usize {
         self.runs.len()
     }
 
-    /// The lists that were written last, walls and cap. For tests: what is drawn stays on the GPU.
+    /// The lists that were written last, walls and cap. What is drawn stays on the GPU.
+    #[cfg(feature = "test-hooks")]
     pub fn read(&self) -> Result<[Vec<u32>; 2], GpuError> {
         let mut walls = Vec::new();
         for run in &self.runs {
-            let drawn: Vec<u32> = readback::values(&self.gpu, &run.arguments)?;
+            let drawn: Vec<u32> = crate::gpu::readback::values(&self.gpu, &run.arguments)?;
             if let Some(list) = &run.list {
-                let indices: Vec<u32> = readback::values(&self.gpu, &list.indices)?;
+                let indices: Vec<u32> = crate::gpu::readback::values(&self.gpu, &list.indices)?;
                 walls.extend(&indices[..drawn[0] as usize]);
             }
         }
         let mut cap = Vec::new();
         for (indices, count) in self.faces.cap() {
-            cap.extend(&readback::values::<u32>(&self.gpu, indices)?[..count as usize]);
+            cap.extend(&crate::gpu::readback::values::<u32>(&self.gpu, indices)?[..count as usize]);
         }
         Ok([walls, cap])
     }

@@ -152,6 +152,7 @@ impl Faces {
     }
 
     /// The cap's runs: their buffers, and how many indices each holds.
+    #[cfg(feature = "test-hooks")]
     pub(super) fn cap(&self) -> impl Iterator<Item = (&Buffer, u32)> {
         self.cap.iter().map(|run| (&run.indices, run.count * 3))
     }

@@ -4,6 +4,7 @@
 pub mod borders;
 pub mod extraction;
 pub mod faces;
+#[cfg(feature = "test-hooks")]
 mod quadrilaterals;
 mod uploaded;
 
@@ -13,6 +14,7 @@ use crate::silhouette::ProcessorFinder;
 use borders::Borders;
 use extraction::Extraction;
 use glam::{DVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
+#[cfg(feature = "test-hooks")]
 use quadrilaterals::Quadrilaterals;
 use std::sync::Arc;
 use uploaded::UploadedWalls;
@@ -26,6 +28,7 @@ pub enum Silhouettes {
     /// A compute pass over all edges.
     OnGpu,
     /// The vertex shader, for each edge of the mesh. To compare with: it is the older way (seed 003).
+    #[cfg(feature = "test-hooks")]
     InVertexShader,
 }
 
@@ -83,6 +86,7 @@ pub trait Walls {
 pub(super) enum WallMaker {
     OnProcessor(Arc<Gpu>, ProcessorFinder),
     OnGpu(extraction::ExtractionProgram),
+    #[cfg(feature = "test-hooks")]
     InVertexShader(quadrilaterals::QuadrilateralProgram),
 }
 
@@ -91,6 +95,7 @@ impl WallMaker {
         match silhouettes {
             Silhouettes::OnProcessor(kind) => WallMaker::OnProcessor(Arc::clone(gpu), kind),
             Silhouettes::OnGpu => WallMaker::OnGpu(extraction::ExtractionProgram::new(gpu)),
+            #[cfg(feature = "test-hooks")]
             Silhouettes::InVertexShader => WallMaker::InVertexShader(quadrilaterals::QuadrilateralProgram::new(gpu)),
         }
     }
@@ -99,6 +104,7 @@ impl WallMaker {
         Ok(match self {
             WallMaker::OnProcessor(gpu, kind) => Box::new(UploadedWalls::new(Arc::clone(gpu), *kind, mesh)?),
             WallMaker::OnGpu(program) => Box::new(Extraction::new(program, mesh, program.faces.gpu.most_storage())?),
+            #[cfg(feature = "test-hooks")]
             WallMaker::InVertexShader(program) => Box::new(Quadrilaterals::new(program, mesh)?),
         })
     }
@@ -106,6 +112,7 @@ impl WallMaker {
     /// Where the vertex shader decides the edges: its module, and the layout of what it reads of them.
     pub(super) fn in_vertex_shader(&self) -> Option<(&ShaderModule, &BindGroupLayout)> {
         match self {
+            #[cfg(feature = "test-hooks")]
             WallMaker::InVertexShader(program) => Some((&program.module, &program.layout)),
             _ => None,
         }

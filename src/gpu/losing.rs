@@ -1,0 +1,20 @@
+//! A device that is lost when a test wants it to be.
+
+use std::cell::Cell;
+
+thread_local! {
+    /// So many checks of a device from now on this thread a device is lost.
+    static TO_BE_LOST: Cell<Option<u32>> = const { Cell::new(None) };
+}
+
+/// Takes away the device that is checked on this thread after so many other checks, as a
+/// driver that is reset would.
+pub fn lose_after(checks: u32) {
+    TO_BE_LOST.set(Some(checks));
+}
+
+pub(super) fn is_to_be_lost() -> bool {
+    let left = TO_BE_LOST.get();
+    TO_BE_LOST.set(left.and_then(|left| left.checked_sub(1)));
+    left == Some(0)
+}
