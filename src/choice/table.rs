@@ -45,7 +45,7 @@ impl Subject {
     }
 
     /// The words of the techniques that draw it on a machine, but for the program's own choice.
-    pub fn drawn_by(self, engine: Engine) -> Vec<&'static str> {
+    pub(crate) fn drawn_by(self, engine: Engine) -> Vec<&'static str> {
         let rows = TABLE.iter().filter(|row| row.method != Method::Auto && row.draws(engine, self));
         rows.map(|row| row.word).collect()
     }

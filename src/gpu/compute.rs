@@ -6,10 +6,9 @@ use wgpu::*;
 /// Invocations of a workgroup, as the shaders write it.
 const GROUP: u32 = 256;
 
-#[doc(hidden)]
 impl Gpu {
     /// A compute pipeline, its layout derived from the shader.
-    pub fn compute(&self, label: &str, module: &ShaderModule, entry: &str) -> ComputePipeline {
+    pub(crate) fn compute(&self, label: &str, module: &ShaderModule, entry: &str) -> ComputePipeline {
         self.device.create_compute_pipeline(&ComputePipelineDescriptor {
             label: Some(label),
             layout: None,
@@ -21,12 +20,12 @@ impl Gpu {
     }
 
     /// The most bytes of a buffer that a shader can reach.
-    pub fn most_storage(&self) -> u64 {
+    pub(crate) fn most_storage(&self) -> u64 {
         self.limits.max_storage_buffer_binding_size.min(self.limits.max_buffer_size)
     }
 
     /// A buffer for shaders; or, before any memory is taken, the reason why it would be larger than `most` bytes.
-    pub fn storage(&self, label: &str, size: u64, most: u64, usage: BufferUsages) -> Result<Buffer, GpuError> {
+    pub(crate) fn storage(&self, label: &str, size: u64, most: u64, usage: BufferUsages) -> Result<Buffer, GpuError> {
         if size > most {
             return Err(self.failed(format!("{label} takes {size} bytes, more than the {most} that its shaders reach")));
         }
@@ -36,7 +35,7 @@ impl Gpu {
 
     /// Asks for an invocation for each of `count` things, in a square of workgroups: a row of all of them may be longer
     /// than the adapter allows.
-    pub fn dispatch(&self, pass: &mut ComputePass<'_>, count: u32) {
+    pub(crate) fn dispatch(&self, pass: &mut ComputePass<'_>, count: u32) {
         let groups = count.div_ceil(GROUP);
         if groups > 0 {
             let across = groups.isqrt();

@@ -164,8 +164,7 @@ impl Gpu {
     }
 
     /// How a device is to be asked of an adapter, so that all techniques draw on it: for whoever opens it elsewhere.
-    #[doc(hidden)]
-    pub fn description(adapter: &Adapter) -> DeviceDescriptor<'static> {
+    pub(crate) fn description(adapter: &Adapter) -> DeviceDescriptor<'static> {
         DeviceDescriptor {
             label: Some("gnomon"),
             required_features: adapter.features() & (NEEDED | WANTED),
@@ -223,8 +222,7 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::Failed`]
-    #[doc(hidden)]
-    pub fn blends_float32(&self, what: &str) -> Result<(), GpuError> {
+    pub(crate) fn blends_float32(&self, what: &str) -> Result<(), GpuError> {
         match self.device.features().contains(Features::FLOAT32_BLENDABLE) {
             true => Ok(()),
             false => Err(self.failed(format!("{what} by blending 32-bit floats, which it cannot"))),
@@ -259,7 +257,7 @@ impl Gpu {
     }
 
     /// Whether the device itself is gone, and not just some work on it.
-    pub fn is_lost(&self) -> bool {
+    pub(crate) fn is_lost(&self) -> bool {
         self.fault.lock().map_or(true, |fault| fault.as_ref().is_some_and(|fault| fault.lost))
     }
 

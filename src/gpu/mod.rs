@@ -1,7 +1,6 @@
 //! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, computing, readback, timers.
 
-#[doc(hidden)]
-pub mod compute;
+mod compute;
 mod device;
 #[doc(hidden)]
 pub mod layout;
@@ -11,8 +10,7 @@ mod losing;
 pub mod readback;
 #[doc(hidden)]
 pub mod shaders;
-#[doc(hidden)]
-pub mod targets;
+pub(crate) mod targets;
 #[cfg(feature = "test-hooks")]
 mod timers;
 #[cfg(not(feature = "test-hooks"))]

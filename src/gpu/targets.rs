@@ -4,19 +4,19 @@ use super::{Gpu, GpuError};
 use wgpu::*;
 
 /// The depth against which volumes are counted, with the stencil that counts.
-pub const COUNTED: TextureFormat = TextureFormat::Depth32FloatStencil8;
+pub(crate) const COUNTED: TextureFormat = TextureFormat::Depth32FloatStencil8;
 /// The depth of what is seen.
-pub const DEPTH: TextureFormat = TextureFormat::Depth32Float;
+pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 /// Faces that are seen, and sums.
-pub const NUMBER: TextureFormat = TextureFormat::R32Uint;
+pub(crate) const NUMBER: TextureFormat = TextureFormat::R32Uint;
 /// Fragments that are added up.
-pub const SUMMED: TextureFormat = TextureFormat::R32Float;
+pub(crate) const SUMMED: TextureFormat = TextureFormat::R32Float;
 /// Masks.
-pub const SHARE: TextureFormat = TextureFormat::R8Unorm;
+pub(crate) const SHARE: TextureFormat = TextureFormat::R8Unorm;
 
-#[doc(hidden)]
 impl Gpu {
     /// A texture for one use a cell.
+    #[doc(hidden)]
     pub fn texture(
         &self,
         label: &str,
@@ -37,7 +37,7 @@ impl Gpu {
     }
 
     /// A buffer of so many bytes, or the reason why the adapter has none so large.
-    pub fn buffer(&self, label: &str, size: u64, usage: BufferUsages) -> Result<Buffer, GpuError> {
+    pub(crate) fn buffer(&self, label: &str, size: u64, usage: BufferUsages) -> Result<Buffer, GpuError> {
         if size > self.limits.max_buffer_size {
             return Err(self.failed(format!(
                 "{label} takes {} MiB, more than the {} MiB of its largest buffer",
@@ -49,7 +49,7 @@ impl Gpu {
     }
 
     /// A buffer with these values, and room for one even where there are none.
-    pub fn uploaded<T: bytemuck::Pod>(
+    pub(crate) fn uploaded<T: bytemuck::Pod>(
         &self,
         label: &str,
         usage: BufferUsages,
@@ -62,7 +62,7 @@ impl Gpu {
     }
 
     /// A buffer for one struct of [`super::layout`].
-    pub fn uniform<T: bytemuck::Pod>(&self, label: &str) -> Buffer {
+    pub(crate) fn uniform<T: bytemuck::Pod>(&self, label: &str) -> Buffer {
         self.device.create_buffer(&BufferDescriptor {
             label: Some(label),
             size: size_of::<T>() as u64,
@@ -72,7 +72,12 @@ impl Gpu {
     }
 
     /// A bind group for a pipeline whose layout was derived from its shader.
-    pub fn bind(&self, label: &str, layout: &BindGroupLayout, entries: &[(u32, BindingResource<'_>)]) -> BindGroup {
+    pub(crate) fn bind(
+        &self,
+        label: &str,
+        layout: &BindGroupLayout,
+        entries: &[(u32, BindingResource<'_>)],
+    ) -> BindGroup {
         let entries: Vec<BindGroupEntry<'_>> = entries
             .iter()
             .map(|(binding, resource)| BindGroupEntry { binding: *binding, resource: resource.clone() })
@@ -81,7 +86,7 @@ impl Gpu {
     }
 
     /// A render pipeline of triangles, both sides drawn, its layout derived from the shader.
-    pub fn pipeline(
+    pub(crate) fn pipeline(
         &self,
         label: &str,
         stages: Stages<'_>,
@@ -91,7 +96,7 @@ impl Gpu {
     }
 
     /// The same, where what is drawn does not simply replace what is there.
-    pub fn blending_pipeline(
+    pub(crate) fn blending_pipeline(
         &self,
         label: &str,
         stages: Stages<'_>,
@@ -125,22 +130,22 @@ impl Gpu {
 
 /// What varies between render pipelines.
 #[derive(Clone, Copy)]
-pub struct Stages<'a> {
+pub(crate) struct Stages<'a> {
     /// The compiled shader.
-    pub module: &'a ShaderModule,
+    pub(crate) module: &'a ShaderModule,
     /// Its vertex entry point.
-    pub vertex: &'a str,
+    pub(crate) vertex: &'a str,
     /// Its fragment entry point; empty where depth alone is drawn.
-    pub fragment: &'a str,
+    pub(crate) fragment: &'a str,
     /// Vertex buffers.
-    pub buffers: &'a [Option<VertexBufferLayout<'a>>],
+    pub(crate) buffers: &'a [Option<VertexBufferLayout<'a>>],
     /// The colour target, and what of it is written.
-    pub target: Option<(TextureFormat, ColorWrites)>,
+    pub(crate) target: Option<(TextureFormat, ColorWrites)>,
     /// Bind groups that several pipelines share; derived from the shader where none.
-    pub layout: Option<&'a PipelineLayout>,
+    pub(crate) layout: Option<&'a PipelineLayout>,
 }
 
 /// The view of a whole texture.
-pub fn whole(texture: &Texture) -> TextureView {
+pub(crate) fn whole(texture: &Texture) -> TextureView {
     texture.create_view(&TextureViewDescriptor::default())
 }

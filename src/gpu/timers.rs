@@ -50,7 +50,7 @@ impl Gpu {
     }
 
     /// The same for a compute pass.
-    pub fn timed_compute(&self, label: &str) -> Option<ComputePassTimestampWrites<'_>> {
+    pub(crate) fn timed_compute(&self, label: &str) -> Option<ComputePassTimestampWrites<'_>> {
         let (query_set, at) = self.timers.get()?.place(label)?;
         Some(ComputePassTimestampWrites {
             query_set,

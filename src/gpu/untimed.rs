@@ -11,7 +11,7 @@ impl Gpu {
     }
 
     /// The same for a compute pass.
-    pub fn timed_compute(&self, _label: &str) -> Option<ComputePassTimestampWrites<'_>> {
+    pub(crate) fn timed_compute(&self, _label: &str) -> Option<ComputePassTimestampWrites<'_>> {
         None
     }
 }

@@ -10,8 +10,7 @@ pub mod patches;
 mod planes;
 #[doc(hidden)]
 pub mod report;
-#[doc(hidden)]
-pub mod scan;
+pub(crate) mod scan;
 mod together;
 mod weld;
 
@@ -304,7 +303,7 @@ impl Mesh {
 
     /// One bit a face: whether its shell, the faces that hang together by edges, has an even number of faces at each of
     /// them, as closed surfaces have whichever way they are wound.
-    pub fn in_even_shells(&self) -> Vec<bool> {
+    pub(crate) fn in_even_shells(&self) -> Vec<bool> {
         adjacency::in_even_shells(self)
     }
 
@@ -319,7 +318,7 @@ impl Mesh {
     }
 
     /// The same for a run of faces.
-    pub fn bounds_of(&self, run: Range<u32>) -> Option<(DVec3, DVec3)> {
+    pub(crate) fn bounds_of(&self, run: Range<u32>) -> Option<(DVec3, DVec3)> {
         self.bounds_where(run, |_| true)
     }
 
@@ -384,8 +383,7 @@ fn of_part(part: Part, origin: DVec3, together: &CornerGroups) -> (Component, We
 }
 
 /// Whether a light is on the front side of a plane or in it: the one place where that is decided.
-#[doc(hidden)]
-pub fn plane_faces(plane: DVec4, local_light: DVec4) -> bool {
+pub(crate) fn plane_faces(plane: DVec4, local_light: DVec4) -> bool {
     plane.dot(local_light) >= 0.0
 }
 

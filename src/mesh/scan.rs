@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// Tells for each row of some that a triangle reaches from which column to which it does. Its corners are in the order of
 /// rows, then columns ([`by_rows`]).
-pub fn spans([top, middle, bottom]: [DVec2; 3], of: Range<usize>, mut tell: impl FnMut(usize, f64, f64)) {
+pub(crate) fn spans([top, middle, bottom]: [DVec2; 3], of: Range<usize>, mut tell: impl FnMut(usize, f64, f64)) {
     let [long, upper, lower] =
         [TriangleSide::between(top, bottom), TriangleSide::between(top, middle), TriangleSide::between(middle, bottom)];
     for row in wholes([top.y, bottom.y], of) {
@@ -27,12 +27,12 @@ pub fn spans([top, middle, bottom]: [DVec2; 3], of: Range<usize>, mut tell: impl
 }
 
 /// The order of corners by rows, then columns.
-pub fn by_rows(one: DVec2, other: DVec2) -> Ordering {
+pub(crate) fn by_rows(one: DVec2, other: DVec2) -> Ordering {
     one.y.total_cmp(&other.y).then(one.x.total_cmp(&other.x))
 }
 
 /// The whole numbers of a range from one place to another, both included; none where a place is no number.
-pub fn wholes([from, to]: [f64; 2], of: Range<usize>) -> Range<usize> {
+pub(crate) fn wholes([from, to]: [f64; 2], of: Range<usize>) -> Range<usize> {
     // a negative number, and what is none, become 0; rounding is a library call on processors without an instruction for it
     let first = from as usize;
     let first = first.saturating_add(usize::from((first as f64) < from));
@@ -41,7 +41,7 @@ pub fn wholes([from, to]: [f64; 2], of: Range<usize>) -> Range<usize> {
 }
 
 /// Which cells are covered: one bit a cell, 64 a word.
-pub struct Coverage {
+pub(crate) struct Coverage {
     /// Row after row, each of whole words.
     words: Vec<u64>,
     /// Words in a row.
@@ -52,24 +52,24 @@ pub struct Coverage {
 
 impl Coverage {
     /// Nothing is covered.
-    pub fn empty(width: u32, height: u32) -> Coverage {
+    pub(crate) fn empty(width: u32, height: u32) -> Coverage {
         let in_row = width.div_ceil(64) as usize;
         let words = vec![0; in_row * height as usize];
         Coverage { words, in_row, width: width as usize, height: height as usize }
     }
 
     /// Whether a cell is covered.
-    pub fn get(&self, column: u32, row: u32) -> bool {
+    pub(crate) fn get(&self, column: u32, row: u32) -> bool {
         self.words[row as usize * self.in_row + column as usize / 64] >> (column % 64) & 1 == 1
     }
 
     /// How many cells are covered.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.words.iter().map(|word| word.count_ones() as usize).sum()
     }
 
     /// Covers all cells whose centres lie in a triangle or on its edge.
-    pub fn cover(&mut self, mut corners: [DVec2; 3]) {
+    pub(crate) fn cover(&mut self, mut corners: [DVec2; 3]) {
         corners.sort_unstable_by(|one, other| by_rows(*one, *other));
         let height = self.height;
         spans(corners, 0..height, |row, from, to| self.cover_row(row, from, to));
@@ -96,7 +96,7 @@ impl Coverage {
 }
 
 /// A triangle's side, from its upper to its lower end.
-pub struct TriangleSide {
+pub(crate) struct TriangleSide {
     start: DVec2,
     end: DVec2,
     /// Columns a row; not used where the side is level.
@@ -105,12 +105,12 @@ pub struct TriangleSide {
 
 impl TriangleSide {
     /// From the upper end to the lower.
-    pub fn between(start: DVec2, end: DVec2) -> TriangleSide {
+    pub(crate) fn between(start: DVec2, end: DVec2) -> TriangleSide {
         TriangleSide { start, end, slope: (end.x - start.x) / (end.y - start.y) }
     }
 
     /// Its column at a row between its ends.
-    pub fn x_at(&self, y: f64) -> f64 {
+    pub(crate) fn x_at(&self, y: f64) -> f64 {
         if y >= self.end.y { self.end.x } else { self.start.x + (y - self.start.y) * self.slope }
     }
 }

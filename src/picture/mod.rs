@@ -21,7 +21,7 @@ use std::sync::Arc;
 use wgpu::*;
 
 /// The picture's colours: display values.
-pub const COLOURS: TextureFormat = TextureFormat::Rgba8Unorm;
+pub(crate) const COLOURS: TextureFormat = TextureFormat::Rgba8Unorm;
 
 /// The hours of shadow of a profile, to be laid over what is seen.
 #[derive(Clone, Copy, Debug)]
@@ -152,7 +152,7 @@ impl Picture {
     }
 
     /// Lays hours over the scene, or takes them away.
-    pub fn lay_hours(&mut self, hours: Option<HoursRaster<'_>>) {
+    pub(crate) fn lay_hours(&mut self, hours: Option<HoursRaster<'_>>) {
         self.hours = hours.map(|hours| {
             let texels: Vec<[u8; 4]> = hours.colours.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
             let heights: Vec<f32> =
@@ -170,14 +170,14 @@ impl Picture {
     ///
     /// # Errors
     /// Where the adapter cannot hold them.
-    pub fn lay_patches(&mut self, colours: &PatchColours<'_>) -> Result<(), ShadowError> {
+    pub(crate) fn lay_patches(&mut self, colours: &PatchColours<'_>) -> Result<(), ShadowError> {
         self.hours = None;
         self.hours = Some(HoursTextures::Patches(textures(&self.surface.gpu, colours, self.origin)?));
         Ok(())
     }
 
     /// Lays shadow volumes (layers) and silhouette (ink) over the view, rasters as fine or a whole number of times finer.
-    pub fn lay_overlay(&mut self, size: (u32, u32), layers: Option<&[u8]>, ink: Option<&[u8]>) {
+    pub(crate) fn lay_overlay(&mut self, size: (u32, u32), layers: Option<&[u8]>, ink: Option<&[u8]>) {
         self.overlay = [("picture.volumes", layers), ("picture.silhouette", ink)]
             .map(|(label, values)| values.map(|values| self.upload(label, size, SHARE, values)));
     }

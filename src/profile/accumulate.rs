@@ -99,7 +99,7 @@ fn add_planes<const N: usize>(sums: &mut [u32], planes: [[u8; 8]; N], weights: [
 }
 
 /// The longest time that 32 bits hold in 1/255 s, seconds: 194 days.
-pub const MOST_SECS: u32 = u32::MAX / 255;
+pub(crate) const MOST_SECS: u32 = u32::MAX / 255;
 
 /// A sum in a texture, and the pipeline that adds to it.
 struct GpuSum {

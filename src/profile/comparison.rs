@@ -94,7 +94,7 @@ impl Comparison {
     }
 
     /// How what a cell sees has altered.
-    pub fn altered(&self, cell: usize) -> Alteration {
+    pub(crate) fn altered(&self, cell: usize) -> Alteration {
         self.altered[cell]
     }
 
@@ -111,18 +111,18 @@ impl Comparison {
     }
 
     /// Square metres that are so.
-    pub fn altered_m2(&self, altered: Alteration) -> f64 {
+    pub(crate) fn altered_m2(&self, altered: Alteration) -> f64 {
         self.area(self.altered.iter().filter(|it| **it == altered).count())
     }
 
     /// Square metres that change by more than some seconds.
-    pub fn more_than_m2(&self, change: Change, secs: u32) -> f64 {
+    pub(crate) fn more_than_m2(&self, change: Change, secs: u32) -> f64 {
         let least = i64::from(secs) * 255;
         self.area(self.changes(change).filter(|(_, change)| *change > least).count())
     }
 
     /// Square metres that have at least some seconds of sun, before and after.
-    pub fn sun_at_least_m2(&self, secs: u32) -> [f64; 2] {
+    pub(crate) fn sun_at_least_m2(&self, secs: u32) -> [f64; 2] {
         [&self.before, &self.after].map(|profile| {
             let most = u64::from(profile.day_secs.saturating_sub(secs)) * 255;
             let has = |cell: &usize| self.altered[*cell] == Alteration::No && profile.shaded.of(*cell) <= most;

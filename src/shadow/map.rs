@@ -18,7 +18,7 @@ use wgpu::*;
 
 /// How many texels of its slope deeper a face is drawn. Measured: of 0 to 4, the one that leaves the fewest wrong cells
 /// (docs/benchmarks/techniques.md).
-pub const SLOPE_BIAS_TEXELS: f32 = 0.5;
+pub(super) const SLOPE_BIAS_TEXELS: f32 = 0.5;
 
 /// Four depths to a texel.
 const PACKED: TextureFormat = TextureFormat::Rgba32Float;

@@ -9,8 +9,7 @@ mod flat;
 mod frame;
 pub mod hybrid;
 mod light_view;
-#[doc(hidden)]
-pub mod map;
+mod map;
 #[doc(hidden)]
 pub mod near_clip;
 mod plan_surface;

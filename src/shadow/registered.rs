@@ -95,7 +95,7 @@ impl ClippedFace {
     }
 
     /// Covers the cells whose centres lie in it or on its edge.
-    pub fn cover(&self, bits: &mut Coverage) {
+    pub(crate) fn cover(&self, bits: &mut Coverage) {
         for pair in self.points().windows(2).skip(1) {
             bits.cover([self.points[0], pair[0], pair[1]]);
         }

@@ -128,7 +128,7 @@ impl StudyError {
     }
 
     /// What a graphics device failed of, where it did while working: on another one the work can be done.
-    pub fn lost_device(&self) -> Option<&GpuError> {
+    pub(crate) fn lost_device(&self) -> Option<&GpuError> {
         match self {
             StudyError::Gpu(error) | StudyError::Shadow(ShadowError::Gpu(error)) => Some(error),
             _ => None,

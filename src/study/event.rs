@@ -66,7 +66,7 @@ pub type OnEvent<'a> = dyn FnMut(Event<'_>) -> ControlFlow<()> + 'a;
 ///
 /// # Errors
 /// [`StudyError::Interrupted`] as asked by the listener.
-pub fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> {
+pub(crate) fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> {
     match on_event(event) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(StudyError::Interrupted),
@@ -77,6 +77,6 @@ pub fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyErr
 ///
 /// # Errors
 /// [`StudyError::Interrupted`] as asked by the listener.
-pub fn note_models(notes: &[String], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+pub(crate) fn note_models(notes: &[String], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
 }

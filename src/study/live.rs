@@ -18,7 +18,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// How far away an eye may be, in lengths of the models: for rays that begin there rounding is allowed for.
-pub const FARTHEST: f64 = 40.0;
+pub(crate) const FARTHEST: f64 = 40.0;
 
 /// How shadows are found in a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ impl LiveMethod {
     ///
     /// What a map or volumes cost grows with the model, and a quick look has few pixels; at a few hundred a side a map
     /// takes about as long as rays do on the tower (docs/benchmarks/desktop.md), and has coarse edges.
-    pub fn quickest() -> LiveMethod {
+    pub(crate) fn quickest() -> LiveMethod {
         LiveMethod { method: Method::RayCast, settings: Settings::default() }
     }
 }
@@ -172,7 +172,7 @@ impl Live {
     ///
     /// # Errors
     /// What drawing says.
-    pub fn lay_overlay(&mut self, to_sun: DVec3, volumes: bool, silhouette: bool) -> Result<(), StudyError> {
+    pub(crate) fn lay_overlay(&mut self, to_sun: DVec3, volumes: bool, silhouette: bool) -> Result<(), StudyError> {
         let View::Camera(camera) = self.view else { return Ok(()) };
         if to_sun.z <= 0.0 || !(volumes || silhouette) {
             return Ok(());
@@ -226,7 +226,7 @@ fn made<'a>(
 }
 
 /// A view of one cell from as far away as any, for rays that are to turn to all others.
-pub fn far_view(scene: &Scene) -> View {
+pub(crate) fn far_view(scene: &Scene) -> View {
     let (low, high) = scene.receivers.bounds().or(scene.casters.bounds()).unwrap_or_default();
     let length = (high - low).length().max(1.0) * FARTHEST;
     let target = (low + high) / 2.0;

@@ -32,12 +32,10 @@ mod wants;
 
 #[doc(hidden)]
 pub use compare::{CompareOutcome, compare, compare_with};
-#[doc(hidden)]
-pub use daylight::day_and_night;
+pub(crate) use daylight::day_and_night;
 pub use error::StudyError;
 pub use event::{Event, OnEvent};
-#[doc(hidden)]
-pub use event::{note_models, tell};
+pub(crate) use event::{note_models, tell};
 #[doc(hidden)]
 pub use frames::{Frame, frames};
 #[doc(hidden)]
@@ -50,8 +48,9 @@ pub use profile::{TiledOutcome, TiledStudy, in_tiles, paste, run};
 pub use site_view::judged;
 #[doc(hidden)]
 pub use stopwatch::Stopwatch;
+pub(crate) use surfaces::seen_receivers;
 #[doc(hidden)]
-pub use surfaces::{SurfaceOutcome, seen_receivers, surfaces};
+pub use surfaces::{SurfaceOutcome, surfaces};
 pub use tiles::Budget;
 pub use wants::Wants;
 #[doc(hidden)]

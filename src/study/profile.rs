@@ -155,7 +155,7 @@ impl<'a> TiledStudy<'a> {
 
     /// The tile that is worked on after so many instants, those of each tile counted: the last one until all of its instants
     /// are done and told.
-    pub fn worked_on(&self, done: usize) -> usize {
+    pub(crate) fn worked_on(&self, done: usize) -> usize {
         done.saturating_sub(1) / self.site.track.instants.len().max(1)
     }
 }

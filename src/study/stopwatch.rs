@@ -27,14 +27,14 @@ impl Stopwatch {
     }
 
     /// A stage ends; the next begins.
-    pub fn lap(&mut self, stage: &'static str) {
+    pub(crate) fn lap(&mut self, stage: &'static str) {
         let now = Instant::now();
         self.stages.0.push((stage, (now - self.lap).as_secs_f64()));
         self.lap = now;
     }
 
     /// Stages end that were timed elsewhere; the next begins.
-    pub fn laps(&mut self, stages: Timings) {
+    pub(crate) fn laps(&mut self, stages: Timings) {
         self.stages.0.extend(stages.0);
         self.lap = Instant::now();
     }

@@ -108,7 +108,7 @@ fn light(
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError> {
+pub(crate) fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError> {
     let receivers = site.mesh.of_components(&site.receives);
     let scene =
         Scene { casters: site.mesh.of_components(&[]), receivers: receivers.clone(), ground: site.ground.level };

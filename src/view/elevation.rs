@@ -43,7 +43,7 @@ impl Side {
     }
 
     /// How much a picture of that proportion about a point must show from foot to head, metres, to hold a box whole.
-    pub fn height_about(self, middle: DVec3, (low, high): (DVec3, DVec3), width_by_height: f64) -> f64 {
+    pub(crate) fn height_about(self, middle: DVec3, (low, high): (DVec3, DVec3), width_by_height: f64) -> f64 {
         let [low, high] = [low - middle, high - middle];
         let aside = low.dot(self.right()).abs().max(high.dot(self.right()).abs());
         let across = aside / (0.5 - BESIDE) / width_by_height;

@@ -64,7 +64,7 @@ impl Bits {
     }
 
     /// Words of a row.
-    pub fn in_row(&self) -> usize {
+    pub(crate) fn in_row(&self) -> usize {
         self.width.div_ceil(64) as usize
     }
 

@@ -20,7 +20,7 @@ use glam::{DVec3, DVec4};
 use std::ops::Range;
 
 /// Faces of a patch are turned to each other by no more, degrees.
-pub const FLAT_ANGLE_DEG: f64 = 1.0;
+pub(crate) const FLAT_ANGLE_DEG: f64 = 1.0;
 
 /// The corners of a patch's faces lie this near to its plane, metres: half of the millimetre above itself at which a
 /// receiver is judged, so that no patch shades itself. Where `f32` is coarser around the mesh's origin, two of its steps.
@@ -34,10 +34,10 @@ pub const DEFAULT_CELL_M: f64 = 0.25;
 pub const MOST_TEXELS: usize = 1 << 25;
 
 /// A page is no longer on a side, texels: what every adapter and viewer takes.
-pub const MOST_PAGE: u32 = 4096;
+pub(crate) const MOST_PAGE: u32 = 4096;
 
 /// Empty texels around each patch in its page, so that textures can be filtered.
-pub const GUTTER: u32 = 1;
+pub(crate) const GUTTER: u32 = 1;
 
 /// The patches of a mesh, and where they lie in the atlas.
 #[derive(Clone, Debug)]

@@ -15,7 +15,7 @@ use wgpu::{
 pub(super) const GROUP: u32 = 2;
 
 /// What all meshes' faces share.
-pub struct FacingProgram {
+pub(super) struct FacingProgram {
     pub(in crate::shadow) gpu: Arc<Gpu>,
     decide: ComputePipeline,
     cap: ComputePipeline,

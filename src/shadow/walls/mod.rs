@@ -3,7 +3,7 @@
 
 pub mod borders;
 pub mod extraction;
-pub mod faces;
+mod faces;
 #[cfg(feature = "test-hooks")]
 mod quadrilaterals;
 mod uploaded;
