@@ -59,7 +59,7 @@ fields! {
     Receivers => "receivers",
     /// From where one looks.
     View => "view",
-    /// The side of a texel on surfaces.
+    /// The side of a texel on patches.
     PatchCell => "cell on surfaces",
     /// How shadows are found.
     Technique => "technique",

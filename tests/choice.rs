@@ -41,7 +41,7 @@ fn the_table_agrees_with_itself() {
     for row in TABLE {
         assert!(std::ptr::eq(row.method.row(), row), "{}", row.word);
         assert_eq!(row.word.parse::<Method>(), Ok(row.method));
-        assert!(row.draws(Engine::Auto, Subject::Top) || row.draws(Engine::Auto, Subject::Surfaces), "{}", row.word);
+        assert!(row.draws(Engine::Auto, Subject::Top) || row.draws(Engine::Auto, Subject::Patches), "{}", row.word);
         assert!(!row.finders.contains(&Finder::Auto), "{}: auto is always there", row.word);
         // what it does not use it has no default for
         assert_eq!(row.set(&Settings::NONE), row.defaults, "{}", row.word);
@@ -66,7 +66,7 @@ fn view(site: &Site, subject: Subject) -> View {
     match subject {
         Subject::Camera => View::Camera(camera),
         Subject::Side => View::Elevation(camera.side(gnomon::view::Side::South)),
-        Subject::Top | Subject::Ground | Subject::Surfaces => View::Plan(site.grid),
+        Subject::Top | Subject::Ground | Subject::Patches => View::Plan(site.grid),
     }
 }
 
@@ -89,7 +89,7 @@ fn techniques_draw_what_the_table_says() {
                 let site = load(SITE, &asked).expect("a site");
                 let mut on_event = |_: study::Event<'_>| ControlFlow::Continue(());
                 let done = match subject {
-                    Subject::Surfaces => study::surfaces(&site, 4.0, &mut on_event).map(|outcome| outcome.drawn),
+                    Subject::Patches => study::patches(&site, 4.0, &mut on_event).map(|outcome| outcome.drawn),
                     _ => study::instant(&site, view(&site, subject), &InstantWants::default(), &mut on_event)
                         .map(|outcome| outcome.drawn),
                 };
@@ -148,6 +148,6 @@ fn what_does_not_fit_names_the_choice_and_the_way_out() {
         check(Method::Smoothie, Finder::Gpu, Settings::NONE),
         "silhouette: smoothie uses brute and hextree alone; take one of them, or leave it out"
     );
-    let on_surfaces = Method::SoftTexture.row().check(Finder::Auto, &map, Subject::Surfaces);
+    let on_surfaces = Method::SoftTexture.row().check(Finder::Auto, &map, Subject::Patches);
     assert_eq!(told(on_surfaces), "map size: nothing that draws façades and roofs uses it; leave it out");
 }

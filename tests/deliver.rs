@@ -6,9 +6,9 @@ use gnomon::deliver::comparison::comparison;
 use gnomon::deliver::disk::workplace::Workplace;
 use gnomon::deliver::instant::{InstantRequest, Show, instant};
 use gnomon::deliver::lines::Lines;
+use gnomon::deliver::patches::{PatchesRequest, patches};
 use gnomon::deliver::probe::{ProbeRequest, probe};
 use gnomon::deliver::profile::{ProfileAnswer, ProfileRequest, find_hours, profile};
-use gnomon::deliver::surfaces::{SurfacesRequest, surfaces};
 use gnomon::deliver::volumes::volumes;
 use gnomon::deliver::{Folder, NamedFile, Sink, WrittenFiles};
 use gnomon::site::{Overrides, Pair, Site, load_probes};
@@ -174,7 +174,7 @@ fn every_deliverable_goes_into_memory() {
     let path = folder.path();
     let site = loaded(path, "1h");
     let watch = Stopwatch::start();
-    let camera = Site { receivers: Receivers::Surfaces, ..site.clone() };
+    let camera = Site { receivers: Receivers::Patches, ..site.clone() };
     let pair = Pair::load(path, path, &Overrides { engine: Some(Engine::Cpu), size: Some(60), ..Overrides::default() });
     let pair = pair.unwrap();
     let point = Overrides { point: Some("12,-3,4.5".to_owned()), ..Overrides::default() };
@@ -189,12 +189,12 @@ fn every_deliverable_goes_into_memory() {
         watch: watch.clone(),
     };
     let of_probe = ProbeRequest { drawing: Some(one), table: Some(other), ..ProbeRequest::default() };
-    let all = SurfacesRequest::all(watch.clone());
+    let all = PatchesRequest::all(watch.clone());
     let on_event = |_: Event<'_>| Continue(());
     let of_one = |sink: Sink<'_>| instant(&site, &of_instant, sink, &mut on_event.clone()).unwrap().written;
     let of_points = |sink: Sink<'_>| probe(&probing, &of_probe, sink, &mut on_event.clone()).unwrap().written;
     let of_solids = |sink: Sink<'_>| volumes(&site, &of_volumes, sink, &mut on_event.clone()).unwrap().written;
-    let of_walls = |sink: Sink<'_>| surfaces(&camera, &all, sink, &mut on_event.clone()).unwrap().written;
+    let of_walls = |sink: Sink<'_>| patches(&camera, &all, sink, &mut on_event.clone()).unwrap().written;
     let of_both = |sink: Sink<'_>| comparison(&pair, watch.clone(), sink, &mut on_event.clone()).unwrap().written;
     let out = path.join("out");
     let (files, folder) = (Sink::Paths { inputs: &[] }, Sink::Folder(inside(&out)));

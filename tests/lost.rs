@@ -128,12 +128,12 @@ fn frames_are_given_out_once_each() {
 }
 
 #[test]
-fn surfaces_come_to_the_same() {
-    let site = Site { method: Method::SoftTexture, receivers: Receivers::Surfaces, ..works() };
+fn patches_come_to_the_same() {
+    let site = Site { method: Method::SoftTexture, receivers: Receivers::Patches, ..works() };
     let cell = 2.0;
-    let right = study::surfaces(&site, cell, &mut |_| ControlFlow::Continue(())).expect("surfaces");
+    let right = study::patches(&site, cell, &mut |_| ControlFlow::Continue(())).expect("surfaces");
     let mut told = Told::default();
-    let again = study::surfaces(&site, cell, &mut |event| {
+    let again = study::patches(&site, cell, &mut |event| {
         if matches!(event, Event::Drawn { index: 1, .. }) && told.anew == 0 {
             lose_after(0);
         }

@@ -1,11 +1,11 @@
-//! Surfaces gathered into flat patches: nothing lost, holes respected, the outer side judged, texels where they belong.
+//! Faces gathered into flat patches: nothing lost, holes respected, the outer side judged, texels where they belong.
 
 use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};
 use gnomon::mesh::patches::{DEFAULT_CELL_M, FLAT_M, MOST_TEXELS, Patch, Patches};
 use gnomon::mesh::{Mesh, Part};
 use gnomon::site::{Overrides, Site};
-use gnomon::sunlight::SurfaceHours;
+use gnomon::sunlight::PatchHours;
 use std::path::Path;
 
 fn patches(parts: Vec<Part>, cell: f64) -> (Mesh, Patches) {
@@ -226,7 +226,7 @@ fn sites_lose_nothing() {
 #[test]
 fn tables_weigh_by_texels_and_area() {
     let (_, patches) = patches(vec![cuboid("box", dvec3(0.0, 0.0, 0.0), dvec3(8.0, 6.0, 4.0))], 2.0);
-    let mut hours = SurfaceHours { lit: vec![0; patches.texels.len()], samples: 2, day_secs: 36_000, night_secs: 0 };
+    let mut hours = PatchHours { lit: vec![0; patches.texels.len()], samples: 2, day_secs: 36_000, night_secs: 0 };
     let roof = towards(&patches, DVec3::Z).clone();
     // 12 texels: half of them an hour, a quarter three
     for (at, texel) in (roof.texels.start as usize..roof.texels.end as usize).enumerate() {
@@ -245,7 +245,7 @@ fn areas(parts: Vec<Part>, casts: &[bool], cell: f64) -> (Vec<f64>, Patches) {
     let (mesh, mut patches) = patches(parts, cell);
     let receives = vec![true; mesh.components.len()];
     patches.leave_out_shared(&mesh, casts, &receives);
-    let hours = SurfaceHours { lit: vec![3600; patches.texels.len()], samples: 1, day_secs: 3600, night_secs: 0 };
+    let hours = PatchHours { lit: vec![3600; patches.texels.len()], samples: 1, day_secs: 3600, night_secs: 0 };
     let of_component = |component: usize| {
         let exposure = hours.of_component(&patches, component as u32).expect("patches");
         assert_eq!(exposure.hours_mean, if exposure.area_m2 > 0.0 { 1.0 } else { 0.0 });

@@ -346,7 +346,7 @@ fn interruption_is_heard_between_days() {
     assert!(matches!(stopped, Err(StudyError::Interrupted)) && heard == 3);
 }
 
-/// As on surfaces: what lies below the ground sees no sun, the wall above it does.
+/// As on patches: what lies below the ground sees no sun, the wall above it does.
 #[test]
 fn below_the_ground_there_is_no_sun() {
     let place = paris();

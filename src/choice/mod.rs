@@ -16,7 +16,7 @@ pub use table::{Method, Setting, Subject};
 pub use words::{ChoiceError, listed};
 pub(crate) use words::{find, nearest, read, words};
 
-/// Which surfaces are judged.
+/// What is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Receivers {
     /// The highest receiving surface under each cell, ground included.
@@ -24,8 +24,8 @@ pub enum Receivers {
     Top,
     /// The ground plane, as if the buildings only cast.
     Ground,
-    /// All receiving surfaces of the models, walls and undersides too, on their outer side.
-    Surfaces,
+    /// All patches of the models that receive, walls and undersides too, on their outer side.
+    Patches,
 }
 
 /// Which silhouette finder bounds the volumes.
@@ -109,6 +109,6 @@ words!(
     [
         "top" => Receivers::Top,
         "ground" => Receivers::Ground,
-        "surfaces" => Receivers::Surfaces
+        "surfaces" => Receivers::Patches
     ]
 );

@@ -15,12 +15,12 @@ pub enum Subject {
     /// A side, along parallel, level rays.
     Side,
     /// All flat patches of what receives.
-    Surfaces,
+    Patches,
 }
 
 impl Subject {
     /// All of them.
-    pub const ALL: [Subject; 5] = [Subject::Top, Subject::Ground, Subject::Camera, Subject::Side, Subject::Surfaces];
+    pub const ALL: [Subject; 5] = [Subject::Top, Subject::Ground, Subject::Camera, Subject::Side, Subject::Patches];
 
     /// As the object of a sentence.
     pub fn name(self) -> &'static str {
@@ -29,7 +29,7 @@ impl Subject {
             Subject::Ground => "the plan's ground",
             Subject::Camera => "a camera's picture",
             Subject::Side => "a side",
-            Subject::Surfaces => "façades and roofs",
+            Subject::Patches => "façades and roofs",
         }
     }
 
@@ -40,7 +40,7 @@ impl Subject {
             Subject::Ground => (Field::Receivers, "ground"),
             Subject::Camera => (Field::View, "camera"),
             Subject::Side => (Field::View, "north, east, south or west"),
-            Subject::Surfaces => (Field::Receivers, "surfaces"),
+            Subject::Patches => (Field::Receivers, "surfaces"),
         }
     }
 
@@ -177,7 +177,7 @@ techniques! {
         good_for: "the fastest exact one for the work and the machine",
         wrong: "as the one that it takes",
         on_cpu: &Subject::ALL,
-        on_gpu: &[Subject::Top, Subject::Ground, Subject::Camera, Subject::Surfaces],
+        on_gpu: &[Subject::Top, Subject::Ground, Subject::Camera, Subject::Patches],
         finders: &[],
         settings: &[],
         defaults: Settings::NONE,
@@ -266,8 +266,8 @@ techniques! {
         name: "soft shadow textures",
         good_for: "hours on façades and roofs; in a camera's picture the sun as a disc on what is flat",
         wrong: "not at all on surfaces, for the model as given; pixels at edges, by one or two in 255 on average",
-        on_cpu: &[Subject::Camera, Subject::Surfaces],
-        on_gpu: &[Subject::Surfaces],
+        on_cpu: &[Subject::Camera, Subject::Patches],
+        on_gpu: &[Subject::Patches],
         finders: &[],
         settings: &[Setting::SunSamples],
         defaults: Settings { sun_samples: Some(64), ..Settings::NONE },

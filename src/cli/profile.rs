@@ -1,9 +1,9 @@
-//! `gnomon profile`: the hours of shadow on the plan, and of sun on surfaces.
+//! `gnomon profile`: the hours of shadow on the plan, and of sun on patches.
 
 use super::arguments::{ProfileArgs, ProfileFile};
 use super::commands::{drawn_by, lines, took};
 use super::progress::Progress;
-use super::{say, surfaces, who};
+use super::{patches, say, who};
 use crate::choice::Receivers;
 use crate::deliver::profile::{ProfileAnswer, ProfileRequest, profile as deliver};
 use crate::deliver::{Folder, Sink};
@@ -15,8 +15,8 @@ use std::fmt::Write;
 pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let watch = Stopwatch::start();
     let site = Site::load(&asked.site.path, &asked.overrides())?;
-    if site.receivers == Receivers::Surfaces {
-        return surfaces::profile(asked, &site, watch);
+    if site.receivers == Receivers::Patches {
+        return patches::profile(asked, &site, watch);
     }
     let kinds = asked.wanted(&[ProfileFile::Png, ProfileFile::Tif, ProfileFile::Json])?;
     let wanted = |kind| kinds.contains(&kind);

@@ -10,10 +10,10 @@ mod error;
 pub mod instant;
 pub mod lines;
 mod parts;
+pub mod patches;
 pub mod probe;
 pub mod profile;
 mod sink;
-pub mod surfaces;
 pub mod verification;
 pub mod volumes;
 

@@ -11,7 +11,7 @@ use crate::study::{Event, OnEvent, StudyError, tell};
 /// What of a site was drawn, and by what.
 #[derive(Clone, Copy)]
 pub struct DrawnView<'a, S> {
-    /// Which surfaces were judged.
+    /// What was judged.
     pub receivers: Receivers,
     /// What each cell sees.
     pub surface: &'a S,

@@ -8,19 +8,19 @@ use super::unit::Unit;
 use super::work::Work;
 use crate::choice::{Engine, Method, Receivers, Subject};
 use crate::deliver::Sink;
-use crate::deliver::surfaces::{SurfacesRequest, answer, write_surfaces};
+use crate::deliver::patches::{PatchesRequest, answer, write_patches};
 use crate::export::figure::{self, scale::Rgb};
-use crate::export::surfaces::Atlas;
+use crate::export::patches::Atlas;
 use crate::picture::{PatchColours, Picture};
 use crate::shadow::ShadowError;
 use crate::site::Site;
-use crate::study::{self, OnEvent, Stopwatch, SurfaceOutcome};
+use crate::study::{self, OnEvent, PatchOutcome, Stopwatch};
 use eframe::egui;
 use std::sync::Arc;
 
-/// The hours of sun on surfaces.
+/// The hours of sun on patches.
 pub(super) struct Facades {
-    outcome: SurfaceOutcome,
+    outcome: PatchOutcome,
     atlas: Atlas,
     /// The atlas in the drawing's colours.
     pages: Vec<Vec<Rgb>>,
@@ -28,23 +28,23 @@ pub(super) struct Facades {
     pub(super) legend: (String, Vec<(Rgb, String)>),
 }
 
-/// By what surfaces are judged, where the window draws by some technique: by that, or by the faster of the two that can.
+/// By what patches are judged, where the window draws by some technique: by that, or by the faster of the two that can.
 pub(super) fn method(settings: &WindowSettings) -> Method {
     let method = settings.shown.method;
-    if method.row().draws(Engine::Auto, Subject::Surfaces) { method } else { Method::Auto }
+    if method.row().draws(Engine::Auto, Subject::Patches) { method } else { Method::Auto }
 }
 
-/// Finds the hours of sun on the surfaces of a site.
+/// Finds the hours of sun on the patches of a site.
 pub(super) fn find(project: &Project, method: Method, number: u64, context: egui::Context) -> Work<StudyResult> {
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
     let mark = project.models.mark();
     Work::start(context, move |on_event| {
-        let asked = Site { receivers: Receivers::Surfaces, method, ..Site::clone(&site) };
-        let outcome = study::surfaces(&asked, asked.patch_cell, on_event)?;
+        let asked = Site { receivers: Receivers::Patches, method, ..Site::clone(&site) };
+        let outcome = study::patches(&asked, asked.patch_cell, on_event)?;
         let answer = answer(&site, &outcome);
         let atlas = Atlas::of(&answer);
         let pages = atlas.colours(&answer.bands(), outcome.hours.samples);
-        let legend = figure::surfaces_legend(&answer);
+        let legend = figure::patches_legend(&answer);
         let found = Findings::Facades(Box::new(Facades { outcome, atlas, pages, legend }));
         Ok(StudyResult { number, site, method, written, mark, found })
     })
@@ -78,13 +78,13 @@ impl Facades {
     }
 
     /// The drawing, the model, the table and the report.
-    pub(super) fn all(&self) -> SurfacesRequest {
-        SurfacesRequest::all(Stopwatch::after(self.outcome.timings.clone()))
+    pub(super) fn all(&self) -> PatchesRequest {
+        PatchesRequest::all(Stopwatch::after(self.outcome.timings.clone()))
     }
 
     /// Writes them.
     pub(super) fn write(&self, site: &Site, sink: Sink<'_>, on_event: &mut OnEvent<'_>) -> anyhow::Result<()> {
-        write_surfaces(site, &self.outcome, &self.all(), sink, on_event)?;
+        write_patches(site, &self.outcome, &self.all(), sink, on_event)?;
         Ok(())
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             response.on_disabled_hover_text("Two states are compared on ground and roofs");
         });
         if app.settings.shown.facades && !compares && facades::method(&app.settings) != app.settings.shown.method {
-            let techniques = listed(&Subject::Surfaces.drawn_by(Engine::Auto), "or");
+            let techniques = listed(&Subject::Patches.drawn_by(Engine::Auto), "or");
             ui.weak(format!("On façades auto chooses: {techniques}."));
         }
         if goes {

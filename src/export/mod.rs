@@ -8,12 +8,12 @@ pub mod checksum;
 pub mod comparison;
 pub mod figure;
 pub mod file;
+pub mod patches;
 mod places;
 pub mod probe;
 pub mod raster;
 pub mod recovery;
 pub mod report;
-pub mod surfaces;
 pub mod verify;
 pub mod volumes;
 
@@ -79,7 +79,7 @@ pub enum ExportError {
         /// The path as given.
         path: PathBuf,
     },
-    /// The model with the hours on its surfaces is larger than GLB can be.
+    /// The model with the hours on its patches is larger than GLB can be.
     LargeGlb {
         /// What it would take, bytes.
         size: u64,

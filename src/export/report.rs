@@ -3,7 +3,7 @@
 //! Keys and their order are a contract that other programs rely on; keys may be added, never changed.
 
 use super::ExportError;
-use super::surfaces::Surfaces;
+use super::patches::PatchContext;
 use crate::choice::{Filter, Finder, Receivers, Settings};
 use crate::profile::{Profile, Provenance, Statistics, Timings};
 use crate::site::Ground;
@@ -91,7 +91,7 @@ enum ViewReport<'a> {
         width: u32,
         height: u32,
     },
-    Surfaces {
+    Patches {
         patch_cell: f64,
         patch_cell_asked: f64,
         texels: usize,
@@ -161,7 +161,7 @@ struct DayReport {
 /// What a report tells beside the instants.
 #[derive(Clone, Copy, Debug)]
 pub struct ReportContext<'a> {
-    /// Which surfaces were judged.
+    /// What was judged.
     pub receivers: Receivers,
     /// The ground plane.
     pub ground: Ground,
@@ -201,11 +201,11 @@ pub fn shadow_json(
     drawn_json(view_report(view), place, track, told)
 }
 
-/// `profile.json` of surfaces: as [`profile_json`]; cell, texels and components stand where a plan has region and cell.
+/// `profile.json` of patches: as [`profile_json`]; cell, texels and components stand where a plan has region and cell.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn surfaces_json(surfaces: &Surfaces<'_>, told: &ReportContext<'_>) -> Result<String, ExportError> {
+pub fn patches_json(found: &PatchContext<'_>, told: &ReportContext<'_>) -> Result<String, ExportError> {
     let component = |(component, patches, exposure): (_, &[_], Exposure)| {
         let [share_1h, share_2h, share_3h, share_4h] = exposure.shares;
         let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;
@@ -223,15 +223,15 @@ pub fn surfaces_json(surfaces: &Surfaces<'_>, told: &ReportContext<'_>) -> Resul
             share_4h,
         }
     };
-    let view = ViewReport::Surfaces {
-        patch_cell: surfaces.patches.cell,
-        patch_cell_asked: surfaces.patches.asked_cell,
-        texels: surfaces.patches.texels.len(),
-        doubled_m2: surfaces.patches.left_out.doubled_m2,
-        touching_m2: surfaces.patches.left_out.touching_m2,
-        components: surfaces.components().map(component).collect(),
+    let view = ViewReport::Patches {
+        patch_cell: found.patches.cell,
+        patch_cell_asked: found.patches.asked_cell,
+        texels: found.patches.texels.len(),
+        doubled_m2: found.patches.left_out.doubled_m2,
+        touching_m2: found.patches.left_out.touching_m2,
+        components: found.components().map(component).collect(),
     };
-    drawn_json(view, surfaces.place, surfaces.track, told)
+    drawn_json(view, found.place, found.track, told)
 }
 
 fn drawn_json(

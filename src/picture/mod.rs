@@ -49,7 +49,7 @@ pub struct Style {
     pub wide_lines: bool,
     /// Components in their own colours, as [`Picture::tint`] says.
     pub tinted: bool,
-    /// Hours instead of sun and shadow, as [`Picture::lay_hours`] or [`Picture::lay_patches`] says.
+    /// Hours instead of sun and shadow, as `Picture::lay_hours` or `Picture::lay_patches` says.
     pub hours: bool,
 }
 

@@ -128,7 +128,7 @@ impl Ground {
                         metres(self.models_below_m()),
                     ));
                 }
-                if let (Some(buried), Receivers::Top | Receivers::Surfaces) = (buried, receivers) {
+                if let (Some(buried), Receivers::Top | Receivers::Patches) = (buried, receivers) {
                     notes.push(format!(
                         "the ground hides {} of what is seen of the models from above, of \"{}\" most: what lies below the \
                          ground is not judged on the plan and sees no sun",

@@ -194,12 +194,12 @@ fn method(written: &WrittenSite, asked: &Overrides) -> Result<Method, SiteError>
     }
 }
 
-/// Metres of a texel on surfaces.
+/// Metres of a texel on patches.
 fn patch_cell(receivers: Receivers, asked: &Overrides) -> Result<f64, SiteError> {
     let at = FieldLocation::Field(Field::PatchCell);
     match asked.patch_cell {
         None => Ok(DEFAULT_CELL_M),
-        Some(_) if receivers != Receivers::Surfaces => {
+        Some(_) if receivers != Receivers::Patches => {
             let message = message![
                 "is the cell on surfaces";
                 "say ", (Field::Receivers, "surfaces"), " with it, or leave it out"

@@ -84,9 +84,9 @@ pub struct Site {
     pub camera: Camera,
     /// The side that is seen instead, with as much of it as the perspective shows at its target.
     pub side: Option<Side>,
-    /// Which surfaces are judged.
+    /// What is judged.
     pub receivers: Receivers,
-    /// Side of a texel of [`Receivers::Surfaces`], metres.
+    /// Side of a texel of [`Receivers::Patches`], metres.
     pub patch_cell: f64,
     /// How.
     pub method: Method,

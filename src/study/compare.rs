@@ -1,6 +1,6 @@
 //! The study of two states of a site: what a change does to the shadow.
 
-use super::{Event, OnEvent, Outcome, StudyError, Wants, not_surfaces, run, tell};
+use super::{Event, OnEvent, Outcome, StudyError, Wants, not_patches, run, tell};
 use crate::choice::Receivers;
 use crate::mesh::Mesh;
 use crate::profile::Provenance;
@@ -30,7 +30,7 @@ pub struct CompareOutcome {
 /// # Errors
 /// As [`super::run`].
 pub fn compare(pair: &Pair, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome, StudyError> {
-    not_surfaces(&pair.before)?;
+    not_patches(&pair.before)?;
     let before = study("before", &pair.before, &pair.names[0], on_event)?;
     compare_with(pair, before, on_event)
 }
@@ -40,7 +40,7 @@ pub fn compare(pair: &Pair, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome
 /// # Errors
 /// As [`super::run`].
 pub fn compare_with(pair: &Pair, before: Outcome, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome, StudyError> {
-    not_surfaces(&pair.after)?;
+    not_patches(&pair.after)?;
     let after = study("after", &pair.after, &pair.names[1], on_event)?;
     // by the processor in both, so that no adapter's rounding passes for a change
     let [seen_before, seen_after] = [(&before, &pair.before), (&after, &pair.after)]

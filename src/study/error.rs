@@ -34,7 +34,7 @@ pub enum StudyError {
         /// Its rows.
         height: u32,
     },
-    /// Time on surfaces is summed in 32 bits.
+    /// Time on patches is summed in 32 bits.
     TooLong {
         /// Seconds of the window with the sun above the horizon.
         day_secs: u32,
@@ -42,7 +42,7 @@ pub enum StudyError {
         most_secs: u32,
     },
     /// Nothing that receives has an area.
-    NoSurface,
+    NoPatch,
     /// The track has no instant.
     NoInstant,
     /// No adapter, or not a good one.
@@ -90,7 +90,7 @@ impl Worded for StudyError {
                 );
                 "ask for fewer days or a shorter window"
             ],
-            StudyError::NoSurface => {
+            StudyError::NoPatch => {
                 message!["no component that receives has a surface"; "see `receives` in the site file"]
             }
             StudyError::NoInstant => message!["there is no instant to draw"],

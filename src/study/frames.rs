@@ -1,7 +1,7 @@
 //! Every instant of a study as a picture: night too.
 
 use super::again::persist;
-use super::machine::{choose, not_surfaces};
+use super::machine::{choose, not_patches};
 use super::{Event, OnEvent, SiteView, StudyError, judged, night, note_models, tell, tiles};
 use crate::choice::Receivers;
 use crate::gpu::Gpu;
@@ -23,7 +23,7 @@ pub struct Frame<'a> {
     pub surface: &'a Surface,
     /// Whose faces [`Surface::face`] counts.
     pub surface_mesh: &'a Mesh,
-    /// Which surfaces were judged.
+    /// What was judged.
     pub receivers: Receivers,
     /// What drew it.
     pub drawn: &'a Provenance,
@@ -39,7 +39,7 @@ pub fn frames<E: From<StudyError>>(
     on_event: &mut OnEvent<'_>,
     on_frame: &mut dyn FnMut(&Frame<'_>) -> Result<(), E>,
 ) -> Result<Provenance, E> {
-    not_surfaces(site)?;
+    not_patches(site)?;
     note_models(&site.notes, on_event)?;
     // each frame says itself what drew it: those that were given out stay
     let (mut given, mut fault) = (0, None);

@@ -1,7 +1,7 @@
 //! One instant's shadows, seen from above, from a side or by a camera.
 
 use super::again::persist;
-use super::machine::{choose, counting, not_surfaces, stencil_alone};
+use super::machine::{choose, counting, not_patches, stencil_alone};
 use super::{Event, InstantOutcome, InstantWants, NOTHING_COUNTED, OnEvent, SiteView, Stopwatch, StudyError};
 use super::{judged, night, note_models, tell, tiles};
 use crate::gpu::Gpu;
@@ -24,7 +24,7 @@ pub fn instant(
     wants: &InstantWants,
     on_event: &mut OnEvent<'_>,
 ) -> Result<InstantOutcome, StudyError> {
-    not_surfaces(site)?;
+    not_patches(site)?;
     note_models(&site.notes, on_event)?;
     // volumes are drawn on an adapter alone, and counted there
     let can = !wants.volumes && !wants.silhouette && wants.counted.is_none();

@@ -266,8 +266,8 @@ fn not_side(view: &View, field: Field) -> Result<(), StudyError> {
 }
 
 /// Masks are of a plan or of a camera's picture.
-pub(super) fn not_surfaces(site: &Site) -> Result<(), StudyError> {
-    if site.receivers == Receivers::Surfaces {
+pub(super) fn not_patches(site: &Site) -> Result<(), StudyError> {
+    if site.receivers == Receivers::Patches {
         let message = message![
             "surfaces are judged by gnomon profile alone";
             "take top or ground, or leave it out"

@@ -3,7 +3,7 @@
 //! [`run`] and [`in_tiles`] read as the whole program does. [`TiledStudy`] is for a program that shares a study out.
 
 // Beside them is what the deliverables call: `instant` is one instant's shadows, `frames` every instant as a picture,
-// `surfaces` the study on facades and roofs, `compare` that of two states of a site. `verify` holds every technique against
+// `patches` the study on façades and roofs, `compare` that of two states of a site. `verify` holds every technique against
 // ray casting, `probe` finds when single points lie in the sun, and `live` draws one picture after another for the window.
 
 #[doc(hidden)]
@@ -19,12 +19,12 @@ mod instant;
 pub mod live;
 mod machine;
 mod outcome;
+mod patches;
 #[doc(hidden)]
 pub mod probe;
 mod profile;
 mod site_view;
 mod stopwatch;
-mod surfaces;
 mod tiles;
 #[doc(hidden)]
 pub mod verify;
@@ -43,19 +43,19 @@ pub use instant::instant;
 #[doc(hidden)]
 pub use outcome::InstantOutcome;
 pub use outcome::Outcome;
+pub(crate) use patches::seen_receivers;
+#[doc(hidden)]
+pub use patches::{PatchOutcome, patches};
 pub use profile::{TiledOutcome, TiledStudy, in_tiles, paste, run};
 #[doc(hidden)]
 pub use site_view::judged;
 #[doc(hidden)]
 pub use stopwatch::Stopwatch;
-pub(crate) use surfaces::seen_receivers;
-#[doc(hidden)]
-pub use surfaces::{SurfaceOutcome, surfaces};
 pub use tiles::Budget;
 pub use wants::Wants;
 #[doc(hidden)]
 pub use wants::{CountingPurpose, InstantWants};
 
-use machine::not_surfaces;
+use machine::not_patches;
 use site_view::{SiteView, night, subject};
 use wants::NOTHING_COUNTED;

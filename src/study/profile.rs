@@ -1,7 +1,7 @@
 //! Every instant's shadows, summed to the time in shadow: of the plan in one go, or tile by tile.
 
 use super::again::persist;
-use super::machine::{Machine, choose, counting, not_surfaces};
+use super::machine::{Machine, choose, counting, not_patches};
 use super::{CountingPurpose, Event, OnEvent, Outcome, SiteView, Stopwatch, StudyError, Wants};
 use super::{day_and_night, fingerprint, night, note_models, tell, tiles};
 use crate::gpu::Gpu;
@@ -89,7 +89,7 @@ impl<'a> TiledStudy<'a> {
     /// # Errors
     /// [`StudyError`]; choices that exclude each other; [`StudyError::LittleMemory`].
     pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<TiledStudy<'a>, StudyError> {
-        not_surfaces(site)?;
+        not_patches(site)?;
         note_models(&site.notes, on_event)?;
         TiledStudy::of(None, site, wants, on_event)
     }

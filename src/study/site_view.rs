@@ -31,7 +31,7 @@ impl SiteView<'_> {
     pub(super) fn scene(&self) -> Scene {
         let mesh = &self.site.mesh;
         let receivers = match self.receivers {
-            Receivers::Top | Receivers::Surfaces => mesh.of_components(&self.site.receives),
+            Receivers::Top | Receivers::Patches => mesh.of_components(&self.site.receives),
             Receivers::Ground => mesh.of_components(&[]),
         };
         let casters = mesh.of_components(&self.site.casts);
@@ -59,7 +59,7 @@ impl SiteView<'_> {
     /// What the drawing shows: the receivers, or over a ground that is judged alone all models.
     pub(super) fn surface_mesh(&self) -> Mesh {
         match self.receivers {
-            Receivers::Top | Receivers::Surfaces => self.site.mesh.of_components(&self.site.receives),
+            Receivers::Top | Receivers::Patches => self.site.mesh.of_components(&self.site.receives),
             Receivers::Ground => self.site.mesh.clone(),
         }
     }
@@ -98,7 +98,7 @@ pub(super) fn subject(view: &View, receivers: Receivers) -> Subject {
         (View::Elevation(_), _) => Subject::Side,
         (View::Plan(_), Receivers::Top) => Subject::Top,
         (View::Plan(_), Receivers::Ground) => Subject::Ground,
-        (View::Plan(_), Receivers::Surfaces) => Subject::Surfaces,
+        (View::Plan(_), Receivers::Patches) => Subject::Patches,
     }
 }
 

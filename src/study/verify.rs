@@ -4,7 +4,7 @@
 //! itself without its trees, at some cells.
 
 use super::again::persist;
-use super::machine::{Machine, not_surfaces, opened};
+use super::machine::{Machine, not_patches, opened};
 use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_models, subject, tell, tiles};
 use crate::choice::{Engine, Method, MethodRow, Promise, Receivers, TABLE, Truth};
 use crate::gpu::Gpu;
@@ -48,7 +48,7 @@ pub struct Trial {
 /// # Errors
 /// [`StudyError`]; a study all at night, and a machine without a graphics adapter, before anything is drawn.
 pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
-    not_surfaces(site)?;
+    not_patches(site)?;
     by_day(site)?;
     note_models(&site.notes, on_event)?;
     // whoever asks wants every technique: none takes another's place

@@ -3,5 +3,5 @@
 mod patches;
 mod probes;
 
-pub use patches::{Exposure, SurfaceHours};
+pub use patches::{Exposure, PatchHours};
 pub use probes::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, below_ground_m, judged, longest, secs};

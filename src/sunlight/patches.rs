@@ -1,4 +1,4 @@
-//! The answer on surfaces: time in the sun, texel by texel on flat patches.
+//! The answer on patches: time in the sun, texel by texel on flat patches.
 
 use crate::mesh::patches::{Patch, Patches};
 
@@ -6,7 +6,7 @@ use crate::mesh::patches::{Patch, Patches};
 ///
 /// Sums are exact integers, the same on every machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SurfaceHours {
+pub struct PatchHours {
     /// Per texel of [`Patches::texels`] the seconds in the sun, each counted for every sample that is seen.
     pub lit: Vec<u32>,
     /// How many samples an instant has: 1 for the sun's centre, more for points of its disc.
@@ -32,7 +32,7 @@ pub struct Exposure {
     pub shares: [f64; 4],
 }
 
-impl SurfaceHours {
+impl PatchHours {
     /// Hours of sun of a texel, 0 to `day_secs / 3600`.
     pub fn hours(&self, texel: usize) -> f64 {
         f64::from(self.lit[texel]) / (f64::from(self.samples) * 3600.0)

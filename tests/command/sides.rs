@@ -89,9 +89,9 @@ fn the_site_file_names_a_side() {
     assert!(frame.into_rgb8() == sheet.into_rgb8(), "the frame is another sheet");
 }
 
-/// Hours on surfaces are seen as the site's camera sees them: from the north the wall has no sun.
+/// Hours on patches are seen as the site's camera sees them: from the north the wall has no sun.
 #[test]
-fn hours_on_surfaces_are_seen_from_a_side() {
+fn hours_on_patches_are_seen_from_a_side() {
     let folder = site();
     let dark = |side: &str| {
         write(folder.path(), &format!("side = \"{side}\""));

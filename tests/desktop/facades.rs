@@ -3,11 +3,11 @@
 use super::exporting::{answer, command, menu};
 use super::*;
 use gnomon::choice::Receivers;
-use gnomon::export::surfaces::{Atlas, Surfaces};
+use gnomon::export::patches::{Atlas, PatchContext};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::site::{Overrides, Site};
-use gnomon::study::{self, SurfaceOutcome};
+use gnomon::study::{self, PatchOutcome};
 use gnomon::view::{Camera, Surface, View};
 use std::ops::ControlFlow;
 
@@ -19,22 +19,22 @@ struct Seen {
     on_wall: Option<[f64; 2]>,
 }
 
-fn studied(path: &Path) -> (Site, SurfaceOutcome) {
-    let asked = Overrides { receivers: Some(Receivers::Surfaces), ..Overrides::default() };
+fn studied(path: &Path) -> (Site, PatchOutcome) {
+    let asked = Overrides { receivers: Some(Receivers::Patches), ..Overrides::default() };
     let site = Site::load(path, &asked).unwrap();
-    let outcome = study::surfaces(&site, site.patch_cell, &mut |_| ControlFlow::Continue(())).unwrap();
+    let outcome = study::patches(&site, site.patch_cell, &mut |_| ControlFlow::Continue(())).unwrap();
     (site, outcome)
 }
 
 /// Every pixel that lies within a face, as the engine says it is; the others are none.
-fn seen(site: &Site, outcome: &SurfaceOutcome, camera: &Camera) -> Vec<Option<Seen>> {
+fn seen(site: &Site, outcome: &PatchOutcome, camera: &Camera) -> Vec<Option<Seen>> {
     let receivers = site.mesh.of_components(&site.receives);
     let scene = Scene { casters: site.mesh.of_components(&[]), receivers, ground: site.ground.level };
     let surface = RayCast::new(scene, View::Camera(*camera), None).surface().unwrap();
     let receivers = site.mesh.of_components(&site.receives);
     let Site { place, track, mesh, receives, .. } = site;
     let patches = &*outcome.patches;
-    let answer = Surfaces { place, track, mesh, receives, patches, hours: &outcome.hours };
+    let answer = PatchContext { place, track, mesh, receives, patches, hours: &outcome.hours };
     let (atlas, bands) = (Atlas::of(&answer), answer.bands());
     let (width, height) = (camera.width as usize, camera.height as usize);
     let of_pixel = |pixel: usize| {

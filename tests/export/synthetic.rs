@@ -214,7 +214,7 @@ pub(super) fn mask(surface: &Surface, grid: &Grid, sun: &Instant, receivers: Rec
             }
             shade[cell] = height;
             let own = match receivers {
-                Receivers::Top | Receivers::Surfaces => f64::from(surface.height_m[cell]),
+                Receivers::Top | Receivers::Patches => f64::from(surface.height_m[cell]),
                 Receivers::Ground => 0.0,
             };
             let under = receivers == Receivers::Ground && surface.height_m[cell] > 0.01;

@@ -19,7 +19,7 @@ pub(crate) fn gpu() -> Arc<Gpu> {
 pub(crate) fn scene_of(mesh: &Mesh, receivers: Receivers, ground: f64) -> Scene {
     let none = vec![false; mesh.components.len()];
     let receivers = match receivers {
-        Receivers::Top | Receivers::Surfaces => mesh.clone(),
+        Receivers::Top | Receivers::Patches => mesh.clone(),
         Receivers::Ground => mesh.of_components(&none),
     };
     Scene { casters: mesh.clone(), receivers, ground }

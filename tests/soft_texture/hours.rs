@@ -1,4 +1,4 @@
-//! Hours on surfaces: the study, on each machine and by each technique.
+//! Hours on patches: the study, on each machine and by each technique.
 
 use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};
@@ -7,7 +7,7 @@ use gnomon::cli::Options;
 use gnomon::mesh::Mesh;
 use gnomon::message::Worded;
 use gnomon::site::{Overrides, Site};
-use gnomon::study::{Event, StudyError, SurfaceOutcome, surfaces};
+use gnomon::study::{Event, PatchOutcome, StudyError, patches};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -28,9 +28,9 @@ pub(super) fn house() -> Site {
     ])
 }
 
-fn asked(site: &Site, cell: f64) -> (SurfaceOutcome, Vec<String>) {
+fn asked(site: &Site, cell: f64) -> (PatchOutcome, Vec<String>) {
     let mut notes = Vec::new();
-    let outcome = surfaces(site, cell, &mut |event| {
+    let outcome = patches(site, cell, &mut |event| {
         if let Event::Note(note) = event {
             notes.push(note);
         }
@@ -89,7 +89,7 @@ fn the_disc_softens_hours_and_keeps_whole_ones() {
     site.settings.sun_samples = Some(16);
     let (soft, _) = asked(&site, 0.5);
     assert_eq!(soft.hours.samples, 16);
-    let hours = |of: &SurfaceOutcome| (0..of.hours.lit.len()).map(|at| of.hours.hours(at)).collect::<Vec<_>>();
+    let hours = |of: &PatchOutcome| (0..of.hours.lit.len()).map(|at| of.hours.hours(at)).collect::<Vec<_>>();
     let (hard, soft) = (hours(&hard), hours(&soft));
     assert!(soft.iter().any(|hours| (hours * 2.0).fract() != 0.0), "some texel lies in a penumbra");
     let off = hard.iter().zip(&soft).filter(|(hard, soft)| (*hard - *soft).abs() > 0.5).count();
@@ -104,7 +104,7 @@ fn what_does_not_fit_is_told_and_listeners_may_stop() {
     let refused = |change: fn(&mut Site), word: &str| {
         let mut site = house();
         change(&mut site);
-        let error = surfaces(&site, 0.5, &mut |_| ControlFlow::Continue(())).expect_err("a conflict");
+        let error = patches(&site, 0.5, &mut |_| ControlFlow::Continue(())).expect_err("a conflict");
         assert!(error.in_words(&Options).contains(word), "{error}");
         error
     };
@@ -114,7 +114,7 @@ fn what_does_not_fit_is_told_and_listeners_may_stop() {
     assert!(refused(|site| (site.method, site.engine) = (Method::RayCast, Engine::Gpu), "engine: ").is_wrong_use());
     assert!(!refused(|site| site.receives = vec![false; 2], "receives").is_wrong_use());
     let mut drawn = 0;
-    let stopped = surfaces(&house(), 0.5, &mut |event| {
+    let stopped = patches(&house(), 0.5, &mut |event| {
         drawn += u32::from(matches!(event, Event::Drawn { .. }));
         if drawn == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });

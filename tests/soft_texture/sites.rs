@@ -5,7 +5,7 @@ use gnomon::choice::{Engine, Method};
 use gnomon::mesh::patches::{DEFAULT_CELL_M, MOST_TEXELS, Patches};
 use gnomon::shadow::soft_texture::{Choice, Sample};
 use gnomon::site::{Overrides, Site};
-use gnomon::study::{SurfaceOutcome, surfaces};
+use gnomon::study::{PatchOutcome, patches};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -46,10 +46,10 @@ fn the_headquarters_agree_with_rays() {
     println!("headquarters: {} texels differ on the adapter", large.check_adapter(&samples, Choice::Texture));
 }
 
-fn hours(name: &str, asked: &Overrides) -> SurfaceOutcome {
+fn hours(name: &str, asked: &Overrides) -> PatchOutcome {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
     let site = Site::load(&folder, asked).expect("a sample site");
-    surfaces(&site, DEFAULT_CELL_M, &mut |_| ControlFlow::Continue(())).expect("hours")
+    patches(&site, DEFAULT_CELL_M, &mut |_| ControlFlow::Continue(())).expect("hours")
 }
 
 #[test]

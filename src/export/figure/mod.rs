@@ -10,13 +10,13 @@ mod lines;
 mod overlay;
 mod page;
 mod panel;
+mod patches;
 mod perspective;
 mod picture;
 mod plan;
 pub mod scale;
 mod screen;
 mod strips;
-mod surfaces;
 mod svg;
 mod text;
 mod words;
@@ -28,9 +28,9 @@ pub use fonts::{runs, without_face};
 pub use lines::{LineDrawing, MOST_OUTLINES, Outline, iso_hours, outlines};
 pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
+pub use patches::{legend as patches_legend, patches};
 pub use screen::{Screen, bare, instant_on_screen};
 pub use strips::strips;
-pub use surfaces::{legend as surfaces_legend, surfaces};
 pub use text::without_middle;
 pub(super) use words::duration;
 
@@ -58,7 +58,7 @@ pub struct FigureContext<'a, S = Surface> {
     pub mesh: &'a Mesh,
     /// What each cell of the view sees; of a plan's also some rows at a time.
     pub surface: &'a S,
-    /// Which surfaces were judged.
+    /// What was judged.
     pub receivers: Receivers,
     /// The ground plane.
     pub ground: Ground,

@@ -185,7 +185,7 @@ pub(super) fn receivers(receivers: Receivers) -> &'static str {
     match receivers {
         Receivers::Top => "highest surface",
         Receivers::Ground => "ground only",
-        Receivers::Surfaces => "walls, roofs and undersides",
+        Receivers::Patches => "walls, roofs and undersides",
     }
 }
 

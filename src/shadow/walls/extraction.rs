@@ -3,7 +3,7 @@
 //!
 //! The twin of [`crate::silhouette::brute_force`]. (Seed 003 extracts in the vertex shader, for want of compute passes:
 //! `Silhouettes::InVertexShader`, which tests and benches compare with. Here only silhouette edges become vertices.) Facing is a bit of
-//! [`super::faces`]. Edges come in runs, each so short that its buffers fit the adapter's bindings however many of its
+//! `super::faces`. Edges come in runs, each so short that its buffers fit the adapter's bindings however many of its
 //! edges are silhouette.
 
 use super::faces::{self, Faces, GROUP};

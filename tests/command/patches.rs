@@ -221,7 +221,7 @@ fn a_cell_that_is_too_small_grows_and_says_so() {
 }
 
 #[test]
-fn what_surfaces_cannot_have_is_told() {
+fn what_patches_cannot_have_is_told() {
     let folder = site();
     let path = folder.path();
     for (options, words) in [

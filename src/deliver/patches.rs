@@ -4,11 +4,11 @@ use super::parts::{DrawnView, figure_context, note, note_letters, report_context
 use super::sink::OpenSink;
 use super::{DeliverError, NamedFile, Sink, WrittenFiles};
 use crate::choice::Receivers;
-use crate::export::surfaces::{self, Surfaces};
+use crate::export::patches::{self, PatchContext};
 use crate::export::{figure, report};
 use crate::profile::Provenance;
 use crate::site::Site;
-use crate::study::{self, Event, OnEvent, Stopwatch, SurfaceOutcome, tell};
+use crate::study::{self, Event, OnEvent, PatchOutcome, Stopwatch, tell};
 use std::path::PathBuf;
 
 const DRAWING: &str = "surfaces.png";
@@ -16,9 +16,9 @@ const MODEL: &str = "surfaces.glb";
 const TABLE: &str = "surfaces.csv";
 const REPORT: &str = "profile.json";
 
-/// What is asked of a study on surfaces.
+/// What is asked of a study on patches.
 #[derive(Clone, Debug)]
-pub struct SurfacesRequest {
+pub struct PatchesRequest {
     /// `surfaces.png`
     pub drawing: bool,
     /// `surfaces.glb`
@@ -33,7 +33,7 @@ pub struct SurfacesRequest {
 
 /// What came of it.
 #[derive(Clone, Debug)]
-pub struct SurfacesAnswer {
+pub struct PatchesAnswer {
     /// The files.
     pub written: WrittenFiles,
     /// `profile.json`, whether it is one of the files or not.
@@ -44,16 +44,16 @@ pub struct SurfacesAnswer {
     pub summary: String,
 }
 
-/// Finds the hours of sun on the site's surfaces, and writes what is asked.
+/// Finds the hours of sun on the patches of a site, and writes what is asked.
 ///
 /// # Errors
 /// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
-pub fn surfaces(
+pub fn patches(
     site: &Site,
-    asked: &SurfacesRequest,
+    asked: &PatchesRequest,
     sink: Sink<'_>,
     on_event: &mut OnEvent<'_>,
-) -> Result<SurfacesAnswer, DeliverError> {
+) -> Result<PatchesAnswer, DeliverError> {
     let open = sink.open(&asked.names(), None)?;
     let mut watch = asked.watch.clone();
     watch.lap("load");
@@ -61,43 +61,43 @@ pub fn surfaces(
     if asked.drawing {
         note_letters([site.place.name.as_str()], on_event)?;
     }
-    let outcome = study::surfaces(site, site.patch_cell, on_event)?;
+    let outcome = study::patches(site, site.patch_cell, on_event)?;
     watch.laps(outcome.timings.clone());
-    write(site, &outcome, &SurfacesRequest { watch, ..asked.clone() }, &open, on_event)
+    write(site, &outcome, &PatchesRequest { watch, ..asked.clone() }, &open, on_event)
 }
 
-/// Writes hours that were found on the site's surfaces, as far as is asked. The request's stopwatch runs on from
-/// [`SurfaceOutcome::timings`].
+/// Writes hours that were found on the patches of a site, as far as is asked. The request's stopwatch runs on from
+/// [`PatchOutcome::timings`].
 ///
 /// # Errors
-/// As [`surfaces()`].
-pub fn write_surfaces(
+/// As [`patches()`].
+pub fn write_patches(
     site: &Site,
-    outcome: &SurfaceOutcome,
-    asked: &SurfacesRequest,
+    outcome: &PatchOutcome,
+    asked: &PatchesRequest,
     sink: Sink<'_>,
     on_event: &mut OnEvent<'_>,
-) -> Result<SurfacesAnswer, DeliverError> {
+) -> Result<PatchesAnswer, DeliverError> {
     let open = sink.open(&asked.names(), None)?;
     note(open.note(), on_event)?;
     write(site, outcome, asked, &open, on_event)
 }
 
-/// What is found of a site's surfaces, as drawings and tables take it.
-pub fn answer<'a>(site: &'a Site, outcome: &'a SurfaceOutcome) -> Surfaces<'a> {
+/// What is found of a site's patches, as drawings and tables take it.
+pub fn answer<'a>(site: &'a Site, outcome: &'a PatchOutcome) -> PatchContext<'a> {
     let Site { place, track, mesh, receives, .. } = site;
-    Surfaces { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours }
+    PatchContext { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours }
 }
 
 fn write(
     site: &Site,
-    outcome: &SurfaceOutcome,
-    asked: &SurfacesRequest,
+    outcome: &PatchOutcome,
+    asked: &PatchesRequest,
     open: &OpenSink<'_>,
     on_event: &mut OnEvent<'_>,
-) -> Result<SurfacesAnswer, DeliverError> {
+) -> Result<PatchesAnswer, DeliverError> {
     let mut watch = asked.watch.clone();
-    let (drawn, receivers) = (&outcome.drawn, Receivers::Surfaces);
+    let (drawn, receivers) = (&outcome.drawn, Receivers::Patches);
     let answer = answer(site, outcome);
     let mut files: Vec<NamedFile> = Vec::new();
     let mut stage = |watch: &mut Stopwatch, stage| {
@@ -107,28 +107,28 @@ fn write(
     if asked.drawing {
         let (mesh, surface) = &study::seen_receivers(site)?;
         let scene = figure_context(site, DrawnView { receivers, surface, mesh, drawn });
-        files.push((DRAWING.into(), figure::surfaces(&scene, &site.picture(), &answer)?));
+        files.push((DRAWING.into(), figure::patches(&scene, &site.picture(), &answer)?));
         stage(&mut watch, "picture")?;
     }
     if asked.model {
-        files.push((MODEL.into(), surfaces::glb(&answer)?));
+        files.push((MODEL.into(), patches::glb(&answer)?));
         stage(&mut watch, "model")?;
     }
     if asked.table {
-        files.push((TABLE.into(), surfaces::csv(&answer).into_bytes()));
+        files.push((TABLE.into(), patches::csv(&answer).into_bytes()));
     }
-    let report = report::surfaces_json(&answer, &report_context(site, receivers, drawn, &watch.timings(), None))?;
+    let report = report::patches_json(&answer, &report_context(site, receivers, drawn, &watch.timings(), None))?;
     if asked.report {
         files.push((REPORT.into(), report.clone().into_bytes()));
     }
     let written = open.write(files)?;
-    Ok(SurfacesAnswer { written, report, drawn: drawn.clone(), summary: surfaces::summary(&answer) })
+    Ok(PatchesAnswer { written, report, drawn: drawn.clone(), summary: patches::summary(&answer) })
 }
 
-impl SurfacesRequest {
+impl PatchesRequest {
     /// All files.
-    pub fn all(watch: Stopwatch) -> SurfacesRequest {
-        SurfacesRequest { drawing: true, model: true, table: true, report: true, watch }
+    pub fn all(watch: Stopwatch) -> PatchesRequest {
+        PatchesRequest { drawing: true, model: true, table: true, report: true, watch }
     }
 
     /// What its files are called.

@@ -5,7 +5,7 @@ use super::perspective::{PixelRays, facing};
 use super::scale::{NO_SUN, Rgb};
 use super::{FigureContext, check_surface, lens, page, panel, perspective, words};
 use crate::export::ExportError;
-use crate::export::surfaces::{Atlas, Surfaces};
+use crate::export::patches::{Atlas, PatchContext};
 use crate::look::LOOK;
 use crate::view::{Surface, View};
 use glam::Vec4Swizzles as _;
@@ -14,23 +14,23 @@ use rayon::prelude::*;
 /// The ground, which is not judged either; it needs no word in the legend.
 const GROUND: Rgb = [236, 234, 229];
 
-/// `surfaces.png`: the hours of sun on the surfaces that a camera or a side sees. `scene`'s mesh is that of what
+/// `surfaces.png`: the hours of sun on the patches that a camera or a side sees. `scene`'s mesh is that of what
 /// receives alone.
 ///
 /// # Errors
 /// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder, and for a plan.
-pub fn surfaces(scene: &FigureContext, view: &View, surfaces: &Surfaces) -> Result<Vec<u8>, ExportError> {
+pub fn patches(scene: &FigureContext, view: &View, found: &PatchContext) -> Result<Vec<u8>, ExportError> {
     let size = view.size();
     check_surface(scene.surface, size)?;
-    let mut panel = labelled(scene, surfaces);
+    let mut panel = labelled(scene, found);
     let (lens, cell) = lens(view, &mut panel)?;
-    let of_cells = painted(scene, &lens, surfaces);
+    let of_cells = painted(scene, &lens, found);
     let draw = |fit| perspective::painted(scene, &lens, &of_cells, true, fit);
     page::page(&panel, size, cell, draw, page::png)
 }
 
-fn labelled(scene: &FigureContext, surfaces: &Surfaces) -> Panel {
-    let (hours, patches) = (surfaces.hours, surfaces.patches);
+fn labelled(scene: &FigureContext, found: &PatchContext) -> Panel {
+    let (hours, patches) = (found.hours, found.patches);
     let mut panel = panel(scene, "Sun on surfaces");
     panel
         .facts
@@ -39,14 +39,14 @@ fn labelled(scene: &FigureContext, surfaces: &Surfaces) -> Panel {
         let night = words::duration(hours.night_secs);
         panel.facts.push(("Night", format!("{night} of the window, not counted")));
     }
-    (panel.legend_head, panel.legend) = legend(surfaces);
+    (panel.legend_head, panel.legend) = legend(found);
     panel
 }
 
 /// What the colours mean: a head, and each of them, the most sun first.
-pub fn legend(surfaces: &Surfaces) -> (String, Vec<(Rgb, String)>) {
-    let bands = surfaces.bands();
-    let head = match surfaces.hours.day_secs {
+pub fn legend(found: &PatchContext) -> (String, Vec<(Rgb, String)>) {
+    let bands = found.bands();
+    let head = match found.hours.day_secs {
         0 => "No sun in this window".to_owned(),
         day => format!("Hours of sun out of {}", words::duration(day)),
     };
@@ -62,10 +62,10 @@ pub fn legend(surfaces: &Surfaces) -> (String, Vec<(Rgb, String)>) {
 }
 
 /// Per pixel its colour; the sky's is not looked at.
-fn painted(scene: &FigureContext, lens: &PixelRays, surfaces: &Surfaces) -> Vec<Rgb> {
-    let (patches, bands, samples) = (surfaces.patches, surfaces.bands(), surfaces.hours.samples);
+fn painted(scene: &FigureContext, lens: &PixelRays, found: &PatchContext) -> Vec<Rgb> {
+    let (patches, bands, samples) = (found.patches, found.bands(), found.hours.samples);
     // the scene's faces are those of the components that receive
-    let atlas = Atlas::of(surfaces);
+    let atlas = Atlas::of(found);
     let width = scene.surface.width as usize;
     let colour = |pixel: usize| {
         let face = scene.surface.face[pixel];

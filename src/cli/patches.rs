@@ -4,7 +4,7 @@ use super::arguments::{ProfileArgs, ProfileFile};
 use super::commands::{drawn_by, lines};
 use super::progress::Progress;
 use super::{WrongUse, say, who};
-use crate::deliver::surfaces::{SurfacesRequest, surfaces as deliver};
+use crate::deliver::patches::{PatchesRequest, patches as deliver};
 use crate::deliver::{Folder, Sink};
 use crate::site::{Site, inputs};
 use crate::study::Stopwatch;
@@ -26,7 +26,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, watch: Stopwatch) -> any
     }
     let kinds = asked.wanted(&[ProfileFile::Png, ProfileFile::Glb, ProfileFile::Csv, ProfileFile::Json])?;
     let wanted = |kind| kinds.contains(&kind);
-    let request = SurfacesRequest {
+    let request = PatchesRequest {
         drawing: wanted(ProfileFile::Png),
         model: wanted(ProfileFile::Glb),
         table: wanted(ProfileFile::Csv),

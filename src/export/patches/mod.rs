@@ -1,5 +1,5 @@
-//! Hours of sun on the model's surfaces as files: `surfaces.csv` for numbers, `surfaces.glb` for the eye. The drawing is
-//! [`figure::surfaces`](super::figure::surfaces).
+//! Hours of sun on the model's patches as files: `surfaces.csv` for numbers, `surfaces.glb` for the eye. The drawing is
+//! [`figure::patches`](super::figure::patches).
 
 mod glb;
 pub(super) mod pages;
@@ -13,12 +13,12 @@ use super::probe::{field, plain};
 use crate::mesh::Mesh;
 use crate::mesh::patches::{Patch, Patches};
 use crate::sun::{Place, SunTrack};
-use crate::sunlight::{Exposure, SurfaceHours};
+use crate::sunlight::{Exposure, PatchHours};
 use std::fmt::Write;
 
-/// The answer on surfaces, and what it is about.
+/// The answer on patches, and what it is about.
 #[derive(Clone, Copy, Debug)]
-pub struct Surfaces<'a> {
+pub struct PatchContext<'a> {
     /// Where on earth.
     pub place: &'a Place,
     /// The instants studied.
@@ -30,10 +30,10 @@ pub struct Surfaces<'a> {
     /// The flat parts of what receives.
     pub patches: &'a Patches,
     /// Their time in the sun.
-    pub hours: &'a SurfaceHours,
+    pub hours: &'a PatchHours,
 }
 
-impl Surfaces<'_> {
+impl PatchContext<'_> {
     /// The drawing's colours.
     pub fn bands(&self) -> Bands {
         Bands::new(self.track.step_secs, self.hours.day_secs)
@@ -55,7 +55,7 @@ impl Surfaces<'_> {
 /// Areas are square metres, hours those of sun; azimuths clockwise from true north, absent where a patch is level or
 /// where there are many; tilts 0 for what looks up, 90 for walls, 180 for what looks down; shares, 0 to 1, are the part
 /// of the area with at least so many hours.
-pub fn csv(surfaces: &Surfaces) -> String {
+pub fn csv(found: &PatchContext) -> String {
     let mut text = "component,patch,area_m2,azimuth_deg,tilt_deg,hours_mean,hours_min,hours_max,\
                     share_1h,share_2h,share_3h,share_4h\r\n"
         .to_owned();
@@ -68,13 +68,13 @@ pub fn csv(surfaces: &Surfaces) -> String {
              {one:.4},{two:.4},{three:.4},{four:.4}\r\n"
         );
     };
-    for (name, patches, exposure) in surfaces.components() {
+    for (name, patches, exposure) in found.components() {
         let name = field(name);
         line(&name, "all", "", "", &exposure);
         for (index, patch) in patches.iter().enumerate() {
             let azimuth = patch.azimuth_deg().map(azimuth_text).unwrap_or_default();
             let tilt = format!("{:.2}", patch.tilt_deg());
-            line(&name, &(index + 1).to_string(), &azimuth, &tilt, &surfaces.hours.of_patch(patch));
+            line(&name, &(index + 1).to_string(), &azimuth, &tilt, &found.hours.of_patch(patch));
         }
     }
     text
@@ -88,16 +88,16 @@ fn azimuth_text(azimuth_deg: f64) -> String {
 }
 
 /// What it comes to, a line a component, the largest areas first; ends with a line break.
-pub fn summary(surfaces: &Surfaces) -> String {
-    let patches = surfaces.patches;
+pub fn summary(found: &PatchContext) -> String {
+    let patches = found.patches;
     let mut text = format!(
         "{} patches, {} texels of {:.3} m; {} of daylight\n",
         patches.list.len(),
         patches.texels.len(),
         patches.cell,
-        duration(surfaces.hours.day_secs)
+        duration(found.hours.day_secs)
     );
-    let mut components: Vec<_> = surfaces.components().collect();
+    let mut components: Vec<_> = found.components().collect();
     components.sort_by(|(_, _, one), (_, _, other)| other.area_m2.total_cmp(&one.area_m2));
     for (name, _, exposure) in components.iter().take(MOST_LINES) {
         let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;

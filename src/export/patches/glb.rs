@@ -4,7 +4,7 @@
 //! viewer's own (KHR_materials_unlit). Beside each page's colours lies a texture of the numbers: 16-bit gray, `extras` of
 //! the scene say how many seconds a unit is.
 
-use super::{Exposure, Surfaces, pages};
+use super::{Exposure, PatchContext, pages};
 use crate::export::ExportError;
 use crate::export::raster::png_bytes;
 use crate::export::report::{place_report, stamp, tz_version};
@@ -35,37 +35,37 @@ const NO_NUMBER: u16 = u16::MAX;
 ///
 /// # Errors
 /// [`ExportError::Encode`] where nothing receives, or where the file would be 4 GiB or larger.
-pub fn glb(surfaces: &Surfaces) -> Result<Vec<u8>, ExportError> {
-    if surfaces.patches.list.is_empty() {
+pub fn glb(found: &PatchContext) -> Result<Vec<u8>, ExportError> {
+    if found.patches.list.is_empty() {
         return Err(refused("no surface receives; check `receives`"));
     }
     let mut file = File::default();
-    let seconds = seconds_a_unit(surfaces);
-    let pages = pages::pages(surfaces.patches, surfaces.hours);
+    let seconds = seconds_a_unit(found);
+    let pages = pages::pages(found.patches, found.hours);
     let images: Vec<[usize; 2]> =
-        pages.iter().map(|page| file.images(surfaces, page, seconds)).collect::<Result<_, _>>()?;
+        pages.iter().map(|page| file.images(found, page, seconds)).collect::<Result<_, _>>()?;
     let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
     let mut node = |name: &str, primitives: Vec<Value>, extras: Value| {
-        let translation = in_gltf(surfaces.patches.origin.as_vec3());
+        let translation = in_gltf(found.patches.origin.as_vec3());
         nodes.push(json!({"name": name, "mesh": meshes.len(), "translation": translation, "extras": extras}));
         meshes.push(json!({"name": name, "primitives": primitives}));
     };
-    for (name, patches, exposure) in surfaces.components() {
+    for (name, patches, exposure) in found.components() {
         let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;
         let extras =
             json!({"area_m2": area_m2, "hours_mean": hours_mean, "hours_min": hours_min, "hours_max": hours_max});
-        node(name, file.primitives(surfaces, patches), extras);
+        node(name, file.primitives(found, patches), extras);
     }
-    let components = surfaces.mesh.components.iter().zip(surfaces.receives);
+    let components = found.mesh.components.iter().zip(found.receives);
     for (component, _) in components.filter(|(component, receives)| !**receives && !component.faces.is_empty()) {
-        node(&component.name, vec![file.plain(surfaces, component, pages.len())], json!({"judged": false}));
+        node(&component.name, vec![file.plain(found, component, pages.len())], json!({"judged": false}));
     }
     let materials: Vec<Value> = (0..pages.len()).map(material).chain([not_judged()]).collect();
     let mut document = json!({
         "asset": {"version": "2.0", "generator": concat!("gnomon ", env!("CARGO_PKG_VERSION"))},
         "extensionsUsed": ["KHR_materials_unlit"],
         "scene": 0,
-        "scenes": [{"name": "hours of sun", "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras(surfaces, seconds)}],
+        "scenes": [{"name": "hours of sun", "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras(found, seconds)}],
         "nodes": nodes,
         "meshes": meshes,
         "materials": materials,
@@ -81,19 +81,19 @@ fn refused(why: impl ToString) -> ExportError {
 }
 
 /// So many seconds a unit of the textures of numbers, that the window's daylight fits.
-fn seconds_a_unit(surfaces: &Surfaces) -> u32 {
-    surfaces.hours.day_secs.div_ceil(u32::from(NO_NUMBER) - 1).max(1)
+fn seconds_a_unit(found: &PatchContext) -> u32 {
+    found.hours.day_secs.div_ceil(u32::from(NO_NUMBER) - 1).max(1)
 }
 
-fn extras(surfaces: &Surfaces, seconds: u32) -> Value {
-    let instants = &surfaces.track.instants;
+fn extras(found: &PatchContext, seconds: u32) -> Value {
+    let instants = &found.track.instants;
     json!({
-        "place": place_report(surfaces.place),
-        "tz_version": tz_version(surfaces.place),
+        "place": place_report(found.place),
+        "tz_version": tz_version(found.place),
         "from": instants.first().map(|instant| stamp(&instant.time)),
         "to": instants.last().map(|instant| stamp(&instant.time)),
-        "daylight_secs": surfaces.hours.day_secs,
-        "texel_m": surfaces.patches.cell,
+        "daylight_secs": found.hours.day_secs,
+        "texel_m": found.patches.cell,
         "numbers": {"seconds_a_unit": seconds, "of_no_surface": NO_NUMBER},
     })
 }
@@ -155,8 +155,8 @@ impl File {
     }
 
     /// A page's colours and numbers.
-    fn images(&mut self, surfaces: &Surfaces, page: &[u32], seconds: u32) -> Result<[usize; 2], ExportError> {
-        let (bands, samples, side) = (surfaces.bands(), surfaces.hours.samples, surfaces.patches.page_size);
+    fn images(&mut self, found: &PatchContext, page: &[u32], seconds: u32) -> Result<[usize; 2], ExportError> {
+        let (bands, samples, side) = (found.bands(), found.hours.samples, found.patches.page_size);
         let is_empty = |lit: u32| lit == pages::EMPTY;
         let colour = |&lit: &u32| if is_empty(lit) { [255; 3] } else { bands.of_sun(lit, samples) };
         let number = |&lit: &u32| match is_empty(lit) {
@@ -178,13 +178,13 @@ impl File {
     }
 
     /// A component's patches, a primitive a page. Patches share no vertex, as each has its own place in its page.
-    fn primitives(&mut self, surfaces: &Surfaces, patches: &[Patch]) -> Vec<Value> {
+    fn primitives(&mut self, found: &PatchContext, patches: &[Patch]) -> Vec<Value> {
         let mut of_pages: BTreeMap<u32, Vec<&Patch>> = BTreeMap::new();
         patches.iter().for_each(|patch| of_pages.entry(patch.page).or_default().push(patch));
         let primitive = |(page, patches): (u32, Vec<&Patch>)| {
             let (mut positions, mut places, mut corners) = (Vec::new(), Vec::new(), Vec::new());
             for patch in patches {
-                append(surfaces, patch, &mut positions, &mut places, &mut corners);
+                append(found, patch, &mut positions, &mut places, &mut corners);
             }
             let place = self.accessor(
                 json!({"componentType": FLOAT, "type": "VEC2", "count": places.len()}),
@@ -198,8 +198,8 @@ impl File {
     }
 
     /// A component that does not receive, as it is.
-    fn plain(&mut self, surfaces: &Surfaces, component: &Component, material: usize) -> Value {
-        let mesh = surfaces.mesh;
+    fn plain(&mut self, found: &PatchContext, component: &Component, material: usize) -> Value {
+        let mesh = found.mesh;
         let mut positions = Vec::new();
         let mut known: FxHashMap<u32, u32> = FxHashMap::default();
         let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
@@ -249,13 +249,13 @@ impl File {
 
 /// A patch's faces, wound so that they look to the side that is judged.
 fn append(
-    surfaces: &Surfaces,
+    found: &PatchContext,
     patch: &Patch,
     positions: &mut Vec<Vec3>,
     places: &mut Vec<[f32; 2]>,
     corners: &mut Vec<u32>,
 ) {
-    let (mesh, patches) = (surfaces.mesh, surfaces.patches);
+    let (mesh, patches) = (found.mesh, found.patches);
     let side = f64::from(patches.page_size);
     let mut known: FxHashMap<u32, u32> = FxHashMap::default();
     for &face in &patches.faces[patch.faces.start as usize..patch.faces.end as usize] {

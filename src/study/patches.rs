@@ -1,4 +1,4 @@
-//! The study on surfaces: hours of sun on every flat patch of what receives.
+//! The study on patches: hours of sun on every flat patch of what receives.
 
 use super::again::persist;
 use super::machine::opened;
@@ -13,18 +13,18 @@ use crate::shadow::soft_texture::{Choice, Fill, Painter, PatchJudgements, Sample
 use crate::shadow::{JUDGED_ABOVE_M, Scene, Technique};
 use crate::site::Site;
 use crate::sun::{Instant, disc};
-use crate::sunlight::SurfaceHours;
+use crate::sunlight::PatchHours;
 use crate::view::Surface;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// The answer to a study on surfaces.
+/// The answer to a study on patches.
 #[derive(Clone, Debug)]
-pub struct SurfaceOutcome {
+pub struct PatchOutcome {
     /// The patches of the components that receive, of [`Site::mesh`].
     pub patches: Arc<Patches>,
     /// Their time in the sun.
-    pub hours: SurfaceHours,
+    pub hours: PatchHours,
     /// How they were judged.
     pub judged: PatchJudgements,
     /// What drew it.
@@ -35,14 +35,14 @@ pub struct SurfaceOutcome {
     pub timings: Timings,
 }
 
-/// Hours of sun on surfaces, with texels of `cell` metres; larger ones where there would be too many, which a note says.
+/// Hours of sun on patches, with texels of `cell` metres; larger ones where there would be too many, which a note says.
 ///
 /// Each instant is a sample of the sun's centre, or with [`Settings::sun_samples`] as many of its disc, for
 /// its weight. What lies below the ground plane sees no sun.
 ///
 /// # Errors
 /// [`StudyError`]; choices that do not fit and windows that are too long before anything is drawn.
-pub fn surfaces(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<SurfaceOutcome, StudyError> {
+pub fn patches(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<PatchOutcome, StudyError> {
     let watch = Stopwatch::start();
     let samples = site.settings.sun_samples.unwrap_or(1);
     let (day_secs, _) = day_and_night(&site.track);
@@ -70,7 +70,7 @@ fn light(
     painter: Painter,
     mut watch: Stopwatch,
     on_event: &mut OnEvent<'_>,
-) -> Result<SurfaceOutcome, StudyError> {
+) -> Result<PatchOutcome, StudyError> {
     let (day_secs, night_secs) = day_and_night(&site.track);
     let drawn = Provenance {
         technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture },
@@ -100,11 +100,11 @@ fn light(
     watch.lap("shadows");
 
     let samples = site.settings.sun_samples.unwrap_or(1);
-    let hours = SurfaceHours { lit, samples, day_secs, night_secs };
-    Ok(SurfaceOutcome { patches: Arc::clone(patches), hours, judged, drawn, gpu_bytes, timings: watch.stages })
+    let hours = PatchHours { lit, samples, day_secs, night_secs };
+    Ok(PatchOutcome { patches: Arc::clone(patches), hours, judged, drawn, gpu_bytes, timings: watch.stages })
 }
 
-/// What the site's camera sees of what receives, for a drawing of the surfaces, and the mesh whose faces it counts.
+/// What the site's camera sees of what receives, for a drawing of the patches, and the mesh whose faces it counts.
 ///
 /// # Errors
 /// [`StudyError`].
@@ -127,7 +127,7 @@ fn samples_of(instant: &Instant, sun_samples: Option<u32>) -> Vec<Sample> {
 
 /// How patches are judged, as asked.
 fn choice(site: &Site) -> Result<Choice, Misfit> {
-    let (method, subject) = (site.method, Subject::Surfaces);
+    let (method, subject) = (site.method, Subject::Patches);
     method.row().fit(site.engine, subject)?;
     // of auto's two techniques one uses as much as the other
     let row = if method == Method::Auto { Method::SoftTexture.row() } else { method.row() };
@@ -168,7 +168,7 @@ fn painter(
 /// Says what of the patches is not as one would think.
 fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     if patches.list.is_empty() {
-        return Err(StudyError::NoSurface);
+        return Err(StudyError::NoPatch);
     }
     if patches.cell > patches.asked_cell {
         let note = format!(

@@ -1,10 +1,10 @@
 //! The atlas as rasters: what texels came to, and between and around them what their neighbours did, so that no picture
 //! shows an edge where a texel's centre lies just beside its faces.
 
-use super::Surfaces;
+use super::PatchContext;
 use crate::export::figure::scale::{Bands, NO_SUN, Rgb};
 use crate::mesh::patches::{GUTTER, Patch, Patches};
-use crate::sunlight::SurfaceHours;
+use crate::sunlight::PatchHours;
 use glam::DVec3;
 use std::collections::VecDeque;
 
@@ -12,24 +12,24 @@ use std::collections::VecDeque;
 pub struct Atlas {
     /// Of each face of the components that receive, of these alone, its patch.
     pub patch_of: Vec<Option<u32>>,
-    /// Per page, row by row, seconds in the sun times samples, as [`SurfaceHours::lit`], or [`EMPTY`].
+    /// Per page, row by row, seconds in the sun times samples, as [`PatchHours::lit`], or [`EMPTY`].
     pub(crate) pages: Vec<Vec<u32>>,
 }
 
 impl Atlas {
     /// Of an answer.
-    pub fn of(surfaces: &Surfaces) -> Atlas {
-        let patches = surfaces.patches;
-        let mut patch_of = vec![None; surfaces.mesh.faces.len()];
+    pub fn of(found: &PatchContext) -> Atlas {
+        let patches = found.patches;
+        let mut patch_of = vec![None; found.mesh.faces.len()];
         for (number, patch) in patches.list.iter().enumerate() {
             for &face in &patches.faces[patch.faces.start as usize..patch.faces.end as usize] {
                 patch_of[face as usize] = Some(number as u32);
             }
         }
-        let received = surfaces.mesh.components.iter().zip(surfaces.receives).filter(|(_, receives)| **receives);
+        let received = found.mesh.components.iter().zip(found.receives).filter(|(_, receives)| **receives);
         let faces = received.flat_map(|(component, _)| component.faces.clone());
         let patch_of = faces.map(|face| patch_of[face as usize]).collect();
-        Atlas { patch_of, pages: pages(patches, surfaces.hours) }
+        Atlas { patch_of, pages: pages(patches, found.hours) }
     }
 
     /// The patch of a face, where that is its judged side which looks along `facing`.
@@ -58,8 +58,8 @@ impl Atlas {
 /// A texel of a page that belongs to no patch.
 pub(crate) const EMPTY: u32 = u32::MAX;
 
-/// Per page, row by row, seconds in the sun times samples, as [`SurfaceHours::lit`], or [`EMPTY`].
-pub(crate) fn pages(patches: &Patches, hours: &SurfaceHours) -> Vec<Vec<u32>> {
+/// Per page, row by row, seconds in the sun times samples, as [`PatchHours::lit`], or [`EMPTY`].
+pub(crate) fn pages(patches: &Patches, hours: &PatchHours) -> Vec<Vec<u32>> {
     let side = patches.page_size as usize;
     let mut pages = vec![vec![EMPTY; side * side]; patches.pages as usize];
     for patch in &patches.list {
