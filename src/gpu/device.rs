@@ -257,7 +257,7 @@ impl Gpu {
     }
 
     /// Whether the device itself is gone, and not just some work on it.
-    pub(crate) fn is_lost(&self) -> bool {
+    pub fn is_lost(&self) -> bool {
         self.fault.lock().map_or(true, |fault| fault.as_ref().is_some_and(|fault| fault.lost))
     }
 

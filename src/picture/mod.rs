@@ -49,7 +49,7 @@ pub struct Style {
     pub wide_lines: bool,
     /// Components in their own colours, as [`Picture::tint`] says.
     pub tinted: bool,
-    /// Hours instead of sun and shadow, as `Picture::lay_hours` or `Picture::lay_patches` says.
+    /// Hours instead of sun and shadow, as [`Picture::lay_hours`] or [`Picture::lay_patches`] says.
     pub hours: bool,
 }
 
@@ -152,7 +152,7 @@ impl Picture {
     }
 
     /// Lays hours over the scene, or takes them away.
-    pub(crate) fn lay_hours(&mut self, hours: Option<HoursRaster<'_>>) {
+    pub fn lay_hours(&mut self, hours: Option<HoursRaster<'_>>) {
         self.hours = hours.map(|hours| {
             let texels: Vec<[u8; 4]> = hours.colours.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
             let heights: Vec<f32> =
@@ -170,14 +170,14 @@ impl Picture {
     ///
     /// # Errors
     /// Where the adapter cannot hold them.
-    pub(crate) fn lay_patches(&mut self, colours: &PatchColours<'_>) -> Result<(), ShadowError> {
+    pub fn lay_patches(&mut self, colours: &PatchColours<'_>) -> Result<(), ShadowError> {
         self.hours = None;
         self.hours = Some(HoursTextures::Patches(textures(&self.surface.gpu, colours, self.origin)?));
         Ok(())
     }
 
     /// Lays shadow volumes (layers) and silhouette (ink) over the view, rasters as fine or a whole number of times finer.
-    pub(crate) fn lay_overlay(&mut self, size: (u32, u32), layers: Option<&[u8]>, ink: Option<&[u8]>) {
+    pub fn lay_overlay(&mut self, size: (u32, u32), layers: Option<&[u8]>, ink: Option<&[u8]>) {
         self.overlay = [("picture.volumes", layers), ("picture.silhouette", ink)]
             .map(|(label, values)| values.map(|values| self.upload(label, size, SHARE, values)));
     }

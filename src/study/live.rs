@@ -34,7 +34,7 @@ impl LiveMethod {
     ///
     /// What a map or volumes cost grows with the model, and a quick look has few pixels; at a few hundred a side a map
     /// takes about as long as rays do on the tower (docs/benchmarks/desktop.md), and has coarse edges.
-    pub(crate) fn quickest() -> LiveMethod {
+    pub fn quickest() -> LiveMethod {
         LiveMethod { method: Method::RayCast, settings: Settings::default() }
     }
 }
@@ -172,7 +172,7 @@ impl Live {
     ///
     /// # Errors
     /// What drawing says.
-    pub(crate) fn lay_overlay(&mut self, to_sun: DVec3, volumes: bool, silhouette: bool) -> Result<(), StudyError> {
+    pub fn lay_overlay(&mut self, to_sun: DVec3, volumes: bool, silhouette: bool) -> Result<(), StudyError> {
         let View::Camera(camera) = self.view else { return Ok(()) };
         if to_sun.z <= 0.0 || !(volumes || silhouette) {
             return Ok(());
