@@ -58,6 +58,7 @@ pub mod mesh;
 pub mod sun;
 pub mod view;
 
+pub mod formats;
 pub mod site;
 
 pub mod silhouette;
