@@ -149,7 +149,7 @@ fn module_of(path: &Path) -> Vec<String> {
 }
 
 /// The source with every comment blanked, so that a link in the documentation is no arrow. Offsets and lines stay.
-fn without_comments(source: &str) -> String {
+pub(crate) fn without_comments(source: &str) -> String {
     let blank = |line: &str| {
         let code = line.find("//").map_or(line, |start| &line[..start]);
         format!("{code}{}", " ".repeat(line.len() - code.len()))
@@ -202,7 +202,7 @@ fn names_in(path: &str) -> Vec<(usize, &str)> {
 }
 
 /// Files below a folder of the repository whose names end so, with their text.
-fn files(folder: &str, extension: &str) -> Vec<(PathBuf, String)> {
+pub(crate) fn files(folder: &str, extension: &str) -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut folders = vec![root.clone()];
     let mut found = Vec::new();

@@ -2,9 +2,11 @@
 
 use super::arguments::{CheckArgs, ShadowArgs, ShowArg, SunArgs};
 use super::eye::Viewpoint;
+use super::interrupt;
 use super::options::{Options, nothing_asked};
+use super::output::say;
 use super::progress::Progress;
-use super::{WrongUse, interrupt, say};
+use super::wrong_use::WrongUse;
 use crate::deliver::instant::{self, InstantRequest};
 use crate::deliver::{Sink, WrittenFiles};
 use crate::export::figure::Diagram;
@@ -19,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// `gnomon shadow`
 pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     let watch = Stopwatch::start();
-    asked.view.check(&asked.plan)?;
+    asked.view.check(&asked.plan.given())?;
     let out = match (&asked.out, &asked.mask) {
         (Some(out), _) => Some(out.clone()),
         (None, Some(_)) => None,

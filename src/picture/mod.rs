@@ -5,8 +5,10 @@
 
 pub mod overlay;
 mod patch_textures;
+mod texels;
 
 pub use patch_textures::PatchColours;
+pub use texels::COLOURS;
 
 use crate::gpu::layout::{self, PictureUniforms};
 use crate::gpu::targets::{SHARE, Stages, whole};
@@ -18,10 +20,8 @@ use crate::view::{Mask, View};
 use glam::DVec3;
 use patch_textures::textures;
 use std::sync::Arc;
+use texels::write;
 use wgpu::*;
-
-/// The picture's colours: display values.
-pub const COLOURS: TextureFormat = TextureFormat::Rgba8Unorm;
 
 /// The hours of shadow of a profile, to be laid over what is seen.
 #[derive(Clone, Copy, Debug)]
@@ -283,13 +283,6 @@ impl Picture {
         write(gpu, &texture, bytes);
         texture
     }
-}
-
-/// Fills a texture with its texels, row 0 first.
-fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
-    let bytes_per_row = Some((bytes.len() / texture.height() as usize) as u32);
-    let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
-    gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
 }
 
 /// The look as the shader takes it.

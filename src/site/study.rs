@@ -1,11 +1,11 @@
 //! The study as asked → its instants.
 
 use super::asked::{Overrides, refuse};
-use super::dates::{of_each_day, own_date, several};
+use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};
 use super::written::WrittenSite;
 use crate::message::{Field, message};
-use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_date, parse_duration_secs};
+use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_duration_secs};
 use chrono::NaiveDate;
 
 /// A text and where it was written.
@@ -117,10 +117,6 @@ fn each_day(
         };
         SiteError::sun(at, error)
     })
-}
-
-pub(super) fn date_of(said: Option<(String, FieldLocation)>) -> Result<Option<NaiveDate>, SiteError> {
-    said.map(|(text, at)| parse_date(&text).map_err(|error| SiteError::sun(at, error))).transpose()
 }
 
 /// Which of date, from, to and step nobody said.

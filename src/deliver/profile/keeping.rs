@@ -1,6 +1,6 @@
 //! What a study writes while it goes on, and what it goes on from where it was stopped.
 
-use super::ProfileRequest;
+use super::request::{ProfileRequest, mask_path};
 use super::sums::Sums;
 use crate::deliver::disk::bits::BitsFile;
 use crate::deliver::disk::sums::SumsFile;
@@ -325,9 +325,4 @@ fn anew(path: &Path, on_event: &mut OnEvent<'_>) -> Result<Option<Unfinished>, S
     let what = "is not what the study left there when it was stopped: it begins anew";
     note(Some(format!("{} {what}", path.display())), on_event)?;
     Ok(None)
-}
-
-/// Where an instant's mask goes.
-pub(super) fn mask_path(folder: &Path, index: usize) -> PathBuf {
-    folder.join(format!("mask-{index:04}.png"))
 }

@@ -3,6 +3,7 @@
 //! The picture is made cell by cell in Rust; everything that is lines and letters is one SVG, drawn by resvg over it.
 
 mod components;
+mod context;
 mod counted;
 mod difference;
 mod fonts;
@@ -10,6 +11,7 @@ mod lines;
 mod overlay;
 mod page;
 mod panel;
+mod paper;
 mod perspective;
 mod picture;
 mod plan;
@@ -22,12 +24,13 @@ mod text;
 mod words;
 
 pub use components::of_all as component_colours;
+pub use context::FigureContext;
 pub use counted::{Colours, Diagram};
 pub use difference::{ChangeBands, ChangeColours, difference};
 pub use fonts::{runs, without_face};
 pub use lines::{LineDrawing, MOST_OUTLINES, Outline, iso_hours, outlines};
-pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
+pub use paper::{HEIGHT, WIDTH};
 pub use screen::{Screen, bare, instant_on_screen};
 pub use strips::strips;
 pub use surfaces::{legend as surfaces_legend, surfaces};
@@ -36,34 +39,14 @@ pub(super) use words::duration;
 
 use super::{ExportError, check_size, report};
 use crate::look::LOOK;
-use crate::mesh::Mesh;
-use crate::profile::{Profile, Provenance, ShadedCells};
-use crate::site::{Ground, Receivers};
+use crate::profile::{Profile, ShadedCells};
+use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{FragmentCounts, Grid, Mask, Overlay, Surface, SurfaceRows, View};
 use components::Components;
 use page::Sheet;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
-
-/// What every drawing needs besides the answer itself.
-#[derive(Clone, Copy, Debug)]
-pub struct FigureContext<'a, S = Surface> {
-    /// Where on earth.
-    pub place: &'a Place,
-    /// The instants studied; the first one is drawn where there is one.
-    pub track: &'a SunTrack,
-    /// What stands there.
-    pub mesh: &'a Mesh,
-    /// What each cell of the view sees; of a plan's also some rows at a time.
-    pub surface: &'a S,
-    /// Which surfaces were judged.
-    pub receivers: Receivers,
-    /// The ground plane.
-    pub ground: Ground,
-    /// What drew.
-    pub drawn: &'a Provenance,
-}
 
 /// What a camera's picture shows besides sun and shadow.
 #[derive(Clone, Copy, Debug, Default)]

@@ -5,7 +5,7 @@
 //! adapter; nothing comes back before the end.
 
 use super::occluders::Occluders;
-use super::{Choice, OccluderQuery, PatchJudgements, Sample, is_drawn, raster};
+use super::query::{Choice, OccluderQuery, PatchJudgements, Sample, is_drawn, raster};
 use crate::gpu::layout::TexelRunUniforms;
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
