@@ -2,7 +2,7 @@
 
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why an answer did not become a file.
 #[derive(Debug, thiserror::Error)]
@@ -101,17 +101,7 @@ impl Worded for ExportError {
                 format!("cannot read {}, which a stopped study left: {source}", path.display());
                 "remove it, and the study begins anew"
             ],
-            ExportError::NoRoom { path, size, room } => message![
-                format!("{} takes {}, and its disk has room for {}", path.display(), bytes(*size), bytes(*room));
-                "take larger cells",
-                aside(Field::Cell),
-                ", ",
-                Piece::Where(Field::Size, pieces!["fewer", aside(Field::Size), ", "]),
-                "a longer ",
-                Field::Step,
-                ", or another disk",
-                Piece::Where(Field::Out, pieces![" with ", Field::Out])
-            ],
+            ExportError::NoRoom { path, size, room } => no_room(path, *size, *room),
             ExportError::Busy { folder, who } => message![
                 format!("{}: another study works there, {who}", folder.display());
                 "wait until it is done, or choose another folder"
@@ -194,6 +184,21 @@ pub(super) fn check_size(what: &'static str, have: usize, width: u32, height: u3
         return Ok(());
     }
     Err(ExportError::Size { what, have, width, height })
+}
+
+/// What is said of a file for which a disk has no room.
+fn no_room(path: &Path, size: u64, room: u64) -> Message {
+    message![
+        format!("{} takes {}, and its disk has room for {}", path.display(), bytes(size), bytes(room));
+        "take larger cells",
+        aside(Field::Cell),
+        ", ",
+        Piece::Where(Field::Size, pieces!["fewer", aside(Field::Size), ", "]),
+        "a longer ",
+        Field::Step,
+        ", or another disk",
+        Piece::Where(Field::Out, pieces![" with ", Field::Out])
+    ]
 }
 
 /// What can be done where the file system refuses.
