@@ -184,7 +184,7 @@ pub(super) fn scale_and_north(panel: &Panel, metres_a_pixel: f64) -> Block {
 
 /// A printed scale for the whole page on A3, three digits.
 fn paper_scale(metres_a_pixel: f64) -> String {
-    let ratio = metres_a_pixel / super::page::PAPER_METRES_A_PIXEL;
+    let ratio = metres_a_pixel / super::paper::PAPER_METRES_A_PIXEL;
     let digits = 10_f64.powf((ratio.max(1e-9).log10().floor() - 2.0).max(0.0));
     let ratio = (ratio / digits).round() * digits;
     let said = if ratio >= 10.0 { thousands(ratio) } else { format!("{ratio:.1}") };

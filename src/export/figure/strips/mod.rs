@@ -1,6 +1,7 @@
 //! The strip chart: when probes lie in the sun. The local clock's time of day across, days down.
 
 mod axes;
+mod colours;
 mod said;
 
 use super::page::{self, PAPER};
@@ -16,12 +17,7 @@ use crate::site::{Ground, metres};
 use crate::sun::{Day, Place, Zone};
 use axes::{HourAxis, Tick, ticks};
 use chrono::{DateTime, NaiveDate};
-
-/// In the sun, in the shade, without a sun, and where nothing was asked.
-const SUN: Rgb = [250, 218, 128];
-const SHADE: Rgb = crate::look::LOOK.plan_ground_shade;
-const NIGHT: Rgb = [62, 70, 88];
-const OUTSIDE: Rgb = [226, 224, 217];
+use colours::{NIGHT, OUTSIDE, SHADE, SUN};
 
 /// How far a grid's line stands out.
 const GRID: f64 = 0.16;

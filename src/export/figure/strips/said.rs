@@ -1,6 +1,6 @@
 //! What stands beside the strips.
 
-use super::{NIGHT, OUTSIDE, SHADE, SUN};
+use super::colours::{NIGHT, OUTSIDE, SHADE, SUN};
 use crate::export::figure::panel::Panel;
 use crate::export::figure::svg::{ACCENT, Anchor, Block, LetterStyle};
 use crate::export::figure::{text, words};
