@@ -7,8 +7,8 @@
 mod timing;
 
 use gnomon::export::{figure, raster};
+use gnomon::formats::{self, ReadOptions};
 use gnomon::mesh::Mesh;
-use gnomon::site::model::{self, Placement};
 use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, Wants};
 use gnomon::view::{Bits, Grid, Mask};
@@ -54,7 +54,7 @@ fn row(name: &str) {
     let model = folder.join(format!("{name}.glb"));
     let mut times: [Vec<f64>; 7] = Default::default();
     for _ in 0..TIMES {
-        let parts = timed(&mut times[0], || model::load(&model, &Placement::default()).expect("a model").parts);
+        let parts = timed(&mut times[0], || formats::read(&model, &ReadOptions::default()).expect("a model").parts);
         let mesh = timed(&mut times[1], || Mesh::build(parts).expect("a mesh"));
         timed(&mut times[3], || mesh.planes().len());
         // all but one face: what is taken whole keeps the edges that it has

@@ -65,6 +65,8 @@ pub mod mesh;
 pub mod sun;
 pub mod view;
 
+#[doc(hidden)]
+pub mod formats;
 pub mod site;
 
 pub mod silhouette;

@@ -232,6 +232,12 @@ impl Message {
         self
     }
 
+    /// The same, whose subject is named: `tower.glb …`.
+    pub(crate) fn about(mut self, subject: &str) -> Message {
+        self.what.splice(..0, [Piece::from(format!("{subject} "))]);
+        self
+    }
+
     /// The same of a site file, which has keys for fields.
     pub(crate) fn of_keys(mut self) -> Message {
         let keyed = |piece: &mut Piece| {
@@ -300,3 +306,18 @@ macro_rules! plain_display {
 }
 
 pub(crate) use plain_display;
+
+/// Things for a message: the first of them, and how many more there are. `a`, `a and b`, `a, b and 7 more`.
+pub(crate) fn few(mut items: Vec<String>) -> String {
+    const MOST: usize = 5;
+    // never one more, where that one fits
+    if items.len() > MOST {
+        let more = items.len() - (MOST - 1);
+        items.truncate(MOST - 1);
+        items.push(format!("{more} more"));
+    }
+    match items.as_slice() {
+        [all @ .., last] if !all.is_empty() => format!("{} and {last}", all.join(", ")),
+        _ => items.concat(),
+    }
+}

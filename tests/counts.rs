@@ -3,12 +3,12 @@
 
 use crate::shared::drawing::gpu;
 use gnomon::choice::{MAP_SIZE, Receivers};
+use gnomon::formats;
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::ProcessorFinder;
-use gnomon::site::model;
 use gnomon::site::{Overrides, Site};
 use gnomon::view::View;
 use std::cell::Cell;
@@ -27,8 +27,8 @@ type Row = (String, [u64; 3]);
 fn counts(name: &str) -> Counts {
     let asked = Overrides { size: Some(256), receivers: Some(Receivers::Top), ..Overrides::default() };
     let corners = Cell::new(0);
-    let site = Site::load_with(&Path::new("sites").join(name), &asked, |path, placement| {
-        let model = model::load(path, placement)?;
+    let site = Site::load_with(&Path::new("sites").join(name), &asked, |path, options| {
+        let model = formats::read(path, options)?;
         corners.set(corners.get() + model.parts.iter().map(|part| part.positions.len()).sum::<usize>());
         Ok(model)
     });

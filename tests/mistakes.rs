@@ -2,10 +2,10 @@
 
 use crate::site::{SITE, folder, load, some};
 use gnomon::cli::Options;
+use gnomon::formats::{Model, ReadOptions};
 use gnomon::mesh::Part;
 use gnomon::message::Worded;
 use gnomon::site::file::SiteFile;
-use gnomon::site::model::{Model, Placement};
 use gnomon::site::{Overrides, Site, load_sun};
 use proptest::prelude::*;
 use std::path::Path;
@@ -124,7 +124,7 @@ fn missing_tables_are_told() {
     let no_study = complaint(&SITE[..SITE.find("[study]").unwrap()], &Overrides::default());
     assert!(no_study.contains("--date 2026-03-21 --from 9:00 --to 17:00 --step 1h"), "{no_study}");
     told("step = \"30min\"", "", &["step of the study", "--step 1h"]);
-    let empty = |_: &Path, _: &Placement| Ok(Model { parts: vec![Part::default()], ..Model::default() });
+    let empty = |_: &Path, _: &ReadOptions| Ok(Model { parts: vec![Part::default()], ..Model::default() });
     let site = SITE.replace("casts = [\"iron\"]", "");
     let message = Site::load_with(folder(&site).path(), &Overrides::default(), empty).expect_err("nothing").to_string();
     assert!(message.contains("no triangles"), "{message}");

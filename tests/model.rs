@@ -10,8 +10,9 @@ mod seen;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use glam::DVec3;
+use gnomon::formats::{self, ModelError};
 use gnomon::mesh::Part;
-use gnomon::site::model::{Placement, load};
+use gnomon::site::Placement;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -161,4 +162,9 @@ pub(crate) fn corners(part: &Part) -> Vec<[[f64; 3]; 3]> {
 pub(crate) fn normal(part: &Part) -> DVec3 {
     let of = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
     part.triangles.iter().map(|triangle| of(triangle.map(|vertex| part.positions[vertex as usize]))).sum()
+}
+
+/// Reads a model and puts it where it stands.
+fn load(path: &Path, placement: &Placement) -> Result<formats::Model, ModelError> {
+    formats::read(path, &placement.read_options()).map(|model| placement.place(model))
 }

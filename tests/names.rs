@@ -138,7 +138,7 @@ fn models_are_read_again_for_another_scene() {
     let folder = folder(SITE);
     let mut written = WrittenSite::read(folder.path(), &Overrides::default()).unwrap();
     let models = Models::read(&written, tower).unwrap();
-    written.site.model[0].scene = Some(gnomon::site::file::SceneName::Number(1));
+    written.site.model[0].scene = Some(gnomon::formats::SceneName::Number(1));
     assert!(!models.are_those_of(&written));
     let text = written.site.to_toml().unwrap();
     assert!(text.contains("scene = 1"), "{text}");

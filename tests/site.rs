@@ -3,10 +3,10 @@
 use glam::DVec3;
 use gnomon::choice::{Engine, Method, Receivers};
 use gnomon::cli::Options;
+use gnomon::formats::{Model, ModelError, ReadOptions, Up};
 use gnomon::mesh::Part;
 use gnomon::message::Worded;
 use gnomon::site::file::SiteFile;
-use gnomon::site::model::{Model, ModelError, Placement};
 use gnomon::site::{Models, Overrides, Site, SiteError, WrittenSite, load_sun};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -51,13 +51,13 @@ fn block(name: &str, alias: &str, low: DVec3, high: DVec3) -> Part {
     }
 }
 
-pub(crate) fn tower(_: &Path, placement: &Placement) -> Result<Model, ModelError> {
-    let at = |x, y, z| placement.position + DVec3::new(x, y, z) * placement.scale;
+pub(crate) fn tower(_: &Path, _: &ReadOptions) -> Result<Model, ModelError> {
+    let at = DVec3::new;
     let parts = vec![
         block("tower", "iron", at(-5.0, -5.0, 0.0), at(5.0, 5.0, 40.0)),
         block("yard", "grass", at(-30.0, -30.0, 0.0), at(30.0, 30.0, 1.0)),
     ];
-    Ok(Model { parts, ..Model::default() })
+    Ok(Model { parts, up: Up::Z, ..Model::default() })
 }
 
 pub(crate) fn load(site: &str, asked: &Overrides) -> Result<Site, SiteError> {
@@ -312,9 +312,9 @@ fn rewritten_file_keeps_its_comments() {
 /// What a reader has to say of a model comes to whoever asks the site, by the model's name; and to a study's listener.
 #[test]
 fn notes_of_models_are_told() {
-    let noted = |path: &Path, placement: &Placement| {
-        let notes = vec!["leaves something out".to_owned()];
-        Ok(Model { notes, ..tower(path, placement)? })
+    let noted = |path: &Path, options: &ReadOptions| {
+        let notes = vec!["leaves something out".to_owned().into()];
+        Ok(Model { notes, ..tower(path, options)? })
     };
     let asked = Overrides { size: Some(16), engine: Some(Engine::Cpu), ..Overrides::default() };
     let site = Site::load_with(folder(SITE).path(), &asked, noted).unwrap();
@@ -347,9 +347,9 @@ fn models_are_read_once_as_long_as_they_stay() {
     other.site.study.step = some("1h");
     assert!(models.are_those_of(&other));
     let again = Site::with_models(&other, &Overrides::default(), || Ok(models.clone())).unwrap();
-    let anew = Site::of(&other, &Overrides::default(), tower).unwrap();
-    assert_eq!((&again.casts, &again.receives, again.grid), (&anew.casts, &anew.receives, anew.grid));
-    assert_eq!((&again.casts[..], again.camera), (&[false, true][..], anew.camera));
+    let fresh = Site::of(&other, &Overrides::default(), tower).unwrap();
+    assert_eq!((&again.casts, &again.receives, again.grid), (&fresh.casts, &fresh.receives, fresh.grid));
+    assert_eq!((&again.casts[..], again.camera), (&[false, true][..], fresh.camera));
     let wrong = gnomon::site::file::Names::Some(vec!["yerd".to_owned()]);
     other.site.model[0].casts = wrong;
     let told = Site::with_models(&other, &Overrides::default(), || Ok(models.clone())).unwrap_err().to_string();
@@ -367,8 +367,8 @@ fn models_are_read_once_as_long_as_they_stay() {
     assert_eq!((again.changed_file(), again.mark()), (None, models.mark()));
     std::fs::remove_file(&file).unwrap();
     assert_eq!(again.changed_file(), Some(file.as_path()), "the file is gone");
-    let moved = |path: &Path, placement: &Placement| {
-        let mut model = tower(path, placement)?;
+    let moved = |path: &Path, options: &ReadOptions| {
+        let mut model = tower(path, options)?;
         model.parts[0].positions[0].x += 0.001;
         Ok(model)
     };

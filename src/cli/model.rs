@@ -1,7 +1,7 @@
 //! How models are read, and where the ground lies below them.
 
+use crate::formats::Up;
 use crate::site::Overrides;
-use crate::site::model::Up;
 use clap::Args;
 
 #[derive(Debug, Args)]

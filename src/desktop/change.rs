@@ -8,10 +8,11 @@ use crate::deliver::Sink;
 use crate::deliver::comparison::write_comparison;
 use crate::export::comparison;
 use crate::export::figure::ChangeColours;
+use crate::formats;
 use crate::picture::HoursRaster;
 use crate::profile::Timings;
 use crate::profile::comparison::Alteration;
-use crate::site::{Models, Overrides, Pair, Site, SiteError, WrittenSite, model};
+use crate::site::{Models, Overrides, Pair, Site, SiteError, WrittenSite};
 use crate::study::{self, CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
 use eframe::egui;
 use glam::DVec3;
@@ -97,7 +98,7 @@ pub(super) fn find(
         first.site.plan = after.site.plan.clone();
         first.site.camera = after.site.camera.clone();
         let at_hand = known.as_ref().and_then(BeforeState::models);
-        let models = at_hand.map_or_else(|| Models::read(&first, model::load), Ok)?;
+        let models = at_hand.map_or_else(|| Models::read(&first, formats::read), Ok)?;
         let takes_ground = first.site.ground.level.is_none() && !models.stand_on(site.ground.level);
         if takes_ground {
             first.site.ground.level = Some(site.ground.level);

@@ -11,8 +11,9 @@ use crate::deliver::animation::{self, AnimationRequest, FPS, WIDTH};
 use crate::deliver::instant::{InstantRequest, Show, instant};
 use crate::deliver::lines::Lines;
 use crate::deliver::{Folder, Sink};
+use crate::formats;
 use crate::site::file::{CameraTable, SiteFile};
-use crate::site::{Models, Overrides, Site, SiteError, WrittenSite, model};
+use crate::site::{Models, Overrides, Site, SiteError, WrittenSite};
 use crate::study::{Event, Stopwatch};
 use crate::sun::Zone;
 use crate::view::View;
@@ -76,7 +77,7 @@ fn seen_from(project: &Project, settings: &WindowSettings, eye: &Eye) -> Written
 
 /// What is handed in is what is seen: of the models that are open, whatever their files have become.
 fn site_of(written: &WrittenSite, asked: &Overrides, models: Option<Models>) -> Result<Site, SiteError> {
-    Site::with_models(written, asked, || models.map_or_else(|| Models::read(written, model::load), Ok))
+    Site::with_models(written, asked, || models.map_or_else(|| Models::read(written, formats::read), Ok))
 }
 
 fn view_from(site: &Site, eye: &Eye) -> View {

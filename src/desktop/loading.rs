@@ -5,11 +5,12 @@ use super::settings::{Hidden, WindowSettings};
 use super::words::{FileWords, PanelWords};
 use crate::export::figure::component_colours;
 use crate::fault;
+use crate::formats;
 use crate::mesh::Mesh;
 use crate::message::Words;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::file::{PlaceTable, SiteFile, Text};
-use crate::site::{Models, Overrides, Site, SiteError, WrittenSite, model};
+use crate::site::{Models, Overrides, Site, SiteError, WrittenSite};
 use eframe::egui;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -242,8 +243,8 @@ fn read_models(written: &WrittenSite, progress: &LoadProgress) -> Result<Models,
     progress.tell(0.15, "Reading the models");
     let count = written.site.model.len().max(1) as f32;
     let done = Cell::new(0.0);
-    Models::read(written, |path, placement| {
-        let read = model::load(path, placement)?;
+    Models::read(written, |path, options| {
+        let read = formats::read(path, options)?;
         done.set(done.get() + 1.0);
         let share = done.get() / count;
         progress.tell(0.15 + 0.35 * share, if share < 1.0 { "Reading the models" } else { "Joining triangles" });

@@ -13,6 +13,8 @@ pub mod shaders;
 pub(crate) mod targets;
 #[cfg(feature = "test-hooks")]
 mod timers;
+#[cfg(feature = "test-hooks")]
+mod timing;
 #[cfg(not(feature = "test-hooks"))]
 mod untimed;
 

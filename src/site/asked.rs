@@ -1,8 +1,8 @@
 //! What a face asks beside the site file, and the reading of its values.
 
 use super::error::{FieldLocation, SiteError};
-use super::model::Up;
 use crate::choice::{Engine, Finder, Method, Receivers, Settings};
+use crate::formats::Up;
 use crate::message::{Field, Message, Words, message};
 use crate::sun::Zone;
 use crate::view::Side;

@@ -1,7 +1,7 @@
 //! The words by which people choose a side, and a model's upward axis.
 
-use super::model::Up;
 use crate::choice::words;
+use crate::formats::Up;
 use crate::view::Side;
 
 words!(Up, ["y" => Up::Y, "z" => Up::Z]);

@@ -1,6 +1,6 @@
 //! What can be wrong with a request: each names the place where it was asked, and the way out.
 
-use super::model::ModelError;
+use crate::formats::ModelError;
 use crate::mesh::MeshError;
 use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
 use crate::sun::SunError;

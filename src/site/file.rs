@@ -3,10 +3,10 @@
 use super::asked::refuse;
 use super::error::{FieldLocation, SiteError};
 use super::keys;
+use crate::formats::SceneName;
 use crate::message::message;
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::fmt;
 use toml::{Table, Value};
 
 /// A site file as written: nothing checked but keys and types.
@@ -165,16 +165,6 @@ impl<'de> Deserialize<'de> for Names {
     }
 }
 
-/// How a scene of a model is called.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[serde(untagged)]
-pub enum SceneName {
-    /// By its name.
-    Name(String),
-    /// By its number in the file, from 0.
-    Number(u64),
-}
-
 impl<'de> Deserialize<'de> for SceneName {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let wrong = || D::Error::custom("expected a scene's name in quotes, or its number from 0");
@@ -182,15 +172,6 @@ impl<'de> Deserialize<'de> for SceneName {
             Value::String(name) => Ok(SceneName::Name(name)),
             Value::Integer(number) => u64::try_from(number).map(SceneName::Number).map_err(|_| wrong()),
             _ => Err(wrong()),
-        }
-    }
-}
-
-impl fmt::Display for SceneName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SceneName::Name(name) => write!(f, "\"{name}\""),
-            SceneName::Number(number) => write!(f, "{number}"),
         }
     }
 }

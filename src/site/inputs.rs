@@ -1,9 +1,10 @@
 //! Which files a request is read from, so that no answer is written over one of them.
 
+use super::SiteError;
 use super::models::placed;
-use super::names::on_disk;
 use super::written::WrittenSite;
-use super::{SiteError, model};
+use crate::formats;
+use crate::formats::on_disk;
 use std::iter;
 use std::path::{Path, PathBuf};
 
@@ -23,6 +24,6 @@ impl WrittenSite {
     /// Its models, and what those name beside them: buffers, and pictures, too, though they are not read.
     pub fn model_files(&self) -> Vec<PathBuf> {
         let models = (0..self.site.model.len()).filter_map(|index| Some(on_disk(&placed(self, index).ok()?.0)));
-        models.flat_map(|file| model::named_by(&file).into_iter().chain([file])).collect()
+        models.flat_map(|file| formats::named_by(&file).into_iter().chain([file])).collect()
     }
 }

@@ -82,7 +82,7 @@ fn side_words() -> Vec<&'static str> {
 }
 
 fn up_words() -> Vec<&'static str> {
-    super::model::Up::WORDS.iter().map(|(word, _)| *word).collect()
+    crate::formats::Up::WORDS.iter().map(|(word, _)| *word).collect()
 }
 
 /// Every key, table by table.

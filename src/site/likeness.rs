@@ -3,7 +3,8 @@
 //! Files do not say it: glTF is in metres and y up, and many a program exports something else. Only keys that nobody wrote
 //! are doubted; who writes `scale` or `up` has decided.
 
-use super::model::{Placement, Up};
+use super::placement::Placement;
+use crate::formats::Up;
 use crate::mesh::{Component, Mesh};
 use crate::message::{Field, Message, Piece, message, pieces};
 use glam::{DMat3, DVec3};

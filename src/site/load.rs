@@ -3,12 +3,12 @@
 use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
-use super::model::{self, Model, ModelError, Placement};
 use super::models::{Models, note_see_through};
-use super::names::on_disk;
+use super::placement::Placement;
 use super::written::WrittenSite;
 use super::{Ground, Site, camera, ground, likeness, notes, plan, study};
 use crate::choice::{ChoiceError, Finder, Method, Receivers};
+use crate::formats::{self, Model, ModelError, ReadOptions, on_disk};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::message::{Field, message};
@@ -60,22 +60,23 @@ pub struct LoadedMesh {
 /// Everything that can be wrong with a site file's form and its models.
 pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError> {
     let Overrides { up, words, .. } = *asked;
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    if matches!(extension.as_str(), "glb" | "gltf") && !path.is_dir() {
-        let placement = Placement { up: up.unwrap_or_default(), ..Placement::default() };
-        let Model { parts, notes, see_through } = model::load(&on_disk(path), &placement)?;
+    if formats::by_ending(path).is_some() && !path.is_dir() {
+        let placement = Placement { up, ..Placement::default() };
+        let model = placement.place(formats::read(&on_disk(path), &placement.read_options())?);
+        let said = [model.unit_m.is_some(), model.up_is_said || up.is_some()];
+        let Model { parts, notes, see_through, .. } = model;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let seen_through = note_see_through(&see_through, &vec![true; parts.len()]);
-        let mut notes: Vec<String> =
-            notes.into_iter().chain(seen_through).map(|note| format!("{name} {note}")).collect();
+        let of_reader = notes.into_iter().map(|note| note.about(&name).in_words(words));
+        let mut notes: Vec<String> = of_reader.chain(seen_through.map(|note| format!("{name} {note}"))).collect();
         let mesh = Mesh::build(parts)?;
-        let mends = likeness::of(&mesh, &mesh.components, &placement, [false, up.is_some()]);
+        let mends = likeness::of(&mesh, &mesh.components, &placement, said);
         let of_model = notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends);
         notes.extend(of_model.iter().map(|note| note.in_words(words)));
         return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes });
     }
     let written = WrittenSite::read(path, &Overrides { up, ..Overrides::default() })?;
-    let models = Models::read(&written, model::load)?;
+    let models = Models::read(&written, formats::read)?;
     let [casts, _] = models.roles(&written)?;
     let notes = models.notes(&written, &casts, words);
     Ok(LoadedMesh { mesh: models.mesh, frame: CoordinateFrame::Place, notes })
@@ -88,7 +89,7 @@ impl Site {
     /// # Errors
     /// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
     pub fn load(path: &Path, asked: &Overrides) -> Result<Site, SiteError> {
-        Self::load_with(path, asked, model::load)
+        Self::load_with(path, asked, formats::read)
     }
 
     /// As [`Site::load`], with another reader of model files.
@@ -99,7 +100,7 @@ impl Site {
     pub fn load_with(
         path: &Path,
         asked: &Overrides,
-        read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
+        read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
     ) -> Result<Site, SiteError> {
         Self::of(&WrittenSite::read(path, asked)?, asked, read_model)
     }
@@ -112,7 +113,7 @@ impl Site {
     pub fn of(
         written: &WrittenSite,
         asked: &Overrides,
-        read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
+        read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
     ) -> Result<Site, SiteError> {
         Self::with_models(written, asked, || Models::read(written, read_model))
     }

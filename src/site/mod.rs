@@ -17,12 +17,11 @@ mod key_table;
 mod keys;
 mod likeness;
 mod load;
-#[doc(hidden)]
-pub mod model;
 mod models;
 mod names;
 mod notes;
 mod pair;
+mod placement;
 mod plan;
 mod probe;
 mod rewrite;
@@ -48,6 +47,8 @@ pub use load::{CoordinateFrame, LoadedMesh, load_mesh, load_sun};
 pub use models::Models;
 #[doc(hidden)]
 pub use pair::Pair;
+#[doc(hidden)]
+pub use placement::Placement;
 #[doc(hidden)]
 pub use probe::{ProbeSite, load_probes};
 #[doc(hidden)]

@@ -7,13 +7,13 @@ use super::file::Names;
 use super::ground::Ground;
 use super::keys;
 use super::likeness::{self, Likeness};
-use super::model::{Fault, Model, ModelError, Placement, SeeThrough, Up};
-use super::names::{few, on_disk};
 use super::notes;
+use super::placement::Placement;
 use super::written::WrittenSite;
 use crate::choice::ChoiceError;
+use crate::formats::{Model, ModelError, ReadOptions, SeeThrough, on_disk};
 use crate::mesh::{Component, Mesh};
-use crate::message::{Message, Words, message};
+use crate::message::{Message, Words, few, message};
 use glam::DVec3;
 use rustc_hash::FxBuildHasher;
 use std::cmp::Reverse;
@@ -55,7 +55,7 @@ impl Models {
     /// Everything that can be wrong with a site file's models.
     pub fn read(
         written: &WrittenSite,
-        read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
+        read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
     ) -> Result<Models, SiteError> {
         if written.site.model.is_empty() {
             return Err(written.missing("[[model]]", "[[model]] with path = \"tower.glb\""));
@@ -63,12 +63,15 @@ impl Models {
         // a file that changes while it is read has changed since
         let sources = sources(written)?;
         let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        // by each model's file, of unit and axis
+        let mut said = Vec::new();
         for index in 0..sources.len() {
             let model = model(written, index, &read_model)?;
             let first = parts.len();
             parts.extend(model.parts);
             let name = name(written, index);
-            notes.extend(model.notes.into_iter().map(|note| format!("{name} {note}").into()));
+            notes.extend(model.notes.into_iter().map(|note| note.about(name)));
+            said.push([model.unit_m.is_some(), model.up_is_said]);
             models.push((name.to_owned(), first..parts.len()));
             see_through.push(model.see_through);
         }
@@ -76,7 +79,8 @@ impl Models {
         let looks = |(index, source): (usize, &Source)| {
             let table = &written.site.model[index];
             let components = &mesh.components[models[index].1.clone()];
-            let said = [table.scale.is_some(), table.up.is_some()];
+            let [unit, up] = said[index];
+            let said = [unit || table.scale.is_some(), up || table.up.is_some()];
             Likeness { model: index, mends: likeness::of(&mesh, components, &source.placement, said) }
         };
         let likenesses: Vec<Likeness> = sources.iter().enumerate().map(looks).collect();
@@ -167,21 +171,22 @@ pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Opti
     ))
 }
 
-/// Reads one of the models.
+/// Reads one of the models and puts it where it stands.
 fn model(
     written: &WrittenSite,
     index: usize,
-    read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
+    read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
 ) -> Result<Model, SiteError> {
     let (file, placement) = placed(written, index)?;
     let file = on_disk(&file);
     if !file.is_file() {
         return Err(refuse(written.model_key(index, "path"), no_file(name(written, index), &file)));
     }
-    read_model(&file, &placement).map_err(|error| match error.fault {
-        Fault::Scene(_) => refuse(written.model_key(index, "scene"), error.to_string()),
-        _ => error.into(),
-    })
+    let read = read_model(&file, &placement.read_options()).map_err(|error| match error.fault.is_about_scene() {
+        true => refuse(written.model_key(index, "scene"), error.to_string()),
+        false => error.into(),
+    });
+    Ok(placement.place(read?))
 }
 
 /// What people call a model: as the site file does.
@@ -251,9 +256,11 @@ pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Pl
             message![format!("{position} is no point"); "write metres, for example [0.0, 0.0, 0.0]"],
         ));
     }
-    let scale = table.scale.unwrap_or(1.0);
+    let scale = table.scale;
     // A NaN is not above zero either.
-    if !(scale.is_finite() && scale > 0.0) {
+    if let Some(scale) = scale
+        && !(scale.is_finite() && scale > 0.0)
+    {
         return Err(refuse(
             at("scale"),
             message![
@@ -264,8 +271,8 @@ pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Pl
     }
     let scene = table.scene.clone();
     let up = match &table.up {
-        Some(word) => word.parse().map_err(|error: ChoiceError| refuse(at("up"), error.to_string()))?,
-        None => Up::default(),
+        Some(word) => Some(word.parse().map_err(|error: ChoiceError| refuse(at("up"), error.to_string()))?),
+        None => None,
     };
     Ok((written.folder.join(path), Placement { scene, up, north_rad: north_deg.to_radians(), position, scale }))
 }

@@ -4,11 +4,11 @@ use super::asked::{Overrides, refuse};
 use super::error::SiteError;
 use super::extent::{Bounds, with_shadows};
 use super::load::SHADOW_CUT;
-use super::model::{self, Model, ModelError, Placement};
 use super::models::Models;
-use super::names::composed;
 use super::written::WrittenSite;
 use super::{Ground, GroundFrom, Site, metres, plan};
+use crate::formats::composed;
+use crate::formats::{self, Model, ModelError, ReadOptions};
 use crate::message::message;
 use std::path::Path;
 
@@ -37,7 +37,7 @@ impl Pair {
     pub fn load(before: &Path, after: &Path, asked: &Overrides) -> Result<Pair, SiteError> {
         let before = WrittenSite::read(before, asked)?;
         let after = WrittenSite::read_beside(after, &before, asked)?;
-        Self::of(&before, &after, asked, model::load)
+        Self::of(&before, &after, asked, formats::read)
     }
 
     /// As [`Pair::load`], of two requests that are in memory, with another reader of model files.
@@ -48,7 +48,7 @@ impl Pair {
         before: &WrittenSite,
         after: &WrittenSite,
         asked: &Overrides,
-        read_model: impl Fn(&Path, &Placement) -> Result<Model, ModelError>,
+        read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
     ) -> Result<Pair, SiteError> {
         let read = |written: &WrittenSite| Models::read(written, &read_model);
         Self::with_models(before, after, asked, read, read)

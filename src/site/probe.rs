@@ -1,16 +1,16 @@
 //! What is asked of probes: which points, on which days.
 
 use super::asked::{Overrides, numbers, refuse};
-use super::dates::{of_each_day, own_date, several};
+use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};
 use super::ground::{self, Ground};
-use super::model;
 use super::models::Models;
-use super::names::composed;
 use super::notes::on_probes;
-use super::study::{date_of, no_study};
+use super::study::no_study;
 use super::written::WrittenSite;
 use crate::choice::Receivers;
+use crate::formats;
+use crate::formats::composed;
 use crate::mesh::Mesh;
 use crate::message::{Field, message};
 use crate::sun::{DayWindow, Place, SunError, Zone, parse_duration_secs};
@@ -62,7 +62,7 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     }
     .map_err(|error| SiteError::sun(FieldLocation::Field(Field::Step), error))?;
     let level = ground::level(&written, asked)?;
-    let models = Models::read(&written, model::load)?;
+    let models = Models::read(&written, formats::read)?;
     let [casts, _] = models.roles(&written)?;
     let mut notes = models.notes(&written, &casts, asked.words);
     let Models { mesh, bounds, .. } = models;

@@ -4,8 +4,8 @@ use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::file::{ModelTable, PlaceTable, SiteFile};
 use super::keys;
-use super::names::on_disk;
 use super::typed::{self, TypedError};
+use crate::formats::{self, on_disk};
 use crate::message::{Field, Worded, message};
 use crate::sun::Place;
 use std::path::{Path, PathBuf};
@@ -96,7 +96,7 @@ impl WrittenSite {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
             _ if path.is_dir() => Self::read_file(&path.join("site.toml")),
-            "glb" | "gltf" => Self::of_model(path, placed),
+            _ if formats::by_ending(path).is_some() => Self::of_model(path, placed),
             "obj" | "stl" | "ply" | "ifc" | "fbx" | "dae" | "3ds" | "3dm" | "skp" | "dwg" | "dxf" | "blend" | "usd"
             | "usdz" | "rvt" => Err(SiteError::UnknownFormat { path: path.display().to_string() }),
             _ => Self::read_file(path),

@@ -1,7 +1,7 @@
 //! What is read, and where it stands.
 
 use super::*;
-use gnomon::site::model::Up;
+use gnomon::formats::Up;
 use std::f64::consts::FRAC_PI_2;
 
 const FLAT: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -19,8 +19,12 @@ fn a_placement_scales_then_turns_then_moves() {
     let path = folder.path().join("model.glb");
     std::fs::write(&path, Model::triangle().glb()).unwrap();
     // True north lies 90° clockwise of the model's north, so the model's north points west.
-    let placement =
-        Placement { north_rad: FRAC_PI_2, position: DVec3::new(100.0, 200.0, 5.0), scale: 2.0, ..Placement::default() };
+    let placement = Placement {
+        north_rad: FRAC_PI_2,
+        position: DVec3::new(100.0, 200.0, 5.0),
+        scale: Some(2.0),
+        ..Placement::default()
+    };
     let parts = load(&path, &placement).unwrap().parts;
     assert_eq!(corners(&parts[0]), [[[100.0, 200.0, 5.0], [100.0, 202.0, 5.0], [98.0, 200.0, 5.0]]]);
     assert!(normal(&parts[0]).z > 0.0);
@@ -277,7 +281,7 @@ fn a_model_that_is_z_up_has_its_y_in_the_north() {
     let path = folder.path().join("model.glb");
     std::fs::write(&path, model.glb()).unwrap();
     let placed = |north_rad: f64| {
-        let placement = Placement { up: Up::Z, north_rad, scale: 10.0, ..Placement::default() };
+        let placement = Placement { up: Some(Up::Z), north_rad, scale: Some(10.0), ..Placement::default() };
         load(&path, &placement).unwrap().parts[0].positions.clone()
     };
     assert_eq!(placed(0.0), [DVec3::X * 10.0, DVec3::Y * 20.0, DVec3::Z * 30.0]);

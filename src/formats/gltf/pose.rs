@@ -68,8 +68,8 @@ impl<'a> Pose<'a> {
     }
 
     /// What scales and turns the mesh: its node, or where it has a skin the first joint, which stands for all.
-    pub(super) fn world_from_mesh<'b>(&'b self, world_from_node: &'b DAffine3) -> &'b DAffine3 {
-        self.skin.as_ref().and_then(|skin| skin.joints.first()).unwrap_or(world_from_node)
+    pub(super) fn model_from_mesh<'b>(&'b self, model_from_node: &'b DAffine3) -> &'b DAffine3 {
+        self.skin.as_ref().and_then(|skin| skin.joints.first()).unwrap_or(model_from_node)
     }
 
     /// How many accessors are asked for each vertex.
@@ -78,12 +78,12 @@ impl<'a> Pose<'a> {
     }
 
     /// Where a vertex stands that is stored at `stored`. Not finite where a joint is named that the skin does not have.
-    pub(super) fn point(&self, stored: DVec3, vertex: usize, world_from_mesh: &DAffine3) -> DVec3 {
+    pub(super) fn point(&self, stored: DVec3, vertex: usize, model_from_mesh: &DAffine3) -> DVec3 {
         let moved = |at: DVec3, (weight, target): &(f64, Reader)| at + *weight * target.vec3(vertex);
         let morphed = self.targets.iter().fold(stored, moved);
         match &self.skin {
             Some(skin) => skin.point(morphed, vertex),
-            None => world_from_mesh.transform_point3(morphed),
+            None => model_from_mesh.transform_point3(morphed),
         }
     }
 
@@ -192,15 +192,14 @@ fn check_count(what: &str, reader: &Reader, surface: &PrimitiveTriangles) -> Res
 /// The skins of a file; each is read when it is first asked for.
 pub(super) struct Skins<'a> {
     document: &'a Document,
-    world_from_model: DAffine3,
     worlds: Option<NodeTransforms<'a>>,
     known: Vec<Option<Joints>>,
 }
 
 impl<'a> Skins<'a> {
-    pub(super) fn new(document: &'a Document, world_from_model: DAffine3) -> Self {
+    pub(super) fn new(document: &'a Document) -> Self {
         let known = document.skins.iter().map(|_| None).collect();
-        Self { document, world_from_model, worlds: None, known }
+        Self { document, worlds: None, known }
     }
 
     /// A skin by its number. The transform of the node that has it counts for nothing (3.7.3.3).
@@ -235,22 +234,22 @@ impl<'a> Skins<'a> {
         }
         let worlds = match &mut self.worlds {
             Some(worlds) => worlds,
-            None => self.worlds.insert(NodeTransforms::new(self.document, self.world_from_model)?),
+            None => self.worlds.insert(NodeTransforms::new(self.document)?),
         };
         let mut joints = Vec::with_capacity(skin.joints.len());
         for (number, &joint) in skin.joints.iter().enumerate() {
-            let world_from_joint = worlds.get(joint, || format!("skin {index}"))?;
+            let model_from_joint = worlds.get(joint, || format!("skin {index}"))?;
             let joint_from_mesh = match bind {
                 Some(bind) => affine(bind.numbers(number), BIND_SLACK),
                 None => Some(DAffine3::IDENTITY),
             };
-            let world_from_mesh = joint_from_mesh.map(|joint_from_mesh| world_from_joint * joint_from_mesh);
-            let Some(world_from_mesh) = world_from_mesh.filter(DAffine3::is_finite) else {
+            let model_from_mesh = joint_from_mesh.map(|joint_from_mesh| model_from_joint * joint_from_mesh);
+            let Some(model_from_mesh) = model_from_mesh.filter(DAffine3::is_finite) else {
                 return Err(fault(format!(
                     "has at joint {number} an inverse bind matrix that moves nothing to a place"
                 )));
             };
-            joints.push(world_from_mesh);
+            joints.push(model_from_mesh);
         }
         Ok(Arc::clone(known.insert(joints.into())))
     }

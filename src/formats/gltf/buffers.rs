@@ -6,7 +6,7 @@
 
 use super::document::Document;
 use super::{Fault, container};
-use crate::site::names::on_disk;
+use crate::formats::on_disk;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::DecodePaddingMode;

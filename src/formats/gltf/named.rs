@@ -2,7 +2,7 @@
 
 use super::buffers::{has_scheme, percent_decode};
 use super::container;
-use crate::site::names::on_disk;
+use crate::formats::on_disk;
 use serde::Deserialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};

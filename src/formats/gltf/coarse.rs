@@ -1,45 +1,42 @@
-//! How coarse the numbers are that a file's corners are written with, where that is more than a millimetre.
+//! How coarse the numbers are that a file's corners are written with, where that is coarser than what is told.
 
 use super::reader::Reader;
 use crate::mesh::CornerPrecision;
 use glam::{DAffine3, DVec3};
 use gltf::json::accessor::ComponentType;
 
-/// Finer steps are not told, metres: a receiver is judged so far above itself.
-const TOLD_M: f64 = 0.001;
-
 /// Which of some corners are written coarsely: those of the vertices `used`, which stand at `points` and are numbered from
-/// `first` on.
+/// `first` on. Steps are in the model's units; those up to `told_step` are not told.
 pub(super) fn corners(
     positions: &Reader,
-    used: &[u32],
-    world_from_mesh: &DAffine3,
+    (used, first): (&[u32], u32),
+    model_from_mesh: &DAffine3,
     points: &[DVec3],
-    first: u32,
+    told_step: f64,
 ) -> Vec<CornerPrecision> {
-    let matrix = world_from_mesh.matrix3;
-    let metres = DVec3::new(matrix.x_axis.length(), matrix.y_axis.length(), matrix.z_axis.length());
+    let matrix = model_from_mesh.matrix3;
+    let units = DVec3::new(matrix.x_axis.length(), matrix.y_axis.length(), matrix.z_axis.length());
     if let Some(step) = positions.whole_step() {
-        let step_m = step * metres.max_element();
+        let step_m = step * units.max_element();
         let all = CornerPrecision { corners: first..first + used.len() as u32, step_m, is_float: false };
-        return if step_m > TOLD_M { vec![all] } else { Vec::new() };
+        return if step_m > told_step { vec![all] } else { Vec::new() };
     }
     // how large the numbers can be at most is told by where the corners stand; nearly always that is enough
-    let reach = points.iter().fold(DVec3::ZERO, |reach, point| reach.max((point - world_from_mesh.translation).abs()));
-    let mesh_from_world = matrix.inverse();
-    let largest = [mesh_from_world.x_axis, mesh_from_world.y_axis, mesh_from_world.z_axis]
+    let reach = points.iter().fold(DVec3::ZERO, |reach, point| reach.max((point - model_from_mesh.translation).abs()));
+    let mesh_from_model = matrix.inverse();
+    let largest = [mesh_from_model.x_axis, mesh_from_model.y_axis, mesh_from_model.z_axis]
         .iter()
         .zip(reach.to_array())
         .fold(DVec3::ZERO, |sum, (axis, reach)| sum + axis.abs() * reach);
-    if (largest * metres).max_element() * f64::from(f32::EPSILON) <= TOLD_M && largest.is_finite() {
+    if (largest * units).max_element() * f64::from(f32::EPSILON) <= told_step && largest.is_finite() {
         return Vec::new();
     }
     let mut found: Vec<CornerPrecision> = Vec::new();
     for (corner, &vertex) in (first..).zip(used) {
         let steps = positions.vec3(vertex as usize).to_array().map(step);
-        let step_m = (DVec3::from_array(steps) * metres).max_element();
+        let step_m = (DVec3::from_array(steps) * units).max_element();
         match found.last_mut() {
-            _ if step_m.is_nan() || step_m <= TOLD_M => (),
+            _ if step_m.is_nan() || step_m <= told_step => (),
             Some(last) if last.corners.end == corner && last.step_m == step_m => last.corners.end += 1,
             _ => found.push(CornerPrecision { corners: corner..corner + 1, step_m, is_float: true }),
         }

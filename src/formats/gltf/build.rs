@@ -30,13 +30,13 @@ pub(super) fn build(
     document: &Document,
     buffers: &Buffers,
     placed: &[PlacedNode],
-    world_from_model: DAffine3,
+    told_step: f64,
 ) -> Result<BuiltScene, Fault> {
     let mut accessors = Accessors::new(document, buffers);
     // Many nodes may share a mesh; what it says is read once.
     let mut known: Vec<Option<MeshTriangles>> = document.meshes.iter().map(|_| None).collect();
-    let mut skins = Skins::new(document, world_from_model);
-    let mut builder = Builder::default();
+    let mut skins = Skins::new(document);
+    let mut builder = Builder { told_step, ..Builder::default() };
     let (mut triangles, mut moves) = (0_u64, 0_u64);
     let (mut parts, mut see_through) = (Vec::new(), BTreeMap::<String, Vec<usize>>::new());
     for place in placed {
@@ -70,7 +70,7 @@ pub(super) fn build(
             if moves > MAX_MOVES {
                 return Err(Fault::TooManyMoves);
             }
-            let mut part = builder.part(group, &poses, &instances, place.world_from_node)?;
+            let mut part = builder.part(group, &poses, &instances, place.model_from_node)?;
             if part.triangles.is_empty() {
                 continue;
             }
@@ -113,6 +113,8 @@ struct Builder {
     numbers: Vec<u32>,
     /// Vertices in the order of their numbers.
     used: Vec<u32>,
+    /// Coarser steps of numbers are told.
+    told_step: f64,
 }
 
 /// Triangles that are read in one go.
@@ -125,13 +127,13 @@ impl Builder {
         group: &MaterialGroup,
         poses: &[Pose],
         instances: &Instances,
-        world_from_node: DAffine3,
+        model_from_node: DAffine3,
     ) -> Result<Part, Fault> {
         let mut part = Part::default();
         for instance in 0..instances.count {
-            let world_from_mesh = world_from_node * instances.get(instance)?;
+            let model_from_mesh = model_from_node * instances.get(instance)?;
             for (surface, pose) in group.surfaces.iter().zip(poses) {
-                self.append(&mut part, surface, pose, world_from_mesh)?;
+                self.append(&mut part, surface, pose, model_from_mesh)?;
             }
         }
         Ok(part)
@@ -143,9 +145,9 @@ impl Builder {
         part: &mut Part,
         surface: &PrimitiveTriangles,
         pose: &Pose,
-        world_from_mesh: DAffine3,
+        model_from_mesh: DAffine3,
     ) -> Result<(), Fault> {
-        let mirrors = pose.world_from_mesh(&world_from_mesh).matrix3.determinant() < 0.0;
+        let mirrors = pose.model_from_mesh(&model_from_mesh).matrix3.determinant() < 0.0;
         if self.numbers.len() < surface.positions.count {
             self.numbers.resize(surface.positions.count, ABSENT);
         }
@@ -161,14 +163,20 @@ impl Builder {
         let stored = |vertex: u32| surface.positions.vec3(vertex as usize);
         let used = self.used.par_iter().with_min_len(AT_ONCE);
         if pose.is_plain() {
-            part.positions.par_extend(used.map(|&vertex| world_from_mesh.transform_point3(stored(vertex))));
+            part.positions.par_extend(used.map(|&vertex| model_from_mesh.transform_point3(stored(vertex))));
         } else {
-            let point = |&vertex: &u32| pose.point(stored(vertex), vertex as usize, &world_from_mesh);
+            let point = |&vertex: &u32| pose.point(stored(vertex), vertex as usize, &model_from_mesh);
             part.positions.par_extend(used.map(point));
         }
         let points = &part.positions[first as usize..];
-        let world_from_mesh = pose.world_from_mesh(&world_from_mesh);
-        part.coarse.extend(coarse::corners(&surface.positions, &self.used, world_from_mesh, points, first));
+        let model_from_mesh = pose.model_from_mesh(&model_from_mesh);
+        part.coarse.extend(coarse::corners(
+            &surface.positions,
+            (&self.used, first),
+            model_from_mesh,
+            points,
+            self.told_step,
+        ));
         for (vertex, point) in self.used.drain(..).zip(&part.positions[first as usize..]) {
             if !point.is_finite() {
                 return Err(primitive::fault(surface.mesh, surface.primitive, pose.problem(vertex as usize)));

@@ -6,7 +6,7 @@
 
 use super::Fault;
 use super::material::Material;
-use crate::site::names::composed;
+use crate::formats::composed;
 use gltf::json::{Accessor, Buffer, Mesh, buffer::View};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;

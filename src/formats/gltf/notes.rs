@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::scene::{SceneContents, scenes};
-use crate::site::names::few;
+use crate::message::few;
 
 /// A sentence each, without its stop, whose subject is the file. `is_asked` says that the user has chosen the scene.
 pub(super) fn of(document: &Document, standing: &SceneContents, is_asked: bool) -> Vec<String> {

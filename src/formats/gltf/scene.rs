@@ -2,8 +2,9 @@
 
 use super::Fault;
 use super::document::{Document, Node};
-use crate::site::file::SceneName;
-use crate::site::names::{composed, few};
+use crate::formats::SceneName;
+use crate::formats::composed;
+use crate::message::few;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// A node with a mesh, and where it stands.
@@ -15,7 +16,7 @@ pub(super) struct PlacedNode {
     /// The skin's number, where it has one.
     pub skin: Option<usize>,
     /// Metres in the world from the node's own units.
-    pub world_from_node: DAffine3,
+    pub model_from_node: DAffine3,
 }
 
 /// What stands in a scene, and what is hidden there (KHR_node_visibility).
@@ -31,26 +32,22 @@ pub(super) struct SceneContents {
 }
 
 /// The nodes of the scene that is asked for, else of the file's default one.
-pub(super) fn place(
-    document: &Document,
-    world_from_model: DAffine3,
-    asked: Option<&SceneName>,
-) -> Result<SceneContents, Fault> {
+pub(super) fn place(document: &Document, asked: Option<&SceneName>) -> Result<SceneContents, Fault> {
     let parents = parents(document)?;
     check_cycles(&parents)?;
     let scene = number(document, asked)?;
     // with the node above it that hides it, where there is one
     let mut open: Vec<(usize, DAffine3, Option<usize>)> = Vec::new();
     for root in roots(document, &parents, scene)?.into_iter().rev() {
-        open.push((root, world_from_model, None));
+        open.push((root, DAffine3::IDENTITY, None));
     }
     let mut standing = SceneContents { placed: Vec::new(), hidden: 0, hiding: Vec::new(), scene };
     // Each node has at most one parent and no tree bites its tail, so each is met once.
-    while let Some((index, world_from_parent, hiding)) = open.pop() {
+    while let Some((index, model_from_parent, hiding)) = open.pop() {
         let Some(node) = document.nodes.get(index) else {
             continue; // `parents` and `roots` have checked the index.
         };
-        let world_from_node = below(world_from_parent, node, index)?;
+        let model_from_node = below(model_from_parent, node, index)?;
         let hiding = hiding.or((!node.is_visible()).then_some(index));
         if let Some(mesh) = node.mesh {
             if mesh >= document.meshes.len() {
@@ -62,7 +59,7 @@ pub(super) fn place(
                 });
             }
             match hiding {
-                None => standing.placed.push(PlacedNode { node: index, mesh, skin: node.skin, world_from_node }),
+                None => standing.placed.push(PlacedNode { node: index, mesh, skin: node.skin, model_from_node }),
                 Some(hiding) => {
                     standing.hidden += 1;
                     // what hangs below one node comes in one run
@@ -72,7 +69,7 @@ pub(super) fn place(
                 }
             }
         }
-        open.extend(node.children.iter().rev().map(|&child| (child, world_from_node, hiding)));
+        open.extend(node.children.iter().rev().map(|&child| (child, model_from_node, hiding)));
     }
     Ok(standing)
 }
@@ -81,16 +78,15 @@ pub(super) fn place(
 pub(super) struct NodeTransforms<'a> {
     document: &'a Document,
     parents: Vec<Option<usize>>,
-    world_from_model: DAffine3,
     known: Vec<Option<DAffine3>>,
 }
 
 impl<'a> NodeTransforms<'a> {
     /// Of a document of which [`place`] has found the scene.
-    pub(super) fn new(document: &'a Document, world_from_model: DAffine3) -> Result<Self, Fault> {
+    pub(super) fn new(document: &'a Document) -> Result<Self, Fault> {
         let parents = parents(document)?;
         let known = vec![None; parents.len()];
-        Ok(Self { document, parents, world_from_model, known })
+        Ok(Self { document, parents, known })
     }
 
     /// World from node; `user` says who asks.
@@ -100,10 +96,10 @@ impl<'a> NodeTransforms<'a> {
         }
         // up to the next node that is known, and down again
         let (mut climbed, mut next) = (Vec::new(), Some(node));
-        let mut world_from_node = self.world_from_model;
+        let mut model_from_node = DAffine3::IDENTITY;
         while let Some(index) = next {
             if let Some(known) = self.known.get(index).copied().flatten() {
-                world_from_node = known;
+                model_from_node = known;
                 break;
             }
             climbed.push(index);
@@ -111,19 +107,19 @@ impl<'a> NodeTransforms<'a> {
         }
         for index in climbed.into_iter().rev() {
             if let (Some(node), Some(known)) = (self.document.nodes.get(index), self.known.get_mut(index)) {
-                world_from_node = below(world_from_node, node, index)?;
-                *known = Some(world_from_node);
+                model_from_node = below(model_from_node, node, index)?;
+                *known = Some(model_from_node);
             }
         }
-        Ok(world_from_node)
+        Ok(model_from_node)
     }
 }
 
 /// World from node.
-fn below(world_from_parent: DAffine3, node: &Node, index: usize) -> Result<DAffine3, Fault> {
-    let world_from_node = world_from_parent * local(node, index)?;
-    match world_from_node.is_finite() {
-        true => Ok(world_from_node),
+fn below(model_from_parent: DAffine3, node: &Node, index: usize) -> Result<DAffine3, Fault> {
+    let model_from_node = model_from_parent * local(node, index)?;
+    match model_from_node.is_finite() {
+        true => Ok(model_from_node),
         false => Err(fault(index, "lies beyond all numbers, as its parents' transforms multiply")),
     }
 }

@@ -1,19 +1,8 @@
-//! What can be wrong with a model file: each fault names the thing and the way out.
+//! What can be wrong with a glTF file: each fault names the thing and the way out.
 
 use super::{MAX_COMPONENTS, MAX_TRIANGLES};
-use std::path::PathBuf;
 
-/// A model file that cannot be used.
-#[derive(Debug, thiserror::Error)]
-#[error("{}: {fault}", file.display())]
-pub struct ModelError {
-    /// The file, as asked for.
-    pub file: PathBuf,
-    /// What is wrong with it.
-    pub fault: Fault,
-}
-
-/// What is wrong with a model file.
+/// What is wrong with a glTF file.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
     /// The operating system does not give the file.

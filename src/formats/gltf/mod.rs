@@ -1,0 +1,84 @@
+//! A glTF 2.0 file → the parts that stand there, in its own units and axes.
+//!
+//! What casts a shadow is read, and nothing else: textures, lights, cameras and animations may be missing or broken.
+//! Meshes stand as no animation moves them: with their default morph weights, and with their skins at rest. What is
+//! hidden is not there. Points and lines cast nothing and are skipped.
+//!
+//! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
+//! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
+//! binary chunk), `document` and `material` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
+//! and `reader` (bytes → numbers), `coarse` (how exact those are), `instances`, `primitive` (which triangles a mesh has),
+//! `pose` (morphs and skins), `build` (all of it → parts), `notes` (what the user should know of it); beside it `named`
+//! (which other files are the model's).
+
+use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
+use crate::message::Message;
+use std::path::{Path, PathBuf};
+
+mod accessor;
+mod buffers;
+mod build;
+mod coarse;
+mod container;
+mod document;
+mod error;
+mod instances;
+mod material;
+mod named;
+mod notes;
+mod pose;
+mod primitive;
+mod reader;
+mod scene;
+
+pub use error::Fault;
+
+/// The most numbers that may move the triangles of a model, each triangle's morph targets and joints counted: they cost
+/// no memory, but time.
+const MAX_MOVES: u64 = 1_000_000_000;
+
+/// glTF 2.0, `.glb` and `.gltf`.
+pub struct Gltf;
+
+impl Format for Gltf {
+    fn name(&self) -> &'static str {
+        "glTF"
+    }
+
+    fn endings(&self) -> &'static [&'static str] {
+        &["glb", "gltf"]
+    }
+
+    fn begins(&self, head: &[u8]) -> bool {
+        head.starts_with(b"glTF")
+    }
+
+    /// Reads a scene (all root nodes where the file has no scenes): one part per node and material, in the order of the
+    /// scene.
+    fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+        Ok(read(path, options)?)
+    }
+
+    fn named_by(&self, path: &Path) -> Vec<PathBuf> {
+        named::named_by(path)
+    }
+}
+
+fn read(path: &Path, options: &ReadOptions) -> Result<Model, Fault> {
+    let bytes = container::read_file(path)?;
+    let container = container::open(&bytes, path)?;
+    let document = document::Document::parse(container.json)?;
+    let is_asked = options.scene.is_some();
+    let standing = scene::place(&document, options.scene.as_ref())?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let buffers = buffers::Buffers::new(&document, container.binary, folder);
+    let build::BuiltScene { parts, see_through } =
+        build::build(&document, &buffers, &standing.placed, options.told_step)?;
+    if parts.is_empty() {
+        let scene = if is_asked { "that scene" } else { "its default scene" };
+        return Err(Fault::Empty { scene, way_out: notes::way_out(&document, &standing) });
+    }
+    let notes = notes::of(&document, &standing, is_asked).into_iter().map(Message::from).collect();
+    // glTF is in metres and y up, and many a program exports something else: nothing is said, so that it can be doubted
+    Ok(Model { parts, notes, see_through, ..Model::default() })
+}

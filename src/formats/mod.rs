@@ -1,0 +1,99 @@
+//! Model files → what stands in them: one door for all formats.
+//!
+//! A format is a file or a folder of this room that implements [`Format`], and an entry in [`FORMATS`]. Whatever it reads,
+//! it gives a [`Model`] in the file's own units, axes and coordinates, all in `f64`; what it cannot take it counts and
+//! names. `site` turns that into the mesh, so that every model is placed by the same code.
+//!
+//! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is counted
+//! before memory is taken.
+
+pub mod gltf;
+mod model;
+mod names;
+
+pub use model::{
+    Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,
+    SeeThrough, Up,
+};
+pub(crate) use names::{composed, on_disk};
+
+use crate::message::message;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+/// The most triangles a model may have, instances counted. Their vertices take at most 7.2 GB, their indices 1.2 GB.
+pub const MAX_TRIANGLES: u64 = 100_000_000;
+
+/// The most components a model may have: each costs names and adjacency of its own, whatever its size.
+pub const MAX_COMPONENTS: usize = 1_000_000;
+
+/// Bytes at a file's start that tell its format.
+const HEAD_BYTES: u64 = 16 * 1024;
+
+/// A format of model files.
+pub trait Format: Sync {
+    /// What people call it.
+    fn name(&self) -> &'static str;
+
+    /// How its files' names end: lower-case, without the dot, the commonest first.
+    fn endings(&self) -> &'static [&'static str];
+
+    /// Whether a file that begins with these bytes (as many as there are, at most 16 KiB) is of this format. Only what other
+    /// formats cannot begin with is a yes.
+    fn begins(&self, head: &[u8]) -> bool;
+
+    /// Reads a file; there may be no part in it.
+    ///
+    /// # Errors
+    /// What is wrong with the file, with the way out.
+    fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault>;
+
+    /// The files that a file names: they lie beside it, and are its user's, whether they are read or not.
+    fn named_by(&self, _path: &Path) -> Vec<PathBuf> {
+        Vec::new()
+    }
+}
+
+/// All formats, those that begin with a mark of their own first.
+pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf];
+
+/// The format whose files end as this one's name does.
+pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {
+    let ending = path.extension()?.to_string_lossy().to_lowercase();
+    FORMATS.iter().copied().find(|format| format.endings().contains(&ending.as_str()))
+}
+
+/// The format of a file: its content decides, then how its name ends.
+fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> {
+    // Asked before opening: opening a pipe would wait for its writer.
+    let is_file = std::fs::metadata(path).map_err(ModelFault::unreadable)?.is_file();
+    if !is_file {
+        return Err(message!["is not a file"; "name a model file"].into());
+    }
+    let mut head = Vec::new();
+    File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head)).map_err(ModelFault::unreadable)?;
+    let by_content = FORMATS.iter().copied().find(|format| format.begins(&head));
+    by_content.or_else(|| by_ending(path)).ok_or_else(|| {
+        let names: Vec<&str> = FORMATS.iter().map(|format| format.name()).collect();
+        message![
+            "is of no format that Gnomon knows";
+            format!("export it as one of these: {}", names.join(", "))
+        ]
+        .into()
+    })
+}
+
+/// Reads a model file of any format; every part has triangles, and there is at least one.
+///
+/// # Errors
+/// What is wrong with the file, with the way out.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
+    let read = || format_of(path)?.read(path, options)?.checked();
+    read().map_err(|fault| ModelError { file: path.to_owned(), fault })
+}
+
+/// The files that a model names beside itself. One that cannot be read names none: whoever reads it says why.
+pub(crate) fn named_by(path: &Path) -> Vec<PathBuf> {
+    format_of(path).map_or_else(|_| Vec::new(), |format| format.named_by(path))
+}

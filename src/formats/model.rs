@@ -1,0 +1,250 @@
+//! What every reader gives: parts in the file's own coordinates, what these are, and what was left out.
+
+use super::{MAX_COMPONENTS, MAX_TRIANGLES, gltf};
+use crate::mesh::Part;
+use crate::message::{Message, message};
+use std::fmt;
+use std::path::PathBuf;
+
+/// What a model file gives.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// In the file's order. Positions are in the file's own units, axes and coordinates; so are the steps of what is
+    /// written coarsely.
+    pub parts: Vec<Part>,
+    /// What each part is; as many as there are parts, or none where all are [`PartKind::Building`].
+    pub kinds: Vec<PartKind>,
+    /// Which axis is up, as the format has it.
+    pub up: Up,
+    /// Whether the file or its format says so; else it is a custom that may be wrong.
+    pub up_is_said: bool,
+    /// Metres a unit, where the file or its format says it.
+    pub unit_m: Option<f64>,
+    /// What the coordinates are.
+    pub coordinates: Coordinates,
+    /// Where the file says that its own zero lies, the most exact first. Where several disagree, all are shown.
+    pub anchors: Vec<Anchor>,
+    /// What was in the file and could not be taken, or does not stand there.
+    pub left_out: Vec<LeftOut>,
+    /// What else the user should know of how it was read: sentences without their stop, whose subject is the file.
+    pub notes: Vec<Message>,
+    /// Materials that light passes, each name once. They cast as solid.
+    pub see_through: Vec<SeeThrough>,
+}
+
+/// What a part is, and so what it does where nobody says it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PartKind {
+    /// It casts and receives.
+    #[default]
+    Building,
+    /// The ground as measured: it casts and receives, and "the ground" means it.
+    Terrain,
+    /// A sheet on the ground, as a site, a road or water: it receives and does not cast.
+    GroundCover,
+}
+
+/// What a file's coordinates are.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Coordinates {
+    /// The drawing's own.
+    #[default]
+    Local,
+    /// Of a map, or of the Earth: x is the easting or longitude, y the northing or latitude, z the height; Earth-centred ones
+    /// are x, y, z. The text is the reference system as the file says it: `EPSG:25832`, a name, WKT or PROJ's text. Longitudes
+    /// and latitudes are in degrees, heights in metres.
+    Map(String),
+}
+
+/// Where a file says that the zero of its own coordinates lies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Anchor {
+    /// What says it, in the file's own term: `IfcMapConversion`.
+    pub said_by: &'static str,
+    /// Where it lies.
+    pub at: AnchorPoint,
+    /// Radians clockwise from the file's own north (its +y where z is up) to the north of the anchor: to the map's where it
+    /// is a point of a map, else to true north. None where the file does not say it.
+    pub north_rad: Option<f64>,
+}
+
+/// A point of a map, or of the Earth.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AnchorPoint {
+    /// Of a map.
+    Map {
+        /// As in [`Coordinates::Map`]; empty where the file does not name it.
+        crs: String,
+        /// Metres.
+        easting: f64,
+        /// Metres.
+        northing: f64,
+        /// Metres, where the file says it.
+        height: Option<f64>,
+        /// Metres on the map a unit of the file.
+        scale: f64,
+    },
+    /// Of the Earth, in WGS 84.
+    Geographic {
+        /// Degrees, north positive.
+        latitude_deg: f64,
+        /// Degrees, east positive.
+        longitude_deg: f64,
+        /// Metres, where the file says it.
+        elevation_m: Option<f64>,
+    },
+    /// The file says only which way north is.
+    Nowhere,
+}
+
+/// Things of a kind that were left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// In the file's own terms: `IfcSpace`, `3DSOLID`.
+    pub what: String,
+    /// How many.
+    pub count: u64,
+    /// Why, as a clause: "they do not stand there".
+    pub why: String,
+}
+
+/// A material that is cut out or translucent.
+#[derive(Clone, Debug)]
+pub struct SeeThrough {
+    /// Its name, by which `casts` may mean it.
+    pub material: String,
+    /// The parts that have it, from 0; one or more.
+    pub parts: Vec<usize>,
+}
+
+/// Which of a model's axes is up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Up {
+    /// As glTF has it: x is east, and −z north.
+    #[default]
+    Y,
+    /// As drawings and maps have it: x is east, and y north.
+    Z,
+}
+
+/// How a scene of a model is called.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(untagged)]
+pub enum SceneName {
+    /// By its name.
+    Name(String),
+    /// By its number in the file, from 0.
+    Number(u64),
+}
+
+impl fmt::Display for SceneName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SceneName::Name(name) => write!(f, "\"{name}\""),
+            SceneName::Number(number) => write!(f, "{number}"),
+        }
+    }
+}
+
+/// What is asked of a file, beside the file itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadOptions {
+    /// Which of several scenes; the file's default one where none is said.
+    pub scene: Option<SceneName>,
+    /// Numbers that are written in coarser steps than this are told, in the file's units.
+    pub told_step: f64,
+    /// Metres from the ground to the roof of a footprint whose file says no height.
+    pub default_height_m: Option<f64>,
+}
+
+impl Default for ReadOptions {
+    fn default() -> Self {
+        Self { scene: None, told_step: Self::TOLD_M, default_height_m: None }
+    }
+}
+
+impl ReadOptions {
+    /// Finer steps are not told, metres: a receiver is judged so far above itself.
+    pub const TOLD_M: f64 = 0.001;
+}
+
+/// A model file that cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {fault}", file.display())]
+pub struct ModelError {
+    /// The file, as asked for.
+    pub file: PathBuf,
+    /// What is wrong with it.
+    pub fault: ModelFault,
+}
+
+/// What is wrong with a model file.
+#[derive(Debug)]
+pub enum ModelFault {
+    /// With a glTF file.
+    Gltf(gltf::Fault),
+    /// With one of another format: what, whose subject is the file, and the way out.
+    Unusable(Message),
+}
+
+impl std::error::Error for ModelFault {}
+
+impl fmt::Display for ModelFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ModelFault::Gltf(fault) => fault.fmt(f),
+            ModelFault::Unusable(message) => message.fmt(f),
+        }
+    }
+}
+
+impl From<gltf::Fault> for ModelFault {
+    fn from(fault: gltf::Fault) -> Self {
+        ModelFault::Gltf(fault)
+    }
+}
+
+impl From<Message> for ModelFault {
+    fn from(message: Message) -> Self {
+        ModelFault::Unusable(message)
+    }
+}
+
+impl ModelFault {
+    /// The operating system does not give the file.
+    pub(crate) fn unreadable(error: std::io::Error) -> Self {
+        message![format!("cannot be read: {error}")].into()
+    }
+
+    /// Whether the user asked for a scene that the file has not.
+    pub(crate) fn is_about_scene(&self) -> bool {
+        matches!(self, ModelFault::Gltf(gltf::Fault::Scene(_)))
+    }
+}
+
+impl Model {
+    /// What a part is.
+    pub fn kind(&self, part: usize) -> PartKind {
+        self.kinds.get(part).copied().unwrap_or_default()
+    }
+
+    /// The model, where it holds to what every reader promises.
+    pub(super) fn checked(self) -> Result<Self, ModelFault> {
+        let triangles: u64 = self.parts.iter().map(|part| part.triangles.len() as u64).sum();
+        if triangles == 0 {
+            return Err(message![
+                "has no triangles, so nothing casts a shadow"; "export what stands there as a mesh or as solids"
+            ]
+            .into());
+        }
+        if triangles > MAX_TRIANGLES {
+            let what = format!("has {triangles} triangles, and a model may have {MAX_TRIANGLES}");
+            return Err(message![what; "export it in parts or with less detail"].into());
+        }
+        if self.parts.len() > MAX_COMPONENTS {
+            let what = format!("has {} components, and a model may have {MAX_COMPONENTS}", self.parts.len());
+            return Err(message![what; "join its objects by material, and export it again"].into());
+        }
+        Ok(self)
+    }
+}

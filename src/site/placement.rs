@@ -1,0 +1,52 @@
+//! Where a model stands: its own coordinates → the world's.
+
+use crate::formats::{Model, ReadOptions, SceneName, Up};
+use glam::{DAffine3, DMat3, DVec3};
+use rayon::prelude::*;
+
+/// How a model is read, and where it stands: it is scaled, turned, then moved.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Placement {
+    /// The scene; the file's default one where none is said.
+    pub scene: Option<SceneName>,
+    /// Which of the model's axes is up; as its file or format says where none is said.
+    pub up: Option<Up>,
+    /// Radians clockwise from the model's north (−Z where its y is up, +Y where its z is) to true north; the model is turned
+    /// by as much the other way.
+    pub north_rad: f64,
+    /// Metres east, north and up.
+    pub position: DVec3,
+    /// Metres per model unit, above zero; as its file says, else 1, where none is said.
+    pub scale: Option<f64>,
+}
+
+impl Placement {
+    /// What the reader is asked.
+    pub fn read_options(&self) -> ReadOptions {
+        let told_step = ReadOptions::TOLD_M / self.scale.unwrap_or(1.0);
+        ReadOptions { scene: self.scene.clone(), told_step, ..ReadOptions::default() }
+    }
+
+    /// Puts a model where it stands: positions and steps become metres in the world frame.
+    pub fn place(&self, mut model: Model) -> Model {
+        let scale = self.scale.or(model.unit_m).unwrap_or(1.0);
+        let world_from_model = self.world_from_model(self.up.unwrap_or(model.up), scale);
+        for part in &mut model.parts {
+            let corners = part.positions.par_iter_mut();
+            corners.for_each(|corner| *corner = world_from_model.transform_point3(*corner));
+            part.coarse.iter_mut().for_each(|run| run.step_m *= scale);
+        }
+        model
+    }
+
+    /// A model that is y up has its north at −z: (x, y, z) becomes (x, −z, y), then the placement follows. A model that is z
+    /// up has the world's axes.
+    fn world_from_model(&self, up: Up, scale: f64) -> DAffine3 {
+        let upright = match up {
+            Up::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+            Up::Z => DMat3::IDENTITY,
+        };
+        let turned = DMat3::from_rotation_z(self.north_rad);
+        DAffine3::from_mat3_translation(turned * upright * scale, self.position)
+    }
+}
