@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The rooms, and folders of rooms, that are not held to it yet.
-const NOT_HELD: &[&str] = &["desktop", "formats", "profile", "site/model", "study", "view"];
+const NOT_HELD: &[&str] = &["desktop", "formats", "study"];
 
 /// A module's place below `src`, the outermost module first.
 type Module = Vec<String>;
