@@ -8,6 +8,7 @@
 //! before memory is taken.
 
 mod city;
+mod citygml;
 mod cityjson;
 mod crs;
 pub mod gltf;
@@ -63,7 +64,7 @@ pub trait Format: Sync {
 }
 
 /// All formats, those that begin with a mark of their own first.
-pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf, &cityjson::CityJson];
+pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf, &cityjson::CityJson, &citygml::CityGml];
 
 /// The format whose files end as this one's name does.
 pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {
