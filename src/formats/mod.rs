@@ -11,6 +11,7 @@ mod city;
 mod citygml;
 mod cityjson;
 mod crs;
+mod footprints;
 pub mod gltf;
 mod json_head;
 mod model;
@@ -64,7 +65,14 @@ pub trait Format: Sync {
 }
 
 /// All formats, those that begin with a mark of their own first.
-pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf, &cityjson::CityJson, &citygml::CityGml];
+pub const FORMATS: &[&dyn Format] = &[
+    &gltf::Gltf,
+    &cityjson::CityJson,
+    &citygml::CityGml,
+    &footprints::FlatGeobuf,
+    &footprints::Shapefile,
+    &footprints::GeoJson,
+];
 
 /// The format whose files end as this one's name does.
 pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {
