@@ -18,6 +18,7 @@ mod model;
 mod names;
 mod rings;
 mod tally;
+mod tiles3d;
 mod whole;
 
 pub use model::{
@@ -69,6 +70,7 @@ pub const FORMATS: &[&dyn Format] = &[
     &gltf::Gltf,
     &cityjson::CityJson,
     &citygml::CityGml,
+    &tiles3d::Tiles3d,
     &footprints::FlatGeobuf,
     &footprints::Shapefile,
     &footprints::GeoJson,
