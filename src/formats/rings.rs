@@ -63,6 +63,11 @@ impl FaceCutter {
         let Some(first) = outer.first().filter(|_| outer.len() > 2 && normal.length_squared() > 0.0) else {
             return Err(Uncut::NoArea);
         };
+        if points.len() == 3 {
+            self.corners.clear();
+            self.corners.extend([0, 1, 2]);
+            return Ok(CutFace { corners: &self.corners, is_exact: true });
+        }
         let axes = dominant(normal);
         self.flat.clear();
         self.flat.extend(points.iter().map(|&point| {

@@ -85,5 +85,19 @@ fn brought_in_order(tables: &mut GmlTables) -> (Coordinates, Vec<Message>) {
             tables.points.iter_mut().for_each(|point| *point = DVec3::new(point.y, point.x, point.z));
         }
     }
+    notes.extend(without_zone(&crs, &mut tables.points));
     (Coordinates::Map(crs), notes)
+}
+
+/// German surveyors write the zone of UTM before the easting, which the code's own coordinates do not have.
+fn without_zone(crs: &str, points: &mut [DVec3]) -> Option<Message> {
+    let zone: u32 = crs.strip_prefix("EPSG:258")?.parse().ok().filter(|zone| (28..=38).contains(zone))?;
+    let prefix = f64::from(zone) * 1e6;
+    if points.is_empty() || !points.iter().all(|point| (prefix..prefix + 1e6).contains(&point.x)) {
+        return None;
+    }
+    points.iter_mut().for_each(|point| point.x -= prefix);
+    Some(message![format!(
+        "has eastings with the number of their zone, {zone}, before them, which {crs} has not: it is taken off"
+    )])
 }

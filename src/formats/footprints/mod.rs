@@ -157,8 +157,14 @@ impl Footprints {
         let all = buildings.len();
         for building in buildings {
             unread += u64::from(building.tags.has_unread_height());
-            let Some(rise) = building.tags.rise(default_height_m) else {
-                without += 1;
+            // a part of a guessed height would replace an outline whose height is known
+            let is_part = building.tags.is_part();
+            let Some(rise) = building.tags.rise(default_height_m.filter(|_| !is_part)) else {
+                if is_part {
+                    self.tally.add("building:part", "no height of theirs is said, and their outline stands instead");
+                } else {
+                    without += 1;
+                }
                 continue;
             };
             if rise.bottom_m >= rise.top_m {
