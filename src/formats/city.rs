@@ -4,8 +4,8 @@
 //! building, some 20,000 in a tile of 5,000 buildings. One LoD of an object stands there, and parts of a building replace
 //! what the building says itself.
 
+use super::left_out::{LeftOutTally, counted, label};
 use super::rings::FaceCutter;
-use super::tally::{LeftOutTally, counted, label};
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, PartKind, Up};
 use crate::mesh::{CornerPrecision, Part};
 use crate::message::message;

@@ -33,8 +33,8 @@ pub(super) fn named_system(text: &str) -> Option<NamedSystem> {
 fn epsg_in(lower: &str) -> Option<u32> {
     let behind = &lower[lower.find("epsg")? + "epsg".len()..];
     let own = behind.split([',', '&', '+', ' ', ';']).next()?;
-    let numbers = own.split(|c: char| !c.is_ascii_digit()).filter(|digits| !digits.is_empty());
-    numbers.last()?.parse().ok().filter(|&code| code > 0)
+    let mut numbers = own.split(|c: char| !c.is_ascii_digit()).filter(|digits| !digits.is_empty());
+    numbers.next_back()?.parse().ok().filter(|&code| code > 0)
 }
 
 /// The code of a system of the German surveyors, who write eastings first.

@@ -14,10 +14,10 @@ mod crs;
 mod footprints;
 pub mod gltf;
 mod json_head;
+mod left_out;
 mod model;
 mod names;
 mod rings;
-mod tally;
 mod tiles3d;
 mod whole;
 

@@ -1,6 +1,6 @@
 //! What is kept of a file while it is read.
 
-use crate::formats::tally::LeftOutTally;
+use crate::formats::left_out::LeftOutTally;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use std::ops::Range;

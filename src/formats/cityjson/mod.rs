@@ -32,7 +32,7 @@ impl Format for CityJson {
     }
 
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
-        Ok(read(without_mark(&whole_file(path)?), options)?)
+        read(without_mark(&whole_file(path)?), options)
     }
 }
 
@@ -54,7 +54,7 @@ fn read(bytes: &[u8], options: &ReadOptions) -> Result<Model, ModelFault> {
         count += 1;
         let feature = feature.map_err(|error| damaged(&error))?;
         if feature.kind != "CityJSONFeature" {
-            let what = format!("has a line of the type \"{}\" behind its first", super::tally::label(&feature.kind));
+            let what = format!("has a line of the type \"{}\" behind its first", super::left_out::label(&feature.kind));
             return Err(message![what; "a sequence has one CityJSON, and then a CityJSONFeature a line"].into());
         }
         objects::add(&feature, &transform, &templates, &mut builder)?;
@@ -87,7 +87,7 @@ fn check_head(head: &CityDocument<'_>) -> Result<(), Message> {
     }
     let version = head.version.as_deref().unwrap_or_default();
     if !["1.", "2."].iter().any(|known| version.starts_with(known)) {
-        let what = format!("is CityJSON {}, and Gnomon reads 1.0 to 2.0", super::tally::label(version));
+        let what = format!("is CityJSON {}, and Gnomon reads 1.0 to 2.0", super::left_out::label(version));
         return Err(message![what; "bring it to 2.0 with `cjio in.json upgrade save out.json`"]);
     }
     Ok(())

@@ -2,8 +2,8 @@
 
 use super::tags::{FootprintTags, Rise};
 use super::{Footprint, RingPolygon, names_of};
+use crate::formats::left_out::LeftOutTally;
 use crate::formats::rings::{FaceCutter, ring_area};
-use crate::formats::tally::LeftOutTally;
 use crate::mesh::Part;
 use glam::{DVec2, DVec3};
 

@@ -4,7 +4,7 @@ use super::flatbuffer::{FlatTable, bytes_at};
 use super::tags::FootprintTags;
 use super::{Footprints, RingPolygon};
 use crate::formats::crs::named_system;
-use crate::formats::tally::label;
+use crate::formats::left_out::label;
 use crate::formats::whole::whole_file;
 use crate::formats::{Coordinates, Format, Model, ModelFault, ReadOptions};
 use crate::message::{Message, message};

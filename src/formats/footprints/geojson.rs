@@ -3,7 +3,7 @@
 use super::tags::FootprintTags;
 use super::{Footprints, NO_AREA, RingPolygon};
 use crate::formats::crs::named_system;
-use crate::formats::tally::label;
+use crate::formats::left_out::label;
 use crate::formats::whole::{whole_file, without_mark};
 use crate::formats::{Coordinates, Format, Model, ModelFault, ReadOptions, json_head};
 use crate::message::{Message, message};

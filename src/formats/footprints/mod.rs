@@ -5,8 +5,8 @@
 //! `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (what is said of an outline, and
 //! lengths as people write them), `overlap` (which outlines their parts replace), `extrude` (outlines → blocks).
 
+use super::left_out::{LeftOutTally, counted, label};
 use super::rings::FaceCutter;
-use super::tally::{LeftOutTally, counted, label};
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
 use crate::mesh::Part;
 use crate::message::{Field, Message, message};
@@ -15,7 +15,7 @@ pub(super) use flatgeobuf::FlatGeobuf;
 pub(super) use geojson::GeoJson;
 use glam::DVec3;
 pub(super) use shapefile::Shapefile;
-use tags::{FootprintTags, HeightSource};
+use tags::{FootprintTags, HeightSource, Rise};
 
 mod dbase;
 mod extrude;
@@ -151,90 +151,101 @@ impl Footprints {
         cutter: &mut FaceCutter,
         default_height_m: Option<f64>,
     ) -> Result<Vec<FootprintOutline>, ModelFault> {
-        let (mut outlines, mut triangles) = (Vec::new(), 0_u64);
-        let (mut without, mut unread, mut crossing) = (0_u64, 0_u64, 0_u64);
-        let (mut by_levels, mut by_default) = (0_u64, 0_u64);
-        let all = buildings.len();
+        let mut outlines = Vec::new();
+        let mut told = HeightCounts::default();
         for building in buildings {
-            unread += u64::from(building.tags.has_unread_height());
-            // a part of a guessed height would replace an outline whose height is known
-            let is_part = building.tags.is_part();
-            let Some(rise) = building.tags.rise(default_height_m.filter(|_| !is_part)) else {
-                if is_part {
-                    self.tally.add("building:part", "no height of theirs is said, and their outline stands instead");
-                } else {
-                    without += 1;
-                }
-                continue;
-            };
-            if rise.bottom_m >= rise.top_m {
-                self.tally.add("footprints", "they begin no lower than they end");
-                continue;
-            }
+            let Some(rise) = self.rise_of(&building.tags, default_height_m, &mut told) else { continue };
             let outline = FootprintOutline::cut(building, rise, cutter, &mut self.tally);
             if outline.is_empty() {
                 continue;
             }
-            by_levels += u64::from(rise.from == HeightSource::Levels || rise.bottom_is_guessed);
-            by_default += u64::from(rise.from == HeightSource::Default);
-            crossing += u64::from(outline.crosses);
-            triangles += outline.triangle_count();
-            if triangles > MAX_TRIANGLES {
+            told.by_levels += u64::from(rise.from == HeightSource::Levels || rise.bottom_is_guessed);
+            told.by_default += u64::from(rise.from == HeightSource::Default);
+            told.crossing += u64::from(outline.crosses);
+            told.triangles += outline.triangle_count();
+            if told.triangles > MAX_TRIANGLES {
                 let what = format!("has more than {MAX_TRIANGLES} triangles, which is the most that a model may have");
                 return Err(message![what; "export a smaller region"].into());
             }
             outlines.push(outline);
         }
-        if without > 0 && without == all as u64 && self.bodies.is_empty() {
-            return Err(
-                message![format!("has {}, and says the height of none of them", counted(without, "footprint"));
-                "set ", Field::DefaultHeight, ", or export them with their heights in metres as \"height\""]
-                .into(),
-            );
+        if told.without > 0 && outlines.is_empty() && self.bodies.is_empty() {
+            let what = format!("has {}, and says the height of none of them", counted(told.without, "footprint"));
+            let hint = ", or export them with their heights in metres as \"height\"";
+            return Err(message![what; "set ", Field::DefaultHeight, hint].into());
         }
-        self.tally.add_many("footprints", "no height of theirs is said", without);
-        self.note_heights(
-            without,
-            unread,
-            by_levels,
-            default_height_m.filter(|_| by_default > 0).map(|m| (by_default, m)),
-        );
+        self.tally.add_many("footprints", "no height of theirs is said", told.without);
+        self.note(&told, default_height_m);
+        Ok(outlines)
+    }
+
+    /// From where to where a footprint reaches; where nobody says it, that is counted.
+    fn rise_of(
+        &mut self,
+        tags: &FootprintTags,
+        default_height_m: Option<f64>,
+        told: &mut HeightCounts,
+    ) -> Option<Rise> {
+        told.unread += u64::from(tags.has_unread_height());
+        // a part of a guessed height would replace an outline whose height is known
+        let default_height_m = default_height_m.filter(|_| !tags.is_part());
+        match tags.rise(default_height_m) {
+            Some(rise) if rise.bottom_m < rise.top_m => return Some(rise),
+            Some(_) => self.tally.add("footprints", "they begin no lower than they end"),
+            None if tags.is_part() => {
+                self.tally.add("building:part", "no height of theirs is said, and their outline stands instead");
+            }
+            None => told.without += 1,
+        }
+        None
+    }
+
+    /// Notes which heights are guessed, and which are missing.
+    fn note(&mut self, told: &HeightCounts, default_height_m: Option<f64>) {
+        let &HeightCounts { without, unread, by_levels, by_default, crossing, .. } = told;
+        if by_levels > 0 {
+            let what = format!(
+                "says storeys and no height of {}: they are guessed to be {} m a storey",
+                counted(by_levels, "footprint"),
+                tags::STOREY_M
+            );
+            self.notes.push(message![what; "write their heights in metres as \"height\" where that matters"]);
+        }
+        if let Some(metres) = default_height_m.filter(|_| by_default > 0) {
+            let what = format!("says no height of {}: they are {metres} m high, as ", counted(by_default, "footprint"));
+            self.notes.push(message![what, Field::DefaultHeight, " says"]);
+        }
+        if without > 0 {
+            let what = format!("has {} without a height, left out", counted(without, "footprint"));
+            self.notes.push(message![what; "set ", Field::DefaultHeight, " for them"]);
+        }
+        if unread > 0 {
+            let what = format!("has {} written otherwise than \"12 m\" or \"40'\" are", counted(unread, "height"));
+            self.notes.push(message![what; "write heights in metres"]);
+        }
         if crossing > 0 {
             self.notes.push(message![format!(
                 "has {} whose outlines cross themselves, so that their blocks may cover too much or too little",
                 counted(crossing, "footprint")
             )]);
         }
-        Ok(outlines)
     }
+}
 
-    /// Which heights are guessed, and which are missing.
-    fn note_heights(&mut self, without: u64, unread: u64, by_levels: u64, by_default: Option<(u64, f64)>) {
-        if by_levels > 0 {
-            self.notes.push(message![format!(
-                "says storeys and no height of {}: they are guessed to be {} m a storey",
-                counted(by_levels, "footprint"),
-                tags::STOREY_M
-            ); "write their heights in metres as \"height\" where that matters"]);
-        }
-        if let Some((count, metres)) = by_default {
-            self.notes.push(message![
-                format!("says no height of {}: they are {metres} m high, as ", counted(count, "footprint")),
-                Field::DefaultHeight,
-                " says"
-            ]);
-        }
-        if without > 0 {
-            self.notes.push(message![format!("has {} without a height, left out", counted(without, "footprint"));
-                "set ", Field::DefaultHeight, " for them"]);
-        }
-        if unread > 0 {
-            self.notes.push(
-                message![format!("has {} written otherwise than \"12 m\" or \"40'\" are", counted(unread, "height"));
-                "write heights in metres"],
-            );
-        }
-    }
+/// What is told of heights, and of how outlines became blocks.
+#[derive(Default)]
+struct HeightCounts {
+    /// Nobody says a height.
+    without: u64,
+    /// One is written that is none.
+    unread: u64,
+    /// Guessed from storeys.
+    by_levels: u64,
+    /// The user's for all.
+    by_default: u64,
+    /// Outlines that cross themselves.
+    crossing: u64,
+    triangles: u64,
 }
 
 /// What a feature is called, and by what else it may be meant.

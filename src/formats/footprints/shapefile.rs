@@ -44,7 +44,7 @@ impl Format for Shapefile {
         let attributes = sibling(path, "dbf").map(|path| whole_file(&path)).transpose()?;
         let mut footprints = Footprints::default();
         if let Some(stem) = path.file_stem().and_then(|stem| stem.to_str()) {
-            footprints.layer = Some(crate::formats::tally::label(stem));
+            footprints.layer = Some(crate::formats::left_out::label(stem));
         }
         let table = attributes.as_deref().and_then(AttributeTable::of);
         if attributes.is_some() && table.is_none() {
@@ -154,7 +154,7 @@ impl ShapeRings {
     }
 
     /// The polygons: outlines run clockwise, holes against them.
-    fn polygons(&self, tally: &mut crate::formats::tally::LeftOutTally) -> Vec<RingPolygon> {
+    fn polygons(&self, tally: &mut crate::formats::left_out::LeftOutTally) -> Vec<RingPolygon> {
         let flat = |ring: &[DVec3]| ring.iter().map(|point| [point.x, point.y]).collect::<Vec<_>>();
         let areas: Vec<f64> = (0..self.parts.len()).map(|part| ring_area(&flat(self.ring(part)))).collect();
         // some programs write them the other way round: what encloses most is no hole

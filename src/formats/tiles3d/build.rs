@@ -1,7 +1,7 @@
 //! Contents of tiles → parts of one model.
 
 use super::b3dm::{MAGIC, TileGltf, cesium_center, opened};
-use crate::formats::tally::{LeftOutTally, label};
+use crate::formats::left_out::{LeftOutTally, label};
 use crate::formats::{Coordinates, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough, Up, gltf};
 use crate::mesh::Part;
 use crate::message::{Message, few, message};

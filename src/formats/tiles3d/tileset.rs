@@ -2,7 +2,7 @@
 
 use crate::formats::ModelFault;
 use crate::formats::gltf::percent_decode;
-use crate::formats::tally::{LeftOutTally, label};
+use crate::formats::left_out::{LeftOutTally, label};
 use crate::formats::whole::{below, whole_file, without_mark};
 use crate::message::{Message, message};
 use glam::DMat4;

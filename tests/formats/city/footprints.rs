@@ -89,6 +89,9 @@ fn each_format_gives_the_building() {
         std::fs::write(folder.path().join(name), bytes).expect("written");
     }
     let shape = model_at(&folder.path().join("houses.shp"));
+    let format = gnomon::formats::FORMATS.iter().find(|format| format.name() == "Shapefile").expect("shapefiles");
+    let beside = ["houses.dbf", "houses.prj"].map(|name| folder.path().join(name));
+    assert_eq!(format.named_by(&folder.path().join("houses.shp")), beside);
     assert_eq!(shape.coordinates, Coordinates::Map("PROJCS[\"ETRS_1989_UTM_Zone_32N\"]".into()));
     let (json, flat) = (model_of("a.json", geojson()), model_of("a.fgb", flatgeobuf()));
     for model in [&json, &flat] {
