@@ -31,6 +31,8 @@ fields! {
     Up => "up",
     /// The height of the ground.
     Ground => "ground",
+    /// The height of footprints of which a file says none.
+    DefaultHeight => "default height",
     /// The day of the study.
     Date => "date",
     /// The first of several days.

@@ -18,6 +18,7 @@ impl Words for Options {
             Field::Place => "--place",
             Field::Up => "--up",
             Field::Ground => "--ground",
+            Field::DefaultHeight => "--default-height",
             Field::Date => "--date",
             Field::FromDate => "--from-date",
             Field::ToDate => "--to-date",

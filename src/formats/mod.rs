@@ -7,9 +7,19 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is counted
 //! before memory is taken.
 
+mod city;
+mod citygml;
+mod cityjson;
+mod crs;
+mod footprints;
 pub mod gltf;
+mod json_head;
+mod left_out;
 mod model;
 mod names;
+mod rings;
+mod tiles3d;
+mod whole;
 
 pub use model::{
     Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,
@@ -56,7 +66,15 @@ pub trait Format: Sync {
 }
 
 /// All formats, those that begin with a mark of their own first.
-pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf];
+pub const FORMATS: &[&dyn Format] = &[
+    &gltf::Gltf,
+    &cityjson::CityJson,
+    &citygml::CityGml,
+    &tiles3d::Tiles3d,
+    &footprints::FlatGeobuf,
+    &footprints::Shapefile,
+    &footprints::GeoJson,
+];
 
 /// The format whose files end as this one's name does.
 pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {

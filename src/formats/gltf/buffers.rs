@@ -162,7 +162,7 @@ pub(super) fn has_scheme(uri: &str) -> bool {
 }
 
 /// `%20` → a blank, and so on; a `%` without two digits stands for itself.
-pub(super) fn percent_decode(uri: &str) -> Option<String> {
+pub(in crate::formats) fn percent_decode(uri: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
     while let Some((&first, behind)) = rest.split_first() {

@@ -154,26 +154,27 @@ pub(super) struct Instancing {
 }
 
 impl Document {
-    /// Parses the JSON of a file, and checks that its version and extensions can be read.
-    pub(super) fn parse(json: &[u8]) -> Result<Self, Fault> {
+    /// Parses the JSON of a file, and checks that its version and extensions can be read. `applied` are extensions that
+    /// whoever asks applies itself.
+    pub(super) fn parse(json: &[u8], applied: &[&str]) -> Result<Self, Fault> {
         let head: Head = serde_json::from_slice(json).map_err(Fault::Json)?;
         let version = &head.asset.version;
         if version.split('.').next() != Some("2") {
             return Err(Fault::Version(version.chars().take(20).collect()));
         }
         let mut document: Self = serde_json::from_slice(json).map_err(Fault::Json)?;
-        document.check_extensions()?;
+        document.check_extensions(applied)?;
         document.check_names()?;
         document.compose_names();
         Ok(document)
     }
 
-    fn check_extensions(&self) -> Result<(), Fault> {
+    fn check_extensions(&self, applied: &[&str]) -> Result<(), Fault> {
         for name in &self.extensions_required {
             if let Some(extension) = COMPRESSING.iter().find(|known| *known == name) {
                 return Err(Fault::Compressed { what: "its geometry is".into(), extension: (*extension).into() });
             }
-            if !is_harmless(name) && !READ.contains(&name.as_str()) {
+            if ![&READ, applied].iter().any(|known| known.contains(&name.as_str())) && !is_harmless(name) {
                 return Err(Fault::Extension(name.clone()));
             }
         }

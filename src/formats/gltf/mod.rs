@@ -31,6 +31,7 @@ mod primitive;
 mod reader;
 mod scene;
 
+pub(super) use buffers::percent_decode;
 pub use error::Fault;
 
 /// The most numbers that may move the triangles of a model, each triangle's morph targets and joints counted: they cost
@@ -65,9 +66,19 @@ impl Format for Gltf {
 }
 
 fn read(path: &Path, options: &ReadOptions) -> Result<Model, Fault> {
-    let bytes = container::read_file(path)?;
-    let container = container::open(&bytes, path)?;
-    let document = document::Document::parse(container.json)?;
+    read_bytes(&container::read_file(path)?, path, options, &[])
+}
+
+/// The JSON of a glTF that is in memory.
+pub(super) fn json_in<'a>(bytes: &'a [u8], path: &Path) -> Option<&'a [u8]> {
+    container::open(bytes, path).ok().map(|container| container.json)
+}
+
+/// Reads a glTF that is in memory, as a content of 3D Tiles is. What it names lies beside `path`; `applied` are extensions
+/// that the caller applies to what is read.
+pub(super) fn read_bytes(bytes: &[u8], path: &Path, options: &ReadOptions, applied: &[&str]) -> Result<Model, Fault> {
+    let container = container::open(bytes, path)?;
+    let document = document::Document::parse(container.json, applied)?;
     let is_asked = options.scene.is_some();
     let standing = scene::place(&document, options.scene.as_ref())?;
     let folder = path.parent().unwrap_or(Path::new(""));

@@ -1,0 +1,263 @@
+//! Outlines of buildings with their heights → blocks with flat roofs: GeoJSON, FlatGeobuf and shapefiles.
+//!
+//! Outlines keep the coordinates of their file, be they degrees or those of a map: only what does not depend on them is
+//! found here, and `site` brings every corner to its place. The files of this folder, in the order of the flow: `geojson`,
+//! `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (what is said of an outline, and
+//! lengths as people write them), `overlap` (which outlines their parts replace), `extrude` (outlines → blocks).
+
+use super::left_out::{LeftOutTally, counted, label};
+use super::rings::FaceCutter;
+use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
+use crate::mesh::Part;
+use crate::message::{Field, Message, message};
+use extrude::FootprintOutline;
+pub(super) use flatgeobuf::FlatGeobuf;
+pub(super) use geojson::GeoJson;
+use glam::DVec3;
+pub(super) use shapefile::Shapefile;
+use tags::{FootprintTags, HeightSource, Rise};
+
+mod dbase;
+mod extrude;
+mod flatbuffer;
+mod flatgeobuf;
+mod geojson;
+mod overlap;
+mod shapefile;
+mod tags;
+
+/// Why what is no polygon is left out.
+const NO_AREA: &str = "they are no polygons";
+
+/// A polygon as a file has it: its rings follow each other, the outer one first.
+#[derive(Clone, Debug, Default)]
+struct RingPolygon {
+    points: Vec<DVec3>,
+    ends: Vec<usize>,
+}
+
+/// One feature: a building, a part of one, or something else.
+struct Footprint {
+    polygons: Vec<RingPolygon>,
+    tags: FootprintTags,
+    /// From 1, in the file.
+    number: u64,
+}
+
+/// Collects the features of a file.
+#[derive(Default)]
+struct Footprints {
+    features: Vec<Footprint>,
+    /// What stands there as the file has it, without being extruded.
+    bodies: Vec<Part>,
+    tally: LeftOutTally,
+    notes: Vec<Message>,
+    /// Of the layer, where the file names it.
+    layer: Option<String>,
+    number: u64,
+}
+
+impl Footprints {
+    /// One more feature, with the polygons that it has.
+    fn add(&mut self, polygons: Vec<RingPolygon>, tags: FootprintTags) {
+        self.number += 1;
+        if !polygons.is_empty() {
+            self.features.push(Footprint { polygons, tags, number: self.number });
+        }
+    }
+
+    /// The smallest and largest coordinates of all outlines and bodies.
+    fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let points = self.features.iter().flat_map(|feature| &feature.polygons).flat_map(|polygon| &polygon.points);
+        let points = points.chain(self.bodies.iter().flat_map(|body| &body.positions));
+        points.filter(|point| point.is_finite()).fold(None, |bounds, &point| {
+            let (low, high) = bounds.unwrap_or((point, point));
+            Some((low.min(point), high.max(point)))
+        })
+    }
+
+    /// Whether all coordinates may be degrees.
+    fn may_be_degrees(&self) -> bool {
+        self.bounds().is_none_or(|(low, high)| low.x >= -180.0 && high.x <= 180.0 && low.y >= -90.0 && high.y <= 90.0)
+    }
+
+    /// The buildings as blocks. Metres and z up in heights; in plan what `coordinates` say.
+    fn finish(mut self, coordinates: Coordinates, default_height_m: Option<f64>) -> Result<Model, ModelFault> {
+        let features = std::mem::take(&mut self.features);
+        let buildings = self.buildings(features);
+        let mut cutter = FaceCutter::new();
+        let mut outlines = self.outlines(buildings, &mut cutter, default_height_m)?;
+        let replaced = overlap::replaced_by_parts(&outlines);
+        let why = "their parts stand instead";
+        self.tally.add_many("outlines", why, replaced.whole.len() as u64);
+        if replaced.partly > 0 {
+            self.notes.push(message![format!(
+                "has {} that building:part covers only in part: both stand there, the outline with its own height",
+                counted(replaced.partly as u64, "outline")
+            )]);
+        }
+        let mut at = 0;
+        outlines.retain(|_| {
+            at += 1;
+            !replaced.whole.contains(&(at - 1))
+        });
+        let mut parts = std::mem::take(&mut self.bodies);
+        parts.extend(outlines.iter().map(|outline| outline.part(self.layer.as_deref())));
+        if parts.is_empty() {
+            let left_out = self.tally.into_left_out();
+            let left_out = left_out.iter().map(|one| format!("{} {}: {}", one.count, one.what, one.why)).collect();
+            let what = format!("has no footprints of buildings ({})", crate::message::few(left_out));
+            return Err(message![what; "export a layer of polygons with heights"].into());
+        }
+        Ok(Model {
+            parts,
+            up: Up::Z,
+            up_is_said: true,
+            unit_m: Some(1.0),
+            coordinates,
+            left_out: self.tally.into_left_out(),
+            notes: self.notes,
+            ..Model::default()
+        })
+    }
+
+    /// The features that are buildings. Where some of a file are said to be, what is not, and has no height, is a road, a
+    /// park or a lake.
+    fn buildings(&mut self, features: Vec<Footprint>) -> Vec<Footprint> {
+        let is_told = features.iter().any(|feature| feature.tags.is_building() || feature.tags.is_part());
+        features
+            .into_iter()
+            .filter(|feature| {
+                let tags = &feature.tags;
+                let why = if tags.is_underground() {
+                    Some("they lie underground")
+                } else if tags.is_no_building() {
+                    Some("they are said to be no buildings")
+                } else if is_told && !tags.is_building() && !tags.is_part() && tags.height_m().is_none() {
+                    Some("they are no buildings and have no height")
+                } else {
+                    None
+                };
+                why.into_iter().for_each(|why| self.tally.add("features", why));
+                why.is_none()
+            })
+            .collect()
+    }
+
+    /// Those with a height and an area, cut into triangles.
+    fn outlines(
+        &mut self,
+        buildings: Vec<Footprint>,
+        cutter: &mut FaceCutter,
+        default_height_m: Option<f64>,
+    ) -> Result<Vec<FootprintOutline>, ModelFault> {
+        let mut outlines = Vec::new();
+        let mut told = HeightCounts::default();
+        for building in buildings {
+            let Some(rise) = self.rise_of(&building.tags, default_height_m, &mut told) else { continue };
+            let outline = FootprintOutline::cut(building, rise, cutter, &mut self.tally);
+            if outline.is_empty() {
+                continue;
+            }
+            told.by_levels += u64::from(rise.from == HeightSource::Levels || rise.bottom_is_guessed);
+            told.by_default += u64::from(rise.from == HeightSource::Default);
+            told.crossing += u64::from(outline.crosses);
+            told.triangles += outline.triangle_count();
+            if told.triangles > MAX_TRIANGLES {
+                let what = format!("has more than {MAX_TRIANGLES} triangles, which is the most that a model may have");
+                return Err(message![what; "export a smaller region"].into());
+            }
+            outlines.push(outline);
+        }
+        if told.without > 0 && outlines.is_empty() && self.bodies.is_empty() {
+            let what = format!("has {}, and says the height of none of them", counted(told.without, "footprint"));
+            let hint = ", or export them with their heights in metres as \"height\"";
+            return Err(message![what; "set ", Field::DefaultHeight, hint].into());
+        }
+        self.tally.add_many("footprints", "no height of theirs is said", told.without);
+        self.note(&told, default_height_m);
+        Ok(outlines)
+    }
+
+    /// From where to where a footprint reaches; where nobody says it, that is counted.
+    fn rise_of(
+        &mut self,
+        tags: &FootprintTags,
+        default_height_m: Option<f64>,
+        told: &mut HeightCounts,
+    ) -> Option<Rise> {
+        told.unread += u64::from(tags.has_unread_height());
+        // a part of a guessed height would replace an outline whose height is known
+        let default_height_m = default_height_m.filter(|_| !tags.is_part());
+        match tags.rise(default_height_m) {
+            Some(rise) if rise.bottom_m < rise.top_m => return Some(rise),
+            Some(_) => self.tally.add("footprints", "they begin no lower than they end"),
+            None if tags.is_part() => {
+                self.tally.add("building:part", "no height of theirs is said, and their outline stands instead");
+            }
+            None => told.without += 1,
+        }
+        None
+    }
+
+    /// Notes which heights are guessed, and which are missing.
+    fn note(&mut self, told: &HeightCounts, default_height_m: Option<f64>) {
+        let &HeightCounts { without, unread, by_levels, by_default, crossing, .. } = told;
+        if by_levels > 0 {
+            let what = format!(
+                "says storeys and no height of {}: they are guessed to be {} m a storey",
+                counted(by_levels, "footprint"),
+                tags::STOREY_M
+            );
+            self.notes.push(message![what; "write their heights in metres as \"height\" where that matters"]);
+        }
+        if let Some(metres) = default_height_m.filter(|_| by_default > 0) {
+            let what = format!("says no height of {}: they are {metres} m high, as ", counted(by_default, "footprint"));
+            self.notes.push(message![what, Field::DefaultHeight, " says"]);
+        }
+        if without > 0 {
+            let what = format!("has {} without a height, left out", counted(without, "footprint"));
+            self.notes.push(message![what; "set ", Field::DefaultHeight, " for them"]);
+        }
+        if unread > 0 {
+            let what = format!("has {} written otherwise than \"12 m\" or \"40'\" are", counted(unread, "height"));
+            self.notes.push(message![what; "write heights in metres"]);
+        }
+        if crossing > 0 {
+            self.notes.push(message![format!(
+                "has {} whose outlines cross themselves, so that their blocks may cover too much or too little",
+                counted(crossing, "footprint")
+            )]);
+        }
+    }
+}
+
+/// What is told of heights, and of how outlines became blocks.
+#[derive(Default)]
+struct HeightCounts {
+    /// Nobody says a height.
+    without: u64,
+    /// One is written that is none.
+    unread: u64,
+    /// Guessed from storeys.
+    by_levels: u64,
+    /// The user's for all.
+    by_default: u64,
+    /// Outlines that cross themselves.
+    crossing: u64,
+    triangles: u64,
+}
+
+/// What a feature is called, and by what else it may be meant.
+fn names_of(tags: &FootprintTags, number: u64, layer: Option<&str>) -> (String, Vec<String>) {
+    let kind = tags.kind().unwrap_or("footprint");
+    let address = tags.address();
+    let numbered = || format!("{kind} {}", tags.id.clone().unwrap_or_else(|| number.to_string()));
+    let name = tags.name.clone().or_else(|| address.clone()).unwrap_or_else(numbered);
+    let aliases =
+        [tags.name.clone(), address, tags.id.clone(), tags.kind().map(str::to_owned), layer.map(str::to_owned)];
+    let part = tags.is_part().then(|| "building:part".to_owned());
+    let mut aliases: Vec<String> = aliases.into_iter().chain([part]).flatten().map(|name| label(&name)).collect();
+    aliases.retain(|alias| !alias.is_empty());
+    (label(&name), aliases)
+}

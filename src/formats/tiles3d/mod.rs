@@ -1,0 +1,65 @@
+//! 3D Tiles: a tileset with its contents, or a content alone. Only the finest tiles stand there.
+//!
+//! What a tile holds is glTF, with its y up; tiles have z up, and bring their contents to where they are on the Earth, whose
+//! centre is zero. The files of this folder, in the order of the flow: `tileset` (JSON → which contents stand where), `b3dm`
+//! (a content's bytes → its glTF), `build` (all of it → parts).
+
+use super::whole::whole_file;
+use super::{Format, Model, ModelFault, ReadOptions, json_head};
+use build::TileBuilder;
+use glam::DMat4;
+use std::path::{Path, PathBuf};
+
+mod b3dm;
+mod build;
+mod tileset;
+
+/// 3D Tiles, `tileset.json` and `.b3dm`.
+pub(super) struct Tiles3d;
+
+impl Format for Tiles3d {
+    fn name(&self) -> &'static str {
+        "3D Tiles"
+    }
+
+    fn endings(&self) -> &'static [&'static str] {
+        &["b3dm", "json"]
+    }
+
+    fn begins(&self, head: &[u8]) -> bool {
+        head.starts_with(b3dm::MAGIC) || ["geometricError", "root"].iter().all(|key| json_head::has_key(head, key))
+    }
+
+    fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+        let bytes = whole_file(path)?;
+        let mut builder = TileBuilder::new(options.told_step);
+        if bytes.starts_with(b3dm::MAGIC) {
+            builder.add(path, &bytes, "", DMat4::IDENTITY, true)?;
+            return builder.finish();
+        }
+        let listed = tileset::contents(path, &bytes)?;
+        for content in &listed.contents {
+            let bytes = match whole_file(&content.path) {
+                Ok(bytes) => bytes,
+                Err(fault) => {
+                    builder.fail(&content.name, &fault);
+                    continue;
+                }
+            };
+            if let Err(fault) = builder.add(&content.path, &bytes, &content.name, content.world, content.is_y_up) {
+                builder.fail(&content.name, &fault);
+            }
+            builder.check_size()?;
+        }
+        builder.finish_with(listed.tally)
+    }
+
+    fn named_by(&self, path: &Path) -> Vec<PathBuf> {
+        let listed = whole_file(path).ok().and_then(|bytes| tileset::contents(path, &bytes).ok());
+        let files = listed.map(|listed| {
+            let contents = listed.contents.into_iter().map(|content| content.path);
+            listed.tilesets.into_iter().chain(contents).collect::<Vec<_>>()
+        });
+        files.unwrap_or_default()
+    }
+}

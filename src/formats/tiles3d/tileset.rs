@@ -1,0 +1,169 @@
+//! The JSON of a tileset, and of those that it names → which contents stand where.
+
+use crate::formats::ModelFault;
+use crate::formats::gltf::percent_decode;
+use crate::formats::left_out::{LeftOutTally, label};
+use crate::formats::whole::{below, whole_file, without_mark};
+use crate::message::{Message, message};
+use glam::DMat4;
+use serde::Deserialize;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// How deep tilesets may name each other.
+const MOST_DEEP: usize = 12;
+
+/// The most contents that stand there, and tiles that are looked at.
+const MOST_CONTENTS: usize = 100_000;
+const MOST_TILES: usize = 1_000_000;
+
+#[derive(Deserialize)]
+struct Tileset {
+    #[serde(default)]
+    asset: TilesetAsset,
+    root: TilesetTile,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct TilesetAsset {
+    /// Of tilesets before 1.0.
+    gltf_up_axis: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct TilesetTile {
+    /// Column by column.
+    transform: Option<[f64; 16]>,
+    refine: Option<String>,
+    content: Option<ContentAddress>,
+    #[serde(default)]
+    contents: Vec<ContentAddress>,
+    #[serde(default)]
+    children: Vec<TilesetTile>,
+    implicit_tiling: Option<Value>,
+    #[serde(default)]
+    extensions: Value,
+}
+
+#[derive(Deserialize)]
+struct ContentAddress {
+    /// Called `url` before 1.0.
+    #[serde(alias = "url")]
+    uri: Option<String>,
+}
+
+/// A content of a tile that stands there.
+pub(super) struct TileContent {
+    pub path: PathBuf,
+    /// Its address, without the ending.
+    pub name: String,
+    pub world: DMat4,
+    /// Whether its glTF has y up, as all but the oldest tilesets have it.
+    pub is_y_up: bool,
+}
+
+/// All contents that stand there.
+#[derive(Default)]
+pub(super) struct TileList {
+    pub contents: Vec<TileContent>,
+    /// Further tilesets.
+    pub tilesets: Vec<PathBuf>,
+    pub tally: LeftOutTally,
+    tiles: usize,
+}
+
+/// The contents of a tileset.
+pub(super) fn contents(path: &Path, bytes: &[u8]) -> Result<TileList, ModelFault> {
+    let mut list = TileList::default();
+    let tileset = parsed(bytes)?;
+    let at =
+        TilesetPlace { folder: path.parent().unwrap_or(Path::new("")), is_y_up: tileset.is_y_up(), deep: MOST_DEEP };
+    list.add(&tileset.root, DMat4::IDENTITY, false, at)?;
+    Ok(list)
+}
+
+fn parsed(bytes: &[u8]) -> Result<Tileset, Message> {
+    serde_json::from_slice(without_mark(bytes)).map_err(|error| match error.classify() {
+        serde_json::error::Category::Eof => message![format!("is cut off ({error})"); "copy or export it again"],
+        _ => message![format!("is no tileset ({error})"); "export it again"],
+    })
+}
+
+impl Tileset {
+    fn is_y_up(&self) -> bool {
+        !self.asset.gltf_up_axis.as_deref().is_some_and(|axis| axis.eq_ignore_ascii_case("z"))
+    }
+}
+
+/// Where a tile is described.
+#[derive(Clone, Copy)]
+struct TilesetPlace<'a> {
+    folder: &'a Path,
+    is_y_up: bool,
+    /// How much deeper tilesets may name each other.
+    deep: usize,
+}
+
+impl TileList {
+    /// Adds a tile and those below it. JSON is nested no deeper than its reader allows.
+    fn add(&mut self, tile: &TilesetTile, around: DMat4, adds: bool, at: TilesetPlace<'_>) -> Result<(), Message> {
+        self.tiles += 1;
+        if self.tiles > MOST_TILES {
+            return Err(message![format!("has more than {MOST_TILES} tiles"); "export a smaller region"]);
+        }
+        let world = tile.transform.map_or(around, |transform| around * DMat4::from_cols_array(&transform));
+        // what a tile does not say, it has from the one around it
+        let adds = tile.refine.as_deref().map_or(adds, |refine| refine.eq_ignore_ascii_case("add"));
+        if tile.implicit_tiling.is_some() || tile.extensions.get("3DTILES_implicit_tiling").is_some() {
+            self.tally.add("implicit tilings", "their tiles are not listed");
+            return Ok(());
+        }
+        for content in tile.content.iter().chain(&tile.contents) {
+            if adds || tile.children.is_empty() {
+                self.add_content(content, world, adds, at)?;
+            } else {
+                self.tally.add("tiles", "finer ones stand instead");
+            }
+        }
+        tile.children.iter().try_for_each(|child| self.add(child, world, adds, at))
+    }
+
+    fn add_content(
+        &mut self,
+        content: &ContentAddress,
+        world: DMat4,
+        adds: bool,
+        at: TilesetPlace<'_>,
+    ) -> Result<(), Message> {
+        let uri = content.uri.as_deref().and_then(|uri| percent_decode(uri.split(['?', '#']).next()?));
+        let Some(path) = uri.as_deref().and_then(|uri| below(at.folder, uri)) else {
+            self.tally.add("contents", "their address does not lie in the tileset's folder");
+            return Ok(());
+        };
+        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
+            return self.add_tileset(&path, world, adds, at);
+        }
+        if self.contents.len() >= MOST_CONTENTS {
+            return Err(message![format!("has more than {MOST_CONTENTS} contents"); "export a smaller region"]);
+        }
+        let name = label(&Path::new(uri.as_deref().unwrap_or_default()).with_extension("").to_string_lossy());
+        self.contents.push(TileContent { path, name, world, is_y_up: at.is_y_up });
+        Ok(())
+    }
+
+    /// A tileset stands where the tile that names it does. One that cannot be read is left out as a content would be.
+    fn add_tileset(&mut self, path: &Path, world: DMat4, adds: bool, at: TilesetPlace<'_>) -> Result<(), Message> {
+        let tileset = (at.deep > 0).then(|| whole_file(path).ok().and_then(|bytes| parsed(&bytes).ok())).flatten();
+        let Some(tileset) = tileset else {
+            let why = if at.deep > 0 { "they cannot be read" } else { "they name each other too often" };
+            self.tally.add("tilesets", why);
+            return Ok(());
+        };
+        self.tilesets.push(path.to_owned());
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let at = TilesetPlace { folder, is_y_up: tileset.is_y_up(), deep: at.deep - 1 };
+        self.add(&tileset.root, world, adds, at)
+    }
+}

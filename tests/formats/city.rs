@@ -1,0 +1,11 @@
+//! City models and footprints. One building is written in each format, and must be read as the same.
+
+mod block;
+mod citygml;
+mod cityjson;
+mod files;
+mod footprints;
+mod mutations;
+mod osm;
+mod shapes;
+mod tiles;
