@@ -39,7 +39,7 @@ impl Format for LandXml {
                     file.open(&start);
                     file.close(start.local_name().as_ref())?;
                 }
-                Event::Text(text) => file.text.push_str(&String::from_utf8_lossy(&text)),
+                Event::Text(text) => file.text.push_str(&&text),
                 Event::End(end) => file.close(end.local_name().as_ref())?,
                 Event::Eof => break,
                 // entities are not expanded: no number has one
@@ -81,39 +81,39 @@ impl LandXmlFile {
     fn open(&mut self, start: &BytesStart) {
         self.text.clear();
         match start.local_name().as_ref() {
-            b"Imperial" | b"Metric" => {
+            "Imperial" | "Metric" => {
                 self.unit_m = attribute(start, "linearUnit").and_then(|unit| unit_m(&unit)).or(self.unit_m);
             }
-            b"CoordinateSystem" => {
+            "CoordinateSystem" => {
                 let code = attribute(start, "epsgCode").filter(|code| !code.is_empty() && code != "0");
                 let code = code.map(|code| format!("EPSG:{}", code.trim_start_matches("EPSG:")));
                 self.crs = code.or_else(|| attribute(start, "ogcWktCode")).or(self.crs.take());
             }
-            b"Surface" => {
+            "Surface" => {
                 let name = attribute(start, "name").unwrap_or_default();
                 self.surface = Some(TinSurface { name: composed(name.trim()).into_owned(), ..TinSurface::default() });
             }
-            b"P" => self.point = attribute(start, "id"),
-            b"F" => self.is_hidden = attribute(start, "i").is_some_and(|hidden| hidden == "1"),
+            "P" => self.point = attribute(start, "id"),
+            "F" => self.is_hidden = attribute(start, "i").is_some_and(|hidden| hidden == "1"),
             _ => (),
         }
     }
 
-    fn close(&mut self, name: &[u8]) -> Result<(), ModelFault> {
+    fn close(&mut self, name: &str) -> Result<(), ModelFault> {
         match (name, &mut self.surface) {
-            (b"P", Some(surface)) => {
+            ("P", Some(surface)) => {
                 if let Some(id) = self.point.take() {
                     surface.point(id, &self.text)?;
                 }
             }
-            (b"F", Some(surface)) => {
+            ("F", Some(surface)) => {
                 if std::mem::take(&mut self.is_hidden) {
                     self.hidden += 1;
                 } else {
                     surface.face(&self.text)?;
                 }
             }
-            (b"Surface", _) => match self.surface.take() {
+            ("Surface", _) => match self.surface.take() {
                 Some(surface) if !surface.triangles.is_empty() => self.surfaces.push(surface),
                 _ => self.without += 1,
             },
@@ -191,7 +191,7 @@ impl TinSurface {
 
 fn attribute(start: &BytesStart, name: &str) -> Option<String> {
     let found = start.try_get_attribute(name).ok()??;
-    Some(String::from_utf8_lossy(&found.value).into_owned())
+    Some(found.value.into_owned())
 }
 
 /// Metres a unit, by LandXML's names of them.

@@ -156,7 +156,19 @@ fn keys(header: &Header) -> GeoKeys {
     let text = |number| record(number).map(|record| String::from_utf8_lossy(&record.data).into_owned());
     let keys = GeoKeys::of(&directory, &text(34737).unwrap_or_default());
     let wkt = text(2112).map(|wkt| wkt.trim_end_matches('\0').trim().to_owned()).filter(|wkt| !wkt.is_empty());
-    GeoKeys { crs: wkt.or(keys.crs.clone()), ..keys }
+    match wkt {
+        Some(wkt) => GeoKeys { height_unit_m: vertical_unit_m(&wkt), crs: Some(wkt), ..keys },
+        None => keys,
+    }
+}
+
+/// Metres a unit of the heights, as WKT says it of its vertical part.
+fn vertical_unit_m(wkt: &str) -> Option<f64> {
+    let vertical = ["VERT_CS[", "VERTCRS["].iter().find_map(|mark| wkt.find(mark).map(|at| &wkt[at..]))?;
+    // UNIT["metre",1 or LENGTHUNIT["metre",1
+    let unit = &vertical[vertical.find("UNIT[")?..];
+    let number = unit.split(',').nth(1)?.trim_end_matches(']').trim();
+    number.parse().ok().filter(|unit| (1e-3..1e4).contains(unit))
 }
 
 fn notes(keys: &GeoKeys, points: &ClassedPoints) -> Vec<Message> {

@@ -2,15 +2,14 @@
 //!
 //! Right-triangulated irregular networks (Evans, Kirkpatrick and Townsend, 2001): squares of the raster are halved along
 //! their diagonal, and each right triangle again from its right angle to the middle of its longest side, until it lies close
-//! enough to the samples in it. Two triangles that share a longest side share the decision to halve it, and what decides is
-//! never less than what decides for the halves, so no crack opens and no corner hangs in a side. Unlike the common form of
-//! it, which looks at the middle of the longest side alone, each triangle is held against all samples in it, so the error
-//! that is asked is a bound.
+//! enough to the samples in it. Two triangles that share a longest side share the decision to halve it, and whoever's halves
+//! are halved is halved, so no crack opens and no corner hangs in a side. Unlike the common form of it, which looks at the
+//! middle of the longest side alone, each triangle is held against all samples in it, so the error that is asked is a bound.
 
 use super::grid::HeightGrid;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How often the side of a square is halved until it is a cell.
 const HALVINGS: usize = 8;
@@ -58,28 +57,28 @@ impl RightTriangle {
     }
 }
 
-/// The squares that cover a raster, and per sample the error of the triangles whose longest side it halves.
+/// The squares that cover a raster, and per sample whether it halves the longest side of triangles.
 struct Squares<'a> {
     grid: &'a HeightGrid,
     /// Squares in a row, and in a column.
     count: [usize; 2],
     /// Samples in a row of all squares.
     width: usize,
-    /// Bits of a number that is not negative, whose order is that of the numbers.
-    errors: Vec<AtomicU32>,
+    halves: Vec<AtomicBool>,
+    error_m: f32,
 }
 
 /// The triangles whose corners lie within `error_m` of a raster's samples, and all samples within that of them.
 pub(super) fn sheet(grid: &HeightGrid, error_m: f32) -> Sheet {
     let count = [grid.columns, grid.rows].map(|samples| samples.saturating_sub(1).div_ceil(SQUARE));
     let [width, height] = count.map(|squares| squares * SQUARE + 1);
-    let errors = (0..width * height).into_par_iter().map(|_| AtomicU32::new(0)).collect();
-    let squares = Squares { grid, count, width, errors };
-    // what decides for a triangle is known when that for its halves is: the smallest first
+    let halves = (0..width * height).into_par_iter().map(|_| AtomicBool::new(false)).collect();
+    let squares = Squares { grid, count, width, halves, error_m };
+    // the smallest first: a triangle is halved where its halves are
     for depth in (0..DEPTH).rev() {
         squares.each_root().into_par_iter().for_each(|root| squares.judge(root, depth));
     }
-    squares.sheet(error_m)
+    squares.sheet()
 }
 
 impl Squares<'_> {
@@ -97,67 +96,71 @@ impl Squares<'_> {
         (0..across * down).flat_map(square).collect()
     }
 
-    fn error(&self, [column, row]: Sample) -> f32 {
-        self.errors.get(row * self.width + column).map_or(0.0, |bits| f32::from_bits(bits.load(Ordering::Relaxed)))
+    fn is_halved(&self, [column, row]: Sample) -> bool {
+        self.halves.get(row * self.width + column).is_some_and(|is_halved| is_halved.load(Ordering::Relaxed))
     }
 
     /// Judges the triangles below a root that have been halved `depth` times.
     fn judge(&self, triangle: RightTriangle, depth: usize) {
+        if self.is_beyond(&triangle) {
+            return;
+        }
         if depth > 0 {
             return triangle.halves().into_iter().for_each(|half| self.judge(half, depth - 1));
         }
-        let mut error = self.deviation(&triangle);
+        // half of a square of two cells has cells for halves, which are not halved
+        let [one, other] = triangle.ends;
+        let has_halved = one[0].abs_diff(other[0]) + one[1].abs_diff(other[1]) > 2
+            && triangle.halves().iter().any(|half| self.is_halved(half.middle()));
         let [column, row] = triangle.middle();
-        // the halves of what has cells for halves are not halved
-        let side = triangle.ends[0][0].abs_diff(triangle.ends[1][0]) + triangle.ends[0][1].abs_diff(triangle.ends[1][1]);
-        if side > 2 {
-            error = triangle.halves().iter().map(|half| self.error(half.middle())).fold(error, f32::max);
-        }
-        if let Some(bits) = self.errors.get(row * self.width + column) {
-            bits.fetch_max(error.to_bits(), Ordering::Relaxed);
+        if (has_halved || self.deviates(&triangle))
+            && let Some(is_halved) = self.halves.get(row * self.width + column)
+        {
+            is_halved.store(true, Ordering::Relaxed);
         }
     }
 
-    /// How far the samples in a triangle lie from its plane at most; infinite where some of them have no height and some do.
-    fn deviation(&self, triangle: &RightTriangle) -> f32 {
-        let [a, b, c] = triangle.corners().map(|[column, row]| [column as i64, row as i64]);
-        let area = cross(a, b, c);
-        let heights = triangle.corners().map(|[column, row]| self.grid.height(column, row));
-        let [low, high] = [0, 1].map(|axis| {
-            let all = [a[axis], b[axis], c[axis]];
-            (all.iter().copied().fold(i64::MAX, i64::min), all.iter().copied().fold(i64::MIN, i64::max))
-        });
-        let (mut most, mut with, mut without) = (0.0_f32, false, false);
-        for row in low.1.min(high.0)..=high.1 {
-            for column in low.0..=low.1 {
-                let at = [column, row];
-                let shares = [cross(b, c, at), cross(c, a, at), cross(a, b, at)];
-                if shares.iter().any(|&share| share.signum() == -area.signum()) {
-                    continue;
-                }
-                let height = self.grid.height(column as usize, row as usize);
-                if height.is_nan() {
-                    without = true;
-                } else {
-                    with = true;
-                    let plane: f32 =
-                        shares.iter().zip(heights).map(|(&share, height)| share as f32 / area as f32 * height).sum();
-                    most = most.max((plane - height).abs());
-                }
-                if with && without {
-                    return f32::INFINITY;
+    /// Whether no sample of the raster lies in a triangle.
+    fn is_beyond(&self, triangle: &RightTriangle) -> bool {
+        let first = |axis: usize| triangle.corners().iter().map(|corner| corner[axis]).min().unwrap_or(0);
+        first(0) >= self.grid.columns || first(1) >= self.grid.rows
+    }
+
+    /// Whether a sample in a triangle lies too far from its plane, or some samples have a height and others none.
+    fn deviates(&self, triangle: &RightTriangle) -> bool {
+        let [a, b, c] = triangle.corners();
+        let [height_a, height_b, height_c] = [a, b, c].map(|[column, row]| self.grid.height(column, row));
+        // the plane's slopes, from the two sides of the right angle, of which each may be any of the two axes
+        let at = |corner: Sample| DVec2::new(corner[0] as f64, corner[1] as f64) - DVec2::new(c[0] as f64, c[1] as f64);
+        let (to_a, to_b) = (at(a), at(b));
+        let [rise_a, rise_b] = [height_a, height_b].map(|height| f64::from(height) - f64::from(height_c));
+        let slope = (to_a * rise_a / to_a.length_squared() + to_b * rise_b / to_b.length_squared()).as_vec2();
+        let has_height = !height_c.is_nan();
+        let rows = [a, b, c].iter().fold((usize::MAX, 0), |(low, high), corner| (low.min(corner[1]), high.max(corner[1])));
+        for row in rows.0..=rows.1 {
+            let (from, to) = columns_of(&[a, b, c], row);
+            let start = height_c + slope.y * (row as f32 - c[1] as f32) - slope.x * c[0] as f32;
+            for column in from..=to {
+                let height = self.grid.height(column, row);
+                let is_far = match has_height && !height.is_nan() {
+                    // a plane that is none, as a corner has no height, is far from all
+                    true => !((start + slope.x * column as f32 - height).abs() <= self.error_m),
+                    false => has_height == height.is_nan(),
+                };
+                if is_far {
+                    return true;
                 }
             }
         }
-        if with { most } else { 0.0 }
+        false
     }
 
-    fn sheet(&self, error_m: f32) -> Sheet {
+    fn sheet(&self) -> Sheet {
         let mut corners = Vec::new();
         for root in self.each_root() {
-            self.gather(root, DEPTH, error_m, &mut corners);
+            self.gather(root, DEPTH, &mut corners);
         }
-        let mut numbers = vec![ABSENT; self.errors.len()];
+        let mut numbers = vec![ABSENT; self.halves.len()];
         let mut sheet = Sheet { positions: Vec::new(), triangles: Vec::with_capacity(corners.len()) };
         for triangle in corners {
             let mut numbered = triangle.map(|[column, row]| {
@@ -177,9 +180,9 @@ impl Squares<'_> {
     }
 
     /// The triangles below one that are close enough, or cannot be halved; without those that have no height.
-    fn gather(&self, triangle: RightTriangle, halvings: usize, error_m: f32, found: &mut Vec<[Sample; 3]>) {
-        if halvings > 0 && self.error(triangle.middle()) > error_m {
-            return triangle.halves().into_iter().for_each(|half| self.gather(half, halvings - 1, error_m, found));
+    fn gather(&self, triangle: RightTriangle, halvings: usize, found: &mut Vec<[Sample; 3]>) {
+        if halvings > 0 && self.is_halved(triangle.middle()) {
+            return triangle.halves().into_iter().for_each(|half| self.gather(half, halvings - 1, found));
         }
         let [a, b, c] = triangle.corners();
         if [a, b, c].iter().all(|&[column, row]| !self.grid.height(column, row).is_nan()) {
@@ -188,7 +191,23 @@ impl Squares<'_> {
     }
 }
 
-/// Twice the area of a triangle of samples.
-fn cross(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+/// The first and the last column of a row that lie in a triangle whose sides are level, upright or at 45°.
+fn columns_of(corners: &[Sample; 3], row: usize) -> (usize, usize) {
+    let mut found = (usize::MAX, 0);
+    for (one, other) in [(0, 1), (1, 2), (2, 0)] {
+        let [one, other] = [corners[one], corners[other]];
+        let (upper, lower) = if one[1] <= other[1] { (one, other) } else { (other, one) };
+        if !(upper[1]..=lower[1]).contains(&row) {
+            continue;
+        }
+        let along = row - upper[1];
+        let each = match lower[1] - upper[1] {
+            0 => [upper[0], lower[0]],
+            _ if upper[0] < lower[0] => [upper[0] + along; 2],
+            _ if upper[0] > lower[0] => [upper[0] - along; 2],
+            _ => [upper[0]; 2],
+        };
+        each.into_iter().for_each(|column| found = (found.0.min(column), found.1.max(column)));
+    }
+    found
 }
