@@ -1,3 +1,4 @@
 //! Readers of model files: what stands in them, and what they leave out.
 
 mod city;
+mod terrain;

@@ -20,6 +20,7 @@ mod names;
 mod rings;
 mod tiles3d;
 mod whole;
+pub mod terrain;
 
 pub use model::{
     Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,
@@ -59,6 +60,11 @@ pub trait Format: Sync {
     /// What is wrong with the file, with the way out.
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault>;
 
+    /// Whether the reader is others' code, which runs in a process of its own with limits.
+    fn is_foreign(&self) -> bool {
+        false
+    }
+
     /// The files that a file names: they lie beside it, and are its user's, whether they are read or not.
     fn named_by(&self, _path: &Path) -> Vec<PathBuf> {
         Vec::new()
@@ -74,6 +80,10 @@ pub const FORMATS: &[&dyn Format] = &[
     &footprints::FlatGeobuf,
     &footprints::Shapefile,
     &footprints::GeoJson,
+    &terrain::GeoTiff,
+    &terrain::LasPoints,
+    &terrain::LandXml,
+    &terrain::AsciiGrid,
 ];
 
 /// The format whose files end as this one's name does.

@@ -155,17 +155,23 @@ pub struct ReadOptions {
     pub told_step: f64,
     /// Metres from the ground to the roof of a footprint whose file says no height.
     pub default_height_m: Option<f64>,
+    /// How far a thinned terrain may lie from its heights, metres.
+    pub terrain_error_m: f64,
+    /// The classes of measured points that stand there beside the ground: `building`, `vegetation`.
+    pub point_classes: Vec<String>,
 }
 
 impl Default for ReadOptions {
     fn default() -> Self {
-        Self { scene: None, told_step: Self::TOLD_M, default_height_m: None }
+        Self { scene: None, told_step: Self::TOLD_M, default_height_m: None, terrain_error_m: Self::TERRAIN_ERROR_M, point_classes: Vec::new() }
     }
 }
 
 impl ReadOptions {
     /// Finer steps are not told, metres: a receiver is judged so far above itself.
     pub const TOLD_M: f64 = 0.001;
+    /// How far a thinned terrain may lie from its heights where nobody says it, metres.
+    pub const TERRAIN_ERROR_M: f64 = 0.1;
 }
 
 /// A model file that cannot be used.

@@ -1,0 +1,80 @@
+//! The keys of a GeoTIFF or of LAS: of which map the coordinates are, and in which unit the heights.
+//!
+//! OGC GeoTIFF 1.1 (19-008r4): the directory is numbers of 16 bits, four a key: its number, where its value lies, how
+//! many, and the value or where it begins.
+
+/// The values of the keys that say where and how high.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct GeoKeys {
+    /// As `EPSG:25832`, or the name of one that has no number.
+    pub crs: Option<String>,
+    /// Metres a unit of height, where it is said.
+    pub height_unit_m: Option<f64>,
+    /// Metres a unit of the map, where it is said.
+    pub map_unit_m: Option<f64>,
+    /// Whether a sample stands for a point, and not for a cell around it.
+    pub is_point: bool,
+}
+
+/// Keys by their numbers.
+const MODEL_TYPE: u16 = 1024;
+const RASTER_TYPE: u16 = 1025;
+const CITATION: u16 = 1026;
+const GEOGRAPHIC: u16 = 2048;
+const PROJECTED: u16 = 3072;
+const PROJECTED_CITATION: u16 = 3073;
+const PROJECTED_UNIT: u16 = 3076;
+const VERTICAL: u16 = 4096;
+const VERTICAL_UNIT: u16 = 4099;
+/// Where texts lie.
+const TEXTS: u16 = 34737;
+/// The value of what the file defines itself.
+const USER_DEFINED: u16 = 32767;
+
+impl GeoKeys {
+    /// Reads a directory and the texts beside it.
+    pub(super) fn of(directory: &[u16], texts: &str) -> GeoKeys {
+        let count = directory.get(3).copied().unwrap_or(0).into();
+        let keys: Vec<[u16; 4]> =
+            directory.get(4..).unwrap_or_default().as_chunks::<4>().0.iter().copied().take(count).collect();
+        let short = |number: u16| keys.iter().find(|key| key[0] == number && key[1] == 0).map(|key| key[3]);
+        let code = |number: u16| short(number).filter(|&code| code != 0 && code != USER_DEFINED);
+        let text = |number: u16| {
+            let [_, _, length, start] = *keys.iter().find(|key| key[0] == number && key[1] == TEXTS)?;
+            let text = texts.get(usize::from(start)..usize::from(start) + usize::from(length))?;
+            Some(text.trim_end_matches(['|', '\0']).trim().to_owned()).filter(|text| !text.is_empty())
+        };
+        let horizontal = match short(MODEL_TYPE) {
+            Some(2) => code(GEOGRAPHIC),
+            _ => code(PROJECTED).or_else(|| code(GEOGRAPHIC).filter(|_| short(PROJECTED).is_none())),
+        };
+        GeoKeys {
+            crs: horizontal
+                .map(|code| format!("EPSG:{code}"))
+                .or_else(|| text(PROJECTED_CITATION))
+                .or_else(|| text(CITATION).filter(|_| short(MODEL_TYPE) == Some(1))),
+            height_unit_m: short(VERTICAL_UNIT).and_then(unit_m).or_else(|| code(VERTICAL).and_then(feet_of)),
+            map_unit_m: short(PROJECTED_UNIT).and_then(unit_m),
+            is_point: short(RASTER_TYPE) == Some(2),
+        }
+    }
+}
+
+/// Metres a unit, of EPSG's numbers of units.
+fn unit_m(code: u16) -> Option<f64> {
+    match code {
+        9001 => Some(1.0),
+        9002 => Some(0.3048),
+        9003 => Some(1200.0 / 3937.0),
+        _ => None,
+    }
+}
+
+/// Metres a unit of the vertical systems that count in feet: NAVD88 in US survey feet and in feet, NGVD29.
+fn feet_of(code: u16) -> Option<f64> {
+    match code {
+        6360 | 5702 => Some(1200.0 / 3937.0),
+        8228 => Some(0.3048),
+        _ => None,
+    }
+}

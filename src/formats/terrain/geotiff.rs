@@ -1,0 +1,179 @@
+//! GeoTIFF elevation: striped, tiled or planar, of any type of number.
+
+use super::geokeys::GeoKeys;
+use super::grid::HeightGrid;
+use super::model_of;
+use crate::formats::{Format, Model, ModelFault, ReadOptions, whole::{stem, whole_file}};
+use crate::message::{Message, message};
+use glam::DVec2;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+use tiff::TiffError;
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+
+/// Tags of GeoTIFF, and GDAL's of cells without a height.
+const PIXEL_SCALE: Tag = Tag::Unknown(33550);
+const TIE_POINT: Tag = Tag::Unknown(33922);
+const TRANSFORMATION: Tag = Tag::Unknown(34264);
+const KEY_DIRECTORY: Tag = Tag::Unknown(34735);
+const KEY_TEXTS: Tag = Tag::Unknown(34737);
+const NO_DATA: Tag = Tag::Unknown(42113);
+
+/// `.tif` of heights.
+pub struct GeoTiff;
+
+type Tiff = Decoder<BufReader<File>>;
+
+impl Format for GeoTiff {
+    fn name(&self) -> &'static str {
+        "GeoTIFF"
+    }
+
+    fn endings(&self) -> &'static [&'static str] {
+        &["tif", "tiff"]
+    }
+
+    fn begins(&self, head: &[u8]) -> bool {
+        [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|mark| head.starts_with(*mark))
+    }
+
+    fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+        let file = BufReader::new(File::open(path).map_err(ModelFault::unreadable)?);
+        let mut limits = Limits::default();
+        limits.decoding_buffer_size = 1 << 30;
+        limits.intermediate_buffer_size = 1 << 30;
+        limits.ifd_value_size = 1 << 26;
+        let mut tiff = Decoder::new(file).map_err(damaged)?.with_limits(limits);
+        let (columns, rows) = tiff.dimensions().map_err(damaged)?;
+        let count = HeightGrid::counted(columns.into(), rows.into())?;
+        let keys = keys(&mut tiff);
+        let (first, steps) = placed(&mut tiff, &keys, path)?;
+        let mut heights = heights(&mut tiff, [columns, rows], count)?;
+        let mut notes = Vec::new();
+        let no_data = no_data(&mut tiff, &heights, &mut notes);
+        let unit_m = unit(&keys, &mut notes);
+        for height in &mut heights {
+            let is_none = no_data.is_some_and(|none| *height == none) || !height.is_finite() || height.abs() > 1e6;
+            *height = if is_none { f32::NAN } else { *height * unit_m as f32 };
+        }
+        let grid = HeightGrid { columns: columns as usize, rows: rows as usize, heights, first, steps };
+        let mut model = model_of(&grid, options.terrain_error_m, &stem(path), keys.crs)?;
+        model.notes.extend(notes);
+        Ok(model)
+    }
+}
+
+fn keys(tiff: &mut Tiff) -> GeoKeys {
+    let directory = tiff.get_tag_u16_vec(KEY_DIRECTORY).unwrap_or_default();
+    let texts = tiff.get_tag_ascii_string(KEY_TEXTS).unwrap_or_default();
+    GeoKeys::of(&directory, &texts)
+}
+
+/// Where the middle of the first cell lies, and the steps to its neighbours.
+fn placed(tiff: &mut Tiff, keys: &GeoKeys, path: &Path) -> Result<(DVec2, [DVec2; 2]), ModelFault> {
+    let numbers = |tiff: &mut Tiff, tag| tiff.get_tag_f64_vec(tag).unwrap_or_default();
+    let middle = if keys.is_point { 0.0 } else { 0.5 };
+    let (scale, ties) = (numbers(tiff, PIXEL_SCALE), numbers(tiff, TIE_POINT));
+    let found = if let ([dx, dy, ..], [column, row, _, x, y, ..]) = (&scale[..], &ties[..]) {
+        let steps = [DVec2::new(*dx, 0.0), DVec2::new(0.0, -dy)];
+        Some((DVec2::new(*x, *y) + steps[0] * (middle - column) + steps[1] * (middle - row), steps))
+    } else if let [a, b, _, x, c, d, _, y, ..] = numbers(tiff, TRANSFORMATION)[..] {
+        let steps = [DVec2::new(a, c), DVec2::new(b, d)];
+        Some((DVec2::new(x, y) + (steps[0] + steps[1]) * middle, steps))
+    } else {
+        world_file(path)
+    };
+    let is_usable = |(first, [across, down]): &(DVec2, [DVec2; 2])| {
+        first.is_finite() && across.is_finite() && down.is_finite() && across.perp_dot(*down) != 0.0
+    };
+    found.filter(is_usable).ok_or_else(|| {
+        message![
+            "does not say where it lies, so it is a picture and no terrain";
+            "export it as GeoTIFF with its coordinates, or put its world file (.tfw) beside it"
+        ]
+        .into()
+    })
+}
+
+/// Where a `.tfw` beside it says that it lies: the steps, then the middle of the first cell.
+fn world_file(path: &Path) -> Option<(DVec2, [DVec2; 2])> {
+    let text = String::from_utf8(whole_file(&path.with_extension("tfw")).ok()?).ok()?;
+    let numbers: Vec<f64> = text.split_ascii_whitespace().filter_map(|word| word.parse().ok()).collect();
+    let [a, c, b, d, x, y] = numbers[..] else { return None };
+    Some((DVec2::new(x, y), [DVec2::new(a, c), DVec2::new(b, d)]))
+}
+
+/// The numbers of the first band, row after row.
+fn heights(tiff: &mut Tiff, [columns, rows]: [u32; 2], count: usize) -> Result<Vec<f32>, ModelFault> {
+    let (chunk_width, chunk_height) = tiff.chunk_dimensions();
+    if chunk_width == 0 || chunk_height == 0 {
+        return Err(message!["has tiles of no size"; "export it again"].into());
+    }
+    let mut heights = vec![f32::NAN; count];
+    let across = columns.div_ceil(chunk_width);
+    let chunks = u64::from(across) * u64::from(rows.div_ceil(chunk_height));
+    for chunk in 0..u32::try_from(chunks).unwrap_or(u32::MAX) {
+        let numbers = numbers(tiff.read_chunk(chunk).map_err(damaged)?);
+        let (width, height) = tiff.chunk_data_dimensions(chunk);
+        let cells = u64::from(width) * u64::from(height);
+        // where bands lie between each other, the first of each cell's numbers is the height
+        let bands = (numbers.len() as u64 / cells.max(1)).max(1) as usize;
+        let [west, north] = [chunk % across * chunk_width, chunk / across * chunk_height];
+        for (row, line) in numbers.chunks_exact(width as usize * bands).take(height as usize).enumerate() {
+            let start = (north as usize + row) * columns as usize + west as usize;
+            let target = heights.get_mut(start..).unwrap_or_default();
+            target.iter_mut().zip(line.iter().step_by(bands)).take(width as usize).for_each(|(to, from)| *to = *from);
+        }
+    }
+    Ok(heights)
+}
+
+fn numbers(read: DecodingResult) -> Vec<f32> {
+    macro_rules! all {
+        ($($kind:ident),+) => {
+            match read {
+                DecodingResult::F32(numbers) => numbers,
+                DecodingResult::F16(numbers) => numbers.into_iter().map(f32::from).collect(),
+                $(DecodingResult::$kind(numbers) => numbers.into_iter().map(|number| number as f32).collect(),)+
+            }
+        };
+    }
+    all!(U8, U16, U32, U64, F64, I8, I16, I32, I64)
+}
+
+/// The number that stands for no height: what the file says, else the most usual where it stands there.
+fn no_data(tiff: &mut Tiff, heights: &[f32], notes: &mut Vec<Message>) -> Option<f32> {
+    if let Ok(text) = tiff.get_tag_ascii_string(NO_DATA) {
+        return text.trim_end_matches('\0').trim().parse::<f64>().ok().map(|number| number as f32);
+    }
+    // no ground is so low; who writes such a number means none
+    let found = [-9999.0, -32768.0, -32767.0].into_iter().find(|none| heights.contains(none))?;
+    notes.push(format!("does not say which number stands for no height; {found} is taken for it").into());
+    Some(found)
+}
+
+/// Metres a unit of height.
+fn unit(keys: &GeoKeys, notes: &mut Vec<Message>) -> f64 {
+    match (keys.height_unit_m, keys.map_unit_m) {
+        (Some(unit), _) => unit,
+        (None, Some(unit)) if unit != 1.0 => {
+            notes.push("does not say the unit of its heights; they are taken as feet, as its coordinates are".to_owned().into());
+            unit
+        }
+        _ => {
+            notes.push("does not say the unit of its heights; they are taken as metres".to_owned().into());
+            1.0
+        }
+    }
+}
+
+fn damaged(error: TiffError) -> ModelFault {
+    let hint = match error {
+        TiffError::UnsupportedError(_) => "export it uncompressed or with DEFLATE (gdal_translate -co COMPRESS=DEFLATE)",
+        TiffError::LimitsExceeded => "export it in smaller tiles (gdal_translate -co TILED=YES)",
+        _ => "copy or export it again",
+    };
+    message![format!("cannot be read as GeoTIFF ({error})"); hint].into()
+}

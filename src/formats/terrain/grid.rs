@@ -1,0 +1,65 @@
+//! Heights on a raster.
+
+use super::{MAX_SAMPLES, too_many};
+use crate::formats::ModelFault;
+use glam::{DVec2, DVec3};
+
+/// Heights on a raster, row after row.
+pub(super) struct HeightGrid {
+    pub columns: usize,
+    pub rows: usize,
+    /// Metres; NaN where there is none.
+    pub heights: Vec<f32>,
+    /// Where the first sample lies, in the file's coordinates.
+    pub first: DVec2,
+    /// From one sample to the next of its row, and from one row to the next.
+    pub steps: [DVec2; 2],
+}
+
+impl HeightGrid {
+    /// How many samples a raster has, where that is not too many and not too few.
+    pub(super) fn counted(columns: u64, rows: u64) -> Result<usize, ModelFault> {
+        match columns.checked_mul(rows) {
+            Some(count) if count <= MAX_SAMPLES => usize::try_from(count).map_err(|_| too_many(columns, rows)),
+            _ => Err(too_many(columns, rows)),
+        }
+    }
+
+    /// The height at a sample; NaN where there is none, and beyond the raster.
+    pub(super) fn height(&self, column: usize, row: usize) -> f32 {
+        if column >= self.columns {
+            return f32::NAN;
+        }
+        self.heights.get(row * self.columns + column).copied().unwrap_or(f32::NAN)
+    }
+
+    /// Where a sample stands.
+    pub(super) fn point(&self, column: usize, row: usize) -> DVec3 {
+        let at = self.first + self.steps[0] * column as f64 + self.steps[1] * row as f64;
+        at.extend(self.height(column, row).into())
+    }
+
+    /// How far apart the samples are, for a message.
+    pub(super) fn spacing(&self, is_of_map: bool) -> String {
+        let [across, down] = self.steps.map(|step| step.length());
+        let unit = match is_of_map {
+            // degrees, most likely
+            true if across.max(down) < 0.01 => "units of its map",
+            _ => "m",
+        };
+        let [across, down] = [across, down].map(rounded);
+        if across == down { format!("{across} {unit} apart") } else { format!("{across} × {down} {unit} apart") }
+    }
+
+    /// Whether the rows run so that the triangles of [`super::thin`] must be turned over to look up.
+    pub(super) fn is_mirrored(&self) -> bool {
+        self.steps[0].perp_dot(self.steps[1]) < 0.0
+    }
+}
+
+/// Three digits are enough for people.
+fn rounded(number: f64) -> f64 {
+    let digits = (2 - number.abs().log10().floor() as i32).clamp(0, 12);
+    let power = 10_f64.powi(digits);
+    (number * power).round() / power
+}

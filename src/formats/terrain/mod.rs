@@ -1,0 +1,90 @@
+//! Terrain: heights on a raster, measured points, and triangulated surfaces → sheets of triangles that are the ground.
+//!
+//! Rasters and points become a [`HeightGrid`], which [`thin`] turns into triangles that lie nowhere further from the heights
+//! than is asked. LandXML gives its triangles itself.
+
+mod ascii_grid;
+mod geokeys;
+mod geotiff;
+mod grid;
+mod landxml;
+mod points;
+mod point_cells;
+mod thin;
+
+pub use ascii_grid::AsciiGrid;
+pub use geotiff::GeoTiff;
+pub use landxml::LandXml;
+pub use points::LasPoints;
+
+use super::{Coordinates, Model, ModelFault, PartKind, Up};
+use crate::mesh::Part;
+use crate::message::message;
+use glam::DVec3;
+use grid::HeightGrid;
+
+/// The most samples that a raster may have: 10,000 to a side.
+const MAX_SAMPLES: u64 = 100_000_000;
+
+/// What a raster of heights gives: one part, thinned; `name` says what people call it.
+fn model_of(grid: &HeightGrid, error_m: f64, name: &str, crs: Option<String>) -> Result<Model, ModelFault> {
+    let sheet = thin::sheet(grid, error_m as f32);
+    let mut notes = Vec::new();
+    let samples = grid.heights.len();
+    let missing = grid.heights.iter().filter(|height| height.is_nan()).count();
+    notes.push(
+        message![
+            format!(
+                "has {} heights {}, thinned to {} triangles that lie within {error_m} m of them",
+                samples - missing,
+                grid.spacing(crs.is_some()),
+                sheet.triangles.len(),
+            );
+            "`terrain_error` under [[model]] says how close"
+        ],
+    );
+    if missing > 0 {
+        notes.push(format!("has {missing} cells without a height, where there is no terrain").into());
+    }
+    if crs.is_none() {
+        notes.push(message![
+            "does not say of which map its coordinates are, so they are taken as metres from the place";
+            "write `crs = \"EPSG:…\"` under [[model]]"
+        ]);
+    }
+    Ok(of_sheets(vec![(name.to_owned(), sheet.positions, sheet.triangles, PartKind::Terrain)], crs, notes))
+}
+
+/// What one sheet is: its name, corners, triangles and kind.
+type NamedSheet = (String, Vec<DVec3>, Vec<[u32; 3]>, PartKind);
+
+/// A model of sheets, in the coordinates of a map where one is known.
+fn of_sheets(sheets: Vec<NamedSheet>, crs: Option<String>, notes: Vec<crate::message::Message>) -> Model {
+    let kinds = sheets.iter().map(|(.., kind)| *kind).collect();
+    let parts = sheets.into_iter().map(|(name, positions, triangles, _)| Part {
+        aliases: vec![name.clone()],
+        name,
+        positions,
+        triangles,
+        ..Part::default()
+    });
+    Model {
+        parts: parts.collect(),
+        kinds,
+        up: Up::Z,
+        up_is_said: true,
+        unit_m: Some(1.0),
+        coordinates: crs.map_or(Coordinates::Local, Coordinates::Map),
+        notes,
+        ..Model::default()
+    }
+}
+
+/// That a raster is larger than anyone can study.
+fn too_many(columns: u64, rows: u64) -> ModelFault {
+    message![
+        format!("has {columns} × {rows} heights, and a terrain may have {MAX_SAMPLES}");
+        "cut it to the surroundings of the place in a GIS, or export it with larger cells"
+    ]
+    .into()
+}

@@ -1,0 +1,196 @@
+//! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation stand there if asked.
+
+use super::geokeys::GeoKeys;
+use super::point_cells::{CellBlocks, PointCells};
+use super::{NamedSheet, of_sheets, thin};
+use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions, whole::{stem, whole_file}};
+use crate::message::{Message, message};
+use glam::DVec3;
+use las::{Header, PointData, Reader};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// `.las`, `.laz` and COPC.
+pub struct LasPoints;
+
+/// The most points that are read.
+const MAX_POINTS: u64 = 100_000_000;
+/// Points that are read in one go.
+const AT_ONCE: u64 = 1 << 20;
+
+/// Of points on the ground, and on key points of it (ASPRS LAS 1.4-R15, table 17).
+const GROUND: [u8; 2] = [2, 8];
+/// Points that are errors, low or high.
+const NOISE: [u8; 2] = [7, 18];
+
+/// Classes that can be asked, with their numbers.
+pub(super) const CLASSES: &[(&str, &[u8])] =
+    &[("building", &[6]), ("vegetation", &[3, 4, 5]), ("bridge", &[17]), ("water", &[9])];
+
+impl Format for LasPoints {
+    fn name(&self) -> &'static str {
+        "LAS or LAZ"
+    }
+
+    fn endings(&self) -> &'static [&'static str] {
+        &["las", "laz"]
+    }
+
+    fn begins(&self, head: &[u8]) -> bool {
+        head.starts_with(b"LASF")
+    }
+
+    fn is_foreign(&self) -> bool {
+        true
+    }
+
+    fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+        let file = BufReader::new(File::open(path).map_err(ModelFault::unreadable)?);
+        let mut reader = Reader::new(file).map_err(damaged)?;
+        let keys = keys(reader.header());
+        let unit_m = keys.height_unit_m.or(keys.map_unit_m).unwrap_or(1.0);
+        let points = ClassedPoints::read(&mut reader, unit_m)?;
+        let name = stem(path);
+        let mut notes = notes(&keys, &points);
+        let (ground, is_classified) = points.ground()?;
+        let cells = PointCells::of(&ground, is_classified)?;
+        notes.extend(cells.notes(is_classified));
+        let sheet = thin::sheet(&cells.grid, options.terrain_error_m as f32);
+        let mut sheets: Vec<NamedSheet> =
+            vec![(format!("{name}/ground"), sheet.positions, sheet.triangles, PartKind::Terrain)];
+        let mut left_out = Vec::new();
+        for (class, numbers) in CLASSES {
+            let of_class = points.of_classes(numbers);
+            if of_class.is_empty() {
+                continue;
+            }
+            if !options.point_classes.iter().any(|asked| asked == class) {
+                let why = format!("`classes = [\"{class}\"]` under [[model]] lets them stand there");
+                left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
+                continue;
+            }
+            let CellBlocks { positions, triangles } = cells.blocks(&of_class);
+            sheets.push((format!("{name}/{class}"), positions, triangles, PartKind::Building));
+        }
+        let other = points.others();
+        if other > 0 {
+            let why = "they are neither ground nor of a class that can be asked".to_owned();
+            left_out.push(LeftOut { what: "points of other classes".into(), count: other, why });
+        }
+        let mut model = of_sheets(sheets, keys.crs, notes);
+        for part in &mut model.parts {
+            // by the class alone, too
+            let class = part.name.rsplit('/').next().unwrap_or_default().to_owned();
+            part.aliases.extend([class, name.clone()]);
+        }
+        model.left_out = left_out;
+        Ok(model)
+    }
+}
+
+/// Points by their classes, in the file's coordinates, heights in metres.
+struct ClassedPoints {
+    by_class: BTreeMap<u8, Vec<DVec3>>,
+}
+
+impl ClassedPoints {
+    fn read(reader: &mut Reader, unit_m: f64) -> Result<ClassedPoints, ModelFault> {
+        let count = reader.header().number_of_points();
+        if count > MAX_POINTS {
+            let what = format!("has {count} points, and a model may have {MAX_POINTS}");
+            return Err(message![what; "cut it to the surroundings of the place, or thin its points"].into());
+        }
+        let mut by_class = BTreeMap::<u8, Vec<DVec3>>::new();
+        let mut read = 0;
+        // what a header claims is not believed: memory is taken as points come
+        while read < count {
+            let points: PointData = reader.read_points(AT_ONCE.min(count - read)).map_err(damaged)?;
+            if points.is_empty() {
+                let what = format!("is cut off: it has {read} of {count} points");
+                return Err(message![what; "copy or export it again"].into());
+            }
+            read += points.len() as u64;
+            for (((x, y), z), class) in points.x().zip(points.y()).zip(points.z()).zip(points.classification()) {
+                let point = DVec3::new(x, y, z * unit_m);
+                if point.is_finite() && !NOISE.contains(&class) {
+                    by_class.entry(class).or_default().push(point);
+                }
+            }
+        }
+        Ok(ClassedPoints { by_class })
+    }
+
+    fn of_classes(&self, classes: &[u8]) -> Vec<DVec3> {
+        classes.iter().filter_map(|class| self.by_class.get(class)).flatten().copied().collect()
+    }
+
+    /// The points on the ground, and whether they are classified as such; else all points.
+    fn ground(&self) -> Result<(Vec<DVec3>, bool), ModelFault> {
+        let ground = self.of_classes(&GROUND);
+        if !ground.is_empty() {
+            return Ok((ground, true));
+        }
+        let all: Vec<DVec3> = self.by_class.values().flatten().copied().collect();
+        if all.is_empty() {
+            return Err(message!["has no points"; "export it again"].into());
+        }
+        Ok((all, false))
+    }
+
+    /// How many points are neither ground nor of a class that can be asked.
+    fn others(&self) -> u64 {
+        let is_asked = |class: &u8| GROUND.contains(class) || CLASSES.iter().any(|(_, of)| of.contains(class));
+        self.by_class.iter().filter(|(class, _)| !is_asked(class)).map(|(_, points)| points.len() as u64).sum()
+    }
+}
+
+/// Of which map the points are: as WKT says it where there is one, else GeoTIFF's keys.
+fn keys(header: &Header) -> GeoKeys {
+    let record = |number: u16| {
+        header.all_vlrs().find(|record| record.record_id == number && record.user_id == "LASF_Projection")
+    };
+    let shorts = |bytes: &[u8]| bytes.as_chunks::<2>().0.iter().map(|pair| u16::from_le_bytes(*pair)).collect();
+    let directory: Vec<u16> = record(34735).map(|record| shorts(&record.data)).unwrap_or_default();
+    let text = |number| record(number).map(|record| String::from_utf8_lossy(&record.data).into_owned());
+    let keys = GeoKeys::of(&directory, &text(34737).unwrap_or_default());
+    let wkt = text(2112).map(|wkt| wkt.trim_end_matches('\0').trim().to_owned()).filter(|wkt| !wkt.is_empty());
+    match wkt {
+        Some(wkt) => GeoKeys { height_unit_m: vertical_unit_m(&wkt), crs: Some(wkt), ..keys },
+        None => keys,
+    }
+}
+
+/// Metres a unit of the heights, as WKT says it of its vertical part.
+fn vertical_unit_m(wkt: &str) -> Option<f64> {
+    let vertical = ["VERT_CS[", "VERTCRS["].iter().find_map(|mark| wkt.find(mark).map(|at| &wkt[at..]))?;
+    // UNIT["metre",1 or LENGTHUNIT["metre",1
+    let unit = &vertical[vertical.find("UNIT[")?..];
+    let number = unit.split(',').nth(1)?.trim_end_matches(']').trim();
+    number.parse().ok().filter(|unit| (1e-3..1e4).contains(unit))
+}
+
+fn notes(keys: &GeoKeys, points: &ClassedPoints) -> Vec<Message> {
+    let mut notes = Vec::new();
+    if keys.crs.is_none() {
+        notes.push(message![
+            "does not say of which map its coordinates are, so they are taken as metres from the place";
+            "write `crs = \"EPSG:…\"` under [[model]]"
+        ]);
+    }
+    match (keys.height_unit_m, keys.map_unit_m) {
+        (Some(_), _) => (),
+        (None, Some(unit)) if unit != 1.0 => {
+            notes.push("does not say the unit of its heights; they are taken as feet, as its coordinates are".to_owned().into());
+        }
+        _ => notes.push("does not say the unit of its heights; they are taken as metres".to_owned().into()),
+    }
+    let count: usize = points.by_class.values().map(Vec::len).sum();
+    notes.push(format!("has {count} points").into());
+    notes
+}
+
+fn damaged(error: las::Error) -> ModelFault {
+    message![format!("cannot be read as LAS or LAZ ({error})"); "copy or export it again"].into()
+}

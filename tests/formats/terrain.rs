@@ -1,0 +1,334 @@
+//! Terrain: rasters are thinned within what is asked, and every form of it lies where its file says.
+
+use glam::{DVec2, DVec3};
+use gnomon::formats::{self, Coordinates, Model, PartKind, ReadOptions};
+use gnomon::mesh::Part;
+use std::fmt::Write as _;
+use std::path::Path;
+use tiff::encoder::{TiffEncoder, colortype};
+use tiff::tags::Tag;
+
+const COLUMNS: usize = 70;
+const ROWS: usize = 45;
+
+/// Hills, and a lake without heights.
+fn height(column: usize, row: usize) -> Option<f64> {
+    let (x, y) = (column as f64, row as f64);
+    let is_lake = (x - 40.0).powi(2) + (y - 20.0).powi(2) < 36.0;
+    (!is_lake).then(|| 100.0 + 8.0 * (x / 9.0).sin() * (y / 13.0).cos() + if column > 55 { 5.0 } else { 0.0 })
+}
+
+fn ascii_grid(head: &str) -> String {
+    let mut text = head.to_owned();
+    for row in 0..ROWS {
+        for column in 0..COLUMNS {
+            write!(text, "{} ", height(column, row).map_or(-9999.0, |height| (height * 100.0).round() / 100.0)).unwrap();
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn head() -> String {
+    format!("ncols {COLUMNS}\nnrows {ROWS}\nxllcorner 1000\nyllcorner 2000\ncellsize 2\nNODATA_value -9999\n")
+}
+
+fn read(name: &str, bytes: impl AsRef<[u8]>, options: &ReadOptions) -> Result<Model, String> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, bytes).unwrap();
+    formats::read(&path, options).map_err(|error| error.fault.to_string())
+}
+
+fn notes(model: &Model) -> String {
+    model.notes.iter().map(|note| format!("{note}\n")).collect()
+}
+
+/// The height of a sheet above a point of its plan.
+fn above(part: &Part, at: DVec2) -> Option<f64> {
+    part.triangles.iter().find_map(|triangle| {
+        let [a, b, c] = triangle.map(|corner| part.positions[corner as usize]);
+        let area = (b - a).truncate().perp_dot((c - a).truncate());
+        let share = |one: DVec3, other: DVec3| (one.truncate() - at).perp_dot(other.truncate() - at) / area;
+        let shares = [share(b, c), share(c, a), share(a, b)];
+        shares.iter().all(|share| *share >= -1e-9).then(|| shares[0] * a.z + shares[1] * b.z + shares[2] * c.z)
+    })
+}
+
+/// Where a sample of the test's raster stands, as its head says.
+fn place(column: usize, row: usize) -> DVec2 {
+    DVec2::new(1001.0 + 2.0 * column as f64, 2001.0 + 2.0 * (ROWS - 1 - row) as f64)
+}
+
+#[test]
+fn every_height_lies_within_the_error_that_is_asked() {
+    for error in [0.0, 0.05, 0.5, 3.0] {
+        let options = ReadOptions { terrain_error_m: error, ..ReadOptions::default() };
+        let model = read("hills.asc", ascii_grid(&head()), &options).unwrap();
+        let part = &model.parts[0];
+        let mut farthest = 0.0_f64;
+        for row in 0..ROWS {
+            for column in 0..COLUMNS {
+                let found = above(part, place(column, row));
+                match height(column, row) {
+                    Some(height) if found.is_some() => farthest = farthest.max((height - found.unwrap()).abs()),
+                    // a cell whose neighbours have no heights may stand alone
+                    Some(_) => assert!(is_by_the_lake(column, row), "{column} {row}"),
+                    None => assert!(found.is_none(), "the lake has no ground: {column} {row}"),
+                }
+            }
+        }
+        // heights are written to the centimetre, and kept in single precision
+        assert!(farthest <= error + 0.0051, "{farthest} of {error}");
+        let full = 2 * (COLUMNS - 1) * (ROWS - 1);
+        assert_eq!(part.triangles.len() < full / 2, error >= 0.5, "{} of {full} at {error}", part.triangles.len());
+    }
+}
+
+fn is_by_the_lake(column: usize, row: usize) -> bool {
+    (-1..=1).any(|across| {
+        (-1..=1).any(|down| height(column.wrapping_add_signed(across), row.wrapping_add_signed(down)).is_none())
+    })
+}
+
+/// A sheet has no cracks: no corner lies within another triangle's side.
+#[test]
+fn thinned_sheets_have_no_cracks_and_look_up() {
+    for error in [0.05, 0.5] {
+        let options = ReadOptions { terrain_error_m: error, ..ReadOptions::default() };
+        let model = read("hills.asc", ascii_grid(&head()), &options).unwrap();
+        let part = &model.parts[0];
+        for triangle in &part.triangles {
+            let corners = triangle.map(|corner| part.positions[corner as usize].truncate());
+            assert!((corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) > 0.0, "it looks up");
+            for side in 0..3 {
+                let (from, to) = (corners[side], corners[(side + 1) % 3]);
+                let inside = |point: &DVec3| {
+                    let along = (point.truncate() - from).dot(to - from) / (to - from).length_squared();
+                    let off = (point.truncate() - from).perp_dot(to - from).abs();
+                    off < 1e-6 && along > 1e-6 && along < 1.0 - 1e-6
+                };
+                assert!(!part.positions.iter().any(inside), "a corner hangs in a side from {from} to {to}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_grid_is_terrain_where_its_head_says() {
+    let model = read("hills.asc", ascii_grid(&head()), &ReadOptions::default()).unwrap();
+    assert_eq!((model.kind(0), model.coordinates.clone()), (PartKind::Terrain, Coordinates::Local));
+    assert!(notes(&model).contains("113 cells without a height"), "{}", notes(&model));
+    assert!(notes(&model).contains("does not say of which map"), "{}", notes(&model));
+    let centre = head().replace("xllcorner", "xllcenter").replace("yllcorner", "yllcenter");
+    let moved = read("hills.asc", ascii_grid(&centre), &ReadOptions::default()).unwrap();
+    let low = |model: &Model| model.parts[0].positions.iter().fold(DVec3::INFINITY, |low, point| low.min(*point));
+    assert_eq!((low(&model).truncate() - low(&moved).truncate()), DVec2::ONE, "half a cell");
+    assert_eq!(low(&model).truncate(), DVec2::new(1001.0, 2001.0));
+}
+
+#[test]
+fn a_damaged_grid_is_refused() {
+    let text = ascii_grid(&head());
+    let refused = |text: &str| read("hills.asc", text, &ReadOptions::default()).expect_err("it is damaged");
+    assert!(refused(&text[..text.len() / 2]).contains("cut off"));
+    assert!(refused(&format!("{text} 1")).contains("more than"));
+    assert!(refused(&text.replace("nrows 45", "nrows 4000000000")).contains("a terrain may have"));
+    assert!(refused(&text.replace("nrows 45", "nrows 100000")).contains("cut off"));
+    assert!(refused(&text.replacen("cellsize 2", "cellsize 0", 1)).contains("cells of 0"));
+    assert!(refused(&text.replace("cellsize 2\n", "")).contains("cellsize"));
+    assert!(refused("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 x 4").contains("\"x\""));
+}
+
+/// GeoTIFF of the hills: what lies beside the numbers.
+struct Tags<'a> {
+    keys: &'a [u16],
+    no_data: Option<&'a str>,
+    rows_per_strip: u32,
+}
+
+fn geotiff(tags: &Tags, number: impl Fn(Option<f64>) -> f32) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut tiff = TiffEncoder::new(&mut bytes).unwrap();
+    let mut image = tiff.new_image::<colortype::Gray32Float>(COLUMNS as u32, ROWS as u32).unwrap();
+    image.rows_per_strip(tags.rows_per_strip).unwrap();
+    let directory = image.encoder();
+    directory.write_tag(Tag::Unknown(33550), &[2.0, 2.0, 0.0][..]).unwrap();
+    let north = 2000.0 + 2.0 * ROWS as f64;
+    directory.write_tag(Tag::Unknown(33922), &[0.0, 0.0, 0.0, 1000.0, north, 0.0][..]).unwrap();
+    directory.write_tag(Tag::Unknown(34735), tags.keys).unwrap();
+    if let Some(none) = tags.no_data {
+        directory.write_tag(Tag::Unknown(42113), none).unwrap();
+    }
+    let numbers: Vec<f32> = (0..COLUMNS * ROWS).map(|at| number(height(at % COLUMNS, at / COLUMNS))).collect();
+    image.write_data(&numbers).unwrap();
+    bytes.into_inner()
+}
+
+/// Projected, cells, EPSG:25832, heights in metres.
+const METRES: [u16; 20] = [1, 1, 0, 4, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 25832, 4099, 0, 1, 9001];
+
+#[test]
+fn a_geotiff_lies_where_its_tags_say() {
+    let plain = read("hills.asc", ascii_grid(&head()), &ReadOptions::default()).unwrap();
+    for (no_data, rows_per_strip) in [(Some("-1"), 7), (None, 45)] {
+        let none = no_data.map_or(-9999.0, |none: &str| none.parse().unwrap());
+        let tags = Tags { keys: &METRES, no_data, rows_per_strip };
+        let bytes = geotiff(&tags, |height| height.map_or(none, |height| ((height * 100.0).round() / 100.0) as f32));
+        let model = read("hills.tif", bytes, &ReadOptions::default()).unwrap();
+        assert_eq!(model.coordinates, Coordinates::Map("EPSG:25832".to_owned()));
+        assert_eq!(model.parts[0].triangles, plain.parts[0].triangles);
+        assert_eq!(model.parts[0].positions, plain.parts[0].positions);
+        assert_eq!(notes(&model).contains("does not say which number"), no_data.is_none(), "{}", notes(&model));
+    }
+    // of points: half a cell further to the north-west
+    let mut keys = METRES;
+    keys[11] = 2;
+    let bytes = geotiff(&Tags { keys: &keys, no_data: Some("-1"), rows_per_strip: 9 }, |height| height.unwrap_or(-1.0) as f32);
+    let model = read("hills.tif", bytes, &ReadOptions::default()).unwrap();
+    let low = |model: &Model| model.parts[0].positions.iter().fold(DVec3::INFINITY, |low, point| low.min(*point));
+    assert_eq!(low(&model).truncate() - low(&plain).truncate(), DVec2::new(-1.0, 1.0));
+}
+
+#[test]
+fn heights_in_feet_become_metres() {
+    let mut keys = METRES;
+    keys[19] = 9003;
+    let bytes = geotiff(&Tags { keys: &keys, no_data: Some("-1"), rows_per_strip: 9 }, |height| {
+        height.map_or(-1.0, |height| (height * 3937.0 / 1200.0) as f32)
+    });
+    let model = read("hills.tif", bytes, &ReadOptions::default()).unwrap();
+    let found = above(&model.parts[0], place(10, 10)).unwrap();
+    assert!((found - height(10, 10).unwrap()).abs() < 0.1001, "{found}");
+    // who says nothing is told of
+    let bytes = geotiff(&Tags { keys: &METRES[..16], no_data: None, rows_per_strip: 9 }, |height| height.unwrap_or(-9999.0) as f32);
+    let mut keys = METRES[..16].to_vec();
+    keys[3] = 3;
+    drop(bytes);
+    let bytes = geotiff(&Tags { keys: &keys, no_data: None, rows_per_strip: 9 }, |height| height.unwrap_or(-9999.0) as f32);
+    assert!(notes(&read("hills.tif", bytes, &ReadOptions::default()).unwrap()).contains("does not say the unit of its heights"));
+}
+
+#[test]
+fn a_picture_is_no_terrain() {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    TiffEncoder::new(&mut bytes).unwrap().write_image::<colortype::Gray8>(2, 2, &[1, 2, 3, 4]).unwrap();
+    let told = read("photo.tif", bytes.into_inner(), &ReadOptions::default()).expect_err("it lies nowhere");
+    assert!(told.contains("does not say where it lies"), "{told}");
+}
+
+const LAND: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2">
+<Units><Imperial linearUnit="USSurveyFoot"/></Units><CoordinateSystem epsgCode="2225"/>
+<Surfaces><Surface name="Existing ground"><Definition surfType="TIN">
+<Pnts><P id="7">20 10 100</P><P id="8">20 30 110</P><P id="9">50 10 120</P></Pnts>
+<Faces><F>7 9 8</F><F i="1">7 8 9</F></Faces></Definition></Surface>
+<Surface name="Without"><Definition surfType="grid"/></Surface></Surfaces></LandXML>"#;
+
+#[test]
+fn landxml_is_northing_easting_and_height() {
+    let model = read("ground.xml", LAND, &ReadOptions::default()).unwrap();
+    let part = &model.parts[0];
+    assert_eq!((part.name.as_str(), model.kind(0)), ("Existing ground", PartKind::Terrain));
+    assert_eq!(model.coordinates, Coordinates::Map("EPSG:2225".to_owned()));
+    let foot = 1200.0 / 3937.0;
+    let corners = part.triangles[0].map(|corner| part.positions[corner as usize]);
+    let expected = [DVec3::new(10.0, 20.0, 100.0 * foot), DVec3::new(30.0, 20.0, 110.0 * foot), DVec3::new(10.0, 50.0, 120.0 * foot)];
+    assert_eq!(corners, expected, "in the map's unit, but for heights; turned to look up");
+    let left_out: Vec<_> = model.left_out.iter().map(|left| (left.what.as_str(), left.count)).collect();
+    assert_eq!(left_out, [("hidden faces", 1), ("surfaces without triangles", 1)]);
+    let local = read("ground.xml", LAND.replace("<CoordinateSystem epsgCode=\"2225\"/>", ""), &ReadOptions::default()).unwrap();
+    assert_eq!((local.unit_m, local.parts[0].positions[0].z), (Some(foot), 100.0));
+    let refused = |from: &str, to: &str| read("ground.xml", LAND.replace(from, to), &ReadOptions::default()).expect_err(to);
+    assert!(refused("7 9 8", "7 9 5").contains("not all of them are there"));
+    assert!(refused("20 10 100", "20 10").contains("northing, easting and height in point 7"));
+    assert!(refused("</Pnts>", "</Points>").contains("damaged at byte"));
+}
+
+/// Points over a plane that rises to the east, with a block of building points 6 m above it.
+fn points(is_compressed: bool, classify: bool) -> Vec<u8> {
+    let mut header = las::Builder::from((1, 4));
+    header.point_format = las::point::Format::new(6).unwrap();
+    header.point_format.is_compressed = is_compressed;
+    let scale = las::Transform { scale: 0.001, offset: 0.0 };
+    header.transforms = las::Vector { x: scale, y: scale, z: scale };
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut writer = las::Writer::new(&mut bytes, header.into_header().unwrap()).unwrap();
+    for at in 0..10_000 {
+        let (x, y) = (f64::from(at % 100) * 0.5, f64::from(at / 100) * 0.5);
+        let is_building = (20.0..30.0).contains(&x) && (10.0..20.0).contains(&y);
+        let z = 50.0 + 0.1 * x + if is_building { 6.0 } else { 0.0 };
+        let class = if !classify { 1 } else if is_building { 6 } else { 2 };
+        let classification = las::point::Classification::new(class).unwrap();
+        writer.write_point(las::Point { x, y, z, classification, gps_time: Some(0.0), ..las::Point::default() }).unwrap();
+    }
+    drop(writer);
+    bytes.into_inner()
+}
+
+#[test]
+fn measured_points_become_ground_and_what_is_asked() {
+    for is_compressed in [false, true] {
+        let name = if is_compressed { "points.laz" } else { "points.las" };
+        let model = read(name, points(is_compressed, true), &ReadOptions::default()).unwrap();
+        assert_eq!(model.parts.len(), 1);
+        let ground = &model.parts[0];
+        for (x, y) in [(5.0, 5.0), (25.0, 15.0), (45.0, 40.0)] {
+            let found = above(ground, DVec2::new(x, y)).unwrap();
+            // below the building the heights of its neighbours
+            let slack = if x == 25.0 { 1.0 } else { 0.2 };
+            assert!((found - 50.0 - 0.1 * x).abs() < slack, "{found} at {x}");
+        }
+        let building = model.left_out.iter().find(|left| left.what.contains("building")).unwrap();
+        assert_eq!(building.count, 400);
+        assert!(building.why.contains("classes = [\"building\"]"), "{}", building.why);
+        let options = ReadOptions { point_classes: vec!["building".to_owned()], ..ReadOptions::default() };
+        let model = read(name, points(is_compressed, true), &options).unwrap();
+        assert_eq!((model.parts.len(), model.kind(1)), (2, PartKind::Building));
+        assert!(model.parts[1].aliases.iter().any(|alias| alias == "building"), "{:?}", model.parts[1].aliases);
+        let top = above(&model.parts[1], DVec2::new(25.2, 15.2)).unwrap();
+        assert!((top - 58.5).abs() < 0.2, "{top}");
+        assert!(above(&model.parts[1], DVec2::new(15.0, 15.0)).is_none());
+    }
+    let told = notes(&read("points.las", points(false, false), &ReadOptions::default()).unwrap());
+    assert!(told.contains("no points classified as ground"), "{told}");
+}
+
+#[test]
+fn cut_points_are_refused() {
+    let whole = points(false, true);
+    let told = read("points.las", &whole[..whole.len() / 2], &ReadOptions::default()).expect_err("it is cut");
+    assert!(told.contains("cut off") || told.contains("cannot be read"), "{told}");
+}
+
+/// Files in which numbers were turned over: none takes long, and none ends the program.
+#[test]
+fn mutations_end_well() {
+    let mut random = 0x2545_F491_4F6C_DD17_u64;
+    let mut next = move || {
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        random as usize
+    };
+    let tif = geotiff(&Tags { keys: &METRES, no_data: Some("-1"), rows_per_strip: 9 }, |height| height.unwrap_or(-1.0) as f32);
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in [("a.tif", tif), ("a.asc", ascii_grid(&head()).into_bytes()), ("a.xml", LAND.as_bytes().to_vec())] {
+        let path = folder.path().join(name);
+        for _ in 0..1000 {
+            let mut wrong = bytes.clone();
+            for _ in 0..1 + next() % 4 {
+                let at = next() % wrong.len();
+                match next() % 3 {
+                    0 => wrong[at] = next() as u8,
+                    1 => wrong.truncate(at.max(4)),
+                    _ => wrong[at] ^= 1 << (next() % 8),
+                }
+            }
+            std::fs::write(&path, &wrong).unwrap();
+            let begun = std::time::Instant::now();
+            let _ = formats::read(Path::new(&path), &ReadOptions::default());
+            assert!(begun.elapsed().as_secs() < 10, "{name}");
+        }
+    }
+}
