@@ -7,15 +7,26 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is counted
 //! before memory is taken.
 
+mod polygon;
+mod refused;
+mod source;
+mod tally;
+mod vertices;
+
+pub mod dxf;
 pub mod gltf;
 mod model;
 mod names;
+pub mod obj;
+pub mod ply;
+pub mod stl;
 
 pub use model::{
     Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,
     SeeThrough, Up,
 };
 pub(crate) use names::{composed, on_disk};
+pub(crate) use refused::refusal;
 
 use crate::message::message;
 use std::fs::File;
@@ -56,7 +67,7 @@ pub trait Format: Sync {
 }
 
 /// All formats, those that begin with a mark of their own first.
-pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf];
+pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf, &dxf::Dxf, &ply::Ply, &stl::Stl, &obj::Obj];
 
 /// The format whose files end as this one's name does.
 pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {
@@ -73,14 +84,21 @@ fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> {
     }
     let mut head = Vec::new();
     File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head)).map_err(ModelFault::unreadable)?;
-    let by_content = FORMATS.iter().copied().find(|format| format.begins(&head));
-    by_content.or_else(|| by_ending(path)).ok_or_else(|| {
+    if let Some(format) = FORMATS.iter().copied().find(|format| format.begins(&head)) {
+        return Ok(format);
+    }
+    if let Some(refusal) = refused::by_content(&head, path) {
+        return Err(refusal.into());
+    }
+    by_ending(path).ok_or_else(|| {
         let names: Vec<&str> = FORMATS.iter().map(|format| format.name()).collect();
-        message![
-            "is of no format that Gnomon knows";
-            format!("export it as one of these: {}", names.join(", "))
-        ]
-        .into()
+        let unknown = || {
+            message![
+                "is of no format that Gnomon knows";
+                format!("export it as one of these: {}", names.join(", "))
+            ]
+        };
+        refused::by_ending(path).unwrap_or_else(unknown).into()
     })
 }
 

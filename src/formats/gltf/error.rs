@@ -15,8 +15,8 @@ pub enum Fault {
     #[error("has {0} bytes; a model may have 4 GiB: export it in parts or with less detail")]
     TooLarge(u64),
     /// Another format, or none.
-    #[error("is not glTF, and Gnomon reads .glb and .gltf: {0}")]
-    NotGltf(&'static str),
+    #[error("is not glTF, though its name says so; it is damaged or of another format: copy or export it again")]
+    NotGltf,
     /// The binary container contradicts itself.
     #[error("{0}; the file is cut off or damaged: copy or export it again")]
     Container(String),

@@ -66,7 +66,7 @@ impl Format for Gltf {
 
 fn read(path: &Path, options: &ReadOptions) -> Result<Model, Fault> {
     let bytes = container::read_file(path)?;
-    let container = container::open(&bytes, path)?;
+    let container = container::open(&bytes)?;
     let document = document::Document::parse(container.json)?;
     let is_asked = options.scene.is_some();
     let standing = scene::place(&document, options.scene.as_ref())?;

@@ -1,0 +1,59 @@
+//! What a reader leaves out, counted while it reads; and names as they may be.
+
+use super::{LeftOut, composed};
+use std::collections::BTreeMap;
+
+/// The longest name of a part or of a kind, bytes.
+const MOST_NAME_BYTES: usize = 1000;
+
+/// The most kinds that are told apart: a file may call each of its objects another kind.
+const MOST_KINDS: usize = 200;
+
+/// What was left out so far.
+#[derive(Default)]
+pub(super) struct Tally {
+    counts: BTreeMap<(String, &'static str), u64>,
+}
+
+impl Tally {
+    /// One more of a kind, and why, as a clause.
+    pub(super) fn add(&mut self, what: &str, why: &'static str) {
+        self.add_many(what, why, 1);
+    }
+
+    /// More of a kind.
+    pub(super) fn add_many(&mut self, what: &str, why: &'static str, count: u64) {
+        if count == 0 {
+            return;
+        }
+        let mut key = (label(what), why);
+        if self.counts.len() >= MOST_KINDS && !self.counts.contains_key(&key) {
+            key.0 = "other things".into();
+        }
+        let total = self.counts.entry(key).or_default();
+        *total = total.saturating_add(count);
+    }
+
+    /// All of it, the commonest first.
+    pub(super) fn into_left_out(self) -> Vec<LeftOut> {
+        let left_out = |((what, why), count): ((String, &str), u64)| LeftOut { what, count, why: why.into() };
+        let mut all: Vec<LeftOut> = self.counts.into_iter().map(left_out).collect();
+        all.sort_by_key(|one| std::cmp::Reverse(one.count));
+        all
+    }
+}
+
+/// A name as parts have it: composed, without what no name has, and cut where it is too long, which the dots show.
+pub(super) fn label(name: &str) -> String {
+    let name = composed(name.trim());
+    let mut label: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    if label.len() > MOST_NAME_BYTES {
+        let mut end = MOST_NAME_BYTES - '…'.len_utf8();
+        while !label.is_char_boundary(end) {
+            end -= 1;
+        }
+        label.truncate(end);
+        label.push('…');
+    }
+    label
+}
