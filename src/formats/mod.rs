@@ -13,6 +13,7 @@ mod source;
 mod tally;
 mod vertices;
 
+pub mod dae;
 pub mod dxf;
 pub mod gltf;
 mod model;
@@ -67,7 +68,7 @@ pub trait Format: Sync {
 }
 
 /// All formats, those that begin with a mark of their own first.
-pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf, &dxf::Dxf, &ply::Ply, &stl::Stl, &obj::Obj];
+pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf, &dae::Dae, &dxf::Dxf, &ply::Ply, &stl::Stl, &obj::Obj];
 
 /// The format whose files end as this one's name does.
 pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {

@@ -27,7 +27,8 @@ pub(super) const ACIS: &[&[u8]] = &[
 ];
 
 /// Why those are left out.
-pub(super) const NO_ACIS: &str = "CAD programs alone can read their shape: in AutoCAD, make meshes of them with MESHSMOOTH";
+pub(super) const NO_ACIS: &str =
+    "CAD programs alone can read their shape: in AutoCAD, make meshes of them with MESHSMOOTH";
 
 /// Where an entity's faces go.
 pub(super) struct Surface<'a> {

@@ -84,9 +84,8 @@ fn arc(from: DVec2, to: DVec2, bulge: f64, into: &mut Vec<DVec2>) {
     let angle = 4.0 * bulge.atan();
     let middle = (from + to) / 2.0 + (to - from).perp() * (1.0 - bulge * bulge) / (4.0 * bulge);
     let pieces = pieces(angle);
-    let at = |piece: u32| {
-        middle + DVec2::from_angle(angle * f64::from(piece) / f64::from(pieces)).rotate(from - middle)
-    };
+    let at =
+        |piece: u32| middle + DVec2::from_angle(angle * f64::from(piece) / f64::from(pieces)).rotate(from - middle);
     if middle.is_finite() {
         into.extend((1..pieces).map(at));
     }

@@ -34,7 +34,11 @@ pub(super) fn model_of(mut drawing: Drawing) -> Result<Model, Message> {
         parts: Vec::new(),
         part_of: FxHashMap::default(),
     };
-    placer.place(&drawing.model_space, BlockSite { world_from_block: DAffine3::IDENTITY, layer: LAYER_0, top: None }, 0)?;
+    placer.place(
+        &drawing.model_space,
+        BlockSite { world_from_block: DAffine3::IDENTITY, layer: LAYER_0, top: None },
+        0,
+    )?;
     let parts = placer.parts;
     let mut model = Model { up: Up::Z, up_is_said: true, ..Model::default() };
     model.unit_m = drawing.unit.and_then(metres);
@@ -61,7 +65,8 @@ fn tell(model: &mut Model, mut drawing: Drawing) {
     if drawing.wide > 0 {
         let (lines, have) = if drawing.wide == 1 { ("polyline", "has") } else { ("polylines", "have") };
         model.notes.push(message![format!(
-            "has {} {lines} that {have} a width, which is not read: each is as thin as its middle line", drawing.wide
+            "has {} {lines} that {have} a width, which is not read: each is as thin as its middle line",
+            drawing.wide
         )]);
     }
 }
@@ -143,8 +148,7 @@ impl<'a> Placer<'a, '_> {
             let part = self.part(site.top, layer)?;
             // no model has so many triangles that their corners are not counted in 32 bits
             let first = part.positions.len() as u32;
-            part.positions
-                .extend(found.positions.iter().map(|&point| site.world_from_block.transform_point3(point)));
+            part.positions.extend(found.positions.iter().map(|&point| site.world_from_block.transform_point3(point)));
             let turned = found.triangles.iter().map(|&[a, b, c]| if mirrors { [a, c, b] } else { [a, b, c] });
             part.triangles.extend(turned.map(|triangle| triangle.map(|corner| first + corner)));
             if !part.positions.iter().skip(first as usize).all(|point| point.is_finite()) {
