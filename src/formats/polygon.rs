@@ -2,6 +2,7 @@
 
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
+use rustc_hash::FxHashSet;
 
 /// The most corners of a polygon: clipping one takes the square of them at worst.
 const MOST_CORNERS: usize = 20_000;
@@ -65,6 +66,13 @@ impl PolygonCutter {
         let axes = seen_along(normal);
         self.flat.clear();
         self.flat.extend(corners.iter().map(|&corner| axes.map(|axis| (corner - first)[axis])));
+        if repeats(&self.flat) {
+            self.crossed += 1;
+            // from the first corner to each side: right for one that runs around a convex polygon again and again
+            let last = outer.len() as u32 - 1;
+            self.triangles.extend((1..last).map(|corner| [0, corner, corner + 1]));
+            return;
+        }
         self.earcut.earcut_slice(&self.flat, holes, &mut self.numbers);
         let mut covered = 0.0;
         for &[a, b, c] in self.numbers.as_chunks().0 {
@@ -90,6 +98,14 @@ impl PolygonCutter {
         }
         enclosed
     }
+}
+
+/// Whether a large polygon comes to its corners again and again, more than twice to each: clipping it would take the cube of
+/// them. One that is cut open to its holes comes twice to some.
+fn repeats(corners: &[[f64; 2]]) -> bool {
+    const LARGE: usize = 200;
+    let distinct = || corners.iter().map(|corner| corner.map(f64::to_bits)).collect::<FxHashSet<_>>().len();
+    corners.len() > LARGE && 2 * distinct() < corners.len()
 }
 
 /// Whether the diagonal from the first to the third corner lies within, and both halves look to one side.

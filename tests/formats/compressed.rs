@@ -97,7 +97,7 @@ fn all_channels_of_meshopt_are_unpacked() {
     // all bytes are stored as they are
     bytes.extend([0xFF; 3]);
     let zigzag = |difference: i16| ((difference << 1) ^ (difference >> 15)) as u16;
-    let mut lanes = vec![[0_u8; 3]; 12];
+    let mut lanes = [[0_u8; 3]; 12];
     let mut last = [0_u8; 12];
     for (at, element) in elements.iter().enumerate() {
         for lane in 0..4 {

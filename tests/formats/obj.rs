@@ -126,6 +126,11 @@ fn polygons_that_cross_themselves_are_told() {
     let star = "v 0 0 0\nv 4 4 0\nv 0 4 0\nv 4 0 0\nv 2 6 0\nf 1 2 3 4 5\n";
     let model = read_bytes("star.obj", star.as_bytes());
     assert!(model.notes.iter().any(|note| note.to_string().contains("crosses itself")), "{:?}", model.notes);
+    let around: String = (0..4000).map(|corner| format!(" {}", corner % 4 + 1)).collect();
+    let started = std::time::Instant::now();
+    let round = format!("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf{around}\n");
+    assert_eq!(read_bytes("m.obj", round.as_bytes()).notes.len(), 1);
+    assert!(started.elapsed().as_secs() < 1, "{:?}", started.elapsed());
     let flat = read_bytes("m.obj", b"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 5\n");
     assert_eq!(left_out(&flat), ["1 faces"]);
 }

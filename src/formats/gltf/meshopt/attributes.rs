@@ -22,7 +22,7 @@ pub(super) fn decode(source: &[u8], count: usize, stride: usize) -> Option<Vec<u
     let (_, tail) = padded.split_at_checked(padded.len() - stride - channels)?;
     let (baseline, modes) = tail.split_at_checked(stride)?;
     let mut last = baseline.to_vec();
-    let most = (8192 / stride & !(GROUP - 1)).min(BLOCK);
+    let most = ((8192 / stride) & !(GROUP - 1)).min(BLOCK);
     let (mut decoded, mut left) = (Vec::new(), count);
     while left > 0 {
         let elements = left.min(most);
