@@ -7,20 +7,19 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is counted
 //! before memory is taken.
 
+mod dae;
+mod dxf;
+pub mod gltf;
+mod left_out;
+mod model;
+mod names;
+mod obj;
+mod ply;
 mod polygon;
 mod refused;
 mod source;
-mod tally;
+mod stl;
 mod vertices;
-
-pub mod dae;
-pub mod dxf;
-pub mod gltf;
-mod model;
-mod names;
-pub mod obj;
-pub mod ply;
-pub mod stl;
 
 pub use model::{
     Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,

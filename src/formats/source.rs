@@ -121,5 +121,5 @@ pub(super) fn beside(model: &Path, name: &str) -> Option<PathBuf> {
 
 /// What a part is called whose file has no name for it: as the file is.
 pub(super) fn stem(path: &Path) -> String {
-    super::tally::label(&path.file_stem().unwrap_or_default().to_string_lossy())
+    super::left_out::label(&path.file_stem().unwrap_or_default().to_string_lossy())
 }

@@ -1,9 +1,9 @@
 //! STL, of text or of numbers → a part for each solid.
 
+use super::left_out::{LeftOutTally, label};
 use super::obj::cutter_notes;
 use super::polygon::PolygonCutter;
 use super::source::{TextLines, as_ascii, keyword, number, read_whole, stem, text, words, wrong_line};
-use super::tally::{Tally, label};
 use super::vertices::note_floats;
 use super::{Format, MAX_COMPONENTS, Model, ModelFault, ReadOptions, Up};
 use crate::mesh::Part;
@@ -17,7 +17,7 @@ const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
 /// STL, `.stl`.
-pub struct Stl;
+pub(super) struct Stl;
 
 impl Format for Stl {
     fn name(&self) -> &'static str {
@@ -72,7 +72,7 @@ fn triangles_of(bytes: &[u8]) -> Result<Option<&[[u8; TRIANGLE]]>, Message> {
 }
 
 fn of_numbers(triangles: &[[u8; TRIANGLE]], path: &Path, options: &ReadOptions) -> Model {
-    let (mut part, mut tally) = (named(stem(path)), Tally::default());
+    let (mut part, mut tally) = (named(stem(path)), LeftOutTally::default());
     for triangle in triangles {
         let numbers = triangle.get(12..48).unwrap_or_default().as_chunks().0;
         let mut numbers = numbers.iter().map(|four| f64::from(f32::from_le_bytes(*four)));
@@ -125,7 +125,7 @@ fn of_text(source: &[u8], path: &Path) -> Result<Model, Message> {
         let what = format!("is cut off in line {}", lines.number);
         return Err(message![what; "copy or export it again"]);
     }
-    let (mut tally, mut model) = (Tally::default(), Model::default());
+    let (mut tally, mut model) = (LeftOutTally::default(), Model::default());
     for part in text.parts {
         if part.triangles.is_empty() {
             tally.add("solid", "they are empty");

@@ -197,6 +197,24 @@ fn draco_is_unpacked() {
     refused(&|json| json["bufferViews"][0]["byteLength"] = json!(bytes.len() + 1), &["bytes 0–"]);
 }
 
+/// Where a stream says to which steps its positions were rounded, that is told.
+#[test]
+fn the_rounding_of_draco_is_told() {
+    let (mut bytes, mut json) = draco();
+    let read = |json: &Value| read_bytes("m.gltf", json.to_string().as_bytes()).parts[0].coarse.clone();
+    assert_eq!(read(&json), []);
+    // the least number of each axis, the largest range, and in how many bits that is divided
+    bytes.extend([1.0_f32, 2.0, -3.0, 5.0].iter().flat_map(|number| number.to_le_bytes()));
+    bytes.push(4);
+    json["buffers"][0] = json!({
+        "byteLength": bytes.len(),
+        "uri": format!("data:;base64,{}", BASE64_STANDARD.encode(&bytes)),
+    });
+    json["bufferViews"][0]["byteLength"] = json!(bytes.len());
+    let coarse = read(&json);
+    assert_eq!((coarse.len(), coarse[0].step_m, coarse[0].is_float), (1, 5.0 / 15.0, false));
+}
+
 /// Each byte of the compressed streams may be anything.
 #[test]
 fn every_changed_byte_is_survived() {

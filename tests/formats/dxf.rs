@@ -244,6 +244,7 @@ fn everything_left_out_is_told() {
     let expected =
         ["1 3DFACE", "1 HATCH", "1 INSERT", "1 TEXT", "1 entities of the paper space", "2 3DSOLID", "2 LINE"];
     assert_eq!(told, expected);
+    assert!(model.notes[1].to_string().contains("1 closed outline with a thickness that has walls and no lid"));
     assert!(
         model.notes[0].to_string().contains("2 solids or surfaces of ACIS")
             && model.notes[0].to_string().contains("MESHSMOOTH")

@@ -3,8 +3,8 @@
 use super::document::{DaeDocument, DaeMaterial, DaeUp};
 use super::mesh::DaeGeometry;
 use super::node::{DaeNode, GeometryInstance, MOST_DEPTH};
+use crate::formats::left_out::LeftOutTally;
 use crate::formats::obj::cutter_notes;
-use crate::formats::tally::Tally;
 use crate::formats::vertices::VertexPicker;
 use crate::formats::{MAX_COMPONENTS, MAX_TRIANGLES, Model, SeeThrough, Up};
 use crate::mesh::Part;
@@ -53,7 +53,7 @@ pub(super) fn model_of(mut document: DaeDocument) -> Result<Model, Message> {
 
 struct NodePlacer<'a> {
     document: &'a DaeDocument,
-    left_out: &'a mut Tally,
+    left_out: &'a mut LeftOutTally,
     parts: Vec<Part>,
     see_through: BTreeMap<String, Vec<usize>>,
     picker: VertexPicker,
@@ -74,7 +74,7 @@ struct MaterialSurface<'a> {
 }
 
 impl<'a> NodePlacer<'a> {
-    fn new(document: &'a DaeDocument, left_out: &'a mut Tally) -> Self {
+    fn new(document: &'a DaeDocument, left_out: &'a mut LeftOutTally) -> Self {
         Self {
             document,
             left_out,

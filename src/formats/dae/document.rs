@@ -4,8 +4,8 @@ use super::effect::{self, DaeEffect};
 use super::mesh::DaeGeometry;
 use super::node::DaeNode;
 use super::xml::{DaeXml, attribute, local_id};
+use crate::formats::left_out::{LeftOutTally, label};
 use crate::formats::polygon::PolygonCutter;
-use crate::formats::tally::{Tally, label};
 use crate::message::{Message, message};
 use quick_xml::events::BytesStart;
 use rustc_hash::FxHashMap;
@@ -45,7 +45,7 @@ pub(super) struct DaeDocument {
     pub scene: Option<String>,
     pub materials: FxHashMap<String, DaeMaterial>,
     effects: FxHashMap<String, DaeEffect>,
-    pub left_out: Tally,
+    pub left_out: LeftOutTally,
     pub cutter: PolygonCutter,
     /// Triangles of all geometries, each once.
     pub triangles: u64,
@@ -63,7 +63,7 @@ impl DaeDocument {
             scene: None,
             materials: FxHashMap::default(),
             effects: FxHashMap::default(),
-            left_out: Tally::default(),
+            left_out: LeftOutTally::default(),
             cutter: PolygonCutter::new(),
             triangles: 0,
         };

@@ -3,8 +3,8 @@
 use super::document::DaeDocument;
 use super::xml::{DaeXml, attribute, local_id};
 use crate::formats::MAX_TRIANGLES;
+use crate::formats::left_out::label;
 use crate::formats::ply::of_strip;
-use crate::formats::tally::label;
 use crate::message::{Message, message};
 use glam::DVec3;
 use quick_xml::events::BytesStart;

@@ -16,7 +16,7 @@ use document::DaeDocument;
 use std::path::Path;
 
 /// Collada, `.dae`.
-pub struct Dae;
+pub(super) struct Dae;
 
 impl Format for Dae {
     fn name(&self) -> &'static str {

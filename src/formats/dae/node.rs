@@ -2,7 +2,7 @@
 
 use super::document::DaeDocument;
 use super::xml::{DaeXml, attribute, local_id};
-use crate::formats::tally::label;
+use crate::formats::left_out::label;
 use crate::message::{Message, message};
 use glam::{DAffine3, DMat3, DVec3};
 use quick_xml::events::BytesStart;

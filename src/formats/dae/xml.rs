@@ -1,7 +1,7 @@
 //! Elements of an XML text, one behind the other. Whoever is given an element reads it to its end.
 
+use crate::formats::left_out::label;
 use crate::formats::source::{number, words};
-use crate::formats::tally::label;
 use crate::message::{Message, message};
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};

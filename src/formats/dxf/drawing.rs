@@ -3,8 +3,8 @@
 use super::entity;
 use super::fields::DxfFields;
 use super::group::{DxfGroup, DxfGroups};
+use crate::formats::left_out::LeftOutTally;
 use crate::formats::polygon::PolygonCutter;
-use crate::formats::tally::Tally;
 use crate::message::{Message, message};
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
@@ -78,12 +78,14 @@ pub(super) struct Drawing {
     pub blocks: FxHashMap<String, DxfBlock>,
     pub model_space: DxfBlock,
     pub unit: Option<i64>,
-    pub left_out: Tally,
+    pub left_out: LeftOutTally,
     pub cutter: PolygonCutter,
     /// Bodies whose shape is ACIS's.
     pub acis: u64,
     /// Polylines that have a width, which is not read.
     pub wide: u64,
+    /// Closed outlines with a thickness: walls without a lid.
+    pub lidless: u64,
     /// Triangles of all blocks, each once.
     pub triangles: u64,
 }
@@ -96,10 +98,11 @@ impl Drawing {
             blocks: FxHashMap::default(),
             model_space: DxfBlock::default(),
             unit: None,
-            left_out: Tally::default(),
+            left_out: LeftOutTally::default(),
             cutter: PolygonCutter::new(),
             acis: 0,
             wide: 0,
+            lidless: 0,
             triangles: 0,
         };
         drawing.layer("0");

@@ -7,8 +7,8 @@ use super::group::{DxfGroup, DxfGroups};
 use super::outline;
 use super::polyline::{self, PolylineVertex};
 use crate::formats::MAX_TRIANGLES;
+use crate::formats::left_out::label;
 use crate::formats::polygon::PolygonCutter;
-use crate::formats::tally::label;
 use crate::message::{Message, message};
 use glam::{DAffine3, DVec3};
 
@@ -31,13 +31,13 @@ pub(super) const NO_ACIS: &str =
     "CAD programs alone can read their shape: in AutoCAD, make meshes of them with MESHSMOOTH";
 
 /// Where an entity's faces go.
-pub(super) struct Surface<'a> {
+pub(super) struct EntityFaces<'a> {
     pub into: &'a mut LayerTriangles,
     pub cutter: &'a mut PolygonCutter,
     ring: Vec<DVec3>,
 }
 
-impl Surface<'_> {
+impl EntityFaces<'_> {
     /// Adds a face. Corners that follow each other at one point are one.
     pub(super) fn face(&mut self, corners: &[DVec3]) {
         self.ring.clear();
@@ -106,7 +106,7 @@ fn surface(
 ) -> Result<(), Message> {
     let layer = drawing.layer(&fields.name(8));
     let mut found = LayerTriangles::default();
-    let mut surface = Surface { into: &mut found, cutter: &mut drawing.cutter, ring: Vec::new() };
+    let mut surface = EntityFaces { into: &mut found, cutter: &mut drawing.cutter, ring: Vec::new() };
     let is_wide = |code: i32| fields.given(code).is_some_and(|width| width > 0.0);
     match kind {
         b"3DFACE" => surface.face(&[10, 11, 12, 13].map(|code| fields.point(code))),
@@ -138,6 +138,8 @@ fn surface(
         drawing.left_out.add(&label(&String::from_utf8_lossy(kind)), why);
         return Ok(());
     }
+    let is_outline = kind == b"LWPOLYLINE" || kind == b"POLYLINE" && fields.whole(70) & (16 | 64) == 0;
+    drawing.lidless += u64::from(is_outline && fields.whole(70) & 1 != 0);
     drawing.triangles += found.triangles.len() as u64;
     if drawing.triangles > MAX_TRIANGLES {
         let what = format!("has more than {MAX_TRIANGLES} triangles");

@@ -41,7 +41,7 @@ impl<'a> DxfGroup<'a> {
                 _ => name.extend(["\\U+", part]),
             }
         }
-        crate::formats::tally::label(&name)
+        crate::formats::left_out::label(&name)
     }
 
     /// The value as a finite number; none where it is none.

@@ -19,7 +19,7 @@ use drawing::Drawing;
 use std::path::Path;
 
 /// DXF, `.dxf`.
-pub struct Dxf;
+pub(super) struct Dxf;
 
 impl Format for Dxf {
     fn name(&self) -> &'static str {

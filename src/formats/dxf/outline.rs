@@ -1,6 +1,6 @@
 //! What is drawn in a plane → the walls that its thickness makes of it.
 
-use super::entity::Surface;
+use super::entity::EntityFaces;
 use super::fields::DxfFields;
 use super::frame::world_from_object;
 use glam::{DMat3, DVec2, DVec3};
@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 const PIECE_RAD: f64 = TAU / 144.0;
 
 /// A line, circle or arc with thickness: a wall; a circle has ends.
-pub(super) fn extruded(kind: &[u8], fields: &DxfFields, surface: &mut Surface) {
+pub(super) fn extruded(kind: &[u8], fields: &DxfFields, surface: &mut EntityFaces) {
     let frame = world_from_object(fields.extrusion());
     let rise = frame * DVec3::Z * fields.real(39);
     if rise == DVec3::ZERO {
@@ -38,7 +38,7 @@ pub(super) fn extruded(kind: &[u8], fields: &DxfFields, surface: &mut Surface) {
 }
 
 /// A solid or trace: four corners of which the last two are crossed; with thickness, a prism.
-pub(super) fn filled(fields: &DxfFields, surface: &mut Surface) {
+pub(super) fn filled(fields: &DxfFields, surface: &mut EntityFaces) {
     let frame = world_from_object(fields.extrusion());
     let fourth = if fields.given(13).is_some() { 13 } else { 12 };
     let corners = [10, 11, fourth, 12].map(|code| frame * fields.point(code));
@@ -50,7 +50,7 @@ pub(super) fn filled(fields: &DxfFields, surface: &mut Surface) {
     ends(&corners, rise, surface);
 }
 
-fn ends(points: &[DVec3], rise: DVec3, surface: &mut Surface) {
+fn ends(points: &[DVec3], rise: DVec3, surface: &mut EntityFaces) {
     let top: Vec<DVec3> = points.iter().map(|&point| point + rise).collect();
     let bottom: Vec<DVec3> = points.iter().rev().copied().collect();
     surface.face(&top);
@@ -58,7 +58,7 @@ fn ends(points: &[DVec3], rise: DVec3, surface: &mut Surface) {
 }
 
 /// The walls over points that follow each other.
-pub(super) fn walls(points: &[DVec3], is_closed: bool, rise: DVec3, surface: &mut Surface) {
+pub(super) fn walls(points: &[DVec3], is_closed: bool, rise: DVec3, surface: &mut EntityFaces) {
     let close = points.last().zip(points.first()).filter(|_| is_closed && points.len() > 2);
     let pairs = points.windows(2).filter_map(|two| Some((two.first()?, two.last()?)));
     for (&a, &b) in pairs.chain(close).filter(|(a, b)| a != b) {

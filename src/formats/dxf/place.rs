@@ -3,8 +3,8 @@
 use super::drawing::{Drawing, DxfBlock, DxfLayer, LAYER_0};
 use super::entity::NO_ACIS;
 use super::frame::metres;
+use crate::formats::left_out::LeftOutTally;
 use crate::formats::obj::cutter_notes;
-use crate::formats::tally::Tally;
 use crate::formats::{MAX_COMPONENTS, MAX_TRIANGLES, Model, Up};
 use crate::mesh::Part;
 use crate::message::{Message, message};
@@ -60,6 +60,13 @@ fn tell(model: &mut Model, mut drawing: Drawing) {
         let (solids, cast) = if drawing.acis == 1 { ("solid", "casts") } else { ("solids", "cast") };
         model.notes.push(message![
             format!("has {} {solids} or surfaces of ACIS that {cast} no shadow here", drawing.acis); NO_ACIS
+        ]);
+    }
+    if drawing.lidless > 0 {
+        let (outlines, have) = if drawing.lidless == 1 { ("outline", "has") } else { ("outlines", "have") };
+        model.notes.push(message![
+            format!("has {} closed {outlines} with a thickness that {have} walls and no lid", drawing.lidless);
+            "in AutoCAD, lay a 3D face on each where a roof is to receive the sun"
         ]);
     }
     if drawing.wide > 0 {
@@ -120,7 +127,7 @@ struct Placer<'a, 'b> {
     blocks: &'a FxHashMap<String, DxfBlock>,
     triangles: &'a FxHashMap<String, u64>,
     layers: &'b mut [DxfLayer],
-    left_out: &'b mut Tally,
+    left_out: &'b mut LeftOutTally,
     parts: Vec<PlacedLayer<'a>>,
     part_of: FxHashMap<(Option<&'a str>, u32), usize>,
 }

@@ -1,6 +1,6 @@
 //! Polylines, of which some are meshes, and MESH.
 
-use super::entity::Surface;
+use super::entity::EntityFaces;
 use super::fields::DxfFields;
 use super::frame::world_from_object;
 use super::outline::{bulged, walls};
@@ -39,7 +39,7 @@ impl PolylineVertex {
 }
 
 /// LWPOLYLINE: a list of points and bulges.
-pub(super) fn light(fields: &DxfFields, surface: &mut Surface) {
+pub(super) fn light(fields: &DxfFields, surface: &mut EntityFaces) {
     let mut points: Vec<(DVec2, f64)> = Vec::new();
     for group in &fields.groups {
         let number = || group.real().unwrap_or(0.0);
@@ -53,7 +53,7 @@ pub(super) fn light(fields: &DxfFields, surface: &mut Surface) {
     raise(&points, fields.real(38), fields, surface);
 }
 
-fn raise(points: &[(DVec2, f64)], height: f64, fields: &DxfFields, surface: &mut Surface) {
+fn raise(points: &[(DVec2, f64)], height: f64, fields: &DxfFields, surface: &mut EntityFaces) {
     let frame = world_from_object(fields.extrusion());
     let rise = frame * DVec3::Z * fields.real(39);
     if rise != DVec3::ZERO {
@@ -63,7 +63,7 @@ fn raise(points: &[(DVec2, f64)], height: f64, fields: &DxfFields, surface: &mut
 }
 
 /// POLYLINE: a line in a plane, or a mesh of either kind; gives how many faces name vertices that are not there.
-pub(super) fn heavy(fields: &DxfFields, vertices: &[PolylineVertex], surface: &mut Surface) -> u64 {
+pub(super) fn heavy(fields: &DxfFields, vertices: &[PolylineVertex], surface: &mut EntityFaces) -> u64 {
     let flags = fields.whole(70);
     if flags & POLYFACE != 0 {
         return polyface(vertices, surface);
@@ -78,7 +78,7 @@ pub(super) fn heavy(fields: &DxfFields, vertices: &[PolylineVertex], surface: &m
     0
 }
 
-fn polyface(vertices: &[PolylineVertex], surface: &mut Surface) -> u64 {
+fn polyface(vertices: &[PolylineVertex], surface: &mut EntityFaces) -> u64 {
     let points: Vec<DVec3> =
         vertices.iter().filter(|vertex| vertex.flags & OF_MESH != 0).map(|vertex| vertex.point).collect();
     let mut missing = 0;
@@ -94,7 +94,7 @@ fn polyface(vertices: &[PolylineVertex], surface: &mut Surface) -> u64 {
 }
 
 /// A mesh of rows and columns; where it is smoothed, of the finer ones.
-fn grid(fields: &DxfFields, vertices: &[PolylineVertex], surface: &mut Surface) {
+fn grid(fields: &DxfFields, vertices: &[PolylineVertex], surface: &mut EntityFaces) {
     let flags = fields.whole(70);
     let is_smooth = flags & SMOOTHED != 0;
     let drawn = vertices.iter().filter(|vertex| !is_smooth || vertex.flags & CONTROL_POINT == 0);
@@ -115,7 +115,7 @@ fn grid(fields: &DxfFields, vertices: &[PolylineVertex], surface: &mut Surface) 
 }
 
 /// MESH, as it is before any smoothing: lists of vertices and faces; gives how many faces name vertices that are not there.
-pub(super) fn mesh(fields: &DxfFields, surface: &mut Surface) -> u64 {
+pub(super) fn mesh(fields: &DxfFields, surface: &mut EntityFaces) -> u64 {
     let (mut points, mut faces): (Vec<DVec3>, Vec<i64>) = (Vec::new(), Vec::new());
     // which list the numbers belong to: the one whose length was said last
     let mut list = 0;

@@ -3,6 +3,7 @@
 use super::Fault;
 use super::buffers::Buffers;
 use super::document::Document;
+use super::draco::UnpackedElements;
 use super::reader::{Reader, Sparse, StridedElements};
 use gltf::json;
 use gltf::json::validation::{Checked, USize64};
@@ -74,9 +75,10 @@ fn open<'a>(
     };
     let USize64(count) = accessor.count;
     let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+    let unpacked = buffers.unpacked_elements(index);
     let base = match accessor.buffer_view {
         // a view that stands beside it is not read
-        _ if let Some(bytes) = buffers.unpacked_elements(index) => {
+        _ if let Some(UnpackedElements { bytes, .. }) = unpacked => {
             let stride = element_bytes as usize;
             if bytes.len() as u64 != count.saturating_mul(element_bytes) {
                 return Err(fault(index, "has another type in two primitives"));
@@ -113,6 +115,7 @@ fn open<'a>(
         normalized: accessor.normalized,
         base,
         sparse,
+        rounded: unpacked.and_then(|unpacked| unpacked.step),
     })
 }
 

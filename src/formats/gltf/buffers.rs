@@ -5,6 +5,7 @@
 //! does not mean to show. (A symbolic link in the folder is followed, for it is the user's own.)
 
 use super::document::Document;
+use super::draco::UnpackedElements;
 use super::meshopt::CompressedView;
 use super::{Fault, container, draco};
 use crate::formats::on_disk;
@@ -33,7 +34,7 @@ pub(super) struct Buffers<'a> {
     /// Of buffer views that are compressed, what they unpack to.
     views: Vec<OnceCell<Vec<u8>>>,
     /// Of accessors whose primitive is compressed, what they unpack to.
-    elements: BTreeMap<usize, Vec<u8>>,
+    elements: BTreeMap<usize, UnpackedElements>,
     /// Many buffers may name one file, which must not cost its memory many times.
     files: RefCell<BTreeMap<PathBuf, Rc<[u8]>>>,
 }
@@ -96,8 +97,8 @@ impl<'a> Buffers<'a> {
     }
 
     /// What an accessor's elements are unpacked to, where its primitive is compressed.
-    pub(super) fn unpacked_elements(&self, accessor: usize) -> Option<&[u8]> {
-        self.elements.get(&accessor).map(Vec::as_slice)
+    pub(super) fn unpacked_elements(&self, accessor: usize) -> Option<&UnpackedElements> {
+        self.elements.get(&accessor)
     }
 
     /// What a view is unpacked to, where it is compressed and not stored plainly, too.

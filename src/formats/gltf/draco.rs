@@ -16,6 +16,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 const DRACO: &str = "KHR_draco_mesh_compression";
 
+/// The elements of an accessor, one behind the other.
+pub(super) struct UnpackedElements {
+    pub bytes: Vec<u8>,
+    /// From one number to the next, where they were rounded before they were packed.
+    pub step: Option<f64>,
+}
+
 /// What a primitive says of its compression; none where it has none, or where it is stored plainly, too.
 pub(super) fn compression<'a>(document: &Document, primitive: &'a Primitive) -> Option<&'a Value> {
     let said = primitive.extensions.as_ref()?.others.get(DRACO)?;
@@ -34,13 +41,13 @@ pub(super) fn view(said: &Value) -> Option<usize> {
     usize::try_from(said.get("bufferView")?.as_u64()?).ok()
 }
 
-/// Unpacks what moves the vertices of a primitive, and its indices: the elements of their accessors, one behind the other.
+/// Unpacks what moves the vertices of a primitive, and its indices.
 pub(super) fn unpack(
     document: &Document,
     (mesh, number): (usize, usize),
     primitive: &Primitive,
     (said, source): (&Value, &[u8]),
-    into: &mut BTreeMap<usize, Vec<u8>>,
+    into: &mut BTreeMap<usize, UnpackedElements>,
 ) -> Result<(), Fault> {
     let fault = |problem: String| fault(mesh, number, format!("{problem} (Draco)"));
     if primitive.mode != Checked::Valid(Mode::Triangles) {
@@ -65,7 +72,9 @@ pub(super) fn unpack(
         let Some(attribute) = decoded.attribute_by_unique_id(id) else {
             return Err(fault(format!("has no {name} among what it unpacks to")));
         };
-        into.insert(index, stored(&attribute.read_f32s(points, shape.multiplicity()), component));
+        let numbers = attribute.read_f32s(points, shape.multiplicity());
+        let step = if name == "POSITION" { rounding(source, &numbers) } else { None };
+        into.insert(index, UnpackedElements { bytes: stored(&numbers, component), step });
     }
     let Some(indices) = primitive.indices.map(|indices| indices.value()) else { return Ok(()) };
     let corners: Vec<u32> = decoded.faces().iter().flatten().map(|point| point.0).collect();
@@ -77,7 +86,7 @@ pub(super) fn unpack(
         ComponentType::U16 => corners.iter().flat_map(|&corner| (corner as u16).to_le_bytes()).collect(),
         _ => corners.iter().flat_map(|corner| corner.to_le_bytes()).collect(),
     };
-    into.insert(indices, bytes);
+    into.insert(indices, UnpackedElements { bytes, step: None });
     Ok(())
 }
 
@@ -114,4 +123,30 @@ fn stored(numbers: &[f32], component: ComponentType) -> Vec<u8> {
         ComponentType::U32 => each.flat_map(|&number| (number as u32).to_le_bytes()).collect(),
         ComponentType::F32 => each.flat_map(|number| number.to_le_bytes()).collect(),
     }
+}
+
+/// The step to which positions were rounded; none where they were not. The decoder does not pass it on, but the stream has it
+/// (specification, "DecodeQuantizationData"): the least number of each axis, which is among the positions, then the largest
+/// range of an axis, and in how many bits that is divided.
+fn rounding(source: &[u8], numbers: &[f32]) -> Option<f64> {
+    let points = numbers.as_chunks::<3>().0;
+    let first = points.first()?;
+    let (mut low, mut high) = (*first, *first);
+    for point in points {
+        for (axis, &number) in point.iter().enumerate() {
+            if let (Some(low), Some(high)) = (low.get_mut(axis), high.get_mut(axis)) {
+                (*low, *high) = (low.min(number), high.max(number));
+            }
+        }
+    }
+    let reach = low.iter().zip(&high).map(|(low, high)| high - low).fold(0.0, f32::max);
+    let [x, y, z] = low.map(f32::to_le_bytes);
+    let least = [x, y, z].concat();
+    source.windows(17).find_map(|bytes| {
+        let (numbers, behind) = bytes.split_at_checked(12)?;
+        let (range, bits) = behind.split_first_chunk::<4>()?;
+        let (range, bits) = (f32::from_le_bytes(*range), *bits.first()?);
+        let is_it = numbers == least && (1..=30).contains(&bits) && (range - reach).abs() <= 1e-3 * reach;
+        is_it.then(|| f64::from(range) / f64::from((1_u32 << bits) - 1))
+    })
 }

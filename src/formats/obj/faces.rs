@@ -1,8 +1,8 @@
 //! The lines of an OBJ file → its vertices, and its triangles by object, group and material.
 
+use crate::formats::left_out::{LeftOutTally, label};
 use crate::formats::polygon::PolygonCutter;
 use crate::formats::source::{TextLines, keyword, number, text, words, wrong_line};
-use crate::formats::tally::{Tally, label};
 use crate::formats::{MAX_COMPONENTS, MAX_TRIANGLES};
 use crate::message::{Message, message};
 use glam::DVec3;
@@ -26,7 +26,7 @@ pub(super) struct ObjGeometry {
     /// What `mtllib` names, a line each.
     pub libraries: Vec<String>,
     pub cutter: PolygonCutter,
-    pub left_out: Tally,
+    pub left_out: LeftOutTally,
     /// The first word that is a number only at its beginning, and its line.
     pub odd_number: Option<(usize, String)>,
     numbers_of: FxHashMap<String, u32>,
@@ -47,7 +47,7 @@ impl ObjGeometry {
             names: vec![String::new()],
             libraries: Vec::new(),
             cutter: PolygonCutter::new(),
-            left_out: Tally::default(),
+            left_out: LeftOutTally::default(),
             odd_number: None,
             numbers_of: FxHashMap::default(),
             part_of: FxHashMap::default(),

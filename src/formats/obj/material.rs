@@ -1,8 +1,8 @@
 //! Material libraries, MTL: which materials light passes, and which files they name.
 
 use super::beside_each;
+use crate::formats::left_out::label;
 use crate::formats::source::{TextLines, as_ascii, beside, keyword, number, read_whole, text, words};
-use crate::formats::tally::label;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

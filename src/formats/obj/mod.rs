@@ -6,8 +6,8 @@
 mod faces;
 mod material;
 
+use super::left_out::{LeftOutTally, counted};
 use super::source::{TextLines, as_ascii, beside, read_whole, text};
-use super::tally::Tally;
 use super::vertices::VertexPicker;
 use super::{Format, Model, ModelFault, ReadOptions, SeeThrough};
 use crate::mesh::Part;
@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Wavefront OBJ, `.obj`.
-pub struct Obj;
+pub(super) struct Obj;
 
 impl Format for Obj {
     fn name(&self) -> &'static str {
@@ -82,12 +82,13 @@ fn model_of(geometry: ObjGeometry, path: &Path) -> Model {
 }
 
 /// Tells which polygons have no triangles, or others than they should: empty, too large, crossed.
-pub(super) fn cutter_notes(model: &mut Model, tally: &mut Tally, [empty, large, crossed]: [u64; 3]) {
+pub(super) fn cutter_notes(model: &mut Model, tally: &mut LeftOutTally, [empty, large, crossed]: [u64; 3]) {
     tally.add_many("faces", "they have no area", empty);
     tally.add_many("faces", "they have more than 20,000 corners", large);
     if crossed > 0 {
-        let (faces, cross) = if crossed == 1 { ("face", "crosses itself") } else { ("faces", "cross themselves") };
-        model.notes.push(message![format!("has {crossed} {faces} that {cross}, so what of them casts is a guess")]);
+        let cross = if crossed == 1 { "crosses itself" } else { "cross themselves" };
+        let faces = counted(crossed, "face");
+        model.notes.push(message![format!("has {faces} that {cross}, so what of them casts is a guess")]);
     }
 }
 

@@ -111,7 +111,7 @@ fn positions_are_finite(positions: &[DVec3]) -> Result<(), Message> {
 }
 
 fn damaged(element: &PlyElement) -> Message {
-    let name = crate::formats::tally::label(&crate::formats::source::text(&element.name));
+    let name = crate::formats::left_out::label(&crate::formats::source::text(&element.name));
     let what = format!("is cut off or damaged within its {} elements of the kind `{name}`", element.rows);
     message![what; "copy or export it again"]
 }

@@ -1,7 +1,7 @@
 //! A PLY file's header: which tables there are, and of what numbers.
 
+use crate::formats::left_out::label;
 use crate::formats::source::{TextLines, text, words};
-use crate::formats::tally::label;
 use crate::message::{Message, message};
 
 /// How a file's numbers are written.

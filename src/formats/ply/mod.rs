@@ -5,10 +5,10 @@
 mod body;
 mod header;
 
+use super::left_out::LeftOutTally;
 use super::obj::cutter_notes;
 use super::polygon::PolygonCutter;
 use super::source::{read_whole, stem};
-use super::tally::Tally;
 use super::vertices::{VertexPicker, note_floats};
 use super::{Format, MAX_TRIANGLES, Model, ModelFault, ReadOptions, Up};
 use crate::mesh::Part;
@@ -19,7 +19,7 @@ use header::PlyHeader;
 use std::path::Path;
 
 /// PLY, `.ply`.
-pub struct Ply;
+pub(super) struct Ply;
 
 impl Format for Ply {
     fn name(&self) -> &'static str {
@@ -48,7 +48,7 @@ fn model_of(tables: PlyTables, path: &Path, has_floats: bool, options: &ReadOpti
         let what = format!("is a cloud of {} points without faces, and points cast no shadow", positions.len());
         return Err(message![what; "make a mesh of it, or take terrain from it as a raster or TIN"]);
     }
-    let (mut cutter, mut tally) = (PolygonCutter::new(), Tally::default());
+    let (mut cutter, mut tally) = (PolygonCutter::new(), LeftOutTally::default());
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     let mut corners: Vec<DVec3> = Vec::new();
     for polygon in polygons.iter() {

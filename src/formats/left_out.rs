@@ -11,11 +11,11 @@ const MOST_KINDS: usize = 200;
 
 /// What was left out so far.
 #[derive(Default)]
-pub(super) struct Tally {
+pub(super) struct LeftOutTally {
     counts: BTreeMap<(String, &'static str), u64>,
 }
 
-impl Tally {
+impl LeftOutTally {
     /// One more of a kind, and why, as a clause.
     pub(super) fn add(&mut self, what: &str, why: &'static str) {
         self.add_many(what, why, 1);
@@ -41,6 +41,11 @@ impl Tally {
         all.sort_by_key(|one| std::cmp::Reverse(one.count));
         all
     }
+}
+
+/// How many there are of a thing: `1 footprint`, `2 footprints`.
+pub(super) fn counted(count: u64, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 /// A name as parts have it: composed, without what no name has, and cut where it is too long, which the dots show.
