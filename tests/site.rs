@@ -191,7 +191,9 @@ fn a_site_is_a_file_a_folder_or_a_model_with_its_place() {
     let bare = Overrides { place: some("95,0"), ..asked.clone() };
     let error = sun(&model, &bare).expect_err("beyond the pole");
     assert!(error.is_wrong_use() && error.in_words(&Options).contains("--place"), "{error}");
-    for (path, word) in [("nothing.toml", "cannot be read"), ("tower.obj", ".glb"), ("nothing.glb", "cannot be read")] {
+    for (path, word) in
+        [("nothing.toml", "cannot be read"), ("tower.skp", "cannot be read"), ("nothing.glb", "cannot be read")]
+    {
         let error = sun(&folder.path().join(path), &none).expect_err("nothing there").to_string();
         assert!(error.contains(word), "{error}");
     }

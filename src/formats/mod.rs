@@ -12,6 +12,8 @@ mod citygml;
 mod cityjson;
 mod crs;
 mod footprints;
+mod dae;
+mod dxf;
 pub mod gltf;
 mod json_head;
 mod left_out;
@@ -21,12 +23,20 @@ mod rings;
 mod tiles3d;
 mod whole;
 pub mod terrain;
+mod obj;
+mod ply;
+mod polygon;
+mod refused;
+mod source;
+mod stl;
+mod vertices;
 
 pub use model::{
     Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,
     SeeThrough, Up,
 };
 pub(crate) use names::{composed, on_disk};
+pub(crate) use refused::refusal;
 
 use crate::message::message;
 use std::fs::File;
@@ -84,6 +94,11 @@ pub const FORMATS: &[&dyn Format] = &[
     &terrain::LasPoints,
     &terrain::LandXml,
     &terrain::AsciiGrid,
+    &dae::Dae,
+    &dxf::Dxf,
+    &ply::Ply,
+    &stl::Stl,
+    &obj::Obj,
 ];
 
 /// The format whose files end as this one's name does.
@@ -101,14 +116,21 @@ fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> {
     }
     let mut head = Vec::new();
     File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head)).map_err(ModelFault::unreadable)?;
-    let by_content = FORMATS.iter().copied().find(|format| format.begins(&head));
-    by_content.or_else(|| by_ending(path)).ok_or_else(|| {
+    if let Some(format) = FORMATS.iter().copied().find(|format| format.begins(&head)) {
+        return Ok(format);
+    }
+    if let Some(refusal) = refused::by_content(&head, path) {
+        return Err(refusal.into());
+    }
+    by_ending(path).ok_or_else(|| {
         let names: Vec<&str> = FORMATS.iter().map(|format| format.name()).collect();
-        message![
-            "is of no format that Gnomon knows";
-            format!("export it as one of these: {}", names.join(", "))
-        ]
-        .into()
+        let unknown = || {
+            message![
+                "is of no format that Gnomon knows";
+                format!("export it as one of these: {}", names.join(", "))
+            ]
+        };
+        refused::by_ending(path).unwrap_or_else(unknown).into()
     })
 }
 

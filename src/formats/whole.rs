@@ -44,8 +44,3 @@ pub(super) fn below(folder: &Path, named: &str) -> Option<PathBuf> {
     let has_scheme = named.to_str().is_none_or(|named| named.contains("://") || named.starts_with("data:"));
     (stays && !has_scheme && !named.as_os_str().is_empty()).then(|| on_disk(&folder.join(named)))
 }
-
-/// What people call a file: its name without the ending.
-pub(super) fn stem(path: &Path) -> String {
-    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
-}

@@ -53,11 +53,8 @@ pub enum SiteError {
         /// As the user named it.
         path: String,
     },
-    /// A model in a format that is not read.
-    UnknownFormat {
-        /// As the user named it.
-        path: String,
-    },
+    /// A model in a format that is not read: which, with the way out.
+    UnknownFormat(Message),
     /// Text, but not as site files have it.
     Encoding {
         /// As the user named it.
@@ -161,10 +158,7 @@ impl Worded for SiteError {
                 ", for example ",
                 (Field::Place, "48.8583,2.2945")
             ],
-            SiteError::UnknownFormat { path } => message![
-                format!("{path} is neither a site file nor a glTF model");
-                "export the model as .glb or .gltf"
-            ],
+            SiteError::UnknownFormat(message) => message.clone(),
             SiteError::Encoding { file, what } => message![format!("{file} {what}"); "save it as UTF-8"],
             SiteError::Toml { file, line, text, what } => {
                 message![format!("{file}, line {line} `{text}`: {what}"); "the file must be TOML"]

@@ -1,10 +1,10 @@
 //! What a model looks like: one in millimetres, centimetres or inches, or one that lies on its side.
 //!
-//! Files do not say it: glTF is in metres and y up, and many a program exports something else. Only keys that nobody wrote
+//! Many files do not say it: glTF is in metres and y up, STL by custom z up, and many a program exports something else. Only keys that nobody wrote
 //! are doubted; who writes `scale` or `up` has decided.
 
 use super::placement::Placement;
-use crate::formats::Up;
+use crate::formats::{Model, Up};
 use crate::mesh::{Component, Mesh};
 use crate::message::{Field, Message, Piece, message, pieces};
 use glam::{DMat3, DVec3};
@@ -144,16 +144,21 @@ impl ModelMeasures {
         Some(if in_millimetres >= LEAST_M { &[0.001] } else { &[0.01, 0.0254] })
     }
 
-    /// Whether it lies on its side: its z, which lies to the south, looks like up.
-    fn lies(&self) -> bool {
+    /// Whether it lies on its side: the axis that would be up looks level, and the other one looks like up. A file that is taken
+    /// for y up has its z to the south, one that is taken for z up its y to the north.
+    fn lies(&self, taken: Up) -> bool {
+        let (other_up, foot) = match taken {
+            Up::Y => (1, self.high.y),
+            Up::Z => (0, self.low.y),
+        };
         // by which part of the area more looks one way along an axis than the other
         let looks = |axis: usize, up: usize| {
             let more = |areas: [DVec3; 2]| (areas[up][axis] - areas[1 - up][axis]).max(0.0);
             (more(self.sloped) + more(self.level)) / self.area
         };
-        let (upright, lying) = (looks(2, 0), looks(1, 1));
+        let (upright, lying) = (looks(2, 0), looks(1, other_up));
         let size = self.high - self.low;
-        let stands = self.high.y.abs() <= ON_THE_GROUND * size.y;
+        let stands = foot.abs() <= ON_THE_GROUND * size.y;
         let is_around_axis = ((self.low.z + self.high.z) / 2.0).abs() <= AROUND_ITS_AXIS * size.z;
         lying >= ROOFED.max(CLEARLY * upright) || stands && is_around_axis && upright < ROOFED
     }
@@ -162,14 +167,29 @@ impl ModelMeasures {
 /// Faces that one task looks at.
 const AT_ONCE: usize = 1 << 14;
 
+/// Which unit and axis a model stands with, and whether its file or somebody says so.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TakenFrame {
+    pub up: Up,
+    pub up_is_said: bool,
+    pub unit_is_said: bool,
+}
+
+impl TakenFrame {
+    /// Of a model as its file says it.
+    pub(super) fn of_file(model: &Model) -> Self {
+        Self { up: model.up, up_is_said: model.up_is_said, unit_is_said: model.unit_m.is_some() }
+    }
+
+    /// The same where somebody may have written unit or axis.
+    pub(super) fn written(self, unit: bool, up: bool) -> Self {
+        Self { up_is_said: self.up_is_said || up, unit_is_said: self.unit_is_said || unit, ..self }
+    }
+}
+
 /// Looks at a model: its components, and where it stands; only at what nobody said.
-pub(super) fn of(
-    mesh: &Mesh,
-    components: &[Component],
-    placement: &Placement,
-    [scale_is_said, up_is_said]: [bool; 2],
-) -> Vec<Mend> {
-    if scale_is_said && up_is_said {
+pub(super) fn of(mesh: &Mesh, components: &[Component], placement: &Placement, taken: TakenFrame) -> Vec<Mend> {
+    if taken.unit_is_said && taken.up_is_said {
         return Vec::new();
     }
     let upright_from_world = DMat3::from_rotation_z(-placement.north_rad);
@@ -202,11 +222,16 @@ pub(super) fn of(
         return Vec::new();
     }
     let mut mends = Vec::new();
-    if !scale_is_said && let Some(units) = measured.units() {
+    if !taken.unit_is_said
+        && let Some(units) = measured.units()
+    {
         mends.extend(units.iter().map(|&unit| Mend::Scale(unit)));
     }
-    if !up_is_said && measured.lies() {
-        mends.push(Mend::Up(Up::Z));
+    if !taken.up_is_said && measured.lies(taken.up) {
+        mends.push(Mend::Up(match taken.up {
+            Up::Y => Up::Z,
+            Up::Z => Up::Y,
+        }));
     }
     mends
 }
@@ -227,11 +252,12 @@ pub(super) fn notes(model: &str, mends: &[Mend]) -> Vec<Message> {
             "if it is, write `scale = 0.01` or `scale = 0.0254` under [[model]]"
         ]),
     }
-    if mends.iter().any(|mend| matches!(mend, Mend::Up(_))) {
+    for mend in mends {
+        let Mend::Up(up) = mend else { continue };
         notes.push(message![
-            format!("{model} looks as if it lay on its side, its z being up");
-            "if it does, write `up = \"z\"` under [[model]]",
-            Piece::Where(Field::Up, pieces![", or say ", (Field::Up, "z")])
+            format!("{model} looks as if it lay on its side, its {up} being up");
+            format!("if it does, write `{mend}` under [[model]]"),
+            Piece::Where(Field::Up, pieces![", or say ", (Field::Up, up.word())])
         ]);
     }
     notes

@@ -3,6 +3,7 @@
 use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
+use super::likeness::TakenFrame;
 use super::models::{Models, note_see_through};
 use super::placement::Placement;
 use super::written::WrittenSite;
@@ -63,14 +64,14 @@ pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError
     if formats::by_ending(path).is_some() && !path.is_dir() {
         let placement = Placement { up, ..Placement::default() };
         let model = placement.place(formats::read(&on_disk(path), &placement.read_options())?);
-        let said = [model.unit_m.is_some(), model.up_is_said || up.is_some()];
+        let taken = TakenFrame::of_file(&model).written(false, up.is_some());
         let Model { parts, notes, see_through, .. } = model;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let seen_through = note_see_through(&see_through, &vec![true; parts.len()]);
         let of_reader = notes.into_iter().map(|note| note.about(&name).in_words(words));
         let mut notes: Vec<String> = of_reader.chain(seen_through.map(|note| format!("{name} {note}"))).collect();
         let mesh = Mesh::build(parts)?;
-        let mends = likeness::of(&mesh, &mesh.components, &placement, said);
+        let mends = likeness::of(&mesh, &mesh.components, &placement, taken);
         let of_model = notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends);
         notes.extend(of_model.iter().map(|note| note.in_words(words)));
         return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes });

@@ -6,7 +6,7 @@ use super::extent::Bounds;
 use super::file::Names;
 use super::ground::Ground;
 use super::keys;
-use super::likeness::{self, Likeness};
+use super::likeness::{self, Likeness, TakenFrame};
 use super::notes;
 use super::placement::Placement;
 use super::written::WrittenSite;
@@ -67,11 +67,11 @@ impl Models {
         let mut said = Vec::new();
         for index in 0..sources.len() {
             let model = model(written, index, &read_model)?;
+            said.push(TakenFrame::of_file(&model));
             let first = parts.len();
             parts.extend(model.parts);
             let name = name(written, index);
             notes.extend(model.notes.into_iter().map(|note| note.about(name)));
-            said.push([model.unit_m.is_some(), model.up_is_said]);
             models.push((name.to_owned(), first..parts.len()));
             see_through.push(model.see_through);
         }
@@ -79,9 +79,8 @@ impl Models {
         let looks = |(index, source): (usize, &Source)| {
             let table = &written.site.model[index];
             let components = &mesh.components[models[index].1.clone()];
-            let [unit, up] = said[index];
-            let said = [unit || table.scale.is_some(), up || table.up.is_some()];
-            Likeness { model: index, mends: likeness::of(&mesh, components, &source.placement, said) }
+            let taken = said[index].written(table.scale.is_some(), table.up.is_some());
+            Likeness { model: index, mends: likeness::of(&mesh, components, &source.placement, taken) }
         };
         let likenesses: Vec<Likeness> = sources.iter().enumerate().map(looks).collect();
         for ((model, components), likeness) in models.iter().zip(&likenesses) {

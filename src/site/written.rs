@@ -93,13 +93,15 @@ impl WrittenSite {
     /// A model is `placed` where somebody says its place.
     pub(super) fn read_as_it_is(path: &Path, placed: bool) -> Result<WrittenSite, SiteError> {
         let path = &*on_disk(path);
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        match extension.as_str() {
-            _ if path.is_dir() => Self::read_file(&path.join("site.toml")),
-            _ if formats::by_ending(path).is_some() => Self::of_model(path, placed),
-            "obj" | "stl" | "ply" | "ifc" | "fbx" | "dae" | "3ds" | "3dm" | "skp" | "dwg" | "dxf" | "blend" | "usd"
-            | "usdz" | "rvt" => Err(SiteError::UnknownFormat { path: path.display().to_string() }),
-            _ => Self::read_file(path),
+        if path.is_dir() {
+            return Self::read_file(&path.join("site.toml"));
+        }
+        if formats::by_ending(path).is_some() {
+            return Self::of_model(path, placed);
+        }
+        match formats::refusal(path) {
+            Some(refusal) => Err(SiteError::UnknownFormat(refusal.about(&path.display().to_string()))),
+            None => Self::read_file(path),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::model::{Model, U32};
 use crate::shared::program::{PLACE, STUDY, done, fails, gnomon, stderr};
+use gnomon::formats::Up;
 use gnomon::site::{Mend, Overrides, Site};
 use serde_json::json;
 use tempfile::TempDir;
@@ -109,6 +110,38 @@ fn what_is_plausible_in_metres_is_not_doubted() {
     mountain.json["meshes"] = json!([{"primitives": [{"attributes": {"POSITION": positions}, "indices": indices}]}]);
     mountain.json["nodes"] = json!([{"mesh": 0}]);
     assert!(mends(&mountain, "").is_empty());
+}
+
+/// STL is taken for z up, and may be y up.
+#[test]
+fn a_model_that_is_taken_for_z_up_may_lie_the_other_way() {
+    let [low, high] = [[-5.0, 0.0, -5.0], [5.0, 30.0, 5.0]];
+    let corner = |bits: usize| [0, 1, 2].map(|axis| if bits >> axis & 1 == 0 { low[axis] } else { high[axis] });
+    let mut text = String::from("solid tower\n");
+    for [a, b, c, d] in [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]] {
+        for triangle in [[a, b, c], [a, c, d]] {
+            text += "facet normal 0 0 0\nouter loop\n";
+            for [x, y, z] in triangle.map(corner) {
+                text += &format!("vertex {x} {y} {z}\n");
+            }
+            text += "endloop\nendfacet\n";
+        }
+    }
+    text += "endsolid\n";
+    let site = |keys: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("model.stl"), &text).unwrap();
+        let written = format!("{PLACE}[[model]]\npath = \"model.stl\"\n{keys}{STUDY}");
+        std::fs::write(folder.path().join("site.toml"), written).unwrap();
+        Site::load(folder.path(), &Overrides::default()).unwrap()
+    };
+    let lying = site("");
+    assert_eq!(lying.likenesses[0].mends, [Mend::Up(Up::Y)]);
+    let words = "model.stl looks as if it lay on its side, its y being up";
+    assert!(lying.notes.iter().any(|note| note.contains(words) && note.contains("`up = \"y\"`")), "{:?}", lying.notes);
+    let standing = site("up = \"y\"\n");
+    assert!(standing.likenesses.is_empty());
+    assert_eq!((lying.mesh.top(), standing.mesh.top()), (5.0, 30.0));
 }
 
 #[test]

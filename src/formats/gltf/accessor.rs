@@ -3,6 +3,7 @@
 use super::Fault;
 use super::buffers::Buffers;
 use super::document::Document;
+use super::draco::UnpackedElements;
 use super::reader::{Reader, Sparse, StridedElements};
 use gltf::json;
 use gltf::json::validation::{Checked, USize64};
@@ -74,7 +75,16 @@ fn open<'a>(
     };
     let USize64(count) = accessor.count;
     let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+    let unpacked = buffers.unpacked_elements(index);
     let base = match accessor.buffer_view {
+        // a view that stands beside it is not read
+        _ if let Some(UnpackedElements { bytes, .. }) = unpacked => {
+            let stride = element_bytes as usize;
+            if bytes.len() as u64 != count.saturating_mul(element_bytes) {
+                return Err(fault(index, "has another type in two primitives"));
+            }
+            Some(StridedElements { bytes, stride })
+        }
         Some(view) => Some(locate(view.value(), offset, count, element_bytes)?),
         None if count > MAX_ZEROS => {
             return Err(fault(index, format!("has {count} elements and no bytes to hold them")));
@@ -105,6 +115,7 @@ fn open<'a>(
         normalized: accessor.normalized,
         base,
         sparse,
+        rounded: unpacked.and_then(|unpacked| unpacked.step),
     })
 }
 
@@ -125,11 +136,6 @@ fn strided<'a>(
         });
     };
     let buffer = view.buffer.value();
-    if let Some(extension) = compression(view)
-        && buffers.is_placeholder(buffer)
-    {
-        return Err(Fault::Compressed { what: format!("buffer view {index} is"), extension: extension.into() });
-    }
     let stride = view.byte_stride.map_or(span.element_bytes, |stride| stride.0 as u64);
     if stride < span.element_bytes {
         return Err(fault(
@@ -153,20 +159,19 @@ fn strided<'a>(
     if end > view_bytes {
         return Err(range(span.offset, end, format!("buffer view {index}"), view_bytes));
     }
-    let bytes = buffers.get(buffer, &format!("buffer view {index}"))?;
-    let start = view.byte_offset.map_or(0, |offset| offset.0).saturating_add(span.offset);
+    let (bytes, start) = match buffers.unpacked_view(index)? {
+        Some(unpacked) => (unpacked, span.offset),
+        None => {
+            let bytes = buffers.get(buffer, &format!("buffer view {index}"))?;
+            (bytes, view.byte_offset.map_or(0, |offset| offset.0).saturating_add(span.offset))
+        }
+    };
     let end = start.saturating_add(reach);
     let within = |start: u64, end: u64| bytes.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?);
     match (within(start, end), usize::try_from(stride)) {
         (Some(bytes), Ok(stride)) => Ok(StridedElements { bytes, stride }),
         _ => Err(range(start, end, format!("buffer {buffer}"), bytes.len() as u64)),
     }
-}
-
-/// The extension that compresses a view, where one does.
-fn compression(view: &json::buffer::View) -> Option<&str> {
-    let mut names = view.extensions.as_ref()?.others.keys();
-    names.find(|name| name.ends_with("_meshopt_compression")).map(String::as_str)
 }
 
 /// A count that memory could hold.

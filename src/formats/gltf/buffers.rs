@@ -5,7 +5,9 @@
 //! does not mean to show. (A symbolic link in the folder is followed, for it is the user's own.)
 
 use super::document::Document;
-use super::{Fault, container};
+use super::draco::UnpackedElements;
+use super::meshopt::CompressedView;
+use super::{Fault, container, draco};
 use crate::formats::on_disk;
 use base64::Engine;
 use base64::alphabet::STANDARD;
@@ -13,6 +15,7 @@ use base64::engine::DecodePaddingMode;
 use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
@@ -28,6 +31,10 @@ pub(super) struct Buffers<'a> {
     binary: Option<&'a [u8]>,
     folder: &'a Path,
     loaded: Vec<OnceCell<Bytes<'a>>>,
+    /// Of buffer views that are compressed, what they unpack to.
+    views: Vec<OnceCell<Vec<u8>>>,
+    /// Of accessors whose primitive is compressed, what they unpack to.
+    elements: BTreeMap<usize, UnpackedElements>,
     /// Many buffers may name one file, which must not cost its memory many times.
     files: RefCell<BTreeMap<PathBuf, Rc<[u8]>>>,
 }
@@ -45,8 +52,68 @@ impl<'a> Buffers<'a> {
             binary,
             folder,
             loaded: document.buffers.iter().map(|_| OnceCell::new()).collect(),
+            views: document.buffer_views.iter().map(|_| OnceCell::new()).collect(),
+            elements: BTreeMap::new(),
             files: RefCell::default(),
         }
+    }
+
+    /// Unpacks the primitives of a mesh that are compressed; before that their accessors have no bytes.
+    pub(super) fn unpack(&mut self, mesh: usize) -> Result<(), Fault> {
+        let document = self.document;
+        let primitives = document.meshes.get(mesh).map_or(&[][..], |mesh| &mesh.primitives);
+        for (number, primitive) in primitives.iter().enumerate() {
+            let Some(said) = draco::compression(document, primitive) else { continue };
+            let source = self.view_bytes(draco::view(said), || format!("primitive {number} of mesh {mesh}"))?;
+            let mut unpacked = BTreeMap::new();
+            draco::unpack(document, (mesh, number), primitive, (said, source), &mut unpacked)?;
+            self.elements.append(&mut unpacked);
+        }
+        Ok(())
+    }
+
+    /// All bytes of a view that is stored plainly.
+    fn view_bytes(&self, view: Option<usize>, user: impl Fn() -> String) -> Result<&[u8], Fault> {
+        let count = self.document.buffer_views.len();
+        let found = view.and_then(|index| Some((index, self.document.buffer_views.get(index)?)));
+        let Some((index, view)) = found else {
+            return Err(Fault::NoSuch { user: user(), what: "buffer view", index: view.unwrap_or(usize::MAX), count });
+        };
+        let start = view.byte_offset.map_or(0, |offset| offset.0);
+        let holder = format!("buffer view {index}");
+        self.range(view.buffer.value(), start..start.saturating_add(view.byte_length.0), &holder)
+    }
+
+    fn range(&self, buffer: usize, range: Range<u64>, user: &str) -> Result<&[u8], Fault> {
+        let bytes = self.get(buffer, user)?;
+        let within = || bytes.get(usize::try_from(range.start).ok()?..usize::try_from(range.end).ok()?);
+        within().ok_or_else(|| Fault::Range {
+            what: user.to_owned(),
+            start: range.start,
+            end: range.end,
+            holder: format!("buffer {buffer}"),
+            holds: bytes.len() as u64,
+        })
+    }
+
+    /// What an accessor's elements are unpacked to, where its primitive is compressed.
+    pub(super) fn unpacked_elements(&self, accessor: usize) -> Option<&UnpackedElements> {
+        self.elements.get(&accessor)
+    }
+
+    /// What a view is unpacked to, where it is compressed and not stored plainly, too.
+    pub(super) fn unpacked_view(&self, index: usize) -> Result<Option<&[u8]>, Fault> {
+        let Some(compressed) = CompressedView::of(self.document, index) else { return Ok(None) };
+        let plain = self.document.buffer_views.get(index).map(|view| view.buffer.value());
+        let Some(cell) = self.views.get(index).filter(|_| plain.is_some_and(|plain| self.is_placeholder(plain))) else {
+            return Ok(None);
+        };
+        if cell.get().is_none() {
+            let (buffer, range) = compressed.source()?;
+            let unpacked = compressed.decode(self.range(buffer, range, &format!("buffer view {index}"))?)?;
+            return Ok(Some(cell.get_or_init(|| unpacked)));
+        }
+        Ok(cell.get().map(Vec::as_slice))
     }
 
     /// All bytes there are, which may be more or fewer than the file says.
@@ -67,14 +134,16 @@ impl<'a> Buffers<'a> {
         })
     }
 
-    /// Whether the buffer only stands for what a compressed one unpacks to.
-    pub(super) fn is_placeholder(&self, index: usize) -> bool {
+    /// Whether the buffer only stands for what compressed views unpack to.
+    fn is_placeholder(&self, index: usize) -> bool {
         let buffer = self.document.buffers.get(index);
         let extensions = buffer.and_then(|buffer| buffer.extensions.as_ref());
-        extensions.is_some_and(|found| {
+        let is_said = extensions.is_some_and(|found| {
             let mut others = found.others.iter();
             others.any(|(name, value)| name.ends_with("_meshopt_compression") && value["fallback"] == true)
-        }) && buffer.is_some_and(|buffer| buffer.uri.is_none())
+        });
+        // the first one may be the container's
+        buffer.is_some_and(|buffer| buffer.uri.is_none()) && (is_said || index > 0 || self.binary.is_none())
     }
 
     fn load(&self, index: usize) -> Result<Bytes<'a>, Fault> {

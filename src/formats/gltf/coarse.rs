@@ -51,8 +51,11 @@ fn step(number: f64) -> f64 {
 }
 
 impl Reader<'_> {
-    /// The step between neighbouring numbers where they are whole ones, or stand for parts of 1.
+    /// The step between neighbouring numbers where they are whole ones, stand for parts of 1, or were rounded.
     fn whole_step(&self) -> Option<f64> {
+        if self.rounded.is_some() {
+            return self.rounded;
+        }
         let most = match self.component {
             ComponentType::F32 => return None,
             ComponentType::I8 => f64::from(i8::MAX),

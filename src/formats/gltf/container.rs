@@ -55,8 +55,8 @@ pub(super) fn json_of_file(path: &Path) -> Option<Vec<u8>> {
     Some(json_alone(&bytes).to_vec())
 }
 
-/// Finds the JSON and the binary chunk. `path` only helps to say how another format becomes glTF.
-pub(super) fn open<'a>(bytes: &'a [u8], path: &Path) -> Result<Container<'a>, Fault> {
+/// Finds the JSON and the binary chunk.
+pub(super) fn open(bytes: &[u8]) -> Result<Container<'_>, Fault> {
     if bytes.starts_with(b"glTF") {
         return open_binary(bytes);
     }
@@ -65,7 +65,7 @@ pub(super) fn open<'a>(bytes: &'a [u8], path: &Path) -> Result<Container<'a>, Fa
     if text.trim_ascii_start().starts_with(b"{") {
         return Ok(Container { json: text, binary: None });
     }
-    Err(Fault::NotGltf(way_to_gltf(path)))
+    Err(Fault::NotGltf)
 }
 
 fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
@@ -128,22 +128,4 @@ fn u32_at(bytes: &[u8], offset: usize) -> Option<usize> {
 
 fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
-}
-
-/// How the user gets from the format that the file's name promises to glTF.
-fn way_to_gltf(path: &Path) -> &'static str {
-    let extension = path.extension().and_then(|text| text.to_str()).unwrap_or_default();
-    match extension.to_ascii_lowercase().as_str() {
-        "ifc" | "ifczip" | "ifcxml" => "convert it with IfcOpenShell's `IfcConvert model.ifc model.glb`",
-        "rvt" | "rfa" | "pln" | "pla" => {
-            "export IFC from Revit or Archicad, then convert it with IfcOpenShell's `IfcConvert model.ifc model.glb`"
-        }
-        "skp" => "in SketchUp, File > Export > 3D Model as .glb",
-        "3dm" => "in Rhino, File > Export as .glb",
-        "obj" | "stl" | "ply" | "fbx" | "dae" | "blend" | "3ds" | "usd" | "usdz" => {
-            "import it in Blender, then File > Export > glTF 2.0"
-        }
-        "glb" | "gltf" => "the file does not begin as its name promises; it is damaged: copy or export it again",
-        _ => "Blender, Rhino and SketchUp export it (File > Export), and IfcConvert makes it from IFC",
-    }
 }

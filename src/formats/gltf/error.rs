@@ -15,8 +15,8 @@ pub enum Fault {
     #[error("has {0} bytes; a model may have 4 GiB: export it in parts or with less detail")]
     TooLarge(u64),
     /// Another format, or none.
-    #[error("is not glTF, and Gnomon reads .glb and .gltf: {0}")]
-    NotGltf(&'static str),
+    #[error("is not glTF, though its name says so; it is damaged or of another format: copy or export it again")]
+    NotGltf,
     /// The binary container contradicts itself.
     #[error("{0}; the file is cut off or damaged: copy or export it again")]
     Container(String),
@@ -29,16 +29,13 @@ pub enum Fault {
     /// An extension without which the geometry would be wrong.
     #[error("requires the extension {0}, which Gnomon does not read: export it without")]
     Extension(String),
-    /// Compressed geometry.
-    #[error(
-        "{what} compressed by {extension}, which Gnomon does not read: export it without mesh compression, \
-         or undo it with `gltf-transform copy in.glb out.glb`"
-    )]
-    Compressed {
-        /// Subject and verb.
+    /// Compressed geometry that cannot be unpacked.
+    #[error("{what} {problem}; the file is damaged: copy or export it again, or export it without mesh compression")]
+    Unpacking {
+        /// What is compressed.
         what: String,
-        /// glTF's name of the compression.
-        extension: String,
+        /// Verb and object.
+        problem: String,
     },
     /// An index that leads nowhere.
     #[error("{user} refers to {what} {index}, and there are only {count}; the file is damaged: export it again")]

@@ -7,12 +7,13 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
 //! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
 //! binary chunk), `document` and `material` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
-//! and `reader` (bytes → numbers), `coarse` (how exact those are), `instances`, `primitive` (which triangles a mesh has),
+//! and `reader` (bytes → numbers), `draco` and `meshopt` (what is compressed), `coarse` (how exact those are), `instances`, `primitive` (which triangles a mesh has),
 //! `pose` (morphs and skins), `build` (all of it → parts), `notes` (what the user should know of it); beside it `named`
 //! (which other files are the model's).
 
 use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
 use crate::message::Message;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 mod accessor;
@@ -21,9 +22,11 @@ mod build;
 mod coarse;
 mod container;
 mod document;
+mod draco;
 mod error;
 mod instances;
 mod material;
+mod meshopt;
 mod named;
 mod notes;
 mod pose;
@@ -70,19 +73,21 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Model, Fault> {
 }
 
 /// The JSON of a glTF that is in memory.
-pub(super) fn json_in<'a>(bytes: &'a [u8], path: &Path) -> Option<&'a [u8]> {
-    container::open(bytes, path).ok().map(|container| container.json)
+pub(super) fn json_in(bytes: &[u8]) -> Option<&[u8]> {
+    container::open(bytes).ok().map(|container| container.json)
 }
 
 /// Reads a glTF that is in memory, as a content of 3D Tiles is. What it names lies beside `path`; `applied` are extensions
 /// that the caller applies to what is read.
 pub(super) fn read_bytes(bytes: &[u8], path: &Path, options: &ReadOptions, applied: &[&str]) -> Result<Model, Fault> {
-    let container = container::open(bytes, path)?;
+    let container = container::open(bytes)?;
     let document = document::Document::parse(container.json, applied)?;
     let is_asked = options.scene.is_some();
     let standing = scene::place(&document, options.scene.as_ref())?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let buffers = buffers::Buffers::new(&document, container.binary, folder);
+    let mut buffers = buffers::Buffers::new(&document, container.binary, folder);
+    let meshes: BTreeSet<usize> = standing.placed.iter().map(|place| place.mesh).collect();
+    meshes.into_iter().try_for_each(|mesh| buffers.unpack(mesh))?;
     let build::BuiltScene { parts, see_through } =
         build::build(&document, &buffers, &standing.placed, options.told_step)?;
     if parts.is_empty() {

@@ -10,8 +10,6 @@ use gltf::json::validation::Checked;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-const DRACO: &str = "KHR_draco_mesh_compression";
-
 /// The triangles of a mesh, checked but for the values of its indices and positions.
 pub(super) struct MeshTriangles<'a> {
     /// In the order in which the materials appear; those without triangles are left out.
@@ -82,7 +80,7 @@ pub(super) fn surfaces<'a>(
             groups.push(MaterialGroup { material, has_faded_vertices: false, surfaces: Vec::new() });
             groups.len() - 1
         });
-        let surface = surface(document, accessors, (index, number), primitive, mode)?;
+        let surface = surface(accessors, (index, number), primitive, mode)?;
         if let Some(group) = groups.get_mut(group).filter(|_| surface.triangles > 0) {
             group.has_faded_vertices |= has_faded_vertices(document, primitive);
             group.surfaces.push(surface);
@@ -100,7 +98,6 @@ fn has_faded_vertices(document: &Document, primitive: &Primitive) -> bool {
 }
 
 fn surface<'a>(
-    document: &Document,
     accessors: &mut Accessors<'a, '_>,
     (mesh, number): (usize, usize),
     primitive: &Primitive,
@@ -111,16 +108,6 @@ fn surface<'a>(
     let positions = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
     let positions = positions.map(|accessor| accessor.value());
     let indices = primitive.indices.map(|accessor| accessor.value());
-    // A primitive may carry its geometry twice, once of it plain; that one is read then.
-    let is_stored = |accessor: usize| {
-        let accessor = document.accessors.get(accessor);
-        accessor.is_some_and(|accessor| accessor.buffer_view.is_some())
-    };
-    let is_plain = positions.is_some_and(is_stored) && indices.is_none_or(is_stored);
-    let extensions = primitive.extensions.as_ref();
-    if !is_plain && extensions.is_some_and(|found| found.others.contains_key(DRACO)) {
-        return Err(Fault::Compressed { what: format!("{} is", user()), extension: DRACO.into() });
-    }
     let Some(positions) = positions else {
         return fault("has no positions");
     };

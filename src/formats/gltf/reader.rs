@@ -26,6 +26,8 @@ pub(super) struct Reader<'a> {
     pub base: Option<StridedElements<'a>>,
     /// What stands for some of them.
     pub sparse: Option<Sparse<'a>>,
+    /// From one number to the next, where they were rounded to steps before they were packed.
+    pub rounded: Option<f64>,
 }
 
 /// Elements that lie `stride` bytes apart.

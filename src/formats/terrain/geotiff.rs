@@ -3,7 +3,9 @@
 use super::geokeys::GeoKeys;
 use super::grid::HeightGrid;
 use super::model_of;
-use crate::formats::{Format, Model, ModelFault, ReadOptions, whole::{stem, whole_file}};
+use crate::formats::{Format, Model, ModelFault, ReadOptions};
+use crate::formats::source::stem;
+use crate::formats::whole::whole_file;
 use crate::message::{Message, message};
 use glam::DVec2;
 use std::fs::File;

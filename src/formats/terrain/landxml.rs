@@ -1,7 +1,9 @@
 //! LandXML: the surfaces that surveyors triangulate.
 
 use super::{NamedSheet, of_sheets};
-use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions, composed, whole::{stem, whole_file}};
+use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions, composed};
+use crate::formats::source::stem;
+use crate::formats::whole::whole_file;
 use crate::message::{Message, message};
 use glam::DVec3;
 use quick_xml::Reader;

@@ -3,7 +3,8 @@
 use super::geokeys::GeoKeys;
 use super::point_cells::{CellBlocks, PointCells};
 use super::{NamedSheet, of_sheets, thin};
-use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions, whole::{stem, whole_file}};
+use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions};
+use crate::formats::source::stem;
 use crate::message::{Message, message};
 use glam::DVec3;
 use las::{Header, PointData, Reader};

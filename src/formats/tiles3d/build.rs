@@ -66,7 +66,7 @@ impl TileBuilder {
         };
         let options = ReadOptions { told_step: self.told_step, ..ReadOptions::default() };
         let model = gltf::read_bytes(gltf, path, &options, &["CESIUM_RTC"])?;
-        let center = center + gltf::json_in(gltf, path).map_or(DVec3::ZERO, cesium_center);
+        let center = center + gltf::json_in(gltf).map_or(DVec3::ZERO, cesium_center);
         let turned = if is_y_up { DMat4::from_rotation_x(std::f64::consts::FRAC_PI_2) } else { DMat4::IDENTITY };
         self.join(model, name, world * DMat4::from_translation(center), turned)
     }

@@ -1,0 +1,135 @@
+//! Nodes: where they stand, and what is below them.
+
+use super::document::DaeDocument;
+use super::xml::{DaeXml, attribute, local_id};
+use crate::formats::left_out::label;
+use crate::message::{Message, message};
+use glam::{DAffine3, DMat3, DVec3};
+use quick_xml::events::BytesStart;
+
+/// How deep nodes may lie in nodes.
+pub(super) const MOST_DEPTH: usize = 100;
+
+/// A node.
+pub(super) struct DaeNode {
+    /// Its name, else its id; empty where it has neither.
+    pub name: String,
+    pub parent_from_node: DAffine3,
+    pub children: Vec<usize>,
+    /// Ids of nodes that stand here, too.
+    pub instances: Vec<String>,
+    pub geometries: Vec<GeometryInstance>,
+    /// Whether it is placed in a way that is not read, as cameras are.
+    pub is_astray: bool,
+}
+
+/// A geometry that stands at a node.
+pub(super) struct GeometryInstance {
+    pub geometry: String,
+    /// The geometry's symbols for materials, and the materials' ids.
+    pub materials: Vec<(String, String)>,
+}
+
+impl DaeNode {
+    /// Reads the node that was given last, with all below it; gives its number.
+    pub(super) fn read(
+        xml: &mut DaeXml,
+        element: &BytesStart,
+        document: &mut DaeDocument,
+        depth: usize,
+    ) -> Result<usize, Message> {
+        if depth > MOST_DEPTH {
+            let what = format!("has nodes in nodes deeper than {MOST_DEPTH}");
+            return Err(message![what; "dissolve some of its groups, and export it again"]);
+        }
+        let id = attribute(element, "id");
+        let name = label(&attribute(element, "name").or_else(|| id.clone()).unwrap_or_default());
+        let mut node = DaeNode {
+            name,
+            parent_from_node: DAffine3::IDENTITY,
+            children: Vec::new(),
+            instances: Vec::new(),
+            geometries: Vec::new(),
+            is_astray: false,
+        };
+        xml.children(|xml, name, element| match name {
+            "node" => {
+                node.children.push(Self::read(xml, element, document, depth + 1)?);
+                Ok(())
+            }
+            "matrix" | "translate" | "rotate" | "scale" => {
+                let step = transform(name, &xml.numbers()?);
+                node.parent_from_node *= step.unwrap_or(DAffine3::IDENTITY);
+                node.is_astray |= step.is_none();
+                Ok(())
+            }
+            "skew" | "lookat" => {
+                node.is_astray = true;
+                xml.skip()
+            }
+            "instance_node" => {
+                match local_id(element, "url") {
+                    Some(id) => node.instances.push(id),
+                    None => document.left_out.add("nodes of other files", "nothing outside of the file is followed"),
+                }
+                xml.skip()
+            }
+            "instance_geometry" => match local_id(element, "url") {
+                Some(geometry) => {
+                    let materials = materials(xml)?;
+                    node.geometries.push(GeometryInstance { geometry, materials });
+                    Ok(())
+                }
+                None => {
+                    document.left_out.add("geometries of other files", "nothing outside of the file is followed");
+                    xml.skip()
+                }
+            },
+            "instance_controller" => {
+                document.left_out.add("skinned and morphed meshes", "joints and morphs of Collada are not read");
+                xml.skip()
+            }
+            _ => xml.skip(),
+        })?;
+        let number = document.nodes.len();
+        document.nodes.push(node);
+        if let Some(id) = id {
+            document.node_of.insert(id, number);
+        }
+        Ok(number)
+    }
+}
+
+/// The materials that are bound at the instance that was given last.
+fn materials(xml: &mut DaeXml) -> Result<Vec<(String, String)>, Message> {
+    let mut materials = Vec::new();
+    xml.children(|xml, name, _| match name {
+        "bind_material" => xml.children(|xml, name, _| match name {
+            "technique_common" => xml.children(|xml, name, element| {
+                let bound = attribute(element, "symbol").zip(local_id(element, "target"));
+                materials.extend(bound.filter(|_| name == "instance_material"));
+                xml.skip()
+            }),
+            _ => xml.skip(),
+        }),
+        _ => xml.skip(),
+    })?;
+    Ok(materials)
+}
+
+/// A step of a node's transform; none where its numbers are not as many as it has.
+fn transform(kind: &str, numbers: &[f64]) -> Option<DAffine3> {
+    Some(match (kind, numbers) {
+        ("matrix", &[a, b, c, x, d, e, f, y, g, h, i, z, _, _, _, _]) => {
+            let linear = DMat3::from_cols(DVec3::new(a, d, g), DVec3::new(b, e, h), DVec3::new(c, f, i));
+            DAffine3::from_mat3_translation(linear, DVec3::new(x, y, z))
+        }
+        ("translate", &[x, y, z]) => DAffine3::from_translation(DVec3::new(x, y, z)),
+        ("scale", &[x, y, z]) => DAffine3::from_scale(DVec3::new(x, y, z)),
+        ("rotate", &[x, y, z, degrees]) => match DVec3::new(x, y, z).try_normalize() {
+            Some(axis) => DAffine3::from_axis_angle(axis, degrees.to_radians()),
+            None => DAffine3::IDENTITY,
+        },
+        _ => return None,
+    })
+}

@@ -1,0 +1,129 @@
+//! Files of programs that are known and not read: how to export from each what can be.
+
+use crate::message::{Message, message};
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+/// A format that is known, and not read.
+struct RefusedFormat {
+    /// What people call its files, with the article.
+    what: &'static str,
+    /// How its files' names end.
+    endings: &'static [&'static str],
+    /// How its files begin; several formats may begin alike, and then the ending tells which it is.
+    marks: &'static [&'static [u8]],
+    /// How to export what is read.
+    way_out: &'static str,
+}
+
+/// What compound files of Microsoft's kind begin with.
+const COMPOUND: &[u8] = b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1";
+
+const REFUSED: &[RefusedFormat] = &[
+    RefusedFormat {
+        what: "a SketchUp file",
+        endings: &["skp", "skb"],
+        marks: &[b"\xFF\xFE\xFF\x0ES\0k\0e\0t\0c\0h\0"],
+        way_out: "in SketchUp, File > Export > 3D Model, as COLLADA (.dae): its components stay apart",
+    },
+    RefusedFormat {
+        what: "a Rhino file",
+        endings: &["3dm"],
+        marks: &[b"3D Geometry File Format"],
+        way_out: "in Rhino, File > Export Selected, as .obj or .glb",
+    },
+    RefusedFormat {
+        what: "a Revit file",
+        endings: &["rvt", "rfa", "rte", "rft"],
+        marks: &[COMPOUND],
+        way_out: "in Revit, File > Export > IFC; a family is first loaded into a project",
+    },
+    RefusedFormat {
+        what: "a 3ds Max file",
+        endings: &["max"],
+        marks: &[COMPOUND],
+        way_out: "in 3ds Max, File > Export > Export, as OBJ",
+    },
+    RefusedFormat {
+        what: "an Archicad file",
+        endings: &["pln", "pla", "mod", "tpl", "gsm"],
+        marks: &[],
+        way_out: "in Archicad, File > Save As, as IFC File",
+    },
+    RefusedFormat {
+        what: "a Vectorworks file",
+        endings: &["vwx"],
+        marks: &[],
+        way_out: "in Vectorworks, File > Export > Export IFC Project",
+    },
+    RefusedFormat {
+        what: "a DWG drawing",
+        endings: &["dwg"],
+        marks: &[b"AC10"],
+        way_out: "in AutoCAD, File > Save As, as DXF; solids first become meshes with the command MESHSMOOTH",
+    },
+    RefusedFormat {
+        what: "a 3DS file",
+        endings: &["3ds"],
+        marks: &[],
+        way_out: "in the program that wrote it, File > Export, as OBJ or COLLADA",
+    },
+    RefusedFormat {
+        what: "an FBX file",
+        endings: &["fbx"],
+        marks: &[b"Kaydara FBX Binary", b"; FBX "],
+        way_out: "in Blender, File > Import > FBX, then File > Export > glTF 2.0",
+    },
+    RefusedFormat {
+        what: "a Blender file",
+        endings: &["blend"],
+        marks: &[b"BLENDER"],
+        way_out: "in Blender, File > Export > glTF 2.0",
+    },
+    RefusedFormat {
+        what: "a USD file",
+        endings: &["usd", "usda", "usdc", "usdz"],
+        marks: &[b"PXR-USDC", b"#usda"],
+        way_out: "in Blender, File > Import > Universal Scene Description, then File > Export > glTF 2.0",
+    },
+];
+
+impl RefusedFormat {
+    fn begins(&self, head: &[u8]) -> bool {
+        self.marks.iter().any(|mark| head.starts_with(mark))
+    }
+
+    fn message(&self) -> Message {
+        message![format!("is {}, which Gnomon does not read", self.what); self.way_out]
+    }
+}
+
+/// What is said of a file that begins with these bytes, where they tell a format that is not read.
+pub(super) fn by_content(head: &[u8], path: &Path) -> Option<Message> {
+    let mut alike = REFUSED.iter().filter(|format| format.begins(head));
+    let first = alike.clone().next()?;
+    Some(alike.find(|format| format.ends(path)).unwrap_or(first).message())
+}
+
+/// What is said of a file whose name ends as those of a format that is not read.
+pub(super) fn by_ending(path: &Path) -> Option<Message> {
+    REFUSED.iter().find(|format| format.ends(path)).map(RefusedFormat::message)
+}
+
+impl RefusedFormat {
+    fn ends(&self, path: &Path) -> bool {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        self.endings.contains(&ending.as_str())
+    }
+}
+
+/// What is said of a file of a program whose files are known and not read; none of any other file.
+pub(crate) fn refusal(path: &Path) -> Option<Message> {
+    if !path.is_file() {
+        return None;
+    }
+    let mut head = Vec::new();
+    File::open(path).ok()?.take(super::HEAD_BYTES).read_to_end(&mut head).ok()?;
+    by_content(&head, path).or_else(|| by_ending(path))
+}

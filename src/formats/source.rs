@@ -1,0 +1,102 @@
+//! A file's bytes, its text and its names: what readers of text and tables begin with.
+
+use crate::message::{Message, message};
+use std::path::{Component, Path, PathBuf};
+
+/// A text's bytes in an encoding that contains ASCII: UTF-16 of both ends becomes UTF-8, and a byte order mark goes.
+pub(super) fn as_ascii(mut bytes: Vec<u8>) -> Vec<u8> {
+    match bytes.as_slice() {
+        [0xFF, 0xFE, rest @ ..] => from_utf16(rest, u16::from_le_bytes),
+        [0xFE, 0xFF, rest @ ..] => from_utf16(rest, u16::from_be_bytes),
+        [first, 0, second, 0, ..] if *first != 0 && *second != 0 => from_utf16(&bytes, u16::from_le_bytes),
+        [0, first, 0, second, ..] if *first != 0 && *second != 0 => from_utf16(&bytes, u16::from_be_bytes),
+        [0xEF, 0xBB, 0xBF, ..] => {
+            bytes.drain(..3);
+            bytes
+        }
+        _ => bytes,
+    }
+}
+
+fn from_utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Vec<u8> {
+    let units = bytes.as_chunks().0.iter().map(|two| unit(*two));
+    let letters = char::decode_utf16(units).map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER));
+    letters.collect::<String>().into_bytes()
+}
+
+/// A text: UTF-8, or else Latin-1, in which every byte is a letter.
+pub(super) fn text(bytes: &[u8]) -> String {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().copied().map(char::from).collect(),
+    }
+}
+
+/// The words of a line.
+pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// The word with which a line begins, and what follows it.
+pub(super) fn keyword(line: &[u8]) -> Option<(&[u8], &[u8])> {
+    let line = line.trim_ascii_start();
+    let word = words(line).next()?;
+    Some((word, line.get(word.len()..).unwrap_or_default()))
+}
+
+/// A finite number, as the whole of a word.
+pub(super) fn number(word: &[u8]) -> Option<f64> {
+    let number: f64 = std::str::from_utf8(word).ok()?.parse().ok()?;
+    number.is_finite().then_some(number)
+}
+
+/// The lines of a text, however they end.
+#[derive(Clone)]
+pub(super) struct TextLines<'a> {
+    rest: Option<&'a [u8]>,
+    /// Of the line that was given last, from 1.
+    pub number: usize,
+}
+
+impl<'a> TextLines<'a> {
+    pub(super) fn new(text: &'a [u8]) -> Self {
+        Self { rest: Some(text).filter(|text| !text.is_empty()), number: 0 }
+    }
+}
+
+impl<'a> Iterator for TextLines<'a> {
+    type Item = &'a [u8];
+
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let rest = self.rest?;
+        self.number += 1;
+        let Some(end) = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')) else {
+            self.rest = None;
+            return Some(rest);
+        };
+        let (line, behind) = rest.split_at(end);
+        let behind = behind.strip_prefix(b"\r\n").or_else(|| behind.get(1..)).unwrap_or_default();
+        self.rest = Some(behind).filter(|behind| !behind.is_empty());
+        Some(line)
+    }
+}
+
+/// What is wrong in a line of a file.
+pub(super) fn wrong_line(line: usize, what: &str) -> Message {
+    message![format!("{what} in line {line}"); "the file is damaged or was edited: export it again"]
+}
+
+/// Where a file lies that a model names: in the model's folder or below it; none where it is to lie elsewhere.
+pub(super) fn beside(model: &Path, name: &str) -> Option<PathBuf> {
+    // a file means the same on all systems
+    let name = name.trim().replace('\\', "/");
+    let relative = Path::new(&name);
+    let is_inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    let is_within = !name.is_empty() && !name.contains(':') && relative.components().all(is_inside);
+    is_within.then(|| super::on_disk(&model.parent().unwrap_or(Path::new("")).join(relative)))
+}
+
+/// What a part is called whose file has no name for it: as the file is.
+pub(super) fn stem(path: &Path) -> String {
+    super::left_out::label(&path.file_stem().unwrap_or_default().to_string_lossy())
+}
