@@ -8,6 +8,7 @@
 //! before memory is taken.
 
 pub mod gltf;
+mod ifc;
 mod model;
 mod names;
 
@@ -49,6 +50,11 @@ pub trait Format: Sync {
     /// What is wrong with the file, with the way out.
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault>;
 
+    /// Whether the reader is others' code, which runs in a process of its own with limits.
+    fn is_foreign(&self) -> bool {
+        false
+    }
+
     /// The files that a file names: they lie beside it, and are its user's, whether they are read or not.
     fn named_by(&self, _path: &Path) -> Vec<PathBuf> {
         Vec::new()
@@ -56,7 +62,7 @@ pub trait Format: Sync {
 }
 
 /// All formats, those that begin with a mark of their own first.
-pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf];
+pub const FORMATS: &[&dyn Format] = &[&gltf::Gltf, &ifc::Ifc];
 
 /// The format whose files end as this one's name does.
 pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {
