@@ -3,7 +3,7 @@
 use super::super::{Coordinates, LeftOut, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, Up};
 use super::anchors::{self, IfcFrame};
 use super::container::IfcText;
-use super::hidden::HiddenLayers;
+use super::layers::IfcLayers;
 use super::lost;
 use super::parts::IfcParts;
 use super::relations::IfcRelations;
@@ -36,52 +36,29 @@ pub(super) fn model(file: IfcText, options: &ReadOptions) -> Result<Model, Model
 }
 
 fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
-    let mut text = file.bytes;
-    let mut scan = scan(&text);
-    let mut notes = Vec::new();
-    if !file.ignored.is_empty() {
-        notes.push(message![format!("is an archive of several models; the first is read, not {}", few(file.ignored))]);
-    }
-    if !scan.old_shapes.is_empty() {
-        let count = scan.old_shapes.len();
-        text = renamed(&text, &scan.old_shapes);
-        scan = super::scan::scan(&text);
-        notes.push(message![format!(
-            "calls shapes IFCPRODUCTREPRESENTATION ({count}), which is read as IFCPRODUCTDEFINITIONSHAPE"
-        )]);
-    }
-    if scan.index.is_empty() {
-        return Err(message!["has no records that can be read"; "export it again as IFC 2x3, 4 or 4.3"].into());
-    }
+    let (text, scan, mut notes) = prepared(file)?;
     // decoded records are kept by whom decodes them, so each walk has its own
     let decoder = || EntityDecoder::with_arc_index(&text, scan.index.clone());
-    let hidden = HiddenLayers::of(&scan, &mut decoder());
+    let layers = IfcLayers::of(&scan, &mut decoder());
     let relations = IfcRelations::of(&scan, &mut decoder());
     let asked: Vec<&IfcProduct> =
-        scan.products.iter().filter(|product| !hidden.products.contains(&product.id)).collect();
-    let kinds = asked.iter().map(|product| (product.id, product.kind.clone())).collect();
-    let mut parts = IfcParts::new(kinds, decoder(), relations, hidden, options.told_step);
-    let request = ProcessingRequest::full_pass()
-        .batching(Batching::new(BATCH, BATCH))
-        .features(Features::default().properties(false))
-        .retain_meshes(false)
-        .ids(Some(Arc::new(asked.iter().map(|product| product.id).collect())))
-        .index(scan.index.clone())
-        .cancel(parts.stop.clone());
-    let made = process(&text, &request, &mut parts);
-    if let Some(unit) = made.metadata.length_unit_refused {
-        let what = format!("has a unit of length that is no number, in #{unit}");
-        return Err(message![what; "export it again in metres"].into());
-    }
-    if parts.stop.load(Ordering::Relaxed) {
-        let what = format!("has more than {MAX_TRIANGLES} triangles or {MAX_COMPONENTS} components");
-        return Err(message![what; "export it storey by storey"].into());
-    }
-    let frame = frame_of(&made);
-    let places = anchors::of(&scan, &frame, &mut decoder());
+        scan.products.iter().filter(|product| !layers.products.contains(&product.id)).collect();
+    let known = asked.iter().map(|product| (product.id, (product.kind.clone(), product.shape))).collect();
+    let mut parts = IfcParts::new(known, decoder(), relations, layers, options.told_step);
+    let made = shapes(&text, &scan, &asked, &mut parts)?;
     let lost: Vec<&IfcProduct> = asked.iter().copied().filter(|product| !parts.meshed.contains(&product.id)).collect();
-    notes.splice(..0, [count_note(asked.len(), &lost)]);
+    let count = count_note(asked.len(), &lost);
+    if parts.meshed.is_empty() && !asked.is_empty() {
+        let hint = "export it with shapes as solids or as meshes, or check it with the program that wrote it";
+        return Err(Message { hint: message![""; hint].hint, ..count }.into());
+    }
+    notes.insert(0, count);
     notes.extend(loss_notes(&scan, &parts, &made));
+    let unit_m = unit_of(&scan, &mut decoder());
+    if unit_m.is_none() {
+        notes.push(message!["says no unit of length, so that its numbers are taken for metres"]);
+    }
+    let places = anchors::of(&scan, &frame_of(&made), &mut decoder());
     notes.extend(places.notes);
     let mut left_out = left_out(&scan, &parts);
     left_out.extend(lost::left_out(&lost, &mut decoder()));
@@ -91,13 +68,73 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
         kinds: parts.kinds,
         up: Up::Z,
         up_is_said: true,
-        unit_m: Some(1.0),
+        unit_m,
         coordinates: Coordinates::Local,
         anchors: places.anchors,
         left_out,
         notes,
         see_through: parts.see_through,
     })
+}
+
+/// A file's text as the reader knows it, what is in it, and what is to be said of that.
+fn prepared(file: IfcText) -> Result<(Vec<u8>, IfcScan, Vec<Message>), ModelFault> {
+    let mut text = file.bytes;
+    let mut found = scan(&text);
+    let mut notes = Vec::new();
+    if !file.ignored.is_empty() {
+        notes.push(message![format!("is an archive of several models; the first is read, not {}", few(file.ignored))]);
+    }
+    if !found.old_shapes.is_empty() {
+        let count = found.old_shapes.len();
+        text = renamed(&text, &found.old_shapes);
+        found = scan(&text);
+        notes.push(message![format!(
+            "calls shapes IFCPRODUCTREPRESENTATION ({count}), which is read as IFCPRODUCTDEFINITIONSHAPE"
+        )]);
+    }
+    if found.index.is_empty() {
+        return Err(message!["has no records that can be read"; "export it again as IFC 2x3, 4 or 4.3"].into());
+    }
+    Ok((text, found, notes))
+}
+
+/// Has the reader make the shapes of the products that are asked for, which become parts.
+fn shapes(
+    text: &[u8],
+    scan: &IfcScan,
+    asked: &[&IfcProduct],
+    parts: &mut IfcParts,
+) -> Result<ProcessingResult, ModelFault> {
+    let request = ProcessingRequest::full_pass()
+        .batching(Batching::new(BATCH, BATCH))
+        .features(Features::default().properties(false))
+        .retain_meshes(false)
+        .ids(Some(Arc::new(asked.iter().map(|product| product.id).collect())))
+        .index(scan.index.clone())
+        .cancel(parts.stop.clone());
+    let made = process(text, &request, parts);
+    if let Some(unit) = made.metadata.length_unit_refused {
+        let what = format!("has a unit of length that is no number, in #{unit}");
+        return Err(message![what; "export it again in metres"].into());
+    }
+    if parts.stop.load(Ordering::Relaxed) {
+        let what = format!("has more than {MAX_TRIANGLES} triangles or {MAX_COMPONENTS} components");
+        return Err(message![what; "export it storey by storey"].into());
+    }
+    Ok(made)
+}
+
+/// The unit in which the reader gives its numbers: metres, where the file says its own.
+fn unit_of(scan: &IfcScan, decoder: &mut EntityDecoder) -> Option<f64> {
+    let (project, _) = scan.georeference.iter().find(|(_, kind)| *kind == IfcType::IfcProject)?;
+    let assignment = decoder.decode_by_id(*project).ok()?.get_ref(8)?;
+    let units = decoder.decode_by_id(assignment).ok()?.get_refs(0)?;
+    let mut is_length = |unit: &u32| {
+        let kind = decoder.decode_by_id(*unit).ok().and_then(|unit| unit.get(1)?.as_enum().map(str::to_owned));
+        kind.is_some_and(|kind| kind.eq_ignore_ascii_case("LENGTHUNIT"))
+    };
+    units.iter().any(|unit| is_length(unit)).then_some(1.0)
 }
 
 /// What the reader found of units and of the site.
@@ -162,7 +199,7 @@ fn left_out(scan: &IfcScan, parts: &IfcParts) -> Vec<LeftOut> {
         .map(|(what, &count)| LeftOut { what: what.clone(), count, why: "they do not stand there".to_owned() })
         .collect();
     apart.sort_by(|one, other| one.what.cmp(&other.what));
-    apart.extend(parts.hidden.counts.iter().map(|(layer, &count)| LeftOut {
+    apart.extend(parts.layers.counts.iter().map(|(layer, &count)| LeftOut {
         what: format!("layer \"{layer}\""),
         count,
         why: "it is switched off or frozen in the file".to_owned(),

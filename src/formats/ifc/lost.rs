@@ -47,7 +47,8 @@ fn shape_of(shape: u32, decoder: &mut EntityDecoder) -> Option<String> {
 fn item_name(item: u32, decoder: &mut EntityDecoder) -> String {
     let mut names: Vec<String> = Vec::new();
     let mut at = Some(item);
-    while let Some(id) = at.filter(|_| names.len() < MAX_DEPTH) {
+    for _ in 0..MAX_DEPTH {
+        let Some(id) = at else { break };
         let Ok(record) = decoder.decode_by_id(id) else {
             names.push(format!("a missing record #{id}"));
             break;

@@ -3,7 +3,7 @@
 //!
 //! The reader is others' code, in the feature `ifc`: without it a file of the format is one error. The files of this
 //! folder, in the order of the flow: `container` (a file, zipped or not → its text), `scan` (text → which records matter),
-//! `hidden` (layers that are off), `relations` (whose storey and material), `parts` (shapes → parts), `lost` (what became of
+//! `layers` (and which of them are off), `relations` (whose storey and material), `parts` (shapes → parts), `lost` (what became of
 //! the products without), `anchors` (where the file's zero lies), `build` (all of it → the model).
 
 #[cfg(feature = "ifc")]
@@ -13,7 +13,7 @@ mod build;
 #[cfg(feature = "ifc")]
 mod container;
 #[cfg(feature = "ifc")]
-mod hidden;
+mod layers;
 #[cfg(feature = "ifc")]
 mod lost;
 #[cfg(feature = "ifc")]
@@ -50,7 +50,7 @@ impl Format for Ifc {
 
     #[cfg(not(feature = "ifc"))]
     fn read(&self, _path: &Path, _options: &ReadOptions) -> Result<Model, ModelFault> {
-        Err(super::super::message::message![
+        Err(crate::message::message![
             "is IFC, and this gnomon was built without its reader";
             "build it with the feature ifc, or export the model as glTF"
         ]

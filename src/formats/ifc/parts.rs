@@ -1,7 +1,7 @@
 //! Meshes as the reader gives them → parts in the file's own coordinates. A part is a product's share of one material.
 
 use super::super::{MAX_COMPONENTS, MAX_TRIANGLES, PartKind, SeeThrough, composed};
-use super::hidden::HiddenLayers;
+use super::layers::IfcLayers;
 use super::relations::IfcRelations;
 use crate::mesh::{CornerPrecision, Part};
 use glam::DVec3;
@@ -19,10 +19,11 @@ const TRANSLUCENT: &str = "translucent";
 
 /// Gathers parts while the reader makes shapes.
 pub(super) struct IfcParts<'a> {
-    kinds_of: FxHashMap<u32, IfcType>,
+    /// Type and shape of each product.
+    asked: FxHashMap<u32, (IfcType, u32)>,
     decoder: EntityDecoder<'a>,
     relations: IfcRelations,
-    pub hidden: HiddenLayers,
+    pub layers: IfcLayers,
     told_step: f64,
     /// Where the reader's zero lies, and how its axes are turned.
     frame: MeshFrame,
@@ -58,17 +59,17 @@ impl ProcessingSink for IfcParts<'_> {
 
 impl<'a> IfcParts<'a> {
     pub(super) fn new(
-        kinds_of: FxHashMap<u32, IfcType>,
+        asked: FxHashMap<u32, (IfcType, u32)>,
         decoder: EntityDecoder<'a>,
         relations: IfcRelations,
-        hidden: HiddenLayers,
+        layers: IfcLayers,
         told_step: f64,
     ) -> Self {
         IfcParts {
-            kinds_of,
+            asked,
             decoder,
             relations,
-            hidden,
+            layers,
             told_step,
             frame: MeshFrame::RawIfc,
             stop: Arc::default(),
@@ -85,14 +86,14 @@ impl<'a> IfcParts<'a> {
     /// Adds a product: one part a material, in the order of its shape.
     fn add(&mut self, meshes: &[MeshData]) {
         let Some(product) = meshes.first() else { return };
-        let Some(kind) = self.kinds_of.get(&product.express_id).cloned() else { return };
+        let Some((kind, shape)) = self.asked.get(&product.express_id).cloned() else { return };
         let mut of_material: Vec<(Option<String>, bool, Vec<&MeshData>)> = Vec::new();
         for mesh in meshes {
             if mesh.is_empty() {
                 continue;
             }
             self.meshed.insert(mesh.express_id);
-            if self.hidden.hides(mesh.geometry_item_id) {
+            if self.layers.hides(mesh.geometry_item_id) {
                 continue;
             }
             if !is_sound(mesh) {
@@ -120,7 +121,10 @@ impl<'a> IfcParts<'a> {
                 Some(material) => self.named(&format!("{}/{material}", kind.name())),
                 None => kind.name().to_owned(),
             };
-            let groups = [product.name.clone(), storey.clone(), product.presentation_layer.clone()];
+            let item = meshes.first().and_then(|mesh| mesh.geometry_item_id);
+            let layer = product.presentation_layer.clone();
+            let layer = layer.or_else(|| self.layers.styled(item, shape, &mut self.decoder));
+            let groups = [product.name.clone(), storey.clone(), layer];
             let groups = groups.into_iter().flatten().chain(materials.iter().cloned());
             let mut aliases = vec![kind.name().to_owned()];
             aliases.extend(material.clone());

@@ -1,4 +1,5 @@
-//! Layers that the file has switched off or frozen: what lies on them alone is not seen by whoever drew it.
+//! Layers: those that the file has switched off or frozen, since what lies on them alone is not seen by whoever drew it; and
+//! the names of those with a style, which the reader does not tell.
 
 use super::lost::is_solid;
 use super::scan::{IfcProduct, IfcScan};
@@ -7,14 +8,16 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// What lies on hidden layers.
+/// What lies on which layer.
 #[derive(Default)]
-pub(super) struct HiddenLayers {
-    /// Representations and their items, each with its layer's name.
+pub(super) struct IfcLayers {
+    /// Representations and their items on hidden layers, each with its layer's name.
     on: FxHashMap<u32, Rc<str>>,
+    /// The same of layers with a style that are shown.
+    styled: FxHashMap<u32, Rc<str>>,
     /// Products whose whole shape lies there.
     pub products: FxHashSet<u32>,
-    /// How many of them each layer has; pieces of others too.
+    /// How many of them each hidden layer has; pieces of others too.
     pub counts: BTreeMap<Rc<str>, u64>,
 }
 
@@ -23,33 +26,55 @@ fn says(layer: &DecodedEntity, at: usize, value: &str) -> bool {
     layer.get(at).and_then(|attribute| attribute.as_enum()).is_some_and(|said| said.eq_ignore_ascii_case(value))
 }
 
-impl HiddenLayers {
+impl IfcLayers {
     /// Those of a file.
     pub(super) fn of(scan: &IfcScan, decoder: &mut EntityDecoder) -> Self {
-        let mut hidden = HiddenLayers::default();
+        let mut layers = IfcLayers::default();
         let mut shown = FxHashSet::default();
         for &id in scan.layers.iter().chain(&scan.styled_layers) {
             let Ok(layer) = decoder.decode_by_id(id) else { continue };
             let items = layer.get_refs(2).unwrap_or_default();
-            let is_styled = layer.ifc_type == IfcType::IfcPresentationLayerWithStyle;
+            let name: Rc<str> = layer.get_string(0).unwrap_or_default().into();
+            let named = items.iter().map(|&item| (item, name.clone()));
+            if layer.ifc_type != IfcType::IfcPresentationLayerWithStyle {
+                shown.extend(items);
             // LayerOn and LayerFrozen; what is unknown is seen
-            if is_styled && (says(&layer, 4, "F") || says(&layer, 5, "T")) {
-                let name: Rc<str> = layer.get_string(0).unwrap_or_default().into();
-                hidden.on.extend(items.into_iter().map(|item| (item, name.clone())));
+            } else if says(&layer, 4, "F") || says(&layer, 5, "T") {
+                layers.on.extend(named);
             } else {
+                layers.styled.extend(named);
                 shown.extend(items);
             }
         }
-        hidden.on.retain(|item, _| !shown.contains(item));
-        if !hidden.on.is_empty() {
+        layers.on.retain(|item, _| !shown.contains(item));
+        if !layers.on.is_empty() {
             for product in &scan.products {
-                if let Some(layer) = hidden.whole(product, decoder) {
-                    hidden.products.insert(product.id);
-                    hidden.count(&layer);
+                if let Some(layer) = layers.whole(product, decoder) {
+                    layers.products.insert(product.id);
+                    layers.count(&layer);
                 }
             }
         }
-        hidden
+        layers
+    }
+
+    /// The name of the layer with a style on which an item lies, or else the shape of its product.
+    pub(super) fn styled(&self, item: Option<u32>, shape: u32, decoder: &mut EntityDecoder) -> Option<String> {
+        if self.styled.is_empty() {
+            return None;
+        }
+        let on = |id: u32| self.styled.get(&id).map(|name| name.to_string());
+        if let Some(name) = item.and_then(on).or_else(|| on(shape)) {
+            return Some(name);
+        }
+        for id in decoder.decode_by_id(shape).ok()?.get_refs(2)? {
+            let Ok(representation) = decoder.decode_by_id(id) else { continue };
+            let items = || representation.get_refs(3).unwrap_or_default();
+            if let Some(name) = on(id).or_else(|| items().into_iter().find_map(on)) {
+                return Some(name);
+            }
+        }
+        None
     }
 
     fn count(&mut self, layer: &Rc<str>) {
