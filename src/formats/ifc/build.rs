@@ -130,11 +130,11 @@ fn unit_of(scan: &IfcScan, decoder: &mut EntityDecoder) -> Option<f64> {
     let (project, _) = scan.georeference.iter().find(|(_, kind)| *kind == IfcType::IfcProject)?;
     let assignment = decoder.decode_by_id(*project).ok()?.get_ref(8)?;
     let units = decoder.decode_by_id(assignment).ok()?.get_refs(0)?;
-    let mut is_length = |unit: &u32| {
+    let is_length = |unit: &u32| {
         let kind = decoder.decode_by_id(*unit).ok().and_then(|unit| unit.get(1)?.as_enum().map(str::to_owned));
         kind.is_some_and(|kind| kind.eq_ignore_ascii_case("LENGTHUNIT"))
     };
-    units.iter().any(|unit| is_length(unit)).then_some(1.0)
+    units.iter().any(is_length).then_some(1.0)
 }
 
 /// What the reader found of units and of the site.
