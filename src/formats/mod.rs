@@ -15,6 +15,7 @@ mod footprints;
 mod dae;
 mod dxf;
 pub mod gltf;
+mod ifc;
 mod json_head;
 mod left_out;
 mod model;
@@ -84,6 +85,7 @@ pub trait Format: Sync {
 /// All formats, those that begin with a mark of their own first.
 pub const FORMATS: &[&dyn Format] = &[
     &gltf::Gltf,
+    &ifc::Ifc,
     &cityjson::CityJson,
     &citygml::CityGml,
     &tiles3d::Tiles3d,

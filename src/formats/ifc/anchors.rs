@@ -1,0 +1,171 @@
+//! Where the file says that the zero of its coordinates lies, and which way north is.
+//!
+//! All angles of [`Anchor::north_rad`] are clockwise, seen from above, from the file's +y to the north that is meant. Of
+//! `TrueNorth` (x, y), a direction in the file's own axes, it is atan2(x, y). Of `IfcMapConversion` it is
+//! atan2(XAxisOrdinate, XAxisAbscissa): the file's +x is turned so far anticlockwise from the map's east, so the map's north
+//! is turned so far clockwise from the file's +y.
+
+use super::super::{Anchor, AnchorPoint};
+use super::scan::IfcScan;
+use crate::message::{Message, message};
+use ifc_lite_core::{
+    CoordinateOperationKind, EntityDecoder, GeoRefExtractor, GeoRefSource, GeoReference, GeoReferenceDetails, IfcType,
+};
+
+/// Farther from the file's zero the place of its site says nothing of that zero: such coordinates are a map's.
+const FARTHEST_SITE_M: f64 = 20_000.0;
+
+/// WGS 84: the equator's radius, and the eccentricity's square.
+const EQUATOR_M: f64 = 6_378_137.0;
+const ECCENTRICITY2: f64 = 0.006_694_379_990_14;
+
+/// Two factors are the same within this.
+const SAME: f64 = 0.01;
+
+/// What a file says of its place.
+#[derive(Default)]
+pub(super) struct IfcPlaces {
+    pub anchors: Vec<Anchor>,
+    pub notes: Vec<Message>,
+}
+
+/// What the reader found of units and of the first site's placement.
+pub(super) struct IfcFrame {
+    /// Metres a unit of the file.
+    pub unit_m: f64,
+    /// Where the site's own zero lies in the file's coordinates, in metres.
+    pub site: Option<[f64; 3]>,
+}
+
+/// The anchors of a file, the most exact first.
+pub(super) fn of(scan: &IfcScan, frame: &IfcFrame, decoder: &mut EntityDecoder) -> IfcPlaces {
+    let mut places = IfcPlaces::default();
+    if let Ok(Some((map, details))) = GeoRefExtractor::extract_with_details(decoder, &scan.georeference) {
+        places.on_map(&map, &details, frame.unit_m);
+    }
+    let true_north = places.true_north(scan, decoder);
+    places.of_site(scan, frame, true_north, decoder);
+    if let Some(north) = true_north
+        && !places.anchors.iter().any(|anchor| anchor.said_by == "IfcSite")
+    {
+        places.anchors.push(Anchor { said_by: "TrueNorth", at: AnchorPoint::Nowhere, north_rad: Some(north) });
+    }
+    places
+}
+
+impl IfcPlaces {
+    /// Adds what a map conversion says, or one of its relatives.
+    fn on_map(&mut self, map: &GeoReference, details: &GeoReferenceDetails, unit_m: f64) {
+        let said_by = match (details.operation, map.source) {
+            (Some(CoordinateOperationKind::RigidOperation), _) => "IfcRigidOperation",
+            (_, Some(GeoRefSource::MapConversion)) => "IfcMapConversion",
+            (_, Some(GeoRefSource::EPSetMapConversion)) => "ePSet_MapConversion",
+            _ => {
+                self.notes.push(message!["names a map in IfcProjectedCRS, and does not say where on it it lies"]);
+                return;
+            }
+        };
+        if said_by == "IfcRigidOperation" && map.map_unit.as_deref() == Some("DEGREE") {
+            let (latitude_deg, longitude_deg) = (map.northings, map.eastings);
+            let at = AnchorPoint::Geographic { latitude_deg, longitude_deg, elevation_m: Some(map.orthogonal_height) };
+            self.anchors.push(Anchor { said_by, at, north_rad: Some(0.0) });
+            return;
+        }
+        let map_unit_m = map.map_unit_scale.unwrap_or(unit_m);
+        let crs = map.crs_name.clone().map(|name| name.trim().to_owned()).filter(|name| !name.is_empty());
+        let at = AnchorPoint::Map {
+            crs: crs.or_else(|| details.well_known_text.clone()).unwrap_or_default(),
+            easting: map.eastings * map_unit_m,
+            northing: map.northings * map_unit_m,
+            height: Some(map.orthogonal_height * map_unit_m),
+            scale: self.scale(map, said_by, map_unit_m, unit_m),
+        };
+        self.anchors.push(Anchor { said_by, at, north_rad: Some(map.rotation()) });
+    }
+
+    /// Metres on the map a metre of the file. Scale converts units, too: from the file's to the map's.
+    fn scale(&mut self, map: &GeoReference, said_by: &str, map_unit_m: f64, unit_m: f64) -> f64 {
+        let factors = [map.factor_x, map.factor_y, map.factor_z];
+        if factors.iter().any(|factor| (factor - map.factor_x).abs() > 1e-9) {
+            let said = format!("{} along x, {} along y and {} along z", factors[0], factors[1], factors[2]);
+            self.notes.push(message![format!("has another scale along each axis ({said}); the one along x is taken")]);
+        }
+        if said_by == "IfcRigidOperation" {
+            return 1.0;
+        }
+        let written = map.scale * map.factor_x;
+        let scale = written * map_unit_m / unit_m;
+        let is_forgotten = (written - 1.0).abs() < SAME && (map_unit_m / unit_m - 1.0).abs() > SAME;
+        if is_forgotten {
+            self.notes.push(message![format!(
+                "is in units of {unit_m} m on a map in units of {map_unit_m} m, and {said_by} has a Scale of {written}; \
+                 the Scale is taken not to convert units"
+            )]);
+            return written;
+        }
+        scale
+    }
+
+    /// The direction of true north, by the context of the model, else by that of a plan.
+    fn true_north(&mut self, scan: &IfcScan, decoder: &mut EntityDecoder) -> Option<f64> {
+        let mut said: Vec<(bool, f64)> = Vec::new();
+        for &id in &scan.contexts {
+            let Ok(context) = decoder.decode_by_id(id) else { continue };
+            let Some(direction) = context.get_ref(5).and_then(|id| decoder.decode_by_id(id).ok()) else { continue };
+            let ratio = |at: usize| direction.get_list(0)?.get(at)?.as_float();
+            let (Some(x), Some(y)) = (ratio(0), ratio(1)) else { continue };
+            let length = x.hypot(y);
+            if length.is_finite() && length > 1e-9 {
+                let is_model = context.get_string(1).is_some_and(|kind| kind.eq_ignore_ascii_case("Model"));
+                said.push((is_model, x.atan2(y)));
+            }
+        }
+        let &(_, north) = said.iter().find(|(is_model, _)| *is_model).or(said.first())?;
+        if let Some((_, other)) = said.iter().find(|(_, other)| (other - north).abs() > 1e-3) {
+            let (north, other) = (north.to_degrees(), other.to_degrees());
+            self.notes.push(message![format!("says TrueNorth twice, {north:.3}° and {other:.3}°; the first is taken")]);
+        }
+        Some(north)
+    }
+
+    /// Adds what the first site with a latitude and a longitude says.
+    fn of_site(&mut self, scan: &IfcScan, frame: &IfcFrame, north: Option<f64>, decoder: &mut EntityDecoder) {
+        let found = scan.sites.iter().find_map(|&id| {
+            let place = GeoRefExtractor::extract(decoder, &[(id, IfcType::IfcSite)]).ok()??;
+            let elevation = decoder.decode_by_id(id).ok()?.get_float(11);
+            (place.source == Some(GeoRefSource::SiteLocation)).then_some((id, place, elevation))
+        });
+        let Some((id, place, elevation)) = found else { return };
+        let (latitude, longitude) = (place.northings, place.eastings);
+        if !(latitude.abs() < 90.0 && longitude.abs() <= 180.0) {
+            self.notes.push(message![format!("has an IfcSite at {latitude}°, {longitude}°, which is no place")]);
+            return;
+        }
+        // the latitude and longitude are those of the site's own zero
+        let site = if scan.sites.first() == Some(&id) { frame.site } else { None };
+        let [x, y, z] = site.unwrap_or_default();
+        if x.hypot(y) > FARTHEST_SITE_M {
+            self.notes.push(message![
+                format!("has its IfcSite {:.0} km from its own zero, so its coordinates are those of a map that it does \
+                         not name", x.hypot(y) / 1000.0);
+                "say which one with crs"
+            ]);
+            return;
+        }
+        let (sin, cos) = north.unwrap_or(0.0).sin_cos();
+        let (east, northward) = (x * cos - y * sin, x * sin + y * cos);
+        let (latitude_deg, longitude_deg) = moved(latitude, longitude, -east, -northward);
+        let elevation_m = elevation.filter(|said| said.is_finite()).map(|said| said * frame.unit_m - z);
+        let at = AnchorPoint::Geographic { latitude_deg, longitude_deg, elevation_m };
+        self.anchors.push(Anchor { said_by: "IfcSite", at, north_rad: north });
+    }
+}
+
+/// A place some metres east and north of another; exact within millimetres over a few kilometres.
+fn moved(latitude_deg: f64, longitude_deg: f64, east_m: f64, north_m: f64) -> (f64, f64) {
+    let (sin, cos) = latitude_deg.to_radians().sin_cos();
+    let bent = 1.0 - ECCENTRICITY2 * sin * sin;
+    let (across, along) = (EQUATOR_M / bent.sqrt(), EQUATOR_M * (1.0 - ECCENTRICITY2) / bent.powf(1.5));
+    let longitude = longitude_deg + (east_m / (across * cos)).to_degrees();
+    (latitude_deg + (north_m / along).to_degrees(), longitude)
+}

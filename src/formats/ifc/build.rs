@@ -1,0 +1,227 @@
+//! A file's text → the model: which products are asked of the reader, and what is said of the others.
+
+use super::super::{Coordinates, LeftOut, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, Up};
+use super::anchors::{self, IfcFrame};
+use super::container::IfcText;
+use super::layers::IfcLayers;
+use super::lost;
+use super::parts::IfcParts;
+use super::relations::IfcRelations;
+use super::scan::{IfcProduct, IfcScan, renamed, scan};
+use crate::message::{Message, few, message};
+use ifc_lite_core::{EntityDecoder, IfcType};
+use ifc_lite_processing::{Batching, Features, ProcessingRequest, ProcessingResult, process, run_on_geometry_pool};
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+/// How many products the reader makes at once, before they become parts and their own meshes go.
+const BATCH: usize = 400;
+
+/// The model of a file.
+pub(super) fn model(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
+    // What the reader would print is counted here by a walk of its own.
+    ifc_lite_core::set_report_sink(|_| {});
+    let read = || run_on_geometry_pool(|| read(file, options));
+    match catch_unwind(AssertUnwindSafe(read)) {
+        Ok(Ok(model)) => model,
+        Ok(Err(error)) => Err(message![format!("cannot be read: {error}")].into()),
+        Err(_) => Err(message![
+            "makes the reader of IFC fail";
+            "check it with the program that wrote it, and export it again"
+        ]
+        .into()),
+    }
+}
+
+fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
+    let (text, scan, mut notes) = prepared(file)?;
+    // decoded records are kept by whom decodes them, so each walk has its own
+    let decoder = || EntityDecoder::with_arc_index(&text, scan.index.clone());
+    let layers = IfcLayers::of(&scan, &mut decoder());
+    let relations = IfcRelations::of(&scan, &mut decoder());
+    let asked: Vec<&IfcProduct> =
+        scan.products.iter().filter(|product| !layers.products.contains(&product.id)).collect();
+    let known = asked.iter().map(|product| (product.id, (product.kind.clone(), product.shape))).collect();
+    let mut parts = IfcParts::new(known, decoder(), relations, layers, options.told_step);
+    let made = shapes(&text, &scan, &asked, &mut parts)?;
+    let lost: Vec<&IfcProduct> = asked.iter().copied().filter(|product| !parts.meshed.contains(&product.id)).collect();
+    let count = count_note(asked.len(), &lost);
+    if parts.meshed.is_empty() && !asked.is_empty() {
+        let hint = "export it with shapes as solids or as meshes, or check it with the program that wrote it";
+        return Err(Message { hint: message![""; hint].hint, ..count }.into());
+    }
+    notes.insert(0, count);
+    notes.extend(loss_notes(&scan, &parts, &made));
+    let unit_m = unit_of(&scan, &mut decoder());
+    if unit_m.is_none() {
+        notes.push(message!["says no unit of length, so that its numbers are taken for metres"]);
+    }
+    let places = anchors::of(&scan, &frame_of(&made), &mut decoder());
+    notes.extend(places.notes);
+    let mut left_out = left_out(&scan, &parts);
+    left_out.extend(lost::left_out(&lost, &mut decoder()));
+    left_out.extend(unknown(&scan, &mut decoder()));
+    Ok(Model {
+        parts: parts.parts,
+        kinds: parts.kinds,
+        up: Up::Z,
+        up_is_said: true,
+        unit_m,
+        coordinates: Coordinates::Local,
+        anchors: places.anchors,
+        left_out,
+        notes,
+        see_through: parts.see_through,
+    })
+}
+
+/// A file's text as the reader knows it, what is in it, and what is to be said of that.
+fn prepared(file: IfcText) -> Result<(Vec<u8>, IfcScan, Vec<Message>), ModelFault> {
+    let mut text = file.bytes;
+    let mut found = scan(&text);
+    let mut notes = Vec::new();
+    if !file.ignored.is_empty() {
+        notes.push(message![format!("is an archive of several models; the first is read, not {}", few(file.ignored))]);
+    }
+    if !found.old_shapes.is_empty() {
+        let count = found.old_shapes.len();
+        text = renamed(&text, &found.old_shapes);
+        found = scan(&text);
+        notes.push(message![format!(
+            "calls shapes IFCPRODUCTREPRESENTATION ({count}), which is read as IFCPRODUCTDEFINITIONSHAPE"
+        )]);
+    }
+    if found.index.is_empty() {
+        return Err(message!["has no records that can be read"; "export it again as IFC 2x3, 4 or 4.3"].into());
+    }
+    Ok((text, found, notes))
+}
+
+/// Has the reader make the shapes of the products that are asked for, which become parts.
+fn shapes(
+    text: &[u8],
+    scan: &IfcScan,
+    asked: &[&IfcProduct],
+    parts: &mut IfcParts,
+) -> Result<ProcessingResult, ModelFault> {
+    let request = ProcessingRequest::full_pass()
+        .batching(Batching::new(BATCH, BATCH))
+        .features(Features::default().properties(false))
+        .retain_meshes(false)
+        .ids(Some(Arc::new(asked.iter().map(|product| product.id).collect())))
+        .index(scan.index.clone())
+        .cancel(parts.stop.clone());
+    let made = process(text, &request, parts);
+    if let Some(unit) = made.metadata.length_unit_refused {
+        let what = format!("has a unit of length that is no number, in #{unit}");
+        return Err(message![what; "export it again in metres"].into());
+    }
+    if parts.stop.load(Ordering::Relaxed) {
+        let what = format!("has more than {MAX_TRIANGLES} triangles or {MAX_COMPONENTS} components");
+        return Err(message![what; "export it storey by storey"].into());
+    }
+    Ok(made)
+}
+
+/// The unit in which the reader gives its numbers: metres, where the file says its own.
+fn unit_of(scan: &IfcScan, decoder: &mut EntityDecoder) -> Option<f64> {
+    let (project, _) = scan.georeference.iter().find(|(_, kind)| *kind == IfcType::IfcProject)?;
+    let assignment = decoder.decode_by_id(*project).ok()?.get_ref(8)?;
+    let units = decoder.decode_by_id(assignment).ok()?.get_refs(0)?;
+    let is_length = |unit: &u32| {
+        let kind = decoder.decode_by_id(*unit).ok().and_then(|unit| unit.get(1)?.as_enum().map(str::to_owned));
+        kind.is_some_and(|kind| kind.eq_ignore_ascii_case("LENGTHUNIT"))
+    };
+    units.iter().any(is_length).then_some(1.0)
+}
+
+/// What the reader found of units and of the site.
+fn frame_of(made: &ProcessingResult) -> IfcFrame {
+    let site = made.site_transform.as_deref().and_then(|matrix| matrix.get(12..15)?.try_into().ok());
+    let site = site.filter(|at: &[f64; 3]| at.iter().all(|number| number.is_finite()));
+    IfcFrame { unit_m: made.metadata.length_unit_scale.unwrap_or(1.0), site }
+}
+
+/// How many products have a shape, and which of them have none here. It is always said.
+fn count_note(asked: usize, lost: &[&IfcProduct]) -> Message {
+    let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
+    for product in lost {
+        *counts.entry(product.kind.name()).or_default() += 1;
+    }
+    let mut counts: Vec<(&str, u64)> = counts.into_iter().collect();
+    counts.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
+    let types = counts.into_iter().map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>();
+    let types = if types.is_empty() { String::new() } else { format!(": {}", types.join(", ")) };
+    message![format!("has {asked} products with a shape, {} without geometry{types}", lost.len())]
+}
+
+/// What is lost of products that are there.
+fn loss_notes(scan: &IfcScan, parts: &IfcParts, made: &ProcessingResult) -> Vec<Message> {
+    let mut notes = Vec::new();
+    if let Some(found) = &made.stats.geometry_diagnostics {
+        let lost = found.unsupported_items_by_type.iter().map(|kind| format!("{} {}", kind.reason, kind.count));
+        let lost: Vec<String> = lost.collect();
+        if !lost.is_empty() {
+            notes.push(message![format!("has pieces of shapes that could not be built: {}", few(lost))]);
+        }
+        // the reader's own remarks on results that it took
+        let is_failure = |reason: &str| reason != "KernelError" && reason != "NoBoundsOverlap";
+        let failures: Vec<String> = found
+            .failures_by_reason
+            .iter()
+            .filter(|kind| is_failure(&kind.reason))
+            .map(|kind| format!("{} {}", kind.reason, kind.count))
+            .collect();
+        if !failures.is_empty() {
+            notes.push(message![format!(
+                "has cuts that failed or are approximate, so that a wall may lack a hole: {}",
+                few(failures)
+            )]);
+        }
+    }
+    let refused = scan.malformed.max(made.stats.refused_input_elements);
+    if refused > 0 {
+        notes.push(message![format!("has records that cannot be read ({refused})")]);
+    }
+    if parts.cut_names > 0 {
+        notes.push(message![format!("has names of more than 1000 bytes ({}), which are cut", parts.cut_names)]);
+    }
+    notes
+}
+
+/// What does not stand there, and what is hidden or broken.
+fn left_out(scan: &IfcScan, parts: &IfcParts) -> Vec<LeftOut> {
+    let mut apart: Vec<LeftOut> = scan
+        .apart
+        .iter()
+        .map(|(what, &count)| LeftOut { what: what.clone(), count, why: "they do not stand there".to_owned() })
+        .collect();
+    apart.sort_by(|one, other| one.what.cmp(&other.what));
+    apart.extend(parts.layers.counts.iter().map(|(layer, &count)| LeftOut {
+        what: format!("layer \"{layer}\""),
+        count,
+        why: "it is switched off or frozen in the file".to_owned(),
+    }));
+    if parts.broken > 0 {
+        let why = "they have corners that are no points".to_owned();
+        apart.push(LeftOut { what: "shape".to_owned(), count: parts.broken, why });
+    }
+    apart
+}
+
+/// Records of kinds that the reader does not know, where they have a shape.
+fn unknown(scan: &IfcScan, decoder: &mut EntityDecoder) -> Vec<LeftOut> {
+    let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
+    for (name, shape) in &scan.unknown {
+        let is_shape = decoder
+            .decode_by_id(*shape)
+            .is_ok_and(|record| record.ifc_type.is_subtype_of(IfcType::IfcProductRepresentation));
+        if is_shape {
+            *counts.entry(name).or_default() += 1;
+        }
+    }
+    let why = "the reader does not know their type";
+    counts.into_iter().map(|(what, count)| LeftOut { what: what.to_owned(), count, why: why.to_owned() }).collect()
+}

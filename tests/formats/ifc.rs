@@ -1,0 +1,230 @@
+//! IFC: where a file's shapes stand, what they are called, and what is said of the rest.
+
+mod archive;
+mod hostile;
+mod house;
+mod place;
+
+use glam::DVec3;
+use gnomon::formats::{self, LeftOut, Model, PartKind, ReadOptions, Up};
+use gnomon::mesh::Part;
+use house::{HEAD, house};
+
+/// What a file of these bytes gives.
+fn read_as(name: &str, bytes: &[u8]) -> Result<Model, String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(name);
+    std::fs::write(&path, bytes).expect("written");
+    let read = formats::read(&path, &ReadOptions::default());
+    read.map_err(|error| error.to_string().replace(&path.display().to_string(), name))
+}
+
+/// What a file gives that must be read.
+fn read(text: &str) -> Model {
+    read_as("house.ifc", text.as_bytes()).expect("read")
+}
+
+/// The part of that name.
+fn part<'a>(model: &'a Model, name: &str) -> &'a Part {
+    let names: Vec<&str> = model.parts.iter().map(|part| part.name.as_str()).collect();
+    model.parts.iter().find(|part| part.name == name).unwrap_or_else(|| panic!("no {name} in {names:?}"))
+}
+
+/// The volume of a closed part; negative where it is inside out.
+fn volume(part: &Part) -> f64 {
+    let from = part.positions[0];
+    let corner = |at: u32| part.positions[at as usize] - from;
+    let sixfold = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(corner);
+        a.cross(b).dot(c)
+    };
+    part.triangles.iter().map(sixfold).sum::<f64>() / 6.0
+}
+
+fn bounds(part: &Part) -> (DVec3, DVec3) {
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    part.positions.iter().fold(start, |(low, high), &at| (low.min(at), high.max(at)))
+}
+
+#[track_caller]
+fn lies(part: &Part, low: [f64; 3], high: [f64; 3]) {
+    let (is_low, is_high) = bounds(part);
+    let apart = (is_low - DVec3::from(low)).abs().max((is_high - DVec3::from(high)).abs()).max_element();
+    assert!(apart < 1e-5, "{} lies from {is_low} to {is_high}", part.name);
+}
+
+fn notes(model: &Model) -> String {
+    model.notes.iter().map(|note| note.to_string()).collect::<Vec<_>>().join("\n")
+}
+
+fn left_out<'a>(model: &'a Model, what: &str) -> Option<&'a LeftOut> {
+    model.left_out.iter().find(|left| left.what == what)
+}
+
+#[test]
+fn shapes_stand_where_the_file_has_them_in_metres() {
+    let model = read(&house(""));
+    assert_eq!((model.up, model.up_is_said, model.unit_m), (Up::Z, true, Some(1.0)));
+    let block = part(&model, "IfcWall/Brick");
+    lies(block, [5.0, -3.0, 0.0], [15.0, 17.0, 30.0]);
+    // the L is 10 × 10 and 4 × 10 m; its opening takes a pocket of 2 × 2 × 3
+    assert!((volume(block) - (140.0 * 30.0 - 12.0)).abs() < 1e-2, "{}", volume(block));
+    // neither mirrored nor turned: the arm is in the north-east, the pocket in the south
+    let at = |x: f64, y: f64, z: f64| block.positions.iter().any(|at| at.distance(DVec3::new(x, y, z)) < 1e-5);
+    assert!(at(11.0, 17.0, 30.0) && at(11.0, 7.0, 0.0) && !at(5.0, 17.0, 30.0));
+    assert!(at(8.0, -1.0, 1.0) && at(10.0, -3.0, 4.0));
+    let window = part(&model, "IfcWindow/Glass");
+    lies(window, [8.0, -3.0, 1.1], [10.0, -2.9, 4.0]);
+    assert!((volume(window) - 2.0 * 0.1 * 2.9).abs() < 1e-6);
+}
+
+#[test]
+fn parts_are_products_by_material_with_storey_layer_and_name() {
+    let model = read(&house(""));
+    let names: Vec<&str> = model.parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names, ["IfcSite", "IfcWall/Brick", "IfcWindow/Oak", "IfcWindow/Glass", "IfcColumn/Steel"]);
+    let aliases = |name: &str| part(&model, name).aliases.join(", ");
+    assert_eq!(aliases("IfcWindow/Glass"), "IfcWindow, Glass, Window 1, Ground floor");
+    // a material names what has no style, and the layer is a group
+    assert_eq!(aliases("IfcColumn/Steel"), "IfcColumn, Steel, Column 1, Ground floor, Structure");
+    assert_eq!(aliases("IfcSite"), "Plot");
+    let kinds: Vec<PartKind> = (0..model.parts.len()).map(|part| model.kind(part)).collect();
+    assert_eq!(kinds[0], PartKind::GroundCover);
+    assert!(kinds[1..].iter().all(|kind| *kind == PartKind::Building));
+    let passed: Vec<(&str, &[usize])> =
+        model.see_through.iter().map(|it| (it.material.as_str(), it.parts.as_slice())).collect();
+    assert_eq!(passed, [("Glass", &[3][..])]);
+}
+
+#[test]
+fn a_window_without_a_style_is_not_of_glass_by_the_readers_own_colours() {
+    let text =
+        house("").replace("#212=IFCSTYLEDITEM(#207,(#213),$);", "").replace("#210=IFCSTYLEDITEM", "#210=IFCROOTX");
+    let model = read(&text);
+    assert!(model.see_through.is_empty(), "{:?}", model.see_through);
+    assert_eq!(part(&model, "IfcWindow").triangles.len(), 24);
+    // a translucent style without a name has a name nevertheless
+    let model = read(&house("").replace("IFCSURFACESTYLE('Glass'", "IFCSURFACESTYLE($"));
+    assert_eq!(part(&model, "IfcWindow/translucent").aliases[1], "translucent");
+    assert_eq!(model.see_through[0].material, "translucent");
+}
+
+#[test]
+fn what_does_not_stand_there_is_counted_by_type() {
+    let model = read(&house(""));
+    let told: Vec<(&str, u64)> = model.left_out.iter().map(|left| (left.what.as_str(), left.count)).collect();
+    assert_eq!(told, [("IfcOpeningElement", 1), ("IfcSpace", 1), ("IfcVirtualElement", 1)]);
+    assert!(model.left_out.iter().all(|left| left.why == "they do not stand there"));
+    assert_eq!(notes(&model), "has 4 products with a shape, 0 without geometry");
+}
+
+#[test]
+fn products_whose_shape_cannot_be_built_are_told_with_it() {
+    let lost = "
+#500=IFCCOLUMN('0000000000000000000020',$,'Odd',$,$,#20,#501,$,$);
+#501=IFCPRODUCTDEFINITIONSHAPE($,$,(#502));
+#502=IFCSHAPEREPRESENTATION(#10,'Body','SweptSolid',(#503));
+#503=IFCEXTRUDEDAREASOLID(#504,#6,#7,3000.);
+#504=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#101);
+#510=IFCBEAM('0000000000000000000021',$,'Line',$,$,#20,#511,$,$);
+#511=IFCPRODUCTDEFINITIONSHAPE($,$,(#512));
+#512=IFCSHAPEREPRESENTATION(#10,'Axis','Curve2D',(#101));
+#520=IFCFUTURETHING('0000000000000000000022',$,'New',$,$,#20,#511,$);";
+    let model = read(&house(lost));
+    let notes = notes(&model);
+    assert!(notes.starts_with("has 6 products with a shape, 2 without geometry: IfcBeam 1, IfcColumn 1"), "{notes}");
+    let why = |what| left_out(&model, what).map(|left| left.why.as_str());
+    let shape = "their shape (IfcExtrudedAreaSolid of IfcArbitraryOpenProfileDef) could not be built";
+    assert_eq!(why("IfcColumn"), Some(shape));
+    assert_eq!(why("IfcBeam"), Some("they have lines, boxes or points alone"));
+    assert_eq!(why("IFCFUTURETHING"), Some("the reader does not know their type"));
+}
+
+#[test]
+fn layers_that_are_off_are_left_out_and_told() {
+    for (on, frozen) in [(".F.", ".F."), (".T.", ".T."), (".F.", ".U.")] {
+        let text = house("").replace("$,.T.,.F.,.F.,());", &format!("$,{on},{frozen},.F.,());"));
+        let model = read(&text);
+        assert!(model.parts.iter().all(|part| !part.name.starts_with("IfcColumn")));
+        let left = left_out(&model, "layer \"Structure\"").expect("told");
+        assert_eq!((left.count, left.why.as_str()), (1, "it is switched off or frozen in the file"));
+        assert_eq!(notes(&model), "has 3 products with a shape, 0 without geometry");
+    }
+    // a piece of a product, and what lies on a layer that is shown as well
+    let off = |what: &str| house(&format!("#700=IFCPRESENTATIONLAYERWITHSTYLE('Off',$,({what}),$,.F.,.F.,.F.,());"));
+    let model = read(&off("#207"));
+    assert!(model.parts.iter().all(|part| part.name != "IfcWindow/Glass"));
+    assert_eq!(left_out(&model, "layer \"Off\"").map(|left| left.count), Some(1));
+    assert!(left_out(&read(&off("#405")), "layer \"Off\"").is_none());
+    let unknown = house("").replace("$,.T.,.F.,.F.,());", "$,.U.,.U.,.F.,());");
+    assert_eq!(read(&unknown).parts.len(), 5);
+}
+
+#[test]
+fn shapes_of_the_old_name_appear() {
+    let text = house("").replace("#104=IFCPRODUCTDEFINITIONSHAPE", "#104= IFCPRODUCTREPRESENTATION ");
+    let model = read(&text.replace("'Block'", "'=IFCPRODUCTREPRESENTATION('"));
+    let block = part(&model, "IfcWall/Brick");
+    assert!((volume(block) - 4188.0).abs() < 1e-2, "{}", volume(block));
+    assert!(block.aliases.contains(&"=IFCPRODUCTREPRESENTATION(".to_owned()), "{:?}", block.aliases);
+    assert!(notes(&model).contains("calls shapes IFCPRODUCTREPRESENTATION (1)"), "{}", notes(&model));
+}
+
+#[test]
+fn a_file_without_a_unit_is_told() {
+    let model = read(&house("").replace("IFCUNITASSIGNMENT((#3,#4))", "IFCUNITASSIGNMENT((#4))"));
+    assert_eq!(model.unit_m, None);
+    lies(part(&model, "IfcWall/Brick"), [5000.0, -3000.0, 0.0], [15000.0, 17000.0, 30000.0]);
+    assert!(notes(&model).contains("says no unit of length, so that its numbers are taken for metres"));
+}
+
+#[test]
+fn far_coordinates_and_a_turned_site_come_back_to_the_millimetre() {
+    let near = read(&house(""));
+    // 3,500 km from the file's zero, turned a quarter, in a file whose reader takes both away
+    let placed = "#20=IFCLOCALPLACEMENT($,#800);\n#800=IFCAXIS2PLACEMENT3D(#801,#7,#802);\n\
+        #801=IFCCARTESIANPOINT((690123456.7,3500123456.7,123456.7));\n#802=IFCDIRECTION((0.,1.,0.));";
+    let far = read(&house("").replace("#20=IFCLOCALPLACEMENT($,#6);", placed));
+    let shift = DVec3::new(690123.4567, 3500123.4567, 123.4567);
+    for (near, far) in near.parts.iter().zip(&far.parts) {
+        let turned = near.positions.iter().map(|at| DVec3::new(-at.y, at.x, at.z) + shift);
+        let turned = Part { positions: turned.collect(), ..near.clone() };
+        let ((low, high), (far_low, far_high)) = (bounds(&turned), bounds(far));
+        let apart = (low - far_low).abs().max((high - far_high).abs()).max_element();
+        assert!(apart < 1e-4, "{} is {apart} m off", near.name);
+    }
+}
+
+#[test]
+fn a_mapped_mirror_is_not_inside_out() {
+    let more = "
+#900=IFCCOLUMN('0000000000000000000030',$,'Mirrored',$,$,#20,#901,$,$);
+#901=IFCPRODUCTDEFINITIONSHAPE($,$,(#902));
+#902=IFCSHAPEREPRESENTATION(#10,'Body','MappedRepresentation',(#903));
+#903=IFCMAPPEDITEM(#904,#905);
+#904=IFCREPRESENTATIONMAP(#6,#105);
+#905=IFCCARTESIANTRANSFORMATIONOPERATOR3D(#906,$,#5,1.,$);
+#906=IFCDIRECTION((-1.,0.,0.));";
+    let model = read(&house(more));
+    let mirrored = model.parts.iter().find(|part| part.aliases.contains(&"Mirrored".to_owned())).expect("there");
+    lies(mirrored, [-15.0, -3.0, 0.0], [-5.0, 17.0, 30.0]);
+    assert!((volume(mirrored) - 4200.0).abs() < 1e-2, "{}", volume(mirrored));
+}
+
+#[test]
+fn other_steps_and_empty_files_are_refused() {
+    let cad = HEAD.replace("IFC4", "AUTOMOTIVE_DESIGN");
+    let error = read_as("part.step", cad.as_bytes()).expect_err("no IFC");
+    assert!(error.contains("is of no format that Gnomon knows"), "{error}");
+    let error = read_as("house.ifc", HEAD.as_bytes()).expect_err("no records");
+    assert!(error.contains("has no records that can be read"), "{error}");
+    let bare = format!("{HEAD}#1=IFCPROJECT('x',$,$,$,$,$,$,(),$);\nENDSEC;\nEND-ISO-10303-21;\n");
+    let error = read_as("house.ifc", bare.as_bytes()).expect_err("no shapes");
+    assert!(error.contains("has no triangles"), "{error}");
+    let circle = house("").replace("#20=IFCLOCALPLACEMENT($,#6);", "#20=IFCLOCALPLACEMENT(#20,#6);");
+    let error = read_as("house.ifc", circle.as_bytes()).expect_err("no shape");
+    assert!(error.contains("has 4 products with a shape, 4 without geometry: "), "{error}");
+    // the content decides, and a mark at its start is none of it
+    let marked = format!("\u{feff}{}", house(""));
+    assert_eq!(read_as("house.txt", marked.as_bytes()).expect("read").parts.len(), 5);
+}

@@ -1,0 +1,87 @@
+//! Zipped files: read, and refused where they are broken or a bomb.
+
+use super::house::house;
+use super::{notes, read_as};
+use flate2::Compression;
+use flate2::write::DeflateEncoder;
+use std::io::Write as _;
+
+/// A zip archive of these files, deflated.
+fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let (mut archive, mut directory) = (Vec::new(), Vec::new());
+    for (name, bytes) in files {
+        let mut packer = DeflateEncoder::new(Vec::new(), Compression::best());
+        packer.write_all(bytes).expect("packed");
+        let packed = packer.finish().expect("packed");
+        let mut checksum = flate2::Crc::new();
+        checksum.update(bytes);
+        let mut common = vec![20, 0, 0, 0, 8, 0, 0, 0, 0, 0];
+        common.extend(checksum.sum().to_le_bytes());
+        common.extend((packed.len() as u32).to_le_bytes());
+        common.extend((bytes.len() as u32).to_le_bytes());
+        common.extend((name.len() as u16).to_le_bytes());
+        common.extend([0, 0]);
+        directory.extend(b"PK\x01\x02\x14\x00");
+        directory.extend(&common);
+        directory.extend([0; 10]);
+        directory.extend((archive.len() as u32).to_le_bytes());
+        directory.extend(name.as_bytes());
+        archive.extend(b"PK\x03\x04");
+        archive.extend(&common);
+        archive.extend(name.as_bytes());
+        archive.extend(packed);
+    }
+    let at = archive.len() as u32;
+    archive.extend(&directory);
+    archive.extend(b"PK\x05\x06\0\0\0\0");
+    archive.extend([(files.len() as u16).to_le_bytes(), (files.len() as u16).to_le_bytes()].concat());
+    archive.extend((directory.len() as u32).to_le_bytes());
+    archive.extend(at.to_le_bytes());
+    archive.extend([0, 0]);
+    archive
+}
+
+#[track_caller]
+fn refused(bytes: &[u8], why: &str) {
+    let error = read_as("house.ifczip", bytes).expect_err("refused");
+    assert!(error.contains(why), "{error}");
+}
+
+#[test]
+fn a_zipped_file_is_the_file() {
+    let text = house("");
+    // its first entry tells the format, whatever the file is called
+    let plain = read_as("house.ifc", text.as_bytes()).expect("read");
+    let archived = read_as("house.zip", &zipped(&[("House.IFC", text.as_bytes())])).expect("read");
+    assert_eq!(archived.parts.len(), plain.parts.len());
+    for (one, other) in plain.parts.iter().zip(&archived.parts) {
+        assert_eq!((&one.name, &one.positions, &one.triangles), (&other.name, &other.positions, &other.triangles));
+    }
+    let several = zipped(&[("readme.txt", b"text"), ("a.ifc", text.as_bytes()), ("b.ifc", text.as_bytes())]);
+    let several = read_as("house.ifczip", &several).expect("read");
+    assert!(notes(&several).contains("several models; the first is read, not b.ifc"), "{}", notes(&several));
+}
+
+#[test]
+fn bombs_and_broken_archives_are_refused() {
+    refused(&zipped(&[("bomb.ifc", &vec![b' '; 200 << 20])]), "more than 100 times as many");
+    refused(&zipped(&[("house.ifcxml", b"<ifcXML/>")]), "with no .ifc in it");
+    let text = house("");
+    let good = zipped(&[("house.ifc", text.as_bytes())]);
+    refused(&good[..good.len() - 30], "its directory cannot be read");
+    // one that says less than it holds, and one whose bytes are others
+    let listed = good.windows(4).rposition(|word| word == b"PK\x01\x02").expect("listed");
+    let with = |at: usize, value: u8| {
+        let mut changed = good.clone();
+        changed[at] = value;
+        changed
+    };
+    refused(&with(listed + 25, 0), "is not what the directory says of it");
+    refused(&with(listed + 16, good[listed + 16] ^ 1), "is not what the directory says of it");
+    refused(&with(listed + 10, 99), "is packed by method 99");
+    refused(&with(listed + 8, 1), "is encrypted");
+    refused(&with(listed + 45, 0x7f), "an entry lies beyond its end");
+    let mut rubbish = good.clone();
+    rubbish[60..80].fill(0xff);
+    refused(&rubbish, "is a zip archive that is broken");
+}
