@@ -19,7 +19,7 @@ pub enum Receivers {
     /// The highest receiving surface under each cell, ground included.
     #[default]
     Top,
-    /// The ground plane, as if the buildings only cast.
+    /// The ground, as if the buildings only cast: the terrain from above where there is any, and the plane beyond it.
     Ground,
     /// All receiving surfaces of the models, walls and undersides too, on their outer side.
     Surfaces,

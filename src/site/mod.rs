@@ -24,6 +24,7 @@ mod placement;
 mod plan;
 mod probe;
 mod rewrite;
+mod standing;
 mod study;
 mod terrain;
 pub mod typed;
@@ -31,7 +32,7 @@ mod written;
 
 pub use asked::Overrides;
 pub use error::{FieldLocation, SiteError};
-pub use ground::{Ground, GroundFrom, metres};
+pub use ground::{Ground, GroundFrom, GroundKind, metres};
 pub use inputs::inputs;
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
 pub use likeness::{Likeness, Mend};
@@ -64,7 +65,7 @@ pub struct Site {
     pub casts: Vec<bool>,
     /// Per component: whether it receives; what does not is looked through.
     pub receives: Vec<bool>,
-    /// The ground plane.
+    /// The ground.
     pub ground: Ground,
     /// The instants asked.
     pub track: SunTrack,
@@ -91,6 +92,18 @@ pub struct Site {
 }
 
 impl Site {
+    /// Per component whether it is judged, beside the ground's plane: under [`Receivers::Ground`] the terrain alone.
+    pub fn judges(&self, receivers: Receivers) -> Vec<bool> {
+        match (receivers, self.ground.kind) {
+            (Receivers::Top | Receivers::Surfaces, _) => self.receives.clone(),
+            (Receivers::Ground, GroundKind::Plane) => vec![false; self.mesh.components.len()],
+            (Receivers::Ground, GroundKind::Terrain) => {
+                let components = self.mesh.components.iter().zip(&self.receives);
+                components.map(|(component, receives)| component.is_terrain && *receives).collect()
+            }
+        }
+    }
+
     /// What the camera's picture shows: a side, where one is asked, else the perspective.
     pub fn picture(&self) -> View {
         match self.side {

@@ -35,7 +35,7 @@ use crate::picture::overlay::VolumePicture;
 use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
-use crate::site::{Receivers, Site};
+use crate::site::{GroundKind, Receivers, Site};
 use crate::sun::{SunError, SunTrack, Zone};
 use crate::view::{Bits, Camera, FragmentCounts, Mask, Overlay, Surface, Tile, View};
 use chrono::DateTime;
@@ -345,14 +345,20 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
 }
 
 /// What a technique draws of a view.
-fn subject(view: &View, receivers: Receivers) -> Subject {
-    match (view, receivers) {
-        (View::Camera(_), _) => Subject::Camera,
-        (View::Elevation(_), _) => Subject::Side,
-        (View::Plan(_), Receivers::Top) => Subject::Top,
-        (View::Plan(_), Receivers::Ground) => Subject::Ground,
-        (View::Plan(_), Receivers::Surfaces) => Subject::Surfaces,
+fn subject(view: &View, receivers: Receivers, ground: GroundKind) -> Subject {
+    match (view, receivers, ground) {
+        (View::Camera(_), ..) => Subject::Camera,
+        (View::Elevation(_), ..) => Subject::Side,
+        (View::Plan(_), Receivers::Top, _) => Subject::Top,
+        (View::Plan(_), Receivers::Ground, GroundKind::Plane) => Subject::Ground,
+        (View::Plan(_), Receivers::Ground, GroundKind::Terrain) => Subject::Terrain,
+        (View::Plan(_), Receivers::Surfaces, _) => Subject::Surfaces,
     }
+}
+
+/// What a technique draws of a view of a site.
+fn subject_of(site: &Site, view: &View) -> Subject {
+    subject(view, judged(site, view), site.ground.kind)
 }
 
 /// The seconds of the window with the sun above the horizon, and without.
@@ -384,10 +390,7 @@ impl SiteView<'_> {
 
     fn scene(&self) -> Scene {
         let mesh = &self.site.mesh;
-        let receivers = match self.receivers {
-            Receivers::Top | Receivers::Surfaces => mesh.of_components(&self.site.receives),
-            Receivers::Ground => mesh.of_components(&[]),
-        };
+        let receivers = mesh.of_components(&self.site.judges(self.receivers));
         let casters = mesh.of_components(&self.site.casts);
         Scene { casters, receivers, ground: self.site.ground.level }
     }

@@ -10,7 +10,6 @@ use crate::export::figure::{self, FigureContext, plan, words};
 use crate::export::{ExportError, check_size};
 use crate::profile::Profile;
 use crate::profile::contour::Contour;
-use crate::site::Receivers;
 use crate::view::SurfaceRows;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -71,7 +70,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) ->
                 fill(block, &scale.areas(contours), lighter(*colour), 1.0);
             }
         });
-        if scene.receivers == Receivers::Ground {
+        if scene.is_ground_alone() {
             base.fill(&mut block, scale, plan::ROOF_UNJUDGED);
         }
         let lines: Vec<(u32, LineGroup)> = drawn.iter().map(|secs| (*secs, scale.lines(&contours[secs]))).collect();
