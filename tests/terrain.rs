@@ -68,20 +68,24 @@ fn sums(site: &Site) -> Shaded {
     drawn(site).0.profile.shaded
 }
 
-/// How many cells of the masks are not as a closed form says of their points, which lie on the ground of a height.
+/// How many cells of the masks are not as a closed form says of points on the ground of a height: of a cell's centre, and of
+/// all that is nearer to it than a millimetre, as rays pass beside edges by less than that.
 fn faults(
     masks: &[(DVec3, Mask)],
     height: impl Fn(f64, f64) -> f64,
     normal: DVec3,
     is_dark: impl Fn(DVec3, DVec3) -> bool,
 ) -> usize {
+    const ASIDE: [[f64; 2]; 5] = [[0.0, 0.0], [0.001, 0.001], [-0.001, 0.001], [0.001, -0.001], [-0.001, -0.001]];
     let of_mask = |(to_sun, mask): &(DVec3, Mask)| {
         let cells = (0..GRID.height).flat_map(|row| (0..GRID.width).map(move |column| (column, row)));
         let is_wrong = |&(column, row): &(u32, u32)| {
             let at = GRID.centre(column, row);
-            let point = dvec3(at.x, at.y, height(at.x, at.y)) + normal * JUDGED_ABOVE_M;
             let is_seen_dark = mask.share[(row * GRID.width + column) as usize] == 0;
-            is_dark(point, *to_sun) != is_seen_dark
+            ASIDE.into_iter().all(|[east, north]| {
+                let (x, y) = (at.x + east, at.y + north);
+                is_dark(dvec3(x, y, height(x, y)) + normal * JUDGED_ABOVE_M, *to_sun) != is_seen_dark
+            })
         };
         cells.filter(is_wrong).count()
     };
