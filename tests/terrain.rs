@@ -12,7 +12,7 @@ use gnomon::profile::Shaded;
 use gnomon::profile::comparison::{Alteration, Change};
 use gnomon::shadow::JUDGED_ABOVE_M;
 use gnomon::site::{GroundKind, Pair, Receivers, Site};
-use gnomon::study::{self, CompareOutcome, Event, Outcome, StudyError, Wants};
+use gnomon::study::{self, CompareOutcome, Event, Outcome, StudyError, TiledStudy, Wants};
 use gnomon::sun::{Place, SunTrack, Window};
 use gnomon::view::{Grid, Mask};
 use std::ops::ControlFlow;
@@ -142,6 +142,14 @@ fn level_terrain_is_the_plane_at_its_height() {
     let hours = sums(&on_terrain);
     assert!(hours.iter().any(|shaded| shaded > 0) && hours.iter().any(|shaded| shaded == 0));
     assert_eq!(hours, sums(&on_plane));
+    // another study, which does not go on from this one's sums
+    let as_roof = site(Mesh::build(vec![terrain(400.0, |_, _| 2.5), block()]).unwrap(), Some(2.5));
+    let number = |site: &Site| {
+        let study = TiledStudy::new(site, &Wants::default(), &mut |_| ControlFlow::Continue(()));
+        study.unwrap().number()
+    };
+    assert_ne!(number(&on_terrain), number(&as_roof));
+    assert_eq!(number(&on_terrain), number(&on_terrain.clone()));
     assert_ne!(hours, sums(&Site { ground: site(Mesh::build(vec![block()]).unwrap(), Some(2.0)).ground, ..on_plane }));
     // what lies beyond the terrain's edge is the plane
     let small = site(mesh(vec![terrain(10.0, |_, _| 2.5), block()]), Some(2.5));

@@ -147,8 +147,7 @@ impl Site {
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
         let level = ground::level(written, asked)?;
-        let mut models = models()?;
-        models.tell_terrain(written)?;
+        let models = models()?.with_terrain(written)?;
         let [casts, receives] = models.roles(written)?;
         let mut notes = models.notes(written, &casts, asked.words);
         let Models { mesh, bounds, likenesses, .. } = models;

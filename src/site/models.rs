@@ -106,17 +106,15 @@ impl Models {
             names.collect::<Vec<_>>(),
         ));
         let standing = Vec::new();
-        let mut models =
-            Models { mesh, bounds, notes, likenesses, of_model, kinds, standing, see_through, sources, mark };
-        models.tell_terrain(written)?;
-        Ok(models)
+        let models = Models { mesh, bounds, notes, likenesses, of_model, kinds, standing, see_through, sources, mark };
+        models.with_terrain(written)
     }
 
-    /// Marks what is terrain as a request says it, or else the files; and looks how the buildings stand on it.
+    /// The same with what is terrain marked as a request says it, or else the files; and how the buildings stand on it.
     ///
     /// # Errors
     /// [`SiteError::UnknownName`].
-    pub(super) fn tell_terrain(&mut self, written: &WrittenSite) -> Result<(), SiteError> {
+    pub(super) fn with_terrain(mut self, written: &WrittenSite) -> Result<Models, SiteError> {
         let mut is_terrain: Vec<bool> = self.kinds.iter().map(|kind| *kind == PartKind::Terrain).collect();
         for (index, (table, of_model)) in written.site.model.iter().zip(&self.of_model).enumerate() {
             if let Some(names) = &table.terrain {
@@ -127,7 +125,7 @@ impl Models {
         let components = &mut self.mesh.components;
         // as they were when the buildings were looked at
         if components.iter().zip(&is_terrain).all(|(component, is_terrain)| component.is_terrain == *is_terrain) {
-            return Ok(());
+            return Ok(self);
         }
         components.iter_mut().zip(is_terrain).for_each(|(component, is)| component.is_terrain = is);
         let terrain = TerrainFaces::of(&self.mesh);
@@ -138,7 +136,7 @@ impl Models {
             standing::note(&self.mesh, terrain.as_ref()?, &buildings, name(written, index))
         };
         self.standing = self.of_model.iter().enumerate().filter_map(stand).collect();
-        Ok(())
+        Ok(self)
     }
 
     /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.

@@ -111,6 +111,19 @@ fn what_the_ground_is_stands_beside_the_answer() {
 }
 
 #[test]
+fn the_default_region_ends_with_the_terrain() {
+    let region = |text: &str, of: &[[f64; 3]]| read(&format!("{HEAD}{text}"), of).unwrap().grid.region();
+    let near = |region: [f64; 4]| region.iter().all(|side| (side.abs() - 62.4).abs() < 0.1);
+    assert!(near(region("", &[])), "{:?}", region("", &[]));
+    // as a roof it throws a shadow on the ground around it
+    assert!(!near(region("terrain = false", &[])));
+    // and so does what stands on it
+    let house = "[[model]]\npath = \"houses.glb\"\n";
+    let [west, .., north] = region(house, &[[-59.0, -50.0, 0.0]]);
+    assert!(west < -64.0 && north < 80.0, "{west}, {north}");
+}
+
+#[test]
 fn what_floats_and_what_sinks_is_told_with_how_much() {
     // their ground lies 2 to 3, -3 to -2, 0 to 1 and 4 to 4.1 high, and the last ones have none
     let all = [[20.0, 30.0, 1.0], [-30.0, -20.0, 0.0], [0.0, 10.0, 0.5], [40.0, 41.0, 4.05], [70.0, 75.0, 7.0]];
