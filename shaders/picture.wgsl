@@ -75,7 +75,7 @@ struct LookUniforms {
 // Colours of the hours' cells, and the height of the surface that they were counted on, around the scene's origin.
 @group(2) @binding(2) var hours_colour: texture_2d<f32>;
 @group(2) @binding(3) var hours_height: texture_2d<f32>;
-// Colours of faces, in rows as their planes.
+// Colours of faces, in rows as their planes; alpha 1 is terrain.
 @group(2) @binding(4) var tints: texture_2d<f32>;
 // Layers of volumes and ink of the silhouette, twice as fine as the picture or as fine.
 @group(2) @binding(5) var volumes: texture_2d<f32>;
@@ -133,6 +133,11 @@ fn tint_of(face: u32) -> vec3f {
         return look.building;
     }
     return textureLoad(tints, vec2u(face % PLANES_WIDTH, face / PLANES_WIDTH), 0).rgb;
+}
+
+// On the plan terrain is drawn as the ground that it is.
+fn is_ground(face: u32) -> bool {
+    return face == GROUND || textureLoad(tints, vec2u(face % PLANES_WIDTH, face / PLANES_WIDTH), 0).a == 1.0;
 }
 
 // Hours at a seen point: colour, and 1 where that surface is the one that was counted.
@@ -227,6 +232,9 @@ fn from_above(pixel: vec2f, face: u32) -> vec3f {
         return mix(look.plan_ground_shade, look.plan_ground_sun, select(share, 1.0, shown.hours > 0.0));
     }
     var roof = mix(look.plan_roof_shade, look.plan_roof_sun, share);
+    if is_ground(face) {
+        roof = mix(look.plan_ground_shade, look.plan_ground_sun, select(share, 1.0, shown.hours > 0.0));
+    }
     if shown.tinted == 1.0 {
         roof = tint_of(face) * mix(0.78, 1.0, share);
     }
@@ -283,7 +291,12 @@ fn line_in_plan(a: vec2f, b: vec2f, from_face: u32, to_face: u32) -> f32 {
     let to_rise = select(0.0, -dot(to_normal.xy, -half) / to_normal.z, to_normal.z > 0.1);
     let jump = abs(from_point.z + from_rise - to_point.z - to_rise);
     let step = clamp(length(half), 0.02, 0.5) + abs(from_rise) + abs(to_rise);
-    if from_face == GROUND || to_face == GROUND {
+    // the ground has no lines of its own but where it steps
+    let are_ground = vec2<bool>(is_ground(from_face), is_ground(to_face));
+    if all(are_ground) {
+        return select(0.0, look.step, jump > step);
+    }
+    if any(are_ground) {
         return select(look.crease, look.outline, jump > step);
     }
     let crease = select(0.0, look.crease, dot(from_normal, to_normal) < look.plan_crease_cos);

@@ -68,7 +68,7 @@ fn view(site: &Site, subject: Subject) -> View {
     match subject {
         Subject::Camera => View::Camera(camera),
         Subject::Side => View::Elevation(camera.side(gnomon::view::Side::South)),
-        Subject::Top | Subject::Ground | Subject::Patches => View::Plan(site.grid),
+        Subject::Top | Subject::Ground | Subject::Terrain | Subject::Patches => View::Plan(site.grid),
     }
 }
 
@@ -79,7 +79,8 @@ fn techniques_draw_what_the_table_says() {
     for row in TABLE.iter().filter(|row| row.method != Method::Auto) {
         for subject in Subject::ALL {
             for engine in [Engine::Cpu, Engine::Gpu] {
-                let receivers = if subject == Subject::Ground { "ground" } else { "top" };
+                let is_ground = matches!(subject, Subject::Ground | Subject::Terrain);
+                let receivers = if is_ground { "ground" } else { "top" };
                 let asked = Overrides {
                     technique: Some(row.method),
                     engine: Some(engine),
@@ -88,7 +89,10 @@ fn techniques_draw_what_the_table_says() {
                     size: Some(16),
                     ..Overrides::default()
                 };
-                let site = load(SITE, &asked).expect("a site");
+                // the yard around the tower
+                let with_terrain = SITE.replace("path = \"tower.glb\"", "path = \"tower.glb\"\nterrain = [\"yard\"]");
+                let text = if subject == Subject::Terrain { &with_terrain } else { SITE };
+                let site = load(text, &asked).expect("a site");
                 let mut on_event = |_: study::Event<'_>| ControlFlow::Continue(());
                 let done = match subject {
                     Subject::Patches => study::patches(&site, 4.0, &mut on_event).map(|outcome| outcome.drawn),

@@ -1,17 +1,17 @@
 //! Formats of model files: what is read of each, what is told, and one building that each writes in its own way.
 
 pub(crate) mod building;
+mod city;
 mod compressed;
 mod dae;
 mod dxf;
 mod foreign;
+#[cfg(feature = "ifc")]
+mod ifc;
 mod obj;
 mod ply;
 mod stl;
-mod city;
 mod terrain;
-#[cfg(feature = "ifc")]
-mod ifc;
 
 #[cfg(not(feature = "ifc"))]
 #[test]

@@ -182,6 +182,19 @@ fn the_windows_picture_has_the_drawings_look() {
     }
 }
 
+/// On the plan terrain has the ground's colours and lines in the window, too.
+#[test]
+fn terrain_has_the_drawings_look() {
+    let plain = sample("industry", "2026-09-18T16:00");
+    let view = views(&plain)[1].1;
+    let mut site = plain.clone();
+    site.mesh.components.iter_mut().step_by(2).for_each(|component| component.is_terrain = true);
+    let mut terrain = pair(&site, view, false);
+    assert!(terrain.compare().holds(), "{:?}", terrain.compare());
+    terrain.picture = pair(&plain, view, false).picture;
+    assert!(!terrain.compare().holds(), "terrain drawn as roofs: {:?}", terrain.compare());
+}
+
 #[test]
 fn components_have_the_drawings_look() {
     let site = sample("industry", "2026-09-18T16:00");

@@ -41,6 +41,7 @@ mod soft_texture;
 mod sums;
 mod sun;
 mod techniques;
+mod terrain;
 mod tiles;
 mod timers;
 #[path = "../tools/try-models/main.rs"]

@@ -89,8 +89,13 @@ impl Misfit {
             Misfit::Engine { method, subject, .. } => (method, subject, method.row().on_cpu),
             Misfit::Setting { .. } | Misfit::Finder { .. } => return None,
         };
-        let is_alike = |subject: &&Subject| subject.choice().0 == asked.choice().0;
-        let instead: Vec<Subject> = instead.iter().filter(is_alike).copied().collect();
+        // two subjects may be asked by one word: which of them it is, the site says
+        let is_another_word = |subject: &&Subject| {
+            let (field, word) = subject.choice();
+            field == asked.choice().0 && word != asked.choice().1
+        };
+        let mut instead: Vec<Subject> = instead.iter().filter(is_another_word).copied().collect();
+        instead.dedup_by_key(|subject| subject.choice());
         (!instead.is_empty()).then_some((method, instead))
     }
 }

@@ -22,7 +22,7 @@ pub enum Receivers {
     /// The highest receiving surface under each cell, ground included.
     #[default]
     Top,
-    /// The ground plane, as if the buildings only cast.
+    /// The ground, as if the buildings only cast: the terrain from above where there is any, and the plane beyond it.
     Ground,
     /// All patches of the models that receive, walls and undersides too, on their outer side.
     Patches,

@@ -10,6 +10,8 @@ pub enum Subject {
     Top,
     /// The plan, on the ground alone.
     Ground,
+    /// The plan, on the terrain alone, where that is the ground.
+    Terrain,
     /// What a camera sees in perspective.
     Camera,
     /// A side, along parallel, level rays.
@@ -20,13 +22,15 @@ pub enum Subject {
 
 impl Subject {
     /// All of them.
-    pub const ALL: [Subject; 5] = [Subject::Top, Subject::Ground, Subject::Camera, Subject::Side, Subject::Patches];
+    pub const ALL: [Subject; 6] =
+        [Subject::Top, Subject::Ground, Subject::Terrain, Subject::Camera, Subject::Side, Subject::Patches];
 
     /// As the object of a sentence.
     pub fn name(self) -> &'static str {
         match self {
             Subject::Top => "the plan's highest surfaces",
             Subject::Ground => "the plan's ground",
+            Subject::Terrain => "terrain as the plan's ground",
             Subject::Camera => "a camera's picture",
             Subject::Side => "a side",
             Subject::Patches => "façades and roofs",
@@ -37,7 +41,7 @@ impl Subject {
     pub(super) fn choice(self) -> (Field, &'static str) {
         match self {
             Subject::Top => (Field::Receivers, "top"),
-            Subject::Ground => (Field::Receivers, "ground"),
+            Subject::Ground | Subject::Terrain => (Field::Receivers, "ground"),
             Subject::Camera => (Field::View, "camera"),
             Subject::Side => (Field::View, "north, east, south or west"),
             Subject::Patches => (Field::Receivers, "surfaces"),
@@ -45,7 +49,7 @@ impl Subject {
     }
 
     /// The words of the techniques that draw it on a machine, but for the program's own choice.
-    pub(crate) fn drawn_by(self, engine: Engine) -> Vec<&'static str> {
+    pub fn drawn_by(self, engine: Engine) -> Vec<&'static str> {
         let rows = TABLE.iter().filter(|row| row.method != Method::Auto && row.draws(engine, self));
         rows.map(|row| row.word).collect()
     }
@@ -165,7 +169,7 @@ macro_rules! techniques {
 }
 
 /// Plan and perspective.
-const SEEN: &[Subject] = &[Subject::Top, Subject::Ground, Subject::Camera];
+const SEEN: &[Subject] = &[Subject::Top, Subject::Ground, Subject::Terrain, Subject::Camera];
 /// All finders.
 const FINDERS: &[Finder] = &[Finder::Brute, Finder::Hextree, Finder::Gpu];
 /// Texels along a map's side where nobody says.
@@ -179,7 +183,7 @@ techniques! {
         good_for: "the fastest exact one for the work and the machine",
         wrong: "as the one that it takes",
         on_cpu: &Subject::ALL,
-        on_gpu: &[Subject::Top, Subject::Ground, Subject::Camera, Subject::Patches],
+        on_gpu: &[Subject::Top, Subject::Ground, Subject::Terrain, Subject::Camera, Subject::Patches],
         finders: &[],
         settings: &[],
         defaults: Settings::NONE,
@@ -210,7 +214,7 @@ techniques! {
         name: "projected shadows",
         good_for: "exact, for the plan: faces are projected along the sun; by far the fastest on the ground alone",
         wrong: "not at all, for the model as given; on a graphics adapter cells within 1/128 of a cell of an edge",
-        on_cpu: &[Subject::Top, Subject::Ground],
+        on_cpu: &[Subject::Top, Subject::Ground, Subject::Terrain],
         on_gpu: &[Subject::Ground],
         finders: &[],
         settings: &[],

@@ -3,7 +3,7 @@
 use super::parts::note;
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::volumes::{self as encode, Volumes};
-use crate::site::Site;
+use crate::site::{GroundKind, Site, metres};
 use crate::study::{self, Event, OnEvent, StudyError, tell};
 use crate::sun::Instant;
 use crate::volume::solid::{Solids, solids};
@@ -42,6 +42,10 @@ pub fn volumes(
     study::note_models(&site.notes, on_event)?;
     let found = solids(&site.mesh, &site.casts, instant.to_sun, site.ground.level)?;
     tell(on_event, Event::Stage("volumes"))?;
+    if site.ground.kind == GroundKind::Terrain {
+        let end = format!("the volumes end at a plane at {}, not at the terrain", metres(site.ground.level));
+        tell(on_event, Event::Note(end))?;
+    }
     note_extent(&found, instant, on_event)?;
     let volumes = Volumes {
         place: &site.place,

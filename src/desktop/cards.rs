@@ -9,7 +9,7 @@ use super::sky;
 use super::unit::Unit;
 use crate::export::figure::scale::Rgb;
 use crate::site::file::ProbeTable;
-use crate::sunlight::{IntervalBound, Sunlight, below_ground_m, secs};
+use crate::sunlight::{IntervalBound, Sunlight, secs};
 use crate::view::View;
 use eframe::egui::{self, Align2, Color32, Id, Rect, Sense, Ui, Vec2, vec2};
 use std::sync::Arc;
@@ -117,7 +117,7 @@ fn probe(open: &mut Open, settings: &mut WindowSettings, unit: Unit, laid: Optio
             ui.label(format!("In the study: {said}"));
         }
         let clock = |secs: i64| format!("{}:{:02}:{:02}", secs / 3600, secs / 60 % 60, secs % 60);
-        if let Some(below) = below_ground_m(&probed.probe, open.project.site.ground.level) {
+        if let Some(below) = probed.below_ground_m {
             ui.label(format!("It lies {:.2} {name} below the ground", below / unit.metres));
         }
         ui.label(format!("{}: {} of sun", day.window.day.date, clock(secs(intervals))));

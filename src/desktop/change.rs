@@ -99,7 +99,7 @@ pub(super) fn find(
         first.site.camera = after.site.camera.clone();
         let at_hand = known.as_ref().and_then(BeforeState::models);
         let models = at_hand.map_or_else(|| Models::read(&first, formats::read), Ok)?;
-        let takes_ground = first.site.ground.level.is_none() && !models.stand_on(site.ground.level);
+        let takes_ground = first.site.ground.level.is_none() && !models.stand_on(&first, site.ground.level);
         if takes_ground {
             first.site.ground.level = Some(site.ground.level);
         }
@@ -117,7 +117,7 @@ pub(super) fn find(
         let timings = watch.stages();
         let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
         let (receivers, step_secs) = (pair.after.receivers, pair.after.track.step_secs);
-        let colours = ChangeColours::of(&outcome.comparison, surfaces, receivers, step_secs);
+        let colours = ChangeColours::of(&outcome.comparison, surfaces, &outcome.meshes[1], receivers, step_secs);
         for site in [&mut pair.before, &mut pair.after] {
             site.mesh = site.mesh.of_components(&[]);
         }

@@ -6,7 +6,7 @@ use super::{ExportError, figure, report};
 use crate::message::{Field, Words, aside, message};
 use crate::site::{Ground, metres};
 use crate::sun::{Place, Polar, Zone};
-use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight, below_ground_m, longest, secs};
+use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight, longest, secs};
 use crate::view::Probe;
 use chrono::DateTime;
 use glam::DVec3;
@@ -92,7 +92,7 @@ pub fn json(sunlight: &Sunlight, place: &Place, ground: &Ground, notes: &[String
                 name: &probed.probe.name,
                 point: probed.probe.point.to_array(),
                 normal: probed.probe.normal.map(|normal| normal.to_array()),
-                below_ground_m: below_ground_m(&probed.probe, ground.level),
+                below_ground_m: probed.below_ground_m,
                 days: sunlight.days.iter().zip(&probed.days).map(day).collect(),
                 seconds: probed.secs(),
                 longest_seconds: probed.longest().map_or(0, Interval::secs),
@@ -136,7 +136,7 @@ pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Wo
     for probed in &sunlight.probes {
         // Writing to a String cannot fail.
         let _ = writeln!(table, "{}: {}", plain(&probed.probe.name), lies(&probed.probe));
-        let below = below_ground_m(&probed.probe, ground.level);
+        let below = probed.below_ground_m;
         if let Some(below) = below {
             let _ = writeln!(table, "{} below the ground: no sun reaches it", metres(below));
         }

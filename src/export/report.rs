@@ -391,11 +391,7 @@ pub(super) fn tz_version(place: &Place) -> String {
 }
 
 pub(super) fn ground_report(ground: &Ground) -> GroundReport {
-    GroundReport {
-        ground: ground.level,
-        ground_from: ground.from.word(),
-        models_below_ground_m: ground.models_below_m(),
-    }
+    GroundReport { ground: ground.level, ground_from: ground.word(), models_below_ground_m: ground.models_below_m() }
 }
 
 // Angles are not rounded: the sign of the altitude and `night` then always agree.

@@ -11,26 +11,26 @@ mod city;
 mod citygml;
 mod cityjson;
 mod crs;
-mod footprints;
 mod dae;
 mod dxf;
+mod footprints;
 pub mod gltf;
 mod ifc;
 mod json_head;
 mod left_out;
 mod model;
 mod names;
-mod rings;
-mod tiles3d;
-mod whole;
-pub mod terrain;
 mod obj;
 mod ply;
 mod polygon;
 mod refused;
+mod rings;
 mod source;
 mod stl;
+pub mod terrain;
+mod tiles3d;
 mod vertices;
+mod whole;
 
 pub use model::{
     Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,

@@ -163,7 +163,13 @@ pub struct ReadOptions {
 
 impl Default for ReadOptions {
     fn default() -> Self {
-        Self { scene: None, told_step: Self::TOLD_M, default_height_m: None, terrain_error_m: Self::TERRAIN_ERROR_M, point_classes: Vec::new() }
+        Self {
+            scene: None,
+            told_step: Self::TOLD_M,
+            default_height_m: None,
+            terrain_error_m: Self::TERRAIN_ERROR_M,
+            point_classes: Vec::new(),
+        }
     }
 }
 

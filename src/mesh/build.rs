@@ -152,5 +152,15 @@ fn of_part(part: Part, origin: DVec3, together: &CornerGroups) -> (Component, We
     let at_home = coarse.into_iter().filter(is_at_home);
     let coarse = at_home.max_by(|one, other| one.step_m.total_cmp(&other.step_m));
     let flattened = welded.flattened;
-    (Component { name, aliases, faces: 0..0, edges: 0..0, collapsed: [].into(), flattened, coarse }, welded)
+    let component = Component {
+        name,
+        aliases,
+        faces: 0..0,
+        edges: 0..0,
+        collapsed: [].into(),
+        flattened,
+        coarse,
+        is_terrain: false,
+    };
+    (component, welded)
 }

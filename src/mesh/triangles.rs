@@ -22,6 +22,8 @@ pub struct Component {
     pub flattened: usize,
     /// The coarsest of its corners, but for strays that lie far off; none where the file writes all of them finely.
     pub coarse: Option<CornerPrecision>,
+    /// Whether it is terrain: the ground as it was measured.
+    pub is_terrain: bool,
 }
 
 /// A face at an edge: which one, and whether it runs along the edge (from its first vertex to its second) or against it.
@@ -122,6 +124,12 @@ impl Mesh {
     /// The height of the highest vertex that a face has, metres of the world frame; −∞ without faces.
     pub fn top(&self) -> f64 {
         self.bounds().map_or(f64::NEG_INFINITY, |(_, high)| high.z)
+    }
+
+    /// Whether a face is one of terrain; what is no face of the mesh is not.
+    pub fn is_terrain(&self, face: u32) -> bool {
+        let at = self.components.partition_point(|component| component.faces.end <= face);
+        self.components.get(at).is_some_and(|component| component.is_terrain)
     }
 
     /// The homogeneous light (sun: w = 0, lamp: w = 1) of the world frame, as the planes around `origin` see it.

@@ -19,6 +19,7 @@ use crate::shadow::{DrawnMask, GpuSurface, Scene, ShadowError};
 use crate::view::{Mask, View};
 use glam::DVec3;
 use patch_textures::textures;
+use std::ops::Range;
 use std::sync::Arc;
 use texels::write;
 use wgpu::*;
@@ -64,6 +65,8 @@ pub struct Picture {
     uploaded: Option<Texture>,
     hours: Option<HoursTextures>,
     tints: Option<Texture>,
+    /// The receivers' faces that are terrain.
+    terrain: Vec<Range<u32>>,
     overlay: [Option<Texture>; 2],
     cells: Option<Texture>,
     /// Bound where there is nothing: in colours, and in numbers.
@@ -109,6 +112,7 @@ impl Picture {
         let look = gpu.uniform::<layout::LookUniforms>("picture.look");
         gpu.queue.write_buffer(&look, 0, bytemuck::bytes_of(&uniform(&LOOK)));
         gpu.check()?;
+        let terrain = scene.receivers.components.iter().filter(|component| component.is_terrain);
         Ok(Picture {
             surface,
             look,
@@ -119,6 +123,7 @@ impl Picture {
             uploaded: None,
             hours: None,
             tints: None,
+            terrain: terrain.map(|component| component.faces.clone()).collect(),
             overlay: [None, None],
             cells: None,
             nothing,
@@ -142,11 +147,15 @@ impl Picture {
         gpu.texture("picture", view.size(), COLOURS, usage)
     }
 
-    /// Gives each face of the receivers its colour.
+    /// Gives each face of the receivers its colour, and says which of them are terrain.
     pub fn tint(&mut self, colours: impl Iterator<Item = [u8; 3]>) {
-        let mut texels: Vec<[u8; 4]> = colours.map(|[red, green, blue]| [red, green, blue, 255]).collect();
+        let mut texels: Vec<[u8; 4]> = colours.map(|[red, green, blue]| [red, green, blue, 0]).collect();
         let rows = texels.len().div_ceil(PLANES_WIDTH).max(1);
-        texels.resize(rows * PLANES_WIDTH, [255; 4]);
+        texels.resize(rows * PLANES_WIDTH, [0; 4]);
+        for run in &self.terrain {
+            let faces = texels.iter_mut().take(run.end as usize).skip(run.start as usize);
+            faces.for_each(|texel| texel[3] = 255);
+        }
         let size = (PLANES_WIDTH as u32, rows as u32);
         self.tints = Some(self.upload("picture.tints", size, COLOURS, bytemuck::cast_slice(&texels)));
     }

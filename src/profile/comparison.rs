@@ -111,12 +111,12 @@ impl Comparison {
     }
 
     /// Square metres that are so.
-    pub(crate) fn altered_m2(&self, altered: Alteration) -> f64 {
+    pub fn altered_m2(&self, altered: Alteration) -> f64 {
         self.area(self.altered.iter().filter(|it| **it == altered).count())
     }
 
     /// Square metres that change by more than some seconds.
-    pub(crate) fn more_than_m2(&self, change: Change, secs: u32) -> f64 {
+    pub fn more_than_m2(&self, change: Change, secs: u32) -> f64 {
         let least = i64::from(secs) * 255;
         self.area(self.changes(change).filter(|(_, change)| *change > least).count())
     }

@@ -57,7 +57,9 @@ pub(super) fn with_shadows(
         let [low, high] = [low_throw, high_throw].map(|throw| corner + (height * throw).extend(0.0));
         Bounds { low, high }
     };
-    let Bounds { low, high } = around(mesh, |component| casts.get(component) == Some(&true), bounds, shadow);
+    // what terrain shades beyond its own edge is no measured ground
+    let casts = |at: usize| casts.get(at) == Some(&true) && !mesh.components[at].is_terrain;
+    let Bounds { low, high } = around(mesh, casts, bounds, shadow);
     [low.truncate(), high.truncate()]
 }
 

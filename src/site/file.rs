@@ -70,6 +70,8 @@ pub struct ModelTable {
     /// What receives.
     #[serde(default, skip_serializing_if = "is_default")]
     pub receives: Names,
+    /// What is terrain; as the model's format says where it is absent.
+    pub terrain: Option<Names>,
 }
 
 /// `[ground]`

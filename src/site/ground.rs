@@ -7,17 +7,19 @@ use super::terrain::{self, BuriedShare, ON_GROUND_M};
 use super::written::WrittenSite;
 use crate::choice::Receivers;
 use crate::mesh::Mesh;
-use crate::message::{Field, message};
+use crate::message::{Field, few, message};
 
 /// Nobody asks for a ground farther from the place's point than this, metres.
 const FARTHEST_M: f64 = 1e5;
 
-/// The ground plane: how high it lies, who says so, and what of the models lies below it.
+/// The ground: what it is, how high its plane lies, who says so, and what of the models lies below that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
-    /// Its height, metres.
+    /// What is judged where the ground alone is.
+    pub kind: GroundKind,
+    /// The plane's height, metres.
     pub level: f64,
-    /// Who says so.
+    /// Who says how high the plane lies.
     pub from: GroundFrom,
     /// The models' lowest point, metres.
     pub lowest: f64,
@@ -25,7 +27,27 @@ pub struct Ground {
     buried: Option<BuriedShare>,
 }
 
-/// Who says how high the ground lies.
+/// What the ground is. It is found once, with the models; all that depends on it reads it here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GroundKind {
+    /// The plane alone.
+    Plane,
+    /// The terrain that receives, seen from above, and the plane beyond its edge.
+    Terrain,
+}
+
+impl GroundKind {
+    /// Of a mesh of which these components receive: terrain that does not is looked through.
+    fn of(mesh: &Mesh, receives: &[bool]) -> GroundKind {
+        let mut components = mesh.components.iter().zip(receives);
+        match components.any(|(component, receives)| component.is_terrain && *receives) {
+            true => GroundKind::Terrain,
+            false => GroundKind::Plane,
+        }
+    }
+}
+
+/// Who says how high the ground's plane lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GroundFrom {
     /// The site file or the command line.
@@ -48,14 +70,16 @@ impl GroundFrom {
 }
 
 impl Ground {
-    /// As it is said. Where nobody says it: 0 where the models reach through 0 and no terrain of theirs is hidden there;
-    /// else their lowest point.
-    pub(super) fn of(mesh: &Mesh, bounds: Bounds, said: Option<f64>) -> Ground {
+    /// As it is said. Where nobody says it: the lowest point below terrain; else 0 where the models reach through 0 and
+    /// nothing that looks like terrain is hidden there; else their lowest point.
+    pub(super) fn of(mesh: &Mesh, bounds: Bounds, receives: &[bool], said: Option<f64>) -> Ground {
         let (lowest, highest) = (bounds.low.z, bounds.high.z);
-        let at = |level, from, buried| Ground { level, from, lowest, buried };
+        let kind = GroundKind::of(mesh, receives);
+        let at = |level, from, buried| Ground { kind, level, from, lowest, buried };
         let buried = |level| (lowest < level - ON_GROUND_M).then(|| terrain::buried(mesh, bounds, level)).flatten();
         match said {
             Some(level) => at(level, GroundFrom::Site, buried(level)),
+            None if kind == GroundKind::Terrain => at(lowest, GroundFrom::Lowest, None),
             None if lowest < -ON_GROUND_M && highest > ON_GROUND_M => match buried(0.0) {
                 Some(terrain) if terrain.is_terrain => at(lowest, GroundFrom::Lowest, Some(terrain)),
                 buried => at(0.0, GroundFrom::Zero, buried),
@@ -66,13 +90,21 @@ impl Ground {
 
     /// One that is said, and on which all stands.
     pub fn asked(level: f64) -> Ground {
-        Ground { level, from: GroundFrom::Site, lowest: level, buried: None }
+        Ground { kind: GroundKind::Plane, level, from: GroundFrom::Site, lowest: level, buried: None }
     }
 
     /// As [`Ground::of`] where nobody says it.
-    pub(super) fn found(mesh: &Mesh) -> Ground {
+    pub(super) fn found(mesh: &Mesh, receives: &[bool]) -> Ground {
         // a site has a triangle
-        Self::of(mesh, Bounds::of(mesh).unwrap_or_default(), None)
+        Self::of(mesh, Bounds::of(mesh).unwrap_or_default(), receives, None)
+    }
+
+    /// Where the ground comes from, as reports have it.
+    pub fn word(&self) -> &'static str {
+        match self.kind {
+            GroundKind::Terrain => "terrain",
+            GroundKind::Plane => self.from.word(),
+        }
     }
 
     /// Whether it lies at a height, metres.
@@ -85,8 +117,16 @@ impl Ground {
         Some(self.level - self.lowest).filter(|below| *below > ON_GROUND_M).unwrap_or(0.0)
     }
 
-    /// In words: `0.00 m, the models' own zero; they reach 12.00 m below it`. Of a comparison it is that of the state before.
+    /// In words, after "ground at": `0.00 m, the models' own zero; they reach 12.00 m below it`. Of a comparison it is that of
+    /// the state before.
     pub fn said(&self) -> String {
+        match self.kind {
+            GroundKind::Terrain => format!("the terrain's height; beyond the terrain at {}", self.plane_said()),
+            GroundKind::Plane => self.plane_said(),
+        }
+    }
+
+    fn plane_said(&self) -> String {
         let level = metres(self.level);
         let (below, above) = (self.models_below_m(), self.lowest - self.level);
         let below_it = format!("{} below it", metres(below));
@@ -105,9 +145,9 @@ impl Ground {
 
     /// What a person has to know of it beside its height: that it was found where it could lie elsewhere, and what of the
     /// components of a mesh it hides from what is judged.
-    pub fn notes(&self, mesh: &Mesh, receivers: Receivers) -> Vec<String> {
+    pub(super) fn notes(&self, mesh: &Mesh, receives: &[bool], receivers: Receivers) -> Vec<String> {
         let name = |buried: BuriedShare| mesh.components.get(buried.component).map_or("", |component| &component.name);
-        let mut notes = Vec::new();
+        let mut notes: Vec<String> = self.terrain_note(mesh, receives).into_iter().collect();
         match (self.from, self.buried) {
             (GroundFrom::Lowest, Some(terrain)) => notes.push(format!(
                 "the ground is at {}, the models' lowest point: at their own zero it would hide {} of what is seen of \"{}\"; \
@@ -125,7 +165,8 @@ impl Ground {
                         metres(self.models_below_m()),
                     ));
                 }
-                if let (Some(buried), Receivers::Top | Receivers::Patches) = (buried, receivers) {
+                let is_plane_alone = receivers == Receivers::Ground && self.kind == GroundKind::Plane;
+                if let (Some(buried), false) = (buried, is_plane_alone) {
                     notes.push(format!(
                         "the ground hides {} of what is seen of the models from above, of \"{}\" most: what lies below the \
                          ground is not judged on the plan and sees no sun",
@@ -136,6 +177,24 @@ impl Ground {
             }
         }
         notes
+    }
+
+    /// Which terrain the ground is, and what lies beyond it.
+    fn terrain_note(&self, mesh: &Mesh, receives: &[bool]) -> Option<String> {
+        if self.kind == GroundKind::Plane {
+            return None;
+        }
+        let terrain =
+            mesh.components.iter().zip(receives).filter(|(component, receives)| component.is_terrain && **receives);
+        let names = few(terrain.map(|(component, _)| format!("\"{}\"", component.name)).collect());
+        let whose = match self.from {
+            GroundFrom::Site => "as asked",
+            GroundFrom::Zero | GroundFrom::Lowest => "the models' lowest point; `level` in [ground] sets it",
+        };
+        Some(format!(
+            "the ground is the terrain {names}; beyond the terrain's edge it is a plane at {}, {whose}",
+            metres(self.level)
+        ))
     }
 }
 

@@ -16,7 +16,8 @@ impl Site {
     /// A site of a mesh in the world frame, as a file would describe it that says no more. Everything casts and receives,
     /// technique and engine are chosen for the machine, and the camera sees all of it: set the fields to have it otherwise.
     ///
-    /// Without a height the ground is found as for a file: at the mesh's own zero, or at its lowest point.
+    /// Without a height the ground is found as for a file: at the mesh's own zero, or at its lowest point. Components that say
+    /// that they are terrain ([`crate::mesh::Component::is_terrain`]) are the ground.
     ///
     /// # Errors
     /// A mesh without a triangle, a height that is none, a track without an instant, a grid that is no plan.
@@ -33,12 +34,12 @@ impl Site {
             return Err(refuse(FieldLocation::Field(Field::From), message!["the track has no instant"; "give it one"]));
         }
         plan::check(&grid)?;
-        let ground = Ground::of(&mesh, bounds, level);
         let all = vec![true; mesh.components.len()];
+        let ground = Ground::of(&mesh, bounds, &all, level);
         let shadows = with_shadows(&mesh, bounds, &all, ground.level, &track, VIEW_CUT);
         let camera = camera::found(place.latitude_deg, bounds, shadows, ground.level, &track);
         let receivers = Receivers::default();
-        let of_mesh = notes::of_all(&mesh).into_iter().chain(ground.notes(&mesh, receivers));
+        let of_mesh = notes::of_all(&mesh).into_iter().chain(ground.notes(&mesh, &all, receivers));
         let notes = of_mesh.chain(track.notes()).chain(notes::on_view(&mesh, &grid, None)).collect();
         Ok(Site {
             place,

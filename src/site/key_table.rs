@@ -139,6 +139,9 @@ pub const SITE_KEYS: &[SiteKey] = &[
     key("model", "receives", ValueType::Names, "receives = true")
         .default("true")
         .means("What is judged, by names as in `casts`. What does not receive is looked through."),
+    key("model", "terrain", ValueType::Names, "terrain = true")
+        .default("what the format says to be terrain")
+        .means("What is [terrain](#terrain), by names as in `casts`: the ground as it was measured."),
     key("ground", "level", ValueType::Number, "level = 0.0")
         .unit("metres")
         .default("[found from the models](#the-ground)")

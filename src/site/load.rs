@@ -151,12 +151,12 @@ impl Site {
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
         let level = ground::level(written, asked)?;
-        let models = models()?;
+        let models = models()?.with_terrain(written)?;
         let [casts, receives] = models.roles(written)?;
         let mut notes = models.notes(written, &casts, asked.words);
         let Models { mesh, bounds, likenesses, .. } = models;
-        let ground = Ground::of(&mesh, bounds, level);
-        notes.extend(ground.notes(&mesh, receivers));
+        let ground = Ground::of(&mesh, bounds, &receives, level);
+        notes.extend(ground.notes(&mesh, &receives, receivers));
         let shadows = |cut| with_shadows(&mesh, bounds, &casts, ground.level, &track, cut);
         let grid = plan::grid(written, asked, || shadows(SHADOW_CUT))?;
         let side = camera::side(written, asked)?;

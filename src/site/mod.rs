@@ -25,6 +25,7 @@ mod placement;
 mod plan;
 mod probe;
 mod rewrite;
+mod standing;
 mod study;
 mod terrain;
 #[doc(hidden)]
@@ -35,7 +36,7 @@ pub use asked::Overrides;
 pub use error::{FieldLocation, SiteError};
 #[doc(hidden)]
 pub use ground::metres;
-pub use ground::{Ground, GroundFrom};
+pub use ground::{Ground, GroundFrom, GroundKind};
 #[doc(hidden)]
 pub use inputs::inputs;
 #[doc(hidden)]
@@ -75,7 +76,7 @@ pub struct Site {
     pub casts: Vec<bool>,
     /// Per component: whether it receives; what does not is looked through.
     pub receives: Vec<bool>,
-    /// The ground plane.
+    /// The ground.
     pub ground: Ground,
     /// The instants asked.
     pub track: SunTrack,
@@ -102,6 +103,18 @@ pub struct Site {
 }
 
 impl Site {
+    /// Per component whether it is judged, beside the ground's plane: under [`Receivers::Ground`] the terrain alone.
+    pub fn judges(&self, receivers: Receivers) -> Vec<bool> {
+        match (receivers, self.ground.kind) {
+            (Receivers::Top | Receivers::Patches, _) => self.receives.clone(),
+            (Receivers::Ground, GroundKind::Plane) => vec![false; self.mesh.components.len()],
+            (Receivers::Ground, GroundKind::Terrain) => {
+                let components = self.mesh.components.iter().zip(&self.receives);
+                components.map(|(component, receives)| component.is_terrain && *receives).collect()
+            }
+        }
+    }
+
     /// What the camera's picture shows: a side, where one is asked, else the perspective.
     pub fn picture(&self) -> View {
         match self.side {

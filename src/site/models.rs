@@ -9,9 +9,10 @@ use super::keys;
 use super::likeness::{self, Likeness, TakenFrame};
 use super::notes;
 use super::placement::Placement;
+use super::standing::{self, TerrainFaces};
 use super::written::WrittenSite;
 use crate::choice::ChoiceError;
-use crate::formats::{Model, ModelError, ReadOptions, SeeThrough, on_disk};
+use crate::formats::{Model, ModelError, PartKind, ReadOptions, SeeThrough, on_disk};
 use crate::mesh::{Component, Mesh};
 use crate::message::{Message, Words, few, message};
 use glam::DVec3;
@@ -33,6 +34,10 @@ pub struct Models {
     pub(super) likenesses: Vec<Likeness>,
     /// Which components are whose.
     of_model: Vec<Range<usize>>,
+    /// What each component is, as its file says it.
+    kinds: Vec<PartKind>,
+    /// How the buildings of each model stand on the terrain.
+    standing: Vec<Message>,
     /// Each model's materials that light passes; its parts are counted among its own.
     see_through: Vec<Vec<SeeThrough>>,
     sources: Vec<Source>,
@@ -63,12 +68,14 @@ impl Models {
         // a file that changes while it is read has changed since
         let sources = sources(written)?;
         let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut kinds = Vec::new();
         // by each model's file, of unit and axis
         let mut said = Vec::new();
         for index in 0..sources.len() {
             let model = model(written, index, &read_model)?;
             said.push(TakenFrame::of_file(&model));
             let first = parts.len();
+            kinds.extend((0..model.parts.len()).map(|part| model.kind(part)));
             parts.extend(model.parts);
             let name = name(written, index);
             notes.extend(model.notes.into_iter().map(|note| note.about(name)));
@@ -97,7 +104,38 @@ impl Models {
             mesh.origin.to_array().map(f64::to_bits),
             names.collect::<Vec<_>>(),
         ));
-        Ok(Models { mesh, bounds, notes, likenesses, of_model, see_through, sources, mark })
+        let standing = Vec::new();
+        let models = Models { mesh, bounds, notes, likenesses, of_model, kinds, standing, see_through, sources, mark };
+        models.with_terrain(written)
+    }
+
+    /// The same with what is terrain marked as a request says it, or else the files; and how the buildings stand on it.
+    ///
+    /// # Errors
+    /// [`SiteError::UnknownName`].
+    pub(super) fn with_terrain(mut self, written: &WrittenSite) -> Result<Models, SiteError> {
+        let mut is_terrain: Vec<bool> = self.kinds.iter().map(|kind| *kind == PartKind::Terrain).collect();
+        for (index, (table, of_model)) in written.site.model.iter().zip(&self.of_model).enumerate() {
+            if let Some(names) = &table.terrain {
+                let components = &self.mesh.components[of_model.clone()];
+                is_terrain[of_model.clone()].copy_from_slice(&chosen(written, index, "terrain", names, components)?);
+            }
+        }
+        let components = &mut self.mesh.components;
+        // as they were when the buildings were looked at
+        if components.iter().zip(&is_terrain).all(|(component, is_terrain)| component.is_terrain == *is_terrain) {
+            return Ok(self);
+        }
+        components.iter_mut().zip(is_terrain).for_each(|(component, is)| component.is_terrain = is);
+        let terrain = TerrainFaces::of(&self.mesh);
+        let stand = |(index, of_model): (usize, &Range<usize>)| {
+            let is_terrain = |at: usize| self.mesh.components[at].is_terrain;
+            let is_building = |at: &usize| self.kinds[*at] != PartKind::GroundCover && !is_terrain(*at);
+            let buildings: Vec<usize> = of_model.clone().filter(is_building).collect();
+            standing::note(&self.mesh, terrain.as_ref()?, &buildings, name(written, index))
+        };
+        self.standing = self.of_model.iter().enumerate().filter_map(stand).collect();
+        Ok(self)
     }
 
     /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.
@@ -119,9 +157,10 @@ impl Models {
         self.mark
     }
 
-    /// Whether the ground that is found under them is this one, metres.
-    pub fn stand_on(&self, level: f64) -> bool {
-        Ground::of(&self.mesh, self.bounds, None).is_at(level)
+    /// Whether the ground that is found under them, as a request says what they are, is this one, metres.
+    pub fn stand_on(&self, written: &WrittenSite, level: f64) -> bool {
+        let roles = self.roles(written);
+        roles.is_ok_and(|[_, receives]| Ground::of(&self.mesh, self.bounds, &receives, None).is_at(level))
     }
 
     /// How many components each model has.
@@ -143,7 +182,8 @@ impl Models {
     /// What the user should know of how they were read, and of what casts; each a sentence without its stop that names the
     /// model.
     pub(super) fn notes(&self, written: &WrittenSite, casts: &[bool], words: &dyn Words) -> Vec<String> {
-        let mut notes: Vec<String> = self.notes.iter().map(|note| note.in_words(words)).collect();
+        let notes = self.notes.iter().chain(&self.standing);
+        let mut notes: Vec<String> = notes.map(|note| note.in_words(words)).collect();
         for (index, (of_model, materials)) in self.of_model.iter().zip(&self.see_through).enumerate() {
             let casts = &casts[of_model.clone()];
             let note = note_see_through(materials, casts);

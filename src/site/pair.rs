@@ -94,7 +94,8 @@ impl Pair {
         second.grid = first.grid;
         // where nobody says it
         let is_found = after.site.ground.level.is_none() && first.ground.from != GroundFrom::Site;
-        let alone = Some(Ground::found(&second.mesh).level).filter(|alone| is_found && !first.ground.is_at(*alone));
+        let alone = Some(Ground::found(&second.mesh, &second.receives).level)
+            .filter(|alone| is_found && !first.ground.is_at(*alone));
         second.notes.extend(alone.map(|alone| {
             format!(
                 "{} has the ground of {}, {}, since a comparison has one; alone it would have {}",

@@ -34,7 +34,7 @@ pub struct ProbeSite {
     pub notes: Vec<String>,
     /// Per component: whether it casts.
     pub casts: Vec<bool>,
-    /// The ground plane.
+    /// The ground.
     pub ground: Ground,
     /// The points, at least one, each with its own name.
     pub probes: Vec<Probe>,
@@ -63,12 +63,12 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     .map_err(|error| SiteError::sun(FieldLocation::Field(Field::Step), error))?;
     let level = ground::level(&written, asked)?;
     let models = Models::read(&written, formats::read)?;
-    let [casts, _] = models.roles(&written)?;
+    let [casts, receives] = models.roles(&written)?;
     let mut notes = models.notes(&written, &casts, asked.words);
     let Models { mesh, bounds, .. } = models;
-    let ground = Ground::of(&mesh, bounds, level);
+    let ground = Ground::of(&mesh, bounds, &receives, level);
     // a probe below it says so itself
-    notes.extend(ground.notes(&mesh, Receivers::Ground));
+    notes.extend(ground.notes(&mesh, &receives, Receivers::Ground));
     notes.extend(days.last().and_then(|day| Zone::doubt(&day.to)));
     notes.extend(on_probes(&probes));
     let refraction = !asked.no_refraction;

@@ -6,7 +6,7 @@ use crate::mesh::Mesh;
 use crate::profile::Provenance;
 use crate::profile::comparison::{Alteration, Comparison};
 use crate::shadow::plan_surface;
-use crate::site::{Pair, Site};
+use crate::site::{GroundKind, Pair, Site};
 use crate::view::Surface;
 
 /// The answer to a study of two states.
@@ -25,7 +25,7 @@ pub struct CompareOutcome {
 /// Both profiles as [`super::run`] finds them, before first.
 ///
 /// Under [`Receivers::Top`] a cell that sees another surface after than before is altered. Under [`Receivers::Ground`]
-/// none is: the ground is judged everywhere, under buildings too.
+/// only one whose terrain lies higher or lower after than before is: the ground is judged everywhere, under buildings too.
 ///
 /// # Errors
 /// As [`super::run`].
@@ -46,7 +46,7 @@ pub fn compare_with(pair: &Pair, before: Outcome, on_event: &mut OnEvent<'_>) ->
     let [seen_before, seen_after] = [(&before, &pair.before), (&after, &pair.after)]
         .map(|(outcome, site)| plan_surface(&outcome.surface_mesh, site.ground.level, &site.grid));
     let altered = match pair.before.receivers {
-        Receivers::Ground => vec![Alteration::No; pair.before.grid.cells()],
+        Receivers::Ground => altered_ground(pair),
         _ => Alteration::between(&seen_before, &seen_after),
     };
     let Outcome { profile: of_before, drawn: drawn_before, surface_mesh: mesh_before, .. } = before;
@@ -57,6 +57,19 @@ pub fn compare_with(pair: &Pair, before: Outcome, on_event: &mut OnEvent<'_>) ->
         surfaces: [seen_before, seen_after],
         meshes: [mesh_before, mesh_after],
     })
+}
+
+/// Where the ground itself is another after than before.
+fn altered_ground(pair: &Pair) -> Vec<Alteration> {
+    let states = [&pair.before, &pair.after];
+    if states.iter().all(|site| site.ground.kind == GroundKind::Plane) {
+        return vec![Alteration::No; pair.before.grid.cells()];
+    }
+    let [before, after] = states.map(|site| {
+        let terrain = site.mesh.of_components(&site.judges(Receivers::Ground));
+        plan_surface(&terrain, site.ground.level, &site.grid)
+    });
+    Alteration::between(&before, &after)
 }
 
 fn study(when: &str, site: &Site, name: &str, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {

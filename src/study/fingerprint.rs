@@ -4,9 +4,10 @@
 //! keys 0: every compiler and machine comes to the same number.
 
 use super::Wants;
+use crate::choice::Receivers;
 use crate::choice::{Filter, Finder, Settings};
 use crate::profile::Provenance;
-use crate::site::Site;
+use crate::site::{GroundKind, Site};
 use crate::view::{Grid, Tile};
 use siphasher::sip::SipHasher13;
 use std::hash::Hasher;
@@ -72,6 +73,9 @@ fn add_scene(fields: &mut Fields, site: &Site) {
     fields.flags("receives", &site.receives);
     fields.text("receivers", Some(site.receivers.word()));
     fields.numbers("ground", [site.ground.level.to_le_bytes()]);
+    if site.ground.kind == GroundKind::Terrain {
+        fields.flags("terrain", &site.judges(Receivers::Ground));
+    }
     fields.numbers("hextree depth", site.hextree_depth.map(u32::to_le_bytes));
 }
 

@@ -2,7 +2,7 @@
 
 use super::again::persist;
 use super::machine::{choose, not_patches};
-use super::{Event, OnEvent, SiteView, StudyError, judged, night, note_models, tell, tiles};
+use super::{Event, OnEvent, SiteView, StudyError, judged, night, note_models, subject_of, tell, tiles};
 use crate::choice::Receivers;
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -70,7 +70,7 @@ fn from(
 ) -> Result<Provenance, StudyError> {
     let machine = choose(gpu, site, &view, on_event)?;
     if let View::Plan(grid) = view {
-        tiles::at_once(grid, site.receivers, &machine)?;
+        tiles::at_once(grid, subject_of(site, &view), &machine)?;
     }
     let look = SiteView { site, machine: &machine, view, receivers: judged(site, &view) };
     let mut technique = look.technique()?;

@@ -3,7 +3,7 @@
 use super::again::persist;
 use super::machine::{choose, counting, not_patches, stencil_alone};
 use super::{Event, InstantOutcome, InstantWants, NOTHING_COUNTED, OnEvent, SiteView, Stopwatch, StudyError};
-use super::{judged, night, note_models, tell, tiles};
+use super::{judged, night, note_models, subject_of, tell, tiles};
 use crate::gpu::Gpu;
 use crate::message::{Field, aside, message};
 use crate::shadow::{Technique, plan_surface};
@@ -93,7 +93,7 @@ fn shows_volumes(wants: &InstantWants) -> bool {
 /// The tiles of a plan; none of another view. Errs where what counting took is wanted of more than one.
 fn tiles_of(look: &SiteView<'_>, wants: &InstantWants) -> Result<Vec<Tile>, StudyError> {
     let tiles = match look.view {
-        View::Plan(grid) => tiles::of_instant(grid, look.receivers, look.machine),
+        View::Plan(grid) => tiles::of_instant(grid, subject_of(look.site, &look.view), look.machine),
         View::Camera(_) | View::Elevation(_) => Vec::new(),
     };
     match (tiles.first().filter(|tile| !tile.is_whole()), wants.counted) {

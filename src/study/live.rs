@@ -90,6 +90,11 @@ impl Live {
         if !is_same_mesh || seen(&self.site) != seen(site) {
             return false;
         }
+        let receiving = site.mesh.components.iter().zip(&site.receives).filter(|(_, receives)| **receives);
+        let is_terrain = receiving.map(|(component, _)| component.is_terrain);
+        if !self.scene.receivers.components.iter().map(|component| component.is_terrain).eq(is_terrain) {
+            return false;
+        }
         if self.site.casts != site.casts {
             self.scene.casters = site.mesh.of_components(&site.casts);
             (self.made, self.rays, self.volumes) = (None, None, None);

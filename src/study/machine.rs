@@ -1,6 +1,6 @@
 //! Who draws: technique, engine and finder as asked, or the fastest of them.
 
-use super::{Event, OnEvent, StudyError, Wants, judged, subject, tell};
+use super::{Event, OnEvent, StudyError, Wants, subject, subject_of, tell};
 use crate::choice::{Engine, Finder, Method, MethodRow, Misfit, Receivers, Settings, Subject};
 use crate::gpu::{Gpu, GpuError};
 use crate::message::{Field, message};
@@ -14,7 +14,7 @@ use crate::shadow::soft_picture::SoftPicture;
 use crate::shadow::stencil::Stencil;
 use crate::shadow::{Scene, Silhouettes, Technique};
 use crate::silhouette::ProcessorFinder;
-use crate::site::Site;
+use crate::site::{GroundKind, Site};
 use crate::view::{Tile, View};
 use std::sync::Arc;
 
@@ -79,10 +79,10 @@ impl Machine {
     }
 
     /// What a cell of the plan takes at the most, bytes. Measured (docs/benchmarks/growth.md), and rounded up.
-    pub(super) fn cell_bytes(&self, receivers: Receivers, wants: &Wants) -> u64 {
-        let drawing = match (self.method, &self.gpu, receivers) {
+    pub(super) fn cell_bytes(&self, subject: Subject, wants: &Wants) -> u64 {
+        let drawing = match (self.method, &self.gpu, subject) {
             // sums, and their copy while they are kept
-            (Method::Projected, None, Receivers::Ground) => 14,
+            (Method::Projected, None, Subject::Ground) => 14,
             // what is seen, and the points that are judged, three times over while they are sorted
             (Method::Projected, None, _) => 160,
             (_, None, _) => 36,
@@ -113,7 +113,8 @@ impl Machine {
 
     /// Each technique is made here, in a line. What [`MethodRow::fit`] lets through has one; all else is no technique's.
     fn made(&self, scene: Scene, view: View, tile: Option<Tile>) -> Result<Box<dyn Technique>, StudyError> {
-        let none = Misfit::Technique { method: self.method, subject: subject(&view, Receivers::Top) };
+        let none =
+            Misfit::Technique { method: self.method, subject: subject(&view, Receivers::Top, GroundKind::Plane) };
         let Settings { map_size, filter, smoothie_width_m, sun_samples } = self.settings;
         let (map_size, filter, silhouettes) = (map_size.ok_or(none), filter.ok_or(none), self.silhouettes.ok_or(none));
         let Some(gpu) = self.gpu() else {
@@ -164,9 +165,9 @@ fn silhouettes(row: &MethodRow, site: &Site, gpu: &Gpu) -> Silhouettes {
 }
 
 /// Technique and engine as asked; else projection on the plan, and ray casting for a camera, but on a real graphics adapter
-/// the stencil, unless it is the ground alone that is judged.
+/// the stencil, unless it is the ground's plane alone that is judged.
 ///
-/// A projected instant on the ground takes less time than opening an adapter does, so none is opened for it
+/// A projected instant on the plane takes less time than opening an adapter does, so none is opened for it
 /// (docs/benchmarks/peers.md). What draws on an adapter does so on the one that is open already, where there is one.
 pub(super) fn choose(
     gpu: Option<&Arc<Gpu>>,
@@ -174,7 +175,7 @@ pub(super) fn choose(
     view: &View,
     on_event: &mut OnEvent<'_>,
 ) -> Result<Machine, StudyError> {
-    let subject = subject(view, judged(site, view));
+    let subject = subject_of(site, view);
     let method = if site.method == Method::Auto { automatic(site, subject) } else { site.method };
     let engine = method.row().fit(site.engine, subject)?;
     method.row().check(site.finder, &site.settings, subject)?;
@@ -211,7 +212,7 @@ fn automatic(site: &Site, subject: Subject) -> Method {
 
 /// The fastest exact technique on the processor.
 fn on_processor(site: &Site, subject: Subject) -> Method {
-    let is_plan = matches!(subject, Subject::Top | Subject::Ground);
+    let is_plan = matches!(subject, Subject::Top | Subject::Ground | Subject::Terrain);
     if is_plan && is_plain(site) { Method::Projected } else { Method::RayCast }
 }
 
@@ -234,7 +235,7 @@ pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: 
         ];
         return Err(StudyError::Conflict { field, message });
     }
-    method.row().check(site.finder, &site.settings, subject(view, judged(site, view)))?;
+    method.row().check(site.finder, &site.settings, subject_of(site, view))?;
     Ok(Machine::on(opened(gpu)?, method, site))
 }
 
@@ -248,7 +249,7 @@ pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) ->
         ];
         return Err(StudyError::Conflict { field: Field::Volumes, message });
     }
-    Method::Stencil.row().check(site.finder, &site.settings, subject(view, judged(site, view)))?;
+    Method::Stencil.row().check(site.finder, &site.settings, subject_of(site, view))?;
     let gpu = opened(gpu).map_err(|error| StudyError::NoVolumes(error.why()))?;
     Ok(Machine::on(gpu, Method::Stencil, site))
 }

@@ -57,5 +57,5 @@ pub use wants::Wants;
 pub use wants::{CountingPurpose, InstantWants};
 
 use machine::not_patches;
-use site_view::{SiteView, night, subject};
+use site_view::{SiteView, night, subject, subject_of};
 use wants::NOTHING_COUNTED;

@@ -8,11 +8,12 @@ use super::{Event, OnEvent, StudyError, note_models, tell};
 use crate::mesh::Mesh;
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
-use crate::site::ProbeSite;
+use crate::site::{GroundKind, ProbeSite};
 use crate::sun::{Air, DayWindow, Instant, Place, Sky, SunError, Zone, delta_t_secs};
-use crate::sunlight::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, below_ground_m, judged};
+use crate::sunlight::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, judged};
 use crate::view::Probe;
 use chrono::{DateTime, TimeDelta};
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// The intervals in sunlight of all probes, on all days.
@@ -22,12 +23,16 @@ use rayon::prelude::*;
 pub fn probe(asked: &ProbeSite, on_event: &mut OnEvent<'_>) -> Result<Sunlight, StudyError> {
     note_models(&asked.notes, on_event)?;
     let search = ProbeSearch::new(asked);
-    let empty = |probe: &Probe| ProbeIntervals { probe: probe.clone(), days: Vec::new() };
+    let empty = |(probe, at): (&Probe, &JudgedPoint)| ProbeIntervals {
+        probe: probe.clone(),
+        below_ground_m: at.below_ground_m,
+        days: Vec::new(),
+    };
     let mut sunlight = Sunlight {
         step_secs: asked.step_secs,
         refraction: asked.refraction,
         days: Vec::new(),
-        probes: asked.probes.iter().map(empty).collect(),
+        probes: asked.probes.iter().zip(&search.points).map(empty).collect(),
         components: search.casters.components.iter().map(|component| component.name.clone()).collect(),
     };
 
@@ -46,14 +51,50 @@ pub fn probe(asked: &ProbeSite, on_event: &mut OnEvent<'_>) -> Result<Sunlight, 
     Ok(sunlight)
 }
 
+/// Where a probe is judged.
+#[derive(Clone, Copy)]
+struct JudgedPoint {
+    point: DVec3,
+    /// How far it lies below the ground, metres; none where it does not.
+    below_ground_m: Option<f64>,
+}
+
+/// Where probes are judged: one on the terrain, as exactly as its heights are, a millimetre above it, as all receivers are.
+fn judged_points(asked: &ProbeSite) -> Vec<JudgedPoint> {
+    let terrain: Vec<bool> = match asked.ground.kind {
+        GroundKind::Plane => Vec::new(),
+        GroundKind::Terrain => asked.mesh.components.iter().map(|component| component.is_terrain).collect(),
+    };
+    let terrain = asked.mesh.of_components(&terrain);
+    let top = terrain.top() + 1.0;
+    let points = || asked.probes.iter().map(judged);
+    let reach = points().map(|point| (point.with_z(top) - terrain.origin).abs().max_element());
+    let rays = (!terrain.faces.is_empty()).then(|| RayCaster::new(&terrain, reach.fold(0.0, f64::max)));
+    let height = |point: DVec3| {
+        let (_, below) = rays.as_ref()?.first_hit(point.with_z(top) - terrain.origin, DVec3::NEG_Z)?;
+        // a plane above the terrain hides it
+        Some(top - below).filter(|height| *height >= asked.ground.level)
+    };
+    let judge = |point: DVec3| match height(point) {
+        Some(height) if (point.z - height).abs() <= JUDGED_ABOVE_M => {
+            JudgedPoint { point: point.with_z(height + JUDGED_ABOVE_M), below_ground_m: None }
+        }
+        height => {
+            let below = height.unwrap_or(asked.ground.level) - point.z;
+            JudgedPoint { point, below_ground_m: Some(below).filter(|below| *below > 0.0) }
+        }
+    };
+    points().map(judge).collect()
+}
+
 /// What a day is searched with.
 struct ProbeSearch<'a> {
     place: &'a Place,
     probes: &'a [Probe],
     step: TimeDelta,
     air: Option<Air>,
-    /// Height of the ground, below which there is no sun.
-    ground: f64,
+    /// Where the probes are judged.
+    points: Vec<JudgedPoint>,
     casters: Mesh,
     rays: RayCaster,
 }
@@ -61,14 +102,15 @@ struct ProbeSearch<'a> {
 impl ProbeSearch<'_> {
     fn new(asked: &ProbeSite) -> ProbeSearch<'_> {
         let casters = asked.mesh.of_components(&asked.casts);
-        let reach = asked.probes.iter().map(|probe| (probe.point - casters.origin).abs().max_element());
-        let rays = RayCaster::new(&casters, reach.fold(0.0, f64::max) + JUDGED_ABOVE_M);
+        let points = judged_points(asked);
+        let reach = points.iter().map(|at| (at.point - casters.origin).abs().max_element());
+        let rays = RayCaster::new(&casters, reach.fold(0.0, f64::max));
         ProbeSearch {
             place: &asked.place,
             probes: &asked.probes,
             step: TimeDelta::seconds(asked.step_secs.into()),
             air: asked.refraction.then(|| Air::standard(asked.place.elevation_m)),
-            ground: asked.ground.level,
+            points,
             casters,
             rays,
         }
@@ -80,8 +122,8 @@ impl ProbeSearch<'_> {
         let sky = Sky { place: self.place, delta_t_secs, air: self.air };
         let grid = self.grid(window, &sky)?;
         let up = intervals(&grid, &sky, |instant| instant.night.then_some(IntervalBound::Horizon))?;
-        let of_probe = |probe| intervals(&grid, &sky, |instant| self.blocked(probe, instant));
-        Ok((up, self.probes.iter().map(of_probe).collect::<Result<_, _>>()?))
+        let of_probe = |(probe, at)| intervals(&grid, &sky, |instant| self.blocked(probe, at, instant));
+        Ok((up, self.probes.iter().zip(&self.points).map(of_probe).collect::<Result<_, _>>()?))
     }
 
     /// The window's instants, a step apart, and its end; those deep in the night are left out. Where the sun rises and
@@ -101,17 +143,17 @@ impl ProbeSearch<'_> {
     }
 
     /// What keeps the sun from a probe; nothing in sunlight.
-    fn blocked(&self, probe: &Probe, instant: &Instant) -> Option<IntervalBound> {
+    fn blocked(&self, probe: &Probe, at: &JudgedPoint, instant: &Instant) -> Option<IntervalBound> {
         if instant.night {
             return Some(IntervalBound::Horizon);
         }
         if probe.normal.is_some_and(|normal| normal.dot(instant.to_sun) <= 0.0) {
             return Some(IntervalBound::Behind);
         }
-        if below_ground_m(probe, self.ground).is_some() {
+        if at.below_ground_m.is_some() {
             return Some(IntervalBound::Ground);
         }
-        let (face, _) = self.rays.first_hit(judged(probe) - self.casters.origin, instant.to_sun)?;
+        let (face, _) = self.rays.first_hit(at.point - self.casters.origin, instant.to_sun)?;
         Some(IntervalBound::Component(self.casters.components.partition_point(|component| component.faces.end <= face)))
     }
 }

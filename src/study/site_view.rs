@@ -7,7 +7,7 @@ use crate::mesh::Mesh;
 use crate::picture::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
-use crate::site::Site;
+use crate::site::{GroundKind, Site};
 use crate::view::{Camera, Mask, Overlay, Surface, Tile, View};
 use glam::DVec3;
 
@@ -30,10 +30,7 @@ impl SiteView<'_> {
 
     pub(super) fn scene(&self) -> Scene {
         let mesh = &self.site.mesh;
-        let receivers = match self.receivers {
-            Receivers::Top | Receivers::Patches => mesh.of_components(&self.site.receives),
-            Receivers::Ground => mesh.of_components(&[]),
-        };
+        let receivers = mesh.of_components(&self.site.judges(self.receivers));
         let casters = mesh.of_components(&self.site.casts);
         Scene { casters, receivers, ground: self.site.ground.level }
     }
@@ -92,14 +89,20 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
 }
 
 /// What a technique draws of a view.
-pub(super) fn subject(view: &View, receivers: Receivers) -> Subject {
-    match (view, receivers) {
-        (View::Camera(_), _) => Subject::Camera,
-        (View::Elevation(_), _) => Subject::Side,
-        (View::Plan(_), Receivers::Top) => Subject::Top,
-        (View::Plan(_), Receivers::Ground) => Subject::Ground,
-        (View::Plan(_), Receivers::Patches) => Subject::Patches,
+pub(super) fn subject(view: &View, receivers: Receivers, ground: GroundKind) -> Subject {
+    match (view, receivers, ground) {
+        (View::Camera(_), ..) => Subject::Camera,
+        (View::Elevation(_), ..) => Subject::Side,
+        (View::Plan(_), Receivers::Top, _) => Subject::Top,
+        (View::Plan(_), Receivers::Ground, GroundKind::Plane) => Subject::Ground,
+        (View::Plan(_), Receivers::Ground, GroundKind::Terrain) => Subject::Terrain,
+        (View::Plan(_), Receivers::Patches, _) => Subject::Patches,
     }
+}
+
+/// What a technique draws of a view of a site.
+pub(super) fn subject_of(site: &Site, view: &View) -> Subject {
+    subject(view, judged(site, view), site.ground.kind)
 }
 
 /// Nothing sees the sun.

@@ -1,11 +1,11 @@
 //! A plan in tiles: where it has more cells than the adapter draws at once, or than there is memory for.
 
 use super::machine::Machine;
-use super::{Event, OnEvent, StudyError, Wants, tell};
-use crate::choice::Receivers;
+use super::{Event, OnEvent, StudyError, Wants, subject_of, tell};
+use crate::choice::Subject;
 use crate::profile::accumulate::MOST_SECS;
 use crate::site::Site;
-use crate::view::{Grid, Tile};
+use crate::view::{Grid, Tile, View};
 
 /// Memory for all that grows with the raster: sums, masks, what cells see and what the drawing takes, on the adapter too.
 /// The models, the program with the few megabytes that each of its threads works with, and the adapter's driver come on top.
@@ -30,7 +30,7 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
     let grid = site.grid;
     // sums of more days run in larger words beside
     let long = if day_secs > MOST_SECS { 24 } else { 0 };
-    let cell_bytes = machine.cell_bytes(site.receivers, wants) + long;
+    let cell_bytes = machine.cell_bytes(subject_of(site, &View::Plan(grid)), wants) + long;
     let (most, columns) = columns(grid, machine);
     let row_bytes = u64::from(columns) * cell_bytes;
     let rows = match wants.budget {
@@ -47,16 +47,16 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
 }
 
 /// The same of one instant's plan: however many cells it has, little is taken beside its mask.
-pub(super) fn of_instant(grid: Grid, receivers: Receivers, machine: &Machine) -> Vec<Tile> {
+pub(super) fn of_instant(grid: Grid, subject: Subject, machine: &Machine) -> Vec<Tile> {
     let (most, columns) = columns(grid, machine);
-    let row_bytes = u64::from(columns) * machine.cell_bytes(receivers, &Wants::default());
+    let row_bytes = u64::from(columns) * machine.cell_bytes(subject, &Wants::default());
     let rows = u32::try_from(INSTANT_BYTES / row_bytes).unwrap_or(u32::MAX).clamp(1, most);
     split(grid, columns, rows)
 }
 
 /// Errs where one instant's plan is more than can be drawn at once.
-pub(super) fn at_once(grid: Grid, receivers: Receivers, machine: &Machine) -> Result<(), StudyError> {
-    match of_instant(grid, receivers, machine).len() {
+pub(super) fn at_once(grid: Grid, subject: Subject, machine: &Machine) -> Result<(), StudyError> {
+    match of_instant(grid, subject, machine).len() {
         1 => Ok(()),
         _ => Err(StudyError::TooManyCells { width: grid.width, height: grid.height }),
     }

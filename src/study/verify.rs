@@ -5,8 +5,8 @@
 
 use super::again::persist;
 use super::machine::{Machine, not_patches, opened};
-use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_models, subject, tell, tiles};
-use crate::choice::{Engine, Method, MethodRow, Promise, Receivers, TABLE, Truth};
+use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_models, subject_of, tell, tiles};
+use crate::choice::{Engine, Method, MethodRow, Promise, Subject, TABLE, Truth};
 use crate::gpu::Gpu;
 use crate::mesh::report;
 use crate::profile::Provenance;
@@ -61,9 +61,9 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
 
 /// The techniques that draw, made for a site's plan on an adapter.
 fn trials(gpu: &Arc<Gpu>, site: &Site, on_event: &mut OnEvent<'_>) -> Result<Vec<Trial>, StudyError> {
-    tiles::at_once(site.grid, site.receivers, &Machine::rays(None))?;
     let view = View::Plan(site.grid);
-    let subject = subject(&view, site.receivers);
+    let subject = subject_of(site, &view);
+    tiles::at_once(site.grid, subject, &Machine::rays(None))?;
     let mut trials = Vec::new();
     for row in held() {
         if row.blends_float32 && gpu.blends_float32("").is_err() {
@@ -76,7 +76,7 @@ fn trials(gpu: &Arc<Gpu>, site: &Site, on_event: &mut OnEvent<'_>) -> Result<Vec
                 Engine::Gpu => Machine::on(Arc::clone(gpu), row.method, site),
                 Engine::Auto | Engine::Cpu => Machine::on_processor(row.method, site),
             };
-            tiles::at_once(site.grid, site.receivers, &machine)?;
+            tiles::at_once(site.grid, subject, &machine)?;
             let technique = SiteView { site, machine: &machine, view, receivers: site.receivers }.technique()?;
             let MethodRow { against, promise, .. } = *row;
             trials.push(Trial { drawn: machine.drawn(), against, promise, technique });
@@ -135,7 +135,8 @@ pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Resu
     let trees = trees.row(cast, Truth::EveryFace, Promise::Same, None)?;
     rows.push(Row { secs: centre_secs, ..trees });
     let clean = report::components(&site.mesh).iter().zip(&site.casts).all(|(part, casts)| !casts || part.clean());
-    let edge_share = if clean && site.receivers == Receivers::Ground { EDGE_SHARE_CLEAN } else { EDGE_SHARE };
+    let is_plane = subject_of(site, &View::Plan(site.grid)) == Subject::Ground;
+    let edge_share = if clean && is_plane { EDGE_SHARE_CLEAN } else { EDGE_SHARE };
     Ok(Verification { grid: site.grid, instants: count, clean, edge_share, sun_samples, disc_secs, rows })
 }
 

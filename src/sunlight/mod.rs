@@ -4,4 +4,4 @@ mod patches;
 mod probes;
 
 pub use patches::{Exposure, PatchHours};
-pub use probes::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, below_ground_m, judged, longest, secs};
+pub use probes::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, judged, longest, secs};

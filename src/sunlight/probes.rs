@@ -71,6 +71,8 @@ pub struct SunDay {
 pub struct ProbeIntervals {
     /// Which probe.
     pub probe: Probe,
+    /// How far below the ground it is judged, metres: below the terrain, or the plane. None where it is not.
+    pub below_ground_m: Option<f64>,
     /// For each day its intervals, in time's order. A sun that shines on over midnight has one on either day.
     pub days: Vec<Vec<Interval>>,
 }
@@ -102,11 +104,6 @@ impl Sunlight {
 /// Where a probe is judged: with a normal a millimetre before its plane.
 pub fn judged(probe: &Probe) -> DVec3 {
     probe.point + probe.normal.unwrap_or(DVec3::ZERO) * JUDGED_ABOVE_M
-}
-
-/// How far below a ground of this height a probe is judged, metres; none where it is not.
-pub fn below_ground_m(probe: &Probe, ground: f64) -> Option<f64> {
-    Some(ground - judged(probe).z).filter(|below| *below > 0.0)
 }
 
 impl ProbeIntervals {

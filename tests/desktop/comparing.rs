@@ -157,7 +157,8 @@ fn change_from_a_kept_state_is_the_engines() {
     let (View::Plan(grid), _) = harness.state().shown().unwrap() else { panic!("a plan") };
     let (_, _, pixels) = harness.state().picture().unwrap();
     let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
-    let colours = ChangeColours::of(&outcome.comparison, surfaces, pair.after.receivers, track.step_secs);
+    let colours =
+        ChangeColours::of(&outcome.comparison, surfaces, &outcome.meshes[1], pair.after.receivers, track.step_secs);
     let is_ground = ground(&pair, &grid);
     let (faults, changed) = wrong(&grid, (&pixels, &is_ground), &colours.of_cells, &outcome);
     assert!(changed > 100, "{changed} pixels change");

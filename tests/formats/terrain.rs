@@ -22,7 +22,8 @@ fn ascii_grid(head: &str) -> String {
     let mut text = head.to_owned();
     for row in 0..ROWS {
         for column in 0..COLUMNS {
-            write!(text, "{} ", height(column, row).map_or(-9999.0, |height| (height * 100.0).round() / 100.0)).unwrap();
+            write!(text, "{} ", height(column, row).map_or(-9999.0, |height| (height * 100.0).round() / 100.0))
+                .unwrap();
         }
         text.push('\n');
     }
@@ -184,7 +185,8 @@ fn a_geotiff_lies_where_its_tags_say() {
     // of points: half a cell further to the north-west
     let mut keys = METRES;
     keys[11] = 2;
-    let bytes = geotiff(&Tags { keys: &keys, no_data: Some("-1"), rows_per_strip: 9 }, |height| height.unwrap_or(-1.0) as f32);
+    let bytes =
+        geotiff(&Tags { keys: &keys, no_data: Some("-1"), rows_per_strip: 9 }, |height| height.unwrap_or(-1.0) as f32);
     let model = read("hills.tif", bytes, &ReadOptions::default()).unwrap();
     let low = |model: &Model| model.parts[0].positions.iter().fold(DVec3::INFINITY, |low, point| low.min(*point));
     assert_eq!(low(&model).truncate() - low(&plain).truncate(), DVec2::new(-1.0, 1.0));
@@ -201,12 +203,18 @@ fn heights_in_feet_become_metres() {
     let found = above(&model.parts[0], place(10, 10)).unwrap();
     assert!((found - height(10, 10).unwrap()).abs() < 0.1001, "{found}");
     // who says nothing is told of
-    let bytes = geotiff(&Tags { keys: &METRES[..16], no_data: None, rows_per_strip: 9 }, |height| height.unwrap_or(-9999.0) as f32);
+    let bytes = geotiff(&Tags { keys: &METRES[..16], no_data: None, rows_per_strip: 9 }, |height| {
+        height.unwrap_or(-9999.0) as f32
+    });
     let mut keys = METRES[..16].to_vec();
     keys[3] = 3;
     drop(bytes);
-    let bytes = geotiff(&Tags { keys: &keys, no_data: None, rows_per_strip: 9 }, |height| height.unwrap_or(-9999.0) as f32);
-    assert!(notes(&read("hills.tif", bytes, &ReadOptions::default()).unwrap()).contains("does not say the unit of its heights"));
+    let bytes =
+        geotiff(&Tags { keys: &keys, no_data: None, rows_per_strip: 9 }, |height| height.unwrap_or(-9999.0) as f32);
+    assert!(
+        notes(&read("hills.tif", bytes, &ReadOptions::default()).unwrap())
+            .contains("does not say the unit of its heights")
+    );
 }
 
 #[test]
@@ -233,13 +241,19 @@ fn landxml_is_northing_easting_and_height() {
     assert_eq!(model.coordinates, Coordinates::Map("EPSG:2225".to_owned()));
     let foot = 1200.0 / 3937.0;
     let corners = part.triangles[0].map(|corner| part.positions[corner as usize]);
-    let expected = [DVec3::new(10.0, 20.0, 100.0 * foot), DVec3::new(30.0, 20.0, 110.0 * foot), DVec3::new(10.0, 50.0, 120.0 * foot)];
+    let expected = [
+        DVec3::new(10.0, 20.0, 100.0 * foot),
+        DVec3::new(30.0, 20.0, 110.0 * foot),
+        DVec3::new(10.0, 50.0, 120.0 * foot),
+    ];
     assert_eq!(corners, expected, "in the map's unit, but for heights; turned to look up");
     let left_out: Vec<_> = model.left_out.iter().map(|left| (left.what.as_str(), left.count)).collect();
     assert_eq!(left_out, [("hidden faces", 1), ("surfaces without triangles", 1)]);
-    let local = read("ground.xml", LAND.replace("<CoordinateSystem epsgCode=\"2225\"/>", ""), &ReadOptions::default()).unwrap();
+    let local =
+        read("ground.xml", LAND.replace("<CoordinateSystem epsgCode=\"2225\"/>", ""), &ReadOptions::default()).unwrap();
     assert_eq!((local.unit_m, local.parts[0].positions[0].z), (Some(foot), 100.0));
-    let refused = |from: &str, to: &str| read("ground.xml", LAND.replace(from, to), &ReadOptions::default()).expect_err(to);
+    let refused =
+        |from: &str, to: &str| read("ground.xml", LAND.replace(from, to), &ReadOptions::default()).expect_err(to);
     assert!(refused("7 9 8", "7 9 5").contains("not all of them are there"));
     assert!(refused("20 10 100", "20 10").contains("northing, easting and height in point 7"));
     assert!(refused("</Pnts>", "</Points>").contains("damaged at byte"));
@@ -252,18 +266,27 @@ fn points(is_compressed: bool, classify: bool) -> Vec<u8> {
     header.point_format.is_compressed = is_compressed;
     let scale = las::Transform { scale: 0.001, offset: 0.0 };
     header.transforms = las::Vector { x: scale, y: scale, z: scale };
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    let mut writer = las::Writer::new(&mut bytes, header.into_header().unwrap()).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(if is_compressed { "points.laz" } else { "points.las" });
+    let mut writer = las::Writer::from_path(&path, header.into_header().unwrap()).unwrap();
     for at in 0..10_000 {
         let (x, y) = (f64::from(at % 100) * 0.5, f64::from(at / 100) * 0.5);
         let is_building = (20.0..30.0).contains(&x) && (10.0..20.0).contains(&y);
         let z = 50.0 + 0.1 * x + if is_building { 6.0 } else { 0.0 };
-        let class = if !classify { 1 } else if is_building { 6 } else { 2 };
+        let class = if !classify {
+            1
+        } else if is_building {
+            6
+        } else {
+            2
+        };
         let classification = las::point::Classification::new(class).unwrap();
-        writer.write_point(las::Point { x, y, z, classification, gps_time: Some(0.0), ..las::Point::default() }).unwrap();
+        writer
+            .write_point(las::Point { x, y, z, classification, gps_time: Some(0.0), ..las::Point::default() })
+            .unwrap();
     }
-    drop(writer);
-    bytes.into_inner()
+    writer.close().unwrap();
+    std::fs::read(path).unwrap()
 }
 
 #[test]
@@ -311,9 +334,13 @@ fn mutations_end_well() {
         random ^= random << 17;
         random as usize
     };
-    let tif = geotiff(&Tags { keys: &METRES, no_data: Some("-1"), rows_per_strip: 9 }, |height| height.unwrap_or(-1.0) as f32);
+    let tif = geotiff(&Tags { keys: &METRES, no_data: Some("-1"), rows_per_strip: 9 }, |height| {
+        height.unwrap_or(-1.0) as f32
+    });
     let folder = tempfile::tempdir().unwrap();
-    for (name, bytes) in [("a.tif", tif), ("a.asc", ascii_grid(&head()).into_bytes()), ("a.xml", LAND.as_bytes().to_vec())] {
+    for (name, bytes) in
+        [("a.tif", tif), ("a.asc", ascii_grid(&head()).into_bytes()), ("a.xml", LAND.as_bytes().to_vec())]
+    {
         let path = folder.path().join(name);
         for _ in 0..1000 {
             let mut wrong = bytes.clone();

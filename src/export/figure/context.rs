@@ -20,8 +20,20 @@ pub struct FigureContext<'a, S = Surface> {
     pub surface: &'a S,
     /// What was judged.
     pub receivers: Receivers,
-    /// The ground plane.
+    /// The ground.
     pub ground: Ground,
     /// What drew.
     pub drawn: &'a Provenance,
+}
+
+impl<S> FigureContext<'_, S> {
+    /// Whether the ground alone was judged, and so no building.
+    pub(super) fn is_ground_alone(&self) -> bool {
+        self.receivers == Receivers::Ground
+    }
+
+    /// Whether what a plan's cell sees is drawn as ground: the plane, or terrain.
+    pub(super) fn is_ground(&self, face: u32) -> bool {
+        face == Surface::GROUND || self.mesh.is_terrain(face)
+    }
 }

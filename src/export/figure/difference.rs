@@ -4,6 +4,7 @@ use super::scale::{NO_SHADOW, Rgb, band_secs, mix};
 use super::{FigureContext, cells, check_surface, page, panel, plan, text, words};
 use crate::choice::Receivers;
 use crate::export::{ExportError, check_size};
+use crate::mesh::Mesh;
 use crate::profile::comparison::{Alteration, Change, Comparison};
 use crate::view::Surface;
 
@@ -85,10 +86,11 @@ pub struct ChangeColours {
 }
 
 impl ChangeColours {
-    /// Of what is seen before and after, judged so in steps of so many seconds.
+    /// Of what is seen before and after, the latter's faces those of a mesh, judged so in steps of so many seconds.
     pub fn of(
         comparison: &Comparison,
         [before, after]: [&Surface; 2],
+        mesh: &Mesh,
         receivers: Receivers,
         step_secs: u32,
     ) -> ChangeColours {
@@ -99,7 +101,7 @@ impl ChangeColours {
             true => Alteration::between(before, after),
             false => (0..comparison.cells()).map(|cell| comparison.altered(cell)).collect(),
         };
-        let roof = |cell: usize| after.face[cell] < Surface::GROUND;
+        let roof = |cell: usize| after.face[cell] < Surface::GROUND && !mesh.is_terrain(after.face[cell]);
         let colour = |(cell, altered): (usize, &Alteration)| match (altered, comparison.change(cell)) {
             (Alteration::Built, _) => BUILT,
             (Alteration::Cleared, None) => CLEARED,
@@ -144,7 +146,7 @@ pub fn difference(
     let [before, after] = scenes;
     let surfaces = [before.surface, after.surface];
     let ChangeColours { of_cells, legend_head, legend, altered } =
-        ChangeColours::of(comparison, surfaces, after.receivers, after.track.step_secs);
+        ChangeColours::of(comparison, surfaces, after.mesh, after.receivers, after.track.step_secs);
 
     let mut panel = panel(after, "Sun lost and gained");
     let [name_before, name_after] = text::told_apart(names, super::panel::holds);

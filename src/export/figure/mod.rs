@@ -89,7 +89,7 @@ fn profile_panel<S, C>(scene: &FigureContext<S>, profile: &Profile<C>, kicker: &
     panel.legend_head =
         if profile.day_secs > 0 { format!("Hours of shadow out of {all}") } else { "No sun in this window".to_owned() };
     panel.legend = legend(&Bands::new(scene.track.step_secs, profile.day_secs));
-    if scene.receivers == Receivers::Ground {
+    if scene.is_ground_alone() {
         panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
     }
     panel
@@ -218,7 +218,7 @@ fn instant_legend(
     } else if mask.share.iter().any(|share| !matches!(share, 0 | 255)) {
         legend.insert(1, (mix(tones[1], tones[0], 0.5), "part of the sun".to_owned()));
     }
-    if scene.receivers == Receivers::Ground {
+    if scene.is_ground_alone() {
         legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
     }
     legend

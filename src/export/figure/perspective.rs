@@ -4,7 +4,6 @@ use super::FigureContext;
 use super::components::Components;
 use super::picture::{CellBorder, Fit, PagePicture, Pen, compose};
 use super::scale::Rgb;
-use crate::choice::Receivers;
 use crate::look::LOOK;
 use crate::view::{Camera, Elevation, Mask, Surface};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
@@ -33,7 +32,7 @@ pub(super) fn instant(
         return painted(scene, lens, of_cells, false, fit);
     }
     let light = SurfaceLight::new(to_sun);
-    let ground_only = scene.receivers == Receivers::Ground;
+    let ground_only = scene.is_ground_alone();
     let width = lens.width();
     let colours: Vec<Rgb> = (0..scene.surface.face.len())
         .into_par_iter()

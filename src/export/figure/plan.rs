@@ -3,7 +3,6 @@
 use super::FigureContext;
 use super::picture::{CellBorder, Cells, Fit, LazyRaster, PagePicture, Pen, Pixels, compose};
 use super::scale::{Bands, Rgb, mix};
-use crate::choice::Receivers;
 use crate::look::LOOK;
 use crate::mesh::Mesh;
 use crate::profile::comparison::Alteration;
@@ -22,8 +21,8 @@ pub(super) fn profile<S: SurfaceRows, C: ShadedCells>(
     bands: &Bands,
     fit: Fit,
 ) -> impl Pixels {
-    let ground_only = scene.receivers == Receivers::Ground;
-    let strength = if ground_only { LOOK.relief } else { LOOK.relief_of_hours };
+    let ground_only = scene.is_ground_alone();
+    let of_roofs = if ground_only { LOOK.relief } else { LOOK.relief_of_hours };
     let values = |cells| {
         let part = profile.shaded.part(cells);
         move |at| part.of(at)
@@ -32,17 +31,17 @@ pub(super) fn profile<S: SurfaceRows, C: ShadedCells>(
         true => ROOF_UNJUDGED,
         false => bands.colour(shaded),
     };
-    draw(scene, profile.grid.cell, fit, strength, values, flat, |_, _| ())
+    draw(scene, profile.grid.cell, fit, [LOOK.relief_of_hours, of_roofs], values, flat, |_, _| ())
 }
 
 /// Sun and shadow at one instant.
 pub(super) fn instant(scene: &FigureContext, cell_m: f64, mask: &Mask, fit: Fit) -> impl Pixels {
-    let ground_only = scene.receivers == Receivers::Ground;
+    let ground_only = scene.is_ground_alone();
     draw(
         scene,
         cell_m,
         fit,
-        LOOK.relief,
+        [LOOK.relief; 2],
         move |cells: Range<usize>| move |at| mask.share[cells.start + at],
         move |share, is_ground| {
             let share = f64::from(share) / 255.0;
@@ -77,14 +76,14 @@ pub(super) fn difference<'a>(
         cells.border(rows.len(), |a, b| {
             let is_gone = [a, b].map(|cell| gone[cell] == Alteration::Cleared) != [false; 2];
             let parts = is_gone && surface.face[a] != surface.face[b];
-            if parts { pen(before.mesh, surface, cell_m, a, b) } else { None }
+            if parts { pen(before, surface, cell_m, a, b) } else { None }
         });
     };
     draw(
         after,
         cell_m,
         fit,
-        LOOK.relief_of_hours,
+        [LOOK.relief_of_hours; 2],
         move |cells: Range<usize>| move |at| of_cells[cells.start + at],
         |colour, _| colour,
         lines_of_gone,
@@ -92,13 +91,13 @@ pub(super) fn difference<'a>(
 }
 
 /// Colours by `flat`, of a cell's value and whether it is ground, as if all were level; `values` of some cells tells those
-/// counted from the first of them; slopes get their relief, borders
-/// their lines, and `more` lines of some rows lie beside those.
+/// counted from the first of them; slopes get their relief (of terrain and of roofs as strong as said), borders their
+/// lines, and `more` lines of some rows lie beside those.
 fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
     scene: &FigureContext<S>,
     cell_m: f64,
     fit: Fit,
-    strength: f64,
+    [of_terrain, of_roofs]: [f64; 2],
     values: impl Fn(Range<usize>) -> G + Sync,
     flat: impl Fn(V, bool) -> Rgb + Sync,
     more: impl Fn(Range<usize>, &mut Cells) + Sync,
@@ -118,15 +117,18 @@ fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
             {
                 return colour;
             }
-            let is_ground = seen == Surface::GROUND;
-            let factor = if is_ground { 1.0 } else { relief(upward(mesh, seen as usize), light, strength) };
+            let is_ground = scene.is_ground(seen);
+            let factor = match seen {
+                Surface::GROUND => 1.0,
+                face => relief(upward(mesh, face as usize), light, if is_ground { of_terrain } else { of_roofs }),
+            };
             let colour = shade(flat(value, is_ground), factor);
             last = Some((value, seen, colour));
             colour
         };
         cells.paint(surface.face.iter().enumerate().map(colour));
         // nearly all neighbours are one face
-        cells.border_of(&surface.face, |a, b| pen(mesh, surface, cell_m, a, b));
+        cells.border_of(&surface.face, |a, b| pen(scene, surface, cell_m, a, b));
         more(rows, cells);
     })
 }
@@ -177,8 +179,10 @@ fn shade(colour: Rgb, factor: f64) -> Rgb {
     colour.map(|part| (f64::from(part) * factor).round().min(255.0) as u8)
 }
 
-/// The line between two neighbours that see different things.
-pub(super) fn pen(mesh: &Mesh, surface: &Surface, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
+/// The line between two neighbours that see different things. The ground has no lines of its own but where it steps: a
+/// cliff, or the terrain's edge.
+pub(super) fn pen<S>(scene: &FigureContext<S>, surface: &Surface, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
+    let mesh = scene.mesh;
     let east = b == a + 1;
     let half = if east { DVec3::X } else { DVec3::NEG_Y } * (0.5 * cell_m);
     let [from, to] = [a, b].map(|cell| face(surface, cell).map(|face| upward(mesh, face)));
@@ -189,15 +193,14 @@ pub(super) fn pen(mesh: &Mesh, surface: &Surface, cell_m: f64, a: usize, b: usiz
     // where they meet
     let [height_from, height_to] = [a, b].map(|cell| f64::from(surface.height_m[cell]));
     let jump = (height_from + rise_from - (height_to - rise_to)).abs();
-    match (from, to) {
-        (Some(from), Some(to)) => {
-            if jump > step_m {
-                Some(Pen::STEP)
-            } else {
-                (from.dot(to) < LOOK.plan_crease_cos).then_some(Pen::CREASE)
-            }
+    let are_ground = [a, b].map(|cell| scene.is_ground(surface.face[cell]));
+    match (are_ground, from, to) {
+        (_, None, None) => None,
+        ([true, true], ..) => (jump > step_m).then_some(Pen::STEP),
+        ([false, false], Some(from), Some(to)) if jump <= step_m => {
+            (from.dot(to) < LOOK.plan_crease_cos).then_some(Pen::CREASE)
         }
-        (None, None) => None,
+        ([false, false], ..) => Some(Pen::STEP),
         _ => Some(if jump > step_m { Pen::OUTLINE } else { Pen::CREASE }),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::choice::{Finder, Receivers, Settings};
 use crate::profile::Provenance;
-use crate::site::{self, Ground, GroundFrom};
+use crate::site::{self, Ground, GroundFrom, GroundKind};
 use crate::sun::{Air, Day, EachDay, Instant, Place, Polar, SunTrack, Zone};
 use crate::view::Elevation;
 use chrono::{DateTime, NaiveDate, Offset, Timelike};
@@ -24,8 +24,11 @@ pub(super) fn metres(value: f64) -> String {
     format!("{} m", if text == "-0" { "0" } else { text }).replace('-', "−")
 }
 
-/// `0.00 m, models’ zero; 12.00 m below`: in one line of a panel.
+/// `0.00 m, models’ zero; 12.00 m below`, or `terrain; beyond it 312.00 m`: in one line of a panel.
 pub(super) fn ground(ground: &Ground) -> String {
+    if ground.kind == GroundKind::Terrain {
+        return format!("terrain; beyond it {}", site::metres(ground.level)).replace('-', "−");
+    }
     let (below, above) = (ground.models_below_m(), ground.lowest - ground.level);
     let [level, below_m, above_m] = [ground.level, below, above].map(site::metres);
     let said = match ground.from {

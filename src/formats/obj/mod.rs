@@ -8,8 +8,8 @@ mod material;
 
 use super::left_out::{LeftOutTally, counted};
 use super::source::{TextLines, as_ascii, beside, text};
-use super::whole::whole_file;
 use super::vertices::VertexPicker;
+use super::whole::whole_file;
 use super::{Format, Model, ModelFault, ReadOptions, SeeThrough};
 use crate::mesh::Part;
 use crate::message::{few, message};

@@ -2,9 +2,9 @@
 
 use super::grid::HeightGrid;
 use super::model_of;
-use crate::formats::{Format, Model, ModelFault, ReadOptions};
 use crate::formats::source::stem;
 use crate::formats::whole::whole_file;
+use crate::formats::{Format, Model, ModelFault, ReadOptions};
 use crate::message::message;
 use glam::DVec2;
 use std::path::Path;
@@ -76,7 +76,9 @@ fn grid(text: &str) -> Result<HeightGrid, ModelFault> {
     while let Some(key) = words.next_if(|word| !word.starts_with(|first: char| "+-.0123456789".contains(first))) {
         let value = words.next().and_then(number);
         if !value.is_some_and(|value| head.set(key, value)) {
-            return Err(message![format!("has \"{key}\" in its head, which no ASCII grid has"); "export it again"].into());
+            return Err(
+                message![format!("has \"{key}\" in its head, which no ASCII grid has"); "export it again"].into()
+            );
         }
     }
     let missing = |key: &str| message![format!("does not say `{key}` in its head"); "export it again"];

@@ -3,9 +3,9 @@
 use super::geokeys::GeoKeys;
 use super::grid::HeightGrid;
 use super::model_of;
-use crate::formats::{Format, Model, ModelFault, ReadOptions};
 use crate::formats::source::stem;
 use crate::formats::whole::whole_file;
+use crate::formats::{Format, Model, ModelFault, ReadOptions};
 use crate::message::{Message, message};
 use glam::DVec2;
 use std::fs::File;
@@ -161,7 +161,11 @@ fn unit(keys: &GeoKeys, notes: &mut Vec<Message>) -> f64 {
     match (keys.height_unit_m, keys.map_unit_m) {
         (Some(unit), _) => unit,
         (None, Some(unit)) if unit != 1.0 => {
-            notes.push("does not say the unit of its heights; they are taken as feet, as its coordinates are".to_owned().into());
+            notes.push(
+                "does not say the unit of its heights; they are taken as feet, as its coordinates are"
+                    .to_owned()
+                    .into(),
+            );
             unit
         }
         _ => {
@@ -173,7 +177,9 @@ fn unit(keys: &GeoKeys, notes: &mut Vec<Message>) -> f64 {
 
 fn damaged(error: TiffError) -> ModelFault {
     let hint = match error {
-        TiffError::UnsupportedError(_) => "export it uncompressed or with DEFLATE (gdal_translate -co COMPRESS=DEFLATE)",
+        TiffError::UnsupportedError(_) => {
+            "export it uncompressed or with DEFLATE (gdal_translate -co COMPRESS=DEFLATE)"
+        }
         TiffError::LimitsExceeded => "export it in smaller tiles (gdal_translate -co TILED=YES)",
         _ => "copy or export it again",
     };

@@ -1,9 +1,9 @@
 //! LandXML: the surfaces that surveyors triangulate.
 
 use super::{NamedSheet, of_sheets};
-use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions, composed};
 use crate::formats::source::stem;
 use crate::formats::whole::whole_file;
+use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions, composed};
 use crate::message::{Message, message};
 use glam::DVec3;
 use quick_xml::Reader;
@@ -167,7 +167,9 @@ impl TinSurface {
     fn point(&mut self, id: String, text: &str) -> Result<(), ModelFault> {
         let numbers: Vec<f64> = text.split_ascii_whitespace().map_while(|word| word.parse().ok()).collect();
         let [northing, easting, height, ..] = numbers[..] else {
-            return Err(message![format!("has no northing, easting and height in point {id}"); "export it again"].into());
+            return Err(
+                message![format!("has no northing, easting and height in point {id}"); "export it again"].into()
+            );
         };
         self.numbers.insert(id, self.positions.len() as u32);
         self.positions.push(DVec3::new(easting, northing, height));

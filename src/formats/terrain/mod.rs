@@ -8,8 +8,8 @@ mod geokeys;
 mod geotiff;
 mod grid;
 mod landxml;
-mod points;
 mod point_cells;
+mod points;
 mod thin;
 
 pub use ascii_grid::AsciiGrid;
@@ -32,17 +32,15 @@ fn model_of(grid: &HeightGrid, error_m: f64, name: &str, crs: Option<String>) ->
     let mut notes = Vec::new();
     let samples = grid.heights.len();
     let missing = grid.heights.iter().filter(|height| height.is_nan()).count();
-    notes.push(
-        message![
-            format!(
-                "has {} heights {}, thinned to {} triangles that lie within {error_m} m of them",
-                samples - missing,
-                grid.spacing(crs.is_some()),
-                sheet.triangles.len(),
-            );
-            "`terrain_error` under [[model]] says how close"
-        ],
-    );
+    notes.push(message![
+        format!(
+            "has {} heights {}, thinned to {} triangles that lie within {error_m} m of them",
+            samples - missing,
+            grid.spacing(crs.is_some()),
+            sheet.triangles.len(),
+        );
+        "`terrain_error` under [[model]] says how close"
+    ]);
     if missing > 0 {
         notes.push(format!("has {missing} cells without a height, where there is no terrain").into());
     }

@@ -34,7 +34,9 @@ impl PointCells {
         let high = points.iter().fold(DVec2::NEG_INFINITY, |high, point| high.max(point.truncate()));
         let size = high - low;
         if !(size.min_element() > 0.0 && size.is_finite()) {
-            return Err(message!["has its points in one line, so there is no ground between them"; "export it again"].into());
+            return Err(
+                message!["has its points in one line, so there is no ground between them"; "export it again"].into()
+            );
         }
         let in_a_cell = if is_classified { IN_A_CELL } else { IN_A_LOWEST };
         let cell = rounded_up((size.x * size.y * in_a_cell / points.len() as f64).sqrt());
@@ -45,11 +47,8 @@ impl PointCells {
         let first = DVec2::new(low.x + cell / 2.0, low.y + cell * (rows as f64 - 0.5));
         let steps = [DVec2::new(cell, 0.0), DVec2::new(0.0, -cell)];
         let heights = vec![f32::NAN; count];
-        let mut cells = PointCells {
-            grid: HeightGrid { columns, rows, heights, first, steps },
-            filled: 0,
-            deviations: [0.0; 2],
-        };
+        let mut cells =
+            PointCells { grid: HeightGrid { columns, rows, heights, first, steps }, filled: 0, deviations: [0.0; 2] };
         cells.gather(points, is_classified);
         cells.fill();
         Ok(cells)

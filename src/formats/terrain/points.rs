@@ -3,8 +3,8 @@
 use super::geokeys::GeoKeys;
 use super::point_cells::{CellBlocks, PointCells};
 use super::{NamedSheet, of_sheets, thin};
-use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions};
 use crate::formats::source::stem;
+use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions};
 use crate::message::{Message, message};
 use glam::DVec3;
 use las::{Header, PointData, Reader};
@@ -183,7 +183,11 @@ fn notes(keys: &GeoKeys, points: &ClassedPoints) -> Vec<Message> {
     match (keys.height_unit_m, keys.map_unit_m) {
         (Some(_), _) => (),
         (None, Some(unit)) if unit != 1.0 => {
-            notes.push("does not say the unit of its heights; they are taken as feet, as its coordinates are".to_owned().into());
+            notes.push(
+                "does not say the unit of its heights; they are taken as feet, as its coordinates are"
+                    .to_owned()
+                    .into(),
+            );
         }
         _ => notes.push("does not say the unit of its heights; they are taken as metres".to_owned().into()),
     }

@@ -136,7 +136,8 @@ impl Squares<'_> {
         let [rise_a, rise_b] = [height_a, height_b].map(|height| f64::from(height) - f64::from(height_c));
         let slope = (to_a * rise_a / to_a.length_squared() + to_b * rise_b / to_b.length_squared()).as_vec2();
         let has_height = !height_c.is_nan();
-        let rows = [a, b, c].iter().fold((usize::MAX, 0), |(low, high), corner| (low.min(corner[1]), high.max(corner[1])));
+        let rows =
+            [a, b, c].iter().fold((usize::MAX, 0), |(low, high), corner| (low.min(corner[1]), high.max(corner[1])));
         for row in rows.0..=rows.1 {
             let (from, to) = columns_of(&[a, b, c], row);
             let start = height_c + slope.y * (row as f32 - c[1] as f32) - slope.x * c[0] as f32;

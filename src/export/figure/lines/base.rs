@@ -1,13 +1,12 @@
 //! What lies under the lines: the ground, the buildings, and where something else parts cells than the sun.
 
 use super::{Line, LineGroup, Scale, fill, group, line, paths, stroke};
-use crate::choice::Receivers;
 use crate::contour::{Contour, ScalarField, contours};
 use crate::export::figure::picture::{Cells, Pen};
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::Block;
 use crate::export::figure::{FigureContext, plan};
-use crate::view::{Grid, Surface, SurfaceRows};
+use crate::view::{Grid, SurfaceRows};
 use rayon::prelude::*;
 
 /// The lines' ink.
@@ -39,14 +38,14 @@ impl Base {
             // and the row below
             let surface = scene.surface.rows(first..(end + 1).min(height as usize));
             let mut cells = Cells::new(width);
-            cells.border_of(&surface.face, |a, b| plan::pen(scene.mesh, &surface, grid.cell, a, b));
+            cells.border_of(&surface.face, |a, b| plan::pen(scene, &surface, grid.cell, a, b));
             let row = |row: u32| first as u32 + row;
             let within = |row: u32| (row as usize) < end - first;
             let east = cells.east().iter().filter(|line| within(line.0));
             let east: Vec<_> = east.map(|&(at, column, pen)| (row(at), column, pen)).collect();
             let south = cells.south().iter().filter(|line| within(line.0));
             let south: Vec<_> = south.map(|&(at, from, to, pen)| (row(at), from, to, pen)).collect();
-            let buildings = surface.face[..(end - first) * width as usize].iter().map(|face| *face < Surface::GROUND);
+            let buildings = surface.face[..(end - first) * width as usize].iter().map(|face| !scene.is_ground(*face));
             (buildings.collect::<Vec<bool>>(), east, south)
         };
         let bands: Vec<_> = bands.par_iter().map(of_band).collect();
@@ -77,7 +76,7 @@ impl Base {
                 _ => strokes.push(([column + 1, row], [column + 1, row + 1], pen)),
             }
         }
-        let ground_only = scene.receivers == Receivers::Ground;
+        let ground_only = scene.is_ground_alone();
         let mut base = Base { width, height, ground_only, buildings, steps, strokes, footprints: Vec::new() };
         let value = |cell| u64::from(base.buildings[cell]);
         let open = |a, b| base.is_step(a, b);

@@ -3,7 +3,6 @@
 use super::base::Base;
 use super::labels::{self, Labels, Spot};
 use super::{LineDrawing, LineGroup, Scale, fill, group, length};
-use crate::choice::Receivers;
 use crate::contour::Contour;
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb, mix};
 use crate::export::figure::svg::{Block, LetterStyle};
@@ -71,7 +70,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) ->
                 fill(block, &scale.areas(contours), lighter(*colour), 1.0);
             }
         });
-        if scene.receivers == Receivers::Ground {
+        if scene.is_ground_alone() {
             base.fill(&mut block, scale, plan::ROOF_UNJUDGED);
         }
         let lines: Vec<(u32, LineGroup)> = drawn.iter().map(|secs| (*secs, scale.lines(&contours[secs]))).collect();

@@ -3,7 +3,6 @@
 use super::base::Base;
 use super::labels::{Labels, Spot};
 use super::{LineDrawing, LineGroup, Scale, distance, fill, group};
-use crate::choice::Receivers;
 use crate::contour::Contour;
 use crate::export::figure::panel::Panel;
 use crate::export::figure::picture::Fit;
@@ -67,7 +66,7 @@ pub fn outlines<S: SurfaceRows>(
     let drawn = drawn.map(|(at, outline)| DrawnOutline::new(scene, grid, &base, outline, colour(at, count)));
     let mut drawn = drawn.collect::<Result<Vec<_>, _>>()?;
     let panel = panel(scene, grid, &drawn);
-    let is_judged = scene.receivers != Receivers::Ground;
+    let is_judged = !scene.is_ground_alone();
     let draw = |fit: Fit| sheet(&base, &mut drawn, is_judged, fit);
     Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
 }
@@ -82,7 +81,7 @@ fn panel<S>(scene: &FigureContext<S>, grid: &Grid, drawn: &[DrawnOutline]) -> Pa
     if drawn.len() > 1 {
         panel.legend.push((mix(GROUND, SHADE, DARKEST), "in shadow at all of them".to_owned()));
     }
-    if scene.receivers == Receivers::Ground {
+    if scene.is_ground_alone() {
         panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
     }
     panel

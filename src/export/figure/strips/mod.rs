@@ -14,7 +14,7 @@ use crate::export::probe::{clock, counted, lies};
 use crate::message::{Field, Words, message};
 use crate::site::{Ground, metres};
 use crate::sun::{Day, Place, Zone};
-use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight, below_ground_m};
+use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight};
 use axes::{HourAxis, Tick, ticks};
 use chrono::{DateTime, NaiveDate};
 use colours::{NIGHT, OUTSIDE, SHADE, SUN};
@@ -41,7 +41,7 @@ pub fn strips(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn W
     let hours = HourAxis::of(&sunlight.days);
     let left = if sunlight.days.len() > 1 { LEFT } else { RIGHT };
     page::chart(&said::panel(sunlight, place, ground), [left, HOURS, RIGHT, HOURS], |pixels| {
-        draw(sunlight, ground, &hours, pixels, words)
+        draw(sunlight, &hours, pixels, words)
     })
 }
 
@@ -69,13 +69,7 @@ impl Strips {
     }
 }
 
-fn draw(
-    sunlight: &Sunlight,
-    ground: &Ground,
-    hours: &HourAxis,
-    pixels: (u32, u32),
-    words: &dyn Words,
-) -> (PagePicture, Block) {
+fn draw(sunlight: &Sunlight, hours: &HourAxis, pixels: (u32, u32), words: &dyn Words) -> (PagePicture, Block) {
     let strips = Strips::within(sunlight, pixels);
     let width = strips.width as usize;
     let mut picture = PagePicture { width: pixels.0, height: pixels.1, pixels: vec![PAPER; width * pixels.1 as usize] };
@@ -89,7 +83,7 @@ fn draw(
         let at = top as usize * width;
         picture.pixels[at..at + strip.len()].copy_from_slice(&strip);
         let mut lines = Block::default();
-        head(&mut lines, sunlight, ground, probed, f64::from(strips.width));
+        head(&mut lines, sunlight, probed, f64::from(strips.width));
         curves(&mut lines, sunlight, hours, &strips);
         for tick in &ticks {
             let y = if tick.within { (tick.row as f64 + 0.5) * row + 11.0 } else { tick.row as f64 * row + 30.0 };
@@ -164,10 +158,10 @@ fn colours(day: &SunDay, intervals: &[Interval], hours: &HourAxis, columns: usiz
 }
 
 /// Above a strip: which probe it is, and how much sun it has.
-fn head(lines: &mut Block, sunlight: &Sunlight, ground: &Ground, probed: &ProbeIntervals, width: f64) {
+fn head(lines: &mut Block, sunlight: &Sunlight, probed: &ProbeIntervals, width: f64) {
     let longest = probed.longest().map_or(0, Interval::secs);
     let sums = match (probed.days.as_slice(), longest) {
-        (_, 0) => match below_ground_m(&probed.probe, ground.level) {
+        (_, 0) => match probed.below_ground_m {
             Some(below) => format!("no sun: {} below the ground", metres(below)),
             None => "no sun".to_owned(),
         },
