@@ -83,15 +83,14 @@ impl<'a> IfcParts<'a> {
         }
     }
 
-    /// Adds a product: one part a material, in the order of its shape.
-    fn add(&mut self, meshes: &[MeshData]) {
-        let Some(product) = meshes.first() else { return };
-        let Some((kind, shape)) = self.asked.get(&product.express_id).cloned() else { return };
-        let mut of_material: Vec<(Option<String>, bool, Vec<&MeshData>)> = Vec::new();
-        for mesh in meshes {
-            if mesh.is_empty() {
-                continue;
-            }
+    /// A product's meshes by style, in the order of its shape; and whether light passes.
+    fn by_style<'m>(
+        &mut self,
+        meshes: &'m [MeshData],
+        kind: &IfcType,
+    ) -> Vec<(Option<String>, bool, Vec<&'m MeshData>)> {
+        let mut of_style: Vec<(Option<String>, bool, Vec<&MeshData>)> = Vec::new();
+        for mesh in meshes.iter().filter(|mesh| !mesh.is_empty()) {
             self.meshed.insert(mesh.express_id);
             if self.layers.hides(mesh.geometry_item_id) {
                 continue;
@@ -100,22 +99,29 @@ impl<'a> IfcParts<'a> {
                 self.broken += 1;
                 continue;
             }
-            let is_translucent = is_translucent(mesh, &kind);
+            let is_translucent = is_translucent(mesh, kind);
             let style = style_name(mesh).or_else(|| is_translucent.then(|| TRANSLUCENT.to_owned()));
-            match of_material.iter_mut().find(|(name, translucent, _)| *name == style && *translucent == is_translucent)
-            {
+            match of_style.iter_mut().find(|(name, passes, _)| *name == style && *passes == is_translucent) {
                 Some((_, _, meshes)) => meshes.push(mesh),
-                None => of_material.push((style, is_translucent, vec![mesh])),
+                None => of_style.push((style, is_translucent, vec![mesh])),
             }
         }
-        if of_material.is_empty() {
+        of_style
+    }
+
+    /// Adds a product: one part a material.
+    fn add(&mut self, meshes: &[MeshData]) {
+        let Some(product) = meshes.first() else { return };
+        let Some((kind, shape)) = self.asked.get(&product.express_id).cloned() else { return };
+        let of_style = self.by_style(meshes, &kind);
+        if of_style.is_empty() {
             return;
         }
         let materials = self.relations.materials(product.express_id, &mut self.decoder);
         let storey = self.relations.storey(product.express_id, &mut self.decoder);
-        for (style, is_translucent, meshes) in of_material {
+        for (style, is_translucent, meshes) in of_style {
             // one material that has no style names all of the product
-            let material = style.or_else(|| (materials.len() == 1).then(|| materials[0].clone()));
+            let material = style.or_else(|| materials.first().filter(|_| materials.len() == 1).cloned());
             let material = material.map(|name| self.named(&name));
             let name = match &material {
                 Some(material) => self.named(&format!("{}/{material}", kind.name())),
@@ -124,11 +130,10 @@ impl<'a> IfcParts<'a> {
             let item = meshes.first().and_then(|mesh| mesh.geometry_item_id);
             let layer = product.presentation_layer.clone();
             let layer = layer.or_else(|| self.layers.styled(item, shape, &mut self.decoder));
-            let groups = [product.name.clone(), storey.clone(), layer];
-            let groups = groups.into_iter().flatten().chain(materials.iter().cloned());
+            let groups = [product.name.clone(), storey.clone(), layer].into_iter().flatten();
             let mut aliases = vec![kind.name().to_owned()];
             aliases.extend(material.clone());
-            for group in groups {
+            for group in groups.chain(materials.iter().cloned()) {
                 let group = self.named(&group);
                 if !aliases.contains(&group) {
                     aliases.push(group);
@@ -136,8 +141,7 @@ impl<'a> IfcParts<'a> {
             }
             aliases.retain(|alias| !alias.is_empty() && *alias != name);
             if is_translucent {
-                let material = material.unwrap_or_else(|| TRANSLUCENT.to_owned());
-                self.see_through(material);
+                self.see_through(material.unwrap_or_else(|| TRANSLUCENT.to_owned()));
             }
             let is_ground = kind.is_subtype_of(IfcType::IfcSite);
             self.kinds.push(if is_ground { PartKind::GroundCover } else { PartKind::Building });
