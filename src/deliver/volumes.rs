@@ -52,6 +52,7 @@ pub fn volumes(
         solids: &found.solids,
         left_out: found.left_out,
         notes: &site.notes,
+        words: site.words,
     };
     let bytes = encode::glb(&volumes)?;
     tell(on_event, Event::Stage("model"))?;

@@ -2,6 +2,7 @@
 
 use crate::model::{Model, U32};
 use crate::shared::program::{PLACE, STUDY, done, fails, gnomon, stderr};
+use crate::shared::said;
 use gnomon::site::{Mend, Overrides, Site};
 use serde_json::json;
 use tempfile::TempDir;
@@ -53,7 +54,7 @@ fn mends(model: &Model, keys: &str) -> Vec<Mend> {
     let site = Site::load(folder.path(), &Overrides::default()).unwrap();
     let told: Vec<_> = site.likenesses.iter().flat_map(|likeness| likeness.mends.clone()).collect();
     for mend in &told {
-        assert!(site.notes.iter().any(|note| note.contains(&format!("`{mend}`"))), "{mend}: {:?}", site.notes);
+        assert!(said(&site.notes).iter().any(|note| note.contains(&format!("`{mend}`"))), "{mend}: {:?}", site.notes);
     }
     told
 }
@@ -177,7 +178,7 @@ fn samples_and_their_tables_say_nothing_of_units() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
         let site = Site::load(&folder, &Overrides::default()).unwrap();
         assert!(
-            site.likenesses.is_empty() && !site.notes.iter().any(|note| note.contains("looks")),
+            site.likenesses.is_empty() && !said(&site.notes).iter().any(|note| note.contains("looks")),
             "{name}: {:?}",
             site.notes
         );

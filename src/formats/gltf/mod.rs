@@ -12,7 +12,6 @@
 //! (which other files are the model's).
 
 use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
-use crate::message::Message;
 use std::path::{Path, PathBuf};
 
 mod accessor;
@@ -78,7 +77,7 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Model, Fault> {
         let scene = if is_asked { "that scene" } else { "its default scene" };
         return Err(Fault::Empty { scene, way_out: notes::way_out(&document, &standing) });
     }
-    let notes = notes::of(&document, &standing, is_asked).into_iter().map(Message::from).collect();
+    let notes = notes::of(&document, &standing, is_asked);
     // glTF is in metres and y up, and many a program exports something else: nothing is said, so that it can be doubted
     Ok(Model { parts, notes, see_through, ..Model::default() })
 }
