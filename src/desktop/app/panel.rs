@@ -1,6 +1,6 @@
 //! The panel beside the picture: shadows, hours, components, place.
 
-use crate::choice::{Method, Promise, TABLE};
+use crate::choice::{Method, TABLE};
 use crate::desktop::app::cards;
 use crate::desktop::app::state::App;
 use crate::desktop::app::study;
@@ -245,7 +245,7 @@ fn shadows(app: &mut App, ui: &mut Ui) {
             let list = egui::ComboBox::from_id_salt("diagram").selected_text(name(shown.diagram));
             let response = list.width(ui.available_width()).show_ui(ui, |ui| {
                 let mut choices = vec![None, Some(Diagram::Overdraw)];
-                if shown.method.row().promise == Promise::ExactButForMap {
+                if shown.method.row().shows_mask {
                     choices.push(Some(Diagram::Mask));
                 }
                 for choice in choices {
