@@ -1,7 +1,7 @@
 //! The window: a site, its sun and its shadows at the speed of the hand. Everything that it finds, the library finds.
 //!
-//! One thread draws the window and never waits. A second one ([`stage`]) draws the picture and takes the newest wish, on a
-//! device of its own; others load sites and add up hours ([`work`]).
+//! One thread draws the window and never waits. A second one (`stage`) draws the picture and takes the newest wish, on a
+//! device of its own; others load sites and add up hours (`work`).
 //!
 //! The folders are layers, from the lowest: `state`, what is open and what a person sets; `results`, what a study came to;
 //! `work`, the threads beside the window; `stage`, the thread that draws the picture; `parts`, what the window is drawn of;
