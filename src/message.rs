@@ -117,6 +117,12 @@ pub trait Words: fmt::Debug + Send + Sync {
         field.name()
     }
 
+    /// A key of no file in particular, and perhaps the value that it is to have, which a site file has as `written` says it:
+    /// `` `level` in [ground] ``.
+    fn setting(&self, _table: &str, _key: &str, _value: Option<&str>, written: &str) -> String {
+        written.to_owned()
+    }
+
     /// A key of a site file; an empty one is the table itself.
     fn at(&self, file: &str, table: &str, key: &str) -> String {
         let gap = if key.is_empty() { "" } else { " " };
@@ -155,6 +161,17 @@ pub enum Piece {
         table: String,
         /// Empty for the table itself.
         key: String,
+    },
+    /// A key that a person may set in whatever site, where a face has a word for it.
+    Setting {
+        /// With its brackets.
+        table: &'static str,
+        /// In that table.
+        key: &'static str,
+        /// What it is to be set to.
+        value: Option<String>,
+        /// How a site file has it, in a sentence.
+        written: Cow<'static, str>,
     },
     /// What is said by faces alone that have a field.
     Where(Field, Vec<Piece>),
@@ -221,6 +238,16 @@ pub(crate) fn aside(field: Field) -> Piece {
     Piece::Where(field, pieces![" (", field, ")"])
 }
 
+/// A key that may be set, as a sentence has it that speaks of a site file.
+pub(crate) fn setting(table: &'static str, key: &'static str, written: &'static str) -> Piece {
+    Piece::Setting { table, key, value: None, written: written.into() }
+}
+
+/// The same with the value that it is to have.
+pub(crate) fn set_to(table: &'static str, key: &'static str, value: String, written: String) -> Piece {
+    Piece::Setting { table, key, value: Some(value), written: written.into() }
+}
+
 impl From<String> for Message {
     fn from(what: String) -> Message {
         message![what]
@@ -272,6 +299,9 @@ fn write(text: &mut String, pieces: &[Piece], words: &dyn Words) {
             Piece::Field(field) => text.push_str(name(*field)),
             Piece::Set(field, value) => text.extend([name(*field), " ", value]),
             Piece::Key(field) => text.push_str(words.key(*field)),
+            Piece::Setting { table, key, value, written } => {
+                text.push_str(&words.setting(table, key, value.as_deref(), written));
+            }
             Piece::At { file, table, key } => text.push_str(&words.at(file, table, key)),
             Piece::Where(field, pieces) if words.name(*field).is_some() => write(text, pieces, words),
             Piece::Where(..) => {}

@@ -10,7 +10,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The rooms, and folders of rooms, that are not held to it yet.
-const NOT_HELD: &[&str] = &["desktop", "formats", "study"];
+const NOT_HELD: &[&str] = &["formats", "study"];
+
+/// The folders of `desktop` as layers: each knows itself and those before it, and no file beside the folders.
+const LAYERS: &[&str] = &["state", "results", "work", "stage", "parts", "app"];
 
 /// A module's place below `src`, the outermost module first.
 type Module = Vec<String>;
@@ -215,6 +218,20 @@ fn circles(files: &[(PathBuf, String)], not_held: &[&str]) -> Vec<String> {
     found
 }
 
+/// The arrows that lead from a layer of a room to one behind it or to a file beside the layers, each with its path.
+fn upward(files: &[(PathBuf, String)], room: &str, layers: &[&str]) -> Vec<String> {
+    let sources = Sources::read(files);
+    let is_of_room = |module: &Module| module.first().is_some_and(|first| first == room);
+    let layer = |module: &Module| module.get(1).and_then(|name| layers.iter().position(|layer| layer == name));
+    let mut found = Vec::new();
+    for (module, used) in sources.uses() {
+        let Some(own) = layer(module).filter(|_| is_of_room(module)) else { continue };
+        let behind = used.iter().filter(|(used, _)| is_of_room(used) && layer(used).is_none_or(|at| at > own));
+        found.extend(behind.map(|(used, path)| format!("{} uses {}: {path}", module.join("/"), used.join("/"))));
+    }
+    found
+}
+
 #[test]
 fn no_room_has_a_circle_of_files() {
     let sources = files("src", "rs");
@@ -222,6 +239,45 @@ fn no_room_has_a_circle_of_files() {
     assert!(arrows > 2 * sources.len(), "too few uses were found");
     let found = circles(&sources, NOT_HELD);
     assert!(found.is_empty(), "move what both use into a file below them:\n{}", found.join("\n"));
+}
+
+#[test]
+fn layers_of_the_window_know_those_before_them() {
+    let sources = files("src", "rs");
+    for layer in LAYERS {
+        let folder = Path::new("desktop").join(layer);
+        assert!(sources.iter().any(|(path, _)| path.starts_with(&folder)), "{} has no file", folder.display());
+    }
+    let found = upward(&sources, "desktop", LAYERS);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn finder_of_upward_arrows_finds_them() {
+    let file = |path: &str, code: &str| (PathBuf::from(path), code.to_owned());
+    let files = [
+        file("room/mod.rs", "mod low;\nmod high;\nmod beside;"),
+        file("room/beside.rs", "use super::low::a::A;\npub struct Beside;"),
+        file("room/low/mod.rs", "mod a;\nmod b;"),
+        file("room/low/a.rs", "use super::super::high::High;\nuse crate::room::beside::Beside;\npub struct A;"),
+        file("room/low/b.rs", "use super::a::A;\nuse crate::mesh::Mesh;"),
+        file("room/high/mod.rs", "use crate::room::low::a::A;\npub struct High;"),
+        file("mesh/mod.rs", "pub struct Mesh;"),
+    ];
+    assert_eq!(
+        upward(&files, "room", &["low", "high"]),
+        [
+            "room/low/a uses room/beside: crate::room::beside::Beside",
+            "room/low/a uses room/high: super::super::high::High"
+        ]
+    );
+    assert_eq!(
+        upward(&files, "room", &["high", "low"]),
+        [
+            "room/high uses room/low/a: crate::room::low::a::A",
+            "room/low/a uses room/beside: crate::room::beside::Beside"
+        ]
+    );
 }
 
 #[test]

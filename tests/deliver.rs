@@ -2,11 +2,11 @@
 
 use crate::shared::program::site;
 use gnomon::choice::{Engine, Receivers};
-use gnomon::deliver::comparison::comparison;
+use gnomon::deliver::comparison::{comparison, find_comparison};
 use gnomon::deliver::disk::workplace::Workplace;
 use gnomon::deliver::instant::{InstantRequest, Show, instant};
 use gnomon::deliver::lines::Lines;
-use gnomon::deliver::patches::{PatchesRequest, patches};
+use gnomon::deliver::patches::{PatchesRequest, find_patches, patches};
 use gnomon::deliver::probe::{ProbeRequest, probe};
 use gnomon::deliver::profile::{ProfileAnswer, ProfileRequest, find_hours, profile};
 use gnomon::deliver::volumes::volumes;
@@ -120,6 +120,92 @@ fn hours_go_on_from_their_shelf() {
     assert_eq!(read(&shelf).count(), 0, "nothing stays of a study that is done");
 }
 
+/// So do hours of sun on patches; and in the command's folder.
+#[test]
+fn patches_go_on_from_where_they_were_stopped() {
+    let folder = site();
+    let site = Site { receivers: Receivers::Patches, patch_cell: 4.0, ..loaded(folder.path(), "10min") };
+    let (shelf, out) = (folder.path().join("studies"), folder.path().join("out"));
+    let mut drawn = 0;
+    let mut find = |most: usize, shelf: Option<Folder<'_>>| {
+        drawn = 0;
+        let outcome = find_patches(&site, shelf, &mut |event| -> ControlFlow<()> {
+            drawn += usize::from(matches!(event, Event::Drawn { .. }));
+            if drawn < most { Continue(()) } else { Break(()) }
+        });
+        (outcome.map(|outcome| outcome.hours), drawn)
+    };
+    let (whole, count) = find(usize::MAX, None);
+    let whole = whole.unwrap();
+    assert!(count > 10 && whole.lit.iter().any(|lit| *lit > 0), "{count} instants");
+    assert!(find(7, Some(inside(&shelf))).0.is_err_and(|error| error.is_interrupted()));
+    assert_eq!(read(&shelf).count(), 1, "what is done is kept, and nothing is locked");
+    // a byte of it is another
+    let (kept, right) = read(&shelf).next().unwrap();
+    let mut wrong = right.clone();
+    wrong[right.len() / 2] ^= 4;
+    std::fs::write(&kept, wrong).unwrap();
+    let (anew, drawn) = find(usize::MAX, Some(inside(&shelf)));
+    assert_eq!((anew.unwrap(), drawn), (whole.clone(), count), "what is damaged is not gone on with");
+    std::fs::write(&kept, right).unwrap();
+    let (gone_on, drawn) = find(usize::MAX, Some(inside(&shelf)));
+    assert_eq!((gone_on.unwrap(), drawn), (whole, count - 7));
+    assert_eq!(read(&shelf).count(), 0, "nothing stays of a study that is done");
+
+    let all = PatchesRequest::all(Stopwatch::start());
+    let files = patches(&site, &all, Sink::Memory, &mut |_| Continue(())).unwrap().written.files;
+    let mut drawn = 0;
+    let stopped = patches(&site, &all, Sink::Folder(inside(&out)), &mut |event| {
+        drawn += usize::from(matches!(event, Event::Drawn { .. }));
+        if drawn < 5 { Continue(()) } else { Break(()) }
+    });
+    assert!(stopped.is_err_and(|error| error.is_interrupted()));
+    let mut went_on = 0;
+    patches(&site, &all, Sink::Folder(inside(&out)), &mut |event| {
+        if let Event::GoesOn { done } = event {
+            went_on = done;
+        }
+        Continue(())
+    })
+    .unwrap();
+    assert_eq!(went_on, 5);
+    assert!(comparable(read(&out)) == comparable(files.into_iter()), "a file is another one");
+}
+
+/// A comparison goes on in the state in which it was stopped.
+#[test]
+fn comparison_goes_on_from_where_it_was_stopped() {
+    let folder = site();
+    let path = folder.path();
+    let step = Some("10min".to_owned());
+    let asked = Overrides { engine: Some(Engine::Cpu), size: Some(100), step, ..Overrides::default() };
+    let mut pair = Pair::load(path, path, &asked).unwrap();
+    pair.before.casts.fill(false);
+    let shelf = path.join("studies");
+    let mut drawn = 0;
+    let mut find = |most: usize, shelf: Option<Folder<'_>>| {
+        drawn = 0;
+        let outcome = find_comparison(&pair, None, shelf, &mut |event| -> ControlFlow<()> {
+            drawn += usize::from(matches!(event, Event::Drawn { .. }));
+            if drawn < most { Continue(()) } else { Break(()) }
+        });
+        let both = outcome.map(|outcome| [outcome.comparison.before().clone(), outcome.comparison.after().clone()]);
+        (both, drawn)
+    };
+    let (whole, count) = find(usize::MAX, None);
+    let whole = whole.unwrap();
+    assert!(count > 20 && whole[0].shaded != whole[1].shaded, "{count} instants of both");
+    for stops_after in [4, count / 2 + 3] {
+        assert!(find(stops_after, Some(inside(&shelf))).0.is_err_and(|error| error.is_interrupted()));
+        assert_eq!(read(&shelf).count(), 1, "the state that was worked on is kept");
+        let (gone_on, drawn) = find(usize::MAX, Some(inside(&shelf)));
+        let kept = if stops_after > count / 2 { stops_after - count / 2 } else { stops_after };
+        assert_eq!(drawn, count - kept);
+        assert!(gone_on.unwrap() == whole);
+        assert_eq!(read(&shelf).count(), 0, "nothing stays of a comparison that is done");
+    }
+}
+
 /// The shelf is for work that is stopped: where nothing can be kept on it, hours are found all the same, and that is told.
 #[test]
 fn shelf_that_cannot_be_used_stops_no_study() {
@@ -140,7 +226,7 @@ fn shelf_that_cannot_be_used_stops_no_study() {
     let mut notes = Vec::new();
     let found = find_hours(&site, &asked, Some(inside(&shelf)), &mut |event| {
         if let Event::Note(note) = event {
-            notes.push(note);
+            notes.push(note.to_string());
         }
         Continue(())
     });

@@ -1,5 +1,6 @@
 //! What is asked far from the place, in map coordinates as a rule, is told before the study.
 
+use crate::shared::said;
 use gnomon::site::{Overrides, Site, load_probes};
 use gnomon::study::{self, Event, Wants};
 use std::ops::ControlFlow;
@@ -19,7 +20,7 @@ fn site(lines: &str) -> (tempfile::TempDir, PathBuf) {
 /// The notes on such a site.
 fn notes(lines: &str) -> Vec<String> {
     let (_folder, site) = site(lines);
-    Site::load(&site, &Overrides::default()).expect("a site").notes
+    said(&Site::load(&site, &Overrides::default()).expect("a site").notes)
 }
 
 const REST: &str = "is in map coordinates, write metres east and north of the place";
@@ -31,13 +32,13 @@ fn plan_in_map_coordinates_is_told_before_the_study() {
     let (_folder, path) = site("[plan]\nregion = [625600, 483000, 625900, 483300]\ncell = 10");
     let site = Site::load(&path, &Overrides::default()).expect("a site");
     assert_eq!(site.notes.len(), 1, "{:?}", site.notes);
-    let note = &site.notes[0];
+    let note = &said(&site.notes)[0];
     assert!(note.starts_with("the middle of the plan lies 791 km from the place, maybe in another country;"), "{note}");
     assert!(note.contains("if `region` ") && note.ends_with(REST), "{note}");
     let mut heard = Vec::new();
     study::run(&site, &Wants::default(), &mut |event| {
         match event {
-            Event::Note(note) => heard.push(note),
+            Event::Note(note) => heard.push(note.to_string()),
             Event::Started { .. } => heard.push("begins".to_owned()),
             _ => {}
         }
@@ -68,12 +69,12 @@ fn camera_in_map_coordinates_is_told() {
 fn probe_in_map_coordinates_is_told() {
     let near = "[[probe]]\nname = \"kitchen\"\npoint = [10, 10, 2]\n";
     let (_folder, path) = site(&format!("{near}[[probe]]\nname = \"bath\"\npoint = [1500000, 5200000, 2]"));
-    let told = load_probes(&path, &Overrides::default()).expect("probes").notes;
+    let told = said(&load_probes(&path, &Overrides::default()).expect("probes").notes);
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(told[0].starts_with("the probe 'bath' lies 5412 km from the place"), "{told:?}");
     assert!(told[0].contains("`point`") && told[0].ends_with(REST), "{told:?}");
     let (_folder, path) = site(near);
-    assert_eq!(load_probes(&path, &Overrides::default()).expect("probes").notes, [""; 0]);
+    assert!(load_probes(&path, &Overrides::default()).expect("probes").notes.is_empty());
 }
 
 /// Where the models are far away, too, it is they that are in map coordinates.
@@ -83,7 +84,7 @@ fn models_in_map_coordinates_are_told_alone() {
     let text = std::fs::read_to_string(&path).expect("a site file");
     let moved = text.replace("works.glb\"", "works.glb\"\nposition = [625600, 483000, 0]");
     std::fs::write(&path, moved).expect("a site file");
-    let told = Site::load(&path, &Overrides::default()).expect("a site").notes;
+    let told = said(&Site::load(&path, &Overrides::default()).expect("a site").notes);
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(told[0].contains("`position`"), "{told:?}");
 }

@@ -32,7 +32,7 @@ struct Told {
 impl Told {
     fn hear(&mut self, event: &Event<'_>) -> ControlFlow<()> {
         match event {
-            Event::Note(note) => self.notes.push(note.clone()),
+            Event::Note(note) => self.notes.push(note.to_string()),
             Event::Anew => self.anew += 1,
             Event::Drawn { index, .. } => self.drawn.push(*index),
             _ => {}

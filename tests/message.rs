@@ -2,12 +2,13 @@
 
 use crate::shared::program::done;
 use crate::site::{SITE, load, some};
+use gnomon::choice::Receivers;
 use gnomon::cli::Options;
 use gnomon::fault;
 use gnomon::gpu::GpuError;
 use gnomon::message::{Field, Message, Piece, PlainWords, Worded, Words};
 use gnomon::shadow::ShadowError;
-use gnomon::site::Overrides;
+use gnomon::site::{Ground, GroundFrom, Overrides, Site, load_mesh};
 use gnomon::study::StudyError;
 use std::path::Path;
 
@@ -97,8 +98,35 @@ fn notes_are_in_the_words_of_who_asks() {
     let folder = crate::command::units::folder(&crate::command::units::lying(), "");
     let note = |words: &'static dyn Words| {
         let asked = Overrides { words, ..Overrides::default() };
-        gnomon::site::load_mesh(Path::new(folder.path()), &asked).expect("models").notes.concat()
+        let notes = gnomon::site::load_mesh(Path::new(folder.path()), &asked).expect("models").notes;
+        notes.iter().map(|note| note.in_words(words)).collect::<String>()
     };
     assert!(note(&Options).ends_with("write `up = \"z\"` under [[model]], or say --up z"), "{}", note(&Options));
     assert!(note(&PlainWords).ends_with("write `up = \"z\"` under [[model]]"), "{}", note(&PlainWords));
+}
+
+/// A note names a key of the site file, and a face that has another word for it says that.
+#[test]
+fn keys_in_notes_are_in_the_words_of_a_face() {
+    #[derive(Debug)]
+    struct Labels;
+    impl Words for Labels {
+        fn setting(&self, table: &str, key: &str, value: Option<&str>, _: &str) -> String {
+            format!("<{table} {key} {}>", value.unwrap_or("-"))
+        }
+    }
+    let site = crate::shared::program::site();
+    let mut buried = Ground::asked(0.0);
+    (buried.from, buried.lowest) = (GroundFrom::Zero, -12.0);
+    let mesh = Site::load(site.path(), &Overrides::default()).expect("a site").mesh;
+    let [note] = &buried.notes(&mesh, &vec![true; mesh.components.len()], Receivers::Ground)[..] else {
+        panic!("one note")
+    };
+    let what = "the ground is at 0.00 m, where the models' own zero is; 12.00 m of the models lie below it";
+    assert_eq!(note.in_words(&Options), format!("{what}; `level` in [ground] sets it"));
+    assert_eq!(note.to_string(), note.in_words(&Options));
+    assert_eq!(note.in_words(&Labels), format!("{what}; <[ground] level -> sets it"));
+    let folder = crate::command::units::folder(&crate::command::units::lying(), "");
+    let notes = load_mesh(folder.path(), &Overrides::default()).expect("models").notes;
+    assert!(notes.iter().any(|note| note.in_words(&Labels).ends_with("write <[[model]] up z>")), "{notes:?}");
 }

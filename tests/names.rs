@@ -3,6 +3,7 @@
 
 use crate::model::poses::{morphing, skinned};
 use crate::model::{Model, push};
+use crate::shared::said;
 use crate::site::{SITE, folder, tower};
 use gnomon::choice::{Engine, Receivers};
 use gnomon::site::{Models, Overrides, Site, WrittenSite};
@@ -119,7 +120,7 @@ fn a_scene_is_named_in_the_site_file() {
     };
     let components = |key: &str| read(key).unwrap().mesh.components.len();
     assert_eq!((components(""), components("scene = 1"), components("scene = \"proposed\"")), (1, 2, 2));
-    let notes = read("").unwrap().notes;
+    let notes = said(&read("").unwrap().notes);
     assert!(notes[0].starts_with("tower.glb has 2 scenes, and \"existing\" (0) is read"), "{notes:?}");
     assert!(read("scene = \"existing\"").unwrap().notes.is_empty());
     let told = read("scene = \"propsed\"").unwrap_err();
@@ -171,7 +172,7 @@ fn see_through_materials_that_cast_are_told() {
             notes,
             "check says the same"
         );
-        notes
+        said(&notes)
     };
     let of_three = "tower.glb has 3 components of cut-out or translucent materials, which cast as if solid: \"leaves\" (2) \
                     and \"glass\" (1); casts = [\"!leaves\"] under [[model]] leaves \"leaves\" out";
@@ -184,7 +185,7 @@ fn see_through_materials_that_cast_are_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("tower.glb");
     std::fs::write(&path, model.glb()).unwrap();
-    assert_eq!(gnomon::site::load_mesh(&path, &Overrides::default()).unwrap().notes, [of_three], "a bare model");
+    assert_eq!(said(&gnomon::site::load_mesh(&path, &Overrides::default()).unwrap().notes), [of_three], "a bare model");
 }
 
 /// The sum of a study's shadow on the ground, m²·h.

@@ -48,7 +48,8 @@ fn probing(place: &Place, parts: Vec<Part>, probes: Vec<Probe>, days: Vec<DayWin
     let mesh = Mesh::build(parts).unwrap();
     let casts = vec![true; mesh.components.len()];
     let (place, notes, ground) = (place.clone(), Vec::new(), Ground::asked(0.0));
-    ProbeSite { place, mesh, notes, casts, ground, probes, days, step_secs: 60, refraction: true }
+    let words = &gnomon::message::PlainWords;
+    ProbeSite { place, mesh, notes, words, casts, ground, probes, days, step_secs: 60, refraction: true }
 }
 
 fn found(asked: &ProbeSite) -> Sunlight {

@@ -1,5 +1,6 @@
 //! Site files and options → the checked request: what is meant, and what every mistake is told.
 
+use crate::shared::said;
 use glam::DVec3;
 use gnomon::choice::{Engine, Method, Receivers};
 use gnomon::cli::Options;
@@ -320,7 +321,7 @@ fn notes_of_models_are_told() {
     };
     let asked = Overrides { size: Some(16), engine: Some(Engine::Cpu), ..Overrides::default() };
     let site = Site::load_with(folder(SITE).path(), &asked, noted).unwrap();
-    assert_eq!(site.notes, ["tower.glb leaves something out"]);
+    assert_eq!(said(&site.notes), ["tower.glb leaves something out"]);
     let mut heard = Vec::new();
     let run = gnomon::study::run(&site, &gnomon::study::Wants::default(), &mut |event| {
         if let gnomon::study::Event::Note(note) = event {

@@ -134,7 +134,7 @@ pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
     let components = mesh_report::components(&mesh);
     interrupt::check()?;
     match asked.common.json {
-        true => say(&check::json(&mesh, &components, frame, &notes)?),
+        true => say(&check::json(&mesh, &components, frame, &notes, &Options)?),
         false => say(&check::table(&mesh, &components, frame, &notes, &Options)),
     }
 }

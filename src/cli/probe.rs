@@ -84,7 +84,7 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
     let sink = Sink::Paths { inputs: &inputs(&asked.site.path)? };
     let ProbeAnswer { sunlight, written } = deliver(&probing, &request, sink, &mut |event| progress.heard(&event))?;
     match asked.common.json {
-        true => say(&told::json(&sunlight, &probing.place, &probing.ground, &probing.notes)?),
+        true => say(&told::json(&sunlight, &probing.place, &probing.ground, (&probing.notes, &Options))?),
         false => say(&(told::table(&sunlight, &probing.place, &probing.ground, &Options) + &lines(&written))),
     }
 }

@@ -1,6 +1,7 @@
 //! Progress and notes on stderr: a bar on a terminal, plain lines otherwise, nothing with `--quiet`.
 
 use super::interrupt;
+use super::options::Options;
 use super::output::words;
 use crate::study::Event;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
@@ -40,8 +41,9 @@ impl Progress {
         }
         match event {
             Event::Note(note) => {
+                let note = note.in_words(&Options);
                 if self.noted.insert(note.clone()) {
-                    self.line(&format!("note: {}", words(note)));
+                    self.line(&format!("note: {}", words(&note)));
                 }
             }
             Event::Started { instants, tiles } => {
@@ -67,7 +69,12 @@ impl Progress {
                     bar.finish_and_clear();
                 }
             }
-            Event::Resumes { .. } | Event::Tile(_) | Event::Summed(_) | Event::Kept(_) | Event::Stage(_) => {}
+            Event::Resumes { .. }
+            | Event::Prepared { .. }
+            | Event::Tile(_)
+            | Event::Summed(_)
+            | Event::Kept(_)
+            | Event::Stage(_) => {}
             Event::Drawn { index, count, time, .. } => {
                 let done = index + 1;
                 let time = time.format("%Y-%m-%d %H:%M");

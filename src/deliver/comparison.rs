@@ -1,14 +1,16 @@
 //! What a change of a site does to its sun: as a drawing, a raster and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
+use super::profile::{Beside, ProfileRequest, StudyStore, find_kept};
+use super::shelf;
 use super::sink::OpenSink;
-use super::{DeliverError, Sink, WrittenFiles};
+use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::export::report::ReportContext;
 use crate::export::{comparison, figure, raster};
 use crate::profile::Provenance;
-use crate::site::Pair;
-use crate::study::{self, CompareOutcome, Event, OnEvent, Stopwatch, tell};
-use std::path::PathBuf;
+use crate::site::{Pair, Site};
+use crate::study::{self, CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError, tell};
+use std::path::{Path, PathBuf};
 
 const DRAWING: &str = "compare.png";
 const RASTER: &str = "shadow-hours-difference.tif";
@@ -41,9 +43,67 @@ pub fn comparison(
     watch.lap("load");
     note(open.note(), on_event)?;
     note_letters([&pair.names[0], &pair.names[1], &pair.after.place.name].map(String::as_str), on_event)?;
-    let outcome = study::compare(pair, on_event)?;
+    let (outcome, stores) = find(pair, None, sink.folder(), on_event)?;
     watch.lap("shadows");
-    write(pair, &outcome, watch, &open, on_event)
+    let kept = || stores.iter().find_map(StudyStore::kept);
+    let has_folder = sink.folder().is_some();
+    let mut stage =
+        |stage| tell(on_event, Event::Stage(stage)).inspect_err(|_| shelf::note_end(has_folder.then(kept), on_event));
+    let answer = write(pair, &outcome, watch, &open, &mut stage)?;
+    stores.iter().try_for_each(StudyStore::finish)?;
+    Ok(answer)
+}
+
+/// Finds a comparison that is to be shown; the state before may be at hand. A study of one state that is stopped is kept in
+/// `shelf`, of the newest ones, and goes on when the same is asked again; none is kept while another one works there.
+///
+/// # Errors
+/// As [`comparison()`].
+pub fn find_comparison(
+    pair: &Pair,
+    before: Option<&Outcome>,
+    shelf: Option<Folder<'_>>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<CompareOutcome, DeliverError> {
+    shelf::find(shelf, on_event, |folder, on_event| {
+        let (outcome, stores) = find(pair, before.cloned(), folder, on_event)?;
+        for store in stores {
+            // what stays there is another time's to remove
+            let _ = store.finish();
+        }
+        Ok(outcome)
+    })
+}
+
+/// Finds it. What the study of either state left in the folder when it was stopped is gone on with.
+fn find<'a>(
+    pair: &Pair,
+    before: Option<Outcome>,
+    folder: Option<&'a Path>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<(CompareOutcome, Vec<StudyStore<'a>>), DeliverError> {
+    study::not_patches(&pair.before)?;
+    study::not_patches(&pair.after)?;
+    let asked = ProfileRequest::of(Stopwatch::start());
+    let mut stores: Vec<StudyStore<'a>> = Vec::new();
+    let mut outcome = |when: &str, site: &Site, name: &str, beside: Beside<'_>| {
+        tell(on_event, Event::Note(format!("{when}: {name}").into()))?;
+        let (hours, store) = find_kept(site, &asked, folder, beside, on_event)?;
+        Ok::<_, DeliverError>((hours.into_outcome()?, store))
+    };
+    let before = match before {
+        Some(before) => before,
+        None => {
+            // which study that of the state after is shows itself when its machine is chosen
+            let (before, store) = outcome("before", &pair.before, &pair.names[0], Beside::Unknown)?;
+            stores.push(store);
+            before
+        }
+    };
+    let numbers: Vec<u64> = stores.iter().map(StudyStore::number).collect();
+    let (after, store) = outcome("after", &pair.after, &pair.names[1], Beside::Studies(&numbers))?;
+    stores.push(store);
+    Ok((CompareOutcome::new(pair, before, after), stores))
 }
 
 /// Writes a comparison that was found. The stopwatch runs on from that.
@@ -59,7 +119,7 @@ pub fn write_comparison(
 ) -> Result<ComparisonAnswer, DeliverError> {
     let open = sink.open(&names(), None)?;
     note(open.note(), on_event)?;
-    write(pair, outcome, watch, &open, on_event)
+    write(pair, outcome, watch, &open, &mut |stage| tell(on_event, Event::Stage(stage)))
 }
 
 /// What the files are called.
@@ -72,7 +132,7 @@ fn write(
     outcome: &CompareOutcome,
     mut watch: Stopwatch,
     open: &OpenSink<'_>,
-    on_event: &mut OnEvent<'_>,
+    stage: &mut dyn FnMut(&'static str) -> Result<(), StudyError>,
 ) -> Result<ComparisonAnswer, DeliverError> {
     let site = &pair.after;
     let scenes = [0, 1].map(|at| {
@@ -82,10 +142,10 @@ fn write(
     let change = &outcome.comparison;
     let picture = figure::difference(&scenes, &pair.names, change)?;
     watch.lap("picture");
-    tell(on_event, Event::Stage("picture"))?;
+    stage("picture")?;
     let raster = raster::difference_geotiff(change, &site.place)?;
     watch.lap("raster");
-    tell(on_event, Event::Stage("raster"))?;
+    stage("raster")?;
     let drawn = &outcome.drawn[1];
     let (timings, notes) = (&watch.timings(), &pair.notes());
     let told = ReportContext { notes, ..report_context(site, site.receivers, drawn, timings, None) };

@@ -13,6 +13,7 @@ mod parts;
 pub mod patches;
 pub mod probe;
 pub mod profile;
+mod shelf;
 mod sink;
 pub mod verification;
 pub mod volumes;

@@ -4,6 +4,7 @@ use crate::choice::Receivers;
 use crate::export::figure;
 use crate::export::report::ReportContext;
 use crate::mesh::Mesh;
+use crate::message::Message;
 use crate::profile::{Provenance, Statistics, Timings};
 use crate::site::Site;
 use crate::study::{Event, OnEvent, StudyError, tell};
@@ -43,7 +44,7 @@ pub(super) fn report_context<'a>(
     timings: &'a Timings,
     statistics: Option<&'a Statistics>,
 ) -> ReportContext<'a> {
-    ReportContext { receivers, ground: site.ground, drawn, timings, statistics, notes: &site.notes }
+    ReportContext { receivers, ground: site.ground, drawn, timings, statistics, notes: &site.notes, words: site.words }
 }
 
 /// Notes letters that no font has, of texts that are drawn.
@@ -65,6 +66,6 @@ pub(super) fn note_letters<'a>(
 }
 
 /// Notes what there is.
-pub(super) fn note(note: Option<String>, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-    note.map_or(Ok(()), |note| tell(on_event, Event::Note(note)))
+pub(super) fn note(note: Option<impl Into<Message>>, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    note.map_or(Ok(()), |note| tell(on_event, Event::Note(note.into())))
 }

@@ -1,15 +1,16 @@
 //! Hours of sun on the model itself: as a drawing, a model, a table and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
+use super::shelf::{self, PatchStore};
 use super::sink::OpenSink;
-use super::{DeliverError, NamedFile, Sink, WrittenFiles};
+use super::{DeliverError, Folder, NamedFile, Sink, WrittenFiles};
 use crate::choice::Receivers;
 use crate::export::patches::{self, PatchContext};
 use crate::export::{figure, report};
 use crate::profile::Provenance;
 use crate::site::Site;
-use crate::study::{self, Event, OnEvent, PatchOutcome, Stopwatch, tell};
-use std::path::PathBuf;
+use crate::study::{self, Event, OnEvent, PatchOutcome, Stopwatch, StudyError, tell};
+use std::path::{Path, PathBuf};
 
 const DRAWING: &str = "surfaces.png";
 const MODEL: &str = "surfaces.glb";
@@ -61,9 +62,46 @@ pub fn patches(
     if asked.drawing {
         note_letters([site.place.name.as_str()], on_event)?;
     }
-    let outcome = study::patches(site, site.patch_cell, on_event)?;
+    let (outcome, store) = find(site, sink.folder(), on_event)?;
     watch.laps(outcome.timings.clone());
-    write(site, &outcome, &PatchesRequest { watch, ..asked.clone() }, &open, on_event)
+    let asked = PatchesRequest { watch, ..asked.clone() };
+    let mut stage =
+        |stage| tell(on_event, Event::Stage(stage)).inspect_err(|_| shelf::note_end(store.kept(), on_event));
+    let answer = write(site, &outcome, &asked, &open, &mut stage)?;
+    store.finish()?;
+    Ok(answer)
+}
+
+/// Finds hours of sun on the site's patches that are to be shown. A study that is stopped is kept in `shelf`, of the newest
+/// ones, and goes on when the same is asked again; none is kept while another one works there.
+///
+/// # Errors
+/// As [`patches()`].
+pub fn find_patches(
+    site: &Site,
+    shelf: Option<Folder<'_>>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<PatchOutcome, DeliverError> {
+    shelf::find(shelf, on_event, |folder, on_event| {
+        let (outcome, store) = find(site, folder, on_event)?;
+        // what stays there is another time's to remove
+        let _ = store.finish();
+        Ok(outcome)
+    })
+}
+
+/// Finds them. What the study left in the folder when it was stopped is gone on with.
+fn find<'a>(
+    site: &Site,
+    folder: Option<&'a Path>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<(PatchOutcome, PatchStore<'a>), DeliverError> {
+    let mut store = PatchStore::new(folder);
+    let found =
+        study::patches_kept(site, site.patch_cell, store.keep_every(), &mut |event| store.hear(event, on_event));
+    let found = store.take_fault().map_or(found.map_err(DeliverError::from), Err);
+    let outcome = found.inspect_err(|_| shelf::note_kept(store.kept().flatten(), on_event))?;
+    Ok((outcome, store))
 }
 
 /// Writes hours that were found on the patches of a site, as far as is asked. The request's stopwatch runs on from
@@ -80,7 +118,7 @@ pub fn write_patches(
 ) -> Result<PatchesAnswer, DeliverError> {
     let open = sink.open(&asked.names(), None)?;
     note(open.note(), on_event)?;
-    write(site, outcome, asked, &open, on_event)
+    write(site, outcome, asked, &open, &mut |stage| tell(on_event, Event::Stage(stage)))
 }
 
 /// What is found of a site's patches, as drawings and tables take it.
@@ -94,15 +132,15 @@ fn write(
     outcome: &PatchOutcome,
     asked: &PatchesRequest,
     open: &OpenSink<'_>,
-    on_event: &mut OnEvent<'_>,
+    stage: &mut dyn FnMut(&'static str) -> Result<(), StudyError>,
 ) -> Result<PatchesAnswer, DeliverError> {
     let mut watch = asked.watch.clone();
     let (drawn, receivers) = (&outcome.drawn, Receivers::Patches);
     let answer = answer(site, outcome);
     let mut files: Vec<NamedFile> = Vec::new();
-    let mut stage = |watch: &mut Stopwatch, stage| {
-        watch.lap(stage);
-        tell(on_event, Event::Stage(stage))
+    let mut stage = |watch: &mut Stopwatch, name| {
+        watch.lap(name);
+        stage(name)
     };
     if asked.drawing {
         let (mesh, surface) = &study::seen_receivers(site)?;

@@ -44,7 +44,7 @@ pub fn volumes(
     tell(on_event, Event::Stage("volumes"))?;
     if site.ground.kind == GroundKind::Terrain {
         let end = format!("the volumes end at a plane at {}, not at the terrain", metres(site.ground.level));
-        tell(on_event, Event::Note(end))?;
+        tell(on_event, Event::Note(end.into()))?;
     }
     note_extent(&found, instant, on_event)?;
     let volumes = Volumes {
@@ -56,6 +56,7 @@ pub fn volumes(
         solids: &found.solids,
         left_out: found.left_out,
         notes: &site.notes,
+        words: site.words,
     };
     let bytes = encode::glb(&volumes)?;
     tell(on_event, Event::Stage("model"))?;

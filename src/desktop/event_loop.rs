@@ -15,13 +15,13 @@ use winit::platform::run_on_demand::EventLoopExtRunOnDemand;
 use winit::window::WindowId;
 
 /// What a panic said.
-pub(super) type Panic = Box<dyn Any + Send>;
+pub(in crate::desktop) type Panic = Box<dyn Any + Send>;
 
 /// The loop of this process, as the options have it.
 ///
 /// # Errors
 /// No display, as a rule.
-pub(super) fn new(options: &mut NativeOptions) -> Result<EventLoop<UserEvent>, EventLoopError> {
+pub(in crate::desktop) fn new(options: &mut NativeOptions) -> Result<EventLoop<UserEvent>, EventLoopError> {
     let mut builder = EventLoop::with_user_event();
     if let Some(hook) = options.event_loop_builder.take() {
         hook(&mut builder);
@@ -33,7 +33,7 @@ pub(super) fn new(options: &mut NativeOptions) -> Result<EventLoop<UserEvent>, E
 ///
 /// # Errors
 /// What the system says.
-pub(super) fn show(
+pub(in crate::desktop) fn show(
     event_loop: &mut EventLoop<UserEvent>,
     window: EframeWinitApplication<'_>,
 ) -> Result<Option<Panic>, EventLoopError> {

@@ -1,7 +1,7 @@
 //! What tests, benches and tools ask the window, and what they do to its devices.
 
-use super::app::App;
-use super::found;
+use super::app::state::App;
+use super::app::study;
 use crate::profile::Provenance;
 use crate::site::file::SiteFile;
 use crate::view::View;
@@ -38,13 +38,13 @@ impl App {
 
     /// What was asked for at the last frame: the view at its full size, and the unit vector to the sun.
     pub fn asked(&self) -> Option<(View, DVec3)> {
-        let wish = self.open.as_ref()?.viewer.asked()?;
+        let wish = self.open.as_ref()?.viewer.best()?;
         Some((wish.view, wish.to_sun))
     }
 
     /// What drew the picture.
     pub fn drawn(&self) -> Option<&Provenance> {
-        Some(&self.open.as_ref()?.viewer.shown()?.drawn)
+        Some(&self.open.as_ref()?.viewer.shown()?.provenance)
     }
 
     /// The site as it is set, as a site file would say it.
@@ -55,7 +55,7 @@ impl App {
     /// Begins to find the hours of the open site, as its button does.
     pub fn find_hours(&mut self, context: &egui::Context) {
         if let Some(open) = &mut self.open {
-            found::find(open, &self.settings, self.studies.clone(), context);
+            study::find(open, &self.settings, self.studies.clone(), context);
         }
     }
 

@@ -5,14 +5,14 @@
 //! eframe cannot change the device of a window; so the window is closed and another one opened, with the same [`App`], and
 //! with what egui remembers.
 
-use super::app::App;
-use super::event_loop::{self, Panic};
-use super::stage::Stage;
-use super::{look, screen};
+use crate::desktop::app::device::devices;
+use crate::desktop::app::state::App;
+use crate::desktop::event_loop::{self, Panic};
+use crate::desktop::parts::theme;
 use crate::gpu::{Gpu, GpuError};
 use anyhow::anyhow;
 use eframe::egui::layers::GraphicLayers;
-use eframe::egui_wgpu::{RenderState, SurfaceErrorAction, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use eframe::egui_wgpu::{SurfaceErrorAction, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use eframe::{AppCreator, CreationContext, Frame, NativeOptions, Storage, egui};
 use std::panic::resume_unwind;
 use std::path::Path;
@@ -198,7 +198,7 @@ impl eframe::App for AppWindow<'_> {
         }
         // egui's renderer panics where it is to draw on a device that is lost
         if self.app.leaves_device(ui.ctx()) {
-            ui.ctx().graphics_mut(|drawn| *drawn = GraphicLayers::default());
+            ui.ctx().graphics_mut(|layers| *layers = GraphicLayers::default());
         }
     }
 
@@ -212,18 +212,9 @@ impl eframe::App for AppWindow<'_> {
 fn take_over(last: &egui::Context, new: &egui::Context) {
     let memory = last.memory(Clone::clone);
     new.memory_mut(|its| *its = memory);
-    look::set(new);
-    let asked = new.clone();
-    last.set_repaint_observer(move |info| asked.request_repaint_after(info.delay));
-}
-
-/// The window's device, and the stage beside it.
-pub(super) fn devices(cc: &CreationContext<'_>) -> Result<(Gpu, RenderState, Stage), GpuError> {
-    let render = cc.wgpu_render_state.clone().ok_or(GpuError::NoAdapter)?;
-    screen::set_up(&render);
-    let gpu = Gpu::opened(&render.adapter, render.device.clone(), render.queue.clone());
-    let stage = Stage::new(render.clone(), cc.egui_ctx.clone());
-    Ok((gpu, render, stage))
+    theme::set(new);
+    let next = new.clone();
+    last.set_repaint_observer(move |info| next.request_repaint_after(info.delay));
 }
 
 impl App {

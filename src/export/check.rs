@@ -5,7 +5,7 @@ use super::places::{self, DefectKind};
 use super::{ExportError, report};
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
-use crate::message::{Field, Words, message};
+use crate::message::{Field, Message, Words, message};
 use crate::site::CoordinateFrame;
 use serde::Serialize;
 use serde_json::Value;
@@ -23,7 +23,7 @@ struct MeshReport<'a> {
     vertices: usize,
     frame: &'static str,
     components: Vec<ComponentLine<'a>>,
-    notes: &'a [String],
+    notes: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -48,7 +48,8 @@ pub fn json(
     mesh: &Mesh,
     components: &[ComponentReport],
     frame: CoordinateFrame,
-    notes: &[String],
+    notes: &[Message],
+    words: &dyn Words,
 ) -> Result<String, ExportError> {
     let lines = components.iter().map(|component| ComponentLine {
         name: &component.name,
@@ -67,7 +68,7 @@ pub fn json(
         vertices: mesh.vertices.len(),
         frame: places::frame(frame),
         components: lines.collect(),
-        notes,
+        notes: report::said(notes, words),
     })
 }
 
@@ -77,7 +78,7 @@ pub fn table(
     mesh: &Mesh,
     components: &[ComponentReport],
     frame: CoordinateFrame,
-    notes: &[String],
+    notes: &[Message],
     words: &dyn Words,
 ) -> String {
     let mut table = format!(
@@ -88,7 +89,7 @@ pub fn table(
     );
     for note in notes {
         // Writing to a String cannot fail.
-        let _ = writeln!(table, "note: {}", plain(note));
+        let _ = writeln!(table, "note: {}", plain(&note.in_words(words)));
     }
     let mut dirty: Vec<_> = components.iter().filter(|component| !component.clean()).collect();
     if dirty.is_empty() {

@@ -3,7 +3,7 @@
 use super::names::{field, plain};
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, figure, report};
-use crate::message::{Field, Words, aside, message};
+use crate::message::{Field, Message, Words, aside, message};
 use crate::site::{Ground, metres};
 use crate::sun::{Place, Polar, Zone};
 use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight, longest, secs};
@@ -23,7 +23,7 @@ struct SunlightReport<'a> {
     refraction: bool,
     probes: Vec<ProbeReport<'a>>,
     shortest_found_secs: u32,
-    notes: &'a [String],
+    notes: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -70,7 +70,12 @@ struct IntervalReport {
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn json(sunlight: &Sunlight, place: &Place, ground: &Ground, notes: &[String]) -> Result<String, ExportError> {
+pub fn json(
+    sunlight: &Sunlight,
+    place: &Place,
+    ground: &Ground,
+    (notes, words): (&[Message], &dyn Words),
+) -> Result<String, ExportError> {
     let day = |(day, intervals): (&SunDay, &Vec<Interval>)| ProbeDayReport {
         date: day.window.day.date.to_string(),
         sunrise: day.window.day.sunrise.as_ref().map(stamp),
@@ -99,7 +104,7 @@ pub fn json(sunlight: &Sunlight, place: &Place, ground: &Ground, notes: &[String
             })
             .collect(),
         shortest_found_secs: sunlight.step_secs,
-        notes,
+        notes: report::said(notes, words),
     })
 }
 

@@ -5,6 +5,7 @@
 use super::ExportError;
 use super::patches::PatchContext;
 use crate::choice::{Filter, Finder, Receivers, Settings};
+use crate::message::{Message, PlainWords, Words};
 use crate::profile::{Profile, Provenance, Statistics, Timings};
 use crate::site::Ground;
 use crate::sun::{Air, Day, Instant, Place, Polar, SunTrack, Zone};
@@ -39,7 +40,7 @@ pub(super) struct DrawnReport<'a> {
     delta_t_source: &'static str,
     instants: Vec<InstantReport>,
     days: Vec<DayReport>,
-    notes: &'a [String],
+    notes: Vec<String>,
     #[serde(serialize_with = "in_order")]
     timings_secs: &'a Timings,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -172,7 +173,9 @@ pub struct ReportContext<'a> {
     /// What counting took, where that was asked.
     pub statistics: Option<&'a Statistics>,
     /// What the user should know of how the models were read.
-    pub notes: &'a [String],
+    pub notes: &'a [Message],
+    /// In whose words.
+    pub words: &'a dyn Words,
 }
 
 /// `profile.json`, as the design's contract has it, with how refraction and ΔT were found beside them.
@@ -264,7 +267,7 @@ fn drawn_report<'a>(
     track: &SunTrack,
     told: &ReportContext<'a>,
 ) -> DrawnReport<'a> {
-    let ReportContext { receivers, ground, drawn, timings, statistics, notes } = *told;
+    let ReportContext { receivers, ground, drawn, timings, statistics, notes, words } = *told;
     let air = Air::standard(place.elevation_m);
     let refracted = |value| track.refraction.then_some(value);
     DrawnReport {
@@ -287,7 +290,7 @@ fn drawn_report<'a>(
         delta_t_source: "Espenak and Meeus",
         instants: track.instants.iter().map(instant_report).collect(),
         days: track.days.iter().map(day_report).collect(),
-        notes,
+        notes: said(notes, words),
         timings_secs: timings,
         statistics: statistics.map(|it| StatisticsReport {
             cells: it.cells,
@@ -322,6 +325,11 @@ fn view_report(view: &View) -> ViewReport<'static> {
     }
 }
 
+/// Notes as a report has them.
+pub(super) fn said(notes: &[Message], words: &dyn Words) -> Vec<String> {
+    notes.iter().map(|note| note.in_words(words)).collect()
+}
+
 /// `sun --json`: place, instants, days and notes as in [`profile_json`].
 ///
 /// # Errors
@@ -332,7 +340,7 @@ pub fn sun_json(place: &Place, track: &SunTrack) -> Result<String, ExportError> 
         tz_version: tz_version(place),
         instants: track.instants.iter().map(instant_report).collect(),
         days: track.days.iter().map(day_report).collect(),
-        notes: track.notes(),
+        notes: said(&track.notes(), &PlainWords),
     })
 }
 

@@ -32,7 +32,7 @@ struct VerifyReport<'a> {
     edge_share_bound: f64,
     holds: bool,
     techniques: Vec<RowReport<'a>>,
-    notes: &'a [String],
+    notes: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -78,7 +78,7 @@ struct RowReport<'a> {
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
 pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportError> {
-    let Site { place, track, receivers, ground, notes, .. } = site;
+    let Site { place, track, receivers, ground, .. } = site;
     let Verification { grid, instants, clean, edge_share, sun_samples, disc_secs, rows } = verification;
     report::json(&VerifyReport {
         gnomon: env!("CARGO_PKG_VERSION"),
@@ -99,7 +99,7 @@ pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportEr
         edge_share_bound: *edge_share,
         holds: verification.failed().next().is_none(),
         techniques: rows.iter().map(|row| row_report(row, verification.row_holds(row))).collect(),
-        notes,
+        notes: report::said(&site.notes, site.words),
     })
 }
 

@@ -3,6 +3,7 @@
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, report};
 use crate::mesh::Mesh;
+use crate::message::{Message, Words};
 use crate::site::Ground;
 use crate::sun::{Instant, Place};
 use crate::volume::solid::Solid;
@@ -31,7 +32,9 @@ pub struct Volumes<'a> {
     /// How many components that cast have none.
     pub left_out: usize,
     /// What the user should know of how the models were read.
-    pub notes: &'a [String],
+    pub notes: &'a [Message],
+    /// In whose words.
+    pub words: &'a dyn Words,
 }
 
 impl Volumes<'_> {
@@ -184,7 +187,7 @@ struct VolumesReport<'a> {
     sun: Value,
     volumes: Vec<VolumeLine<'a>>,
     left_out: usize,
-    notes: &'a [String],
+    notes: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -216,7 +219,7 @@ pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
         sun: volumes.sun(),
         volumes: volumes.solids.iter().map(line).collect(),
         left_out: volumes.left_out,
-        notes: volumes.notes,
+        notes: report::said(volumes.notes, volumes.words),
     })
 }
 

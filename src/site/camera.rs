@@ -1,10 +1,10 @@
 //! The camera as asked, or a good one: from the sunlit side, three-quarter, models and shadows in view; or before a
 //! side, with the models in view.
 
-use super::asked::{Overrides, refuse};
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::keys;
+use super::overrides::{Overrides, refuse};
 use super::written::WrittenSite;
 use crate::choice::ChoiceError;
 use crate::message::message;

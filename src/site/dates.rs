@@ -1,7 +1,7 @@
 //! Several days, as asked: of the command line, or of the study.
 
-use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
+use super::overrides::{Overrides, refuse};
 use super::written::WrittenSite;
 use crate::message::{Field, Message, message};
 use crate::sun::{MOST_DAYS, Reading, SunError, parse_date};

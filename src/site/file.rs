@@ -1,8 +1,8 @@
 //! The site file as written: TOML → [`SiteFile`]. What it means is found in [`crate::site::Site::load`].
 
-use super::asked::refuse;
 use super::error::{FieldLocation, SiteError};
 use super::keys;
+use super::overrides::refuse;
 use crate::formats::SceneName;
 use crate::message::message;
 use serde::de::{DeserializeOwned, Error as _};

@@ -1,13 +1,13 @@
 //! The ground's height: as it is said, or as it is found from the models.
 
-use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::extent::Bounds;
+use super::overrides::{Overrides, refuse};
 use super::terrain::{self, BuriedShare, ON_GROUND_M};
 use super::written::WrittenSite;
 use crate::choice::Receivers;
 use crate::mesh::Mesh;
-use crate::message::{Field, few, message};
+use crate::message::{Field, Message, few, message, setting};
 
 /// Nobody asks for a ground farther from the place's point than this, metres.
 const FARTHEST_M: f64 = 1e5;
@@ -145,34 +145,42 @@ impl Ground {
 
     /// What a person has to know of it beside its height: that it was found where it could lie elsewhere, and what of the
     /// components of a mesh it hides from what is judged.
-    pub(super) fn notes(&self, mesh: &Mesh, receives: &[bool], receivers: Receivers) -> Vec<String> {
+    pub fn notes(&self, mesh: &Mesh, receives: &[bool], receivers: Receivers) -> Vec<Message> {
         let name = |buried: BuriedShare| mesh.components.get(buried.component).map_or("", |component| &component.name);
-        let mut notes: Vec<String> = self.terrain_note(mesh, receives).into_iter().collect();
+        let level = || setting("[ground]", "level", "`level` in [ground]");
+        let mut notes: Vec<Message> = self.terrain_note(mesh, receives).into_iter().collect();
         match (self.from, self.buried) {
-            (GroundFrom::Lowest, Some(terrain)) => notes.push(format!(
-                "the ground is at {}, the models' lowest point: at their own zero it would hide {} of what is seen of \"{}\"; \
-                 `level` in [ground] sets it",
-                metres(self.level),
-                percent(terrain.of_component),
-                name(terrain),
-            )),
+            (GroundFrom::Lowest, Some(terrain)) => notes.push(message![
+                format!(
+                    "the ground is at {}, the models' lowest point: at their own zero it would hide {} of what is seen of \
+                     \"{}\"",
+                    metres(self.level),
+                    percent(terrain.of_component),
+                    name(terrain),
+                );
+                level(),
+                " sets it"
+            ]),
             (from, buried) => {
                 if from == GroundFrom::Zero {
-                    notes.push(format!(
-                        "the ground is at {}, where the models' own zero is; {} of the models lie below it; \
-                         `level` in [ground] sets it",
-                        metres(self.level),
-                        metres(self.models_below_m()),
-                    ));
+                    notes.push(message![
+                        format!(
+                            "the ground is at {}, where the models' own zero is; {} of the models lie below it",
+                            metres(self.level),
+                            metres(self.models_below_m()),
+                        );
+                        level(),
+                        " sets it"
+                    ]);
                 }
                 let is_plane_alone = receivers == Receivers::Ground && self.kind == GroundKind::Plane;
                 if let (Some(buried), false) = (buried, is_plane_alone) {
-                    notes.push(format!(
+                    notes.push(message![format!(
                         "the ground hides {} of what is seen of the models from above, of \"{}\" most: what lies below the \
                          ground is not judged on the plan and sees no sun",
                         percent(buried.of_plan),
                         name(buried),
-                    ));
+                    )]);
                 }
             }
         }
@@ -180,21 +188,24 @@ impl Ground {
     }
 
     /// Which terrain the ground is, and what lies beyond it.
-    fn terrain_note(&self, mesh: &Mesh, receives: &[bool]) -> Option<String> {
+    fn terrain_note(&self, mesh: &Mesh, receives: &[bool]) -> Option<Message> {
         if self.kind == GroundKind::Plane {
             return None;
         }
         let terrain =
             mesh.components.iter().zip(receives).filter(|(component, receives)| component.is_terrain && **receives);
         let names = few(terrain.map(|(component, _)| format!("\"{}\"", component.name)).collect());
-        let whose = match self.from {
-            GroundFrom::Site => "as asked",
-            GroundFrom::Zero | GroundFrom::Lowest => "the models' lowest point; `level` in [ground] sets it",
-        };
-        Some(format!(
-            "the ground is the terrain {names}; beyond the terrain's edge it is a plane at {}, {whose}",
+        let what = format!(
+            "the ground is the terrain {names}; beyond the terrain's edge it is a plane at {}",
             metres(self.level)
-        ))
+        );
+        Some(match self.from {
+            GroundFrom::Site => message![what, ", as asked"],
+            GroundFrom::Zero | GroundFrom::Lowest => {
+                let level = setting("[ground]", "level", "`level` in [ground]");
+                message![what, ", the models' lowest point"; level, " sets it"]
+            }
+        })
     }
 }
 

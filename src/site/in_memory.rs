@@ -1,14 +1,14 @@
 //! A site without a file: what a program puts together itself.
 
-use super::asked::refuse;
 use super::error::{FieldLocation, SiteError};
 use super::extent::{Bounds, with_shadows};
 use super::load::VIEW_CUT;
+use super::overrides::refuse;
 use super::{Ground, Site, camera, ground, notes, plan};
 use crate::choice::{Engine, Finder, Method, Receivers, Settings};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
-use crate::message::{Field, message};
+use crate::message::{Field, PlainWords, message};
 use crate::sun::{Place, SunTrack};
 use crate::view::Grid;
 
@@ -45,6 +45,7 @@ impl Site {
             place,
             mesh,
             notes,
+            words: &PlainWords,
             likenesses: Vec::new(),
             casts: all.clone(),
             receives: all,

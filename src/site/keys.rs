@@ -1,8 +1,8 @@
 //! Holds a site file to the keys that there are, and says what to do about one that is not among them.
 
-use super::asked::refuse;
 use super::error::{FieldLocation, SiteError};
 use super::key_table::{SITE_KEYS, SITE_TABLES, SiteKey};
+use super::overrides::refuse;
 use toml::{Table, Value};
 
 /// How a key is written, for errors.

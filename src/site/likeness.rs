@@ -6,7 +6,7 @@
 use super::placement::Placement;
 use crate::formats::{Model, Up};
 use crate::mesh::{Component, Mesh};
-use crate::message::{Field, Message, Piece, message, pieces};
+use crate::message::{Field, Message, Piece, message, pieces, set_to};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
@@ -245,18 +245,23 @@ pub(super) fn notes(model: &str, mends: &[Mend]) -> Vec<Message> {
         [] => (),
         [scale] => notes.push(message![
             format!("{model} looks as if it were in millimetres, so large is it");
-            format!("if it is, write `scale = {scale}` under [[model]]")
+            "if it is, write ",
+            set_to("[[model]]", "scale", scale.to_string(), format!("`scale = {scale}` under [[model]]"))
         ]),
         _ => notes.push(message![
             format!("{model} looks as if it were in centimetres or inches, so large is it");
-            "if it is, write `scale = 0.01` or `scale = 0.0254` under [[model]]"
+            "if it is, write ",
+            set_to("[[model]]", "scale", "0.01".to_owned(), "`scale = 0.01`".to_owned()),
+            " or ",
+            set_to("[[model]]", "scale", "0.0254".to_owned(), "`scale = 0.0254` under [[model]]".to_owned())
         ]),
     }
     for mend in mends {
         let Mend::Up(up) = mend else { continue };
         notes.push(message![
             format!("{model} looks as if it lay on its side, its {up} being up");
-            format!("if it does, write `{mend}` under [[model]]"),
+            "if it does, write ",
+            set_to("[[model]]", "up", up.word().to_owned(), format!("`{mend}` under [[model]]")),
             Piece::Where(Field::Up, pieces![", or say ", (Field::Up, up.word())])
         ]);
     }

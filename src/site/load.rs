@@ -1,10 +1,10 @@
 //! The request as written → as meant.
 
-use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
 use super::likeness::TakenFrame;
 use super::models::{Models, note_see_through};
+use super::overrides::{Overrides, refuse};
 use super::placement::Placement;
 use super::written::WrittenSite;
 use super::{Ground, Site, camera, ground, likeness, notes, plan, study};
@@ -12,7 +12,7 @@ use crate::choice::{ChoiceError, Finder, Method, Receivers};
 use crate::formats::{self, Model, ModelError, ReadOptions, on_disk};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
-use crate::message::{Field, message};
+use crate::message::{Field, Message, message};
 use crate::sun::{Place, SunTrack};
 use glam::DVec3;
 use std::path::Path;
@@ -51,7 +51,7 @@ pub struct LoadedMesh {
     /// Whose coordinates that has.
     pub frame: CoordinateFrame,
     /// What the user should know of how they were read, as [`Site::notes`].
-    pub notes: Vec<String>,
+    pub notes: Vec<Message>,
 }
 
 /// The models alone: of a model file as it is, or of a site's models where they stand; [`Overrides::up`] goes before what a
@@ -60,7 +60,7 @@ pub struct LoadedMesh {
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
 pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError> {
-    let Overrides { up, words, .. } = *asked;
+    let up = asked.up;
     if formats::by_ending(path).is_some() && !path.is_dir() {
         let placement = Placement { up, ..Placement::default() };
         let model = placement.place(formats::read(&on_disk(path), &placement.read_options())?);
@@ -68,18 +68,17 @@ pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError
         let Model { parts, notes, see_through, .. } = model;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let seen_through = note_see_through(&see_through, &vec![true; parts.len()]);
-        let of_reader = notes.into_iter().map(|note| note.about(&name).in_words(words));
-        let mut notes: Vec<String> = of_reader.chain(seen_through.map(|note| format!("{name} {note}"))).collect();
+        let mut notes: Vec<Message> = notes.into_iter().chain(seen_through).map(|note| note.about(&name)).collect();
         let mesh = Mesh::build(parts)?;
         let mends = likeness::of(&mesh, &mesh.components, &placement, taken);
         let of_model = notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends);
-        notes.extend(of_model.iter().map(|note| note.in_words(words)));
+        notes.extend(of_model);
         return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes });
     }
     let written = WrittenSite::read(path, &Overrides { up, ..Overrides::default() })?;
     let models = Models::read(&written, formats::read)?;
     let [casts, _] = models.roles(&written)?;
-    let notes = models.notes(&written, &casts, words);
+    let notes = models.notes(&written, &casts);
     Ok(LoadedMesh { mesh: models.mesh, frame: CoordinateFrame::Place, notes })
 }
 
@@ -133,27 +132,13 @@ impl Site {
         // Cheap and quick to fail; models come last.
         let track = study::track(&place, written, asked)?;
         let method = method(written, asked)?;
-        if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
-            let message = message![
-                "is the depth of the paper's hextree";
-                "say ", (Field::Silhouette, "hextree"), " with it, or leave it out"
-            ];
-            return Err(refuse(FieldLocation::Field(Field::HextreeDepth), message));
-        }
-        // a NaN is not above zero either
-        if let Some(width) = asked.settings.smoothie_width_m.filter(|width| !(width.is_finite() && *width > 0.0)) {
-            let message = message![
-                format!("{width} is no width");
-                "write metres above 0, for example ", (Field::SmoothieWidth, "0.5")
-            ];
-            return Err(refuse(FieldLocation::Field(Field::SmoothieWidth), message));
-        }
+        check_settings(asked)?;
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
         let level = ground::level(written, asked)?;
         let models = models()?.with_terrain(written)?;
         let [casts, receives] = models.roles(written)?;
-        let mut notes = models.notes(written, &casts, asked.words);
+        let mut notes = models.notes(written, &casts);
         let Models { mesh, bounds, likenesses, .. } = models;
         let ground = Ground::of(&mesh, bounds, &receives, level);
         notes.extend(ground.notes(&mesh, &receives, receivers));
@@ -167,6 +152,7 @@ impl Site {
             place,
             mesh,
             notes,
+            words: asked.words,
             likenesses,
             casts,
             receives,
@@ -184,6 +170,26 @@ impl Site {
             settings: asked.settings,
         })
     }
+}
+
+/// Refuses a setting without the technique's part that it is of, and one that is no measure.
+fn check_settings(asked: &Overrides) -> Result<(), SiteError> {
+    if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
+        let message = message![
+            "is the depth of the paper's hextree";
+            "say ", (Field::Silhouette, "hextree"), " with it, or leave it out"
+        ];
+        return Err(refuse(FieldLocation::Field(Field::HextreeDepth), message));
+    }
+    // a NaN is not above zero either
+    if let Some(width) = asked.settings.smoothie_width_m.filter(|width| !(width.is_finite() && *width > 0.0)) {
+        let message = message![
+            format!("{width} is no width");
+            "write metres above 0, for example ", (Field::SmoothieWidth, "0.5")
+        ];
+        return Err(refuse(FieldLocation::Field(Field::SmoothieWidth), message));
+    }
+    Ok(())
 }
 
 fn method(written: &WrittenSite, asked: &Overrides) -> Result<Method, SiteError> {

@@ -2,7 +2,6 @@
 //!
 //! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unproven.
 
-mod asked;
 mod camera;
 mod choice;
 mod dates;
@@ -20,6 +19,7 @@ mod load;
 mod models;
 mod names;
 mod notes;
+mod overrides;
 mod pair;
 mod placement;
 mod plan;
@@ -32,7 +32,6 @@ mod terrain;
 pub mod typed;
 mod written;
 
-pub use asked::Overrides;
 pub use error::{FieldLocation, SiteError};
 #[doc(hidden)]
 pub use ground::metres;
@@ -46,6 +45,7 @@ pub use likeness::{Likeness, Mend};
 pub use load::{CoordinateFrame, LoadedMesh, load_mesh, load_sun};
 #[doc(hidden)]
 pub use models::Models;
+pub use overrides::Overrides;
 #[doc(hidden)]
 pub use pair::Pair;
 #[doc(hidden)]
@@ -57,6 +57,7 @@ pub use written::WrittenSite;
 
 use crate::choice::{Engine, Finder, Method, Receivers, Settings};
 use crate::mesh::Mesh;
+use crate::message::{Message, Words};
 use crate::sun::{Place, SunTrack};
 use crate::view::{Camera, Grid, Side, View};
 
@@ -69,7 +70,9 @@ pub struct Site {
     pub mesh: Mesh,
     /// What the user should know of how the models were read, each a sentence without its stop that names the model; and
     /// of the clock.
-    pub notes: Vec<String>,
+    pub notes: Vec<Message>,
+    /// What whoever asked calls the fields of a request, for notes that go into files.
+    pub words: &'static dyn Words,
     /// What models look like that are not as they are read, with the keys that would mend them.
     pub likenesses: Vec<Likeness>,
     /// Per component: whether it casts.

@@ -1,6 +1,5 @@
 //! The models of a site where they stand, and which of their components are chosen.
 
-use super::asked::refuse;
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::file::Names;
@@ -8,13 +7,14 @@ use super::ground::Ground;
 use super::keys;
 use super::likeness::{self, Likeness, TakenFrame};
 use super::notes;
+use super::overrides::refuse;
 use super::placement::Placement;
 use super::standing::{self, TerrainFaces};
 use super::written::WrittenSite;
 use crate::choice::ChoiceError;
 use crate::formats::{Model, ModelError, PartKind, ReadOptions, SeeThrough, on_disk};
 use crate::mesh::{Component, Mesh};
-use crate::message::{Message, Words, few, message};
+use crate::message::{Message, few, message, set_to};
 use glam::DVec3;
 use rustc_hash::FxBuildHasher;
 use std::cmp::Reverse;
@@ -93,7 +93,7 @@ impl Models {
         for ((model, components), likeness) in models.iter().zip(&likenesses) {
             notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
         }
-        notes.extend(notes::of_all(&mesh).map(Message::from));
+        notes.extend(notes::of_all(&mesh));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
         let of_model = models.into_iter().map(|(_, components)| components).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
@@ -181,20 +181,19 @@ impl Models {
 
     /// What the user should know of how they were read, and of what casts; each a sentence without its stop that names the
     /// model.
-    pub(super) fn notes(&self, written: &WrittenSite, casts: &[bool], words: &dyn Words) -> Vec<String> {
-        let notes = self.notes.iter().chain(&self.standing);
-        let mut notes: Vec<String> = notes.map(|note| note.in_words(words)).collect();
+    pub(super) fn notes(&self, written: &WrittenSite, casts: &[bool]) -> Vec<Message> {
+        let mut notes: Vec<Message> = self.notes.iter().chain(&self.standing).cloned().collect();
         for (index, (of_model, materials)) in self.of_model.iter().zip(&self.see_through).enumerate() {
             let casts = &casts[of_model.clone()];
             let note = note_see_through(materials, casts);
-            notes.extend(note.map(|note| format!("{} {note}", name(written, index))));
+            notes.extend(note.map(|note| note.about(name(written, index))));
         }
         notes
     }
 }
 
 /// Says which materials of a model light passes that cast as solid, the most frequent first.
-pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<String> {
+pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<Message> {
     let casting = |material: &SeeThrough| material.parts.iter().filter(|&&part| casts[part]).count();
     let mut found: Vec<_> = materials.iter().map(|it| (casting(it), it)).filter(|(count, _)| *count > 0).collect();
     found.sort_by_key(|(count, _)| Reverse(*count));
@@ -202,12 +201,15 @@ pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Opti
     let told = found.iter().map(|(count, it)| format!("\"{}\" ({count})", it.material)).collect();
     let count: usize = found.iter().map(|(count, _)| count).sum();
     let (components, cast) = if count == 1 { ("component", "casts") } else { ("components", "cast") };
-    Some(format!(
-        "has {count} {components} of cut-out or translucent materials, which {cast} as if solid: {}; casts = [{}] under \
-         [[model]] leaves \"{first}\" out",
-        few(told),
-        toml::Value::String(format!("!{first}")),
-    ))
+    let left_out = toml::Value::String(format!("!{first}"));
+    Some(message![
+        format!(
+            "has {count} {components} of cut-out or translucent materials, which {cast} as if solid: {}",
+            few(told)
+        );
+        set_to("[[model]]", "casts", format!("not {first}"), format!("casts = [{left_out}] under [[model]]")),
+        format!(" leaves \"{first}\" out")
+    ])
 }
 
 /// Reads one of the models and puts it where it stands.

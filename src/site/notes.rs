@@ -2,7 +2,7 @@
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};
-use crate::message::Message;
+use crate::message::{Message, Piece, message, setting};
 use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -15,14 +15,18 @@ const FAR_M: f64 = 20_000.0;
 const ASKED_FAR_M: f64 = 50_000.0;
 
 /// The note on all models together, in the frame of a place.
-pub(super) fn of_all(mesh: &Mesh) -> Option<String> {
+pub(super) fn of_all(mesh: &Mesh) -> Option<Message> {
     let distance = mesh.origin.truncate().length();
     (distance > FAR_M).then(|| {
-        format!(
-            "the models stand {:.0} km from the place; if they are in map coordinates, bring them here with `position`",
-            distance / 1000.0
-        )
+        message![
+            format!("the models stand {:.0} km from the place", distance / 1000.0);
+            "if they are in map coordinates, bring them here with ", position()
+        ]
     })
+}
+
+fn position() -> Piece {
+    setting("[[model]]", "position", "`position`")
 }
 
 /// The notes on one of the models, each a sentence without its stop that begins with its name.
@@ -31,41 +35,44 @@ pub(super) fn of_model(mesh: &Mesh, model: &str, components: Range<usize>, mends
     let mut notes = likeness::notes(model, mends);
     // in the wrong unit all is far
     if !mends.iter().any(|mend| matches!(mend, Mend::Scale(_))) {
-        let found = far_off(mesh, model, components).into_iter().chain(rounded(model, components));
-        notes.extend(found.map(Message::from));
+        notes.extend(far_off(mesh, model, components).into_iter().chain(rounded(model, components)));
     }
     notes
 }
 
 /// Whether the plan that is asked, or the eye that is written, is in map coordinates; where the models stand so far away, too,
 /// the note on them says it.
-pub(super) fn on_view(mesh: &Mesh, grid: &Grid, eye: Option<DVec3>) -> impl Iterator<Item = String> {
+pub(super) fn on_view(mesh: &Mesh, grid: &Grid, eye: Option<DVec3>) -> impl Iterator<Item = Message> {
     let [west, south, east, north] = grid.region();
     let middle = DVec2::new(west + east, south + north) / 2.0;
-    let plan = asked_far("the middle of the plan lies", "region", middle);
-    let camera = eye.and_then(|eye| asked_far("the camera stands", "eye", eye.truncate()));
+    let plan = asked_far("the middle of the plan lies", setting("[plan]", "region", "`region`"), middle);
+    let camera =
+        eye.and_then(|eye| asked_far("the camera stands", setting("[camera]", "eye", "`eye`"), eye.truncate()));
     let are_near = mesh.origin.truncate().length() <= ASKED_FAR_M;
     plan.into_iter().chain(camera).filter(move |_| are_near)
 }
 
 /// Whether a probe is in map coordinates: the first one that is.
-pub(super) fn on_probes(probes: &[Probe]) -> Option<String> {
-    let far = |probe: &Probe| asked_far(&format!("the probe '{}' lies", probe.name), "point", probe.point.truncate());
+pub(super) fn on_probes(probes: &[Probe]) -> Option<Message> {
+    let far = |probe: &Probe| {
+        let point = setting("[[probe]]", "point", "`point`");
+        asked_far(&format!("the probe '{}' lies", probe.name), point, probe.point.truncate())
+    };
     probes.iter().find_map(far)
 }
 
-fn asked_far(what: &str, key: &str, at: DVec2) -> Option<String> {
+fn asked_far(what: &str, key: Piece, at: DVec2) -> Option<Message> {
     (at.length() > ASKED_FAR_M).then(|| {
         let km = at.length() / 1000.0;
-        format!(
-            "{what} {km:.0} km from the place, maybe in another country; if `{key}` is in map coordinates, write metres east \
-             and north of the place"
-        )
+        message![
+            format!("{what} {km:.0} km from the place, maybe in another country");
+            "if ", key, " is in map coordinates, write metres east and north of the place"
+        ]
     })
 }
 
 /// What of a model stands far from all else.
-fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<String> {
+fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message> {
     let strays = |component: &Component| -> Vec<f64> {
         let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
         let away = |face: &[u32; 3]| {
@@ -85,10 +92,10 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<String>
     let km = farthest(found) / 1000.0;
     let triangles: usize = of_component.iter().map(|(_, found)| found.len()).sum();
     if triangles == components.iter().map(|component| component.faces.len()).sum::<usize>() {
-        return Some(format!(
-            "{model} stands {km:.0} km from all else, and the default region and camera leave it out; if it is in map \
-             coordinates, bring it here with `position`"
-        ));
+        return Some(message![
+            format!("{model} stands {km:.0} km from all else, and the default region and camera leave it out");
+            "if it is in map coordinates, bring it here with ", position()
+        ]);
     }
     let others = match of_component.len() - 1 {
         0 => String::new(),
@@ -96,11 +103,10 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<String>
         more => format!(" and {more} other components"),
     };
     let those = if triangles == 1 { "1 triangle".to_owned() } else { format!("{triangles} triangles") };
-    Some(format!(
-        "{model} has {those} of '{}'{others} as far as {km:.0} km from all else; the default region and camera leave out what \
-         lies there: delete it from the model if it is a leftover",
-        worst.name
-    ))
+    Some(message![
+        format!("{model} has {those} of '{}'{others} as far as {km:.0} km from all else", worst.name);
+        "the default region and camera leave out what lies there: delete it from the model if it is a leftover"
+    ])
 }
 
 /// How far a vertex lies from the box around what stands together, metres.
@@ -111,20 +117,22 @@ fn away_m(mesh: &Mesh, vertex: u32) -> f64 {
 }
 
 /// How coarse the numbers are that a model is written with.
-fn rounded(model: &str, components: &[Component]) -> Option<String> {
+fn rounded(model: &str, components: &[Component]) -> Option<Message> {
     let coarse = components.iter().filter_map(|component| Some((component, component.coarse.as_ref()?)));
     let (component, CornerPrecision { step_m, is_float, .. }) =
         coarse.max_by(|(_, one), (_, other)| one.step_m.total_cmp(&other.step_m))?;
     let (name, step) = (&component.name, metres(*step_m));
     Some(match is_float {
-        true => format!(
-            "{model} has corners rounded to {step} m, as their numbers are too large for single precision ('{name}'); no shadow \
-             of them is more exact: move the origin next to the model before it is exported"
-        ),
-        false => format!(
-            "{model} has corners rounded to {step} m, as they are written in whole steps ('{name}'); no shadow of them is more \
-             exact: export it without quantisation, or with more bits"
-        ),
+        true => message![
+            format!(
+                "{model} has corners rounded to {step} m, as their numbers are too large for single precision ('{name}')"
+            );
+            "no shadow of them is more exact: move the origin next to the model before it is exported"
+        ],
+        false => message![
+            format!("{model} has corners rounded to {step} m, as they are written in whole steps ('{name}')");
+            "no shadow of them is more exact: export it without quantisation, or with more bits"
+        ],
     })
 }
 

@@ -1,15 +1,15 @@
 //! Two states of one site, to be compared: the same place, study, plan and ground, and other models.
 
-use super::asked::{Overrides, refuse};
 use super::error::SiteError;
 use super::extent::{Bounds, with_shadows};
 use super::load::SHADOW_CUT;
 use super::models::Models;
+use super::overrides::{Overrides, refuse};
 use super::written::WrittenSite;
 use super::{Ground, GroundFrom, Site, metres, plan};
 use crate::formats::composed;
 use crate::formats::{self, Model, ModelError, ReadOptions};
-use crate::message::message;
+use crate::message::{Message, message};
 use std::path::Path;
 
 /// Places nearer to each other than this are one, metres along the ground and in height.
@@ -97,13 +97,15 @@ impl Pair {
         let alone = Some(Ground::found(&second.mesh, &second.receives).level)
             .filter(|alone| is_found && !first.ground.is_at(*alone));
         second.notes.extend(alone.map(|alone| {
-            format!(
-                "{} has the ground of {}, {}, since a comparison has one; alone it would have {}",
-                after.file,
-                before.file,
-                metres(first.ground.level),
-                metres(alone),
-            )
+            message![
+                format!(
+                    "{} has the ground of {}, {}, since a comparison has one",
+                    after.file,
+                    before.file,
+                    metres(first.ground.level)
+                );
+                format!("alone it would have {}", metres(alone))
+            ]
         }));
         let lowest = first.ground.lowest.min(second.ground.lowest);
         (first.ground.lowest, second.ground.lowest) = (lowest, lowest);
@@ -117,7 +119,7 @@ impl Pair {
     }
 
     /// What the user should know of how the models of both were read, each told once.
-    pub fn notes(&self) -> Vec<String> {
+    pub fn notes(&self) -> Vec<Message> {
         let mut notes = self.before.notes.clone();
         notes.extend(self.after.notes.iter().filter(|note| !self.before.notes.contains(note)).cloned());
         notes

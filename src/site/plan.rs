@@ -1,7 +1,7 @@
 //! The plan's grid as asked, or around the models and their shadows.
 
-use super::asked::{Overrides, numbers, refuse};
 use super::error::{FieldLocation, SiteError};
+use super::overrides::{Overrides, numbers, refuse};
 use super::written::WrittenSite;
 use crate::message::{Field, Message, message};
 use crate::view::Grid;

@@ -1,18 +1,18 @@
 //! What is asked of probes: which points, on which days.
 
-use super::asked::{Overrides, numbers, refuse};
 use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};
 use super::ground::{self, Ground};
 use super::models::Models;
 use super::notes::on_probes;
+use super::overrides::{Overrides, numbers, refuse};
 use super::study::no_study;
 use super::written::WrittenSite;
 use crate::choice::Receivers;
 use crate::formats;
 use crate::formats::composed;
 use crate::mesh::Mesh;
-use crate::message::{Field, message};
+use crate::message::{Field, Message, Words, message};
 use crate::sun::{DayWindow, Place, SunError, Zone, parse_duration_secs};
 use crate::view::Probe;
 use chrono::NaiveDate;
@@ -31,7 +31,9 @@ pub struct ProbeSite {
     /// All models, welded, in the world frame.
     pub mesh: Mesh,
     /// What the user should know of how the models were read, as [`super::Site::notes`].
-    pub notes: Vec<String>,
+    pub notes: Vec<Message>,
+    /// As [`super::Site::words`].
+    pub words: &'static dyn Words,
     /// Per component: whether it casts.
     pub casts: Vec<bool>,
     /// The ground.
@@ -64,15 +66,16 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     let level = ground::level(&written, asked)?;
     let models = Models::read(&written, formats::read)?;
     let [casts, receives] = models.roles(&written)?;
-    let mut notes = models.notes(&written, &casts, asked.words);
+    let mut notes = models.notes(&written, &casts);
     let Models { mesh, bounds, .. } = models;
     let ground = Ground::of(&mesh, bounds, &receives, level);
     // a probe below it says so itself
     notes.extend(ground.notes(&mesh, &receives, Receivers::Ground));
-    notes.extend(days.last().and_then(|day| Zone::doubt(&day.to)));
+    notes.extend(days.last().and_then(|day| Zone::doubt(&day.to)).map(Message::from));
     notes.extend(on_probes(&probes));
     let refraction = !asked.no_refraction;
-    Ok(ProbeSite { place, mesh, notes, casts, ground, probes, days, step_secs, refraction })
+    let words = asked.words;
+    Ok(ProbeSite { place, mesh, notes, words, casts, ground, probes, days, step_secs, refraction })
 }
 
 /// The point of the command line, or else those of the file.

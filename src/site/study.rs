@@ -1,8 +1,8 @@
 //! The study as asked → its instants.
 
-use super::asked::{Overrides, refuse};
 use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};
+use super::overrides::{Overrides, refuse};
 use super::written::WrittenSite;
 use crate::message::{Field, message};
 use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_duration_secs};

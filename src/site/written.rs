@@ -1,9 +1,9 @@
 //! From the user's path to a site file's contents: a site file, a folder, or a model with its place.
 
-use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::file::{ModelTable, PlaceTable, SiteFile};
 use super::keys;
+use super::overrides::{Overrides, refuse};
 use super::typed::{self, TypedError};
 use crate::formats::{self, on_disk};
 use crate::message::{Field, Worded, message};

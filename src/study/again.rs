@@ -40,7 +40,7 @@ pub fn persist<T>(
 
 /// Says that a device failed, and on what the work is done again.
 fn begin_again(why: &str, on: &str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-    tell(on_event, Event::Note(format!("{why}: the work is done again {on}")))?;
+    tell(on_event, Event::Note(format!("{why}: the work is done again {on}").into()))?;
     tell(on_event, Event::Anew)
 }
 

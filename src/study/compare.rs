@@ -1,12 +1,16 @@
 //! The study of two states of a site: what a change does to the shadow.
 
-use super::{Event, OnEvent, Outcome, StudyError, Wants, not_patches, run, tell};
+use super::Outcome;
+#[cfg(feature = "test-hooks")]
+use super::{Event, OnEvent, StudyError, Wants, not_patches, run, tell};
 use crate::choice::Receivers;
 use crate::mesh::Mesh;
 use crate::profile::Provenance;
 use crate::profile::comparison::{Alteration, Comparison};
 use crate::shadow::plan_surface;
-use crate::site::{GroundKind, Pair, Site};
+#[cfg(feature = "test-hooks")]
+use crate::site::Site;
+use crate::site::{GroundKind, Pair};
 use crate::view::Surface;
 
 /// The answer to a study of two states.
@@ -24,39 +28,46 @@ pub struct CompareOutcome {
 
 /// Both profiles as [`super::run`] finds them, before first.
 ///
-/// Under [`Receivers::Top`] a cell that sees another surface after than before is altered. Under [`Receivers::Ground`]
-/// only one whose terrain lies higher or lower after than before is: the ground is judged everywhere, under buildings too.
-///
 /// # Errors
 /// As [`super::run`].
+#[cfg(feature = "test-hooks")]
 pub fn compare(pair: &Pair, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome, StudyError> {
     not_patches(&pair.before)?;
+    not_patches(&pair.after)?;
     let before = study("before", &pair.before, &pair.names[0], on_event)?;
-    compare_with(pair, before, on_event)
+    let after = study("after", &pair.after, &pair.names[1], on_event)?;
+    Ok(CompareOutcome::new(pair, before, after))
 }
 
-/// As [`compare()`], where what [`super::run`] found of `pair.before` is at hand.
-///
-/// # Errors
-/// As [`super::run`].
-pub fn compare_with(pair: &Pair, before: Outcome, on_event: &mut OnEvent<'_>) -> Result<CompareOutcome, StudyError> {
-    not_patches(&pair.after)?;
-    let after = study("after", &pair.after, &pair.names[1], on_event)?;
-    // by the processor in both, so that no adapter's rounding passes for a change
-    let [seen_before, seen_after] = [(&before, &pair.before), (&after, &pair.after)]
-        .map(|(outcome, site)| plan_surface(&outcome.surface_mesh, site.ground.level, &site.grid));
-    let altered = match pair.before.receivers {
-        Receivers::Ground => altered_ground(pair),
-        _ => Alteration::between(&seen_before, &seen_after),
-    };
-    let Outcome { profile: of_before, drawn: drawn_before, surface_mesh: mesh_before, .. } = before;
-    let Outcome { profile: of_after, drawn: drawn_after, surface_mesh: mesh_after, .. } = after;
-    Ok(CompareOutcome {
-        comparison: Comparison::new(of_before, of_after, altered),
-        drawn: [drawn_before, drawn_after],
-        surfaces: [seen_before, seen_after],
-        meshes: [mesh_before, mesh_after],
-    })
+#[cfg(feature = "test-hooks")]
+fn study(when: &str, site: &Site, name: &str, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
+    tell(on_event, Event::Note(format!("{when}: {name}").into()))?;
+    run(site, &Wants::default(), on_event)
+}
+
+impl CompareOutcome {
+    /// What a change does, where both states were found.
+    ///
+    /// Under [`Receivers::Top`] a cell that sees another surface after than before is altered. Under [`Receivers::Ground`]
+    /// only one whose terrain lies higher or lower after than before is: the ground is judged everywhere, under buildings
+    /// too.
+    pub fn new(pair: &Pair, before: Outcome, after: Outcome) -> CompareOutcome {
+        // by the processor in both, so that no adapter's rounding passes for a change
+        let [seen_before, seen_after] = [(&before, &pair.before), (&after, &pair.after)]
+            .map(|(outcome, site)| plan_surface(&outcome.surface_mesh, site.ground.level, &site.grid));
+        let altered = match pair.before.receivers {
+            Receivers::Ground => altered_ground(pair),
+            _ => Alteration::between(&seen_before, &seen_after),
+        };
+        let Outcome { profile: of_before, drawn: drawn_before, surface_mesh: mesh_before, .. } = before;
+        let Outcome { profile: of_after, drawn: drawn_after, surface_mesh: mesh_after, .. } = after;
+        CompareOutcome {
+            comparison: Comparison::new(of_before, of_after, altered),
+            drawn: [drawn_before, drawn_after],
+            surfaces: [seen_before, seen_after],
+            meshes: [mesh_before, mesh_after],
+        }
+    }
 }
 
 /// Where the ground itself is another after than before.
@@ -70,9 +81,4 @@ fn altered_ground(pair: &Pair) -> Vec<Alteration> {
         plan_surface(&terrain, site.ground.level, &site.grid)
     });
     Alteration::between(&before, &after)
-}
-
-fn study(when: &str, site: &Site, name: &str, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
-    tell(on_event, Event::Note(format!("{when}: {name}")))?;
-    run(site, &Wants::default(), on_event)
 }

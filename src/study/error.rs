@@ -2,7 +2,7 @@
 
 use crate::choice::Misfit;
 use crate::gpu::GpuError;
-use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
+use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display, setting};
 use crate::shadow::ShadowError;
 use crate::sun::SunError;
 
@@ -91,7 +91,7 @@ impl Worded for StudyError {
                 "ask for fewer days or a shorter window"
             ],
             StudyError::NoPatch => {
-                message!["no component that receives has a surface"; "see `receives` in the site file"]
+                message!["no component that receives has a surface"; "see ", setting("[[model]]", "receives", "`receives` in the site file")]
             }
             StudyError::NoInstant => message!["there is no instant to draw"],
             StudyError::Gpu(error) => error.message(),

@@ -1,6 +1,7 @@
 //! What happens on the way, and who hears it.
 
 use super::{StudyError, TiledStudy};
+use crate::message::Message;
 use crate::profile::{Shaded, Unfinished};
 use crate::sun::Zone;
 use crate::view::{Bits, Mask, Tile};
@@ -13,7 +14,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub enum Event<'a> {
     /// Something that the user should know.
-    Note(String),
+    Note(Message),
     /// A graphics adapter failed, and the work is done again: what was told of it is void, but for notes.
     Anew,
     /// The same study is done again: whoever keeps what was done so far ([`Event::Kept`]) can put it here, and the study
@@ -21,6 +22,14 @@ pub enum Event<'a> {
     Resumes {
         /// The study.
         study: &'a TiledStudy<'a>,
+        /// What is to be gone on from.
+        begun: &'a RefCell<Option<Unfinished>>,
+    },
+    /// A study on patches is prepared that is to be kept (`patches_kept`): whoever keeps what is done so far can
+    /// put it here, and the study goes on from there.
+    Prepared {
+        /// Which study it is: a number of all that its result depends on.
+        number: u64,
         /// What is to be gone on from.
         begun: &'a RefCell<Option<Unfinished>>,
     },
@@ -77,6 +86,6 @@ pub(crate) fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), S
 ///
 /// # Errors
 /// [`StudyError::Interrupted`] as asked by the listener.
-pub(crate) fn note_models(notes: &[String], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+pub(crate) fn note_models(notes: &[Message], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
 }

@@ -62,6 +62,22 @@ pub(super) fn of(site: &Site, drawn: &Provenance, tiles: &[Tile], wants: &Wants)
     fields.0.finish()
 }
 
+/// Of a study on patches, whose patches have so many texels of so many metres.
+pub(super) fn of_patches(site: &Site, drawn: &Provenance, choice: &str, (cell, texels): (f64, usize)) -> u64 {
+    let mut fields = Fields(SipHasher13::new());
+    fields.text("gnomon", Some(env!("CARGO_PKG_VERSION")));
+    add_scene(&mut fields, site);
+    fields.numbers("patches", [cell.to_le_bytes(), (texels as u64).to_le_bytes()]);
+    add_instants(&mut fields, site);
+    fields.text("choice", Some(choice));
+    add_settings(&mut fields, "drawn", &drawn.settings);
+    let Provenance { technique, engine, adapter, .. } = drawn;
+    fields.text("technique", Some(technique.word()));
+    fields.text("engine", Some(engine.word()));
+    fields.text("adapter", adapter.as_deref());
+    fields.0.finish()
+}
+
 fn add_scene(fields: &mut Fields, site: &Site) {
     let mesh = &site.mesh;
     fields.numbers("origin", mesh.origin.to_array().map(f64::to_le_bytes));

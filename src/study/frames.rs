@@ -87,7 +87,7 @@ fn from(
         // told once where the same holds again and again
         let note = technique.note().filter(|note| noted.as_ref() != Some(note));
         if let Some(note) = note {
-            tell(on_event, Event::Note(note.clone()))?;
+            tell(on_event, Event::Note(note.clone().into()))?;
             noted = Some(note);
         }
         let (track, surface, surface_mesh, drawn) = (&track, &surface, &surface_mesh, &drawn);

@@ -77,7 +77,7 @@ fn once(
         }
     };
     if let Some(note) = technique.note() {
-        tell(on_event, Event::Note(note))?;
+        tell(on_event, Event::Note(note.into()))?;
     }
     tell(on_event, Event::Drawn { index: count - 1, count, time: instant.time, mask: Some(&mask), bits: None })?;
     watch.lap("shadows");
@@ -111,12 +111,15 @@ fn tiles_of(look: &SiteView<'_>, wants: &InstantWants) -> Result<Vec<Tile>, Stud
 /// Says that it is night, and what is not to be seen therefore.
 fn note_night(instant: &Instant, wants: &InstantWants, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let below = -instant.altitude_deg();
-    tell(on_event, Event::Note(format!("night: the sun is {below:.1}° below the horizon, and nothing sees it")))?;
+    tell(
+        on_event,
+        Event::Note(format!("night: the sun is {below:.1}° below the horizon, and nothing sees it").into()),
+    )?;
     if shows_volumes(wants) {
-        tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned()))?;
+        tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned().into()))?;
     }
     if wants.counted.is_some() {
-        tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
+        tell(on_event, Event::Note(NOTHING_COUNTED.to_owned().into()))?;
     }
     Ok(())
 }
@@ -131,7 +134,7 @@ fn overlay_of(
     let overlay = look.overlay(wants, instant.to_sun)?;
     if overlay.as_ref().is_some_and(Overlay::is_empty) {
         let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
-        tell(on_event, Event::Note(note.to_owned()))?;
+        tell(on_event, Event::Note(note.to_owned().into()))?;
     }
     Ok(overlay)
 }

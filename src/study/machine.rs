@@ -189,7 +189,7 @@ pub(super) fn choose(
         // measured (docs/benchmarks): a stencil drawn in software is slower than either
         Ok(gpu) if gpu.software() => {}
         Ok(gpu) => return Ok(Machine::on(gpu, Method::Stencil, site)),
-        Err(error) => tell(on_event, Event::Note(format!("{}: drawing on the processor", error.why())))?,
+        Err(error) => tell(on_event, Event::Note(format!("{}: drawing on the processor", error.why()).into()))?,
     }
     Ok(Machine::on_processor(on_processor(site, subject), site))
 }
@@ -267,7 +267,7 @@ fn not_side(view: &View, field: Field) -> Result<(), StudyError> {
 }
 
 /// Masks are of a plan or of a camera's picture.
-pub(super) fn not_patches(site: &Site) -> Result<(), StudyError> {
+pub(crate) fn not_patches(site: &Site) -> Result<(), StudyError> {
     if site.receivers == Receivers::Patches {
         let message = message![
             "surfaces are judged by gnomon profile alone";

@@ -31,7 +31,10 @@ pub mod verify;
 mod wants;
 
 #[doc(hidden)]
-pub use compare::{CompareOutcome, compare, compare_with};
+pub use compare::CompareOutcome;
+#[cfg(feature = "test-hooks")]
+#[doc(hidden)]
+pub use compare::compare;
 pub(crate) use daylight::day_and_night;
 pub use error::StudyError;
 pub use event::{Event, OnEvent};
@@ -40,12 +43,17 @@ pub(crate) use event::{note_models, tell};
 pub use frames::{Frame, frames};
 #[doc(hidden)]
 pub use instant::instant;
+pub(crate) use machine::not_patches;
 #[doc(hidden)]
 pub use outcome::InstantOutcome;
 pub use outcome::Outcome;
-pub(crate) use patches::seen_receivers;
 #[doc(hidden)]
-pub use patches::{PatchOutcome, patches};
+pub use patches::PatchOutcome;
+#[cfg(feature = "test-hooks")]
+#[doc(hidden)]
+pub use patches::patches;
+pub(crate) use patches::patches_kept;
+pub(crate) use patches::seen_receivers;
 pub use profile::{TiledOutcome, TiledStudy, in_tiles, paste, run};
 #[doc(hidden)]
 pub use site_view::judged;
@@ -56,6 +64,5 @@ pub use wants::Wants;
 #[doc(hidden)]
 pub use wants::{CountingPurpose, InstantWants};
 
-use machine::not_patches;
 use site_view::{SiteView, night, subject, subject_of};
 use wants::NOTHING_COUNTED;

@@ -2,21 +2,24 @@
 
 use super::again::persist;
 use super::machine::opened;
-use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, note_models, tell};
+use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, fingerprint, note_models, tell};
 use crate::choice::{Engine, Method, Misfit, Settings, Subject};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::mesh::patches::{MOST_TEXELS, Patches};
-use crate::profile::{Provenance, Timings};
+use crate::message::{message, setting};
+use crate::profile::{Provenance, Timings, Unfinished};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::soft_texture::{Choice, Fill, Painter, PatchJudgements, Sample, SoftTexture};
 use crate::shadow::{JUDGED_ABOVE_M, Scene, Technique};
 use crate::site::Site;
-use crate::sun::{Instant, disc};
+use crate::sun::{self, disc};
 use crate::sunlight::PatchHours;
 use crate::view::Surface;
 use glam::DVec3;
+use std::cell::RefCell;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// The answer to a study on patches.
 #[derive(Clone, Debug)]
@@ -36,13 +39,32 @@ pub struct PatchOutcome {
 }
 
 /// Hours of sun on patches, with texels of `cell` metres; larger ones where there would be too many, which a note says.
+/// Nothing of it is kept.
+///
+/// # Errors
+/// As [`patches_kept`].
+#[cfg(feature = "test-hooks")]
+pub fn patches(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<PatchOutcome, StudyError> {
+    patches_kept(site, cell, None, on_event)
+}
+
+/// Hours of sun on patches, with texels of `cell` metres; larger ones where there would be too many, which a note says.
 ///
 /// Each instant is a sample of the sun's centre, or with [`Settings::sun_samples`] as many of its disc, for
 /// its weight. What lies below the ground plane sees no sun.
 ///
+/// For a caller that keeps what is done so far [`Event::Prepared`] asks for what was kept, and [`Event::Kept`] brings what
+/// is to be kept: each time that so long has passed, and when the work is ended. Sums are the same to the bit;
+/// [`PatchOutcome::judged`] counts this run alone.
+///
 /// # Errors
 /// [`StudyError`]; choices that do not fit and windows that are too long before anything is drawn.
-pub fn patches(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<PatchOutcome, StudyError> {
+pub(crate) fn patches_kept(
+    site: &Site,
+    cell: f64,
+    keep_every: Option<Duration>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<PatchOutcome, StudyError> {
     let watch = Stopwatch::start();
     let samples = site.settings.sun_samples.unwrap_or(1);
     let (day_secs, _) = day_and_night(&site.track);
@@ -58,7 +80,7 @@ pub fn patches(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Pat
     note_patches(&patches, on_event)?;
     persist(site, true, on_event, &mut |site, gpu, on_event| {
         let painter = painter(gpu, site, choice, on_event)?;
-        light(site, choice, &patches, painter, watch.clone(), on_event)
+        light(site, choice, &patches, painter, keep_every, watch.clone(), on_event)
     })
 }
 
@@ -68,32 +90,17 @@ fn light(
     choice: Choice,
     patches: &Arc<Patches>,
     painter: Painter,
+    keep_every: Option<Duration>,
     mut watch: Stopwatch,
     on_event: &mut OnEvent<'_>,
 ) -> Result<PatchOutcome, StudyError> {
     let (day_secs, night_secs) = day_and_night(&site.track);
-    let drawn = Provenance {
-        technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture },
-        finder: None,
-        engine: if matches!(painter, Painter::OnGpu(_)) { Engine::Gpu } else { Engine::Cpu },
-        adapter: match &painter {
-            Painter::OnGpu(gpu) => Some(gpu.name().to_owned()),
-            Painter::OnProcessor(_) => None,
-        },
-        settings: Settings { sun_samples: site.settings.sun_samples, ..Settings::NONE },
-    };
+    let drawn = provenance(site, choice, &painter);
+    let keeping = keep_every.map(|every| Keeping { every, number: number(site, &drawn, choice, patches) });
     let casters = site.mesh.of_components(&site.casts);
     let mut texture = SoftTexture::new(casters, Arc::clone(patches), painter, choice)?;
     watch.lap("prepare");
-
-    let count = site.track.instants.len();
-    tell(on_event, Event::Started { instants: count, tiles: 1 })?;
-    for (index, instant) in site.track.instants.iter().enumerate() {
-        if !instant.night {
-            texture.add(&samples_of(instant, site.settings.sun_samples))?;
-        }
-        tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None, bits: None })?;
-    }
+    add_instants(site, &mut texture, keeping, patches.texels.len(), on_event)?;
     let (judged, gpu_bytes) = (texture.judged(), texture.gpu_bytes());
     let mut lit = texture.finish()?;
     darken_underground(patches, site.ground.level, &mut lit);
@@ -102,6 +109,83 @@ fn light(
     let samples = site.settings.sun_samples.unwrap_or(1);
     let hours = PatchHours { lit, samples, day_secs, night_secs };
     Ok(PatchOutcome { patches: Arc::clone(patches), hours, judged, drawn, gpu_bytes, timings: watch.stages })
+}
+
+/// How what is done is kept.
+#[derive(Clone, Copy)]
+struct Keeping {
+    every: Duration,
+    number: u64,
+}
+
+/// Adds the track's instants, from where the study was stopped.
+fn add_instants(
+    site: &Site,
+    texture: &mut SoftTexture,
+    keeping: Option<Keeping>,
+    texels: usize,
+    on_event: &mut OnEvent<'_>,
+) -> Result<(), StudyError> {
+    let count = site.track.instants.len();
+    let begun = RefCell::new(None);
+    if let Some(Keeping { number, .. }) = keeping {
+        tell(on_event, Event::Prepared { number, begun: &begun })?;
+    }
+    let is_of = |begun: &Unfinished| {
+        keeping.is_some_and(|keeping| keeping.number == begun.study)
+            && (begun.tiles, begun.statistics) == (1, None)
+            && begun.done <= count
+    };
+    let begun = begun.into_inner().filter(is_of);
+    let sums = begun.as_ref().and_then(|begun| begun.shaded.in_one_word()).filter(|sums| sums.len() == texels);
+    let done = begun.as_ref().filter(|_| sums.is_some()).map_or(0, |begun| begun.done);
+    tell(on_event, Event::Started { instants: count, tiles: 1 })?;
+    if let Some(sums) = sums {
+        texture.begin_with(sums);
+        tell(on_event, Event::GoesOn { done })?;
+    }
+    let (mut kept, mut was_kept) = (Instant::now(), done > 0);
+    for (index, instant) in site.track.instants.iter().enumerate().skip(done) {
+        if !instant.night {
+            texture.add(&samples_of(instant, site.settings.sun_samples))?;
+        }
+        let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None, bits: None });
+        let is_last = index + 1 == count && was_kept;
+        if let Some(Keeping { every, number }) = keeping
+            && (told.is_err() || is_last || kept.elapsed() >= every)
+        {
+            let shaded = texture.so_far()?.into();
+            let unfinished = Unfinished { study: number, tiles: 1, done: index + 1, shaded, statistics: None };
+            tell(on_event, Event::Kept(&unfinished))?;
+            (kept, was_kept) = (Instant::now(), true);
+        }
+        told?;
+    }
+    Ok(())
+}
+
+/// What draws.
+fn provenance(site: &Site, choice: Choice, painter: &Painter) -> Provenance {
+    Provenance {
+        technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture },
+        finder: None,
+        engine: if matches!(painter, Painter::OnGpu(_)) { Engine::Gpu } else { Engine::Cpu },
+        adapter: match painter {
+            Painter::OnGpu(gpu) => Some(gpu.name().to_owned()),
+            Painter::OnProcessor(_) => None,
+        },
+        settings: Settings { sun_samples: site.settings.sun_samples, ..Settings::NONE },
+    }
+}
+
+/// Which study it is.
+fn number(site: &Site, drawn: &Provenance, choice: Choice, patches: &Patches) -> u64 {
+    let choice = match choice {
+        Choice::Texture => "texture",
+        Choice::Rays => "rays",
+        Choice::Auto => "auto",
+    };
+    fingerprint::of_patches(site, drawn, choice, (patches.cell, patches.texels.len()))
 }
 
 /// What the site's camera sees of what receives, for a drawing of the patches, and the mesh whose faces it counts.
@@ -117,7 +201,7 @@ pub(crate) fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError>
 }
 
 /// An instant's samples: the sun's centre, or points of its disc.
-fn samples_of(instant: &Instant, sun_samples: Option<u32>) -> Vec<Sample> {
+fn samples_of(instant: &sun::Instant, sun_samples: Option<u32>) -> Vec<Sample> {
     let sample = |to_sun: DVec3| Sample { light: to_sun.extend(0.0), weight: instant.weight_secs };
     match sun_samples {
         None => vec![sample(instant.to_sun)],
@@ -158,7 +242,7 @@ fn painter(
             Ok(gpu) if gpu.software() => Ok(on_processor),
             Ok(gpu) => Ok(Painter::OnGpu(Arc::new(gpu))),
             Err(error) => {
-                tell(on_event, Event::Note(format!("{}: drawing on the processor", error.why())))?;
+                tell(on_event, Event::Note(format!("{}: drawing on the processor", error.why()).into()))?;
                 Ok(on_processor)
             }
         },
@@ -171,11 +255,11 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
         return Err(StudyError::NoPatch);
     }
     if patches.cell > patches.asked_cell {
-        let note = format!(
-            "surfaces have texels of {:.3} m in place of {:?} m, of which there would be too many; leave components out \
-             with `receives` to have finer ones",
-            patches.cell, patches.asked_cell
-        );
+        let (cell, asked) = (patches.cell, patches.asked_cell);
+        let note = message![
+            format!("surfaces have texels of {cell:.3} m in place of {asked:?} m, of which there would be too many");
+            "leave components out with ", setting("[[model]]", "receives", "`receives`"), " to have finer ones"
+        ];
         tell(on_event, Event::Note(note))?;
     }
     let left_out = [
@@ -186,7 +270,7 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
         ),
     ];
     for (area_m2, why) in left_out.into_iter().filter(|(area_m2, _)| *area_m2 > 0.0) {
-        tell(on_event, Event::Note(format!("{area_m2:.0} m² of the surfaces {why}")))?;
+        tell(on_event, Event::Note(format!("{area_m2:.0} m² of the surfaces {why}").into()))?;
     }
     let two_sided = || patches.list.iter().filter(|patch| patch.two_sided);
     if two_sided().next().is_some() {
@@ -196,7 +280,7 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
             patches.list.len(),
             two_sided().map(|patch| patch.area_m2).sum::<f64>()
         );
-        tell(on_event, Event::Note(note))?;
+        tell(on_event, Event::Note(note.into()))?;
     }
     Ok(())
 }

@@ -243,7 +243,7 @@ fn once(
     }
     statistics = work.statistics;
     if statistics.is_some_and(|statistics| statistics.cells == 0) {
-        tell(on_event, Event::Note(super::NOTHING_COUNTED.to_owned()))?;
+        tell(on_event, Event::Note(super::NOTHING_COUNTED.to_owned().into()))?;
         statistics = None;
     }
     watch.lap("shadows");

@@ -89,5 +89,5 @@ fn split(grid: Grid, columns: u32, rows: u32) -> Vec<Tile> {
 pub(super) fn note(tiles: &[Tile], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let [first, _, ..] = tiles else { return Ok(()) };
     let [width, height] = first.size;
-    tell(on_event, Event::Note(format!("the plan is done in {} tiles of {width} × {height} cells", tiles.len())))
+    tell(on_event, Event::Note(format!("the plan is done in {} tiles of {width} × {height} cells", tiles.len()).into()))
 }

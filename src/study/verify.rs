@@ -68,7 +68,7 @@ fn trials(gpu: &Arc<Gpu>, site: &Site, on_event: &mut OnEvent<'_>) -> Result<Vec
     for row in held() {
         if row.blends_float32 && gpu.blends_float32("").is_err() {
             let note = format!("{} is left out: '{}' cannot blend 32-bit floats", row.word, gpu.name());
-            tell(on_event, Event::Note(note))?;
+            tell(on_event, Event::Note(note.into()))?;
             continue;
         }
         for engine in [Engine::Cpu, Engine::Gpu].into_iter().filter(|engine| row.draws(*engine, subject)) {

@@ -1,6 +1,7 @@
 //! The sun of a study: its instants, and the days they lie on.
 
 use super::{Day, Instant, Polar, Reading, Zone};
+use crate::message::Message;
 
 /// The part of each day that a study of several days asks, as written; the whole day where nothing is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,14 +46,15 @@ impl SunTrack {
     }
 
     /// What the user should know of its clock, and of days without a sun; each a sentence without its stop.
-    pub fn notes(&self) -> Vec<String> {
+    pub fn notes(&self) -> Vec<Message> {
         let dark = self.days.iter().filter(|day| day.polar == Some(Polar::Night)).count();
         let dark = match self.days.as_slice() {
             _ if dark == 0 => None,
             [day] => Some(format!("no sun on {} (polar night)", day.date)),
             days => Some(format!("no sun on {dark} of {} days (polar night)", days.len())),
         };
-        self.instants.last().and_then(|instant| Zone::doubt(&instant.time)).into_iter().chain(dark).collect()
+        let doubt = self.instants.last().and_then(|instant| Zone::doubt(&instant.time));
+        doubt.into_iter().chain(dark).map(Message::from).collect()
     }
 
     /// How long the window is, seconds: the sum of the weights.

@@ -2,6 +2,7 @@
 
 use crate::model::{Model, U32};
 use crate::shared::program::{PLACE, STUDY, done, fails, gnomon, stderr};
+use crate::shared::said;
 use gnomon::formats::Up;
 use gnomon::site::{Mend, Overrides, Site};
 use serde_json::json;
@@ -54,7 +55,7 @@ fn mends(model: &Model, keys: &str) -> Vec<Mend> {
     let site = Site::load(folder.path(), &Overrides::default()).unwrap();
     let told: Vec<_> = site.likenesses.iter().flat_map(|likeness| likeness.mends.clone()).collect();
     for mend in &told {
-        assert!(site.notes.iter().any(|note| note.contains(&format!("`{mend}`"))), "{mend}: {:?}", site.notes);
+        assert!(said(&site.notes).iter().any(|note| note.contains(&format!("`{mend}`"))), "{mend}: {:?}", site.notes);
     }
     told
 }
@@ -138,7 +139,11 @@ fn a_model_that_is_taken_for_z_up_may_lie_the_other_way() {
     let lying = site("");
     assert_eq!(lying.likenesses[0].mends, [Mend::Up(Up::Y)]);
     let words = "model.stl looks as if it lay on its side, its y being up";
-    assert!(lying.notes.iter().any(|note| note.contains(words) && note.contains("`up = \"y\"`")), "{:?}", lying.notes);
+    assert!(
+        said(&lying.notes).iter().any(|note| note.contains(words) && note.contains("`up = \"y\"`")),
+        "{:?}",
+        lying.notes
+    );
     let standing = site("up = \"y\"\n");
     assert!(standing.likenesses.is_empty());
     assert_eq!((lying.mesh.top(), standing.mesh.top()), (5.0, 30.0));
@@ -210,7 +215,7 @@ fn samples_and_their_tables_say_nothing_of_units() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
         let site = Site::load(&folder, &Overrides::default()).unwrap();
         assert!(
-            site.likenesses.is_empty() && !site.notes.iter().any(|note| note.contains("looks")),
+            site.likenesses.is_empty() && !said(&site.notes).iter().any(|note| note.contains("looks")),
             "{name}: {:?}",
             site.notes
         );

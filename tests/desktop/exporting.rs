@@ -298,6 +298,15 @@ fn nothing_is_exported_over_a_model() {
 /// Hours that are cancelled are kept: the same study goes on from there another time.
 #[test]
 fn hours_that_are_cancelled_are_kept() {
+    are_kept(false);
+}
+
+#[test]
+fn facades_that_are_cancelled_are_kept() {
+    are_kept(true);
+}
+
+fn are_kept(on_facades: bool) {
     let (folder, site) = small_site();
     let studies = folder.path().join("studies");
     let there = studies.clone();
@@ -308,6 +317,9 @@ fn hours_that_are_cancelled_are_kept() {
     settle(&mut harness);
     write(&mut harness, "step", "1s");
     settle(&mut harness);
+    if on_facades {
+        click(&mut harness, "On façades, too");
+    }
     click(&mut harness, "Find the hours");
     let begun = Instant::now();
     while harness.query_by_label_contains(" of 28801 instants").is_none() {

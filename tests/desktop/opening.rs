@@ -113,6 +113,19 @@ fn plan_in_map_coordinates_is_told_on_opening() {
     assert!(harness.query_by_label_contains("the middle of the plan").is_none());
 }
 
+/// A note that names a key of the site file names what sets it in the panel.
+#[test]
+fn notes_have_the_panels_labels() {
+    let (folder, site) = small_site();
+    let text = std::fs::read_to_string(&site).unwrap();
+    let sunk = text.replace("path = \"works.glb\"", "path = \"works.glb\"\nposition = [0.0, 0.0, -2.0]");
+    assert!(sunk != text && !text.contains("[ground]"), "{text}");
+    let sunk_site = folder.path().join("sunk.toml");
+    std::fs::write(&sunk_site, sunk).unwrap();
+    let harness = window(Some(&sunk_site));
+    harness.get_by_label_contains("\"Ground\" under Place sets it");
+}
+
 /// What the command would note of the models stands in the panel; where there is nothing to note it has no such part.
 #[test]
 fn notes_of_models_stand_in_the_panel() {

@@ -3,6 +3,7 @@
 use super::synthetic::{self, Town};
 use gnomon::choice::Receivers;
 use gnomon::export::report::{self, ReportContext};
+use gnomon::message::PlainWords;
 use gnomon::profile::{Profile, Timings};
 use gnomon::site::Ground;
 use gnomon::sun::Polar;
@@ -21,9 +22,11 @@ fn profile_json_is_the_contract() {
     let profile: Profile = Profile { grid, shaded: vec![0_u32; 32].into(), day_secs: 28_800, night_secs: 0 };
     let timings = Timings(vec![("load", 0.5), ("draw", 1.5), ("total", 2.25)]);
     let write = |town: &Town| {
-        let (receivers, drawn, notes) = (Receivers::Ground, &town.drawn, &["hut.glb leaves something out".to_owned()]);
+        let (receivers, drawn, notes) =
+            (Receivers::Ground, &town.drawn, &["hut.glb leaves something out".to_owned().into()]);
         let ground = Ground::asked(0.0);
-        let told = ReportContext { receivers, ground, drawn, timings: &timings, statistics: None, notes };
+        let told =
+            ReportContext { receivers, ground, drawn, timings: &timings, statistics: None, notes, words: &PlainWords };
         report::profile_json(&profile, &town.place, &town.track, &told).unwrap()
     };
     let text = write(&town);

@@ -1,6 +1,7 @@
 //! What is there: hidden nodes, scenes, materials that light passes; and what is told of them.
 
 use super::*;
+use crate::shared::said;
 use gnomon::formats::SceneName;
 use gnomon::formats::{Model as Read, ModelError};
 
@@ -34,7 +35,7 @@ fn hidden_nodes_are_not_there() {
         let read = read(&model, None).unwrap();
         assert_eq!(names(&read), ["tower"]);
         assert_eq!(
-            texts(&read),
+            said(&read.notes),
             ["has 1 node with a mesh that is hidden (KHR_node_visibility) and left out, at \"option B\""]
         );
     }
@@ -57,7 +58,7 @@ fn hiding_is_inherited() {
     assert_eq!(names(&read), ["tower"]);
     let told =
         "has 3 nodes with a mesh that are hidden (KHR_node_visibility) and left out, at \"options\" and \"shed\"";
-    assert_eq!(texts(&read), [told]);
+    assert_eq!(said(&read.notes), [told]);
     model.json["nodes"][1]["extensions"] = hidden(false);
     model.refused(&["no triangles", "hidden (KHR_node_visibility)", "show what stands there"]);
 }
@@ -69,7 +70,7 @@ fn many_names_are_cut_short() {
         (0..count).map(|node| json!({"mesh": 0, "name": format!("n{node}"), "extensions": hidden(node == 0)})).collect()
     };
     model.json["nodes"] = json!(nodes(6));
-    let told = |model: &Model| read(model, None).unwrap().notes[0].to_string();
+    let told = |model: &Model| said(&read(model, None).unwrap().notes)[0].clone();
     assert!(told(&model).ends_with("at \"n1\", \"n2\", \"n3\", \"n4\" and \"n5\""), "{}", told(&model));
     model.json["nodes"] = json!(nodes(9));
     assert!(told(&model).ends_with("at \"n1\", \"n2\", \"n3\", \"n4\" and 4 more"), "{}", told(&model));
@@ -106,7 +107,7 @@ fn a_scene_is_chosen_by_name_or_number() {
     }
     let told = "has 3 scenes, and \"Fa\u{e7}ade\" (1) is read; `scene` under [[model]] in a site file reads another, by name \
                 or number: \"existing\" (0) and 2";
-    assert_eq!(texts(&read(&model, None).unwrap()), [told]);
+    assert_eq!(said(&read(&model, None).unwrap().notes), [told]);
     let mut one = model;
     one.json["scenes"][0]["name"] = json!(42);
     one.json["scenes"].as_array_mut().unwrap().truncate(1);
@@ -195,7 +196,7 @@ fn harmless_extensions_and_textures_are_read_past() {
     assert_eq!(read.parts.len(), 1);
     let told = "requires KHR_texture_basisu, KHR_materials_unlit, KHR_lights_punctual and CESIUM_primitive_outline, which \
                 change no shape and so no shadow";
-    assert_eq!(texts(&read), [told]);
+    assert_eq!(said(&read.notes), [told]);
     model.json["extensionsRequired"] = json!(["KHR_materials_unlit", "AGI_articulations"]);
     model.refused(&["AGI_articulations", "export it without"]);
 }
@@ -211,9 +212,4 @@ fn names_are_composed() {
     let part = model.part();
     assert_eq!(part.name, "Fa\u{e7}ade");
     assert_eq!(part.aliases, ["Fa\u{e7}ade", "m\u{fc}hle", "b\u{e9}ton"]);
-}
-
-/// What is told of a file, in the words of no face.
-fn texts(read: &Read) -> Vec<String> {
-    read.notes.iter().map(ToString::to_string).collect()
 }

@@ -6,3 +6,10 @@ pub(crate) mod drawing;
 pub(crate) mod far_wrong;
 pub(crate) mod program;
 pub(crate) mod scenes;
+
+use gnomon::message::Message;
+
+/// Notes in plain words.
+pub(crate) fn said(notes: &[Message]) -> Vec<String> {
+    notes.iter().map(Message::to_string).collect()
+}

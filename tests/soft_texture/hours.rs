@@ -32,7 +32,7 @@ fn asked(site: &Site, cell: f64) -> (PatchOutcome, Vec<String>) {
     let mut notes = Vec::new();
     let outcome = patches(site, cell, &mut |event| {
         if let Event::Note(note) = event {
-            notes.push(note);
+            notes.push(note.to_string());
         }
         ControlFlow::Continue(())
     });

@@ -1,6 +1,7 @@
 //! What is terrain, as files and keys say it; how buildings stand on it; probes above and below it.
 
 use super::{mesh, terrain, track, valley, vienna};
+use crate::shared::said;
 use crate::shared::scenes::cuboid;
 use crate::site::{SITE, folder, load};
 use chrono::TimeDelta;
@@ -64,7 +65,7 @@ fn read(text: &str, of: &[[f64; 3]]) -> Result<Site, SiteError> {
 
 fn standing(of: &[[f64; 3]]) -> Option<String> {
     let site = read(&format!("{HEAD}[[model]]\npath = \"houses.glb\"\n"), of).unwrap();
-    site.notes.into_iter().find(|note| note.starts_with("houses.glb has "))
+    said(&site.notes).into_iter().find(|note| note.starts_with("houses.glb has "))
 }
 
 #[test]
@@ -89,7 +90,7 @@ fn a_key_goes_before_what_a_file_says_to_be_terrain() {
 fn what_the_ground_is_stands_beside_the_answer() {
     let told = |text: &str| {
         let site = read(&format!("{HEAD}{text}"), &[]).unwrap();
-        let note = site.notes.iter().find(|note| note.starts_with("the ground is")).cloned();
+        let note = said(&site.notes).into_iter().find(|note| note.starts_with("the ground is"));
         (site.ground, note.unwrap_or_default())
     };
     // it reaches from -6 to 6, but the plane is no cellar's
@@ -144,7 +145,7 @@ fn what_floats_and_what_sinks_is_told_with_how_much() {
     assert!(one.starts_with("houses.glb has 1 building: 1 reaches below") && one.ends_with("up to 1.00 m"), "{one}");
     // nothing stands on what is no terrain
     let text = format!("{HEAD}terrain = false\n[[model]]\npath = \"houses.glb\"\n");
-    assert!(!read(&text, &all).unwrap().notes.iter().any(|note| note.contains("float")));
+    assert!(!said(&read(&text, &all).unwrap().notes).iter().any(|note| note.contains("float")));
 }
 
 fn probing(mesh: Mesh, points: &[(DVec3, Option<DVec3>)]) -> Sunlight {
@@ -160,6 +161,7 @@ fn probing(mesh: Mesh, points: &[(DVec3, Option<DVec3>)]) -> Sunlight {
         casts: vec![true; mesh.components.len()],
         mesh,
         notes: Vec::new(),
+        words: &gnomon::message::PlainWords,
         ground,
         probes: points.iter().enumerate().map(probe_of).collect(),
         days: vec![DayWindow::on(&vienna(), "2026-03-21".parse().unwrap(), None, None).unwrap()],

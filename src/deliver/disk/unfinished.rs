@@ -96,11 +96,11 @@ pub fn remove(folder: &Path, study: u64) -> Result<(), ExportError> {
     FIRST_WORDS.iter().try_for_each(|words| file::remove(&file_of(folder, words, study)))
 }
 
-/// Says which other studies were stopped in the folder and keep files there. Bits and sums that no study can go on with,
+/// Says which studies beside these were stopped in the folder and keep files there. Bits and sums that no study can go on with,
 /// as it was killed before it kept anything, are removed. Whoever calls it has locked the folder.
-pub fn tidy(folder: &Path, study: u64) -> Option<String> {
-    file::remove_leftovers(&[path(folder, study)]);
-    let others = studies_in(folder).into_iter().filter(|other| *other != study);
+pub fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
+    file::remove_leftovers(&studies.iter().map(|study| path(folder, *study)).collect::<Vec<_>>());
+    let others = studies_in(folder).into_iter().filter(|other| !studies.contains(other));
     let (stopped, dead): (Vec<u64>, Vec<u64>) = others.partition(|other| path(folder, *other).is_file());
     for other in dead {
         // nothing is lost where they stay

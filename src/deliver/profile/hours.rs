@@ -1,7 +1,7 @@
 //! The hours of shadow on a plan, as a study finds them.
 
 use super::ProfileRequest;
-use super::keeping::StudyStore;
+use super::keeping::{Beside, StudyStore};
 use super::sums::Sums;
 use crate::deliver::DeliverError;
 use crate::export::ExportError;
@@ -9,7 +9,7 @@ use crate::export::figure::Outline;
 use crate::mesh::Mesh;
 use crate::profile::{Profile, Provenance, Shaded, ShadedCells, Statistics, Timings};
 use crate::site::Site;
-use crate::study::{self, OnEvent, TiledOutcome, TiledStudy};
+use crate::study::{self, OnEvent, Outcome, TiledOutcome, TiledStudy};
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
@@ -43,15 +43,16 @@ pub struct Range {
 
 /// Finds them. What the study left in the folder when it was stopped is gone on with; what is left there now goes when
 /// [`StudyStore`] finishes.
-pub(super) fn find<'a>(
+pub(in crate::deliver) fn find<'a>(
     site: &Site,
     asked: &ProfileRequest<'a>,
     folder: Option<&'a Path>,
+    beside: Beside<'_>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<(Hours, StudyStore<'a>), DeliverError> {
     let study = TiledStudy::new(site, &asked.wants(site, folder.is_some()), on_event)?;
     let mut keeping = StudyStore::new(site, asked, folder, &study)?;
-    keeping.look_around(on_event)?;
+    keeping.look_around(beside, on_event)?;
     let begun = keeping.begun(&study, site, on_event)?;
     let worked = study::in_tiles(study, begun, &mut |event| keeping.hear(event, site, on_event));
     let worked = keeping.take_fault().map_or(worked.map_err(DeliverError::from), Err);
@@ -71,6 +72,18 @@ impl Hours {
             Sums::Memory(shaded) => Some(shaded),
             Sums::File(_) => None,
         }
+    }
+
+    /// As a study of the plan answers that is not kept.
+    ///
+    /// # Errors
+    /// Where the sums lie in a file that cannot be read.
+    pub fn into_outcome(self) -> Result<Outcome, ExportError> {
+        let Hours { profile, drawn, surface_mesh, statistics, timings, .. } = self;
+        let Profile { grid, shaded, day_secs, night_secs } = profile;
+        let shaded = Arc::unwrap_or_clone(shaded.in_memory()?);
+        let profile = Profile { grid, shaded, day_secs, night_secs };
+        Ok(Outcome { profile, drawn, surface: None, surface_mesh, statistics, timings })
     }
 
     /// The same with the sums in memory.

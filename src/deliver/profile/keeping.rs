@@ -6,6 +6,7 @@ use crate::deliver::disk::bits::BitsFile;
 use crate::deliver::disk::sums::SumsFile;
 use crate::deliver::disk::unfinished::{self, Checks, StoredStudy};
 use crate::deliver::parts::note;
+use crate::deliver::shelf;
 use crate::deliver::{DeliverError, NamedFile};
 use crate::export::figure::Outline;
 use crate::export::{ExportError, bytes, checksum, file, raster};
@@ -20,7 +21,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What is written while the study goes on: in a folder, from which it can go on another time; or in memory alone.
-pub(super) struct StudyStore<'a> {
+pub(in crate::deliver) struct StudyStore<'a> {
     folder: Option<&'a Path>,
     /// The study's number.
     study: u64,
@@ -48,6 +49,15 @@ pub(super) struct StudyStore<'a> {
     is_kept: bool,
     /// What could not be written.
     fault: Option<DeliverError>,
+}
+
+/// What of the folder's stopped studies belongs to the same request, and is not spoken of.
+#[derive(Clone, Copy)]
+pub(in crate::deliver) enum Beside<'a> {
+    /// These.
+    Studies(&'a [u64]),
+    /// One that is not known yet: so none is spoken of.
+    Unknown,
 }
 
 impl StudyStore<'_> {
@@ -84,9 +94,11 @@ impl StudyStore<'_> {
     }
 
     /// Says what else lies in the folder, and what will.
-    pub(super) fn look_around(&self, on_event: &mut OnEvent<'_>) -> Result<(), DeliverError> {
+    pub(super) fn look_around(&self, beside: Beside<'_>, on_event: &mut OnEvent<'_>) -> Result<(), DeliverError> {
         let Some(folder) = self.folder else { return Ok(()) };
-        note(unfinished::tidy(folder, self.study), on_event)?;
+        if let Beside::Studies(others) = beside {
+            note(unfinished::tidy(folder, &[others, &[self.study]].concat()), on_event)?;
+        }
         if let Some(bits) = &self.bits {
             bits.check_room()?;
             note(Some(format!("{} will take {}", bits.path().display(), bytes(bits.size()))), on_event)?;
@@ -107,11 +119,13 @@ impl StudyStore<'_> {
             StoredStudy::Nothing => return Ok(None),
             StoredStudy::Whole(whole) if study.is_of(&whole.0) => *whole,
             StoredStudy::Whole(_) | StoredStudy::Damaged => {
-                return Ok(refused(&unfinished::path(folder, self.study), on_event)?);
+                shelf::note_refused(&unfinished::path(folder, self.study), on_event)?;
+                return Ok(None);
             }
         };
         if let Some(other) = self.other_than_written(folder, study, site, &begun, &checks) {
-            return Ok(refused(&other, on_event)?);
+            shelf::note_refused(&other, on_event)?;
+            return Ok(None);
         }
         self.checks = checks;
         Ok(Some(begun))
@@ -153,15 +167,18 @@ impl StudyStore<'_> {
     }
 
     /// Another stage is done of what is made of the study.
-    pub(super) fn stage(&self, stage: &'static str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-        tell(on_event, Event::Stage(stage)).inspect_err(|_| {
-            if self.folder.is_some() && !self.is_kept {
-                let note = "what is done took little time and is not kept; the same command begins anew";
-                // who ended the work has said all there is to say
-                let _ = on_event(Event::Note(note.to_owned()));
-            }
-            self.tell_kept(on_event);
-        })
+    pub(in crate::deliver) fn stage(&self, stage: &'static str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+        tell(on_event, Event::Stage(stage)).inspect_err(|_| shelf::note_end(self.folder.map(|_| self.kept()), on_event))
+    }
+
+    /// Which study it is.
+    pub(in crate::deliver) fn number(&self) -> u64 {
+        self.study
+    }
+
+    /// The file that keeps what is done, where there is something to go on from.
+    pub(in crate::deliver) fn kept(&self) -> Option<PathBuf> {
+        self.folder.filter(|_| self.is_kept).map(|folder| unfinished::path(folder, self.study))
     }
 
     /// The work ends before all is done: what nobody can go on from does not stay.
@@ -176,20 +193,11 @@ impl StudyStore<'_> {
             // the first error is the one to tell
             let _ = unfinished::remove(folder, self.study);
         }
-        self.tell_kept(on_event);
-    }
-
-    /// Tells who ended the work where it goes on.
-    fn tell_kept(&self, on_event: &mut OnEvent<'_>) {
-        if let Some(folder) = self.folder.filter(|_| self.is_kept) {
-            let path = unfinished::path(folder, self.study);
-            let note = format!("{} keeps what is done; the same command goes on from there", path.display());
-            let _ = on_event(Event::Note(note));
-        }
+        shelf::note_kept(self.kept(), on_event);
     }
 
     /// All is in its place: nothing is kept any more.
-    pub(super) fn finish(&self) -> Result<(), ExportError> {
+    pub(in crate::deliver) fn finish(&self) -> Result<(), ExportError> {
         self.folder.map_or(Ok(()), |folder| unfinished::remove(folder, self.study))
     }
 
@@ -274,7 +282,7 @@ impl StudyStore<'_> {
             }
             // after a fault there is nothing to go on from
             Event::Kept(done) if self.fault.is_none() => self.keep(done)?,
-            Event::Note(_) | Event::Kept(_) | Event::Stage(_) | Event::Resumes { .. } => {}
+            Event::Note(_) | Event::Kept(_) | Event::Stage(_) | Event::Resumes { .. } | Event::Prepared { .. } => {}
         }
         Ok(())
     }
@@ -318,11 +326,4 @@ impl StudyStore<'_> {
         self.is_kept = true;
         Ok(())
     }
-}
-
-/// Says that the study cannot continue from what lies there, and so has nothing to continue from.
-fn refused(path: &Path, on_event: &mut OnEvent<'_>) -> Result<Option<Unfinished>, StudyError> {
-    let what = "is not what the study left there when it was stopped: it begins anew";
-    note(Some(format!("{} {what}", path.display())), on_event)?;
-    Ok(None)
 }

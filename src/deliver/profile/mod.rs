@@ -13,8 +13,8 @@ pub use hours::{Hours, Range};
 pub use request::ProfileRequest;
 pub use sums::Sums;
 
-use super::disk::unfinished;
 use super::parts::{note, note_letters};
+use super::shelf;
 use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::profile::{Provenance, Statistics};
 use crate::site::Site;
@@ -22,8 +22,8 @@ use crate::study::{Event, OnEvent, tell};
 use files::Pieces;
 use request::mask_path;
 
-/// So many stopped studies are kept of hours that are to be shown.
-const MOST_KEPT: usize = 4;
+pub(super) use hours::find as find_kept;
+pub(super) use keeping::{Beside, StudyStore};
 
 /// What came of it.
 #[derive(Clone, Debug)]
@@ -61,7 +61,7 @@ pub fn profile(
     }
     watch.lap("load");
 
-    let (hours, mut keeping) = hours::find(site, asked, sink.folder(), on_event)?;
+    let (hours, mut keeping) = hours::find(site, asked, sink.folder(), Beside::Studies(&[]), on_event)?;
     watch.laps(hours.timings.clone());
     let mut stage = |stage| keeping.stage(stage, on_event);
     // bits that lie in the folder are written already
@@ -101,33 +101,13 @@ pub fn find_hours(
     shelf: Option<Folder<'_>>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<Hours, DeliverError> {
-    let shelf = shelf.filter(|_| !asked.bits);
-    let open = match shelf.map(|folder| Sink::Folder(folder).open(&[], None)).transpose() {
-        Ok(open) => open,
-        Err(error) => {
-            note(Some(format!("{error}; until then what is done is not kept")), on_event)?;
-            None
-        }
-    };
-    let folder = open.as_ref().and(shelf).map(|folder| folder.path);
-    let find = |folder, on_event: &mut OnEvent<'_>| {
-        let (hours, keeping) = hours::find(site, asked, folder, on_event)?;
+    shelf::find(shelf.filter(|_| !asked.bits), on_event, |folder, on_event| {
+        let (hours, keeping) = hours::find(site, asked, folder, Beside::Studies(&[]), on_event)?;
         let hours = hours.in_memory()?;
         // what stays there is another time's to remove
         let _ = keeping.finish();
         Ok(hours)
-    };
-    let mut found = find(folder, on_event);
-    if let (Err(DeliverError::Export(error)), Some(_)) = (&found, folder) {
-        // the shelf is for the case that the work is stopped; that it is full must not stop the work
-        note(Some(format!("{error}; the work is done again, and what is done is not kept")), on_event)?;
-        tell(on_event, Event::Anew)?;
-        found = find(None, on_event);
-    }
-    if let Some(folder) = folder {
-        unfinished::keep_newest(folder, MOST_KEPT);
-    }
-    found
+    })
 }
 
 /// Writes hours that were found, as far as is asked. The request's stopwatch runs on from [`Hours::timings`].

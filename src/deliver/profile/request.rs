@@ -2,15 +2,12 @@
 
 use crate::deliver::disk::bits;
 use crate::deliver::lines::Lines;
+use crate::deliver::shelf::KEEP_EVERY;
 use crate::deliver::sink::SecondFolder;
 use crate::export::figure;
 use crate::site::Site;
 use crate::study::{Budget, Stopwatch, Wants};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
-
-/// How long work may be lost where a machine fails.
-const KEEP_EVERY: Duration = Duration::from_secs(60);
 
 pub(super) const DRAWING: &str = "profile.png";
 pub(super) const RASTER: &str = "shadow-hours.tif";

@@ -4,15 +4,15 @@
 //! a time. It is written beside its place, and renamed when it is whole.
 
 mod frame_files;
-mod older;
 mod palette;
+mod previous_frames;
 
 use super::figure::Screen;
 use super::{ExportError, file};
 use frame_files::{GIF, frame_path, read};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
-use older::OldFrames;
 use palette::{Counts, Palette};
+use previous_frames::OldFrames;
 use std::borrow::Cow;
 use std::fs;
 use std::io::{BufWriter, Write};
@@ -61,7 +61,7 @@ impl Frames {
     /// What an animation would replace in a folder: a GIF, or the first file that is called as a frame is.
     pub fn there(folder: &Path) -> Option<PathBuf> {
         let gif = Some(folder.join(GIF)).filter(|gif| gif.is_file());
-        gif.or_else(|| older::beyond(folder, 0).into_values().next())
+        gif.or_else(|| previous_frames::beyond(folder, 0).into_values().next())
     }
 
     /// Writes the next one.

@@ -12,7 +12,6 @@
 //! (which other files are the model's).
 
 use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
-use crate::message::Message;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -94,7 +93,7 @@ pub(super) fn read_bytes(bytes: &[u8], path: &Path, options: &ReadOptions, appli
         let scene = if is_asked { "that scene" } else { "its default scene" };
         return Err(Fault::Empty { scene, way_out: notes::way_out(&document, &standing) });
     }
-    let notes = notes::of(&document, &standing, is_asked).into_iter().map(Message::from).collect();
+    let notes = notes::of(&document, &standing, is_asked);
     // glTF is in metres and y up, and many a program exports something else: nothing is said, so that it can be doubted
     Ok(Model { parts, notes, see_through, ..Model::default() })
 }

@@ -2,33 +2,32 @@
 
 use super::document::Document;
 use super::scene::{SceneContents, scenes};
-use crate::message::few;
+use crate::message::{Message, few, message, setting};
 
 /// A sentence each, without its stop, whose subject is the file. `is_asked` says that the user has chosen the scene.
-pub(super) fn of(document: &Document, standing: &SceneContents, is_asked: bool) -> Vec<String> {
+pub(super) fn of(document: &Document, standing: &SceneContents, is_asked: bool) -> Vec<Message> {
     let mut notes = Vec::new();
     let others = |number: usize| (0..document.scenes.len()).filter(move |&other| other != number);
     if let Some(number) = standing.scene.filter(|&number| !is_asked && others(number).next().is_some()) {
-        notes.push(format!(
-            "has {} scenes, and {} is read; `scene` under [[model]] in a site file reads another, by name or number: {}",
-            document.scenes.len(),
-            scenes(document, [number]),
-            scenes(document, others(number)),
-        ));
+        notes.push(message![
+            format!("has {} scenes, and {} is read", document.scenes.len(), scenes(document, [number]));
+            setting("[[model]]", "scene", "`scene` under [[model]] in a site file"),
+            format!(" reads another, by name or number: {}", scenes(document, others(number)))
+        ]);
     }
     if standing.hidden > 0 {
         let hiding = standing.hiding.iter().map(|&node| format!("\"{}\"", document.node_name(node)));
         let (nodes, are) = if standing.hidden == 1 { ("node", "is") } else { ("nodes", "are") };
-        notes.push(format!(
+        notes.push(message![format!(
             "has {} {nodes} with a mesh that {are} hidden (KHR_node_visibility) and left out, at {}",
             standing.hidden,
             few(hiding.collect()),
-        ));
+        )]);
     }
     let past: Vec<String> = document.read_past().map(str::to_owned).collect();
     if !past.is_empty() {
         let verb = if past.len() == 1 { "changes" } else { "change" };
-        notes.push(format!("requires {}, which {verb} no shape and so no shadow", few(past)));
+        notes.push(message![format!("requires {}, which {verb} no shape and so no shadow", few(past))]);
     }
     notes
 }

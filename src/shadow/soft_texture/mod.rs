@@ -152,6 +152,11 @@ impl SoftTexture {
         Ok(())
     }
 
+    /// Goes on from sums that were added before: per texel, as [`SoftTexture::so_far`] has them.
+    pub fn begin_with(&mut self, sums: &[u32]) {
+        self.sums.copy_from_slice(sums);
+    }
+
     /// How patches were judged so far.
     pub fn judged(&self) -> PatchJudgements {
         let [textures, texture_texels, faces, rays] = [0, 1, 2, 3].map(|at| self.counts[at].load(Ordering::Relaxed));
@@ -163,13 +168,26 @@ impl SoftTexture {
         self.drawer.as_ref().map_or(0, AdapterDrawer::bytes)
     }
 
+    /// Per texel of [`Patches::texels`] the weights of the samples so far that it sees.
+    ///
+    /// # Errors
+    /// [`ShadowError::Gpu`]
+    pub fn so_far(&self) -> Result<Vec<u32>, ShadowError> {
+        self.added_to(self.sums.clone())
+    }
+
     /// Per texel of [`Patches::texels`] the weights of the samples that it sees.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]
-    pub fn finish(self) -> Result<Vec<u32>, ShadowError> {
-        let SoftTexture { mut sums, drawer, .. } = self;
-        if let Some(drawer) = drawer {
+    pub fn finish(mut self) -> Result<Vec<u32>, ShadowError> {
+        let sums = std::mem::take(&mut self.sums);
+        self.added_to(sums)
+    }
+
+    /// The processor's sums and those of the adapter.
+    fn added_to(&self, mut sums: Vec<u32>) -> Result<Vec<u32>, ShadowError> {
+        if let Some(drawer) = &self.drawer {
             for (sum, drawn) in sums.iter_mut().zip(drawer.sums()?) {
                 *sum += drawn;
             }

@@ -2,7 +2,7 @@
 
 mod axes;
 mod colours;
-mod said;
+mod labels;
 
 use super::page::{self, PAPER};
 use super::picture::{CellBorder, Fit, PagePicture, compose};
@@ -40,7 +40,7 @@ const HIGHEST: f64 = 300.0;
 pub fn strips(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> Result<Vec<u8>, ExportError> {
     let hours = HourAxis::of(&sunlight.days);
     let left = if sunlight.days.len() > 1 { LEFT } else { RIGHT };
-    page::chart(&said::panel(sunlight, place, ground), [left, HOURS, RIGHT, HOURS], |pixels| {
+    page::chart(&labels::panel(sunlight, place, ground), [left, HOURS, RIGHT, HOURS], |pixels| {
         draw(sunlight, &hours, pixels, words)
     })
 }
@@ -107,7 +107,7 @@ fn draw(sunlight: &Sunlight, hours: &HourAxis, pixels: (u32, u32), words: &dyn W
     {
         let top = bottom + 150.0;
         let intervals: Vec<Interval> = probed.days.concat();
-        over.place(0.0, top, &said::intervals(sunlight, &intervals, f64::from(pixels.1) + HOURS - top));
+        over.place(0.0, top, &labels::intervals(sunlight, &intervals, f64::from(pixels.1) + HOURS - top));
     }
     if strips.count < sunlight.probes.len() {
         let more = format!("and {} more probes", sunlight.probes.len() - strips.count);

@@ -1,0 +1,156 @@
+//! What is kept of a study that is stopped: what is said of it, the shelf of a window, and the store of a study on patches.
+
+use super::disk::unfinished::{self, Checks, StoredStudy};
+use super::parts::note;
+use super::{DeliverError, Folder, Sink};
+use crate::profile::Unfinished;
+use crate::study::{Event, OnEvent, StudyError, tell};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How long work may be lost where a machine fails.
+pub(super) const KEEP_EVERY: Duration = Duration::from_secs(60);
+
+/// So many stopped studies are kept of what is to be shown.
+const MOST_KEPT: usize = 4;
+
+/// Tells who ended the work where it goes on.
+pub(super) fn note_kept(kept: Option<PathBuf>, on_event: &mut OnEvent<'_>) {
+    if let Some(path) = kept {
+        let note = format!("{} keeps what is done; the same command goes on from there", path.display());
+        let _ = on_event(Event::Note(note.into()));
+    }
+}
+
+/// The work was ended while files were made of it: tells what is kept of it, where it works in a folder.
+pub(super) fn note_end(kept: Option<Option<PathBuf>>, on_event: &mut OnEvent<'_>) {
+    if let Some(None) = kept {
+        let note = "what is done took little time and is not kept; the same command begins anew";
+        // who ended the work has said all there is to say
+        let _ = on_event(Event::Note(note.to_owned().into()));
+    }
+    note_kept(kept.flatten(), on_event);
+}
+
+/// Tells that what a study left cannot be gone on with.
+pub(super) fn note_refused(path: &Path, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let what = "is not what the study left there when it was stopped: it begins anew";
+    note(Some(format!("{} {what}", path.display())), on_event)
+}
+
+/// Finds what is to be shown. What is stopped is kept on the shelf, of the newest studies, unless another one works there;
+/// and where it cannot be kept it is found all the same.
+pub(super) fn find<'a, T>(
+    shelf: Option<Folder<'a>>,
+    on_event: &mut OnEvent<'_>,
+    mut work: impl FnMut(Option<&'a Path>, &mut OnEvent<'_>) -> Result<T, DeliverError>,
+) -> Result<T, DeliverError> {
+    let open = match shelf.map(|folder| Sink::Folder(folder).open(&[], None)).transpose() {
+        Ok(open) => open,
+        Err(error) => {
+            note(Some(format!("{error}; until then what is done is not kept")), on_event)?;
+            None
+        }
+    };
+    let folder = open.as_ref().and(shelf).map(|folder| folder.path);
+    let mut found = work(folder, on_event);
+    if let (Err(DeliverError::Export(error)), Some(_)) = (&found, folder) {
+        // the shelf is for the case that the work is stopped; that it is full must not stop the work
+        note(Some(format!("{error}; the work is done again, and what is done is not kept")), on_event)?;
+        tell(on_event, Event::Anew)?;
+        found = work(None, on_event);
+    }
+    if let Some(folder) = folder {
+        unfinished::keep_newest(folder, MOST_KEPT);
+    }
+    found
+}
+
+/// What a study on patches keeps in a folder while it goes on.
+pub(super) struct PatchStore<'a> {
+    folder: Option<&'a Path>,
+    /// The study's number, once it is prepared.
+    study: Option<u64>,
+    is_kept: bool,
+    /// What could not be written.
+    fault: Option<DeliverError>,
+}
+
+impl<'a> PatchStore<'a> {
+    pub(super) fn new(folder: Option<&'a Path>) -> PatchStore<'a> {
+        PatchStore { folder, study: None, is_kept: false, fault: None }
+    }
+
+    /// How often what is done is kept; never without a folder.
+    pub(super) fn keep_every(&self) -> Option<Duration> {
+        self.folder.map(|_| KEEP_EVERY)
+    }
+
+    /// Keeps what an event brings, and tells it on.
+    pub(super) fn hear(&mut self, event: Event<'_>, on_event: &mut OnEvent<'_>) -> ControlFlow<()> {
+        let done = match (&event, self.folder) {
+            (Event::Prepared { number, begun }, Some(folder)) => {
+                self.begun(folder, *number, on_event).map(|kept| *begun.borrow_mut() = kept)
+            }
+            (Event::Kept(done), Some(folder)) if self.study == Some(done.study) => {
+                let kept = unfinished::keep(folder, done, &Checks::default()).map_err(DeliverError::from);
+                kept.map(|()| self.is_kept = true)
+            }
+            _ => Ok(()),
+        };
+        if let Err(fault) = done {
+            self.fault = Some(fault);
+            return ControlFlow::Break(());
+        }
+        on_event(event)
+    }
+
+    /// What the study left when it was stopped.
+    fn begun(
+        &mut self,
+        folder: &Path,
+        number: u64,
+        on_event: &mut OnEvent<'_>,
+    ) -> Result<Option<Unfinished>, DeliverError> {
+        match self.study {
+            None => {
+                self.study = Some(number);
+                note(unfinished::tidy(folder, &[number]), on_event)?;
+            }
+            // on another device it is another study, and what is kept is that of the first
+            Some(first) if first != number => return Ok(None),
+            Some(_) => {}
+        }
+        match unfinished::kept(folder, number)? {
+            StoredStudy::Nothing => Ok(None),
+            StoredStudy::Whole(whole) => {
+                self.is_kept = true;
+                Ok(Some(whole.0))
+            }
+            StoredStudy::Damaged => {
+                note_refused(&unfinished::path(folder, number), on_event)?;
+                Ok(None)
+            }
+        }
+    }
+
+    /// The file that keeps what is done, where there is something to go on from; none without a folder.
+    pub(super) fn kept(&self) -> Option<Option<PathBuf>> {
+        let kept = |folder| self.study.filter(|_| self.is_kept).map(|study| unfinished::path(folder, study));
+        self.folder.map(kept)
+    }
+
+    /// What could not be written, where that ended the work.
+    pub(super) fn take_fault(&mut self) -> Option<DeliverError> {
+        self.fault.take()
+    }
+
+    /// All is in its place: nothing is kept any more.
+    pub(super) fn finish(&self) -> Result<(), DeliverError> {
+        match self.folder.zip(self.study) {
+            Some((folder, study)) => Ok(unfinished::remove(folder, study)?),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! What goes on, what was done, and what went wrong.
+
+use crate::desktop::app::state::App;
+use crate::desktop::work::export;
+use eframe::egui::{self, Ui};
+
+impl App {
+    /// What goes on, and what went wrong.
+    pub(in crate::desktop) fn messages(&mut self, ui: &mut Ui) {
+        self.loading_message(ui);
+        if self.writing.as_ref().is_some_and(|writing| export::progress(writing, ui)) {
+            self.writing = None;
+        }
+        self.changed_message(ui);
+        self.fault_or_notice(ui);
+    }
+
+    /// How far loading is.
+    fn loading_message(&mut self, ui: &mut Ui) {
+        if let Some(loading) = &self.loading
+            && loading.reads
+        {
+            let (share, what) = loading.stage();
+            let mut cancels = false;
+            ui.horizontal(|ui| {
+                ui.label(format!("Loading {}", loading.name));
+                ui.add(egui::ProgressBar::new(share).desired_width(220.0).text(what));
+                cancels = ui.button("Cancel").clicked();
+            });
+            if cancels {
+                loading.cancel();
+                // settings of the open site that were to be read are refused until they change
+                self.refused = (!loading.opens).then(|| self.settings.clone());
+                (self.loading, self.is_reading) = (None, false);
+            }
+        }
+    }
+
+    /// A file of the open site is no longer what was read.
+    fn changed_message(&mut self, ui: &mut Ui) {
+        if let Some(name) = &self.changed {
+            let mut reloads = false;
+            let mut leaves = false;
+            ui.horizontal(|ui| {
+                ui.label(format!("{name} has changed on the disk."));
+                reloads = ui.button("Reload").clicked();
+                leaves = ui.button("Leave it").clicked();
+            });
+            if reloads {
+                self.reload(&ui.ctx().clone());
+            }
+            if leaves {
+                self.changed = None;
+            }
+        }
+    }
+
+    fn fault_or_notice(&mut self, ui: &mut Ui) {
+        let of_view = self.open.as_ref().and_then(|open| open.viewer.fault.clone());
+        let (fault, notice) = (self.fault.clone().or(of_view), self.notice.clone());
+        // a grave accent would be set above the letter behind it
+        if let Some(text) = fault.as_ref().or(notice.as_ref()).map(|text| text.replace('`', "")) {
+            ui.horizontal(|ui| {
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    if ui.button("Close").clicked() {
+                        self.hush();
+                    }
+                    ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                        let colour =
+                            if fault.is_some() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+                        ui.add(egui::Label::new(egui::RichText::new(text).color(colour)).wrap());
+                    });
+                });
+            });
+        }
+    }
+
+    /// Forgets what was told, as the button does.
+    pub fn hush(&mut self) {
+        (self.fault, self.notice) = (None, None);
+        if let Some(open) = &mut self.open {
+            open.viewer.fault = None;
+        }
+    }
+
+    pub(in crate::desktop) fn has_message(&self) -> bool {
+        self.fault.is_some()
+            || self.notice.is_some()
+            || self.writing.is_some()
+            || self.changed.is_some()
+            || self.loading.as_ref().is_some_and(|loading| loading.reads)
+            || self.open.as_ref().is_some_and(|open| open.viewer.fault.is_some())
+    }
+}

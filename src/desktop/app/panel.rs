@@ -1,0 +1,335 @@
+//! The panel beside the picture: shadows, hours, components, place.
+
+use crate::choice::{Method, TABLE};
+use crate::desktop::app::cards;
+use crate::desktop::app::state::App;
+use crate::desktop::app::study;
+use crate::desktop::parts::components;
+use crate::desktop::parts::fields::{NumberField, TypedText};
+use crate::desktop::parts::theme;
+use crate::desktop::state::bare_model::NORTH;
+use crate::desktop::state::eye::Stand;
+use crate::desktop::state::technique;
+use crate::desktop::state::unit::Unit;
+use crate::desktop::state::words::PanelWords;
+use crate::export::figure::Diagram;
+use crate::message::Message;
+use crate::site::file::{ModelTable, PlaceTable, Text};
+use crate::site::typed::{Axis, TypedError, clock, date, step};
+use crate::site::{Ground, Mend};
+use eframe::egui::{self, Ui, vec2};
+use std::ops::RangeInclusive;
+
+/// Metres that a unit of a model may have.
+const SCALE: RangeInclusive<f64> = 1e-6..=1e6;
+
+/// What a technique is good for, as a sentence.
+fn good_for(method: Method) -> String {
+    let text = method.row().good_for;
+    let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
+    format!("{}{rest}.", first.to_uppercase())
+}
+
+/// The whole panel.
+pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        section_of_notes(app, ui);
+        section(ui, "Shadows", true, |ui| shadows(app, ui));
+        section(ui, "Hours of shadow", true, |ui| study(app, ui));
+        if app.open.as_ref().and_then(|open| open.result.as_ref()).is_some_and(|result| result.change().is_some()) {
+            section(ui, "Sun lost and gained", true, |ui| study::areas(app, ui));
+        }
+        section(ui, "Components", false, |ui| {
+            if let Some(open) = &app.open {
+                ui.checkbox(&mut app.settings.shown.tinted, "In their own colours");
+                components::list(ui, &open.project, &mut app.settings);
+            }
+        });
+        // said once, when the site was opened
+        section(ui, "Place", true, |ui| place(app, ui));
+    });
+}
+
+/// What the command would note of the models, of those before where two states are compared as well.
+fn notes(app: &App) -> Vec<&Message> {
+    let Some(open) = &app.open else { return Vec::new() };
+    let notes = &open.project.site.notes;
+    let before =
+        open.result.as_ref().and_then(|result| result.change()).map_or(&[][..], |change| change.notes_before());
+    notes.iter().chain(before.iter().filter(|note| !notes.contains(note))).collect()
+}
+
+/// What the user should know of the models, and the keys that would mend what looks wrong.
+fn section_of_notes(app: &mut App, ui: &mut Ui) {
+    let notes: Vec<String> = notes(app).into_iter().map(|note| note.in_words(&PanelWords)).collect();
+    let Some(open) = app.open.as_ref().filter(|_| !notes.is_empty()) else { return };
+    let models = &mut app.settings.site.model;
+    let are_several = models.len() > 1;
+    section(ui, "Notes", true, |ui| {
+        for note in &notes {
+            // a grave accent would be set above the letter behind it
+            ui.label(note.replace('`', ""));
+        }
+        for likeness in &open.project.site.likenesses {
+            let Some(model) = models.get_mut(likeness.model) else { continue };
+            ui.horizontal_wrapped(|ui| {
+                for mend in &likeness.mends {
+                    let of = model
+                        .path
+                        .as_deref()
+                        .filter(|_| are_several)
+                        .map_or(String::new(), |path| format!(" for {path}"));
+                    if ui.button(format!("Set {mend}{of}")).clicked() {
+                        match mend {
+                            Mend::Scale(scale) => model.scale = Some(*scale),
+                            Mend::Up(up) => model.up = Some(up.word().to_owned()),
+                        }
+                    }
+                }
+            });
+        }
+    });
+}
+
+fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {
+    let title = egui::RichText::new(name).font(theme::bold(13.5)).color(theme::accent(ui.visuals()));
+    egui::CollapsingHeader::new(title).id_salt(name).default_open(open).show_unindented(ui, |ui| {
+        content(ui);
+        ui.add_space(8.0);
+    });
+}
+
+/// A label and fields beside it, aligned with all others.
+fn row(ui: &mut Ui, name: &str, field: impl FnOnce(&mut Ui, egui::Id)) {
+    ui.horizontal(|ui| {
+        let size = vec2(78.0, ui.spacing().interact_size.y);
+        let label = ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+            ui.set_min_size(size);
+            ui.weak(name).id
+        });
+        field(ui, label.inner);
+    });
+}
+
+/// The word before a second field in a row.
+fn then(ui: &mut Ui, name: &str) -> egui::Id {
+    ui.weak(name).id
+}
+
+fn place(app: &mut App, ui: &mut Ui) {
+    let unit = Unit::of(app.kept.feet);
+    let typed = &mut app.typed;
+    let Some(table) = &mut app.settings.site.place else { return };
+    coordinates(ui, typed, table);
+    elevation(ui, typed, table, unit);
+    if let Some(open) = &app.open {
+        ground(ui, typed, &mut app.settings.site.ground.level, &open.project.site.ground, unit);
+    }
+    if let [model] = app.settings.site.model.as_mut_slice() {
+        placement(ui, typed, model);
+    }
+}
+
+/// The place's name, latitude and longitude; both of these can be typed into either.
+fn coordinates(ui: &mut Ui, typed: &mut TypedText, table: &mut PlaceTable) {
+    let name = table.name.clone().unwrap_or_default();
+    row(ui, "Name", |ui, label| {
+        if let Some(name) = typed.text(ui, ("Name", label), &name, f32::INFINITY, |text| Ok(text.to_owned())) {
+            // an empty name is none
+            table.name = Some(name).filter(|name| !name.trim().is_empty());
+        }
+    });
+    let mut pasted = None;
+    let coordinates =
+        [("Latitude", &mut table.latitude, Axis::Latitude), ("Longitude", &mut table.longitude, Axis::Longitude)];
+    for (name, slot, axis) in coordinates {
+        let mut value = slot.unwrap_or_default();
+        row(ui, name, |ui, label| {
+            let (is_changed, place) = typed.degrees(ui, (name, label), &mut value, axis);
+            if is_changed {
+                *slot = Some(value);
+            }
+            pasted = pasted.or(place);
+        });
+        typed.show_faults(ui, &[name]);
+    }
+    if let Some([latitude, longitude]) = pasted {
+        (table.latitude, table.longitude) = (Some(latitude), Some(longitude));
+    }
+}
+
+fn elevation(ui: &mut Ui, typed: &mut TypedText, table: &mut PlaceTable, unit: Unit) {
+    row(ui, "Elevation", |ui, label| {
+        let mut value = table.elevation.unwrap_or_default() / unit.metres;
+        let range = -500.0 / unit.metres..=9000.0 / unit.metres;
+        let suffix = &format!(" {}", unit.name);
+        let number = NumberField { speed: 1.0, range, unit: unit.name, suffix, decimals: 0..=2 };
+        if typed.number(ui, ("Elevation", label), &mut value, &number).changed() {
+            // to the millimetre, as feet are written in metres
+            table.elevation = Some((value * unit.metres * 1000.0).round() / 1000.0);
+        }
+    });
+    typed.show_faults(ui, &["Elevation"]);
+}
+
+/// How the only model is turned and scaled.
+fn placement(ui: &mut Ui, typed: &mut TypedText, model: &mut ModelTable) {
+    row(ui, "Model north", |ui, label| {
+        let mut north = model.north.unwrap_or_default();
+        let number = NumberField { speed: 0.5, range: NORTH, unit: "degrees", suffix: "°", decimals: 0..=3 };
+        let response = typed.number(ui, ("Model north", label), &mut north, &number);
+        let response = response.on_hover_text("Degrees clockwise from the model's north to true north");
+        if response.changed() {
+            model.north = Some(north).filter(|north| *north != 0.0);
+        }
+        let label = then(ui, "scale");
+        let mut scale = model.scale.unwrap_or(1.0);
+        let number = NumberField { speed: 0.01, range: SCALE, unit: "metres a unit", suffix: "", decimals: 0..=6 };
+        let response = typed.number(ui, ("scale", label), &mut scale, &number);
+        let response = response.on_hover_text("Metres a unit of the model");
+        if response.changed() {
+            model.scale = Some(scale).filter(|scale| *scale != 1.0);
+        }
+    });
+    typed.show_faults(ui, &["Model north", "scale"]);
+}
+
+/// The ground's height as the site file says it, or as it was found; and what is to be known of it.
+fn ground(ui: &mut Ui, typed: &mut TypedText, level: &mut Option<f64>, found: &Ground, unit: Unit) {
+    row(ui, "Ground", |ui, label| {
+        let mut value = level.unwrap_or(found.level) / unit.metres;
+        let range = -10_000.0 / unit.metres..=10_000.0 / unit.metres;
+        let suffix = &format!(" {}", unit.name);
+        let number = NumberField { speed: 0.1, range, unit: unit.name, suffix, decimals: 0..=3 };
+        let response = typed.number(ui, ("Ground", label), &mut value, &number);
+        if response.on_hover_text("How high the ground lies above the place's point").changed() {
+            // to the millimetre, as feet are written in metres
+            *level = Some((value * unit.metres * 1000.0).round() / 1000.0);
+        }
+        if level.is_some() && ui.button("Find it").on_hover_text("As the models have it").clicked() {
+            *level = None;
+        }
+    });
+    typed.show_faults(ui, &["Ground"]);
+    ui.weak(format!("Ground at {}", found.said()).replace('-', "−"));
+}
+
+fn shadows(app: &mut App, ui: &mut Ui) {
+    let software = app.is_software();
+    let stand = app.stand();
+    let shown = &mut app.settings.shown;
+    row(ui, "Technique", |ui, label| {
+        let list = egui::ComboBox::from_id_salt("technique").selected_text(shown.method.word());
+        let response = list.width(ui.available_width()).show_ui(ui, |ui| {
+            for row in TABLE {
+                let entry = ui.selectable_value(&mut shown.method, row.method, row.word);
+                entry.on_hover_text(good_for(row.method));
+            }
+        });
+        response.response.labelled_by(label);
+    });
+    ui.weak(good_for(shown.method));
+    if !technique::draws(shown.method, stand) {
+        ui.weak("Not this view's: auto draws it.");
+    }
+    if technique::casts_rays(shown.method, software) {
+        ui.checkbox(&mut shown.disc, "The sun as a disc: soft edges");
+    }
+    if technique::counts(shown.method) {
+        let name = |diagram: Option<Diagram>| match diagram {
+            None => "sun and shadow",
+            Some(Diagram::Mask) => "who decides a cell",
+            Some(Diagram::Overdraw) => "volumes counted",
+        };
+        row(ui, "Picture of", |ui, label| {
+            let list = egui::ComboBox::from_id_salt("diagram").selected_text(name(shown.diagram));
+            let response = list.width(ui.available_width()).show_ui(ui, |ui| {
+                let mut choices = vec![None, Some(Diagram::Overdraw)];
+                if shown.method.row().shows_mask {
+                    choices.push(Some(Diagram::Mask));
+                }
+                for choice in choices {
+                    ui.selectable_value(&mut shown.diagram, choice, name(choice));
+                }
+            });
+            response.response.labelled_by(label);
+        });
+    }
+    if stand == Stand::Perspective {
+        ui.horizontal(|ui| {
+            ui.checkbox(&mut shown.volumes, "Volumes");
+            ui.checkbox(&mut shown.silhouette, "Silhouette");
+        });
+    }
+    if let Some(colours) = app.legend() {
+        ui.add_space(2.0);
+        ui.label(&colours.legend_head);
+        for (colour, what) in &colours.legend {
+            cards::swatch(ui, *colour, what);
+        }
+    }
+}
+
+fn study(app: &mut App, ui: &mut Ui) {
+    let shown_date = app.open.as_ref().map(|open| open.clock.date());
+    let study = &mut app.settings.site.study;
+    // the loader has said what was left out; a date may stand in `from` instead
+    let said = |slot: &Option<Text>| slot.as_ref().map_or(String::new(), |text| text.0.clone());
+    let typed = &mut app.typed;
+    row(ui, "Window", |ui, label| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        if let Some(from) = typed.text(ui, ("From", label), &said(&study.from), 70.0, empty_or(clock)) {
+            study.from = from.map(Text);
+        }
+        let label = then(ui, "to");
+        if let Some(to) = typed.text(ui, ("To", label), &said(&study.to), 70.0, empty_or(clock)) {
+            study.to = to.map(Text);
+        }
+    });
+    typed.show_faults(ui, &["From", "To"]);
+    let day = |text: &str| date(text).map(|date| date.to_string());
+    let step_said = study.step.clone().unwrap_or_default();
+    if let Some([Text(first), Text(last)]) = &mut study.dates {
+        row(ui, "Study days", |ui, label| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            if let Some(read) = typed.text(ui, ("First day", label), first, 82.0, day) {
+                *first = read;
+            }
+            let label = then(ui, "to");
+            if let Some(read) = typed.text(ui, ("Last day", label), last, 82.0, day) {
+                *last = read;
+            }
+        });
+        typed.show_faults(ui, &["First day", "Last day"]);
+        row(ui, "Step", |ui, label| {
+            if let Some(step) = typed.text(ui, ("Step", label), &step_said, 58.0, empty_or(step)) {
+                study.step = step;
+            }
+        });
+    } else {
+        row(ui, "Study date", |ui, label| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            if let Some(date) = typed.text(ui, ("Study date", label), &said(&study.date), 94.0, empty_or(day)) {
+                study.date = date.map(Text);
+            }
+            let label = then(ui, "step");
+            if let Some(step) = typed.text(ui, ("Step", label), &step_said, 58.0, empty_or(step)) {
+                study.step = step;
+            }
+        });
+        typed.show_faults(ui, &["Study date"]);
+    }
+    typed.show_faults(ui, &["Step"]);
+    if let (Some(date), Some(Text(text))) = (shown_date, &mut study.date)
+        && date.to_string() != *text
+        && ui.button(format!("Take {date} from the clock")).clicked()
+    {
+        *text = date.to_string();
+    }
+    study::show(app, ui);
+}
+
+/// What is empty is not said.
+fn empty_or<T>(read: impl FnOnce(&str) -> Result<T, TypedError>) -> impl FnOnce(&str) -> Result<Option<T>, TypedError> {
+    move |text: &str| if text.trim().is_empty() { Ok(None) } else { read(text).map(Some) }
+}

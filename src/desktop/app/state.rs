@@ -1,0 +1,186 @@
+//! The window's state: what is open, what is set, what is under way.
+
+use crate::desktop::app::device::devices;
+use crate::desktop::parts::fields::TypedText;
+use crate::desktop::parts::path_dialog::PathDialog;
+use crate::desktop::parts::theme;
+use crate::desktop::parts::view::Viewer;
+use crate::desktop::results::StudyResult;
+use crate::desktop::results::before::BeforeState;
+use crate::desktop::stage::Stage;
+use crate::desktop::state::bare_model::BareModel;
+use crate::desktop::state::clock::Clock;
+use crate::desktop::state::eye::Stand;
+use crate::desktop::state::pick::PickedPoint;
+use crate::desktop::state::project::Project;
+use crate::desktop::state::saving::SaveState;
+use crate::desktop::state::settings::{History, WindowSettings};
+use crate::desktop::work::Work;
+use crate::desktop::work::loading::{LoadJob, LoadRequest};
+use crate::export::figure::Colours;
+use crate::gpu::{Gpu, readback};
+use crate::sunlight::Sunlight;
+use eframe::egui;
+use eframe::egui_wgpu::RenderState;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What is kept from one start to the next.
+#[derive(Default, Serialize, Deserialize)]
+pub(in crate::desktop) struct PersistentState {
+    pub(in crate::desktop) recent: Vec<PathBuf>,
+    pub(in crate::desktop) feet: bool,
+    pub(in crate::desktop) no_sun_path: bool,
+}
+
+/// An open site, and what is found of it.
+pub(in crate::desktop) struct Open {
+    /// The site.
+    pub(in crate::desktop) project: Project,
+    pub(in crate::desktop) number: u64,
+    /// The instant that is shown.
+    pub(in crate::desktop) clock: Clock,
+    pub(in crate::desktop) viewer: Viewer,
+    /// How many times hours were asked for.
+    pub(in crate::desktop) answers: u64,
+    /// The hours that are being added up.
+    pub(in crate::desktop) adding: Option<Work<StudyResult>>,
+    /// The hours that were found, or the change.
+    pub(in crate::desktop) result: Option<Arc<StudyResult>>,
+    /// Whether they lie over the model, instead of one instant: a matter of looking, which undo leaves alone.
+    pub(in crate::desktop) shows_hours: bool,
+    /// The state that was kept to be compared with.
+    pub(in crate::desktop) before: Option<BeforeState>,
+    /// The point that is being searched.
+    pub(in crate::desktop) probing: Option<Work<Sunlight>>,
+    /// When a point lies in the sun.
+    pub(in crate::desktop) sunlight: Option<Sunlight>,
+    /// What was clicked for it.
+    pub(in crate::desktop) clicked: Option<PickedPoint>,
+}
+
+/// The window.
+pub struct App {
+    /// The window's own device, on which nothing but its frames is drawn.
+    pub(in crate::desktop) gpu: Gpu,
+    pub(in crate::desktop) render: RenderState,
+    pub(in crate::desktop) stage: Stage,
+    pub(in crate::desktop) kept: PersistentState,
+    /// The open site.
+    pub(in crate::desktop) open: Option<Open>,
+    /// What a person sets.
+    pub(in crate::desktop) settings: WindowSettings,
+    pub(in crate::desktop) history: History,
+    pub(in crate::desktop) loading: Option<LoadJob>,
+    pub(in crate::desktop) loaded: u64,
+    /// The site is being read again, as its settings have changed.
+    pub(in crate::desktop) is_reading: bool,
+    /// Settings of which it is known that no site comes of them.
+    pub(in crate::desktop) refused: Option<WindowSettings>,
+    pub(in crate::desktop) bare: Option<BareModel>,
+    pub(in crate::desktop) asking: Option<PathDialog>,
+    pub(in crate::desktop) writing: Option<Work<PathBuf>>,
+    /// What is typed into the panel's fields.
+    pub(in crate::desktop) typed: TypedText,
+    /// What is saved, and what is asked about what is not.
+    pub(in crate::desktop) saving: SaveState,
+    /// What went wrong, as the command would say it.
+    pub(in crate::desktop) fault: Option<String>,
+    /// What was done.
+    pub(in crate::desktop) notice: Option<String>,
+    /// Where studies are kept that are stopped; nowhere without one.
+    pub(in crate::desktop) studies: Option<PathBuf>,
+    /// A file of the open site that is no more what was read.
+    pub(in crate::desktop) changed: Option<String>,
+    /// Whether the window had the focus at the last frame.
+    pub(in crate::desktop) had_focus: bool,
+}
+
+impl App {
+    /// A window on eframe's device, with a site or a model in it where one is named.
+    ///
+    /// # Errors
+    /// Where eframe has no device.
+    pub fn new(
+        cc: &eframe::CreationContext<'_>,
+        path: Option<&Path>,
+    ) -> Result<App, Box<dyn std::error::Error + Send + Sync>> {
+        theme::set(&cc.egui_ctx);
+        let (gpu, render, stage) = devices(cc)?;
+        let kept = cc.storage.and_then(|storage| eframe::get_value(storage, eframe::APP_KEY)).unwrap_or_default();
+        let mut app = App {
+            gpu,
+            render,
+            stage,
+            kept,
+            open: None,
+            settings: WindowSettings::default(),
+            history: History::default(),
+            loading: None,
+            loaded: 0,
+            is_reading: false,
+            refused: None,
+            bare: None,
+            asking: None,
+            writing: None,
+            typed: TypedText::default(),
+            saving: SaveState::default(),
+            fault: None,
+            notice: None,
+            studies: None,
+            changed: None,
+            had_focus: true,
+        };
+        if let Some(path) = path {
+            app.load(LoadRequest::File(path.to_owned()), &cc.egui_ctx);
+        }
+        Ok(app)
+    }
+
+    /// Whether pictures are drawn by a program on the processor.
+    pub(in crate::desktop) fn is_software(&self) -> bool {
+        self.stage.is_software()
+    }
+
+    /// From where one looks.
+    pub(in crate::desktop) fn stand(&self) -> Stand {
+        self.open.as_ref().map_or(Stand::Perspective, |open| open.viewer.eye.stand)
+    }
+
+    /// What the colours of the shown diagram mean.
+    pub(in crate::desktop) fn legend(&self) -> Option<&Colours> {
+        self.open.as_ref()?.viewer.shown()?.legend.as_ref()
+    }
+
+    /// The picture that is shown, read back: columns, rows and pixels.
+    ///
+    /// # Errors
+    /// Where there is none, or the adapter fails.
+    pub fn picture(&self) -> anyhow::Result<(u32, u32, Vec<[u8; 4]>)> {
+        let shown = self.open.as_ref().and_then(|open| open.viewer.shown());
+        let Some(shown) = shown else { anyhow::bail!("there is no picture yet") };
+        let pixels = readback::texels(&self.gpu, &shown.texture, wgpu::TextureAspect::All)?;
+        Ok((shown.texture.width(), shown.texture.height(), pixels))
+    }
+
+    pub(in crate::desktop) fn load(&mut self, wanted: LoadRequest, context: &egui::Context) {
+        if let Some(loading) = self.loading.take() {
+            loading.cancel();
+        }
+        (self.fault, self.notice, self.bare) = (None, None, None);
+        self.saving.recovery.let_go();
+        self.loading = Some(LoadJob::start(wanted, context.clone()));
+    }
+
+    pub(in crate::desktop) fn set(&mut self, settings: Option<WindowSettings>) {
+        if let Some(settings) = settings {
+            if let Some(open) = self.open.as_mut().filter(|_| settings.before != self.settings.before) {
+                // what it would bring is undone
+                open.adding = None;
+            }
+            self.settings = settings;
+            (self.refused, self.fault) = (None, None);
+        }
+    }
+}

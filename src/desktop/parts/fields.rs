@@ -1,0 +1,159 @@
+//! Fields that are typed into: what stands in one is read when it is finished, as people write it. What cannot be read
+//! changes nothing, and is told under its field.
+
+use crate::desktop::state::words::PanelWords;
+use crate::message::Worded;
+use crate::site::typed::{self, Axis, Degrees, TypedError};
+use eframe::egui::{self, DragValue, Id, Response, Ui, emath};
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
+
+/// What is typed, and what of it could not be read.
+#[derive(Default)]
+pub(in crate::desktop) struct TypedText {
+    /// The field that is typed into, and what stands in it.
+    now: Option<(String, String)>,
+    /// What a field said when something else was typed into it, and why that is not taken.
+    faults: BTreeMap<String, (String, String)>,
+}
+
+/// What a field of a number takes, and how it shows it.
+pub(in crate::desktop) struct NumberField<'a> {
+    /// By how much it changes when it is dragged by a point.
+    pub(in crate::desktop) speed: f64,
+    /// What it takes.
+    pub(in crate::desktop) range: RangeInclusive<f64>,
+    /// Of what it is a number.
+    pub(in crate::desktop) unit: &'static str,
+    /// What stands behind it.
+    pub(in crate::desktop) suffix: &'a str,
+    /// How many decimals it shows.
+    pub(in crate::desktop) decimals: RangeInclusive<usize>,
+}
+
+impl TypedText {
+    /// A field of text, and what was read of it when it was finished.
+    pub(in crate::desktop) fn text<T>(
+        &mut self,
+        ui: &mut Ui,
+        (name, label): (&str, Id),
+        said: &str,
+        width: f32,
+        read: impl FnOnce(&str) -> Result<T, TypedError>,
+    ) -> Option<T> {
+        self.forget(name, said);
+        let mut text = match &self.now {
+            Some((field, typed)) if field == name => typed.clone(),
+            _ => said.to_owned(),
+        };
+        let response = ui.add(egui::TextEdit::singleline(&mut text).desired_width(width)).labelled_by(label);
+        if response.changed() {
+            self.faults.remove(name);
+            self.now = Some((name.to_owned(), text));
+        }
+        if !response.lost_focus() {
+            return None;
+        }
+        let (_, text) = self.now.take_if(|(field, _)| field == name)?;
+        let read = read(&text);
+        self.keep(name, said, read.as_ref().err());
+        read.ok()
+    }
+
+    /// A field of a number, which can be dragged, too.
+    pub(in crate::desktop) fn number(
+        &mut self,
+        ui: &mut Ui,
+        field: (&str, Id),
+        value: &mut f64,
+        number: &NumberField<'_>,
+    ) -> Response {
+        self.read_number(ui, field, value, number, |text| typed::within(text, number.range.clone(), number.unit))
+    }
+
+    fn read_number(
+        &mut self,
+        ui: &mut Ui,
+        (name, label): (&str, Id),
+        value: &mut f64,
+        number: &NumberField<'_>,
+        read: impl Fn(&str) -> Result<f64, TypedError>,
+    ) -> Response {
+        let before = *value;
+        self.forget(name, &before.to_string());
+        let shown = RefCell::new(String::new());
+        let fault = Cell::new(None);
+        let parse = |text: &str| {
+            // what nobody has changed keeps the decimals that are not shown
+            if *shown.borrow() == text {
+                return Some(before);
+            }
+            read(text).map_err(|error| fault.set(Some(error))).ok()
+        };
+        let format = |value, decimals| {
+            let text = emath::format_with_decimals_in_range(value, decimals);
+            shown.borrow_mut().clone_from(&text);
+            text
+        };
+        let drag = DragValue::new(value).speed(number.speed).range(number.range.clone()).suffix(number.suffix);
+        let drag = drag.min_decimals(*number.decimals.start()).max_decimals(*number.decimals.end());
+        // read once it is whole: its beginning is another number
+        let drag = drag.update_while_editing(false);
+        let response = ui.add(drag.custom_formatter(format).custom_parser(parse)).labelled_by(label);
+        let fault = fault.take();
+        if fault.is_some() || response.changed() || response.gained_focus() {
+            self.keep(name, &before.to_string(), fault.as_ref());
+        }
+        response
+    }
+
+    /// A field of a latitude or longitude, in degrees; and the place, where one is typed into it.
+    pub(in crate::desktop) fn degrees(
+        &mut self,
+        ui: &mut Ui,
+        field: (&str, Id),
+        value: &mut f64,
+        axis: Axis,
+    ) -> (bool, Option<[f64; 2]>) {
+        let place = Cell::new(None);
+        let read = |text: &str| match typed::degrees(text, axis)? {
+            Degrees::One(value) => Ok(value),
+            Degrees::Both(both) => {
+                place.set(Some(both));
+                Ok(if axis == Axis::Latitude { both[0] } else { both[1] })
+            }
+        };
+        let range = -axis.most()..=axis.most();
+        let number = NumberField { speed: 0.01, range, unit: "degrees", suffix: "°", decimals: 4..=6 };
+        let response = self.read_number(ui, field, value, &number, read);
+        (response.changed(), place.take())
+    }
+
+    /// Why what was typed into one of these fields is not taken.
+    pub(in crate::desktop) fn show_faults(&self, ui: &mut Ui, names: &[&str]) {
+        for (_, fault) in names.iter().filter_map(|name| self.faults.get(*name)) {
+            refused(ui, fault);
+        }
+    }
+
+    fn keep(&mut self, name: &str, said: &str, fault: Option<&TypedError>) {
+        match fault {
+            Some(fault) => self.faults.insert(name.to_owned(), (said.to_owned(), fault.in_words(&PanelWords))),
+            None => self.faults.remove(name),
+        };
+    }
+
+    /// What was refused is past once the field says something else: by undo, or by another site.
+    fn forget(&mut self, name: &str, said: &str) {
+        if self.faults.get(name).is_some_and(|(then, _)| then != said) {
+            self.faults.remove(name);
+        }
+    }
+}
+
+/// Why what was typed is not taken, below it.
+pub(in crate::desktop) fn refused(ui: &mut Ui, fault: &str) {
+    let text = egui::RichText::new(fault.replace('`', "").replace(" -", " −")).color(ui.visuals().error_fg_color);
+    ui.add(egui::Label::new(text).wrap());
+}

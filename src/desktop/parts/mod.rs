@@ -1,0 +1,11 @@
+//! What the window is drawn of: the picture and what lies over it, fields, lists, dialogs. None of them knows the window.
+
+pub(in crate::desktop) mod components;
+pub(in crate::desktop) mod fields;
+pub(in crate::desktop) mod path_dialog;
+pub(in crate::desktop) mod question;
+pub(in crate::desktop) mod screen;
+pub(in crate::desktop) mod sky;
+pub(in crate::desktop) mod theme;
+pub(in crate::desktop) mod time;
+pub(in crate::desktop) mod view;

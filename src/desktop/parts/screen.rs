@@ -1,0 +1,142 @@
+//! The picture and the ground of the panels, put into the window's frame by shaders that do no more than that.
+//!
+//! egui has one fragment shader for everything, letters included. On an adapter that is a program on the processor it takes
+//! ten times as long for a picture as sampling it does, and so would every frame.
+
+use crate::gpu::shaders;
+use eframe::egui::{Color32, PaintCallback, PaintCallbackInfo, Rect};
+use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
+use wgpu::*;
+
+/// What draws them; one for the window, kept where egui's renderer finds it.
+struct ScreenPipelines {
+    shows: RenderPipeline,
+    fills: RenderPipeline,
+    colour: Buffer,
+    filled: BindGroup,
+    sampler: Sampler,
+}
+
+/// Makes the window's renderer ready.
+pub(in crate::desktop) fn set_up(render: &RenderState) {
+    let device = &render.device;
+    let module = device.create_shader_module(ShaderModuleDescriptor {
+        label: Some("screen"),
+        source: ShaderSource::Wgsl(shaders::SCREEN.into()),
+    });
+    let linear = render.target_format.is_srgb();
+    let pipeline = |label, fragment| {
+        device.create_render_pipeline(&RenderPipelineDescriptor {
+            label: Some(label),
+            layout: None,
+            vertex: VertexState {
+                module: &module,
+                entry_point: Some("whole_viewport"),
+                compilation_options: PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: MultisampleState::default(),
+            fragment: Some(FragmentState {
+                module: &module,
+                entry_point: Some(fragment),
+                compilation_options: PipelineCompilationOptions::default(),
+                targets: &[Some(render.target_format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    };
+    let shows = pipeline("screen.picture", if linear { "show_linear" } else { "show" });
+    let fills = pipeline("screen.ground", if linear { "fill_linear" } else { "fill" });
+    let colour = device.create_buffer(&BufferDescriptor {
+        label: Some("screen.colour"),
+        size: size_of::<[f32; 4]>() as u64,
+        usage: BufferUsages::UNIFORM | BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let filled = device.create_bind_group(&BindGroupDescriptor {
+        label: Some("screen.ground"),
+        layout: &fills.get_bind_group_layout(0),
+        entries: &[BindGroupEntry { binding: 0, resource: colour.as_entire_binding() }],
+    });
+    let sampler = device.create_sampler(&SamplerDescriptor {
+        label: Some("screen"),
+        mag_filter: FilterMode::Linear,
+        min_filter: FilterMode::Linear,
+        ..SamplerDescriptor::default()
+    });
+    let screen = ScreenPipelines { shows, fills, colour, filled, sampler };
+    render.renderer.write().callback_resources.insert(screen);
+}
+
+/// A picture that frames can show.
+#[derive(Clone)]
+pub(in crate::desktop) struct Print(BindGroup);
+
+impl Print {
+    /// Of a texture, which may be drawn anew at any time.
+    pub(in crate::desktop) fn of(texture: &Texture, render: &RenderState) -> Option<Print> {
+        let renderer = render.renderer.read();
+        let screen: &ScreenPipelines = renderer.callback_resources.get()?;
+        let view = texture.create_view(&TextureViewDescriptor::default());
+        let entries = [
+            BindGroupEntry { binding: 1, resource: BindingResource::TextureView(&view) },
+            BindGroupEntry { binding: 2, resource: BindingResource::Sampler(&screen.sampler) },
+        ];
+        Some(Print(render.device.create_bind_group(&BindGroupDescriptor {
+            label: Some("screen.picture"),
+            layout: &screen.shows.get_bind_group_layout(0),
+            entries: &entries,
+        })))
+    }
+
+    /// Shows it in a rectangle, as large as that is.
+    pub(in crate::desktop) fn shown_in(&self, rect: Rect) -> PaintCallback {
+        Callback::new_paint_callback(rect, self.clone())
+    }
+}
+
+impl CallbackTrait for Print {
+    fn paint(&self, _: PaintCallbackInfo, pass: &mut RenderPass<'static>, resources: &CallbackResources) {
+        if let Some(screen) = resources.get::<ScreenPipelines>() {
+            pass.set_pipeline(&screen.shows);
+            pass.set_bind_group(0, &self.0, &[]);
+            pass.draw(0..3, 0..1);
+        }
+    }
+}
+
+/// The colour on which a frame's panels stand.
+struct PanelColour(Color32);
+
+/// Fills a rectangle, the frame's first: one colour a frame.
+pub(in crate::desktop) fn ground(rect: Rect, colour: Color32) -> PaintCallback {
+    Callback::new_paint_callback(rect, PanelColour(colour))
+}
+
+impl CallbackTrait for PanelColour {
+    fn prepare(
+        &self,
+        _: &Device,
+        queue: &Queue,
+        _: &ScreenDescriptor,
+        _: &mut CommandEncoder,
+        resources: &mut CallbackResources,
+    ) -> Vec<CommandBuffer> {
+        if let Some(screen) = resources.get::<ScreenPipelines>() {
+            let colour = self.0.to_normalized_gamma_f32();
+            queue.write_buffer(&screen.colour, 0, bytemuck::bytes_of(&colour));
+        }
+        Vec::new()
+    }
+
+    fn paint(&self, _: PaintCallbackInfo, pass: &mut RenderPass<'static>, resources: &CallbackResources) {
+        if let Some(screen) = resources.get::<ScreenPipelines>() {
+            pass.set_pipeline(&screen.fills);
+            pass.set_bind_group(0, &screen.filled, &[]);
+            pass.draw(0..3, 0..1);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What pictures are drawn on: a graphics device of its own, so that drawing never stands in the window's way; another one
+//! where that fails; and none where that fails again and again.
+
+use crate::gpu::{Gpu, GpuError};
+#[cfg(feature = "test-hooks")]
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// The device at hand, and where the next one comes from.
+pub(in crate::desktop) struct Easel {
+    /// The window's.
+    adapter: wgpu::Adapter,
+    gpu: Mutex<Option<Arc<Gpu>>>,
+    software: AtomicBool,
+    given_up: AtomicBool,
+    note: Mutex<Option<String>>,
+    /// So many devices are to be lost as soon as they are opened.
+    #[cfg(feature = "test-hooks")]
+    to_lose: AtomicU32,
+}
+
+impl Easel {
+    /// None is opened yet.
+    pub(in crate::desktop) fn new(adapter: wgpu::Adapter) -> Easel {
+        let software = AtomicBool::new(adapter.get_info().device_type == wgpu::DeviceType::Cpu);
+        let (gpu, note) = (Mutex::new(None), Mutex::new(None));
+        Easel {
+            adapter,
+            gpu,
+            software,
+            given_up: AtomicBool::new(false),
+            note,
+            #[cfg(feature = "test-hooks")]
+            to_lose: AtomicU32::new(0),
+        }
+    }
+
+    /// Whether pictures are drawn by the processor: by an adapter that is a program, or without any.
+    pub(in crate::desktop) fn is_software(&self) -> bool {
+        self.software.load(Ordering::Acquire)
+    }
+
+    /// Whether they are drawn without any adapter.
+    pub(in crate::desktop) fn is_given_up(&self) -> bool {
+        self.given_up.load(Ordering::Acquire)
+    }
+
+    /// What became of a device, since the last time it was asked for.
+    pub(in crate::desktop) fn note(&self) -> Option<String> {
+        locked(&self.note).take()
+    }
+
+    /// The device at hand, or a new one: on the window's adapter, or where that has none on another. None where all failed.
+    pub(in crate::desktop) fn gpu(&self) -> Option<Arc<Gpu>> {
+        if self.is_given_up() {
+            return None;
+        }
+        let mut at_hand = locked(&self.gpu);
+        if let Some(gpu) = &*at_hand {
+            return Some(Arc::clone(gpu));
+        }
+        let error = match Gpu::on(&self.adapter) {
+            Ok(gpu) => return Some(self.take(&mut at_hand, gpu)),
+            Err(error) => error,
+        };
+        // an adapter whose driver was reset is found anew
+        match Gpu::open().or_else(|_| Gpu::open_software()) {
+            Ok(gpu) => {
+                self.tell(format!("{}; pictures are drawn by '{}'", error.why(), gpu.name()));
+                Some(self.take(&mut at_hand, gpu))
+            }
+            Err(_) => self.give_up(&error),
+        }
+    }
+
+    /// Another device, as this one failed at a picture so many times by now: a new one on the same adapter, then one on an
+    /// adapter that is a program on the processor, then none.
+    pub(in crate::desktop) fn replace(&self, error: &GpuError, failures: usize) -> Option<Arc<Gpu>> {
+        *locked(&self.gpu) = None;
+        match failures {
+            1 => {
+                self.tell(format!("{}; the picture was drawn again on a new device", error.why()));
+                self.gpu()
+            }
+            2 => {
+                let Ok(gpu) = Gpu::open_software() else { return self.give_up(error) };
+                self.tell(format!(
+                    "{} again; pictures are drawn on the processor now, by '{}'",
+                    error.why(),
+                    gpu.name()
+                ));
+                Some(self.take(&mut locked(&self.gpu), gpu))
+            }
+            _ => self.give_up(error),
+        }
+    }
+
+    fn give_up(&self, error: &GpuError) -> Option<Arc<Gpu>> {
+        self.given_up.store(true, Ordering::Release);
+        self.software.store(true, Ordering::Release);
+        self.tell(format!("{}; pictures are drawn on the processor now, with sun and shadow alone", error.why()));
+        None
+    }
+
+    fn tell(&self, note: String) {
+        *locked(&self.note) = Some(note);
+    }
+
+    fn take(&self, at_hand: &mut Option<Arc<Gpu>>, gpu: Gpu) -> Arc<Gpu> {
+        self.software.store(gpu.software(), Ordering::Release);
+        #[cfg(feature = "test-hooks")]
+        if self.to_lose.fetch_update(Ordering::AcqRel, Ordering::Acquire, |left| left.checked_sub(1)).is_ok() {
+            gpu.device.destroy();
+        }
+        Arc::clone(at_hand.insert(Arc::new(gpu)))
+    }
+
+    /// Takes the device away, as a driver that is reset would, and further ones as soon as they are opened.
+    #[cfg(feature = "test-hooks")]
+    pub(in crate::desktop) fn lose(&self, further: u32) {
+        self.to_lose.store(further, Ordering::Release);
+        if let Some(gpu) = &*locked(&self.gpu) {
+            gpu.device.destroy();
+        }
+    }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,13 @@
+//! What is open, what a person sets, and what is kept of it against a crash: nothing is drawn here, and no thread works.
+
+pub(in crate::desktop) mod bare_model;
+pub(in crate::desktop) mod clock;
+pub(in crate::desktop) mod eye;
+pub(in crate::desktop) mod pick;
+pub(in crate::desktop) mod project;
+pub(in crate::desktop) mod recovery;
+pub(in crate::desktop) mod saving;
+pub(in crate::desktop) mod settings;
+pub(in crate::desktop) mod technique;
+pub(in crate::desktop) mod unit;
+pub(in crate::desktop) mod words;

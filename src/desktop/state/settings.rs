@@ -1,0 +1,98 @@
+//! What a person sets, as one small value; and its history.
+
+use crate::choice::Method;
+use crate::export::figure::Diagram;
+use crate::site::WrittenSite;
+use crate::site::file::SiteFile;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Everything that undo brings back: the site as it is written, how its shadows are shown, what is
+/// hidden, and what it is compared with.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::desktop) struct WindowSettings {
+    /// What the site file says.
+    pub(in crate::desktop) site: SiteFile,
+    /// How its shadows are shown.
+    pub(in crate::desktop) shown: ShadowSettings,
+    /// The components that the picture leaves out, by name.
+    pub(in crate::desktop) hidden: Hidden,
+    /// The state that it is compared with.
+    pub(in crate::desktop) before: Option<Arc<WrittenSite>>,
+}
+
+/// Names of components that the window's picture leaves out, whatever they do.
+pub(in crate::desktop) type Hidden = Arc<BTreeSet<String>>;
+
+/// How shadows are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::desktop) struct ShadowSettings {
+    /// By which technique they are found.
+    pub(in crate::desktop) method: Method,
+    /// Rays go to the whole disc of the sun, where rays are cast.
+    pub(in crate::desktop) disc: bool,
+    /// The shadow volumes over the picture.
+    pub(in crate::desktop) volumes: bool,
+    /// The silhouette over the picture.
+    pub(in crate::desktop) silhouette: bool,
+    /// What counting took, instead of sun and shadow.
+    pub(in crate::desktop) diagram: Option<Diagram>,
+    /// Components in their own colours.
+    pub(in crate::desktop) tinted: bool,
+    /// Hours are found on façades, too.
+    pub(in crate::desktop) facades: bool,
+}
+
+/// The settings that were, and those that were undone.
+#[derive(Default)]
+pub(in crate::desktop) struct History {
+    past: Vec<WindowSettings>,
+    future: Vec<WindowSettings>,
+    last: WindowSettings,
+}
+
+impl History {
+    /// How many are kept.
+    const MOST: usize = 200;
+
+    /// Begins anew with another site.
+    pub(in crate::desktop) fn restart(&mut self, now: &WindowSettings) {
+        *self = History { last: now.clone(), ..History::default() };
+    }
+
+    /// Takes note of settings that a person has come to.
+    pub(in crate::desktop) fn note(&mut self, now: &WindowSettings) {
+        if *now != self.last {
+            self.past.push(std::mem::replace(&mut self.last, now.clone()));
+            self.future.clear();
+            if self.past.len() > Self::MOST {
+                self.past.remove(0);
+            }
+        }
+    }
+
+    /// The settings before.
+    pub(in crate::desktop) fn undo(&mut self) -> Option<WindowSettings> {
+        let before = self.past.pop()?;
+        self.future.push(std::mem::replace(&mut self.last, before.clone()));
+        Some(before)
+    }
+
+    /// The settings that were undone last.
+    pub(in crate::desktop) fn redo(&mut self) -> Option<WindowSettings> {
+        let after = self.future.pop()?;
+        self.past.push(std::mem::replace(&mut self.last, after.clone()));
+        Some(after)
+    }
+
+    /// Changes the site in all of them.
+    pub(in crate::desktop) fn change_all(&mut self, change: impl Fn(&mut SiteFile)) {
+        let all = self.past.iter_mut().chain(&mut self.future).chain([&mut self.last]);
+        all.for_each(|settings| change(&mut settings.site));
+    }
+
+    /// Whether there is something to undo, and to redo.
+    pub(in crate::desktop) fn has(&self) -> [bool; 2] {
+        [!self.past.is_empty(), !self.future.is_empty()]
+    }
+}

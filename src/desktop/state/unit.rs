@@ -1,0 +1,17 @@
+//! The unit in which lengths are shown. What is written is metres.
+
+/// A unit of length.
+#[derive(Clone, Copy)]
+pub(in crate::desktop) struct Unit {
+    /// How long it is, metres.
+    pub(in crate::desktop) metres: f64,
+    /// Its short name.
+    pub(in crate::desktop) name: &'static str,
+}
+
+impl Unit {
+    /// Feet, or metres.
+    pub(in crate::desktop) fn of(feet: bool) -> Unit {
+        if feet { Unit { metres: 0.3048, name: "ft" } } else { Unit { metres: 1.0, name: "m" } }
+    }
+}

@@ -1,0 +1,71 @@
+//! What the window calls the fields of a request: by the labels of its panel, and what has none by the site file's keys.
+
+use crate::message::{Field, Words};
+
+/// The words of what is set in the panel: keys are labels.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::desktop) struct PanelWords;
+
+/// The words of what files say: keys are keys.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::desktop) struct FileWords;
+
+impl Words for PanelWords {
+    fn name(&self, field: Field) -> Option<&'static str> {
+        FileWords.name(field)
+    }
+
+    fn key(&self, field: Field) -> &'static str {
+        match field {
+            Field::Date => "\"Study date\"",
+            Field::From => "\"Window\"",
+            Field::To => "\"to\"",
+            Field::Step => "\"step\"",
+            _ => field.name(),
+        }
+    }
+
+    fn setting(&self, table: &str, key: &str, value: Option<&str>, written: &str) -> String {
+        match (table, key, value) {
+            ("[ground]", "level", _) => "\"Ground\" under Place".to_owned(),
+            ("[[model]]", "scale", Some(value)) => format!("{value} for \"scale\" under Place"),
+            ("[[model]]", "receives", _) => "\"receives\" under Components".to_owned(),
+            ("[[model]]", "casts", _) => "\"casts\" switched off under Components".to_owned(),
+            _ => written.to_owned(),
+        }
+    }
+
+    fn at(&self, file: &str, table: &str, key: &str) -> String {
+        let label = match (table, key) {
+            ("[place]", "") => "Place",
+            ("[place]", "latitude") => "Latitude",
+            ("[place]", "longitude") => "Longitude",
+            ("[place]", "elevation") => "Elevation",
+            ("[[model]]", "north") => "Model north",
+            ("[[model]]", "scale") => "Model north, scale",
+            ("[ground]", "level") => "Ground",
+            ("[study]", "date") => "Study date",
+            ("[study]", "dates") => "Study days",
+            ("[study]", "from") => "Window",
+            ("[study]", "to") => "Window, to",
+            ("[study]", "step") => "Study date, step",
+            ("[study]", "technique") => "Technique",
+            _ => return FileWords.at(file, table, key),
+        };
+        label.to_owned()
+    }
+}
+
+impl Words for FileWords {
+    fn name(&self, field: Field) -> Option<&'static str> {
+        Some(match field {
+            Field::Technique => "Technique",
+            Field::Step => "step",
+            Field::SunSamples => "The sun as a disc",
+            Field::Volumes => "Volumes and Silhouette",
+            Field::MaskDiagram | Field::OverdrawDiagram => "Picture of",
+            Field::Cell => "cell under [plan] in the site file",
+            _ => return None,
+        })
+    }
+}

@@ -1,0 +1,217 @@
+//! A site is loaded beside the window, which shows how far it is and can give it up.
+
+use crate::desktop::state::bare_model::BareModel;
+use crate::desktop::state::project::{LoadedSite, Project, complete, name_of};
+use crate::desktop::state::settings::Hidden;
+use crate::desktop::state::words::{FileWords, PanelWords};
+use crate::export::figure::component_colours;
+use crate::fault;
+use crate::formats;
+use crate::message::Words;
+use crate::shadow::ray_cast::RayCaster;
+use crate::site::{Models, Overrides, Site, SiteError, WrittenSite};
+use eframe::egui;
+use std::cell::Cell;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, mpsc};
+
+/// Why there is no project.
+pub(in crate::desktop) enum LoadError {
+    /// It is a bare model.
+    Bare(PathBuf),
+    /// What the command would say.
+    Message(String),
+}
+
+/// What is to be loaded.
+pub(in crate::desktop) enum LoadRequest {
+    /// What somebody opens.
+    File(PathBuf),
+    /// A bare model, where it stands.
+    Placed(BareModel),
+    /// What a window that has ended had open: its site file, and what was read of it.
+    Left(Option<PathBuf>, Box<WrittenSite>),
+    /// The open site, as it is written now, what of it is hidden, and what may still do.
+    Again(Box<WrittenSite>, Hidden, Box<LoadedSite>),
+}
+
+/// Work that goes on beside the window.
+pub(in crate::desktop) struct LoadJob {
+    /// What is loaded, in a word.
+    pub(in crate::desktop) name: String,
+    /// Whether the site is opened, and not the open one read again.
+    pub(in crate::desktop) opens: bool,
+    /// Whether it takes so long that it is shown: all but the open site's settings.
+    pub(in crate::desktop) reads: bool,
+    stage: Arc<Mutex<(f32, String)>>,
+    cancelled: Arc<AtomicBool>,
+    result: mpsc::Receiver<Result<Project, LoadError>>,
+}
+
+impl LoadJob {
+    /// Begins.
+    pub(in crate::desktop) fn start(wanted: LoadRequest, context: egui::Context) -> LoadJob {
+        let path = match &wanted {
+            LoadRequest::File(path) => path.clone(),
+            LoadRequest::Placed(bare) => bare.path.clone(),
+            LoadRequest::Left(_, written) | LoadRequest::Again(written, ..) => PathBuf::from(&written.file),
+        };
+        let (tell, result) = mpsc::channel();
+        let stage = Arc::new(Mutex::new((0.0, "Reading".to_owned())));
+        let cancelled = Arc::new(AtomicBool::new(false));
+        let opens = !matches!(wanted, LoadRequest::Again(..));
+        let reads = !matches!(&wanted, LoadRequest::Again(_, _, before) if before.models.is_some());
+        let progress = LoadProgress { stage: Arc::clone(&stage), cancelled: Arc::clone(&cancelled), context };
+        std::thread::spawn(move || {
+            let project = project(wanted, &progress);
+            // who gave the loading up listens no more
+            let _ = tell.send(project);
+            progress.context.request_repaint();
+        });
+        LoadJob { name: name_of(&path), opens, reads, stage, cancelled, result }
+    }
+
+    /// How far it is, 0 to 1, and what is being done.
+    pub(in crate::desktop) fn stage(&self) -> (f32, String) {
+        self.stage.lock().map(|stage| stage.clone()).unwrap_or_default()
+    }
+
+    /// What came of it, once it is done.
+    pub(in crate::desktop) fn done(&self) -> Option<Result<Project, LoadError>> {
+        match self.result.try_recv() {
+            Ok(result) => Some(result),
+            Err(mpsc::TryRecvError::Empty) => None,
+            Err(mpsc::TryRecvError::Disconnected) => {
+                Some(Err(LoadError::Message(format!("{} could not be loaded: the work ended early", self.name))))
+            }
+        }
+    }
+
+    /// Gives it up.
+    pub(in crate::desktop) fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+    }
+}
+
+struct LoadProgress {
+    stage: Arc<Mutex<(f32, String)>>,
+    cancelled: Arc<AtomicBool>,
+    context: egui::Context,
+}
+
+impl LoadProgress {
+    fn tell(&self, share: f32, what: impl Into<String>) {
+        if let Ok(mut stage) = self.stage.lock() {
+            *stage = (share, what.into());
+        }
+        self.context.request_repaint();
+    }
+}
+
+fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, LoadError> {
+    let (path, written) = match wanted {
+        LoadRequest::File(path) => match WrittenSite::read(&path, &Overrides::default()) {
+            Err(SiteError::NoPlaceForModel { .. }) => {
+                // a model that cannot be read is told before its place is asked
+                crate::site::load_mesh(&path, &Overrides::default()).map_err(|error| failure(&error, &FileWords))?;
+                return Err(LoadError::Bare(path));
+            }
+            Ok(written) => {
+                let path = if path.is_dir() { path.join("site.toml") } else { path };
+                (Some(path), written)
+            }
+            Err(error) => return Err(failure(&error, &FileWords)),
+        },
+        LoadRequest::Placed(bare) => {
+            let overrides = Overrides { place: Some(bare.place.clone()), ..Overrides::default() };
+            let mut written = WrittenSite::read(&bare.path, &overrides).map_err(|error| failure(&error, &FileWords))?;
+            if let Some(table) = written.site.model.first_mut() {
+                let north = bare.north().map_err(|error| failure(&error, &FileWords))?;
+                table.north = Some(north).filter(|north| *north != 0.0);
+            }
+            (None, written)
+        }
+        LoadRequest::Left(path, written) => (path, *written),
+        // what is left out of the open site by hand is told, and not filled in
+        LoadRequest::Again(written, hidden, before) => {
+            return read(before.path.clone(), *written, hidden, Some(&before), progress);
+        }
+    };
+    let mut written = written;
+    complete(&mut written.site);
+    read(path, written, Hidden::default(), None, progress)
+}
+
+/// The site as it is written, with what the window needs of it. What an open site has, and still does, is not made again.
+fn read(
+    path: Option<PathBuf>,
+    written: WrittenSite,
+    hidden: Hidden,
+    before: Option<&LoadedSite>,
+    progress: &LoadProgress,
+) -> Result<Project, LoadError> {
+    let at_hand = before.and_then(|before| before.models.as_ref()).filter(|models| models.are_those_of(&written));
+    // what is set in the panel has its labels, and what a file says its keys
+    let words: &dyn Words = if before.is_some() { &PanelWords } else { &FileWords };
+    let mut models = None;
+    let site = Site::with_models(&written, &Overrides::default(), || {
+        let read = at_hand.map_or_else(|| read_models(&written, progress), |models| Ok(models.clone()))?;
+        Ok(models.insert(read).clone())
+    })
+    .map_err(|error| failure(&error, words))?;
+    if progress.cancelled.load(Ordering::Relaxed) {
+        return Err(LoadError::Message("given up".to_owned()));
+    }
+    let site = Arc::new(site);
+    let visible = visible(&site, &hidden);
+    let seen = match before.filter(|_| at_hand.is_some()) {
+        Some(before) if before.visible.receives == visible.receives => Arc::clone(&before.seen),
+        _ => {
+            progress.tell(0.85, "Sorting what is seen");
+            let seen = visible.mesh.of_components(&visible.receives);
+            let reach = seen.bounds().map_or(1.0, |(low, high)| (high - low).length()) * crate::study::live::FARTHEST;
+            let rays = RayCaster::new(&seen, reach);
+            Arc::new((seen, rays))
+        }
+    };
+    progress.tell(1.0, "Drawing");
+    let Some(models) = models else { return Err(LoadError::Message("the models were not read".to_owned())) };
+    Ok(Project {
+        path,
+        written,
+        models,
+        colours: component_colours(&site.mesh, &site.casts),
+        seen,
+        site,
+        hidden,
+        visible,
+    })
+}
+
+/// The site without what is hidden.
+fn visible(site: &Arc<Site>, hidden: &Hidden) -> Arc<Site> {
+    if hidden.is_empty() {
+        return Arc::clone(site);
+    }
+    let components = site.mesh.components.iter().zip(&site.receives);
+    let receives = components.map(|(component, receives)| *receives && !hidden.contains(&component.name)).collect();
+    Arc::new(Site { receives, ..Site::clone(site) })
+}
+
+fn read_models(written: &WrittenSite, progress: &LoadProgress) -> Result<Models, SiteError> {
+    progress.tell(0.15, "Reading the models");
+    let count = written.site.model.len().max(1) as f32;
+    let done = Cell::new(0.0);
+    Models::read(written, |path, options| {
+        let read = formats::read(path, options)?;
+        done.set(done.get() + 1.0);
+        let share = done.get() / count;
+        progress.tell(0.15 + 0.35 * share, if share < 1.0 { "Reading the models" } else { "Joining triangles" });
+        Ok(read)
+    })
+}
+
+fn failure(error: &(dyn std::error::Error + 'static), words: &dyn Words) -> LoadError {
+    LoadError::Message(fault::line(error, words))
+}

@@ -1,0 +1,180 @@
+//! Studies of the open site, which are found beside the window; and when a single point lies in the sun.
+
+use crate::choice::{Method, Receivers};
+use crate::deliver::comparison::find_comparison;
+use crate::deliver::lines::Lines;
+use crate::deliver::patches::{answer, find_patches};
+use crate::deliver::probe::{self, ProbeRequest};
+use crate::deliver::profile::{ProfileRequest, find_hours};
+use crate::deliver::{DeliverError, Folder, Sink};
+use crate::desktop::results::before::BeforeState;
+use crate::desktop::results::change::ChangeResult;
+use crate::desktop::results::facades::Facades;
+use crate::desktop::results::hours::ShadowHours;
+use crate::desktop::results::{Findings, StudyResult};
+use crate::desktop::state::project::Project;
+use crate::desktop::work::{WHO, Work};
+use crate::export::figure::{self, ChangeColours};
+use crate::export::patches::Atlas;
+use crate::formats;
+use crate::site::{Models, Overrides, Pair, ProbeSite, Site, WrittenSite};
+use crate::study::{CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
+use crate::sun::DayWindow;
+use crate::sunlight::Sunlight;
+use crate::view::Probe;
+use chrono::NaiveDate;
+use eframe::egui;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What is asked of a study beside its site.
+pub(in crate::desktop) struct StudyOrder {
+    /// By which technique.
+    pub(in crate::desktop) method: Method,
+    /// The number of the answer.
+    pub(in crate::desktop) number: u64,
+    /// Where a study is kept that is stopped; nowhere without one.
+    pub(in crate::desktop) studies: Option<PathBuf>,
+    /// Who is to show what it comes to.
+    pub(in crate::desktop) context: egui::Context,
+}
+
+/// Adds up the hours of a site's study, which is kept among `studies` where it is stopped.
+pub(in crate::desktop) fn hours(project: &Project, order: StudyOrder) -> Work<StudyResult> {
+    let StudyOrder { method, number, studies, context } = order;
+    let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
+    let mark = project.models.mark();
+    Work::start(context, move |on_event| {
+        // they are few where they can be drawn
+        let bits = Lines::Outlines.check(&site.track).is_ok();
+        let request = ProfileRequest { bits, ..ProfileRequest::of(Stopwatch::start()) };
+        let hours = find_hours(&Site { method, ..Site::clone(&site) }, &request, shelf(&studies), on_event)?;
+        let found = Findings::Shadow(Box::new(ShadowHours::new(&site, hours)));
+        Ok(StudyResult { number, site, method, written, mark, found })
+    })
+}
+
+/// Finds when a point lies in the sun on a date.
+pub(in crate::desktop) fn probe(
+    project: &Project,
+    probe: Probe,
+    date: NaiveDate,
+    context: egui::Context,
+) -> Work<Sunlight> {
+    const STEP_SECS: u32 = 60;
+    let site = Arc::clone(&project.site);
+    Work::start(context, move |on_event| {
+        let day = DayWindow::on(&site.place, date, None, None).map_err(StudyError::from)?;
+        let probing = ProbeSite {
+            ground: site.ground,
+            place: site.place.clone(),
+            mesh: site.mesh.clone(),
+            notes: site.notes.clone(),
+            words: site.words,
+            casts: site.casts.clone(),
+            probes: vec![probe],
+            days: vec![day],
+            step_secs: STEP_SECS,
+            refraction: site.track.refraction,
+        };
+        Ok(probe::probe(&probing, &ProbeRequest::default(), Sink::Memory, on_event)?.sunlight)
+    })
+}
+
+/// Finds the hours of sun on the patches of a site.
+pub(in crate::desktop) fn facades(project: &Project, order: StudyOrder) -> Work<StudyResult> {
+    let StudyOrder { method, number, studies, context } = order;
+    let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
+    let mark = project.models.mark();
+    Work::start(context, move |on_event| {
+        let judged = Site { receivers: Receivers::Patches, method, ..Site::clone(&site) };
+        let outcome = find_patches(&judged, shelf(&studies), on_event)?;
+        let answer = answer(&site, &outcome);
+        let atlas = Atlas::of(&answer);
+        let pages = atlas.colours(&answer.bands(), outcome.hours.samples);
+        let legend = figure::patches_legend(&answer);
+        let found = Findings::Facades(Box::new(Facades { outcome, atlas, pages, legend }));
+        Ok(StudyResult { number, site, method, written, mark, found })
+    })
+}
+
+/// Finds what changes from `before` to the open site: over the study and on the plan of the latter.
+pub(in crate::desktop) fn change(
+    project: &Project,
+    before: Arc<WrittenSite>,
+    state: Option<BeforeState>,
+    order: StudyOrder,
+) -> Work<StudyResult> {
+    let StudyOrder { method, number, studies, context } = order;
+    let site = Arc::clone(&project.site);
+    let (mut after, written) = (project.written.clone(), project.written.site.clone());
+    let (models_after, mark) = (project.models.clone(), project.models.mark());
+    let name = project.name();
+    Work::start(context, move |on_event| {
+        let mut watch = Stopwatch::start();
+        // the picture lies on this ground
+        after.site.ground.level = Some(site.ground.level);
+        let overrides = Overrides { technique: Some(method), ..Overrides::default() };
+        let mut first = WrittenSite::clone(&before);
+        first.site.study = after.site.study.clone();
+        first.site.plan = after.site.plan.clone();
+        first.site.camera = after.site.camera.clone();
+        let at_hand = state.as_ref().and_then(BeforeState::models);
+        let models = at_hand.map_or_else(|| Models::read(&first, formats::read), Ok)?;
+        let takes_ground = first.site.ground.level.is_none() && !models.stand_on(&first, site.ground.level);
+        if takes_ground {
+            first.site.ground.level = Some(site.ground.level);
+        }
+        let mut pair = Pair::with_models(&first, &after, &overrides, |_| Ok(models.clone()), |_| Ok(models_after))?;
+        if takes_ground {
+            (pair.before.ground.from, pair.after.ground.from) = (site.ground.from, site.ground.from);
+        }
+        if pair.names[0] == pair.names[1] {
+            pair.names = [format!("{name}, before"), format!("{name}, after")];
+        }
+        watch.lap("load");
+        let outcome_before = state.and_then(|state| state.outcome(&pair.before));
+        let outcome = compare(&pair, outcome_before.as_ref(), shelf(&studies), on_event)?;
+        watch.lap("shadows");
+        let timings = watch.stages();
+        let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
+        let (receivers, step_secs) = (pair.after.receivers, pair.after.track.step_secs);
+        let colours = ChangeColours::of(&outcome.comparison, surfaces, &outcome.meshes[1], receivers, step_secs);
+        for site in [&mut pair.before, &mut pair.after] {
+            site.mesh = site.mesh.of_components(&[]);
+        }
+        let found = Findings::Change(Box::new(ChangeResult { before, models, pair, outcome, timings, colours }));
+        Ok(StudyResult { number, site, method, written, mark, found })
+    })
+}
+
+/// Two studies tell how far they are as one does.
+fn compare(
+    pair: &Pair,
+    before: Option<&Outcome>,
+    shelf: Option<Folder<'_>>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<CompareOutcome, DeliverError> {
+    let is_both = before.is_none();
+    // what is done again begins once more, and is the same state
+    let (mut begun, mut is_again) = (0_usize, false);
+    find_comparison(pair, before, shelf, &mut |event| match event {
+        Event::Drawn { index, count, time, .. } if is_both => {
+            let done = if begun > 1 { count } else { 0 };
+            on_event(Event::Drawn { index: done + index, count: 2 * count, time, mask: None, bits: None })
+        }
+        event => {
+            match event {
+                Event::Started { .. } if !std::mem::take(&mut is_again) => begun += 1,
+                Event::Anew => is_again = true,
+                _ => {}
+            }
+            on_event(event)
+        }
+    })
+}
+
+/// Where a study is kept that is stopped.
+fn shelf(studies: &Option<PathBuf>) -> Option<Folder<'_>> {
+    studies.as_deref().map(|path| Folder { path, who: WHO, inputs: &[] })
+}
