@@ -2,6 +2,7 @@
 //!
 //! An error or a note names a [`Field`], and a face has [`Words`] for it: the command an option, the window a label.
 
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 
@@ -9,7 +10,7 @@ use std::fmt;
 macro_rules! fields {
     ($($(#[$doc:meta])* $field:ident => $name:literal,)+) => {
         /// What can be asked.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
         pub enum Field { $($(#[$doc])* $field,)+ }
 
         impl Field {
@@ -27,8 +28,18 @@ macro_rules! fields {
 fields! {
     /// Latitude and longitude.
     Place => "place",
+    /// Several model files at once.
+    Models => "models",
     /// The axis of all models that is up.
     Up => "up",
+    /// From the ground to the roof of a footprint whose file says no height.
+    DefaultHeight => "default height",
+    /// How long a reader of models may take.
+    ReadTime => "time to read a model",
+    /// How much memory a reader of models may take.
+    ReadMemory => "memory to read a model",
+    /// The list of what a model holds, and of what was left out.
+    Check => "check",
     /// The height of the ground.
     Ground => "ground",
     /// The day of the study.
@@ -135,7 +146,7 @@ impl Default for &dyn Words {
 }
 
 /// A piece of what is said.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Piece {
     /// As it is.
     Text(Cow<'static, str>),
@@ -189,7 +200,7 @@ impl From<(Field, String)> for Piece {
 }
 
 /// What is wrong, or what is to be known; and apart from it what can be done.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Message {
     /// What is wrong.
     pub what: Vec<Piece>,

@@ -24,7 +24,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         "study",
         &["choice", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "picture", "profile"],
     ),
-    ("export", &["choice", "look", "mesh", "sun", "view", "site", "volume", "profile"]),
+    ("export", &["choice", "look", "mesh", "sun", "view", "formats", "site", "volume", "profile"]),
     ("deliver", &["choice", "mesh", "sun", "view", "site", "volume", "shadow", "profile", "study", "export"]),
     ("fault", &["choice", "sun", "site", "gpu", "shadow", "study", "export", "deliver"]),
     (

@@ -3,20 +3,23 @@
 use super::WrongUse;
 use super::animate::AnimateArgs;
 use super::compare::CompareArgs;
+use super::convert::ConvertArgs;
 use super::draw::LinesArgs;
 use super::eye::Viewpoint;
 use super::memory;
 use super::model::{GroundArgs, ModelArgs};
 use super::options::nothing_asked;
 use super::probe::ProbeArgs;
+use super::read_model::ReadModelArgs;
 pub(super) use super::technique::DrawArgs;
 use super::technique::{self, FinderArgs, MapArgs};
 use crate::choice::Receivers;
-use crate::site::Overrides;
+use crate::formats::child;
+use crate::site::{Overrides, SiteError, inputs};
 use crate::study::verify::SIZE;
 use crate::sun::ZoneRules;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 /// Where, when and for how long a building takes the sun away: exact shadows and shadow profiles.
@@ -52,6 +55,8 @@ pub(super) enum Command {
     Sun(SunArgs),
     /// What a model's mesh is: components, triangles, open, crowded, flipped and degenerate parts
     Check(CheckArgs),
+    /// A model as glTF, in metres and y up, components and all: to see what was read, and for other programs
+    Convert(ConvertArgs),
     /// The shadow volumes at one instant as solids down to the ground, in a .glb for other programs
     Volumes(VolumesArgs),
     /// Every technique against ray casting on this site: how many cells differ, how far, by how many hours
@@ -59,19 +64,23 @@ pub(super) enum Command {
     Verify(VerifyArgs),
     /// When points lie in the sun, on a day or over a range of dates: to the second, and what blocks in between
     Probe(ProbeArgs),
+    /// A model, read for the program itself
+    #[command(name = child::SUBCOMMAND, hide = true)]
+    ReadModel(ReadModelArgs),
 }
 
 impl Command {
     /// What every command takes; the window takes nothing.
     pub(super) fn common(&self) -> Option<&Common> {
         Some(match self {
-            Command::Open(_) => return None,
+            Command::Open(_) | Command::ReadModel(_) => return None,
             Command::Profile(asked) => &asked.common,
             Command::Compare(asked) => &asked.common,
             Command::Shadow(asked) => &asked.common,
             Command::Animate(asked) => &asked.common,
             Command::Sun(asked) => &asked.common,
             Command::Check(asked) => &asked.common,
+            Command::Convert(asked) => &asked.common,
             Command::Volumes(asked) => &asked.common,
             Command::Verify(asked) => &asked.common,
             Command::Probe(asked) => &asked.common,
@@ -81,7 +90,7 @@ impl Command {
 
 #[derive(Debug, Args)]
 pub(super) struct OpenArgs {
-    /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf), which is asked for its place
+    /// A site file, a folder that holds a site.toml, or a model, which is asked for its place
     #[arg(value_name = "SITE|MODEL")]
     pub(super) path: PathBuf,
 }
@@ -103,9 +112,9 @@ pub(super) struct Common {
 /// Where.
 #[derive(Debug, Args)]
 pub(super) struct SiteArgs {
-    /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
-    #[arg(value_name = "SITE")]
-    pub(super) path: PathBuf,
+    /// A site file, a folder that holds a site.toml, or one or more models together with --place
+    #[arg(value_name = "SITE", required = true)]
+    paths: Vec<PathBuf>,
     #[command(flatten)]
     place: PlaceArgs,
     #[command(flatten)]
@@ -271,7 +280,7 @@ pub(super) enum ShowArg {
 
 #[derive(Debug, Args)]
 pub(super) struct SunArgs {
-    /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
+    /// A site file, a folder that holds a site.toml, or a model together with --place
     #[arg(value_name = "SITE")]
     pub(super) path: PathBuf,
     #[command(flatten)]
@@ -287,7 +296,7 @@ pub(super) struct SunArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// A model (.glb, .gltf), or a site with its models
+    /// A model, or a site with its models
     #[arg(value_name = "MODEL")]
     pub(super) path: PathBuf,
     #[command(flatten)]
@@ -341,7 +350,18 @@ pub(super) struct VerifyArgs {
 
 impl SiteArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        self.ground.onto(self.place.overrides())
+        let beside = self.paths.get(1..).unwrap_or_default().to_vec();
+        Overrides { beside, ..self.ground.onto(self.place.overrides()) }
+    }
+
+    /// The site, or the first of several models.
+    pub(super) fn path(&self) -> &Path {
+        self.paths.first().map_or(Path::new(""), PathBuf::as_path)
+    }
+
+    /// The files that the request is read from.
+    pub(super) fn inputs(&self) -> Result<Vec<PathBuf>, SiteError> {
+        Ok(self.paths.iter().map(|path| inputs(path)).collect::<Result<Vec<_>, _>>()?.concat())
     }
 }
 

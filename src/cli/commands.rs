@@ -11,7 +11,7 @@ use crate::export::figure::Diagram;
 use crate::export::{check, file, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Provenance, Statistics};
-use crate::site::{Ground, LoadedMesh, Method, Site, inputs, load_mesh, load_sun};
+use crate::site::{Ground, LoadedMesh, Method, Site, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         return Err(WrongUse("--out and --mask name the same file; name two".to_owned()).into());
     }
 
-    let site = Site::load(&asked.site.path, &asked.overrides())?;
+    let site = Site::load(asked.site.path(), &asked.overrides())?;
     // the site file may name the technique
     if diagram == Some(Diagram::Mask) && site.method != Method::Hybrid {
         let what = "--show mask is the hybrid's; add --technique hybrid, or leave it out";
@@ -63,7 +63,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         watch,
     };
     let mut progress = Progress::new(asked.common.quiet);
-    let sink = Sink::Paths { inputs: &inputs(&asked.site.path)? };
+    let sink = Sink::Paths { inputs: &asked.site.inputs()? };
     let answer = instant::instant(&site, &request, sink, &mut |event| progress.heard(&event))?;
     if asked.common.json {
         return say(&answer.report);
@@ -124,13 +124,13 @@ pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
 
 /// `gnomon check`
 pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
-    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path, &asked.model.onto(nothing_asked()))?;
+    let LoadedMesh { mesh, frame, notes, models } = load_mesh(&asked.path, &asked.model.onto(nothing_asked()))?;
     interrupt::check()?;
     let components = mesh_report::components(&mesh);
     interrupt::check()?;
     match asked.common.json {
-        true => say(&check::json(&mesh, &components, frame, &notes)?),
-        false => say(&check::table(&mesh, &components, frame, &notes, &Options)),
+        true => say(&check::json(&mesh, &components, frame, &notes, &models)?),
+        false => say(&check::table(&mesh, &components, frame, &notes, &models, &Options)),
     }
 }
 

@@ -6,6 +6,7 @@ mod animate;
 mod arguments;
 mod commands;
 mod compare;
+mod convert;
 mod draw;
 mod eye;
 mod interrupt;
@@ -15,6 +16,7 @@ mod options;
 mod probe;
 mod profile;
 mod progress;
+mod read_model;
 mod surfaces;
 mod technique;
 mod verify;
@@ -72,6 +74,10 @@ pub fn main(window: Option<WindowOpener>) -> ExitCode {
 }
 
 fn run(command: &Command) -> anyhow::Result<()> {
+    if let Command::ReadModel(asked) = command {
+        // Ctrl-C ends it at once, as whoever asks for it
+        return read_model::read_model(asked);
+    }
     let threads = command.common().and_then(|common| common.threads);
     // this thread is one of them: work does not go to and fro between it and others that wait meanwhile
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).use_current_thread();
@@ -90,8 +96,9 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Volumes(asked) => volumes::volumes(asked),
         Command::Verify(asked) => verify::verify(asked),
         Command::Probe(asked) => probe::probe(asked),
-        // main's own
-        Command::Open(_) => Ok(()),
+        Command::Convert(asked) => convert::convert(asked),
+        // main's own, and answered above
+        Command::Open(_) | Command::ReadModel(_) => Ok(()),
     }
 }
 
@@ -108,7 +115,8 @@ fn status(error: &anyhow::Error) -> u8 {
         || error.downcast_ref().is_some_and(ExportError::is_wrong_use)
         || error.downcast_ref().is_some_and(DeliverError::is_wrong_use);
     let interrupted = matches!(error.downcast_ref(), Some(StudyError::Interrupted))
-        || error.downcast_ref().is_some_and(DeliverError::is_interrupted);
+        || error.downcast_ref().is_some_and(DeliverError::is_interrupted)
+        || error.downcast_ref().is_some_and(SiteError::is_given_up);
     match (interrupted, wrong_use) {
         (true, _) => 130,
         (_, true) => 2,

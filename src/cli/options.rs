@@ -17,6 +17,11 @@ impl Words for Options {
         Some(match field {
             Field::Place => "--place",
             Field::Up => "--up",
+            Field::Models => "SITE",
+            Field::DefaultHeight => "--default-height",
+            Field::ReadTime => "--read-time",
+            Field::ReadMemory => "--read-memory",
+            Field::Check => "gnomon check",
             Field::Ground => "--ground",
             Field::Date => "--date",
             Field::FromDate => "--from-date",

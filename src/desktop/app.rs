@@ -18,14 +18,12 @@ use super::view::{ViewRequest, Viewer};
 use super::work::Work;
 use super::{cards, look, panel, screen};
 use crate::export::figure::Colours;
-use crate::gpu::{Gpu, readback};
-use crate::profile::Provenance;
+use crate::formats::Reading;
+use crate::gpu::Gpu;
 use crate::profile::probe::Sunlight;
-use crate::site::file::SiteFile;
-use crate::view::{Probe, View};
+use crate::view::Probe;
 use eframe::egui::{self, Ui};
 use eframe::egui_wgpu::RenderState;
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -83,6 +81,10 @@ pub struct App {
     /// Settings of which it is known that no site comes of them.
     pub(super) refused: Option<WindowSettings>,
     pub(super) bare: Option<BareModel>,
+    /// Models that were dropped on the open site, until it is answered what becomes of them.
+    pub(super) dropped: Vec<PathBuf>,
+    /// How model files are read.
+    pub(super) reading: Reading,
     pub(super) asking: Option<PathDialog>,
     pub(super) writing: Option<Work<PathBuf>>,
     /// What is typed into the panel's fields.
@@ -102,13 +104,22 @@ pub struct App {
 }
 
 impl App {
-    /// A window on eframe's device, with a site or a model in it where one is named.
+    /// A window on eframe's device, with a site or a model in it where one is named. Models are read in this process.
     ///
     /// # Errors
     /// Where eframe has no device.
     pub fn new(
         cc: &eframe::CreationContext<'_>,
         path: Option<&Path>,
+    ) -> Result<App, Box<dyn std::error::Error + Send + Sync>> {
+        Self::reading(cc, path, Reading::default())
+    }
+
+    /// The same, with another way to read models.
+    pub(super) fn reading(
+        cc: &eframe::CreationContext<'_>,
+        path: Option<&Path>,
+        reading: Reading,
     ) -> Result<App, Box<dyn std::error::Error + Send + Sync>> {
         look::set(&cc.egui_ctx);
         let (gpu, render, stage) = devices(cc)?;
@@ -126,6 +137,8 @@ impl App {
             is_reading: false,
             refused: None,
             bare: None,
+            dropped: Vec::new(),
+            reading,
             asking: None,
             writing: None,
             typed: TypedText::default(),
@@ -137,7 +150,7 @@ impl App {
             had_focus: true,
         };
         if let Some(path) = path {
-            app.load(LoadRequest::File(path.to_owned()), &cc.egui_ctx);
+            app.load(LoadRequest::Files(vec![path.to_owned()]), &cc.egui_ctx);
         }
         Ok(app)
     }
@@ -182,51 +195,19 @@ impl App {
         self.stage.is_busy()
     }
 
-    /// What the picture shows: the view, and the unit vector to the sun.
-    pub fn shown(&self) -> Option<(View, DVec3)> {
-        let wish = &self.open.as_ref()?.viewer.shown()?.wish;
-        Some((wish.view, wish.to_sun))
-    }
-
-    /// What was asked for at the last frame: the view at its full size, and the unit vector to the sun.
-    pub fn asked(&self) -> Option<(View, DVec3)> {
-        let wish = self.open.as_ref()?.viewer.asked()?;
-        Some((wish.view, wish.to_sun))
-    }
-
-    /// What drew the picture.
-    pub fn drawn(&self) -> Option<&Provenance> {
-        Some(&self.open.as_ref()?.viewer.shown()?.drawn)
-    }
-
-    /// The site as it is set, as a site file would say it.
-    pub fn site_file(&self) -> &SiteFile {
-        &self.settings.site
-    }
-
-    /// The picture that is shown, read back: columns, rows and pixels.
-    ///
-    /// # Errors
-    /// Where there is none, or the adapter fails.
-    pub fn picture(&self) -> anyhow::Result<(u32, u32, Vec<[u8; 4]>)> {
-        let shown = self.open.as_ref().and_then(|open| open.viewer.shown());
-        let Some(shown) = shown else { anyhow::bail!("there is no picture yet") };
-        let pixels = readback::texels(&self.gpu, &shown.texture, wgpu::TextureAspect::All)?;
-        Ok((shown.texture.width(), shown.texture.height(), pixels))
-    }
-
     pub(super) fn load(&mut self, wanted: LoadRequest, context: &egui::Context) {
         if let Some(loading) = self.loading.take() {
             loading.cancel();
         }
         (self.fault, self.notice, self.bare) = (None, None, None);
+        self.dropped.clear();
         self.saving.recovery.let_go();
-        self.loading = Some(LoadJob::start(wanted, context.clone()));
+        self.loading = Some(LoadJob::start(wanted, &self.reading, context.clone()));
     }
 
     pub(super) fn open_sample(&mut self, name: &str, context: &egui::Context) {
         match files::sample(name) {
-            Ok(path) => self.load(LoadRequest::File(path), context),
+            Ok(path) => self.load(LoadRequest::Files(vec![path]), context),
             Err(error) => self.fault = Some(error.to_string()),
         }
     }
@@ -249,9 +230,7 @@ impl App {
             match result {
                 Ok(project) if opens => self.go_on_or_ask(PendingAction::Open(Box::new(project)), context),
                 Ok(project) => self.take(project, false),
-                Err(LoadError::Bare(path)) => {
-                    self.bare = Some(BareModel::new(path));
-                }
+                Err(LoadError::Bare(paths)) => self.bare = Some(BareModel::new(paths)),
                 Err(LoadError::Told(fault)) => {
                     self.fault = Some(fault);
                     if !opens {
@@ -384,7 +363,7 @@ impl App {
             written.site = self.settings.site.clone();
             let hidden = Arc::clone(&self.settings.hidden);
             let wanted = LoadRequest::Again(Box::new(written), hidden, Box::new(project.before(false)));
-            self.loading = Some(LoadJob::start(wanted, context.clone()));
+            self.loading = Some(LoadJob::start(wanted, &self.reading, context.clone()));
             self.is_reading = true;
         }
     }
@@ -411,10 +390,7 @@ impl eframe::App for App {
         let context = ui.ctx().clone();
         self.receive(&context);
         self.shortcuts(&context);
-        let dropped = context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
-        if let Some(path) = dropped {
-            self.load(LoadRequest::File(path), &context);
-        }
+        self.take_dropped(&context);
         ui.painter().add(screen::ground(ui.max_rect(), ui.visuals().panel_fill));
         let on_ground = egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT);
         egui::Panel::top("menus").frame(on_ground).show(ui, |ui| self.menus(ui));
@@ -446,6 +422,7 @@ impl eframe::App for App {
             egui::CentralPanel::no_frame().show(ui, |ui| self.view(ui));
         }
         self.ask_place(&context);
+        self.ask_dropped(&context);
         self.look_for_changes(&context);
         if let Some(mut asking) = self.asking.take() {
             match asking.show(&context) {

@@ -5,7 +5,7 @@ use super::loading::{LoadRequest, name_of};
 use super::look;
 use super::typed::refused;
 use super::words::PanelWords;
-use crate::message::Worded;
+use crate::message::{Worded, few};
 use crate::site::typed::{self, TypedError};
 use eframe::egui::{self, Key, Response, TextEdit, Ui};
 use std::path::PathBuf;
@@ -15,6 +15,8 @@ use std::path::PathBuf;
 pub(super) struct BareModel {
     /// The model's file.
     pub(super) path: PathBuf,
+    /// Further models, which stand in the same site.
+    pub(super) beside: Vec<PathBuf>,
     /// What was answered so far, as typed.
     pub(super) place: String,
     /// Degrees clockwise from the model's north to true north, as typed.
@@ -25,8 +27,10 @@ pub(super) struct BareModel {
 
 impl BareModel {
     /// Nothing is answered yet.
-    pub(super) fn new(path: PathBuf) -> BareModel {
-        BareModel { path, place: String::new(), north: "0".to_owned(), faults: [None, None] }
+    pub(super) fn new(paths: Vec<PathBuf>) -> BareModel {
+        let mut paths = paths.into_iter();
+        let path = paths.next().unwrap_or_default();
+        BareModel { path, beside: paths.collect(), place: String::new(), north: "0".to_owned(), faults: [None, None] }
     }
 
     /// Degrees clockwise from the model's north to true north.
@@ -77,7 +81,9 @@ impl App {
         let modal = look::modal(context, "place").show(context, |ui| {
             ui.set_width(420.0);
             ui.heading("Where does it stand?");
-            ui.label(format!("{} is a model, and says not where.", name_of(&bare.path)));
+            let names: Vec<String> = [&bare.path].into_iter().chain(&bare.beside).map(|file| name_of(file)).collect();
+            let said = if names.len() == 1 { "is a model, and says" } else { "are models, and say" };
+            ui.label(format!("{} {said} not where.", few(names)));
             ui.add_space(6.0);
             egui::Grid::new("bare").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
                 let [of_place, of_north] = &mut bare.faults;

@@ -7,7 +7,6 @@ use crate::deliver::Sink;
 use crate::deliver::comparison::write_comparison;
 use crate::export::comparison;
 use crate::export::figure::ChangeColours;
-use crate::formats;
 use crate::picture::HoursRaster;
 use crate::profile::Timings;
 use crate::profile::comparison::Alteration;
@@ -86,7 +85,7 @@ pub(super) fn find(
     let site = Arc::clone(&project.site);
     let (mut after, written) = (project.written.clone(), project.written.site.clone());
     let (models_after, mark) = (project.models.clone(), project.models.mark());
-    let name = project.name();
+    let (name, reading) = (project.name(), project.reading.clone());
     Work::start(context, move |on_event| {
         let mut watch = Stopwatch::start();
         // the picture lies on this ground
@@ -97,7 +96,7 @@ pub(super) fn find(
         first.site.plan = after.site.plan.clone();
         first.site.camera = after.site.camera.clone();
         let at_hand = known.as_ref().and_then(BeforeState::models);
-        let models = at_hand.map_or_else(|| Models::read(&first, formats::read), Ok)?;
+        let models = at_hand.map_or_else(|| Models::read(&first, |path, options| reading.read(path, options)), Ok)?;
         let takes_ground = first.site.ground.level.is_none() && !models.stand_on(site.ground.level);
         if takes_ground {
             first.site.ground.level = Some(site.ground.level);

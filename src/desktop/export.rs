@@ -10,7 +10,6 @@ use crate::deliver::animation::{self, AnimationRequest, FPS, WIDTH};
 use crate::deliver::instant::{InstantRequest, Show, instant};
 use crate::deliver::lines::Lines;
 use crate::deliver::{Folder, Sink};
-use crate::formats;
 use crate::site::file::{CameraTable, SiteFile};
 use crate::site::{Method, Models, Overrides, Site, SiteError, WrittenSite};
 use crate::study::{Event, Stopwatch};
@@ -76,7 +75,9 @@ fn seen_from(project: &Project, settings: &WindowSettings, eye: &Eye) -> Written
 
 /// What is handed in is what is seen: of the models that are open, whatever their files have become.
 fn site_of(written: &WrittenSite, asked: &Overrides, models: Option<Models>) -> Result<Site, SiteError> {
-    Site::with_models(written, asked, || models.map_or_else(|| Models::read(written, formats::read), Ok))
+    Site::with_models(written, asked, || {
+        models.map_or_else(|| Models::read(written, |path, options| asked.reading.read(path, options)), Ok)
+    })
 }
 
 fn view_from(site: &Site, eye: &Eye) -> View {
@@ -97,7 +98,7 @@ pub(super) fn drawing(
 ) -> Work<PathBuf> {
     let written = seen_from(project, settings, &eye);
     let models = project.models_of(&written);
-    let inputs = project.inputs(settings.before.as_deref());
+    let (inputs, reading) = (project.inputs(settings.before.as_deref()), project.reading.clone());
     let shown = settings.shown;
     Work::start(context, move |on_event| {
         let is_perspective = eye.stand == Stand::Perspective;
@@ -108,7 +109,7 @@ pub(super) fn drawing(
             _ => Method::Auto,
         };
         // for the region of this instant's shadows
-        let asked = Overrides { instant: Some(time), technique: Some(method), ..Overrides::default() };
+        let asked = Overrides { instant: Some(time), technique: Some(method), reading, ..Overrides::default() };
         let site = site_of(&written, &asked, models)?;
         let request = InstantRequest {
             view: view_from(&site, &eye),
@@ -138,11 +139,11 @@ pub(super) fn animation(
 ) -> Work<PathBuf> {
     let written = seen_from(project, settings, &eye);
     let models = project.models_of(&written);
-    let inputs = project.inputs(settings.before.as_deref());
+    let (inputs, reading) = (project.inputs(settings.before.as_deref()), project.reading.clone());
     let method = settings.shown.method;
     Work::start(context, move |on_event| {
         let method = if view::draws(method, eye.stand) { method } else { Method::Auto };
-        let asked = Overrides { technique: Some(method), ..Overrides::default() };
+        let asked = Overrides { technique: Some(method), reading, ..Overrides::default() };
         let site = site_of(&written, &asked, models)?;
         // the frames, and then each once more in the GIF
         let count = site.track.instants.len();

@@ -123,7 +123,7 @@ impl App {
                         for path in self.kept.recent.clone() {
                             let name = name_of(&path);
                             if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                                self.load(LoadRequest::File(path), &context);
+                                self.load(LoadRequest::Files(vec![path]), &context);
                             }
                         }
                     });
@@ -325,7 +325,7 @@ impl App {
             if ui.button("Open a site or a model…").clicked() {
                 self.ask(Purpose::Open, &context);
             }
-            ui.weak("or drop a .toml, .glb or .gltf on this window");
+            ui.weak("or drop sites and models on this window");
             ui.add_space(16.0);
             ui.weak("Samples");
             for name in files::SAMPLES {

@@ -5,7 +5,7 @@ use super::settings::{Hidden, WindowSettings};
 use super::words::{FileWords, PanelWords};
 use crate::export::figure::component_colours;
 use crate::fault;
-use crate::formats;
+use crate::formats::Reading;
 use crate::mesh::Mesh;
 use crate::message::Words;
 use crate::shadow::ray_cast::RayCaster;
@@ -31,6 +31,8 @@ pub(super) struct Project {
     pub(super) visible: Arc<Site>,
     /// Its models where they stand, whatever is asked of them.
     pub(super) models: Models,
+    /// How its models are read.
+    pub(super) reading: Reading,
     /// The colour of each component.
     pub(super) colours: Vec<[u8; 3]>,
     /// What is visible, to be asked what lies under the pointer; and whose faces those are.
@@ -48,16 +50,16 @@ pub(super) struct LoadedSite {
 
 /// Why there is no project.
 pub(super) enum LoadError {
-    /// It is a bare model.
-    Bare(PathBuf),
+    /// It is a bare model, or several.
+    Bare(Vec<PathBuf>),
     /// What the command would say.
     Told(String),
 }
 
 /// What is to be loaded.
 pub(super) enum LoadRequest {
-    /// What somebody opens.
-    File(PathBuf),
+    /// What somebody opens: a site, or one or more models.
+    Files(Vec<PathBuf>),
     /// A bare model, where it stands.
     Placed(BareModel),
     /// What a window that has ended had open: its site file, and what was read of it.
@@ -81,9 +83,9 @@ pub(super) struct LoadJob {
 
 impl LoadJob {
     /// Begins.
-    pub(super) fn start(wanted: LoadRequest, context: egui::Context) -> LoadJob {
+    pub(super) fn start(wanted: LoadRequest, reading: &Reading, context: egui::Context) -> LoadJob {
         let path = match &wanted {
-            LoadRequest::File(path) => path.clone(),
+            LoadRequest::Files(paths) => paths.first().cloned().unwrap_or_default(),
             LoadRequest::Placed(bare) => bare.path.clone(),
             LoadRequest::Left(_, written) | LoadRequest::Again(written, ..) => PathBuf::from(&written.file),
         };
@@ -92,7 +94,8 @@ impl LoadJob {
         let cancelled = Arc::new(AtomicBool::new(false));
         let opens = !matches!(wanted, LoadRequest::Again(..));
         let reads = !matches!(&wanted, LoadRequest::Again(_, _, before) if before.models.is_some());
-        let progress = LoadProgress { stage: Arc::clone(&stage), cancelled: Arc::clone(&cancelled), context };
+        let (stage_told, reading) = (Arc::clone(&stage), reading.until(&cancelled));
+        let progress = LoadProgress { stage: stage_told, reading, cancelled: Arc::clone(&cancelled), context };
         std::thread::spawn(move || {
             let project = project(wanted, &progress);
             // who gave the loading up listens no more
@@ -126,6 +129,8 @@ impl LoadJob {
 
 struct LoadProgress {
     stage: Arc<Mutex<(f32, String)>>,
+    /// Until it is cancelled.
+    reading: Reading,
     cancelled: Arc<AtomicBool>,
     context: egui::Context,
 }
@@ -151,23 +156,30 @@ pub(super) fn name_of(path: &Path) -> String {
 
 fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, LoadError> {
     let (path, written) = match wanted {
-        LoadRequest::File(path) => match WrittenSite::read(&path, &Overrides::default()) {
-            Err(SiteError::NoPlaceForModel { .. }) => {
-                // a model that cannot be read is told before its place is asked
-                crate::site::load_mesh(&path, &Overrides::default()).map_err(|error| told(&error, &FileWords))?;
-                return Err(LoadError::Bare(path));
+        LoadRequest::Files(paths) => {
+            let path = paths.first().cloned().unwrap_or_default();
+            match WrittenSite::read(&path, &Overrides::default()) {
+                Err(SiteError::NoPlaceForModel { .. }) => {
+                    // a model that cannot be read is told before its place is asked
+                    let asked = Overrides { reading: progress.reading.clone(), ..Overrides::default() };
+                    for path in &paths {
+                        crate::site::load_mesh(path, &asked).map_err(|error| told(&error, &FileWords))?;
+                    }
+                    return Err(LoadError::Bare(paths));
+                }
+                Ok(written) => {
+                    let path = if path.is_dir() { path.join("site.toml") } else { path };
+                    (Some(path), written)
+                }
+                Err(error) => return Err(told(&error, &FileWords)),
             }
-            Ok(written) => {
-                let path = if path.is_dir() { path.join("site.toml") } else { path };
-                (Some(path), written)
-            }
-            Err(error) => return Err(told(&error, &FileWords)),
-        },
+        }
         LoadRequest::Placed(bare) => {
-            let asked = Overrides { place: Some(bare.place.clone()), ..Overrides::default() };
+            let (place, beside) = (Some(bare.place.clone()), bare.beside.clone());
+            let asked = Overrides { place, beside, ..Overrides::default() };
             let mut written = WrittenSite::read(&bare.path, &asked).map_err(|error| told(&error, &FileWords))?;
-            if let Some(table) = written.site.model.first_mut() {
-                let north = bare.north().map_err(|error| told(&error, &FileWords))?;
+            let north = bare.north().map_err(|error| told(&error, &FileWords))?;
+            for table in &mut written.site.model {
                 table.north = Some(north).filter(|north| *north != 0.0);
             }
             (None, written)
@@ -221,6 +233,8 @@ fn read(
         path,
         written,
         models,
+        // what is read of it later is nobody's to cancel here
+        reading: progress.reading.until(&Arc::default()),
         colours: component_colours(&site.mesh, &site.casts),
         seen,
         site,
@@ -244,7 +258,7 @@ fn read_models(written: &WrittenSite, progress: &LoadProgress) -> Result<Models,
     let count = written.site.model.len().max(1) as f32;
     let done = Cell::new(0.0);
     Models::read(written, |path, options| {
-        let read = formats::read(path, options)?;
+        let read = progress.reading.read(path, options)?;
         done.set(done.get() + 1.0);
         let share = done.get() / count;
         progress.tell(0.15 + 0.35 * share, if share < 1.0 { "Reading the models" } else { "Joining triangles" });

@@ -2,11 +2,11 @@
 //! that matter most.
 
 use super::places::{self, DefectKind};
-use super::{ExportError, report};
+use super::{ExportError, contents, report};
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
 use crate::message::{Field, Words, message};
-use crate::site::CoordinateFrame;
+use crate::site::{CoordinateFrame, ModelContents};
 use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
@@ -24,6 +24,7 @@ struct MeshReport<'a> {
     frame: &'static str,
     components: Vec<ComponentLine<'a>>,
     notes: &'a [String],
+    models: Value,
 }
 
 #[derive(Serialize)]
@@ -49,6 +50,7 @@ pub fn json(
     components: &[ComponentReport],
     frame: CoordinateFrame,
     notes: &[String],
+    models: &[ModelContents],
 ) -> Result<String, ExportError> {
     let lines = components.iter().map(|component| ComponentLine {
         name: &component.name,
@@ -68,6 +70,7 @@ pub fn json(
         frame: places::frame(frame),
         components: lines.collect(),
         notes,
+        models: contents::report(models),
     })
 }
 
@@ -78,6 +81,7 @@ pub fn table(
     components: &[ComponentReport],
     frame: CoordinateFrame,
     notes: &[String],
+    models: &[ModelContents],
     words: &dyn Words,
 ) -> String {
     let mut table = format!(
@@ -86,6 +90,7 @@ pub fn table(
         counted(triangles(components), "triangle", "triangles"),
         counted(mesh.vertices.len(), "vertex", "vertices"),
     );
+    table.push_str(&contents::table(models, words));
     for note in notes {
         // Writing to a String cannot fail.
         let _ = writeln!(table, "note: {}", plain(note));

@@ -7,15 +7,21 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is counted
 //! before memory is taken.
 
+mod cache;
+pub mod child;
+mod encoded;
 pub mod gltf;
 mod model;
 mod names;
+mod reading;
 
+pub use cache::ModelCache;
 pub use model::{
     Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,
     SeeThrough, Up,
 };
 pub(crate) use names::{composed, on_disk};
+pub use reading::{ReadLimits, Reading};
 
 use crate::message::message;
 use std::fs::File;
@@ -48,6 +54,16 @@ pub trait Format: Sync {
     /// # Errors
     /// What is wrong with the file, with the way out.
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault>;
+
+    /// Whether the reader is others' code, which runs in a process of its own with limits.
+    fn is_foreign(&self) -> bool {
+        false
+    }
+
+    /// Whether what was read is kept, as reading the file takes longer than reading that back.
+    fn is_kept(&self) -> bool {
+        self.is_foreign()
+    }
 
     /// The files that a file names: they lie beside it, and are its user's, whether they are read or not.
     fn named_by(&self, _path: &Path) -> Vec<PathBuf> {
@@ -84,12 +100,18 @@ fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> {
     })
 }
 
-/// Reads a model file of any format; every part has triangles, and there is at least one.
+/// Reads a file as one of a format.
+fn read_as(format: &dyn Format, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+    Model { format: format.name(), ..format.read(path, options)? }.checked()
+}
+
+/// Reads a model file of any format, in this process; every part has triangles, and there is at least one. [`Reading`] has
+/// limits and a cache.
 ///
 /// # Errors
 /// What is wrong with the file, with the way out.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
-    let read = || format_of(path)?.read(path, options)?.checked();
+    let read = || read_as(format_of(path)?, path, options);
     read().map_err(|fault| ModelError { file: path.to_owned(), fault })
 }
 

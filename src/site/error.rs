@@ -195,7 +195,7 @@ impl Worded for SiteError {
             SiteError::EmptyMesh => {
                 message!["the mesh holds no triangles, so nothing casts a shadow"; "give it parts that do"]
             }
-            SiteError::Model(error) => error.to_string().into(),
+            SiteError::Model(error) => error.message(),
             SiteError::Mesh(error) => error.to_string().into(),
         }
     }
@@ -220,6 +220,11 @@ impl SiteError {
     /// A fault of place or time, where it was asked.
     pub(super) fn sun(at: FieldLocation, error: SunError) -> SiteError {
         SiteError::Sun { at, error: Box::new(error) }
+    }
+
+    /// Whether nothing is wrong, and somebody ended the reading of a model.
+    pub fn is_given_up(&self) -> bool {
+        matches!(self, SiteError::Model(error) if error.is_given_up())
     }
 
     /// Whether the command line was wrong (exit status 2) rather than a file (exit status 1).

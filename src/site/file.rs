@@ -64,6 +64,8 @@ pub struct ModelTable {
     pub position: Option<[f64; 3]>,
     /// Metres per model unit.
     pub scale: Option<f64>,
+    /// Metres from the ground to the roof of a footprint without a height.
+    pub default_height: Option<f64>,
     /// What casts.
     #[serde(default, skip_serializing_if = "is_default")]
     pub casts: Names,

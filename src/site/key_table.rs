@@ -107,7 +107,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .means("The IANA name of the zone whose clock is read."),
     key("model", "path", ValueType::Text, "path = \"tower.glb\"")
         .default("must be written")
-        .means("The file, glTF or GLB: relative to the site file, or absolute."),
+        .means("The file, of any format of [formats.md](formats.md): relative to the site file, or absolute."),
     key("model", "scene", ValueType::TextOrNumber, "scene = \"existing\"")
         .default("the file's default scene, or its first")
         .means(
@@ -132,9 +132,13 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .unit("metres")
         .default("1")
         .means("The length of one unit of the model: 0.001 for a model in millimetres."),
+    key("model", "default_height", ValueType::Number, "default_height = 9.0")
+        .unit("metres")
+        .default("none: such footprints are refused")
+        .means("How high a building is whose footprint says no height."),
     key("model", "casts", ValueType::Names, "casts = [\"roof\", \"walls\"]").default("true").means(
-        "What casts shadows: everything, nothing, or what the names name; `\"!glass\"` takes out what is named \
-             glass.",
+        "What casts shadows: everything but what lies on the ground, nothing, or what the names name; `\"!glass\"` \
+             takes out what is named glass.",
     ),
     key("model", "receives", ValueType::Names, "receives = true")
         .default("true")

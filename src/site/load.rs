@@ -1,6 +1,7 @@
 //! The request as written → as meant.
 
 use super::asked::{Overrides, refuse};
+use super::contents::{ModelContents, ReadContents, names_of};
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
 use super::models::{Models, note_see_through};
@@ -51,6 +52,8 @@ pub struct LoadedMesh {
     pub frame: CoordinateFrame,
     /// What the user should know of how they were read, as [`Site::notes`].
     pub notes: Vec<String>,
+    /// What each file holds.
+    pub models: Vec<ModelContents>,
 }
 
 /// The models alone: of a model file as it is, or of a site's models where they stand; [`Overrides::up`] goes before what a
@@ -59,10 +62,11 @@ pub struct LoadedMesh {
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
 pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError> {
-    let Overrides { up, words, .. } = *asked;
+    let Overrides { up, words, default_height: default_height_m, .. } = *asked;
     if formats::by_ending(path).is_some() && !path.is_dir() {
-        let placement = Placement { up, ..Placement::default() };
-        let model = placement.place(formats::read(&on_disk(path), &placement.read_options())?);
+        let placement = Placement { up, default_height_m, ..Placement::default() };
+        let model = placement.place(asked.reading.read(&on_disk(path), &placement.read_options())?);
+        let contents = ReadContents::of(&model);
         let said = [model.unit_m.is_some(), model.up_is_said || up.is_some()];
         let Model { parts, notes, see_through, .. } = model;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -73,13 +77,16 @@ pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError
         let mends = likeness::of(&mesh, &mesh.components, &placement, said);
         let of_model = notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends);
         notes.extend(of_model.iter().map(|note| note.in_words(words)));
-        return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes });
+        let models = vec![contents.told(&name, &names_of(&mesh.components))];
+        return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes, models });
     }
-    let written = WrittenSite::read(path, &Overrides { up, ..Overrides::default() })?;
-    let models = Models::read(&written, formats::read)?;
+    let written = WrittenSite::read(path, &Overrides { up, default_height: default_height_m, ..Overrides::default() })?;
+    let models = Models::read(&written, |path, options| asked.reading.read(path, options))?;
     let [casts, _] = models.roles(&written)?;
-    let notes = models.notes(&written, &casts, words);
-    Ok(LoadedMesh { mesh: models.mesh, frame: CoordinateFrame::Place, notes })
+    // what was left out is listed
+    let notes = models.notes_without_contents(&written, &casts, words);
+    let contents = models.contents(&written);
+    Ok(LoadedMesh { mesh: models.mesh, frame: CoordinateFrame::Place, notes, models: contents })
 }
 
 impl Site {
@@ -89,7 +96,7 @@ impl Site {
     /// # Errors
     /// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
     pub fn load(path: &Path, asked: &Overrides) -> Result<Site, SiteError> {
-        Self::load_with(path, asked, formats::read)
+        Self::load_with(path, asked, |path, options| asked.reading.read(path, options))
     }
 
     /// As [`Site::load`], with another reader of model files.

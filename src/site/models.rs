@@ -1,6 +1,7 @@
 //! The models of a site where they stand, and which of their components are chosen.
 
 use super::asked::refuse;
+use super::contents::ReadContents;
 use super::error::SiteError;
 use super::extent::Bounds;
 use super::file::Names;
@@ -33,6 +34,8 @@ pub struct Models {
     pub(super) likenesses: Vec<Likeness>,
     /// Which components are whose.
     of_model: Vec<Range<usize>>,
+    /// What else each model holds.
+    contents: Vec<ReadContents>,
     /// Each model's materials that light passes; its parts are counted among its own.
     see_through: Vec<Vec<SeeThrough>>,
     sources: Vec<Source>,
@@ -64,10 +67,11 @@ impl Models {
         let sources = sources(written)?;
         let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         // by each model's file, of unit and axis
-        let mut said = Vec::new();
+        let (mut said, mut contents) = (Vec::new(), Vec::new());
         for index in 0..sources.len() {
             let model = model(written, index, &read_model)?;
             let first = parts.len();
+            contents.push(ReadContents::of(&model));
             parts.extend(model.parts);
             let name = name(written, index);
             notes.extend(model.notes.into_iter().map(|note| note.about(name)));
@@ -98,7 +102,7 @@ impl Models {
             mesh.origin.to_array().map(f64::to_bits),
             names.collect::<Vec<_>>(),
         ));
-        Ok(Models { mesh, bounds, notes, likenesses, of_model, see_through, sources, mark })
+        Ok(Models { mesh, bounds, notes, likenesses, of_model, contents, see_through, sources, mark })
     }
 
     /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.
@@ -130,12 +134,19 @@ impl Models {
         self.of_model.iter().map(Range::len).collect()
     }
 
+    /// What was read of each model, and its components.
+    pub(super) fn by_model(&self) -> impl Iterator<Item = (&ReadContents, &[Component])> {
+        let of_model = self.of_model.iter().map(|range| &self.mesh.components[range.clone()]);
+        self.contents.iter().zip(of_model)
+    }
+
     /// Per component whether it casts, and whether it receives, as a request says it.
     pub(super) fn roles(&self, written: &WrittenSite) -> Result<[Vec<bool>; 2], SiteError> {
         let mut roles = [Vec::new(), Vec::new()];
         for (index, (table, of_model)) in written.site.model.iter().zip(&self.of_model).enumerate() {
             let components = &self.mesh.components[of_model.clone()];
-            roles[0].extend(chosen(written, index, "casts", &table.casts, components)?);
+            chosen(written, index, "casts", &table.casts, components)?;
+            roles[0].extend(self.contents[index].casts(&table.casts, components));
             roles[1].extend(chosen(written, index, "receives", &table.receives, components)?);
         }
         Ok(roles)
@@ -144,6 +155,19 @@ impl Models {
     /// What the user should know of how they were read, and of what casts; each a sentence without its stop that names the
     /// model.
     pub(super) fn notes(&self, written: &WrittenSite, casts: &[bool], words: &dyn Words) -> Vec<String> {
+        let of_contents = self.notes_on_contents(written).into_iter().map(|note| note.in_words(words));
+        let mut notes = self.notes_without_contents(written, casts, words);
+        notes.extend(of_contents);
+        notes
+    }
+
+    /// The same without what is listed by [`Models::contents`].
+    pub(super) fn notes_without_contents(
+        &self,
+        written: &WrittenSite,
+        casts: &[bool],
+        words: &dyn Words,
+    ) -> Vec<String> {
         let mut notes: Vec<String> = self.notes.iter().map(|note| note.in_words(words)).collect();
         for (index, (of_model, materials)) in self.of_model.iter().zip(&self.see_through).enumerate() {
             let casts = &casts[of_model.clone()];
@@ -190,7 +214,7 @@ fn model(
 }
 
 /// What people call a model: as the site file does.
-fn name(written: &WrittenSite, index: usize) -> &str {
+pub(super) fn name(written: &WrittenSite, index: usize) -> &str {
     written.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default()
 }
 
@@ -269,12 +293,23 @@ pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Pl
             ],
         ));
     }
+    let default_height_m = table.default_height;
+    if let Some(height) = default_height_m
+        && !(height.is_finite() && height > 0.0)
+    {
+        return Err(refuse(
+            at("default_height"),
+            message![format!("{height} is no height"); "write metres above 0, for example 9.0"],
+        ));
+    }
     let scene = table.scene.clone();
     let up = match &table.up {
         Some(word) => Some(word.parse().map_err(|error: ChoiceError| refuse(at("up"), error.to_string()))?),
         None => None,
     };
-    Ok((written.folder.join(path), Placement { scene, up, north_rad: north_deg.to_radians(), position, scale }))
+    let north_rad = north_deg.to_radians();
+    let placement = Placement { scene, default_height_m, up, north_rad, position, scale };
+    Ok((written.folder.join(path), placement))
 }
 
 /// Per component, whether a list of names (or all) means it.

@@ -8,7 +8,7 @@ use super::models::Models;
 use super::written::WrittenSite;
 use super::{Ground, GroundFrom, Site, metres, plan};
 use crate::formats::composed;
-use crate::formats::{self, Model, ModelError, ReadOptions};
+use crate::formats::{Model, ModelError, ReadOptions};
 use crate::message::message;
 use std::path::Path;
 
@@ -37,7 +37,7 @@ impl Pair {
     pub fn load(before: &Path, after: &Path, asked: &Overrides) -> Result<Pair, SiteError> {
         let before = WrittenSite::read(before, asked)?;
         let after = WrittenSite::read_beside(after, &before, asked)?;
-        Self::of(&before, &after, asked, formats::read)
+        Self::of(&before, &after, asked, |path, options| asked.reading.read(path, options))
     }
 
     /// As [`Pair::load`], of two requests that are in memory, with another reader of model files.

@@ -9,6 +9,8 @@ use rayon::prelude::*;
 pub struct Placement {
     /// The scene; the file's default one where none is said.
     pub scene: Option<SceneName>,
+    /// Metres from the ground to the roof of a footprint whose file says no height.
+    pub default_height_m: Option<f64>,
     /// Which of the model's axes is up; as its file or format says where none is said.
     pub up: Option<Up>,
     /// Radians clockwise from the model's north (−Z where its y is up, +Y where its z is) to true north; the model is turned
@@ -24,7 +26,7 @@ impl Placement {
     /// What the reader is asked.
     pub fn read_options(&self) -> ReadOptions {
         let told_step = ReadOptions::TOLD_M / self.scale.unwrap_or(1.0);
-        ReadOptions { scene: self.scene.clone(), told_step, ..ReadOptions::default() }
+        ReadOptions { scene: self.scene.clone(), told_step, default_height_m: self.default_height_m }
     }
 
     /// Puts a model where it stands: positions and steps become metres in the world frame.

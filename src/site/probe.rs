@@ -9,7 +9,6 @@ use super::models::Models;
 use super::notes::on_probes;
 use super::study::{date_of, no_study};
 use super::written::WrittenSite;
-use crate::formats;
 use crate::formats::composed;
 use crate::mesh::Mesh;
 use crate::message::{Field, message};
@@ -62,7 +61,7 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     }
     .map_err(|error| SiteError::sun(FieldLocation::Field(Field::Step), error))?;
     let level = ground::level(&written, asked)?;
-    let models = Models::read(&written, formats::read)?;
+    let models = Models::read(&written, |path, options| asked.reading.read(path, options))?;
     let [casts, _] = models.roles(&written)?;
     let mut notes = models.notes(&written, &casts, asked.words);
     let Models { mesh, bounds, .. } = models;
