@@ -16,6 +16,7 @@ mod exact;
 mod export;
 mod far;
 mod folders;
+mod formats;
 mod geometry;
 mod gpu_silhouettes;
 mod live;

@@ -1,7 +1,7 @@
 //! How models are read, and where the ground lies below them.
 
 use super::{interrupt, memory};
-use crate::formats::{ReadLimits, Reading, Up};
+use crate::formats::{ModelReader, ReadLimits, Up};
 use crate::site::Overrides;
 use crate::sun::parse_duration_secs;
 use clap::Args;
@@ -40,10 +40,10 @@ impl ModelArgs {
 }
 
 impl ReadingArgs {
-    fn reading(&self) -> Reading {
-        let of_program = Reading::of_this_program().until(interrupt::asked());
+    fn reading(&self) -> ModelReader {
+        let of_program = ModelReader::of_this_program().until(interrupt::asked());
         let usual = ReadLimits::default();
-        Reading {
+        ModelReader {
             limits: ReadLimits { time: self.read_time.unwrap_or(usual.time), memory: self.read_memory },
             cache: of_program.cache.filter(|_| !self.no_cache),
             ..of_program

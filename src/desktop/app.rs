@@ -18,7 +18,7 @@ use super::view::{ViewRequest, Viewer};
 use super::work::Work;
 use super::{cards, look, panel, screen};
 use crate::export::figure::Colours;
-use crate::formats::Reading;
+use crate::formats::ModelReader;
 use crate::gpu::Gpu;
 use crate::profile::probe::Sunlight;
 use crate::view::Probe;
@@ -84,7 +84,7 @@ pub struct App {
     /// Models that were dropped on the open site, until it is answered what becomes of them.
     pub(super) dropped: Vec<PathBuf>,
     /// How model files are read.
-    pub(super) reading: Reading,
+    pub(super) reading: ModelReader,
     pub(super) asking: Option<PathDialog>,
     pub(super) writing: Option<Work<PathBuf>>,
     /// What is typed into the panel's fields.
@@ -112,14 +112,14 @@ impl App {
         cc: &eframe::CreationContext<'_>,
         path: Option<&Path>,
     ) -> Result<App, Box<dyn std::error::Error + Send + Sync>> {
-        Self::reading(cc, path, Reading::default())
+        Self::reading(cc, path, ModelReader::default())
     }
 
     /// The same, with another way to read models.
     pub(super) fn reading(
         cc: &eframe::CreationContext<'_>,
         path: Option<&Path>,
-        reading: Reading,
+        reading: ModelReader,
     ) -> Result<App, Box<dyn std::error::Error + Send + Sync>> {
         look::set(&cc.egui_ctx);
         let (gpu, render, stage) = devices(cc)?;

@@ -5,7 +5,7 @@ use super::settings::{Hidden, WindowSettings};
 use super::words::{FileWords, PanelWords};
 use crate::export::figure::component_colours;
 use crate::fault;
-use crate::formats::Reading;
+use crate::formats::ModelReader;
 use crate::mesh::Mesh;
 use crate::message::Words;
 use crate::shadow::ray_cast::RayCaster;
@@ -32,7 +32,7 @@ pub(super) struct Project {
     /// Its models where they stand, whatever is asked of them.
     pub(super) models: Models,
     /// How its models are read.
-    pub(super) reading: Reading,
+    pub(super) reading: ModelReader,
     /// The colour of each component.
     pub(super) colours: Vec<[u8; 3]>,
     /// What is visible, to be asked what lies under the pointer; and whose faces those are.
@@ -83,7 +83,7 @@ pub(super) struct LoadJob {
 
 impl LoadJob {
     /// Begins.
-    pub(super) fn start(wanted: LoadRequest, reading: &Reading, context: egui::Context) -> LoadJob {
+    pub(super) fn start(wanted: LoadRequest, reading: &ModelReader, context: egui::Context) -> LoadJob {
         let path = match &wanted {
             LoadRequest::Files(paths) => paths.first().cloned().unwrap_or_default(),
             LoadRequest::Placed(bare) => bare.path.clone(),
@@ -130,7 +130,7 @@ impl LoadJob {
 struct LoadProgress {
     stage: Arc<Mutex<(f32, String)>>,
     /// Until it is cancelled.
-    reading: Reading,
+    reading: ModelReader,
     cancelled: Arc<AtomicBool>,
     context: egui::Context,
 }

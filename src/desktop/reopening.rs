@@ -9,7 +9,7 @@ use super::app::App;
 use super::event_loop::{self, Panic};
 use super::stage::Stage;
 use super::{look, screen};
-use crate::formats::Reading;
+use crate::formats::ModelReader;
 use crate::gpu::{Gpu, GpuError};
 use anyhow::anyhow;
 use eframe::egui::layers::GraphicLayers;
@@ -31,7 +31,7 @@ const MOMENT: Duration = Duration::from_secs(60);
 /// # Errors
 /// No display, or no graphics adapter.
 pub fn open(path: Option<&Path>) -> anyhow::Result<()> {
-    open_reading(path, &Reading::of_this_program(), &|_| (), &mut |_, _| ())
+    open_reading(path, &ModelReader::of_this_program(), &|_| (), &mut |_, _| ())
 }
 
 /// The same with further options for eframe, and an eye on each frame: for tests. Models are read in this process.
@@ -43,12 +43,12 @@ pub fn open_with(
     set: &dyn Fn(&mut NativeOptions),
     on_frame: &mut dyn FnMut(&mut App, &egui::Context),
 ) -> anyhow::Result<()> {
-    open_reading(path, &Reading::default(), set, on_frame)
+    open_reading(path, &ModelReader::default(), set, on_frame)
 }
 
 fn open_reading(
     path: Option<&Path>,
-    reading: &Reading,
+    reading: &ModelReader,
     set: &dyn Fn(&mut NativeOptions),
     on_frame: &mut dyn FnMut(&mut App, &egui::Context),
 ) -> anyhow::Result<()> {

@@ -38,7 +38,7 @@ impl ModelCache {
     ///
     /// # Errors
     /// Where the file cannot be read.
-    pub(super) fn entry(&self, format: &dyn Format, path: &Path, options: &ReadOptions) -> io::Result<CacheEntry<'_>> {
+    pub fn entry(&self, format: &dyn Format, path: &Path, options: &ReadOptions) -> io::Result<CacheEntry<'_>> {
         let mut number = SipHasher13::new();
         (env!("CARGO_PKG_VERSION"), encoded::VERSION, format.name()).hash(&mut number);
         let ReadOptions { scene, told_step, default_height_m } = options;
@@ -64,18 +64,20 @@ impl ModelCache {
         entries.filter_map(Result::ok).filter_map(told).collect()
     }
 
-    /// Removes the oldest entries until so many bytes more have room.
-    fn make_room(&self, bytes: u64) {
+    /// Removes the oldest entries until all together have room, but not the newest one.
+    fn make_room(&self, newest: &Path) {
         let mut files = self.files();
         files.sort();
-        let mut all = files.iter().map(|(_, bytes, _)| bytes).sum::<u64>().saturating_add(bytes);
+        let mut all: u64 = files.iter().map(|(_, bytes, _)| bytes).sum();
         for (_, bytes, path) in files {
             if all <= self.most_bytes {
                 break;
             }
-            // one that another process has removed is gone as well
-            let _ = fs::remove_file(path);
-            all = all.saturating_sub(bytes);
+            if path != newest {
+                // one that another process has removed is gone as well
+                let _ = fs::remove_file(path);
+                all = all.saturating_sub(bytes);
+            }
         }
     }
 }
@@ -99,7 +101,8 @@ fn add_file(number: &mut SipHasher13, path: &Path) -> io::Result<()> {
 }
 
 /// What is kept of one file, or may be.
-pub(super) struct CacheEntry<'a> {
+#[derive(Debug)]
+pub struct CacheEntry<'a> {
     cache: &'a ModelCache,
     name: String,
 }
@@ -110,7 +113,7 @@ impl CacheEntry<'_> {
     }
 
     /// The model, where it is kept; an entry that is damaged is removed.
-    pub(super) fn read(&self) -> Option<Model> {
+    pub fn read(&self) -> Option<Model> {
         let path = self.path();
         let file = File::open(&path).ok()?;
         match encoded::read(&mut BufReader::with_capacity(1 << 20, file)) {
@@ -126,21 +129,29 @@ impl CacheEntry<'_> {
     ///
     /// # Errors
     /// What the file system refuses.
-    pub(super) fn keep(&self, model: &Model) -> io::Result<()> {
-        let bytes = encoded::raw_bytes(model);
-        if bytes > self.cache.most_bytes {
+    pub fn keep(&self, model: &Model) -> io::Result<()> {
+        if encoded::raw_bytes(model) > self.cache.most_bytes {
             return Ok(());
         }
         fs::create_dir_all(&self.cache.folder)?;
-        self.cache.make_room(bytes);
         // two processes that read the same file write the same bytes, each its own
         let beside = self.cache.folder.join(format!("{}.{}.{PARTIAL}", self.name, std::process::id()));
         let written = File::create(&beside)
             .and_then(|file| encoded::write(Ok(model), &mut BufWriter::with_capacity(1 << 20, file)))
-            .and_then(|()| fs::rename(&beside, self.path()));
+            .and_then(|()| self.put(&beside));
         if written.is_err() {
             let _ = fs::remove_file(&beside);
         }
         written
+    }
+
+    /// Puts what is whole in its place, and makes room for it.
+    fn put(&self, beside: &Path) -> io::Result<()> {
+        if beside.metadata()?.len() > self.cache.most_bytes {
+            return fs::remove_file(beside);
+        }
+        fs::rename(beside, self.path())?;
+        self.cache.make_room(&self.path());
+        Ok(())
     }
 }

@@ -5,7 +5,8 @@
 //! one clear error. The process that asks watches time and memory, and ends the other one; if it ends itself, the other
 //! one finds its standard input closed, and ends, too.
 
-use super::encoded::{self, EncodingError, exact, exact_option};
+use super::encoded::{self, EncodingError};
+use super::exact::{self, option as exact_option};
 use super::{Model, ModelFault, ReadLimits, ReadOptions, SceneName};
 use crate::message::{Field, Message, Piece, message, pieces};
 use serde::{Deserialize, Serialize};

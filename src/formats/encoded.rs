@@ -4,6 +4,7 @@
 //! out and the notes; then part by part the corners as `f64` and the triangles as `u32`, little-endian; and a checksum of
 //! all of it. Neither a process nor a disk is trusted: every length is checked, and memory is taken as the bytes arrive.
 
+use super::exact::{self, option as exact_option};
 use super::{Anchor, AnchorPoint, Coordinates, FORMATS, LeftOut, MAX_COMPONENTS, MAX_TRIANGLES, Model, PartKind};
 use super::{SeeThrough, Up};
 use crate::mesh::{CornerPrecision, Part};
@@ -84,33 +85,6 @@ struct EncodedAnchor {
     at: AnchorPoint,
     #[serde(with = "exact_option")]
     north_rad: Option<f64>,
-}
-
-/// A number as its shortest text: JSON has no infinity, and a reader of JSON may round the last digit.
-pub(super) mod exact {
-    use serde::{Deserialize, Deserializer, Serializer, de::Error};
-
-    pub(in super::super) fn serialize<S: Serializer>(number: &f64, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_str(number)
-    }
-
-    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-        String::deserialize(from)?.parse().map_err(D::Error::custom)
-    }
-}
-
-/// As [`exact`], of what may be absent.
-pub(super) mod exact_option {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
-
-    pub(in super::super) fn serialize<S: Serializer>(number: &Option<f64>, to: S) -> Result<S::Ok, S::Error> {
-        number.map(|number| number.to_string()).serialize(to)
-    }
-
-    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
-        let text = Option::<String>::deserialize(from)?;
-        text.map(|text| text.parse()).transpose().map_err(D::Error::custom)
-    }
 }
 
 /// Bytes that a model takes, but for its JSON.

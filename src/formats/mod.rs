@@ -10,18 +10,19 @@
 mod cache;
 pub mod child;
 mod encoded;
+mod exact;
 pub mod gltf;
 mod model;
+mod model_reader;
 mod names;
-mod reading;
 
-pub use cache::ModelCache;
+pub use cache::{CacheEntry, ModelCache};
 pub use model::{
     Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,
     SeeThrough, Up,
 };
+pub use model_reader::{ModelReader, ReadLimits};
 pub(crate) use names::{composed, on_disk};
-pub use reading::{ReadLimits, Reading};
 
 use crate::message::message;
 use std::fs::File;
@@ -105,7 +106,7 @@ fn read_as(format: &dyn Format, path: &Path, options: &ReadOptions) -> Result<Mo
     Model { format: format.name(), ..format.read(path, options)? }.checked()
 }
 
-/// Reads a model file of any format, in this process; every part has triangles, and there is at least one. [`Reading`] has
+/// Reads a model file of any format, in this process; every part has triangles, and there is at least one. [`ModelReader`] has
 /// limits and a cache.
 ///
 /// # Errors

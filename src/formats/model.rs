@@ -1,6 +1,6 @@
 //! What every reader gives: parts in the file's own coordinates, what these are, and what was left out.
 
-use super::encoded::{exact, exact_option};
+use super::exact::{self, option as exact_option};
 use super::{MAX_COMPONENTS, MAX_TRIANGLES, gltf};
 use crate::mesh::Part;
 use crate::message::{Message, message};

@@ -2,7 +2,7 @@
 
 use super::error::{FieldLocation, SiteError};
 use super::{Engine, Finder, Method, Receivers, Settings};
-use crate::formats::{Reading, Up};
+use crate::formats::{ModelReader, Up};
 use crate::message::{Field, Message, Words, message};
 use crate::sun::Zone;
 use crate::view::Side;
@@ -21,7 +21,7 @@ pub struct Overrides {
     /// Further model files, which stand in the same site as a first one.
     pub beside: Vec<PathBuf>,
     /// How model files are read.
-    pub reading: Reading,
+    pub reading: ModelReader,
     /// `--ground METRES`
     pub ground: Option<f64>,
     /// `--date 2026-09-18`

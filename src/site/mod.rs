@@ -15,6 +15,7 @@ mod in_memory;
 mod inputs;
 mod key_table;
 mod keys;
+mod left_out;
 mod likeness;
 mod load;
 mod models;

@@ -8,7 +8,7 @@
 //! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
 //! binary chunk), `document` and `material` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
 //! and `reader` (bytes → numbers), `coarse` (how exact those are), `instances`, `primitive` (which triangles a mesh has),
-//! `pose` (morphs and skins), `build` (all of it → parts), `notes` (what the user should know of it); beside it `named`
+//! `pose` (morphs and skins), `build` (all of it → parts), `own` (what this program itself has written of them), `notes` (what the user should know of it); beside it `named`
 //! (which other files are the model's).
 
 use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
@@ -26,6 +26,7 @@ mod instances;
 mod material;
 mod named;
 mod notes;
+mod own;
 mod pose;
 mod primitive;
 mod reader;
@@ -72,7 +73,7 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Model, Fault> {
     let standing = scene::place(&document, options.scene.as_ref())?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let buffers = buffers::Buffers::new(&document, container.binary, folder);
-    let build::BuiltScene { parts, see_through } =
+    let build::BuiltScene { parts, kinds, see_through } =
         build::build(&document, &buffers, &standing.placed, options.told_step)?;
     if parts.is_empty() {
         let scene = if is_asked { "that scene" } else { "its default scene" };
@@ -80,5 +81,5 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Model, Fault> {
     }
     let notes = notes::of(&document, &standing, is_asked).into_iter().map(Message::from).collect();
     // glTF is in metres and y up, and many a program exports something else: nothing is said, so that it can be doubted
-    Ok(Model { parts, notes, see_through, ..Model::default() })
+    Ok(Model { parts, kinds, notes, see_through, ..Model::default() })
 }

@@ -13,7 +13,7 @@ use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 /// The default reads in this process, without limits and without a cache, as a program does that uses Gnomon as a library:
 /// it is another program, and does not answer `gnomon read-model`. One that ships the command beside itself can name that.
 #[derive(Clone, Debug, Default)]
-pub struct Reading {
+pub struct ModelReader {
     /// The program that is started again for readers that are others' code ([`super::Format::is_foreign`]).
     pub program: Option<PathBuf>,
     /// What such a process may take.
@@ -55,15 +55,15 @@ impl ReadLimits {
     }
 }
 
-impl Reading {
+impl ModelReader {
     /// As the program itself reads: readers of others' code in processes of this very program, and with the user's cache.
-    pub fn of_this_program() -> Reading {
-        Reading { program: std::env::current_exe().ok(), cache: ModelCache::of_user(), ..Reading::default() }
+    pub fn of_this_program() -> ModelReader {
+        ModelReader { program: std::env::current_exe().ok(), cache: ModelCache::of_user(), ..ModelReader::default() }
     }
 
     /// The same, to be ended by another wish.
-    pub fn until(&self, given_up: &Arc<AtomicBool>) -> Reading {
-        Reading { given_up: Arc::clone(given_up), ..self.clone() }
+    pub fn until(&self, given_up: &Arc<AtomicBool>) -> ModelReader {
+        ModelReader { given_up: Arc::clone(given_up), ..self.clone() }
     }
 
     /// Reads a model file of any format; every part has triangles, and there is at least one.
@@ -93,10 +93,10 @@ impl Reading {
         Ok(model)
     }
 
-    /// As [`Reading::read`] in a process of the program's, whoever has written the reader, and without the cache.
+    /// As [`ModelReader::read`] in a process of the program's, whoever has written the reader, and without the cache.
     ///
     /// # Errors
-    /// As [`Reading::read`]; where no program is named.
+    /// As [`ModelReader::read`]; where no program is named.
     pub fn read_apart(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
         let read = || match &self.program {
             Some(program) => child::read(program, self.limits, &self.given_up, path, options),
