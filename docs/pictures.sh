@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of the documentation anew: drawings by the command itself (GNOMON=…, or built here), shrunk for the
+# Draws the pictures of the documentation again: drawings by the command itself (GNOMON=…, or built here), shrunk for the
 # screen with ImageMagick to half the size of the sheet and 256 colours; comparison sheets by an example.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,5 +1,5 @@
 //! The rules of `docs/architecture.md`, as far as a machine can see them: who may know whom, who may print, who may
-//! read files, how types are named, and how long a file may be.
+//! read files, how types are named, and how long files and functions may be.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -106,6 +106,12 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
 /// At this length look for a second idea inside.
 const MOST_LINES: usize = 500;
 
+/// At this length a function has steps that can be named.
+const MOST_LINES_OF_A_FUNCTION: usize = 60;
+
+/// The rooms, and folders of rooms, whose functions are not held to it yet.
+const LONG_FUNCTIONS_IN: &[&str] = &["desktop", "formats", "site/model"];
+
 /// What is wrong with one source file; `path` is below `src`.
 fn faults(path: &Path, source: &str) -> Vec<String> {
     let code = without_comments(source);
@@ -152,7 +158,7 @@ fn module_of(path: &Path) -> Vec<String> {
 }
 
 /// The source with every comment blanked, so that a link in the documentation is no arrow. Offsets and lines stay.
-fn without_comments(source: &str) -> String {
+pub(crate) fn without_comments(source: &str) -> String {
     let blank = |line: &str| {
         let code = line.find("//").map_or(line, |start| &line[..start]);
         format!("{code}{}", " ".repeat(line.len() - code.len()))
@@ -205,7 +211,7 @@ fn names_in(path: &str) -> Vec<(usize, &str)> {
 }
 
 /// Files below a folder of the repository whose names end so, with their text.
-fn files(folder: &str, extension: &str) -> Vec<(PathBuf, String)> {
+pub(crate) fn files(folder: &str, extension: &str) -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut folders = vec![root.clone()];
     let mut found = Vec::new();
@@ -411,4 +417,43 @@ fn files_are_of_one_sitting() {
     };
     let long: Vec<_> = files_of_both.iter().filter_map(long).collect();
     assert!(long.is_empty(), "longer than {MOST_LINES} lines; look for a second idea inside:\n{}", long.join("\n"));
+}
+
+/// The functions of a source, and how many lines each has, from `fn` to the last brace.
+fn functions(source: &str) -> Vec<(&str, usize)> {
+    let lines: Vec<&str> = source.lines().collect();
+    let is_modifier = |word: &&str| word.starts_with("pub") || word.ends_with(')') || ["const", "async"].contains(word);
+    let mut found = Vec::new();
+    for (at, line) in lines.iter().enumerate() {
+        let code = line.trim_start();
+        let mut words = code.split(' ').skip_while(is_modifier);
+        let (Some("fn"), Some(name)) = (words.next(), words.next()) else { continue };
+        let end = format!("{}}}", &line[..line.len() - code.len()]);
+        // of one line, or a trait's without a body
+        let is_whole = line.ends_with([';', '}']);
+        let more = if is_whole { 0 } else { lines[at..].iter().position(|line| *line == end).unwrap_or(0) };
+        found.push((name.split(['(', '<']).next().unwrap_or(name), 1 + more));
+    }
+    found
+}
+
+#[test]
+fn functions_are_of_one_glance() {
+    let sources = files("src", "rs");
+    let all = sources.iter().flat_map(|(path, source)| functions(source).into_iter().map(move |found| (path, found)));
+    let all: Vec<_> = all.collect();
+    assert!(all.len() > 2 * sources.len(), "too few functions were found");
+    let held = all.iter().filter(|(path, _)| !LONG_FUNCTIONS_IN.iter().any(|room| path.starts_with(room)));
+    let long = held.filter(|(_, (_, lines))| *lines > MOST_LINES_OF_A_FUNCTION);
+    let long: Vec<_> =
+        long.map(|(path, (name, lines))| format!("src/{}: {name}: {lines} lines", path.display())).collect();
+    assert!(
+        long.is_empty(),
+        "more than {MOST_LINES_OF_A_FUNCTION} lines; open them up into named steps:\n{}",
+        long.join("\n")
+    );
+    for first in ["    fn f() {", "    pub(in crate::shadow) const fn f<T>(", "    pub async fn f() {"] {
+        let long = format!("{first}\n{}    }}\nfn g() {{}}\n", "        go();\n".repeat(59));
+        assert_eq!(functions(&long), [("f", 61), ("g", 1)], "{first}");
+    }
 }

@@ -42,6 +42,8 @@ fn the_table_agrees_with_itself() {
         assert!(std::ptr::eq(row.method.row(), row), "{}", row.word);
         assert_eq!(row.word.parse::<Method>(), Ok(row.method));
         assert!(row.draws(Engine::Auto, Subject::Top) || row.draws(Engine::Auto, Subject::Surfaces), "{}", row.word);
+        let can_show_mask = row.counts && row.uses(Setting::MapSize);
+        assert!(can_show_mask || !row.shows_mask, "{}: a mask parts what a map decides from what is counted", row.word);
         assert!(!row.finders.contains(&Finder::Auto), "{}: auto is always there", row.word);
         // what it does not use it has no default for
         assert_eq!(row.set(&Settings::NONE), row.defaults, "{}", row.word);

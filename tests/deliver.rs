@@ -110,7 +110,7 @@ fn hours_go_on_from_their_shelf() {
     assert_eq!(read(&shelf).count(), 1, "what is done is kept, and nothing is locked");
     let locked = Workplace::take([shelf.as_path()], &[], "somebody").unwrap();
     let (beside, drawn) = find(usize::MAX, Some(inside(&shelf)));
-    assert_eq!(drawn, count, "all is found anew while somebody works there");
+    assert_eq!(drawn, count, "all is found again while somebody works there");
     drop(locked);
     let (gone_on, drawn) = find(usize::MAX, Some(inside(&shelf)));
     assert_eq!(drawn, count - 7);

@@ -20,7 +20,7 @@ fn works() -> Site {
     site
 }
 
-/// What a study tells: its notes, how often it began anew, and the instants that were drawn.
+/// What a study tells: its notes, how often it started over, and the instants that were drawn.
 #[derive(Debug, Default)]
 struct Told {
     notes: Vec<String>,

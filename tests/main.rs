@@ -3,6 +3,7 @@
 mod api;
 mod architecture;
 mod choice;
+mod circles;
 mod clock;
 mod command;
 mod counts;

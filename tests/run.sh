@@ -24,7 +24,7 @@ EOF
 
 # The modules of the quick tests. A word here that names no test is an error.
 QUICK=(
-    architecture:: clock:: documents:: export::contour:: export::raster:: export::report:: far::
+    architecture:: circles:: clock:: documents:: export::contour:: export::raster:: export::report:: far::
     geometry:: mistakes:: model:: probe:: references:: shaders:: site:: sun:: typed:: volumes::
 )
 

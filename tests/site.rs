@@ -346,9 +346,9 @@ fn models_are_read_once_as_long_as_they_stay() {
     other.site.study.step = some("1h");
     assert!(models.are_those_of(&other));
     let again = Site::with_models(&other, &Overrides::default(), || Ok(models.clone())).unwrap();
-    let anew = Site::of(&other, &Overrides::default(), tower).unwrap();
-    assert_eq!((&again.casts, &again.receives, again.grid), (&anew.casts, &anew.receives, anew.grid));
-    assert_eq!((&again.casts[..], again.camera), (&[false, true][..], anew.camera));
+    let fresh = Site::of(&other, &Overrides::default(), tower).unwrap();
+    assert_eq!((&again.casts, &again.receives, again.grid), (&fresh.casts, &fresh.receives, fresh.grid));
+    assert_eq!((&again.casts[..], again.camera), (&[false, true][..], fresh.camera));
     let wrong = gnomon::site::file::Names::Some(vec!["yerd".to_owned()]);
     other.site.model[0].casts = wrong;
     let told = Site::with_models(&other, &Overrides::default(), || Ok(models.clone())).unwrap_err().to_string();

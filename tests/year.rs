@@ -284,7 +284,7 @@ fn what_another_study_left_is_not_used() {
     assert_eq!(numberless(&path.join("out")), ["shadow-hours.tif"]);
 }
 
-/// Nothing keeps outlines: of a study that was stopped without them all instants are drawn anew.
+/// Nothing keeps outlines: a study that was stopped without them draws all instants again.
 #[cfg(unix)]
 #[test]
 fn outlines_of_a_stopped_study_are_all_there() {

@@ -4,8 +4,8 @@ use super::arguments::{Common, DrawArgs, PlanArgs, SiteArgs, WindowArgs};
 use super::commands::drawn_by;
 use super::eye::Viewpoint;
 use super::model::ModelArgs;
+use super::output::{say, who};
 use super::progress::Progress;
-use super::{say, who};
 use crate::deliver::Folder;
 use crate::deliver::animation::{AnimationAnswer, AnimationRequest, FPS, WIDTH, animation};
 use crate::export::figure;
@@ -53,7 +53,7 @@ impl AnimateArgs {
 
 pub(super) fn animate(asked: &AnimateArgs) -> anyhow::Result<()> {
     let watch = Stopwatch::start();
-    asked.view.check(&asked.plan)?;
+    asked.view.check(&asked.plan.given())?;
     let site = Site::load(asked.site.path(), &asked.overrides())?;
     let request = AnimationRequest { view: asked.view.of(&site), width: asked.width, fps: asked.fps, watch };
     let mut progress = Progress::new(asked.common.quiet);

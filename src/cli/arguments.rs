@@ -1,99 +1,18 @@
 //! The options, as the user writes them. Each stands with the subcommands that use it, and nowhere else.
 
-use super::WrongUse;
-use super::animate::AnimateArgs;
-use super::compare::CompareArgs;
-use super::convert::ConvertArgs;
 use super::draw::LinesArgs;
 use super::eye::Viewpoint;
 use super::memory;
 use super::model::{GroundArgs, ModelArgs};
 use super::options::nothing_asked;
-use super::probe::ProbeArgs;
-use super::read_model::ReadModelArgs;
 pub(super) use super::technique::DrawArgs;
 use super::technique::{self, FinderArgs, MapArgs};
+use super::wrong_use::WrongUse;
 use crate::choice::Receivers;
-use crate::formats::child;
 use crate::site::{Overrides, SiteError, inputs};
 use crate::study::verify::SIZE;
-use crate::sun::ZoneRules;
-use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+use clap::{Args, ValueEnum, value_parser};
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
-
-/// Where, when and for how long a building takes the sun away: exact shadows and shadow profiles.
-#[derive(Debug, Parser)]
-#[command(name = "gnomon", version = version(), after_help = "Without a command the window opens.")]
-pub(super) struct Arguments {
-    #[command(subcommand)]
-    pub(super) command: Option<Command>,
-}
-
-/// The program's, and that of the rules of clocks.
-fn version() -> &'static str {
-    static VERSION: LazyLock<String> =
-        LazyLock::new(|| format!("{} (tz {})", env!("CARGO_PKG_VERSION"), ZoneRules::newest().version()));
-    &VERSION
-}
-
-#[derive(Debug, Subcommand)]
-pub(super) enum Command {
-    /// The window, with a site or a model in it
-    Open(OpenArgs),
-    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped goes
-    /// on where it was when it is asked again, but for outlines (--draw)
-    Profile(ProfileArgs),
-    /// Two states of a site, existing and proposed: hours of sun lost and gained, with the areas, as compare.png,
-    /// shadow-hours-difference.tif and compare.json. Study, plan and ground of the first are taken for both
-    Compare(CompareArgs),
-    /// The shadows at one instant, as a drawing or as a bare mask
-    Shadow(ShadowArgs),
-    /// The study's instants as pictures, frame-0000.png …, and as a GIF that moves, day.gif: what shadow draws, night too
-    Animate(AnimateArgs),
-    /// The sun at the study's instants: time, azimuth, altitude, weight; sunrise, noon, sunset
-    Sun(SunArgs),
-    /// What a model's mesh is: components, triangles, open, crowded, flipped and degenerate parts
-    Check(CheckArgs),
-    /// A model as glTF, in metres and y up, components and all: to see what was read, and for other programs
-    Convert(ConvertArgs),
-    /// The shadow volumes at one instant as solids down to the ground, in a .glb for other programs
-    Volumes(VolumesArgs),
-    /// Every technique against ray casting on this site: how many cells differ, how far, by how many hours
-    #[command(mut_arg("size", |size| size.help("Cells along the longer side [default: 512]")))]
-    Verify(VerifyArgs),
-    /// When points lie in the sun, on a day or over a range of dates: to the second, and what blocks in between
-    Probe(ProbeArgs),
-    /// A model, read for the program itself
-    #[command(name = child::SUBCOMMAND, hide = true)]
-    ReadModel(ReadModelArgs),
-}
-
-impl Command {
-    /// What every command takes; the window takes nothing.
-    pub(super) fn common(&self) -> Option<&Common> {
-        Some(match self {
-            Command::Open(_) | Command::ReadModel(_) => return None,
-            Command::Profile(asked) => &asked.common,
-            Command::Compare(asked) => &asked.common,
-            Command::Shadow(asked) => &asked.common,
-            Command::Animate(asked) => &asked.common,
-            Command::Sun(asked) => &asked.common,
-            Command::Check(asked) => &asked.common,
-            Command::Convert(asked) => &asked.common,
-            Command::Volumes(asked) => &asked.common,
-            Command::Verify(asked) => &asked.common,
-            Command::Probe(asked) => &asked.common,
-        })
-    }
-}
-
-#[derive(Debug, Args)]
-pub(super) struct OpenArgs {
-    /// A site file, a folder that holds a site.toml, or a model, which is asked for its place
-    #[arg(value_name = "SITE|MODEL")]
-    pub(super) path: PathBuf,
-}
 
 /// What every subcommand takes.
 #[derive(Debug, Args)]

@@ -2,16 +2,20 @@
 
 use super::arguments::{CheckArgs, ShadowArgs, ShowArg, SunArgs};
 use super::eye::Viewpoint;
+use super::interrupt;
 use super::options::{Options, nothing_asked};
+use super::output::say;
 use super::progress::Progress;
-use super::{WrongUse, interrupt, say};
+use super::technique::showing_mask;
+use super::wrong_use::WrongUse;
+use crate::choice::listed;
 use crate::deliver::instant::{self, InstantRequest};
 use crate::deliver::{Sink, WrittenFiles};
 use crate::export::figure::Diagram;
 use crate::export::{check, file, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Provenance, Statistics};
-use crate::site::{Ground, LoadedMesh, Method, Site, load_mesh, load_sun};
+use crate::site::{Ground, LoadedMesh, Site, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -19,7 +23,7 @@ use std::path::{Path, PathBuf};
 /// `gnomon shadow`
 pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     let watch = Stopwatch::start();
-    asked.view.check(&asked.plan)?;
+    asked.view.check(&asked.plan.given())?;
     let out = match (&asked.out, &asked.mask) {
         (Some(out), _) => Some(out.clone()),
         (None, Some(_)) => None,
@@ -44,9 +48,10 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
 
     let site = Site::load(asked.site.path(), &asked.overrides())?;
     // the site file may name the technique
-    if diagram == Some(Diagram::Mask) && site.method != Method::Hybrid {
-        let what = "--show mask is the hybrid's; add --technique hybrid, or leave it out";
-        return Err(WrongUse(what.to_owned()).into());
+    if diagram == Some(Diagram::Mask) && !site.method.row().shows_mask {
+        let techniques = listed(&showing_mask(), "or");
+        let what = format!("--show mask is the {techniques}'s; add --technique {techniques}, or leave it out");
+        return Err(WrongUse(what).into());
     }
     let shows = |what| asked.show.contains(&what);
     let request = InstantRequest {

@@ -3,8 +3,8 @@
 use super::arguments::{Common, DrawArgs, PlaceArgs, PlanArgs, WindowArgs};
 use super::commands::{drawn_by, lines};
 use super::model::{GroundArgs, ModelArgs};
+use super::output::{say, who};
 use super::progress::Progress;
-use super::{say, who};
 use crate::deliver::comparison::comparison;
 use crate::deliver::{Folder, Sink};
 use crate::site::{Overrides, Pair, inputs};

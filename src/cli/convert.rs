@@ -3,8 +3,9 @@
 use super::arguments::Common;
 use super::model::ModelArgs;
 use super::options::{Options, nothing_asked};
+use super::output::say;
 use super::progress::Progress;
-use super::{WrongUse, say};
+use super::wrong_use::WrongUse;
 use crate::deliver::Sink;
 use crate::deliver::conversion::convert as deliver;
 use crate::site::{inputs, load_model};

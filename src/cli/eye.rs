@@ -1,7 +1,6 @@
 //! `--view`: from where the shadows are seen.
 
-use super::WrongUse;
-use super::arguments::PlanArgs;
+use super::wrong_use::WrongUse;
 use crate::site::Site;
 use crate::view::{Side, View};
 use clap::ValueEnum;
@@ -43,9 +42,9 @@ impl Viewpoint {
         }
     }
 
-    /// Errs where something is asked of the plan, and none is drawn.
-    pub(super) fn check(self, plan: &PlanArgs) -> Result<(), WrongUse> {
-        match (self, plan.given().as_slice()) {
+    /// Errs where options of the plan are given, and none is drawn.
+    pub(super) fn check(self, of_plan: &[&str]) -> Result<(), WrongUse> {
+        match (self, of_plan) {
             (Viewpoint::Plan, _) | (_, []) => Ok(()),
             (_, [option, ..]) => {
                 let word = self.to_possible_value().map_or_else(String::new, |word| word.get_name().to_owned());

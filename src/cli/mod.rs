@@ -4,6 +4,7 @@
 
 mod animate;
 mod arguments;
+mod command_line;
 mod commands;
 mod compare;
 mod convert;
@@ -13,6 +14,7 @@ mod interrupt;
 mod memory;
 mod model;
 mod options;
+mod output;
 mod probe;
 mod profile;
 mod progress;
@@ -21,18 +23,20 @@ mod surfaces;
 mod technique;
 mod verify;
 mod volumes;
+mod wrong_use;
 
 use crate::deliver::DeliverError;
 use crate::export::ExportError;
 use crate::fault;
 use crate::site::SiteError;
 use crate::study::StudyError;
-use arguments::{Arguments, Command};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
+use command_line::{Arguments, Command};
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use wrong_use::WrongUse;
 
 pub use options::Options;
 
@@ -102,11 +106,6 @@ fn run(command: &Command) -> anyhow::Result<()> {
     }
 }
 
-/// A mistake on the command line that only the command can see.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub(crate) struct WrongUse(String);
-
 /// The exit status of an error.
 fn status(error: &anyhow::Error) -> u8 {
     let wrong_use = error.is::<WrongUse>()
@@ -122,11 +121,6 @@ fn status(error: &anyhow::Error) -> u8 {
         (_, true) => 2,
         _ => 1,
     }
-}
-
-/// Without line breaks.
-fn words(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// What clap says: help and version as they are, a mistake in one line.
@@ -156,21 +150,4 @@ fn refuse(error: &clap::Error) -> ExitCode {
 fn complain(line: &str) {
     // Nobody is left to tell that stderr is closed.
     let _ = writeln!(io::stderr(), "error: {line}");
-}
-
-/// Who works in a folder, for others who want to work there: the command line.
-fn who() -> String {
-    let words: Vec<_> = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
-    format!("gnomon {}", words.join(" "))
-}
-
-/// Prints a result. Who closed the pipe has read enough.
-fn say(text: &str) -> anyhow::Result<()> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(anyhow::Error::from(error).context("cannot write to standard output"))
-        }
-        _ => Ok(()),
-    }
 }

@@ -2,8 +2,9 @@
 
 use super::arguments::{ProfileArgs, ProfileFile};
 use super::commands::{drawn_by, lines, took};
+use super::output::{say, who};
 use super::progress::Progress;
-use super::{say, surfaces, who};
+use super::surfaces;
 use crate::deliver::profile::{ProfileAnswer, ProfileRequest, profile as deliver};
 use crate::deliver::{Folder, Sink};
 use crate::site::{Receivers, Site};

@@ -1,6 +1,7 @@
 //! Progress and notes on stderr: a bar on a terminal, plain lines otherwise, nothing with `--quiet`.
 
-use super::{interrupt, words};
+use super::interrupt;
+use super::output::words;
 use crate::study::Event;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::collections::HashSet;

@@ -2,8 +2,9 @@
 
 use super::arguments::{ProfileArgs, ProfileFile};
 use super::commands::{drawn_by, lines};
+use super::output::{say, who};
 use super::progress::Progress;
-use super::{WrongUse, say, who};
+use super::wrong_use::WrongUse;
 use crate::deliver::surfaces::{SurfacesRequest, surfaces as deliver};
 use crate::deliver::{Folder, Sink};
 use crate::site::Site;

@@ -1,6 +1,6 @@
 //! The options that say how shadows are found; what each is for is read from the table of techniques.
 
-use crate::choice::{Engine, Filter, Finder, MAP_SIZE, Method, MethodRow, Promise, Setting, Settings, TABLE, listed};
+use crate::choice::{Engine, Filter, Finder, MAP_SIZE, Method, MethodRow, Setting, Settings, TABLE, listed};
 use crate::silhouette::hextree::DEEPEST;
 use crate::site::Overrides;
 use clap::{Args, value_parser};
@@ -87,14 +87,18 @@ pub(super) fn stats() -> String {
 
 /// What `--show` shows.
 pub(super) fn show() -> String {
-    let by_map = TABLE.iter().filter(|row| row.promise == Promise::ExactButForMap).map(|row| row.word);
-    let by_map = listed(&by_map.collect::<Vec<_>>(), "and");
+    let by_map = listed(&showing_mask(), "and");
     let counting = listed(&counting(), "or");
     format!(
         "Also shown in the camera's drawing: shadow volumes in yellow, the silhouette in black, components in colours. Or \
          instead of sun and shadow, on the plan too: mask (with {by_map}: what the map decided and what the volumes did), \
          overdraw (with {counting}: fragments that were counted, as brightness)"
     )
+}
+
+/// The words of the techniques that show a mask of their own.
+pub(super) fn showing_mask() -> Vec<&'static str> {
+    TABLE.iter().filter(|row| row.shows_mask).map(|row| row.word).collect()
 }
 
 /// The words of the techniques that count volumes.

@@ -1,8 +1,8 @@
 //! `gnomon verify`: every technique against ray casting on the user's own site.
 
 use super::arguments::VerifyArgs;
+use super::output::say;
 use super::progress::Progress;
-use super::say;
 use crate::deliver::verification::verification;
 use crate::site::Site;
 

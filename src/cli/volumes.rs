@@ -1,8 +1,9 @@
 //! `gnomon volumes`: the shadow volumes of one instant as solids in a file.
 
 use super::arguments::VolumesArgs;
+use super::output::say;
 use super::progress::Progress;
-use super::{WrongUse, say};
+use super::wrong_use::WrongUse;
 use crate::deliver::Sink;
 use crate::deliver::volumes::volumes as deliver;
 use crate::site::Site;

@@ -1,6 +1,6 @@
 //! Why there is no deliverable.
 
-use super::lines::LinesError;
+use super::lines::{LinesError, by_clock};
 use crate::export::ExportError;
 use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
 use crate::study::StudyError;
@@ -57,11 +57,6 @@ impl Worded for DeliverError {
             DeliverError::Solid(error) => error.to_string().into(),
         }
     }
-}
-
-/// The fields that shorten a window, for faces that have them.
-pub(super) fn by_clock() -> Piece {
-    Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
 }
 
 impl DeliverError {

@@ -1,10 +1,9 @@
 //! Drawings of lines, beside the profile's other files: iso-hour lines, and outlines of shadows.
 
-use super::error::by_clock;
 use super::sink::NamedFile;
 use crate::export::ExportError;
 use crate::export::figure::{self, FigureContext, MOST_OUTLINES, Outline};
-use crate::message::{Field, Message, Worded, message, plain_display};
+use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
 use crate::profile::Profile;
 use crate::sun::{Instant, SunTrack};
 use crate::view::SurfaceRows;
@@ -58,6 +57,11 @@ impl Worded for LinesError {
             ],
         }
     }
+}
+
+/// The fields that shorten a window, for faces that have them.
+pub(super) fn by_clock() -> Piece {
+    Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
 }
 
 impl Lines {

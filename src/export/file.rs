@@ -1,7 +1,6 @@
 //! Files are written beside their place and renamed into it: a reader sees the old file or the new one, never half.
 
 use super::ExportError;
-use crate::message::{Field, Piece, pieces};
 use same_file::Handle;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
@@ -251,23 +250,4 @@ fn written_beside(name: &OsStr) -> Option<&str> {
     let (process, count) = of_process.split_once('-')?;
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     (is_number(process) && is_number(count)).then_some(name)
-}
-
-/// What can be done where the file system refuses.
-pub(super) fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
-    let way_out = match kind {
-        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
-            "free some space, or choose another disk"
-        }
-        io::ErrorKind::IsADirectory
-        | io::ErrorKind::NotADirectory
-        | io::ErrorKind::AlreadyExists
-        | io::ErrorKind::DirectoryNotEmpty => {
-            "a folder stands where a file should be, or the other way round; choose another name"
-        }
-        io::ErrorKind::InvalidFilename => "choose a shorter or simpler name",
-        _ => "choose another place",
-    };
-    pieces![way_out, Piece::Where(Field::Out, pieces![" with ", Field::Out])]
 }

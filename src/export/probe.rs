@@ -1,5 +1,6 @@
 //! What `gnomon probe` says: tables, `probe --json`, and a CSV file with a line an interval.
 
+use super::names::{field, plain};
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, figure, report};
 use crate::message::{Field, Words, aside, message};
@@ -126,11 +127,6 @@ pub fn csv(sunlight: &Sunlight) -> String {
         }
     }
     text
-}
-
-/// A field of a line of CSV.
-pub(super) fn field(text: &str) -> String {
-    if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 /// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and what
@@ -290,9 +286,4 @@ pub(super) fn clock(secs: i64) -> String {
 /// `1 interval`, `3 intervals`.
 pub(super) fn counted(intervals: usize) -> String {
     if intervals == 1 { "1 interval".to_owned() } else { format!("{intervals} intervals") }
-}
-
-/// A name without what would break the line.
-pub(super) fn plain(name: &str) -> String {
-    name.replace(char::is_control, " ")
 }

@@ -154,9 +154,22 @@ fn maps(rows: &[Row]) -> Option<String> {
 
 /// Where, when and with what, then a line a technique, then what the columns mean; ends with a line break.
 pub fn table(verification: &Verification, site: &Site) -> String {
+    let mut table = String::new();
+    head(&mut table, verification, site);
+    for line in HEADINGS {
+        columns(&mut table, line);
+    }
+    for row in &verification.rows {
+        line(&mut table, row, verification.row_holds(row));
+    }
+    legend(&mut table, verification);
+    table
+}
+
+/// Where, when and with what, and an empty line.
+fn head(table: &mut String, verification: &Verification, site: &Site) {
     let Site { place, track, receivers, ground, .. } = site;
     let Verification { grid, instants, .. } = verification;
-    let mut table = String::new();
     let night = track.instants.len() - instants;
     let adapter = verification.rows.iter().find_map(|row| row.drawn.adapter.as_deref()).unwrap_or("no adapter");
     let drawn_by = [silhouettes(&verification.rows)].into_iter().chain(maps(&verification.rows));
@@ -175,26 +188,12 @@ pub fn table(verification: &Verification, site: &Site) -> String {
         receivers.word(),
         ground.said(),
     );
-    let _ = writeln!(
-        table,
-        "{:<10} {:<7} {:>9} {:>9} {:>7} {:>8} {:>6} {:>6} {:>8} {:>7} {:>6} {:>7} {:>9}",
-        "",
-        "",
-        "compared",
-        "edge",
-        "differ",
-        "at edges",
-        "else-",
-        "map",
-        "furthest",
-        "share",
-        "most",
-        "mean",
-        "time per",
-    );
-    let _ = writeln!(
-        table,
-        "{:<10} {:<7} {:>9} {:>9} {:>7} {:>8} {:>6} {:>6} {:>8} {:>7} {:>6} {:>7} {:>9}",
+}
+
+/// The columns' names, in two lines.
+const HEADINGS: [[&str; 13]; 2] = [
+    ["", "", "compared", "edge", "differ", "at edges", "else-", "map", "furthest", "share", "most", "mean", "time per"],
+    [
         "technique",
         "against",
         "cells",
@@ -208,12 +207,19 @@ pub fn table(verification: &Verification, site: &Site) -> String {
         "h off",
         "h off",
         "instant s",
-    );
-    for row in &verification.rows {
-        line(&mut table, row, verification.row_holds(row));
-    }
-    legend(&mut table, verification);
-    table
+    ],
+];
+
+/// How wide the columns are; the first two begin at the left.
+const WIDTHS: [usize; 13] = [10, 7, 9, 9, 7, 8, 6, 6, 8, 7, 6, 7, 9];
+
+fn columns(table: &mut String, names: [&str; 13]) {
+    let cells = names.iter().zip(WIDTHS).enumerate().map(|(at, (name, width))| match at {
+        0 | 1 => format!("{name:<width$}"),
+        _ => format!("{name:>width$}"),
+    });
+    // Writing to a String cannot fail.
+    let _ = writeln!(table, "{}", cells.collect::<Vec<_>>().join(" "));
 }
 
 fn line(table: &mut String, row: &Row, holds: Option<bool>) {

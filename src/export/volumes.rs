@@ -99,43 +99,16 @@ fn document(volumes: &Volumes<'_>) -> Value {
             },
         }],
     });
-    let (mut nodes, mut meshes, mut accessors, mut views) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut offset = 0;
-    let mut view = |length: usize, target: u32| {
-        views.push(json!({"buffer": 0, "byteOffset": offset, "byteLength": length, "target": target}));
-        offset += length;
-        views.len() - 1
-    };
-    for (index, solid) in volumes.solids.iter().enumerate() {
-        let name = volumes.name(solid);
-        let mut extras = volumes.sun();
-        extras["caster"] = json!(name);
-        nodes.push(json!({
-            "name": name, "mesh": index, "translation": in_gltf(solid.origin.as_vec3()), "extras": extras,
-        }));
-        let positions = accessors.len();
-        meshes.push(json!({
-            "name": name,
-            "primitives": [{"attributes": {"POSITION": positions}, "indices": positions + 1, "material": 0}],
-        }));
-        let points = || solid.vertices.iter().map(|&vertex| Vec3::from(in_gltf(vertex)));
-        let (vertices, corners) = (solid.vertices.len(), solid.triangles.len() * 3);
-        accessors.push(json!({
-            "bufferView": view(vertices * 12, ARRAY_BUFFER), "componentType": FLOAT, "type": "VEC3", "count": vertices,
-            "min": points().fold(Vec3::INFINITY, Vec3::min).to_array(),
-            "max": points().fold(Vec3::NEG_INFINITY, Vec3::max).to_array(),
-        }));
-        accessors.push(json!({
-            "bufferView": view(corners * 4, ELEMENT_ARRAY_BUFFER), "componentType": UNSIGNED_INT, "type": "SCALAR",
-            "count": corners,
-        }));
+    let mut lists = SolidLists::default();
+    for solid in volumes.solids {
+        lists.add(volumes, solid);
     }
-    document["scenes"][0]["nodes"] = (0..nodes.len()).collect();
-    document["nodes"] = nodes.into();
-    document["meshes"] = meshes.into();
-    document["accessors"] = accessors.into();
-    document["bufferViews"] = views.into();
-    document["buffers"] = json!([{"byteLength": offset}]);
+    document["scenes"][0]["nodes"] = (0..lists.nodes.len()).collect();
+    document["nodes"] = lists.nodes.into();
+    document["meshes"] = lists.meshes.into();
+    document["accessors"] = lists.accessors.into();
+    document["bufferViews"] = lists.views.into();
+    document["buffers"] = json!([{"byteLength": lists.bytes}]);
     document["materials"] = json!([{
         "name": "shadow volume",
         "pbrMetallicRoughness": {
@@ -145,6 +118,52 @@ fn document(volumes: &Volumes<'_>) -> Value {
         "doubleSided": true,
     }]);
     document
+}
+
+/// The document's lists, which grow with each solid.
+#[derive(Default)]
+struct SolidLists {
+    nodes: Vec<Value>,
+    meshes: Vec<Value>,
+    accessors: Vec<Value>,
+    views: Vec<Value>,
+    /// How long the buffer is so far.
+    bytes: usize,
+}
+
+impl SolidLists {
+    fn add(&mut self, volumes: &Volumes<'_>, solid: &Solid) {
+        let name = volumes.name(solid);
+        let mut extras = volumes.sun();
+        extras["caster"] = json!(name);
+        self.nodes.push(json!({
+            "name": name, "mesh": self.meshes.len(), "translation": in_gltf(solid.origin.as_vec3()), "extras": extras,
+        }));
+        let positions = self.accessors.len();
+        self.meshes.push(json!({
+            "name": name,
+            "primitives": [{"attributes": {"POSITION": positions}, "indices": positions + 1, "material": 0}],
+        }));
+        let points = || solid.vertices.iter().map(|&vertex| Vec3::from(in_gltf(vertex)));
+        let (vertices, corners) = (solid.vertices.len(), solid.triangles.len() * 3);
+        let view = self.view(vertices * 12, ARRAY_BUFFER);
+        self.accessors.push(json!({
+            "bufferView": view, "componentType": FLOAT, "type": "VEC3", "count": vertices,
+            "min": points().fold(Vec3::INFINITY, Vec3::min).to_array(),
+            "max": points().fold(Vec3::NEG_INFINITY, Vec3::max).to_array(),
+        }));
+        let view = self.view(corners * 4, ELEMENT_ARRAY_BUFFER);
+        self.accessors.push(json!({
+            "bufferView": view, "componentType": UNSIGNED_INT, "type": "SCALAR", "count": corners,
+        }));
+    }
+
+    /// The next part of the buffer; its number.
+    fn view(&mut self, length: usize, target: u32) -> usize {
+        self.views.push(json!({"buffer": 0, "byteOffset": self.bytes, "byteLength": length, "target": target}));
+        self.bytes += length;
+        self.views.len() - 1
+    }
 }
 
 /// East, north, up in glTF's axes, which are x east, y up, z south.

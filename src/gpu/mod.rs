@@ -7,5 +7,6 @@ pub mod readback;
 pub mod shaders;
 pub mod targets;
 mod timers;
+mod timing;
 
 pub use device::{Gpu, GpuError, lose_after};

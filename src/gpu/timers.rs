@@ -1,88 +1,22 @@
-//! How long passes take on the adapter. Off until [`Gpu::time_passes`], and free then: a pass asks, and gets nothing.
+//! The times that passes write on the adapter, two a pass.
 
-use super::{Gpu, GpuError, readback};
 use std::sync::Mutex;
-use wgpu::*;
+use wgpu::{Buffer, QuerySet};
 
 /// Passes that are timed between two readings; further ones are not.
-const MOST: u32 = 2048;
+pub(super) const MOST: u32 = 2048;
 
 /// Two times a pass.
 pub(super) struct Timers {
-    times: QuerySet,
-    resolved: Buffer,
+    pub(super) times: QuerySet,
+    pub(super) resolved: Buffer,
     /// Those of the passes, in order.
-    labels: Mutex<Vec<String>>,
-}
-
-impl Gpu {
-    /// From now on passes are timed.
-    ///
-    /// # Errors
-    /// [`GpuError::Failed`] where the adapter keeps no times.
-    pub fn time_passes(&self) -> Result<(), GpuError> {
-        if !self.device.features().contains(Features::TIMESTAMP_QUERY) {
-            return Err(self.failed("passes are timed by the adapter's own clock, which it does not show"));
-        }
-        let size = u64::from(MOST * 2 * QUERY_SIZE);
-        let timers = Timers {
-            times: self.device.create_query_set(&QuerySetDescriptor {
-                label: Some("timers"),
-                ty: QueryType::Timestamp,
-                count: MOST * 2,
-            }),
-            resolved: self.buffer("timers", size, BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC)?,
-            labels: Mutex::default(),
-        };
-        // a second call changes nothing
-        let _ = self.timers.set(timers);
-        self.check()
-    }
-
-    /// What a render pass that begins now must write, if anything.
-    pub fn timed(&self, label: &str) -> Option<RenderPassTimestampWrites<'_>> {
-        let (query_set, at) = self.timers.get()?.place(label)?;
-        Some(RenderPassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index: Some(at),
-            end_of_pass_write_index: Some(at + 1),
-        })
-    }
-
-    /// The same for a compute pass.
-    pub fn timed_compute(&self, label: &str) -> Option<ComputePassTimestampWrites<'_>> {
-        let (query_set, at) = self.timers.get()?.place(label)?;
-        Some(ComputePassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index: Some(at),
-            end_of_pass_write_index: Some(at + 1),
-        })
-    }
-
-    /// The passes since the last reading, in order, all of them submitted: label and milliseconds. None where passes are
-    /// not timed.
-    ///
-    /// # Errors
-    /// [`GpuError::Failed`]
-    pub fn pass_times(&self) -> Result<Vec<(String, f64)>, GpuError> {
-        let Some(timers) = self.timers.get() else { return Ok(Vec::new()) };
-        let labels = timers.labels.lock().map(|mut labels| std::mem::take(&mut *labels)).unwrap_or_default();
-        if labels.is_empty() {
-            return Ok(Vec::new());
-        }
-        let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
-        encoder.resolve_query_set(&timers.times, 0..labels.len() as u32 * 2, &timers.resolved, 0);
-        self.queue.submit([encoder.finish()]);
-        let times: Vec<[u64; 2]> = readback::values(self, &timers.resolved)?;
-        let tick_ms = f64::from(self.queue.get_timestamp_period()) * 1e-6;
-        let millis = |[from, to]: [u64; 2]| to.saturating_sub(from) as f64 * tick_ms;
-        Ok(labels.into_iter().zip(times.into_iter().map(millis)).collect())
-    }
+    pub(super) labels: Mutex<Vec<String>>,
 }
 
 impl Timers {
     /// Where the next pass writes its two times.
-    fn place(&self, label: &str) -> Option<(&QuerySet, u32)> {
+    pub(super) fn place(&self, label: &str) -> Option<(&QuerySet, u32)> {
         let mut labels = self.labels.lock().ok()?;
         let at = labels.len() as u32;
         (at < MOST).then(|| {

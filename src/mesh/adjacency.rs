@@ -106,22 +106,25 @@ pub(crate) fn lowest(above: &mut [u32], mut element: u32) -> u32 {
     element
 }
 
-/// Per face, whether all edges of its shell have an even number of faces.
-pub(super) fn in_even_shells(mesh: &Mesh) -> Vec<bool> {
-    // union by the lower face, so that every face leads downwards to its shell's first
-    let mut above: Vec<u32> = (0..mesh.faces.len() as u32).collect();
-    for edge in 0..mesh.edges.len() {
-        for pair in mesh.faces_at(edge).windows(2) {
-            let [one, other] = [pair[0], pair[1]].map(|incidence| lowest(&mut above, incidence.face()));
-            above[one.max(other) as usize] = one.min(other);
+impl Mesh {
+    /// One bit a face: whether its shell, the faces that hang together by edges, has an even number of faces at each of
+    /// them, as closed surfaces have whichever way they are wound.
+    pub fn in_even_shells(&self) -> Vec<bool> {
+        // union by the lower face, so that every face leads downwards to its shell's first
+        let mut above: Vec<u32> = (0..self.faces.len() as u32).collect();
+        for edge in 0..self.edges.len() {
+            for pair in self.faces_at(edge).windows(2) {
+                let [one, other] = [pair[0], pair[1]].map(|incidence| lowest(&mut above, incidence.face()));
+                above[one.max(other) as usize] = one.min(other);
+            }
         }
-    }
-    let mut even = vec![true; mesh.faces.len()];
-    for edge in 0..mesh.edges.len() {
-        let faces = mesh.faces_at(edge);
-        if faces.len() % 2 == 1 {
-            even[lowest(&mut above, faces[0].face()) as usize] = false;
+        let mut even = vec![true; self.faces.len()];
+        for edge in 0..self.edges.len() {
+            let faces = self.faces_at(edge);
+            if faces.len() % 2 == 1 {
+                even[lowest(&mut above, faces[0].face()) as usize] = false;
+            }
         }
+        (0..self.faces.len() as u32).map(|face| even[lowest(&mut above, face) as usize]).collect()
     }
-    (0..mesh.faces.len() as u32).map(|face| even[lowest(&mut above, face) as usize]).collect()
 }

@@ -4,9 +4,31 @@
 //! digits, so that some would face a low sun and some not. Neighbours that lie in the plane of a larger face
 //! therefore take over its plane to the bit; then all of the wall faces the light or none of it.
 
-use super::{Mesh, Spacing};
+use super::Mesh;
+use super::spacing::Spacing;
 use glam::{DVec3, DVec4, Vec3};
 use rayon::prelude::*;
+
+impl Mesh {
+    /// Per face the unit plane (n, −n·p) around `origin`, equal for coplanar neighbours; zero where the face has no area.
+    /// They are found when they are first asked for.
+    pub fn planes(&self) -> &[DVec4] {
+        self.planes.get_or_init(|| unified(self))
+    }
+
+    /// One bit a face: whether the light is on its front side or in its plane.
+    ///
+    /// Silhouettes, caps and shaders all read this bit, so that volumes are closed whatever the rounding. A face
+    /// edge-on to the light, or without area, counts as facing it: its shadow is empty either way.
+    pub fn facing(&self, local_light: DVec4) -> Vec<bool> {
+        self.planes().iter().map(|&plane| plane_faces(plane, local_light)).collect()
+    }
+}
+
+/// Whether a light is on the front side of a plane or in it: the one place where that is decided.
+pub fn plane_faces(plane: DVec4, local_light: DVec4) -> bool {
+    plane.dot(local_light) >= 0.0
+}
 
 /// The unit plane of each face; zero where its corners lie in a line, as far as `f32` can tell.
 fn of_faces(mesh: &Mesh, spacing: &Spacing) -> Vec<DVec4> {
@@ -36,7 +58,7 @@ const FARTHEST_CARRIED: f32 = 8.0;
 /// A neighbour joins when all its corners lie within two `f32` steps of the larger face's own plane (never of a
 /// neighbour's, so that a gentle curve is not flattened step by step); and, since a plane wavers the more the farther it
 /// is carried, within as many more as the corner is lengths of the larger face away, up to [`FARTHEST_CARRIED`].
-pub(super) fn unified(mesh: &Mesh) -> Vec<DVec4> {
+fn unified(mesh: &Mesh) -> Vec<DVec4> {
     let spacing = Spacing::of(mesh);
     let mut planes = of_faces(mesh, &spacing);
     let sides = sides(mesh);
@@ -82,6 +104,12 @@ pub(super) fn unified(mesh: &Mesh) -> Vec<DVec4> {
         }
     }
     planes
+}
+
+/// The area of a face as a vector along its winding's normal, square metres.
+pub(super) fn area_vector(mesh: &Mesh, face: u32) -> DVec3 {
+    let [a, b, c] = mesh.corners(face as usize).map(|corner| corner.as_dvec3());
+    (b - a).cross(c - a) / 2.0
 }
 
 /// Per face its three edges.

@@ -5,8 +5,10 @@
 
 pub mod overlay;
 mod patch_textures;
+mod texels;
 
 pub use patch_textures::PatchColours;
+pub use texels::COLOURS;
 
 use crate::gpu::layout::{self, PictureUniforms};
 use crate::gpu::targets::{SHARE, Stages, whole};
@@ -18,10 +20,8 @@ use crate::view::{Mask, View};
 use glam::DVec3;
 use patch_textures::textures;
 use std::sync::Arc;
+use texels::write;
 use wgpu::*;
-
-/// The picture's colours: display values.
-pub const COLOURS: TextureFormat = TextureFormat::Rgba8Unorm;
 
 /// The hours of shadow of a profile, to be laid over what is seen.
 #[derive(Clone, Copy, Debug)]
@@ -214,13 +214,28 @@ impl Picture {
             DrawnMask::Texture(_, texture) => *texture,
         };
         let gpu = &self.surface.gpu;
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&self.uniforms(to_sun, style)));
+        self.surface.set_sun(to_sun);
+        let bound = self.bind(share);
+        let mut encoder = self.surface.encoder();
+        self.surface.draw_mask(&mut encoder, "picture", target, |pass| {
+            pass.set_bind_group(2, &bound, &[]);
+            pass.set_pipeline(&self.pipeline);
+            pass.draw(0..3, 0..1);
+        });
+        gpu.queue.submit([encoder.finish()]);
+        Ok(gpu.check()?)
+    }
+
+    /// What the shader is told of one picture.
+    fn uniforms(&self, to_sun: DVec3, style: &Style) -> PictureUniforms {
         let is = |there: bool| f32::from(u8::from(there));
-        let ([west, north, cell], over, plan, patches) = match &self.hours {
-            None => ([0.0, 0.0, 1.0], 0.0, None, None),
-            Some(HoursTextures::Plan(corner, textures)) => (*corner, 1.0, Some(textures), None),
-            Some(HoursTextures::Patches(textures)) => ([0.0, 0.0, 1.0], 2.0, None, Some(textures)),
+        let ([west, north, cell], over) = match &self.hours {
+            None => ([0.0, 0.0, 1.0], 0.0),
+            Some(HoursTextures::Plan(corner, _)) => (*corner, 1.0),
+            Some(HoursTextures::Patches(_)) => ([0.0, 0.0, 1.0], 2.0),
         };
-        let shown = PictureUniforms {
+        PictureUniforms {
             hours_corner: [west, north],
             hours_cell: cell,
             hours: if style.hours { over } else { 0.0 },
@@ -233,9 +248,16 @@ impl Picture {
             overlay: is(self.overlay.iter().any(Option::is_some)),
             painted: is(self.cells.is_some()),
             unused: 0.0,
+        }
+    }
+
+    /// Binds the mask, and all that lies over what is seen.
+    fn bind(&self, share: &Texture) -> BindGroup {
+        let (plan, patches) = match &self.hours {
+            None => (None, None),
+            Some(HoursTextures::Plan(_, textures)) => (Some(textures), None),
+            Some(HoursTextures::Patches(textures)) => (None, Some(textures)),
         };
-        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&shown));
-        self.surface.set_sun(to_sun);
         let hours = |at: usize| plan.map(|textures| &textures[at]);
         let [volumes, silhouette] = &self.overlay;
         let further =
@@ -249,16 +271,7 @@ impl Picture {
         let look = (views.len() as u32 + 1, self.look.as_entire_binding());
         let entries: Vec<_> =
             std::iter::once((0, self.uniform.as_entire_binding())).chain(textures).chain([look]).collect();
-        let bound = gpu.bind("picture", &self.group, &entries);
-
-        let mut encoder = self.surface.encoder();
-        self.surface.draw_mask(&mut encoder, "picture", target, |pass| {
-            pass.set_bind_group(2, &bound, &[]);
-            pass.set_pipeline(&self.pipeline);
-            pass.draw(0..3, 0..1);
-        });
-        gpu.queue.submit([encoder.finish()]);
-        Ok(gpu.check()?)
+        self.surface.gpu.bind("picture", &self.group, &entries)
     }
 
     fn patch_views(&self, patches: Option<&[Texture; 3]>) -> [TextureView; 3] {
@@ -283,13 +296,6 @@ impl Picture {
         write(gpu, &texture, bytes);
         texture
     }
-}
-
-/// Fills a texture with its texels, row 0 first.
-fn write(gpu: &Gpu, texture: &Texture, bytes: &[u8]) {
-    let bytes_per_row = Some((bytes.len() / texture.height() as usize) as u32);
-    let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
-    gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
 }
 
 /// The look as the shader takes it.

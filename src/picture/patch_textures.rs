@@ -1,6 +1,6 @@
 //! Colours of flat patches as textures, for the picture: where each face's patch lies in the atlas, and the atlas.
 
-use super::COLOURS;
+use super::texels::{COLOURS, write};
 use crate::gpu::{Gpu, GpuError};
 use crate::mesh::patches::Patches;
 use crate::shadow::ShadowError;
@@ -90,6 +90,6 @@ fn rows<T: bytemuck::Pod>(
     texels.resize(rows * PLANES_WIDTH, empty);
     let size = (PLANES_WIDTH as u32, rows as u32);
     let texture = gpu.texture(label, size, format, TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST);
-    super::write(gpu, &texture, bytemuck::cast_slice(&texels));
+    write(gpu, &texture, bytemuck::cast_slice(&texels));
     Ok(texture)
 }

@@ -26,7 +26,7 @@ const PACKED: TextureFormat = TextureFormat::Rgba32Float;
 /// The shift of `shaders/map.wgsl` that is none.
 const UNSHIFTED: u32 = 4;
 
-/// The map of one scene's casters, aimed anew at each sun.
+/// The map of one scene's casters. It is aimed at each sun in turn.
 pub(super) struct DepthMap {
     gpu: Arc<Gpu>,
     size: u32,

@@ -88,7 +88,8 @@ pub trait Technique {
     /// Draws the mask for the unit vector to the sun, which is above the horizon.
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
 
-    /// Turns to another view of the same scene, and keeps what does not depend on it; no where it has to be made anew.
+    /// Turns to another view of the same scene, and keeps what does not depend on the view. Returns `false` if the
+    /// technique has to be rebuilt instead.
     ///
     /// # Errors
     /// [`ShadowError`], where the view does not fit the adapter.
@@ -96,11 +97,11 @@ pub trait Technique {
         Ok(false)
     }
 
-    /// Turns to a tile of the plan that it was made for, with the cells where they are on the whole of it; no where it has
-    /// to be made anew.
+    /// Turns to a tile of the plan that it was made for. Each cell keeps the place that it has on the whole plan. Returns
+    /// `false` if the technique has to be rebuilt instead.
     ///
-    /// On the processor a tile's cells are those of the whole plan to the bit. On a graphics adapter corners are rounded
-    /// anew, to 1/256 of a cell, and maps are drawn for what the tile sees.
+    /// On the processor a tile's cells are those of the whole plan to the bit. A graphics adapter rounds corners to 1/256 of
+    /// a cell for each tile separately, and draws maps for what the tile sees.
     ///
     /// # Errors
     /// As [`Technique::turn_to`].

@@ -91,66 +91,102 @@ impl RaisedCells {
         if self.points.is_empty() {
             return;
         }
-        // a seen side that looks away from the sun is in shadow, and asks no further
-        let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
-        let fall = |at: usize| {
-            let point = self.points[at];
-            (point.xy() - throw * point.z).extend(point.z)
-        };
-        let (low, high) = (0..self.points.len()).into_par_iter().map(fall).fold(bounds, widen).reduce(bounds, join);
-        let buckets = Buckets::new(low.xy(), high.xy(), self.points.len());
-        let runs = 4 * rayon::current_num_threads();
-        let points: Vec<_> = split(self.points.len(), runs)
-            .into_par_iter()
-            .map(|run| {
-                let mut bands = vec![Vec::new(); BANDS];
-                for at in run {
-                    let is_away = away[self.normal_of[at] as usize];
-                    self.shaded[at].store(u8::from(is_away), Ordering::Relaxed);
-                    if !is_away {
-                        let at_once = fall(at);
-                        bands[buckets.band(at_once.y)].push((at_once, at as u32));
-                    }
-                }
-                bands
-            })
-            .collect();
-        let faces: Vec<_> = split(self.faces.faces.len(), runs)
-            .into_par_iter()
-            .map(|run| {
-                let mut bands = vec![Vec::new(); BANDS];
-                for at in run {
-                    let corners = self.faces.faces[at];
-                    let [a, b, c] = corners.map(|vertex| places[vertex as usize]);
-                    let (least, most) = (a.min(b).min(c), a.max(b).max(c));
-                    let top = corners.map(|vertex| tops[vertex as usize].z).into_iter().fold(f64::MIN, f64::max);
-                    // beside or below all points
-                    if most.x < low.x || least.x > high.x || most.y < low.y || least.y > high.y || top <= low.z {
-                        continue;
-                    }
-                    let reach = buckets.band(least.y)..=buckets.band(most.y);
-                    bands[reach].iter_mut().for_each(|band| band.push(at as u32));
-                }
-                bands
-            })
-            .collect();
+        let count = self.points.len();
+        let fall = |at| self.fall(at, throw);
+        let (low, high) = (0..count).into_par_iter().map(fall).fold(bounds, widen).reduce(bounds, join);
+        let buckets = Buckets::new(low.xy(), high.xy(), count);
+        let fallen = FallenVertices { places, tops };
+        let points = self.points_in_bands(&buckets, to_sun, throw);
+        let faces = self.faces_in_bands(&buckets, &fallen, (low, high));
         (0..BANDS).into_par_iter().for_each(|band| {
-            let sorted = SortedPoints::new(&buckets, band, points.iter().map(|bands| &bands[band][..]));
-            if sorted.heights.is_empty() {
-                return;
-            }
-            let mut shaded = vec![0; sorted.heights.len()];
-            for &face in faces.iter().flat_map(|bands| &bands[band]) {
-                let vertices = self.faces.faces[face as usize];
-                let corner = |vertex: u32| places[vertex as usize].extend(tops[vertex as usize].z);
-                if let Some(falling) = FallingFace::new(vertices, vertices.map(corner)) {
-                    sorted.hold_against(&buckets, &falling, &mut shaded);
+            let points = points.iter().map(|bands| &bands[band][..]);
+            self.shade(
+                &SortedPoints::new(&buckets, band, points),
+                &buckets,
+                faces.iter().flat_map(|bands| &bands[band]),
+                &fallen,
+            );
+        });
+        self.mark(bits);
+    }
+
+    /// Where a point falls, seen along the sun.
+    fn fall(&self, at: usize, throw: DVec2) -> DVec3 {
+        let point = self.points[at];
+        (point.xy() - throw * point.z).extend(point.z)
+    }
+
+    /// Per run of points, and per band, those that may see the sun. The others are in shadow, and ask no further: their
+    /// seen side looks away.
+    fn points_in_bands(&self, buckets: &Buckets, to_sun: DVec3, throw: DVec2) -> Vec<Vec<Vec<(DVec3, u32)>>> {
+        let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
+        let of_run = |run: Range<usize>| {
+            let mut bands = vec![Vec::new(); BANDS];
+            for at in run {
+                let is_away = away[self.normal_of[at] as usize];
+                self.shaded[at].store(u8::from(is_away), Ordering::Relaxed);
+                if !is_away {
+                    let at_once = self.fall(at, throw);
+                    bands[buckets.band(at_once.y)].push((at_once, at as u32));
                 }
             }
-            for (&at, _) in sorted.numbers.iter().zip(&shaded).filter(|(_, shaded)| **shaded != 0) {
-                self.shaded[at as usize].store(1, Ordering::Relaxed);
+            bands
+        };
+        split(self.points.len(), runs()).into_par_iter().map(of_run).collect()
+    }
+
+    /// Per run of the casters' faces, and per band, those that may shade points between `low` and `high`.
+    fn faces_in_bands(
+        &self,
+        buckets: &Buckets,
+        fallen: &FallenVertices<'_>,
+        (low, high): (DVec3, DVec3),
+    ) -> Vec<Vec<Vec<u32>>> {
+        let FallenVertices { places, tops } = fallen;
+        let of_run = |run: Range<usize>| {
+            let mut bands = vec![Vec::new(); BANDS];
+            for at in run {
+                let corners = self.faces.faces[at];
+                let [a, b, c] = corners.map(|vertex| places[vertex as usize]);
+                let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+                let top = corners.map(|vertex| tops[vertex as usize].z).into_iter().fold(f64::MIN, f64::max);
+                // beside or below all points
+                if most.x < low.x || least.x > high.x || most.y < low.y || least.y > high.y || top <= low.z {
+                    continue;
+                }
+                let reach = buckets.band(least.y)..=buckets.band(most.y);
+                bands[reach].iter_mut().for_each(|band| band.push(at as u32));
             }
-        });
+            bands
+        };
+        split(self.faces.faces.len(), runs()).into_par_iter().map(of_run).collect()
+    }
+
+    /// Holds a band's points against the faces there.
+    fn shade<'a>(
+        &self,
+        sorted: &SortedPoints,
+        buckets: &Buckets,
+        faces: impl Iterator<Item = &'a u32>,
+        fallen: &FallenVertices<'_>,
+    ) {
+        if sorted.heights.is_empty() {
+            return;
+        }
+        let mut shaded = vec![0; sorted.heights.len()];
+        for &face in faces {
+            let vertices = self.faces.faces[face as usize];
+            if let Some(falling) = FallingFace::new(vertices, vertices.map(|vertex| fallen.corner(vertex))) {
+                sorted.hold_against(buckets, &falling, &mut shaded);
+            }
+        }
+        for (&at, _) in sorted.numbers.iter().zip(&shaded).filter(|(_, shaded)| **shaded != 0) {
+            self.shaded[at as usize].store(1, Ordering::Relaxed);
+        }
+    }
+
+    /// Sets the bits of the cells that are in shadow, and takes away those of the others.
+    fn mark(&self, bits: &mut Bits) {
         let in_row = bits.in_row();
         bits.words.par_chunks_mut(in_row).enumerate().for_each(|(row, words)| {
             for at in self.row_first[row]..self.row_first[row + 1] {
@@ -161,6 +197,25 @@ impl RaisedCells {
             }
         });
     }
+}
+
+/// The casters' vertices, seen along the sun.
+struct FallenVertices<'a> {
+    /// Where they fall.
+    places: &'a [DVec2],
+    /// Columns, rows and heights from which they do.
+    tops: &'a [DVec3],
+}
+
+impl FallenVertices<'_> {
+    fn corner(&self, vertex: u32) -> DVec3 {
+        self.places[vertex as usize].extend(self.tops[vertex as usize].z)
+    }
+}
+
+/// Into how many runs work is split.
+fn runs() -> usize {
+    4 * rayon::current_num_threads()
 }
 
 /// Nothing yet.

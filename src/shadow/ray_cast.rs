@@ -289,7 +289,7 @@ struct Rays {
     first: [u32; 2],
     /// The scene's origin.
     origin: DVec3,
-    whence: RayStart,
+    start: RayStart,
 }
 
 /// Where rays begin.
@@ -304,7 +304,7 @@ enum RayStart {
 
 impl Rays {
     fn new(scene: &Scene, view: View) -> Rays {
-        let whence = match view {
+        let start = match view {
             View::Plan(grid) => RayStart::Above(grid, scene.receivers.top().max(scene.ground) + 1.0),
             View::Camera(camera) => RayStart::Eye(camera.eye, camera.lens()),
             View::Elevation(side) => {
@@ -313,13 +313,13 @@ impl Rays {
                 RayStart::Before(side, (nearest - side.target).dot(side.to_viewer) + 1.0)
             }
         };
-        Rays { view, first: [0, 0], origin: scene.casters.origin, whence }
+        Rays { view, first: [0, 0], origin: scene.casters.origin, start }
     }
 
     /// A cell's ray: from where (around the scene's origin), and the unit direction.
     fn of(&self, column: u32, row: u32) -> (DVec3, DVec3) {
         let (column, row) = (self.first[0] + column, self.first[1] + row);
-        match &self.whence {
+        match &self.start {
             RayStart::Above(grid, top) => {
                 let at = grid.centre(column, row) + TIE * grid.cell;
                 (at.extend(*top) - self.origin, DVec3::NEG_Z)

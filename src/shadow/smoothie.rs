@@ -63,6 +63,37 @@ struct Layer {
     edge: RenderPipeline,
 }
 
+impl Layer {
+    /// Whose alpha the shader's function of that name finds.
+    fn new(gpu: &Gpu, module: &ShaderModule, layout: &PipelineLayout, size: (u32, u32), alpha: &str) -> Layer {
+        let ends = VertexBufferLayout {
+            array_stride: size_of::<[Vec3; 2]>() as u64,
+            step_mode: VertexStepMode::Instance,
+            attributes: &vertex_attr_array![0 => Float32x3, 1 => Float32x3],
+        };
+        let stages = Stages {
+            module,
+            vertex: "smoothie",
+            fragment: alpha,
+            buffers: &[Some(ends)],
+            target: Some((SMOOTHIES, ColorWrites::ALL)),
+            layout: Some(layout),
+        };
+        // where smoothies overlap, the darker one; and the one that lies nearer to the sun
+        let least = BlendComponent {
+            src_factor: BlendFactor::One,
+            dst_factor: BlendFactor::One,
+            operation: BlendOperation::Min,
+        };
+        let blend = Some(BlendState { color: least, alpha: least });
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        Layer {
+            texture: gpu.texture("smoothie.smoothies", size, SMOOTHIES, usage),
+            edge: gpu.blending_pipeline("smoothie.edge", stages, None, blend),
+        }
+    }
+}
+
 impl Smoothie {
     /// Draws what is seen, uploads casters and receivers, builds the pipelines. Smoothies are `width_m` metres wide, or as
     /// wide as the sun's disc makes them.
@@ -80,42 +111,10 @@ impl Smoothie {
         let cast: rustc_hash::FxHashSet<[u32; 3]> = scene.casters.faces.iter().copied().collect();
         let triangles = Triangles::uploaded(&gpu, &scene.receivers, |face| !cast.contains(face))?;
 
-        let float = TextureSampleType::Float { filterable: false };
-        let depths_layout = compared_layout(&gpu, &[TextureSampleType::Depth]);
-        let compared_layout = compared_layout(&gpu, &[TextureSampleType::Depth, float, float]);
         let module = gpu.shader("smoothie", shaders::SMOOTHIE);
-        let ends = VertexBufferLayout {
-            array_stride: size_of::<[Vec3; 2]>() as u64,
-            step_mode: VertexStepMode::Instance,
-            attributes: &vertex_attr_array![0 => Float32x3, 1 => Float32x3],
-        };
-        let stages = |vertex, fragment, buffers, target, layout| Stages {
-            module: &module,
-            vertex,
-            fragment,
-            buffers,
-            target: Some((target, ColorWrites::ALL)),
-            layout: Some(layout),
-        };
-        // where smoothies overlap, the darker one; and the one that lies nearer to the sun
-        let least = BlendComponent {
-            src_factor: BlendFactor::One,
-            dst_factor: BlendFactor::One,
-            operation: BlendOperation::Min,
-        };
-        let blend = Some(BlendState { color: least, alpha: least });
+        let depths_layout = compared_layout(&gpu, &[TextureSampleType::Depth]);
         let layout = surface.seeing_layout(&[&map.layout, &depths_layout]);
-        let ends = [Some(ends)];
-        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
-        let layer = |alpha| Layer {
-            texture: gpu.texture("smoothie.smoothies", map.size(), SMOOTHIES, usage),
-            edge: gpu.blending_pipeline(
-                "smoothie.edge",
-                stages("smoothie", alpha, &ends, SMOOTHIES, &layout),
-                None,
-                blend,
-            ),
-        };
+        let layer = |alpha| Layer::new(&gpu, &module, &layout, map.size(), alpha);
         let smoothies = layer("alpha");
         let receivers = (!triangles.is_empty()).then(|| SmoothieReceivers {
             triangles,
@@ -128,10 +127,10 @@ impl Smoothie {
         let views = [&map.depth, receivers_depth, &smoothies.texture, &beyond.texture].map(whole);
         let resources = [0, 1, 2, 3].map(|binding| (binding as u32, BindingResource::TextureView(&views[binding])));
         let depths = gpu.bind("smoothie.depths", &depths_layout, &resources[..2]);
+        let float = TextureSampleType::Float { filterable: false };
+        let compared_layout = compared_layout(&gpu, &[TextureSampleType::Depth, float, float]);
         let compared = gpu.bind("smoothie.compared", &compared_layout, &resources);
-        let layout = surface.seeing_layout(&[&map.layout, &compared_layout]);
-        let softened =
-            gpu.pipeline("smoothie.softened", stages("whole_picture", "softened", &[], SHARE, &layout), None);
+        let softened = softened(&gpu, &module, &surface.seeing_layout(&[&map.layout, &compared_layout]));
         let mask = surface.mask("smoothie.mask");
         let edges = gpu.uploaded("smoothie.edges", BufferUsages::VERTEX, &[[Vec3::ZERO; 2]])?;
         gpu.check()?;
@@ -249,6 +248,19 @@ impl Technique for Smoothie {
     fn surface(&self) -> Result<Surface, ShadowError> {
         self.surface.read()
     }
+}
+
+/// Draws the mask from the map and the smoothies.
+fn softened(gpu: &Gpu, module: &ShaderModule, layout: &PipelineLayout) -> RenderPipeline {
+    let stages = Stages {
+        module,
+        vertex: "whole_picture",
+        fragment: "softened",
+        buffers: &[],
+        target: Some((SHARE, ColorWrites::ALL)),
+        layout: Some(layout),
+    };
+    gpu.pipeline("smoothie.softened", stages, None)
 }
 
 /// No smoothie: all of the sun, and infinitely deep.

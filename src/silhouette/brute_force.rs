@@ -1,6 +1,6 @@
 //! One pass over all edges: the reference that other finders are held against.
 
-use super::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
+use super::finder::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
 use crate::mesh::Mesh;
 use glam::DVec4;
 use rayon::prelude::*;

@@ -13,7 +13,7 @@
 //! Where it fails: an edge whose ends lie on two sides of a cell border near the root is tested by almost every query.
 //! Buildings, with their right angles, are made of such edges; [`super::hierarchy`] does better.
 
-use super::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
+use super::finder::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
 use crate::mesh::{Mesh, plane_faces};
 use glam::{DVec3, DVec4};
 use std::ops::Range;

@@ -11,8 +11,8 @@
 //!
 //! Suns and lamps have a hierarchy each, built when first asked.
 
+use super::finder::{DirectedEdge, QueryCost, SilhouetteFinder, append};
 use super::hextree::DualFrame;
-use super::{DirectedEdge, QueryCost, SilhouetteFinder, append};
 use crate::mesh::{Mesh, plane_faces};
 use glam::{DVec4, Vec4};
 use rayon::prelude::*;

@@ -7,33 +7,16 @@
 //! It is right for every mesh, since it only adds up the prisms that the single faces cut out of the light.
 
 pub mod brute_force;
+mod finder;
 pub mod hextree;
 pub mod hierarchy;
 
-use crate::mesh::{Incidence, Mesh};
+pub use finder::{DirectedEdge, QueryCost, SilhouetteFinder, multiplicity};
+
+use crate::mesh::Mesh;
 use brute_force::BruteForce;
-use glam::DVec4;
 use hextree::Hextree;
 use hierarchy::Hierarchy;
-
-/// A silhouette edge, from vertex to vertex: the face it bounds lies on its left, seen from the light.
-/// An edge of multiplicity ±n stands n times in a row in a silhouette.
-pub type DirectedEdge = [u32; 2];
-
-/// Finds silhouettes of the mesh for which it was made. All finders give the same edges, in any order.
-pub trait SilhouetteFinder: Send {
-    /// Appends the silhouette of `mesh` for a light around the mesh's origin (sun: w = 0, lamp: w = 1).
-    fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> QueryCost;
-}
-
-/// How much a query looked at for what it found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct QueryCost {
-    /// Nodes of a tree and edges (or classes of edges) that were tested.
-    pub at: usize,
-    /// Edges (or classes) of them that are silhouette.
-    pub found: usize,
-}
 
 /// The finders that work on the processor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,16 +41,4 @@ impl ProcessorFinder {
             ProcessorFinder::Hierarchy => Box::new(Hierarchy::default()),
         }
     }
-}
-
-/// The sum of the directions of an edge's faces, each turned towards the light: positive from the edge's first vertex
-/// to its second.
-pub fn multiplicity(faces: &[Incidence], facing: impl Fn(Incidence) -> bool) -> i32 {
-    faces.iter().map(|&face| if facing(face) { face.direction() } else { -face.direction() }).sum()
-}
-
-/// Appends an edge as often as its multiplicity says, in the direction of its sign.
-fn append(silhouette: &mut Vec<DirectedEdge>, [first, second]: [u32; 2], multiplicity: i32) {
-    let edge = if multiplicity > 0 { [first, second] } else { [second, first] };
-    silhouette.extend(std::iter::repeat_n(edge, multiplicity.unsigned_abs() as usize));
 }

@@ -2,10 +2,9 @@
 
 use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
-use super::study::date_of;
 use super::written::WrittenSite;
 use crate::message::{Field, Message, message};
-use crate::sun::{MOST_DAYS, Reading, SunError};
+use crate::sun::{MOST_DAYS, Reading, SunError, parse_date};
 use chrono::NaiveDate;
 
 /// The days of `--from-date` and `--to-date`, or else of the study's `dates` where the command line names no date of its
@@ -72,6 +71,11 @@ pub(super) fn of_each_day(text: &str, at: FieldLocation) -> Result<Reading, Site
         return Err(refuse(at, message![what; "leave it out, and name days with ", Field::Date]));
     }
     Ok(reading)
+}
+
+/// The date that somebody wrote.
+pub(super) fn date_of(said: Option<(String, FieldLocation)>) -> Result<Option<NaiveDate>, SiteError> {
+    said.map(|(text, at)| parse_date(&text).map_err(|error| SiteError::sun(at, error))).transpose()
 }
 
 /// The date that a reading names.

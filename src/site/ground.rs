@@ -4,13 +4,10 @@ use super::Receivers;
 use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::extent::Bounds;
-use super::terrain::{self, BuriedShare};
+use super::terrain::{self, BuriedShare, ON_GROUND_M};
 use super::written::WrittenSite;
 use crate::mesh::Mesh;
 use crate::message::{Field, message};
-
-/// What lies no farther below the ground than this lies on it, metres: a receiver is judged so far above itself.
-pub(super) const ON_GROUND_M: f64 = 0.001;
 
 /// Nobody asks for a ground farther from the place's point than this, metres.
 const FARTHEST_M: f64 = 1e5;

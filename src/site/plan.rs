@@ -3,7 +3,7 @@
 use super::asked::{Overrides, numbers, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::written::WrittenSite;
-use crate::message::{Field, message};
+use crate::message::{Field, Message, message};
 use crate::view::Grid;
 use glam::DVec2;
 
@@ -24,8 +24,25 @@ pub(super) fn grid(
     models_and_shadows: impl FnOnce() -> [DVec2; 2],
 ) -> Result<Grid, SiteError> {
     let [west, south, east, north] = region(written, asked, models_and_shadows)?;
-    let longer = (east - west).max(north - south);
-    let (cell, at) = match (asked.cell, asked.size, written.site.plan.cell) {
+    let sides = [east - west, north - south];
+    let (cell, at) = cell(written, asked, sides[0].max(sides[1]))?;
+    check_cell(cell, sides).map_err(|message| refuse(at, message))?;
+    let [width, height] = counts(cell, sides);
+    Ok(Grid {
+        // −0 is 0
+        west: west + 0.0,
+        north: north + 0.0,
+        cell,
+        // Checked above: at most 2³¹.
+        width: width as u32,
+        height: height as u32,
+    })
+}
+
+/// The side of a cell as asked, or as it follows from how many are asked along the longer side of the region; and where
+/// that was said.
+fn cell(written: &WrittenSite, asked: &Overrides, longer: f64) -> Result<(f64, FieldLocation), SiteError> {
+    Ok(match (asked.cell, asked.size, written.site.plan.cell) {
         (Some(_), Some(_), _) => {
             return Err(refuse(
                 FieldLocation::Field(Field::Size),
@@ -45,45 +62,37 @@ pub(super) fn grid(
         (None, Some(size), _) => (longer / f64::from(size), FieldLocation::Field(Field::Size)),
         (None, None, Some(cell)) => (cell, written.key("plan", "cell")),
         (None, None, None) => ((longer / f64::from(DEFAULT_SIZE)).max(LEAST_CELL_M), written.key("plan", "region")),
-    };
+    })
+}
+
+/// How many cells lie along the sides of a region, metres.
+fn counts(cell: f64, sides: [f64; 2]) -> [f64; 2] {
+    sides.map(|side: f64| (side / cell).round().max(1.0))
+}
+
+/// Errs where cells of such a side are none, too many for a region of such sides, or too small.
+fn check_cell(cell: f64, sides: [f64; 2]) -> Result<(), Message> {
     // A NaN is not above zero either.
     if !(cell.is_finite() && cell > 0.0) {
-        return Err(refuse(
-            at,
-            message![format!("{cell} is no side of a cell"); "write metres above 0, for example 0.5"],
-        ));
+        return Err(message![format!("{cell} is no side of a cell"); "write metres above 0, for example 0.5"]);
     }
-    let [width, height] = [east - west, north - south].map(|side: f64| (side / cell).round().max(1.0));
+    let [width, height] = counts(cell, sides);
     if width * height > MOST_CELLS {
-        let least = ((east - west) * (north - south) / MOST_CELLS).sqrt().max(longer / MOST_CELLS);
+        let least = (sides[0] * sides[1] / MOST_CELLS).sqrt().max(sides[0].max(sides[1]) / MOST_CELLS);
         // Up to the next millimetre, so that the advice holds.
         let least = (least * 1000.0).ceil() / 1000.0;
-        return Err(refuse(
-            at,
-            message![
-                format!("{width} × {height} cells are more than 2³¹");
-                format!("take cells of at least {least} m, or a smaller region")
-            ],
-        ));
+        return Err(message![
+            format!("{width} × {height} cells are more than 2³¹");
+            format!("take cells of at least {least} m, or a smaller region")
+        ]);
     }
     if cell < LEAST_CELL_M {
-        return Err(refuse(
-            at,
-            message![
-                format!("{cell} m is too small a cell");
-                format!("take at least {LEAST_CELL_M} m, or a larger region")
-            ],
-        ));
+        return Err(message![
+            format!("{cell} m is too small a cell");
+            format!("take at least {LEAST_CELL_M} m, or a larger region")
+        ]);
     }
-    Ok(Grid {
-        // −0 is 0
-        west: west + 0.0,
-        north: north + 0.0,
-        cell,
-        // Checked above: at most 2³¹.
-        width: width as u32,
-        height: height as u32,
-    })
+    Ok(())
 }
 
 /// Errs where a grid that is given cannot be a plan.

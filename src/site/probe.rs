@@ -2,12 +2,12 @@
 
 use super::Receivers;
 use super::asked::{Overrides, numbers, refuse};
-use super::dates::{of_each_day, own_date, several};
+use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};
 use super::ground::{self, Ground};
 use super::models::Models;
 use super::notes::on_probes;
-use super::study::{date_of, no_study};
+use super::study::no_study;
 use super::written::WrittenSite;
 use crate::formats::composed;
 use crate::mesh::Mesh;

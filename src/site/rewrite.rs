@@ -1,4 +1,4 @@
-//! A site file's text rewritten: what has changed is written anew, and all else stays as a person wrote it.
+//! Rewrites a site file's text: replaces what has changed, and leaves all else as a person wrote it.
 
 use super::error::SiteError;
 use super::file::SiteFile;

@@ -1,11 +1,11 @@
 //! The study as asked → its instants.
 
 use super::asked::{Overrides, refuse};
-use super::dates::{of_each_day, own_date, several};
+use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};
 use super::written::WrittenSite;
 use crate::message::{Field, message};
-use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_date, parse_duration_secs};
+use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_duration_secs};
 use chrono::NaiveDate;
 
 /// A text and where it was written.
@@ -32,33 +32,54 @@ pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> 
         let track = SunTrack::of_instant(place, time, refraction);
         return track.map_err(|error| SiteError::sun(written.key("study", ""), error));
     }
-    let study = &written.site.study;
-    let file = |key: &str, text: Option<&'_ str>| text.map(|text| (text.to_owned(), written.key("study", key)));
-    let said = |field, text: &Option<String>| text.clone().map(|text| (text, FieldLocation::Field(field)));
-    let date_asked = said(Field::Date, &asked.date);
-    let date_written = file("date", study.date.as_ref().map(|date| date.0.as_str()));
-
-    if let Some(text) = &asked.at {
-        let given = [
-            (Field::From, &asked.from),
-            (Field::To, &asked.to),
-            (Field::Step, &asked.step),
-            (Field::FromDate, &asked.from_date),
-            (Field::ToDate, &asked.to_date),
-        ];
-        for (field, given) in given {
-            if given.is_some() {
-                let message = message!["says nothing beside ", Field::At; "leave one of the two out"];
-                return Err(refuse(FieldLocation::Field(field), message));
-            }
-        }
-        let said = LocatedText { text, at: FieldLocation::Field(Field::At) };
-        let reading = said.reading()?;
-        // A reading with its own date does not ask the site file for one.
-        let date = date_asked.or(date_written.filter(|_| reading.date.is_none()));
-        return SunTrack::at(place, &reading, date_of(date)?, refraction).map_err(|error| said.fault(error));
+    match &asked.at {
+        Some(text) => single(place, written, asked, text),
+        None => window(place, written, asked),
     }
+}
 
+/// A text of the command line and its field.
+fn said(field: Field, text: &Option<String>) -> Option<(String, FieldLocation)> {
+    text.clone().map(|text| (text, FieldLocation::Field(field)))
+}
+
+/// A text of the file's study and its key.
+fn in_file(written: &WrittenSite, key: &str, text: Option<&str>) -> Option<(String, FieldLocation)> {
+    text.map(|text| (text.to_owned(), written.key("study", key)))
+}
+
+/// The date that the file's study has.
+fn date_in_file(written: &WrittenSite) -> Option<(String, FieldLocation)> {
+    in_file(written, "date", written.site.study.date.as_ref().map(|date| date.0.as_str()))
+}
+
+/// The single instant of `--at`.
+fn single(place: &Place, written: &WrittenSite, asked: &Overrides, text: &str) -> Result<SunTrack, SiteError> {
+    let given = [
+        (Field::From, &asked.from),
+        (Field::To, &asked.to),
+        (Field::Step, &asked.step),
+        (Field::FromDate, &asked.from_date),
+        (Field::ToDate, &asked.to_date),
+    ];
+    if let Some((field, _)) = given.into_iter().find(|(_, given)| given.is_some()) {
+        let message = message!["says nothing beside ", Field::At; "leave one of the two out"];
+        return Err(refuse(FieldLocation::Field(field), message));
+    }
+    let at = LocatedText { text, at: FieldLocation::Field(Field::At) };
+    let reading = at.reading()?;
+    // A reading with its own date does not ask the site file for one.
+    let date = said(Field::Date, &asked.date).or(date_in_file(written).filter(|_| reading.date.is_none()));
+    SunTrack::at(place, &reading, date_of(date)?, !asked.no_refraction).map_err(|error| at.fault(error))
+}
+
+/// The study's window, or that on each of several days.
+fn window(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<SunTrack, SiteError> {
+    let refraction = !asked.no_refraction;
+    let study = &written.site.study;
+    let file = |key: &str, text: Option<&str>| in_file(written, key, text);
+    let date_asked = said(Field::Date, &asked.date);
+    let date_written = date_in_file(written);
     let from = said(Field::From, &asked.from).or(file("from", study.from.as_ref().map(|text| text.0.as_str())));
     let to = said(Field::To, &asked.to).or(file("to", study.to.as_ref().map(|text| text.0.as_str())));
     let step = said(Field::Step, &asked.step).or(file("step", study.step.as_deref()));
@@ -117,10 +138,6 @@ fn each_day(
         };
         SiteError::sun(at, error)
     })
-}
-
-pub(super) fn date_of(said: Option<(String, FieldLocation)>) -> Result<Option<NaiveDate>, SiteError> {
-    said.map(|(text, at)| parse_date(&text).map_err(|error| SiteError::sun(at, error))).transpose()
 }
 
 /// Which of date, from, to and step nobody said.

@@ -1,10 +1,12 @@
 //! What a ground plane hides of the models' upper side, and whether it is terrain.
 
 use super::extent::Bounds;
-use super::ground::ON_GROUND_M;
 use crate::mesh::scan::{by_rows, spans, wholes};
 use crate::mesh::{Component, Mesh};
 use glam::{DVec2, DVec3, Vec3Swizzles as _};
+
+/// What lies no farther below the ground than this lies on it, metres: a receiver is judged so far above itself.
+pub(super) const ON_GROUND_M: f64 = 0.001;
 
 /// Points along the longer side of the models' plan at which is looked.
 const POINTS: f64 = 256.0;

@@ -41,26 +41,14 @@ fn once(
 ) -> Result<InstantOutcome, StudyError> {
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
-    let shows_volumes = wants.volumes || wants.silhouette;
-    let machine = match (shows_volumes, wants.counted) {
+    let machine = match (shows_volumes(wants), wants.counted) {
         (true, _) => stencil_alone(gpu, site, &view)?,
         (false, Some(counted)) => counting(gpu, site, &view, counted.field())?,
         (false, None) => choose(gpu, site, &view, on_event)?,
     };
-    let receivers = judged(site, &view);
-    let look = SiteView { site, machine: &machine, view, receivers };
-    let tiles = match view {
-        View::Plan(grid) => tiles::of_instant(grid, receivers, &machine),
-        View::Camera(_) | View::Elevation(_) => Vec::new(),
-    };
+    let look = SiteView { site, machine: &machine, view, receivers: judged(site, &view) };
+    let tiles = tiles_of(&look, wants)?;
     let first = tiles.first().filter(|tile| !tile.is_whole());
-    if let (Some(_), Some(counted)) = (first, wants.counted) {
-        let message = message![
-            "the plan is done in tiles, and what counting took is told of the whole";
-            "take larger cells", aside(Field::Cell), ", or leave it out"
-        ];
-        return Err(StudyError::Conflict { field: counted.field(), message });
-    }
     tiles::note(&tiles, on_event)?;
     let mut technique = first.map_or_else(|| look.technique(), |tile| look.technique_of(*tile))?;
     let surface = match (wants.surface, view) {
@@ -76,21 +64,10 @@ fn once(
     tell(on_event, Event::Started { instants: count, tiles: count })?;
     let (mut overlay, mut counted) = (None, None);
     let mask = if instant.night {
-        let below = -instant.altitude_deg();
-        tell(on_event, Event::Note(format!("night: the sun is {below:.1}° below the horizon, and nothing sees it")))?;
-        if shows_volumes {
-            tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned()))?;
-        }
-        if wants.counted.is_some() {
-            tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
-        }
+        note_night(instant, wants, on_event)?;
         night(&view)
     } else {
-        overlay = look.overlay(wants, instant.to_sun)?;
-        if overlay.as_ref().is_some_and(Overlay::is_empty) {
-            let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
-            tell(on_event, Event::Note(note.to_owned()))?;
-        }
+        overlay = overlay_of(&look, wants, instant, on_event)?;
         if wants.counted.is_some() {
             counted = technique.counted(instant.to_sun)?;
         }
@@ -104,15 +81,59 @@ fn once(
     }
     tell(on_event, Event::Drawn { index: count - 1, count, time: instant.time, mask: Some(&mask), bits: None })?;
     watch.lap("shadows");
-    Ok(InstantOutcome {
-        mask,
-        surface,
-        overlay,
-        counted,
-        surface_mesh: look.surface_mesh(),
-        timings: watch.stages,
-        drawn: machine.drawn(),
-    })
+    let (surface_mesh, timings, drawn) = (look.surface_mesh(), watch.stages, machine.drawn());
+    Ok(InstantOutcome { mask, surface, overlay, counted, surface_mesh, timings, drawn })
+}
+
+/// Whether anything of the volumes is laid over the picture.
+fn shows_volumes(wants: &InstantWants) -> bool {
+    wants.volumes || wants.silhouette
+}
+
+/// The tiles of a plan; none of another view. Errs where what counting took is wanted of more than one.
+fn tiles_of(look: &SiteView<'_>, wants: &InstantWants) -> Result<Vec<Tile>, StudyError> {
+    let tiles = match look.view {
+        View::Plan(grid) => tiles::of_instant(grid, look.receivers, look.machine),
+        View::Camera(_) | View::Elevation(_) => Vec::new(),
+    };
+    match (tiles.first().filter(|tile| !tile.is_whole()), wants.counted) {
+        (Some(_), Some(counted)) => {
+            let message = message![
+                "the plan is done in tiles, and what counting took is told of the whole";
+                "take larger cells", aside(Field::Cell), ", or leave it out"
+            ];
+            Err(StudyError::Conflict { field: counted.field(), message })
+        }
+        _ => Ok(tiles),
+    }
+}
+
+/// Says that it is night, and what is not to be seen therefore.
+fn note_night(instant: &Instant, wants: &InstantWants, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let below = -instant.altitude_deg();
+    tell(on_event, Event::Note(format!("night: the sun is {below:.1}° below the horizon, and nothing sees it")))?;
+    if shows_volumes(wants) {
+        tell(on_event, Event::Note("without a sun there are no volumes and no silhouette".to_owned()))?;
+    }
+    if wants.counted.is_some() {
+        tell(on_event, Event::Note(NOTHING_COUNTED.to_owned()))?;
+    }
+    Ok(())
+}
+
+/// What is laid over the picture, where that is wanted; a note where it is empty.
+fn overlay_of(
+    look: &SiteView<'_>,
+    wants: &InstantWants,
+    instant: &Instant,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Option<Overlay>, StudyError> {
+    let overlay = look.overlay(wants, instant.to_sun)?;
+    if overlay.as_ref().is_some_and(Overlay::is_empty) {
+        let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
+        tell(on_event, Event::Note(note.to_owned()))?;
+    }
+    Ok(overlay)
 }
 
 /// The plan's mask, tile by tile; `technique` is the first one's.

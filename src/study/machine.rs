@@ -228,7 +228,7 @@ pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: 
     if !method.row().counts || site.engine == Engine::Cpu {
         let message = message![
             "only techniques that count shadow volumes tell it, on the gpu";
-            "take ", (Field::Technique, "hybrid"), " without ", (Field::Engine, "cpu"), ", or leave it out"
+            "take ", (Field::Technique, Method::Hybrid.word()), " without ", (Field::Engine, "cpu"), ", or leave it out"
         ];
         return Err(StudyError::Conflict { field, message });
     }
@@ -242,7 +242,7 @@ pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) ->
     if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {
         let message = message![
             "volumes and silhouette are drawn by the technique stencil on the gpu alone";
-            "take ", (Field::Technique, "stencil"), " without ", (Field::Engine, "cpu"), ", or leave them out"
+            "take ", (Field::Technique, Method::Stencil.word()), " without ", (Field::Engine, "cpu"), ", or leave them out"
         ];
         return Err(StudyError::Conflict { field: Field::Volumes, message });
     }

@@ -9,10 +9,10 @@ use crate::mesh::Mesh;
 use crate::message::{Field, aside, message};
 use crate::profile::accumulate::Sum;
 use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
-use crate::shadow::plan_surface;
+use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
 use crate::sun;
-use crate::view::{Surface, Tile, View};
+use crate::view::{Bits, Mask, Surface, Tile, View};
 use std::cell::{OnceCell, RefCell};
 use std::fmt;
 use std::ops::ControlFlow;
@@ -212,10 +212,8 @@ fn once(
     let first = tiled.worked_on(begun.as_ref().map_or(0, |begun| begun.done));
     let study = tiled.wants.keep_every.map_or(0, |_| tiled.number());
     let TiledStudy { site, wants, machine, tiles, mut watch, .. } = tiled;
-    let (day_secs, night_secs) = day_and_night(&site.track);
     let look = SiteView { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
-    let instants = &site.track.instants;
-    let count = tiles.len() * instants.len();
+    let count = tiles.len() * site.track.instants.len();
     let mut statistics = wants.statistics.then(Statistics::default);
     let (mut done, mut begun_with) = (0, None);
     if let Some(begun) = begun {
@@ -233,49 +231,17 @@ fn once(
     if done > 0 {
         tell(on_event, Event::GoesOn { done })?;
     }
-    let (mut kept, mut was_kept) = (Instant::now(), done > 0);
+    let kept = (Instant::now(), done > 0);
+    let mut work = TileWork { look: &look, wants: &wants, study, tiles: tiles.len(), done, statistics, kept };
     for (number, tile) in tiles.iter().enumerate().skip(first) {
         if number > first && !technique.turn_to_tile(*tile)? {
             technique = look.technique_of(*tile)?;
         }
         tell(on_event, Event::Tile(*tile))?;
-        let mut sum = Sum::new(machine.gpu(), tile.size[0], tile.size[1]);
-        let before = number * instants.len();
-        let done_of_it = done.saturating_sub(before);
-        if let Some(shaded) = begun_with.take() {
-            let by_day = instants[..done_of_it].iter().filter(|instant| !instant.night);
-            sum.begin_with(&shaded, by_day.map(|instant| instant.weight_secs).sum());
-        }
-        for (at, instant) in instants.iter().enumerate().skip(done_of_it) {
-            let index = before + at;
-            let (mut mask, mut bits) = (None, None);
-            if !instant.night {
-                let drawn = technique.draw(instant.to_sun)?;
-                sum.add(&drawn, instant.weight_secs)?;
-                mask = wants.masks.then(|| drawn.read()).transpose()?;
-                bits = wants.bits.then(|| drawn.bits()).transpose()?;
-                if let Some(statistics) = &mut statistics
-                    && let Some(counted) = technique.counted(instant.to_sun)?
-                {
-                    statistics.add(&counted);
-                }
-            } else if wants.masks {
-                mask = Some(night(&look.view));
-            }
-            let (mask, bits) = (mask.as_ref(), bits.as_ref());
-            let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });
-            // what lies in files already, and long work, must not be lost while a drawing is made of it
-            let is_last = index + 1 == count && (tiles.len() > 1 || wants.bits || was_kept);
-            if wants.keep_every.is_some_and(|every| told.is_err() || is_last || kept.elapsed() >= every) {
-                let shaded = sum.so_far()?;
-                let unfinished = Unfinished { study, tiles: tiles.len(), done: index + 1, shaded, statistics };
-                tell(on_event, Event::Kept(&unfinished))?;
-                (kept, was_kept) = (Instant::now(), true);
-            }
-            told?;
-        }
-        tell(on_event, Event::Summed(Arc::new(sum.finish()?)))?;
+        let shaded = work.sum((number, tile), technique.as_mut(), begun_with.take(), on_event)?;
+        tell(on_event, Event::Summed(Arc::new(shaded)))?;
     }
+    statistics = work.statistics;
     if statistics.is_some_and(|statistics| statistics.cells == 0) {
         tell(on_event, Event::Note(super::NOTHING_COUNTED.to_owned()))?;
         statistics = None;
@@ -283,12 +249,92 @@ fn once(
     watch.lap("shadows");
     Ok(TiledOutcome {
         drawn: machine.drawn(),
-        day_and_night_secs: (day_secs, night_secs),
+        day_and_night_secs: day_and_night(&site.track),
         surface,
         surface_mesh: look.surface_mesh(),
         statistics,
         timings: watch.stages,
     })
+}
+
+/// What goes on from instant to instant, and from tile to tile.
+struct TileWork<'a> {
+    look: &'a SiteView<'a>,
+    wants: &'a Wants,
+    /// The study's number.
+    study: u64,
+    /// How many tiles there are.
+    tiles: usize,
+    /// How many instants were done before, those of each tile counted.
+    done: usize,
+    statistics: Option<Statistics>,
+    /// Since when nothing was kept, and whether anything was.
+    kept: (Instant, bool),
+}
+
+impl TileWork<'_> {
+    /// The sums of a tile, on top of those that it was `begun` with.
+    fn sum(
+        &mut self,
+        (number, tile): (usize, &Tile),
+        technique: &mut dyn Technique,
+        begun: Option<Shaded>,
+        on_event: &mut OnEvent<'_>,
+    ) -> Result<Shaded, StudyError> {
+        let instants = &self.look.site.track.instants;
+        let count = self.tiles * instants.len();
+        let mut sum = Sum::new(self.look.machine.gpu(), tile.size[0], tile.size[1]);
+        let before = number * instants.len();
+        let done_of_it = self.done.saturating_sub(before);
+        if let Some(shaded) = begun {
+            let by_day = instants[..done_of_it].iter().filter(|instant| !instant.night);
+            sum.begin_with(&shaded, by_day.map(|instant| instant.weight_secs).sum());
+        }
+        for (at, instant) in instants.iter().enumerate().skip(done_of_it) {
+            let index = before + at;
+            let (mask, bits) = self.draw(instant, technique, &mut sum)?;
+            let (mask, bits) = (mask.as_ref(), bits.as_ref());
+            let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });
+            // what lies in files already, and long work, must not be lost while a drawing is made of it
+            let is_last = index + 1 == count && (self.tiles > 1 || self.wants.bits || self.kept.1);
+            let is_due = |every| told.is_err() || is_last || self.kept.0.elapsed() >= every;
+            if self.wants.keep_every.is_some_and(is_due) {
+                self.keep(index + 1, sum.so_far()?, on_event)?;
+            }
+            told?;
+        }
+        Ok(sum.finish()?)
+    }
+
+    /// Adds an instant to the sum. Returns its mask and its bits, where they are wanted.
+    fn draw(
+        &mut self,
+        instant: &sun::Instant,
+        technique: &mut dyn Technique,
+        sum: &mut Sum,
+    ) -> Result<(Option<Mask>, Option<Bits>), StudyError> {
+        if instant.night {
+            return Ok((self.wants.masks.then(|| night(&self.look.view)), None));
+        }
+        let drawn = technique.draw(instant.to_sun)?;
+        sum.add(&drawn, instant.weight_secs)?;
+        let mask = self.wants.masks.then(|| drawn.read()).transpose()?;
+        let bits = self.wants.bits.then(|| drawn.bits()).transpose()?;
+        if let Some(statistics) = &mut self.statistics
+            && let Some(counted) = technique.counted(instant.to_sun)?
+        {
+            statistics.add(&counted);
+        }
+        Ok((mask, bits))
+    }
+
+    /// Tells what is to be kept after so many instants.
+    fn keep(&mut self, done: usize, shaded: Shaded, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+        let TileWork { study, tiles, statistics, .. } = *self;
+        tell(on_event, Event::Kept(&Unfinished { study, tiles, done, shaded, statistics }))?;
+        self.kept = (Instant::now(), true);
+        Ok(())
+    }
 }
 
 /// Errs where what is wanted is made of the whole plan, and that is done in tiles.

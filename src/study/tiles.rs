@@ -16,7 +16,7 @@ pub struct Budget {
     pub drawing: u64,
 }
 
-/// Rows of the smallest tile: each tile has the models projected anew.
+/// Rows of the smallest tile: the models are projected once for each tile.
 const LEAST_ROWS: u32 = 16;
 /// Columns of a tile are a multiple of this, so that none begins within a byte of bits.
 const ALIGNED: u32 = 64;

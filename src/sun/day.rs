@@ -1,12 +1,36 @@
 //! Sunrise, noon and sunset of a local calendar day.
 
 use super::position::{check_year, delta_t_secs, location};
-use super::{Day, Place, Polar, SunError, TimeOfDay, Zone};
+use super::{Place, SunError, TimeOfDay, Zone};
 use chrono::{DateTime, Datelike, DurationRound, NaiveDate, NaiveTime, TimeDelta, TimeZone};
 use solar_positioning::{Events, Horizon, SolarEvents};
 
 /// Altitude of the sun's centre, without refraction, at which almanacs let its upper limb appear, degrees.
 const RISE_DEG: f64 = -0.833;
+
+/// One calendar day at the place; what does not happen on it (polar day and night) is absent.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Day {
+    /// The local date.
+    pub date: NaiveDate,
+    /// Upper limb at −0.833°.
+    pub sunrise: Option<DateTime<Zone>>,
+    /// The sun's transit.
+    pub noon: Option<DateTime<Zone>>,
+    /// Upper limb at −0.833°.
+    pub sunset: Option<DateTime<Zone>>,
+    /// Whether the sun neither rises nor sets on it.
+    pub polar: Option<Polar>,
+}
+
+/// A day on which the sun neither rises nor sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Polar {
+    /// It stays up.
+    Day,
+    /// It stays down.
+    Night,
+}
 
 impl Day {
     /// The events of one local date, to the second, at sea level's horizon.

@@ -1,18 +1,9 @@
 //! The instants of a window on each of several days.
 
 use super::window::{MOST_INSTANTS, track};
-use super::{DayWindow, Place, Polar, Reading, SunError, SunTrack, TimeOfDay, Zone};
+use super::{DayWindow, EachDay, Place, Polar, SunError, SunTrack, TimeOfDay, Zone};
 use chrono::{DateTime, NaiveDate};
 use rayon::prelude::*;
-
-/// The part of each day that a study of several days asks, as written; the whole day where nothing is.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct EachDay {
-    /// Its beginning.
-    pub from: Option<Reading>,
-    /// Its end.
-    pub to: Option<Reading>,
-}
 
 impl SunTrack {
     /// The instants of a window on each of some dates, which follow one another: as a window's of its own, one day after

@@ -1,7 +1,7 @@
 //! What can be wrong with a place, a clock reading or a window.
 
 use super::Zone;
-use crate::message::{Field, Message, Piece, Worded, message, plain_display};
+use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
 use chrono::{DateTime, NaiveDate, NaiveDateTime};
 
 /// Why there is no sun for what was asked.
@@ -193,93 +193,95 @@ const TO: Piece = Piece::Key(Field::To);
 
 impl Worded for SunError {
     fn message(&self) -> Message {
-        match self {
+        Message { what: self.what(), hint: self.hint() }
+    }
+}
+
+impl SunError {
+    /// What is wrong.
+    fn what(&self) -> Vec<Piece> {
+        let text = match self {
             SunError::OutOfRange { what, value, low, high, unit } => {
-                format!("{what} {value} is not between {low} and {high} {unit}").into()
+                format!("{what} {value} is not between {low} and {high} {unit}")
             }
-            SunError::UnknownZone { name, hint } => {
-                message![format!("time zone \"{name}\" is not in the IANA list"); hint.clone()]
+            SunError::UnknownZone { name, .. } => format!("time zone \"{name}\" is not in the IANA list"),
+            SunError::NoZone { latitude_deg, longitude_deg } => {
+                format!("no time zone is known at latitude {latitude_deg}, longitude {longitude_deg}")
             }
-            SunError::NoZone { latitude_deg, longitude_deg } => message![
-                format!("no time zone is known at latitude {latitude_deg}, longitude {longitude_deg}");
-                "give it, for example time_zone = \"Europe/Paris\""
-            ],
-            SunError::BadDate { text } => message![
-                format!("\"{text}\" is not a date");
-                "write year-month-day, for example 2026-09-18"
-            ],
-            SunError::BadReading { text } => message![
-                format!("\"{text}\" is not a time");
+            SunError::BadDate { text } => format!("\"{text}\" is not a date"),
+            SunError::BadReading { text } => format!("\"{text}\" is not a time"),
+            SunError::BadDuration { text } => format!("\"{text}\" is not a duration"),
+            SunError::Year { year, first, last } => {
+                format!("the year {year} is outside {first} to {last}, for which ΔT is known")
+            }
+            SunError::Position(why) => format!("the sun's position cannot be computed: {why}"),
+            SunError::ZeroStep => "a step of 0 never reaches the window's end".to_owned(),
+            SunError::TooManyInstants { step_secs, window_secs, instants, most, .. } => format!(
+                "a step of {step_secs} s in a window of {window_secs} s makes {instants} instants, more than {most}"
+            ),
+            SunError::WindowTooLong { days, most } => format!("the window of {days} days is longer than {most} days"),
+            SunError::Overlap { date } => format!("the window of {date} begins before that of the day before ends"),
+            SunError::NoWindow { first, last } => {
+                let no_day = format!("from {first} to {last} no day has a time between `");
+                return pieces![no_day, FROM, "` and `", TO, "`"];
+            }
+            SunError::NothingAsked { from, to, date, why } => {
+                format!("on {date} there is nothing from {from} to {to}: {why}")
+            }
+            SunError::EmptyWindow { from, to, .. } => format!("the window from {from} to {to} is empty"),
+            SunError::Backwards { from, to } => format!("the window ends at {to}, before it begins at {from}"),
+            SunError::NoDate { reading } => format!("{reading} needs a date"),
+            SunError::TwoDates { reading, date } => format!("{reading} is not on the study's date {date}"),
+            SunError::NoSuchTime { local, zone, before, after, .. } => {
+                format!("{local} does not exist in {zone}: clocks jump from {before} to {after}")
+            }
+            SunError::TwoReadings { local, zone, earlier, later, .. } => {
+                format!("{local} exists twice in {zone}: {earlier} and {later}")
+            }
+            SunError::WrongOffset { local, zone, offset, .. } => format!("{local} in {zone} is never at {offset}"),
+            SunError::NoEvent { event, date, why, .. } => format!("there is no {event} on {date}: {why}"),
+        };
+        pieces![text]
+    }
+
+    /// What can be done; nothing where the error says it all.
+    fn hint(&self) -> Vec<Piece> {
+        match self {
+            SunError::OutOfRange { .. } | SunError::Position(_) => pieces![],
+            SunError::UnknownZone { hint, .. } => pieces![hint.clone()],
+            SunError::NoZone { .. } => pieces!["give it, for example time_zone = \"Europe/Paris\""],
+            SunError::BadDate { .. } => pieces!["write year-month-day, for example 2026-09-18"],
+            SunError::BadReading { .. } => pieces![
                 "write 10:00, 10:00:30, sunrise+1h30, sunset-1h30 or 2026-09-18T15:00, the day's end as 0:00 and an \
                  offset from UTC as in 02:30+01:00"
             ],
-            SunError::BadDuration { text } => message![
-                format!("\"{text}\" is not a duration");
-                "write 30min, 1h, 1h30 or 90s, at most 366 days"
-            ],
-            SunError::Year { year, first, last } => message![
-                format!("the year {year} is outside {first} to {last}, for which ΔT is known");
-                "take a date within"
-            ],
-            SunError::Position(why) => format!("the sun's position cannot be computed: {why}").into(),
-            SunError::ZeroStep => message![
-                "a step of 0 never reaches the window's end";
-                "give at least 1s, for example 30min"
-            ],
-            SunError::TooManyInstants { step_secs, window_secs, instants, most, least_secs } => message![
-                format!(
-                    "a step of {step_secs} s in a window of {window_secs} s makes {instants} instants, more than {most}"
-                );
-                format!("take a step of at least {least_secs}s")
-            ],
-            SunError::WindowTooLong { days, most } => message![
-                format!("the window of {days} days is longer than {most} days");
-                "take a shorter one"
-            ],
-            SunError::Overlap { date } => message![
-                format!("the window of {date} begins before that of the day before ends");
-                "give an earlier `", TO, "`"
-            ],
-            SunError::NoWindow { first, last } => message![
-                format!("from {first} to {last} no day has a time between `"), FROM, "` and `", TO, "`";
-                "give an earlier `", FROM, "` or a later `", TO, "`"
-            ],
-            SunError::NothingAsked { from, to, date, why } => message![
-                format!("on {date} there is nothing from {from} to {to}: {why}");
-                "give clock times, or `", TO, "` with its own date"
-            ],
-            SunError::EmptyWindow { from, to, example } => message![
-                format!("the window from {from} to {to} is empty");
-                "give a later `", TO, "`, or for a whole day a `", TO, format!("` with its date, as in {example}")
-            ],
-            SunError::Backwards { from, to } => message![
-                format!("the window ends at {to}, before it begins at {from}");
-                "exchange them or give a later date"
-            ],
-            SunError::NoDate { reading } => message![
-                format!("{reading} needs a date");
-                "write it with one, for example 2026-09-18T15:00, or give date = 2026-09-18"
-            ],
-            SunError::TwoDates { reading, date } => message![
-                format!("{reading} is not on the study's date {date}");
-                "leave one of the two dates out"
-            ],
-            SunError::NoSuchTime { local, zone, before, after, earlier, later } => message![
-                format!("{local} does not exist in {zone}: clocks jump from {before} to {after}");
-                format!("choose by the offset: {earlier} or {later}")
-            ],
-            SunError::TwoReadings { local, zone, earlier, later, example } => message![
-                format!("{local} exists twice in {zone}: {earlier} and {later}");
-                format!("choose one by its offset, for example {example}")
-            ],
-            SunError::WrongOffset { local, zone, offset, choices } => message![
-                format!("{local} in {zone} is never at {offset}");
-                format!("there it is {choices}, or leave the offset out")
-            ],
-            SunError::NoEvent { event, date, why, reading } => message![
-                format!("there is no {event} on {date}: {why}");
-                format!("give a clock time instead of {reading}")
-            ],
+            SunError::BadDuration { .. } => pieces!["write 30min, 1h, 1h30 or 90s, at most 366 days"],
+            SunError::Year { .. } => pieces!["take a date within"],
+            SunError::ZeroStep => pieces!["give at least 1s, for example 30min"],
+            SunError::TooManyInstants { least_secs, .. } => pieces![format!("take a step of at least {least_secs}s")],
+            SunError::WindowTooLong { .. } => pieces!["take a shorter one"],
+            SunError::Overlap { .. } => pieces!["give an earlier `", TO, "`"],
+            SunError::NoWindow { .. } => pieces!["give an earlier `", FROM, "` or a later `", TO, "`"],
+            SunError::NothingAsked { .. } => pieces!["give clock times, or `", TO, "` with its own date"],
+            SunError::EmptyWindow { example, .. } => {
+                let with_date = format!("` with its date, as in {example}");
+                pieces!["give a later `", TO, "`, or for a whole day a `", TO, with_date]
+            }
+            SunError::Backwards { .. } => pieces!["exchange them or give a later date"],
+            SunError::NoDate { .. } => {
+                pieces!["write it with one, for example 2026-09-18T15:00, or give date = 2026-09-18"]
+            }
+            SunError::TwoDates { .. } => pieces!["leave one of the two dates out"],
+            SunError::NoSuchTime { earlier, later, .. } => {
+                pieces![format!("choose by the offset: {earlier} or {later}")]
+            }
+            SunError::TwoReadings { example, .. } => {
+                pieces![format!("choose one by its offset, for example {example}")]
+            }
+            SunError::WrongOffset { choices, .. } => {
+                pieces![format!("there it is {choices}, or leave the offset out")]
+            }
+            SunError::NoEvent { reading, .. } => pieces![format!("give a clock time instead of {reading}")],
         }
     }
 }

@@ -1,7 +1,24 @@
 //! A place on earth: checked coordinates, and whose clock is read there.
 
-use super::{Place, SunError, Zone, ZoneRules, meant};
+use super::{SunError, Zone, ZoneRules, meant};
 use std::sync::OnceLock;
+
+/// A point on the earth and its clock.
+///
+/// Latitude and longitude stay in degrees, as the world writes them and as SPA takes them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// What people call it; empty when nobody said.
+    pub name: String,
+    /// Degrees, north positive.
+    pub latitude_deg: f64,
+    /// Degrees, east positive.
+    pub longitude_deg: f64,
+    /// Metres above sea level.
+    pub elevation_m: f64,
+    /// The zone whose clock is read there.
+    pub time_zone: Zone,
+}
 
 impl Place {
     /// A checked place: latitude −90 to 90° and longitude −180 to 180°, elevation −500 to 9000 m.

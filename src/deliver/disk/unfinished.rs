@@ -87,7 +87,7 @@ pub fn kept(folder: &Path, study: u64) -> Result<StoredStudy, ExportError> {
     }
 }
 
-/// Removes all that is kept of a study: it is done, or begins anew.
+/// Removes all that is kept of a study, when it is done or has to start over.
 ///
 /// # Errors
 /// [`ExportError::Write`] where the file system refuses.

@@ -3,9 +3,9 @@
 //! The lock is the system's own, on the open file `.gnomon.lock`: it goes with the process, however that ends, and what a
 //! crash leaves of the file bars nobody. Where a disk knows no locks the study goes on, and that is told.
 //!
-//! Who is done removes the file while the lock is still held. Another process may have opened it just before, and then
-//! gets the lock of a file that nobody finds any more, while a third makes the file anew. So a lock counts only where its
-//! path still leads to the locked file; else all begins again. Thus two never hold one folder.
+//! A process that is done removes the file while it still holds the lock. Another process may have opened the file just
+//! before, and then gets the lock of a file that has no name any more, while a third one creates a new file. So a lock
+//! counts only if its path still leads to the locked file; otherwise the process tries again. Two never hold one folder.
 
 use crate::export::{ExportError, file};
 use chrono::{DateTime, Local};
@@ -88,7 +88,7 @@ impl Workplace {
 impl Drop for FolderLock {
     fn drop(&mut self) {
         let path = self.folder.join(NAME);
-        // where somebody made the folder anew the file there is another's
+        // where somebody has replaced the folder, the file there belongs to another process
         if is_at(&self.file, &path) {
             // what stays bars nobody
             let _ = fs::remove_file(path);

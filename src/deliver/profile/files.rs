@@ -1,7 +1,7 @@
 //! Hours that were found → their files.
 
 use super::hours::{Hours, Range};
-use super::{DRAWING, ProfileRequest, RASTER, REPORT};
+use super::request::{DRAWING, ProfileRequest, RASTER, REPORT};
 use crate::deliver::DeliverError;
 use crate::deliver::disk::bits;
 use crate::deliver::parts::{DrawnView, figure_context, report_context};

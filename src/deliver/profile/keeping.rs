@@ -1,6 +1,6 @@
 //! What a study writes while it goes on, and what it goes on from where it was stopped.
 
-use super::ProfileRequest;
+use super::request::{ProfileRequest, mask_path};
 use super::sums::Sums;
 use crate::deliver::disk::bits::BitsFile;
 use crate::deliver::disk::sums::SumsFile;
@@ -39,7 +39,7 @@ pub(super) struct StudyStore<'a> {
     pub(super) sums: Sums,
     /// The sums that are gone on with.
     begun_sums: Option<SumsFile>,
-    /// The tile that is worked on, of how many, and whether this run begins anew.
+    /// The tile that is worked on, of how many, and whether this run begins with the first instant.
     tile: (Tile, usize),
     is_new: bool,
     /// Whether no tile was begun yet.
@@ -107,11 +107,11 @@ impl StudyStore<'_> {
             StoredStudy::Nothing => return Ok(None),
             StoredStudy::Whole(whole) if study.is_of(&whole.0) => *whole,
             StoredStudy::Whole(_) | StoredStudy::Damaged => {
-                return Ok(anew(&unfinished::path(folder, self.study), on_event)?);
+                return Ok(refused(&unfinished::path(folder, self.study), on_event)?);
             }
         };
         if let Some(other) = self.other_than_written(folder, study, site, &begun, &checks) {
-            return Ok(anew(&other, on_event)?);
+            return Ok(refused(&other, on_event)?);
         }
         self.checks = checks;
         Ok(Some(begun))
@@ -320,14 +320,9 @@ impl StudyStore<'_> {
     }
 }
 
-/// Tells that what a study left cannot be gone on with.
-fn anew(path: &Path, on_event: &mut OnEvent<'_>) -> Result<Option<Unfinished>, StudyError> {
+/// Says that the study cannot continue from what lies there, and so has nothing to continue from.
+fn refused(path: &Path, on_event: &mut OnEvent<'_>) -> Result<Option<Unfinished>, StudyError> {
     let what = "is not what the study left there when it was stopped: it begins anew";
     note(Some(format!("{} {what}", path.display())), on_event)?;
     Ok(None)
-}
-
-/// Where an instant's mask goes.
-pub(super) fn mask_path(folder: &Path, index: usize) -> PathBuf {
-    folder.join(format!("mask-{index:04}.png"))
 }

@@ -6,57 +6,24 @@
 mod files;
 mod hours;
 mod keeping;
+mod request;
 mod sums;
 
 pub use hours::{Hours, Range};
+pub use request::ProfileRequest;
 pub use sums::Sums;
 
-use super::disk::{bits, unfinished};
-use super::lines::Lines;
+use super::disk::unfinished;
 use super::parts::{note, note_letters};
-use super::sink::SecondFolder;
 use super::{DeliverError, Folder, Sink, WrittenFiles};
-use crate::export::figure;
 use crate::profile::{Provenance, Statistics};
 use crate::site::Site;
-use crate::study::{Budget, Event, OnEvent, Stopwatch, Wants, tell};
+use crate::study::{Event, OnEvent, tell};
 use files::Pieces;
-use keeping::mask_path;
-use std::path::{Path, PathBuf};
-use std::time::Duration;
-
-/// How long work may be lost where a machine fails.
-const KEEP_EVERY: Duration = Duration::from_secs(60);
+use request::mask_path;
 
 /// So many stopped studies are kept of hours that are to be shown.
 const MOST_KEPT: usize = 4;
-
-const DRAWING: &str = "profile.png";
-const RASTER: &str = "shadow-hours.tif";
-const REPORT: &str = "profile.json";
-
-/// What is asked of a study on the plan.
-#[derive(Clone, Debug)]
-pub struct ProfileRequest<'a> {
-    /// `profile.png`
-    pub drawing: bool,
-    /// `shadow-hours.tif`
-    pub raster: bool,
-    /// `profile.json`
-    pub report: bool,
-    /// Drawings of lines.
-    pub lines: &'a [Lines],
-    /// The bare mask of each instant, in this folder.
-    pub masks: Option<&'a Path>,
-    /// `shadow.bits`: one bit a cell for every instant with a sun.
-    pub bits: bool,
-    /// What counting shadow volumes took.
-    pub statistics: bool,
-    /// Memory for what grows with the plan, bytes; without a limit as much as that takes.
-    pub memory: Option<u64>,
-    /// Runs since before the site was read.
-    pub watch: Stopwatch,
-}
 
 /// What came of it.
 #[derive(Clone, Debug)]
@@ -182,57 +149,4 @@ pub fn write_hours(
     let Pieces { ready, report, range } = files::make(site, hours, asked, &open, &mut watch, &mut stage)?;
     let (drawn, statistics) = (hours.drawn.clone(), hours.statistics);
     Ok(ProfileAnswer { written: open.put(ready)?, masks: 0, report, drawn, statistics, range })
-}
-
-impl<'a> ProfileRequest<'a> {
-    /// Asks for no file yet. The stopwatch runs since before the site was read.
-    pub fn of(watch: Stopwatch) -> ProfileRequest<'a> {
-        ProfileRequest {
-            drawing: false,
-            raster: false,
-            report: false,
-            lines: &[],
-            masks: None,
-            bits: false,
-            statistics: false,
-            memory: None,
-            watch,
-        }
-    }
-
-    /// What its files are called, without the masks.
-    pub fn names(&self) -> Vec<PathBuf> {
-        let kinds = [(self.drawing, DRAWING), (self.raster, RASTER), (self.report, REPORT), (self.bits, bits::NAME)];
-        let kinds = kinds.into_iter().filter(|(asked, _)| *asked).map(|(_, name)| name);
-        kinds.chain(self.lines.iter().flat_map(|lines| lines.names())).map(PathBuf::from).collect()
-    }
-
-    fn mask_files(&self, site: &Site) -> Option<SecondFolder<'a>> {
-        let folder = self.masks?;
-        let files = (0..site.track.instants.len()).map(|index| mask_path(folder, index)).collect();
-        Some(SecondFolder { folder, files })
-    }
-
-    /// Whether each instant's shadow is needed when all is done.
-    fn holds_outlines(&self) -> bool {
-        self.lines.contains(&Lines::Outlines)
-    }
-
-    fn wants(&self, site: &Site, is_kept: bool) -> Wants {
-        Wants {
-            masks: self.masks.is_some(),
-            // by which way a folder is named makes no other study
-            masks_in: self.masks.map(|folder| folder.canonicalize().unwrap_or_else(|_| folder.to_owned())),
-            bits: self.bits || self.holds_outlines(),
-            lines: !self.lines.is_empty(),
-            surface: false,
-            statistics: self.statistics,
-            // outlines are not kept
-            keep_every: (is_kept && !self.holds_outlines()).then_some(KEEP_EVERY),
-            budget: self.memory.map(|bytes| Budget {
-                bytes,
-                drawing: if self.drawing { figure::profile_bytes(&site.grid) } else { 0 },
-            }),
-        }
-    }
 }

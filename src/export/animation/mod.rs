@@ -3,13 +3,14 @@
 //! Frames are written as they come. The GIF is made of them when all are there, as its colours are: one frame is held at
 //! a time. It is written beside its place, and renamed when it is whole.
 
+mod frame_files;
 mod older;
 mod palette;
 
 use super::figure::Screen;
 use super::{ExportError, file};
+use frame_files::{GIF, frame_path, read};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
-use image::ImageFormat;
 use older::OldFrames;
 use palette::{Counts, Palette};
 use std::borrow::Cow;
@@ -19,8 +20,6 @@ use std::path::{Path, PathBuf};
 
 /// How many frames there can be.
 pub const MOST_FRAMES: usize = 2000;
-
-const GIF: &str = "day.gif";
 
 /// The GIF's colours are taken from about so many of the frames, evenly spread.
 const SAMPLED: usize = 64;
@@ -51,7 +50,7 @@ impl Frames {
 
     /// Where a frame is.
     pub fn path(folder: &Path, index: usize) -> PathBuf {
-        folder.join(format!("frame-{index:04}.png"))
+        frame_path(folder, index)
     }
 
     /// All that an animation of `count` frames writes into a folder.
@@ -143,17 +142,6 @@ impl Gif {
         older.remove()?;
         Ok(path)
     }
-}
-
-/// A frame as it was written.
-fn read(folder: &Path, index: usize) -> Result<Screen, ExportError> {
-    let path = Frames::path(folder, index);
-    let again = |why: String| ExportError::encode("animation", format!("{}: {why}", path.display()));
-    let bytes = fs::read(&path).map_err(|error| again(error.to_string()))?;
-    let decoded = image::load_from_memory_with_format(&bytes, ImageFormat::Png);
-    let picture = decoded.map_err(|error| again(error.to_string()))?.into_rgb8();
-    let pixels = picture.pixels().map(|pixel| pixel.0).collect();
-    Ok(Screen { width: picture.width(), height: picture.height(), pixels })
 }
 
 fn side(pixels: u32) -> Result<u16, ExportError> {

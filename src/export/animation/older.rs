@@ -2,8 +2,8 @@
 //! one's, and so they are removed; but only those that are known to be of it: they show what the GIF beside them shows, pixel
 //! for pixel, in its colours. A picture that somebody put there, or drew on, does not.
 
+use super::frame_files::{GIF, frame_path, read};
 use super::palette::nearest;
-use super::{Frames, GIF, read};
 use crate::export::checksum;
 use crate::export::figure::{Screen, scale::Rgb};
 use crate::export::{ExportError, file};
@@ -66,7 +66,7 @@ pub(super) fn beyond(folder: &Path, count: usize) -> BTreeMap<usize, PathBuf> {
     let index = |name: &str| name.strip_prefix("frame-")?.strip_suffix(".png")?.parse::<usize>().ok();
     let frames = entries.filter_map(|entry| {
         let index = index(entry.file_name().to_str()?)?;
-        let path = Frames::path(folder, index);
+        let path = frame_path(folder, index);
         (path.file_name() == Some(&entry.file_name())).then_some((index, path))
     });
     frames.filter(|(index, _)| *index >= count).collect()

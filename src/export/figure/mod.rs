@@ -3,6 +3,7 @@
 //! The picture is made cell by cell in Rust; everything that is lines and letters is one SVG, drawn by resvg over it.
 
 mod components;
+mod context;
 mod counted;
 mod difference;
 mod fonts;
@@ -10,6 +11,7 @@ mod lines;
 mod overlay;
 mod page;
 mod panel;
+mod paper;
 mod perspective;
 mod picture;
 mod plan;
@@ -22,12 +24,13 @@ mod text;
 mod words;
 
 pub use components::of_all as component_colours;
+pub use context::FigureContext;
 pub use counted::{Colours, Diagram};
 pub use difference::{ChangeBands, ChangeColours, difference};
 pub use fonts::{runs, without_face};
 pub use lines::{LineDrawing, MOST_OUTLINES, Outline, iso_hours, outlines};
-pub use page::{HEIGHT, WIDTH};
 pub use panel::ScaleBar;
+pub use paper::{HEIGHT, WIDTH};
 pub use screen::{Screen, bare, instant_on_screen};
 pub use strips::strips;
 pub use surfaces::{legend as surfaces_legend, surfaces};
@@ -36,34 +39,14 @@ pub(super) use words::duration;
 
 use super::{ExportError, check_size, report};
 use crate::look::LOOK;
-use crate::mesh::Mesh;
-use crate::profile::{Profile, Provenance, ShadedCells};
-use crate::site::{Ground, Receivers};
+use crate::profile::{Profile, ShadedCells};
+use crate::site::Receivers;
 use crate::sun::{Air, Instant, Place, SunTrack, position};
 use crate::view::{FragmentCounts, Grid, Mask, Overlay, Surface, SurfaceRows, View};
 use components::Components;
 use page::Sheet;
 use panel::Panel;
 use scale::{Bands, NO_SHADOW, mix};
-
-/// What every drawing needs besides the answer itself.
-#[derive(Clone, Copy, Debug)]
-pub struct FigureContext<'a, S = Surface> {
-    /// Where on earth.
-    pub place: &'a Place,
-    /// The instants studied; the first one is drawn where there is one.
-    pub track: &'a SunTrack,
-    /// What stands there.
-    pub mesh: &'a Mesh,
-    /// What each cell of the view sees; of a plan's also some rows at a time.
-    pub surface: &'a S,
-    /// Which surfaces were judged.
-    pub receivers: Receivers,
-    /// The ground plane.
-    pub ground: Ground,
-    /// What drew.
-    pub drawn: &'a Provenance,
-}
 
 /// What a camera's picture shows besides sun and shadow.
 #[derive(Clone, Copy, Debug, Default)]
@@ -137,54 +120,17 @@ fn instant_as<T>(
     finish: impl FnOnce(&Sheet) -> Result<T, ExportError>,
 ) -> Result<T, ExportError> {
     let size = view.size();
-    check_size("mask", mask.share.len(), size.0, size.1)?;
-    check_surface(scene.surface, size)?;
-    if let Some(overlay) = shown.overlay {
-        for values in [&overlay.layers, &overlay.silhouette].into_iter().flatten() {
-            check_size("overlay", values.len(), overlay.width, overlay.height)?;
-        }
-    }
-    if let Some((counted, _)) = shown.counted {
-        check_size("count", counted.reached.len(), size.0, size.1)?;
-    }
+    check_instant(scene.surface, size, mask, shown)?;
     let now = scene.track.instants.first();
     let now = now.ok_or_else(|| ExportError::encode("drawing", "it has no instant"))?;
 
-    let kicker = match shown.counted {
-        _ if now.night => "Night",
-        Some((_, diagram)) => diagram.title(),
-        None => "Shadow",
-    };
-    let mut panel = panel(scene, kicker);
-    let seen = match view {
-        View::Camera(_) => Some("what the camera sees"),
-        // the cut earth is not
-        View::Elevation(_) => Some("what is seen above the ground"),
-        View::Plan(_) => None,
-    };
-    if let (Some(seen), Receivers::Top) = (seen, scene.receivers) {
-        let judged = panel.facts.iter_mut().filter(|(label, _)| *label == JUDGED);
-        judged.for_each(|(_, said)| *said = seen.to_owned());
-    }
-    if now.night {
-        let below = words::degrees(-now.altitude_rad);
-        panel.facts.push(("Night", format!("the sun is {below} below the horizon")));
-    }
-    panel.legend_head = "What sees the sun".to_owned();
     let tones = match view {
         View::Plan(_) => [LOOK.plan_ground_sun, LOOK.plan_ground_shade],
         View::Camera(_) | View::Elevation(_) => perspective::ground_tones(now.to_sun),
     };
-    panel.legend = vec![(tones[0], "sun".to_owned()), (tones[1], "shadow".to_owned())];
-    if now.night {
-        panel.legend = vec![(tones[1], "no sun".to_owned())];
-    } else if mask.share.iter().any(|share| !matches!(share, 0 | 255)) {
-        panel.legend.insert(1, (mix(tones[1], tones[0], 0.5), "part of the sun".to_owned()));
-    }
-    if scene.receivers == Receivers::Ground {
-        panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
-    }
     let colours = shown.counted.and_then(|(counted, diagram)| Colours::of(counted, diagram));
+    let mut panel = instant_panel(scene, view, now, shown);
+    panel.legend = instant_legend(scene, now, mask, tones);
     if let Some(colours) = &colours {
         panel.legend_head.clone_from(&colours.legend_head);
         panel.legend.clone_from(&colours.legend);
@@ -216,6 +162,66 @@ fn instant_as<T>(
             page::page(&panel, size, cell, draw, finish)
         }
     }
+}
+
+/// Errs where what belongs to one picture differs in size.
+fn check_instant(surface: &Surface, size: (u32, u32), mask: &Mask, shown: &PictureExtras) -> Result<(), ExportError> {
+    check_size("mask", mask.share.len(), size.0, size.1)?;
+    check_surface(surface, size)?;
+    if let Some(overlay) = shown.overlay {
+        for values in [&overlay.layers, &overlay.silhouette].into_iter().flatten() {
+            check_size("overlay", values.len(), overlay.width, overlay.height)?;
+        }
+    }
+    match shown.counted {
+        Some((counted, _)) => check_size("count", counted.reached.len(), size.0, size.1),
+        None => Ok(()),
+    }
+}
+
+/// What stands beside the picture of an instant; the legend is still empty.
+fn instant_panel(scene: &FigureContext, view: &View, now: &Instant, shown: &PictureExtras) -> Panel {
+    let kicker = match shown.counted {
+        _ if now.night => "Night",
+        Some((_, diagram)) => diagram.title(),
+        None => "Shadow",
+    };
+    let mut panel = panel(scene, kicker);
+    let seen = match view {
+        View::Camera(_) => Some("what the camera sees"),
+        // the cut earth is not
+        View::Elevation(_) => Some("what is seen above the ground"),
+        View::Plan(_) => None,
+    };
+    if let (Some(seen), Receivers::Top) = (seen, scene.receivers) {
+        let judged = panel.facts.iter_mut().filter(|(label, _)| *label == JUDGED);
+        judged.for_each(|(_, said)| *said = seen.to_owned());
+    }
+    if now.night {
+        let below = words::degrees(-now.altitude_rad);
+        panel.facts.push(("Night", format!("the sun is {below} below the horizon")));
+    }
+    panel.legend_head = "What sees the sun".to_owned();
+    panel
+}
+
+/// The legend of sun and shadow; `tones` are those of level ground in the sun and in the shade.
+fn instant_legend(
+    scene: &FigureContext,
+    now: &Instant,
+    mask: &Mask,
+    tones: [scale::Rgb; 2],
+) -> Vec<(scale::Rgb, String)> {
+    let mut legend = vec![(tones[0], "sun".to_owned()), (tones[1], "shadow".to_owned())];
+    if now.night {
+        legend = vec![(tones[1], "no sun".to_owned())];
+    } else if mask.share.iter().any(|share| !matches!(share, 0 | 255)) {
+        legend.insert(1, (mix(tones[1], tones[0], 0.5), "part of the sun".to_owned()));
+    }
+    if scene.receivers == Receivers::Ground {
+        legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
+    }
+    legend
 }
 
 /// Through what a picture is seen, and where it is true to scale its pixel's side, metres; the sheet says of a side which.

@@ -1,6 +1,7 @@
 //! The sheet: A3 landscape, the picture as large as it can be, the panel beside or below it.
 
 use super::panel::{self, COLUMN, Panel};
+use super::paper::{HEIGHT, PAPER_METRES_A_PIXEL, WIDTH};
 use super::picture::{Fit, PagePicture, Pixels};
 use super::svg::{Block, GRAY, HAIR, hex};
 use super::{fonts, scale::Rgb};
@@ -8,14 +9,6 @@ use crate::export::{ExportError, raster};
 use rayon::prelude::*;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::Tree;
-
-/// Page size, pixels: A3 landscape at 212 dots an inch.
-pub const WIDTH: u32 = 3508;
-/// Page height, pixels.
-pub const HEIGHT: u32 = 2480;
-
-/// How large a pixel is when the page is printed on A3, which is 420 mm wide.
-pub(super) const PAPER_METRES_A_PIXEL: f64 = 0.420 / WIDTH as f64;
 
 /// Off-white, so that the sheet's own white can stand for light.
 pub(super) const PAPER: Rgb = [249, 247, 242];

@@ -1,7 +1,7 @@
 //! What stands beside the picture: title, facts, the sun's table, legend, scale and north.
 
 use super::scale::Rgb;
-use super::svg::{ACCENT, Anchor, Block, GRAY, HAIR, INK, LetterStyle};
+use super::svg::{ACCENT, Block, GRAY, HAIR, INK, LetterStyle, TextAnchor};
 use super::text;
 
 /// The panel's column, page pixels.
@@ -66,7 +66,7 @@ pub(super) fn facts(panel: &Panel) -> Block {
     let mut block = Block::default();
     for (label, value) in &panel.facts {
         let baseline = block.height + LetterStyle::LABEL.size;
-        block.text(0.0, baseline, Anchor::Start, LetterStyle::LABEL, label);
+        block.text(0.0, baseline, TextAnchor::Start, LetterStyle::LABEL, label);
         wrapped(&mut block, INDENT, LetterStyle::BODY, value, FACT_LINES);
         block.height += 7.0;
     }
@@ -80,9 +80,9 @@ pub(super) fn sun_table(panel: &Panel) -> Block {
     let mut block = Block::default();
     let mut row = |cells: [&str; 4], first: LetterStyle, rest: LetterStyle| {
         let baseline = block.height + first.size;
-        block.text(0.0, baseline, Anchor::Start, first, cells[0]);
+        block.text(0.0, baseline, TextAnchor::Start, first, cells[0]);
         for (cell, right) in cells[1..].iter().zip(RIGHT) {
-            block.text(right, baseline, Anchor::End, rest, cell);
+            block.text(right, baseline, TextAnchor::End, rest, cell);
         }
         block.height += PITCH;
     };
@@ -126,7 +126,7 @@ pub(super) fn legend(panel: &Panel, room: f64) -> Block {
         let baseline = y + pitch / 2.0 + LetterStyle::BODY.size * 0.36;
         let label =
             text::wrap(label, LetterStyle::BODY.weight, LetterStyle::BODY.size, COLUMN - x - SWATCH - SWATCH_GAP, 1);
-        block.text(x + SWATCH + SWATCH_GAP, baseline, Anchor::Start, LetterStyle::BODY, &label.concat());
+        block.text(x + SWATCH + SWATCH_GAP, baseline, TextAnchor::Start, LetterStyle::BODY, &label.concat());
     };
     for (column, entries) in panel.legend.chunks(rows.max(1)).enumerate() {
         let x = column as f64 * HALF;
@@ -165,10 +165,10 @@ pub(super) fn scale_and_north(panel: &Panel, metres_a_pixel: f64) -> Block {
         block.fill([dark * part, y, part, thick], INK);
     }
     block.frame([1.0, y + 1.0, bar.pixels - 2.0, thick - 2.0], 2.0, INK);
-    block.text(0.0, y - 18.0, Anchor::Start, LetterStyle::BODY, "0");
-    block.text(bar.pixels / 2.0, y - 18.0, Anchor::Middle, LetterStyle::BODY, &bar.half_label());
-    block.text(bar.pixels, y - 18.0, Anchor::Middle, LetterStyle::BODY, &bar.label());
-    block.text(0.0, y + 66.0, Anchor::Start, LetterStyle::FINE, &paper_scale(metres_a_pixel));
+    block.text(0.0, y - 18.0, TextAnchor::Start, LetterStyle::BODY, "0");
+    block.text(bar.pixels / 2.0, y - 18.0, TextAnchor::Middle, LetterStyle::BODY, &bar.half_label());
+    block.text(bar.pixels, y - 18.0, TextAnchor::Middle, LetterStyle::BODY, &bar.label());
+    block.text(0.0, y + 66.0, TextAnchor::Start, LetterStyle::FINE, &paper_scale(metres_a_pixel));
 
     if !panel.north_up {
         return block;
@@ -178,13 +178,13 @@ pub(super) fn scale_and_north(panel: &Panel, metres_a_pixel: f64) -> Block {
     let (tip, tail, wing) = (middle - radius + 6.0, middle + 44.0, 30.0);
     block.polygon(&[[x, tip], [x - wing, tail], [x, tail - 20.0]], ACCENT);
     block.polygon(&[[x, tip], [x + wing, tail], [x, tail - 20.0]], INK);
-    block.text(x, middle - radius - 9.0, Anchor::Middle, LetterStyle::HEAD, "N");
+    block.text(x, middle - radius - 9.0, TextAnchor::Middle, LetterStyle::HEAD, "N");
     block
 }
 
 /// A printed scale for the whole page on A3, three digits.
 fn paper_scale(metres_a_pixel: f64) -> String {
-    let ratio = metres_a_pixel / super::page::PAPER_METRES_A_PIXEL;
+    let ratio = metres_a_pixel / super::paper::PAPER_METRES_A_PIXEL;
     let digits = 10_f64.powf((ratio.max(1e-9).log10().floor() - 2.0).max(0.0));
     let ratio = (ratio / digits).round() * digits;
     let said = if ratio >= 10.0 { thousands(ratio) } else { format!("{ratio:.1}") };

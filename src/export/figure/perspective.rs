@@ -100,7 +100,7 @@ pub(super) struct PixelRays {
     up: DVec3,
     size: [f64; 2],
     focus_m: f64,
-    /// From whence everything is seen, homogeneous.
+    /// The point from which everything is seen, or the direction to it where rays are parallel; homogeneous.
     pub(super) viewer: DVec4,
     /// Of a side along parallel rays: the middle of its picture, and a pixel's side, metres.
     side: Option<(DVec3, f64)>,

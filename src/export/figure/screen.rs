@@ -1,7 +1,8 @@
 //! A drawing for a screen: the sheet as it is for paper, in fewer pixels.
 
 use super::components::Components;
-use super::page::{HEIGHT, Sheet, WIDTH};
+use super::page::Sheet;
+use super::paper::{HEIGHT, WIDTH};
 use super::perspective::{self, OwnColours, PixelRays};
 use super::picture::{Fit, Pixels};
 use super::scale::Rgb;

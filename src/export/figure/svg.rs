@@ -37,7 +37,7 @@ impl LetterStyle {
 
 /// Where the given x lies in a line.
 #[derive(Clone, Copy)]
-pub(super) enum Anchor {
+pub(super) enum TextAnchor {
     Start,
     Middle,
     End,
@@ -53,11 +53,11 @@ pub(super) struct Block {
 
 impl Block {
     /// One line; `y` is its baseline.
-    pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, style: LetterStyle, line: &str) {
+    pub(super) fn text(&mut self, x: f64, y: f64, anchor: TextAnchor, style: LetterStyle, line: &str) {
         let anchor = match anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
+            TextAnchor::Start => "start",
+            TextAnchor::Middle => "middle",
+            TextAnchor::End => "end",
         };
         let weight = match style.weight {
             FontWeight::Regular => 400,
@@ -75,7 +75,7 @@ impl Block {
     pub(super) fn lines(&mut self, x: f64, style: LetterStyle, lines: &[String]) {
         for line in lines {
             let baseline = self.height + style.size;
-            self.text(x, baseline, Anchor::Start, style, line);
+            self.text(x, baseline, TextAnchor::Start, style, line);
             self.height += style.leading();
         }
     }

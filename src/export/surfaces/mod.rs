@@ -9,7 +9,7 @@ pub use pages::Atlas;
 
 use super::figure::duration;
 use super::figure::scale::Bands;
-use super::probe::{field, plain};
+use super::names::{field, plain};
 use crate::mesh::Mesh;
 use crate::mesh::patches::{Patch, Patches};
 use crate::profile::surfaces::{Exposure, SurfaceHours};

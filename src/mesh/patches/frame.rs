@@ -5,7 +5,8 @@
 //! their rows along their longest border, turned to where level rows or the east would be.
 
 use super::gather::FlatPatch;
-use super::{LEVEL, Mesh};
+use super::patch::LEVEL;
+use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;

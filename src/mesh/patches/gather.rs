@@ -1,8 +1,10 @@
 //! Faces that hang together in one plane.
 
-use super::{Component, FLAT_ANGLE_DEG, FLAT_M, Mesh, seen_side};
-use crate::mesh::{Spacing, planes};
-use glam::{DVec3, DVec4};
+use super::{FLAT_ANGLE_DEG, FLAT_M, seen_side};
+use crate::mesh::planes::{self, area_vector};
+use crate::mesh::spacing::Spacing;
+use crate::mesh::{Component, Mesh};
+use glam::DVec4;
 use rayon::prelude::*;
 
 /// A patch before it has texels.
@@ -14,12 +16,6 @@ pub(super) struct FlatPatch {
     pub(super) plane: DVec4,
     pub(super) two_sided: bool,
     pub(super) area_m2: f64,
-}
-
-/// The area of a face as a vector along its winding's normal, square metres.
-pub(super) fn area_vector(mesh: &Mesh, face: u32) -> DVec3 {
-    let [a, b, c] = mesh.corners(face as usize).map(|corner| corner.as_dvec3());
-    (b - a).cross(c - a) / 2.0
 }
 
 /// The patches of all components that receive, in the components' order and the larger ones first.

@@ -14,8 +14,8 @@
 //!   a single sheet enclose a room, the inner side is as dark as the room; what sun falls through windows onto it is counted
 //!   too.
 
-use super::gather::area_vector;
-use super::{Component, Mesh};
+use crate::mesh::planes::area_vector;
+use crate::mesh::{Component, Mesh};
 use glam::{DVec3, Vec3};
 
 /// How one face is judged.

@@ -9,9 +9,9 @@
 //! behind it everywhere.
 
 use super::texels::place;
-use super::{FLAT_ANGLE_DEG, Mesh, Patch, Patches, gather};
-use crate::mesh::planes;
+use super::{FLAT_ANGLE_DEG, Patch, Patches, UncountedArea, gather};
 use crate::mesh::scan::{self, Coverage};
+use crate::mesh::{Mesh, planes};
 use glam::{DVec2, DVec4, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
@@ -30,15 +30,6 @@ const BEHIND_M: f64 = 0.0001;
 const AROUND: f64 = 0.01;
 /// Where is asked how often a patch's own faces cover a texel, from its centre and in texels: on no edge, as a rule.
 const BESIDE: DVec2 = DVec2::new(0.012_345_67, 0.007_891_01);
-
-/// How much of the patches' area counts in no sum.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct UncountedArea {
-    /// What is there again, square metres.
-    pub doubled_m2: f64,
-    /// What lies between parts that touch, on both sides, square metres.
-    pub touching_m2: f64,
-}
 
 /// A flat surface with which a patch may share its place.
 struct FlatSurface<'a> {

@@ -1,7 +1,8 @@
 //! Which texels of a patch are judged: those whose centres lie in one of its faces or on its edge.
 
-use super::gather::area_vector;
-use super::{Mesh, Patch, Patches, Texel};
+use super::{Patch, Patches, Texel};
+use crate::mesh::Mesh;
+use crate::mesh::planes::area_vector;
 use crate::mesh::scan::Coverage;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;

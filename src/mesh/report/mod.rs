@@ -8,7 +8,8 @@ mod places;
 
 pub use places::{EdgePlace, FacePlace, Junction, OpenKind, OpenPlace, Places};
 
-use super::{Component, Mesh, Spacing};
+use super::spacing::Spacing;
+use super::{Component, Mesh};
 use glam::DVec4;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;

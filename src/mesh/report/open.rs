@@ -1,7 +1,8 @@
 //! Open edges: what they are the border of, and which vertices stand within them.
 
 use super::places::{OpenKind, OpenPlace, edge, longest, world};
-use crate::mesh::{Component, Mesh, Spacing, adjacency, weld};
+use crate::mesh::spacing::Spacing;
+use crate::mesh::{Component, Mesh, adjacency, weld};
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;

@@ -13,7 +13,10 @@
 //!   which needs no dark cap. Depth is reversed, so that point has depth 0 exactly and no far plane cuts it.
 //! - The stencil holds 8 bits, or 7 beside the mask: casters come in batches, none of which counts further (`batch.rs`).
 
+mod bits;
 mod ways;
+
+pub(super) use bits::StencilBits;
 
 use super::batch::{Batch, CountedWalls};
 use super::near_clip::needs_z_fail;
@@ -27,45 +30,6 @@ use glam::DVec3;
 use std::sync::Arc;
 use ways::{CountPipelines, CountWays, covered};
 use wgpu::*;
-
-/// What of the stencil counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum StencilBits {
-    /// All of it, in every cell.
-    All,
-    /// The low seven bits, in the cells whose top bit is set; the top bit is never written.
-    BelowMask,
-}
-
-impl StencilBits {
-    /// The top bit.
-    pub(super) const MASK: u32 = 0x80;
-
-    /// The bits that count, and so the most that is counted without passing through 0.
-    fn most(self) -> u32 {
-        match self {
-            StencilBits::All => 0xff,
-            StencilBits::BelowMask => 0x7f,
-        }
-    }
-
-    /// What the stencil is compared with, by the bits that are compared.
-    fn reference(self) -> u32 {
-        match self {
-            StencilBits::All => 0,
-            StencilBits::BelowMask => Self::MASK,
-        }
-    }
-
-    /// Which cells count.
-    fn face(self, pass_op: StencilOperation, depth_fail_op: StencilOperation) -> StencilFaceState {
-        let compare = match self {
-            StencilBits::All => CompareFunction::Always,
-            StencilBits::BelowMask => CompareFunction::Equal,
-        };
-        StencilFaceState { compare, pass_op, depth_fail_op, fail_op: StencilOperation::Keep }
-    }
-}
 
 /// What counts one scene's volumes in one view.
 pub(super) struct VolumeCounter {

@@ -10,12 +10,20 @@
 //! Both cut at the judged plane alike. A face that is cut marks its own border, the section included; where it meets a face
 //! that is not, their marks fall into the same cells and cancel in the sum.
 
-use super::Fill;
 use super::occluders::Occluders;
 use crate::mesh::Mesh;
 use crate::mesh::scan::{Coverage, TriangleSide};
 use crate::shadow::registered::{self, ClippedFace, ProjectedVertex, RasterProjection};
 use glam::DVec2;
+
+/// How the processor fills hard shadows; both find the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// Every face.
+    Faces,
+    /// Silhouettes by edge flags.
+    Silhouettes,
+}
 
 /// The sides of each face: twice the edge, and 1 where the face runs against it.
 pub(super) fn face_sides(mesh: &Mesh) -> Vec<[u32; 3]> {

@@ -16,11 +16,14 @@ mod factor;
 mod fill;
 mod occluders;
 mod on_gpu;
+mod query;
 
 pub use factor::unoccluded;
+pub use fill::Fill;
+pub use query::{Choice, FEWEST_DRAWN, MOST_FACES_A_TEXEL, PatchJudgements, Sample};
 
 use super::ray_cast::{RayCaster, Shear, TIE};
-use super::registered::{Raster, RasterProjection};
+use super::registered::RasterProjection;
 use super::{JUDGED_ABOVE_M, ShadowError};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -29,27 +32,10 @@ use fill::{Casting, Scratch};
 use glam::{DVec3, DVec4};
 use occluders::Occluders;
 use on_gpu::AdapterDrawer;
+use query::{OccluderQuery, is_drawn, raster};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-
-/// One point of a light, or one instant of the sun.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Homogeneous, in the world frame: a unit vector to the sun (w = 0), or a lamp's point (w = 1).
-    pub light: DVec4,
-    /// What a texel that sees it gets.
-    pub weight: u32,
-}
-
-/// How the processor fills hard shadows; both find the same.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fill {
-    /// Every face.
-    Faces,
-    /// Silhouettes by edge flags.
-    Silhouettes,
-}
 
 /// What fills hard shadows.
 #[derive(Clone)]
@@ -59,37 +45,6 @@ pub enum Painter {
     /// The graphics adapter, which fills every face.
     OnGpu(Arc<Gpu>),
 }
-
-/// How a patch is judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Choice {
-    /// By its texture; a patch without a centre by a ray all the same.
-    Texture,
-    /// By one ray a texel and sample.
-    Rays,
-    /// By what costs less.
-    Auto,
-}
-
-/// How patches were judged, over all samples that stand in front of them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PatchJudgements {
-    /// Textures filled: patches times samples.
-    pub textures: u64,
-    /// Texels in them.
-    pub texture_texels: u64,
-    /// Faces between patches and samples that culling left.
-    pub faces: u64,
-    /// Rays cast.
-    pub rays: u64,
-}
-
-/// With [`Choice::Auto`] a texture is filled where no more faces a texel than these lie between patch and sample; else rays
-/// cost less. Measured in `docs/benchmarks/receivers.md`.
-pub const MOST_FACES_A_TEXEL: usize = 2;
-
-/// With [`Choice::Auto`] patches of fewer texels are not worth a draw call of the adapter.
-pub const FEWEST_DRAWN: usize = 256;
 
 /// The technique, made for the casters of one scene and its patches.
 pub struct SoftTexture {
@@ -225,53 +180,6 @@ fn count(counts: &[AtomicU64; 4], judged: PatchJudgements) {
     for (count, more) in counts.iter().zip([textures, texture_texels, faces, rays]) {
         count.fetch_add(more, Ordering::Relaxed);
     }
-}
-
-/// Whether the adapter draws a patch, unless too much stands before it.
-fn is_drawn(patch: &Patch, choice: Choice) -> bool {
-    let worth_it = match choice {
-        Choice::Texture => true,
-        Choice::Rays => false,
-        Choice::Auto => patch.texels.len() >= FEWEST_DRAWN,
-    };
-    worth_it && patch.alone.is_none()
-}
-
-/// What is asked of occluders.
-struct OccluderQuery<'a> {
-    patches: &'a Patches,
-    occluders: &'a Occluders,
-    culling: bool,
-    choice: Choice,
-}
-
-impl OccluderQuery<'_> {
-    /// Finds what stands between a patch and a light; false where rays are to be cast instead.
-    fn find(&self, patch: &Patch, onto: &RasterProjection, waiting: &mut Vec<u32>, found: &mut Vec<u32>) -> bool {
-        let most = match self.choice {
-            _ if patch.alone.is_some() => return false,
-            Choice::Rays => return false,
-            Choice::Texture => usize::MAX,
-            Choice::Auto => patch.texels.len() * MOST_FACES_A_TEXEL,
-        };
-        self.occluders.before(onto, (patch.width, patch.height), self.culling, most, waiting, found)
-    }
-}
-
-/// The raster of a patch, a millimetre above the side that faces the light; none where that is edge-on or behind.
-fn raster(patch: &Patch, cell: f64, light: DVec4) -> Option<Raster> {
-    let mut plane = patch.plane;
-    if patch.two_sided && plane.dot(light) < 0.0 {
-        plane = -plane;
-    }
-    plane.w -= JUDGED_ABOVE_M;
-    (plane.dot(light) > 0.0).then_some(Raster {
-        corner: patch.corner,
-        right: patch.right,
-        down: patch.down,
-        cell,
-        plane,
-    })
 }
 
 /// What judges patches on the processor.

@@ -5,7 +5,7 @@
 //! adapter; nothing comes back before the end.
 
 use super::occluders::Occluders;
-use super::{Choice, OccluderQuery, PatchJudgements, Sample, is_drawn, raster};
+use super::query::{Choice, OccluderQuery, PatchJudgements, Sample, is_drawn, raster};
 use crate::gpu::layout::TexelRunUniforms;
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
@@ -68,6 +68,63 @@ struct PatchOccluders {
     found: usize,
 }
 
+impl Page {
+    /// `buffers` are the texels' places and patches, the patches' weights, and the texels' sums.
+    fn new(gpu: &Gpu, add: &ComputePipeline, mask: &Texture, run: PageRun, buffers: [&Buffer; 4]) -> Page {
+        let (patches, texels) = run;
+        let run = gpu.uniform::<TexelRunUniforms>("soft_texture.run");
+        let counted = TexelRunUniforms { first: texels.start, count: texels.end - texels.start };
+        gpu.queue.write_buffer(&run, 0, bytemuck::bytes_of(&counted));
+        let mask = whole(mask);
+        let mut entries = vec![(0, BindingResource::TextureView(&mask))];
+        let buffers = buffers.into_iter().chain([&run]);
+        entries.extend((1..).zip(buffers.map(|buffer| buffer.as_entire_binding())));
+        let group = gpu.bind("soft_texture.add", &add.get_bind_group_layout(0), &entries);
+        Page { patches, texels, group }
+    }
+}
+
+/// The drawn patches of one page, and their texels on the adapter.
+type PageRun = (Range<usize>, Range<u32>);
+
+/// The patches that are drawn, page after page, and what the adapter knows of them.
+#[derive(Default)]
+struct DrawnPatches {
+    list: Vec<u32>,
+    /// Of the patches' texels, those of each.
+    texels: Vec<Range<u32>>,
+    /// Where each of these texels lies in its page: its column, and above that its row.
+    places: Vec<u32>,
+    /// Which of the list each is of.
+    patch_of: Vec<u32>,
+    runs: Vec<PageRun>,
+}
+
+impl DrawnPatches {
+    fn of(patches: &Patches, choice: Choice) -> DrawnPatches {
+        let is_drawn = |at: &u32| is_drawn(&patches.list[*at as usize], choice);
+        let mut list: Vec<u32> = (0..patches.list.len() as u32).filter(is_drawn).collect();
+        list.sort_by_key(|&at| patches.list[at as usize].page);
+        let mut drawn = DrawnPatches::default();
+        for (slot, &at) in list.iter().enumerate() {
+            let patch = &patches.list[at as usize];
+            let first = drawn.places.len() as u32;
+            for texel in &patches.texels[patch.texels.start as usize..patch.texels.end as usize] {
+                drawn.places.push((patch.x + u32::from(texel.column)) | (patch.y + u32::from(texel.row)) << 16);
+                drawn.patch_of.push(slot as u32);
+            }
+            drawn.texels.push(patch.texels.clone());
+            let last = drawn.places.len() as u32;
+            let same_page = slot > 0 && patches.list[list[slot - 1] as usize].page == patch.page;
+            match drawn.runs.last_mut().filter(|_| same_page) {
+                Some((of_patches, of_texels)) => (of_patches.end, of_texels.end) = (slot + 1, last),
+                None => drawn.runs.push((slot..slot + 1, first..last)),
+            }
+        }
+        DrawnPatches { list, ..drawn }
+    }
+}
+
 impl AdapterDrawer {
     pub(super) fn new(
         gpu: Arc<Gpu>,
@@ -75,27 +132,7 @@ impl AdapterDrawer {
         patches: &Patches,
         choice: Choice,
     ) -> Result<AdapterDrawer, ShadowError> {
-        let is_drawn = |at: &u32| is_drawn(&patches.list[*at as usize], choice);
-        let mut drawn: Vec<u32> = (0..patches.list.len() as u32).filter(is_drawn).collect();
-        drawn.sort_by_key(|&at| patches.list[at as usize].page);
-        let (mut places, mut patch_of, mut texels) = (Vec::new(), Vec::new(), Vec::new());
-        let mut runs: Vec<(Range<usize>, Range<u32>)> = Vec::new();
-        for (slot, &at) in drawn.iter().enumerate() {
-            let patch = &patches.list[at as usize];
-            let first = places.len() as u32;
-            for texel in &patches.texels[patch.texels.start as usize..patch.texels.end as usize] {
-                places.push((patch.x + u32::from(texel.column)) | (patch.y + u32::from(texel.row)) << 16);
-                patch_of.push(slot as u32);
-            }
-            texels.push(patch.texels.clone());
-            let last = places.len() as u32;
-            let same_page = slot > 0 && patches.list[drawn[slot - 1] as usize].page == patch.page;
-            match runs.last_mut().filter(|_| same_page) {
-                Some((of_patches, of_texels)) => (of_patches.end, of_texels.end) = (slot + 1, last),
-                None => runs.push((slot..slot + 1, first..last)),
-            }
-        }
-
+        let DrawnPatches { list: drawn, texels, places, patch_of, runs } = DrawnPatches::of(patches, choice);
         let most = gpu.most_storage();
         let storage = |label: &str, values: &[u32]| {
             let buffer = gpu.storage(label, size_of_val(values) as u64, most, BufferUsages::COPY_DST)?;
@@ -121,18 +158,8 @@ impl AdapterDrawer {
         let module = gpu.shader("soft_texture", shaders::SOFT_TEXTURE);
         let occluder = occluder(&gpu, &module);
         let add = gpu.compute("soft_texture.add", &module, "add");
-        let mask_view = whole(&mask);
-        let pages = runs.into_iter().map(|(of_patches, texels)| {
-            let run = gpu.uniform::<TexelRunUniforms>("soft_texture.run");
-            let counted = TexelRunUniforms { first: texels.start, count: texels.end - texels.start };
-            gpu.queue.write_buffer(&run, 0, bytemuck::bytes_of(&counted));
-            let bound = [&places, &patch_of, &weights, &sums, &run];
-            let mut entries = vec![(0, BindingResource::TextureView(&mask_view))];
-            entries.extend((1..).zip(bound.map(|buffer| buffer.as_entire_binding())));
-            let group = gpu.bind("soft_texture.add", &add.get_bind_group_layout(0), &entries);
-            Page { patches: of_patches, texels, group }
-        });
-        let pages = pages.collect();
+        let page = |run| Page::new(&gpu, &add, &mask, run, [&places, &patch_of, &weights, &sums]);
+        let pages = runs.into_iter().map(page).collect();
         let buffers = [&places, &patch_of, &sums, &weights, &ontos, &vertices, &indices];
         let bytes = buffers.map(Buffer::size).iter().sum::<u64>() + u64::from(side) * u64::from(side);
         gpu.check()?;

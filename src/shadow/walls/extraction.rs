@@ -7,7 +7,7 @@
 //! edges are silhouette.
 
 use super::faces::{self, Faces, GROUP};
-use super::{NO_FACE, WallQuery, Walls, along, packed};
+use super::query::{NO_FACE, WallQuery, Walls, along, packed};
 use crate::gpu::{Gpu, GpuError, layout, readback, shaders};
 use crate::mesh::Mesh;
 use std::sync::Arc;

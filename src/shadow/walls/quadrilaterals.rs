@@ -4,7 +4,7 @@
 //! shader know edges with two faces: one with more comes as several, a pair of its faces each, whose walls add up.
 
 use super::faces::{self, Faces, GROUP};
-use super::{NO_FACE, WallQuery, Walls, packed};
+use super::query::{NO_FACE, WallQuery, Walls, packed};
 use crate::gpu::{Gpu, GpuError, layout, shaders};
 use crate::mesh::Mesh;
 use crate::shadow::surface::bind_group_layout;

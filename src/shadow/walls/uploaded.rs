@@ -1,6 +1,6 @@
 //! Walls from a finder on the processor, as a list of indices that is uploaded at each instant.
 
-use super::{WallQuery, Walls, sunward};
+use super::query::{WallQuery, Walls, sunward};
 use crate::gpu::{Gpu, GpuError};
 use crate::mesh::Mesh;
 use crate::silhouette::{DirectedEdge, ProcessorFinder, SilhouetteFinder};

@@ -2,96 +2,14 @@
 //!
 //! The window's fields and `--place` read so. Site files and all other options keep to the one way that is documented.
 
+mod axis;
 mod date;
 mod degrees;
+mod error;
 mod number;
 
+pub use axis::Axis;
 pub use date::{clock, date, step};
-pub use degrees::{Axis, Degrees, degrees, place};
+pub use degrees::{Degrees, degrees, place};
+pub use error::TypedError;
 pub use number::{number, within};
-
-use crate::message::{Message, Worded, message, plain_display};
-use crate::sun::SunError;
-use chrono::NaiveDate;
-
-/// Why what was typed is not taken.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TypedError {
-    /// Not a number.
-    Number(String),
-    /// A number that cannot be.
-    Outside {
-        /// What was typed.
-        value: f64,
-        /// Smallest value taken.
-        low: f64,
-        /// Largest value taken.
-        high: f64,
-        /// Of all three numbers.
-        unit: &'static str,
-    },
-    /// Not an angle on the globe.
-    Degrees {
-        /// What was typed.
-        text: String,
-        /// For what.
-        axis: Axis,
-    },
-    /// Not two of them.
-    Place(String),
-    /// A coordinate outside the globe, a step of nothing.
-    Sun(#[from] SunError),
-    /// Not a date.
-    Date(String),
-    /// A date that can be read in two ways.
-    TwoDates {
-        /// What was typed.
-        text: String,
-        /// The day first, the month first.
-        dates: [NaiveDate; 2],
-    },
-    /// Not a time of day.
-    Clock(String),
-    /// The end of a day, which belongs to the next one.
-    DayEnd,
-    /// Not a duration.
-    Step(String),
-}
-
-plain_display!(TypedError);
-
-impl Worded for TypedError {
-    fn message(&self) -> Message {
-        match self {
-            TypedError::Number(text) => message![format!("\"{text}\" is no number"); "write for example 0.5 or 0,5"],
-            TypedError::Outside { value, low, high, unit } => {
-                format!("{value} is not between {low} and {high} {unit}").into()
-            }
-            TypedError::Degrees { text, axis } => message![
-                format!("\"{text}\" is no {axis}");
-                format!("write degrees, for example {}", axis.example())
-            ],
-            TypedError::Place(text) => message![
-                format!("\"{text}\" is no place");
-                "write latitude and longitude in degrees, for example 48.2082, 16.3738 or 48°12'30\" N 16°22'26\" E"
-            ],
-            TypedError::Sun(error) => error.message(),
-            TypedError::Date(text) => message![format!("\"{text}\" is no date"); "write 2026-12-21 or 21.12.2026"],
-            TypedError::TwoDates { text, dates: [first, second] } => message![
-                format!("\"{text}\" can be {} or {}", long(*first), long(*second));
-                format!("write {first} or {second}")
-            ],
-            TypedError::Clock(text) => message![
-                format!("\"{text}\" is no time");
-                "write 16:30, 16.30, 4 pm, sunrise or sunset-1h30"
-            ],
-            TypedError::DayEnd => message!["a day has no 24 o'clock"; "write 0:00 for its end"],
-            TypedError::Step(text) => message![format!("\"{text}\" is no step"); "write 30min, 1h, 1h30 or 90s"],
-        }
-    }
-}
-
-/// A date in words that nobody reads otherwise.
-fn long(date: NaiveDate) -> String {
-    date.format("%-d %B %Y").to_string()
-}

@@ -3,6 +3,7 @@
 use super::base::Base;
 use super::labels::{Labels, Spot};
 use super::{LineDrawing, LineGroup, Scale, distance, fill, group};
+use crate::export::figure::panel::Panel;
 use crate::export::figure::picture::Fit;
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::{Block, LetterStyle};
@@ -62,66 +63,61 @@ pub fn outlines<S: SurfaceRows>(
     check_size("surface", scene.surface.cells(), grid.width, grid.height)?;
     let base = Base::new(scene, grid);
     let count = outlines.len();
-    let mut drawn = Vec::new();
-    for (at, Outline { index, shadow }) in outlines.iter().enumerate() {
-        check_size("shadow", shadow.width as usize * shadow.height as usize, grid.width, grid.height)?;
-        let instant = scene.track.instants.get(*index);
-        let instant = instant.ok_or_else(|| ExportError::encode("outlines", "an instant is not of the track"))?;
-        let contours = base.contours(&|cell| u64::from(shadow.contains(cell)), 0);
-        let time = words::clock(&instant.time);
-        drawn.push(DrawnOutline {
-            instant,
-            time,
-            colour: colour(at, count),
-            contours,
-            lines: LineGroup::default(),
-            shadow,
-        });
-    }
+    let drawn = outlines.iter().enumerate();
+    let drawn = drawn.map(|(at, outline)| DrawnOutline::new(scene, grid, &base, outline, colour(at, count)));
+    let mut drawn = drawn.collect::<Result<Vec<_>, _>>()?;
+    let panel = panel(scene, grid, &drawn);
+    let is_judged = scene.receivers != Receivers::Ground;
+    let draw = |fit: Fit| sheet(&base, &mut drawn, is_judged, fit);
+    Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
+}
 
+/// What stands beside the outlines.
+fn panel<S>(scene: &FigureContext<S>, grid: &Grid, drawn: &[DrawnOutline]) -> Panel {
     let mut panel = figure::panel(scene, "Shadow outlines");
     panel.facts.push(("Cells", figure::cells(grid.width, grid.height, grid.cell)));
     panel.legend_head = "The shadow’s outline at".to_owned();
     panel.keys.extend(drawn.iter().map(|drawn| (drawn.colour, drawn.time.clone())));
-    let once = opacity(count);
-    panel.legend.push((mix(GROUND, SHADE, once), "in shadow at one of these times".to_owned()));
-    if count > 1 {
+    panel.legend.push((mix(GROUND, SHADE, opacity(drawn.len())), "in shadow at one of these times".to_owned()));
+    if drawn.len() > 1 {
         panel.legend.push((mix(GROUND, SHADE, DARKEST), "in shadow at all of them".to_owned()));
     }
     if scene.receivers == Receivers::Ground {
         panel.legend.push((plan::ROOF_UNJUDGED, UNJUDGED.to_owned()));
     }
-    let draw = |fit: Fit| {
-        let scale = Scale::of(fit);
-        let mut block = Block::default();
-        group(&mut block, "ground", |block| {
-            block.fill([0.0, 0.0, f64::from(fit.pixels.0), f64::from(fit.pixels.1)], GROUND);
-        });
-        let is_judged = scene.receivers != Receivers::Ground;
-        if is_judged {
-            base.fill(&mut block, scale, ROOF);
+    panel
+}
+
+/// The drawing itself: ground and roofs, the shadows over each other, and over all the lines with their times.
+fn sheet(base: &Base, drawn: &mut [DrawnOutline], is_judged: bool, fit: Fit) -> Block {
+    let scale = Scale::of(fit);
+    let once = opacity(drawn.len());
+    let mut block = Block::default();
+    group(&mut block, "ground", |block| {
+        block.fill([0.0, 0.0, f64::from(fit.pixels.0), f64::from(fit.pixels.1)], GROUND);
+    });
+    if is_judged {
+        base.fill(&mut block, scale, ROOF);
+    }
+    group(&mut block, "shadows", |block| {
+        drawn.iter().for_each(|drawn| fill(block, &scale.areas(&drawn.contours), SHADE, once));
+    });
+    if !is_judged {
+        base.fill(&mut block, scale, plan::ROOF_UNJUDGED);
+    }
+    base.draw(&mut block, scale, ROOF);
+    let mut labels = Labels::new(fit.pixels, LABEL, APART);
+    base.footprints(scale).iter().for_each(|line| labels.avoid(line));
+    group(&mut block, "outlines", |block| {
+        for DrawnOutline { time, colour, contours, lines, .. } in &mut *drawn {
+            *lines = scale.lines(contours);
+            lines.all().for_each(|line| labels.avoid(line));
+            lines.draw(block, WIDTH, *colour, time);
         }
-        group(&mut block, "shadows", |block| {
-            drawn.iter().for_each(|drawn| fill(block, &scale.areas(&drawn.contours), SHADE, once));
-        });
-        if !is_judged {
-            base.fill(&mut block, scale, plan::ROOF_UNJUDGED);
-        }
-        base.draw(&mut block, scale, ROOF);
-        let mut labels = Labels::new(fit.pixels, LABEL, APART);
-        base.footprints(scale).iter().for_each(|line| labels.avoid(line));
-        group(&mut block, "outlines", |block| {
-            for DrawnOutline { time, colour, contours, lines, .. } in &mut drawn {
-                *lines = scale.lines(contours);
-                lines.all().for_each(|line| labels.avoid(line));
-                lines.draw(block, WIDTH, *colour, time);
-            }
-        });
-        (0..count).for_each(|at| label(&mut labels, &drawn, at, scale));
-        labels.draw(&mut block, HALO);
-        block
-    };
-    Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
+    });
+    (0..drawn.len()).for_each(|at| label(&mut labels, drawn, at, scale));
+    labels.draw(&mut block, HALO);
+    block
 }
 
 struct DrawnOutline<'a> {
@@ -132,6 +128,24 @@ struct DrawnOutline<'a> {
     /// Known when the sheet is laid out.
     lines: LineGroup,
     shadow: &'a Bits,
+}
+
+impl<'a> DrawnOutline<'a> {
+    fn new<S>(
+        scene: &FigureContext<'a, S>,
+        grid: &Grid,
+        base: &Base,
+        outline: &'a Outline,
+        colour: Rgb,
+    ) -> Result<DrawnOutline<'a>, ExportError> {
+        let Outline { index, shadow } = outline;
+        check_size("shadow", shadow.width as usize * shadow.height as usize, grid.width, grid.height)?;
+        let instant = scene.track.instants.get(*index);
+        let instant = instant.ok_or_else(|| ExportError::encode("outlines", "an instant is not of the track"))?;
+        let contours = base.contours(&|cell| u64::from(shadow.contains(cell)), 0);
+        let time = words::clock(&instant.time);
+        Ok(DrawnOutline { instant, time, colour, contours, lines: LineGroup::default(), shadow })
+    }
 }
 
 /// The time where the shadow reaches farthest, and once or twice more beside long shadows in open sun.

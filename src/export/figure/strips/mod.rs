@@ -1,12 +1,13 @@
 //! The strip chart: when probes lie in the sun. The local clock's time of day across, days down.
 
 mod axes;
+mod colours;
 mod said;
 
 use super::page::{self, PAPER};
 use super::picture::{CellBorder, Fit, PagePicture, compose};
 use super::scale::{Rgb, mix};
-use super::svg::{ACCENT, Anchor, Block, GRAY, INK, LetterStyle};
+use super::svg::{ACCENT, Block, GRAY, INK, LetterStyle, TextAnchor};
 use super::text;
 use crate::export::ExportError;
 use crate::export::probe::{clock, counted, lies};
@@ -16,12 +17,7 @@ use crate::site::{Ground, metres};
 use crate::sun::{Day, Place, Zone};
 use axes::{HourAxis, Tick, ticks};
 use chrono::{DateTime, NaiveDate};
-
-/// In the sun, in the shade, without a sun, and where nothing was asked.
-const SUN: Rgb = [250, 218, 128];
-const SHADE: Rgb = crate::look::LOOK.plan_ground_shade;
-const NIGHT: Rgb = [62, 70, 88];
-const OUTSIDE: Rgb = [226, 224, 217];
+use colours::{NIGHT, OUTSIDE, SHADE, SUN};
 
 /// How far a grid's line stands out.
 const GRID: f64 = 0.16;
@@ -97,7 +93,7 @@ fn draw(
         curves(&mut lines, sunlight, hours, &strips);
         for tick in &ticks {
             let y = if tick.within { (tick.row as f64 + 0.5) * row + 11.0 } else { tick.row as f64 * row + 30.0 };
-            lines.text(-18.0, y, Anchor::End, LetterStyle::LABEL, &tick.label);
+            lines.text(-18.0, y, TextAnchor::End, LetterStyle::LABEL, &tick.label);
         }
         if let ([day], [intervals]) = (sunlight.days.as_slice(), probed.days.as_slice()) {
             label(&mut lines, sunlight, (day, intervals), hours, &strips);
@@ -109,8 +105,8 @@ fn draw(
     for hour in hours.first..=hours.last {
         let x = hours.at(hour * 3600) * f64::from(strips.width);
         let said = format!("{:02}:00", hour % 24);
-        over.text(x, -14.0, Anchor::Middle, LetterStyle::LABEL, &said);
-        over.text(x, bottom + 44.0, Anchor::Middle, LetterStyle::LABEL, &said);
+        over.text(x, -14.0, TextAnchor::Middle, LetterStyle::LABEL, &said);
+        over.text(x, bottom + 44.0, TextAnchor::Middle, LetterStyle::LABEL, &said);
     }
     if let ([probed], [_]) = (sunlight.probes.as_slice(), days.as_slice())
         && probed.longest().is_some()
@@ -122,7 +118,7 @@ fn draw(
     if strips.count < sunlight.probes.len() {
         let more = format!("and {} more probes", sunlight.probes.len() - strips.count);
         let more = message![more; Field::Csv, " and ", Field::Json, " have all"].in_words(words);
-        over.text(f64::from(strips.width), bottom + 84.0, Anchor::End, LetterStyle::LABEL, &more);
+        over.text(f64::from(strips.width), bottom + 84.0, TextAnchor::End, LetterStyle::LABEL, &more);
     }
     (picture, over)
 }
@@ -180,15 +176,15 @@ fn head(lines: &mut Block, sunlight: &Sunlight, ground: &Ground, probed: &ProbeI
         }
         _ => format!("{} of sun, the longest interval {}", clock(probed.secs()), clock(longest)),
     };
-    lines.text(width, -18.0, Anchor::End, LetterStyle::BODY, &sums);
+    lines.text(width, -18.0, TextAnchor::End, LetterStyle::BODY, &sums);
     let mut room = width - text::width(&sums, LetterStyle::BODY.weight, LetterStyle::BODY.size) - 40.0;
     let name = text::wrap(&probed.probe.name, LetterStyle::HEAD.weight, LetterStyle::HEAD.size, room, 1).concat();
-    lines.text(0.0, -18.0, Anchor::Start, LetterStyle::HEAD, &name);
+    lines.text(0.0, -18.0, TextAnchor::Start, LetterStyle::HEAD, &name);
     let taken = text::width(&name, LetterStyle::HEAD.weight, LetterStyle::HEAD.size) + 26.0;
     room -= taken;
     let lies = lies(&probed.probe).replace("(-", "(−").replace(" -", " −");
     if sunlight.probes.len() > 1 && text::width(&lies, LetterStyle::LABEL.weight, LetterStyle::LABEL.size) <= room {
-        lines.text(taken, -18.0, Anchor::Start, LetterStyle::LABEL, &lies);
+        lines.text(taken, -18.0, TextAnchor::Start, LetterStyle::LABEL, &lies);
     }
 }
 
@@ -232,7 +228,7 @@ fn label(
         if said.iter().all(|line| text::width(line, style.weight, style.size) <= room) {
             let first = middle - style.leading() * (said.len() as f64 / 2.0 - 0.5) + style.size * 0.36;
             for (index, line) in said.iter().enumerate() {
-                lines.text((from + to) / 2.0, first + style.leading() * index as f64, Anchor::Middle, style, line);
+                lines.text((from + to) / 2.0, first + style.leading() * index as f64, TextAnchor::Middle, style, line);
             }
         }
     };

@@ -1,8 +1,8 @@
 //! What stands beside the strips.
 
-use super::{NIGHT, OUTSIDE, SHADE, SUN};
+use super::colours::{NIGHT, OUTSIDE, SHADE, SUN};
 use crate::export::figure::panel::Panel;
-use crate::export::figure::svg::{ACCENT, Anchor, Block, LetterStyle};
+use crate::export::figure::svg::{ACCENT, Block, LetterStyle, TextAnchor};
 use crate::export::figure::{text, words};
 use crate::export::probe::{clock, facing, triple};
 use crate::export::report;
@@ -115,7 +115,7 @@ pub(super) fn intervals(sunlight: &Sunlight, intervals: &[Interval], room: f64) 
         for (index, (cell, left)) in cells.into_iter().zip(LEFT).enumerate() {
             let width = LEFT.get(index + 1).map_or(700.0, |next| next - left) - 30.0;
             let cell = text::wrap(cell, style.weight, style.size, width, 1).concat();
-            block.text(left, baseline, Anchor::Start, style, &cell);
+            block.text(left, baseline, TextAnchor::Start, style, &cell);
         }
         block.height += PITCH;
         block.height

@@ -1,0 +1,98 @@
+//! What is asked of a study on the plan, and what its files are called.
+
+use crate::deliver::disk::bits;
+use crate::deliver::lines::Lines;
+use crate::deliver::sink::SecondFolder;
+use crate::export::figure;
+use crate::site::Site;
+use crate::study::{Budget, Stopwatch, Wants};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How long work may be lost where a machine fails.
+const KEEP_EVERY: Duration = Duration::from_secs(60);
+
+pub(super) const DRAWING: &str = "profile.png";
+pub(super) const RASTER: &str = "shadow-hours.tif";
+pub(super) const REPORT: &str = "profile.json";
+
+/// What is asked of a study on the plan.
+#[derive(Clone, Debug)]
+pub struct ProfileRequest<'a> {
+    /// `profile.png`
+    pub drawing: bool,
+    /// `shadow-hours.tif`
+    pub raster: bool,
+    /// `profile.json`
+    pub report: bool,
+    /// Drawings of lines.
+    pub lines: &'a [Lines],
+    /// The bare mask of each instant, in this folder.
+    pub masks: Option<&'a Path>,
+    /// `shadow.bits`: one bit a cell for every instant with a sun.
+    pub bits: bool,
+    /// What counting shadow volumes took.
+    pub statistics: bool,
+    /// Memory for what grows with the plan, bytes; without a limit as much as that takes.
+    pub memory: Option<u64>,
+    /// Runs since before the site was read.
+    pub watch: Stopwatch,
+}
+
+impl<'a> ProfileRequest<'a> {
+    /// Asks for no file yet. The stopwatch runs since before the site was read.
+    pub fn of(watch: Stopwatch) -> ProfileRequest<'a> {
+        ProfileRequest {
+            drawing: false,
+            raster: false,
+            report: false,
+            lines: &[],
+            masks: None,
+            bits: false,
+            statistics: false,
+            memory: None,
+            watch,
+        }
+    }
+
+    /// What its files are called, without the masks.
+    pub fn names(&self) -> Vec<PathBuf> {
+        let kinds = [(self.drawing, DRAWING), (self.raster, RASTER), (self.report, REPORT), (self.bits, bits::NAME)];
+        let kinds = kinds.into_iter().filter(|(asked, _)| *asked).map(|(_, name)| name);
+        kinds.chain(self.lines.iter().flat_map(|lines| lines.names())).map(PathBuf::from).collect()
+    }
+
+    pub(super) fn mask_files(&self, site: &Site) -> Option<SecondFolder<'a>> {
+        let folder = self.masks?;
+        let files = (0..site.track.instants.len()).map(|index| mask_path(folder, index)).collect();
+        Some(SecondFolder { folder, files })
+    }
+
+    /// Whether each instant's shadow is needed when all is done.
+    pub(super) fn holds_outlines(&self) -> bool {
+        self.lines.contains(&Lines::Outlines)
+    }
+
+    pub(super) fn wants(&self, site: &Site, is_kept: bool) -> Wants {
+        Wants {
+            masks: self.masks.is_some(),
+            // by which way a folder is named makes no other study
+            masks_in: self.masks.map(|folder| folder.canonicalize().unwrap_or_else(|_| folder.to_owned())),
+            bits: self.bits || self.holds_outlines(),
+            lines: !self.lines.is_empty(),
+            surface: false,
+            statistics: self.statistics,
+            // outlines are not kept
+            keep_every: (is_kept && !self.holds_outlines()).then_some(KEEP_EVERY),
+            budget: self.memory.map(|bytes| Budget {
+                bytes,
+                drawing: if self.drawing { figure::profile_bytes(&site.grid) } else { 0 },
+            }),
+        }
+    }
+}
+
+/// Where an instant's mask goes.
+pub(super) fn mask_path(folder: &Path, index: usize) -> PathBuf {
+    folder.join(format!("mask-{index:04}.png"))
+}

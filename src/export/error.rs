@@ -1,0 +1,221 @@
+//! Why an answer did not become a file.
+
+use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why an answer did not become a file.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// The file system refused.
+    Write {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// The step that failed.
+        doing: &'static str,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// What a stopped study left cannot be read.
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The disk is too full.
+    NoRoom {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// What it takes, bytes.
+        size: u64,
+        /// What there is, bytes.
+        room: u64,
+    },
+    /// Another study works in the folder.
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+        /// Since when, which process on which host, and what it was asked.
+        who: String,
+    },
+    /// The folder was removed, or replaced by another one.
+    Lost {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A frame would be taken for one of the animation's.
+    OtherFrame {
+        /// The file.
+        path: PathBuf,
+        /// How many frames there are to be.
+        count: usize,
+    },
+    /// What is to be written is what was read.
+    IsInput {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// The same file, as the site names it.
+        input: PathBuf,
+    },
+    /// The path names no file: it ends in none, or a folder or a device stands there.
+    NoFileName {
+        /// The path as given.
+        path: PathBuf,
+    },
+    /// The model with the hours on its surfaces is larger than GLB can be.
+    LargeGlb {
+        /// What it would take, bytes.
+        size: u64,
+    },
+    /// The answer does not fit the format.
+    Encode {
+        /// What was being made.
+        what: &'static str,
+        /// What the encoder said.
+        why: String,
+    },
+    /// Two rasters that belong together differ in size: a bug upstream, told rather than drawn askew.
+    Size {
+        /// Which raster.
+        what: &'static str,
+        /// How many cells it has.
+        have: usize,
+        /// Columns expected.
+        width: u32,
+        /// Rows expected.
+        height: u32,
+    },
+}
+
+plain_display!(ExportError);
+
+impl Worded for ExportError {
+    fn message(&self) -> Message {
+        match self {
+            ExportError::Write { path, doing, source } => Message {
+                what: pieces![format!("cannot write {}: {doing}: {source}", path.display())],
+                hint: way_out(source.kind()),
+            },
+            ExportError::Read { path, source } => message![
+                format!("cannot read {}, which a stopped study left: {source}", path.display());
+                "remove it, and the study begins anew"
+            ],
+            ExportError::NoRoom { path, size, room } => no_room(path, *size, *room),
+            ExportError::Busy { folder, who } => message![
+                format!("{}: another study works there, {who}", folder.display());
+                "wait until it is done, or choose another folder"
+            ],
+            ExportError::Lost { folder } => message![
+                format!(
+                    "{}: the folder, or its .gnomon.lock, was removed while the study worked there, and no result was \
+                     written",
+                    folder.display()
+                );
+                "ask again"
+            ],
+            ExportError::OtherFrame { path, count } => message![
+                format!(
+                    "{} would stay behind the {count} frames of this animation, and is not known to be of one that was \
+                     finished there",
+                    path.display()
+                );
+                "remove it and the frames after it, or choose another folder"
+            ],
+            ExportError::IsInput { path, input } => message![
+                format!(
+                    "cannot write {}: it is {}, which the site is read from and which would be lost",
+                    path.display(),
+                    input.display()
+                );
+                "choose another name or folder"
+            ],
+            ExportError::NoFileName { path } => message![
+                format!("cannot write {}: that is no file", path.display());
+                "give the name of a file"
+            ],
+            ExportError::LargeGlb { size } => message![
+                format!(
+                    "cannot write the surfaces: the file would be {:.1} GiB, and GLB ends at 4",
+                    *size as f64 / f64::from(1 << 30)
+                );
+                "take a larger ",
+                Field::PatchCell
+            ],
+            ExportError::Encode { what, why } => format!("cannot write the {what}: {why}").into(),
+            ExportError::Size { what, have, width, height } => message![
+                format!("the {what} has {have} cells where the view has {width} × {height}");
+                "please report this as a bug"
+            ],
+        }
+    }
+}
+
+impl ExportError {
+    /// Whether the command line was wrong (exit status 2).
+    pub fn is_wrong_use(&self) -> bool {
+        matches!(self, ExportError::IsInput { .. })
+    }
+
+    /// An encoder's refusal, in its own words.
+    pub(crate) fn encode(what: &'static str, why: impl ToString) -> Self {
+        ExportError::Encode { what, why: why.to_string() }
+    }
+}
+
+/// `577 MB`: bytes for people.
+pub fn bytes(count: u64) -> String {
+    let mut size = count as f64;
+    let mut unit = "bytes";
+    for larger in ["kB", "MB", "GB", "TB"] {
+        if size < 999.5 {
+            break;
+        }
+        size /= 1000.0;
+        unit = larger;
+    }
+    let decimals = if unit == "bytes" || size >= 99.5 { 0 } else { 1 };
+    format!("{size:.decimals$} {unit}")
+}
+
+/// Errs unless `have` cells fill `width` × `height`.
+pub(super) fn check_size(what: &'static str, have: usize, width: u32, height: u32) -> Result<(), ExportError> {
+    if have == width as usize * height as usize && have > 0 {
+        return Ok(());
+    }
+    Err(ExportError::Size { what, have, width, height })
+}
+
+/// What is said of a file for which a disk has no room.
+fn no_room(path: &Path, size: u64, room: u64) -> Message {
+    message![
+        format!("{} takes {}, and its disk has room for {}", path.display(), bytes(size), bytes(room));
+        "take larger cells",
+        aside(Field::Cell),
+        ", ",
+        Piece::Where(Field::Size, pieces!["fewer", aside(Field::Size), ", "]),
+        "a longer ",
+        Field::Step,
+        ", or another disk",
+        Piece::Where(Field::Out, pieces![" with ", Field::Out])
+    ]
+}
+
+/// What can be done where the file system refuses.
+fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
+    let way_out = match kind {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
+            "free some space, or choose another disk"
+        }
+        io::ErrorKind::IsADirectory
+        | io::ErrorKind::NotADirectory
+        | io::ErrorKind::AlreadyExists
+        | io::ErrorKind::DirectoryNotEmpty => {
+            "a folder stands where a file should be, or the other way round; choose another name"
+        }
+        io::ErrorKind::InvalidFilename => "choose a shorter or simpler name",
+        _ => "choose another place",
+    };
+    pieces![way_out, Piece::Where(Field::Out, pieces![" with ", Field::Out])]
+}

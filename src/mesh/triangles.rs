@@ -1,0 +1,131 @@
+//! The mesh: welded triangles, grouped by component, and which of them meet at an edge.
+
+use super::CornerPrecision;
+use glam::{DVec3, DVec4, Vec3};
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+/// A named part of the mesh, a run of its faces. Adjacency never crosses it, and no vertex is shared across it.
+#[derive(Clone, Debug)]
+pub struct Component {
+    /// `node/material`, or `node` where the node has one material.
+    pub name: String,
+    /// The names by which `casts` and `receives` may mean it: of its node, mesh and material.
+    pub aliases: Vec<String>,
+    /// Its faces.
+    pub faces: Range<u32>,
+    /// Its edges.
+    pub edges: Range<u32>,
+    /// Triangles that the file has and the mesh has not, as welding made two of their corners one: the lines that are left.
+    pub collapsed: Arc<[[u32; 2]]>,
+    /// How many of those have three corners apart in the file: welding has changed what the file says.
+    pub flattened: usize,
+    /// The coarsest of its corners, but for strays that lie far off; none where the file writes all of them finely.
+    pub coarse: Option<CornerPrecision>,
+}
+
+/// A face at an edge: which one, and whether it runs along the edge (from its first vertex to its second) or against it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Incidence(pub(super) u32);
+
+impl Incidence {
+    pub(super) fn new(face: u32, against: bool) -> Self {
+        Incidence(face << 1 | u32::from(against))
+    }
+
+    /// The face.
+    pub fn face(self) -> u32 {
+        self.0 >> 1
+    }
+
+    /// +1 where the face runs along the edge, −1 where it runs against it.
+    pub fn direction(self) -> i32 {
+        1 - 2 * (self.0 & 1) as i32
+    }
+}
+
+/// Welded triangles with planes and adjacency, `f32` around `origin`. A copy shares all that is large.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// World position of the local origin; whole metres, unless it was given.
+    pub origin: DVec3,
+    /// Metres around `origin`; shared by the meshes that were taken from this one.
+    pub vertices: Arc<Vec<Vec3>>,
+    /// Three vertices a face, counter-clockwise seen from outside; grouped by component.
+    pub faces: Arc<Vec<[u32; 3]>>,
+    pub(super) planes: Arc<OnceLock<Vec<DVec4>>>,
+    /// The lowest and highest corner of a box around what stands together, around `origin`; what lies outside is far off.
+    pub(super) home: [Vec3; 2],
+    /// The parts.
+    pub components: Vec<Component>,
+    /// Two vertices an edge, the lower first; grouped by component.
+    pub edges: Arc<Vec<[u32; 2]>>,
+    /// Where each edge's faces begin in `incidences`; one longer than `edges`.
+    pub(super) edge_first: Arc<Vec<u32>>,
+    pub(super) incidences: Arc<Vec<Incidence>>,
+}
+
+impl Mesh {
+    /// The most faces a mesh can have.
+    pub const MOST_FACES: usize = 1 << 30;
+    /// The farthest a vertex may lie from the origin, metres: there `f32` still tells half a metre apart, which is
+    /// coarse, but a model so large has that in its file already.
+    pub const FARTHEST_M: f64 = 8.0e6;
+
+    /// The faces at an edge.
+    pub fn faces_at(&self, edge: usize) -> &[Incidence] {
+        &self.incidences[self.edge_first[edge] as usize..self.edge_first[edge + 1] as usize]
+    }
+
+    /// The corners of a face, metres around `origin`.
+    pub fn corners(&self, face: usize) -> [Vec3; 3] {
+        self.faces[face].map(|vertex| self.vertices[vertex as usize])
+    }
+
+    /// The lowest and highest corner of a box around the faces, in metres of the world frame; none without faces.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        self.bounds_of(0..self.faces.len() as u32)
+    }
+
+    /// The same for a run of faces.
+    pub fn bounds_of(&self, run: Range<u32>) -> Option<(DVec3, DVec3)> {
+        self.bounds_where(run, |_| true)
+    }
+
+    pub(super) fn bounds_where(&self, run: Range<u32>, counts: impl Fn(u32) -> bool) -> Option<(DVec3, DVec3)> {
+        let points = || {
+            let vertices = self.faces[run.start as usize..run.end as usize].iter().flatten().copied();
+            vertices.filter(|&vertex| counts(vertex)).map(|vertex| self.vertices[vertex as usize])
+        };
+        let low = points().fold(Vec3::INFINITY, Vec3::min);
+        let high = points().fold(Vec3::NEG_INFINITY, Vec3::max);
+        (low.x <= high.x).then(|| (low.as_dvec3() + self.origin, high.as_dvec3() + self.origin))
+    }
+
+    /// As [`Mesh::bounds`], of what stands together: strays that lie far off are left out.
+    pub fn bounds_at_home(&self) -> Option<(DVec3, DVec3)> {
+        self.bounds_where(0..self.faces.len() as u32, |vertex| self.is_at_home(vertex)).or_else(|| self.bounds())
+    }
+
+    /// The lowest and highest corner of a box around what stands together, metres around `origin`.
+    pub fn home(&self) -> [Vec3; 2] {
+        self.home
+    }
+
+    /// Whether a vertex is one of those that stand together, and no stray that lies far off.
+    pub fn is_at_home(&self, vertex: u32) -> bool {
+        let [low, high] = self.home;
+        let at = self.vertices[vertex as usize];
+        at.cmpge(low).all() && at.cmple(high).all()
+    }
+
+    /// The height of the highest vertex that a face has, metres of the world frame; −∞ without faces.
+    pub fn top(&self) -> f64 {
+        self.bounds().map_or(f64::NEG_INFINITY, |(_, high)| high.z)
+    }
+
+    /// The homogeneous light (sun: w = 0, lamp: w = 1) of the world frame, as the planes around `origin` see it.
+    pub fn local_light(&self, light: DVec4) -> DVec4 {
+        light - DVec4::from((self.origin, 0.0)) * light.w
+    }
+}

@@ -1,0 +1,100 @@
+//! What is asked of a patch: its samples, how it is judged, and what stands before it.
+
+use super::occluders::Occluders;
+use crate::mesh::patches::{Patch, Patches};
+use crate::shadow::JUDGED_ABOVE_M;
+use crate::shadow::registered::{Raster, RasterProjection};
+use glam::DVec4;
+
+/// One point of a light, or one instant of the sun.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Homogeneous, in the world frame: a unit vector to the sun (w = 0), or a lamp's point (w = 1).
+    pub light: DVec4,
+    /// What a texel that sees it gets.
+    pub weight: u32,
+}
+
+/// How a patch is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// By its texture; a patch without a centre by a ray all the same.
+    Texture,
+    /// By one ray a texel and sample.
+    Rays,
+    /// By what costs less.
+    Auto,
+}
+
+/// How patches were judged, over all samples that stand in front of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PatchJudgements {
+    /// Textures filled: patches times samples.
+    pub textures: u64,
+    /// Texels in them.
+    pub texture_texels: u64,
+    /// Faces between patches and samples that culling left.
+    pub faces: u64,
+    /// Rays cast.
+    pub rays: u64,
+}
+
+/// With [`Choice::Auto`] a texture is filled where no more faces a texel than these lie between patch and sample; else rays
+/// cost less. Measured in `docs/benchmarks/receivers.md`.
+pub const MOST_FACES_A_TEXEL: usize = 2;
+
+/// With [`Choice::Auto`] patches of fewer texels are not worth a draw call of the adapter.
+pub const FEWEST_DRAWN: usize = 256;
+
+/// Whether the adapter draws a patch, unless too much stands before it.
+pub(super) fn is_drawn(patch: &Patch, choice: Choice) -> bool {
+    let worth_it = match choice {
+        Choice::Texture => true,
+        Choice::Rays => false,
+        Choice::Auto => patch.texels.len() >= FEWEST_DRAWN,
+    };
+    worth_it && patch.alone.is_none()
+}
+
+/// What is asked of occluders.
+pub(super) struct OccluderQuery<'a> {
+    pub(super) patches: &'a Patches,
+    pub(super) occluders: &'a Occluders,
+    pub(super) culling: bool,
+    pub(super) choice: Choice,
+}
+
+impl OccluderQuery<'_> {
+    /// Finds what stands between a patch and a light; false where rays are to be cast instead.
+    pub(super) fn find(
+        &self,
+        patch: &Patch,
+        onto: &RasterProjection,
+        waiting: &mut Vec<u32>,
+        found: &mut Vec<u32>,
+    ) -> bool {
+        let most = match self.choice {
+            _ if patch.alone.is_some() => return false,
+            Choice::Rays => return false,
+            Choice::Texture => usize::MAX,
+            Choice::Auto => patch.texels.len() * MOST_FACES_A_TEXEL,
+        };
+        self.occluders.before(onto, (patch.width, patch.height), self.culling, most, waiting, found)
+    }
+}
+
+/// The raster of a patch, a millimetre above the side that faces the light; none where that is edge-on or behind.
+pub(super) fn raster(patch: &Patch, cell: f64, light: DVec4) -> Option<Raster> {
+    let mut plane = patch.plane;
+    if patch.two_sided && plane.dot(light) < 0.0 {
+        plane = -plane;
+    }
+    plane.w -= JUDGED_ABOVE_M;
+    (plane.dot(light) > 0.0).then_some(Raster {
+        corner: patch.corner,
+        right: patch.right,
+        down: patch.down,
+        cell,
+        plane,
+    })
+}

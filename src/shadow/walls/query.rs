@@ -1,0 +1,72 @@
+//! What is asked of walls, and what all ways to make them have in common.
+
+use super::borders::Borders;
+use crate::gpu::{GpuError, layout};
+use crate::mesh::{Incidence, Mesh};
+use glam::{DVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
+use wgpu::{CommandEncoder, RenderPass};
+
+/// Which volume is sought.
+#[derive(Clone, Copy, Debug)]
+pub struct WallQuery {
+    /// The light around the mesh's origin (sun: w = 0, lamp: w = 1).
+    pub local_light: DVec4,
+    /// Walls end in one point at infinity, so that each is one triangle; else two.
+    pub to_infinity: bool,
+    /// The light cap is drawn too.
+    pub with_cap: bool,
+    /// Walls stand half as often; every multiplicity is even.
+    pub halved: bool,
+    /// Walls beyond these may be left out, where leaving them out costs less than handing them to the adapter.
+    pub borders: Option<Borders>,
+}
+
+impl WallQuery {
+    pub(super) fn indices_per_wall(&self) -> u32 {
+        if self.to_infinity { 3 } else { 6 }
+    }
+
+    pub(super) fn uniform(&self) -> layout::SearchUniforms {
+        layout::SearchUniforms {
+            light: self.local_light.as_vec4().to_array(),
+            indices_per_wall: self.indices_per_wall(),
+            halved: u32::from(self.halved),
+            unused: [0; 2],
+        }
+    }
+}
+
+/// The walls and caps of one mesh. Where indices are drawn, they count vertices that come twice: where they are, and
+/// where their walls end.
+pub trait Walls {
+    /// Finds the volume that is drawn next; what the GPU has to do for it goes into `encoder`. Says whether there may be
+    /// something to draw.
+    fn find(&mut self, mesh: &Mesh, sought: &WallQuery, encoder: &mut CommandEncoder) -> Result<bool, GpuError>;
+
+    /// Draws its walls.
+    fn draw_walls(&self, pass: &mut RenderPass<'_>);
+
+    /// Draws its light cap, where that was sought.
+    fn draw_cap(&self, pass: &mut RenderPass<'_>);
+}
+
+/// The vertex of an edge from which its wall's triangles begin: the one nearer to the sun, from which the plan's shader
+/// takes the depth of slivers; the lower number among equals, so that a wall and its opposite are the same triangles and
+/// cancel. The shaders decide by the same sum in `f32`.
+pub(super) fn sunward(vertices: &[Vec3], [one, other]: [u32; 2], light: Vec4) -> u32 {
+    let (first, second) = (one.min(other), one.max(other));
+    if along(vertices, [first, second]).dot(light.xy()) > 0.0 { second } else { first }
+}
+
+/// Metres east and north along an edge.
+pub(super) fn along(vertices: &[Vec3], [first, second]: [u32; 2]) -> Vec2 {
+    (vertices[second as usize] - vertices[first as usize]).xy()
+}
+
+/// Instead of a second face, where an edge has one (`NO_FACE` of `shaders/common/edge.wgsl`).
+pub(super) const NO_FACE: u32 = u32::MAX;
+
+/// A face and which way it runs along an edge, as `shaders/common/edge.wgsl` reads it.
+pub(super) fn packed(incidence: Incidence) -> u32 {
+    incidence.face() << 1 | u32::from(incidence.direction() < 0)
+}

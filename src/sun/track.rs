@@ -1,0 +1,62 @@
+//! The sun of a study: its instants, and the days they lie on.
+
+use super::{Day, Instant, Polar, Reading, Zone};
+
+/// The part of each day that a study of several days asks, as written; the whole day where nothing is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EachDay {
+    /// Its beginning.
+    pub from: Option<Reading>,
+    /// Its end.
+    pub to: Option<Reading>,
+}
+
+/// The instants of a study, in time's order, and the days they lie on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SunTrack {
+    /// In time's order, at least one.
+    pub instants: Vec<Instant>,
+    /// The days the window touches.
+    pub days: Vec<Day>,
+    /// Where a window was asked on each of several days: which.
+    pub each_day: Option<EachDay>,
+    /// The step between instants in seconds; 0 for a single instant.
+    pub step_secs: u32,
+    /// Whether directions include atmospheric refraction.
+    pub refraction: bool,
+    /// ΔT used, seconds (Espenak and Meeus), at the window's start.
+    pub delta_t_secs: f64,
+}
+
+impl SunTrack {
+    /// Each of the instants by itself, on its own day, as [`SunTrack::at`] tells of one: of weight and step 0.
+    pub fn each(&self) -> impl Iterator<Item = SunTrack> {
+        self.instants.iter().map(|instant| {
+            let date = instant.time.date_naive();
+            SunTrack {
+                instants: vec![Instant { weight_secs: 0, ..instant.clone() }],
+                days: self.days.iter().filter(|day| day.date == date).cloned().collect(),
+                each_day: None,
+                step_secs: 0,
+                refraction: self.refraction,
+                delta_t_secs: self.delta_t_secs,
+            }
+        })
+    }
+
+    /// What the user should know of its clock, and of days without a sun; each a sentence without its stop.
+    pub fn notes(&self) -> Vec<String> {
+        let dark = self.days.iter().filter(|day| day.polar == Some(Polar::Night)).count();
+        let dark = match self.days.as_slice() {
+            _ if dark == 0 => None,
+            [day] => Some(format!("no sun on {} (polar night)", day.date)),
+            days => Some(format!("no sun on {dark} of {} days (polar night)", days.len())),
+        };
+        self.instants.last().and_then(|instant| Zone::doubt(&instant.time)).into_iter().chain(dark).collect()
+    }
+
+    /// How long the window is, seconds: the sum of the weights.
+    pub fn window_secs(&self) -> u64 {
+        self.instants.iter().map(|instant| u64::from(instant.weight_secs)).sum()
+    }
+}
