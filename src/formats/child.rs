@@ -56,9 +56,9 @@ pub fn answer(path: &Path, request: &str, out: &mut impl Write) -> io::Result<()
 
 /// Why a process was ended.
 enum Ended {
-    ByWish,
-    ByTime,
-    ByMemory(u64),
+    Wish,
+    Time,
+    Memory(u64),
 }
 
 /// Reads a file in a process of its own.
@@ -98,9 +98,9 @@ pub(super) fn read(
         let _ = tell.send(last_lines(told));
     });
     match watched(&mut process, limits, is_given_up, &outcome) {
-        Err(Ended::ByWish) => Err(ModelFault::GivenUp),
-        Err(Ended::ByTime) => Err(too_long(limits.time).into()),
-        Err(Ended::ByMemory(bytes)) => Err(too_large(bytes).into()),
+        Err(Ended::Wish) => Err(ModelFault::GivenUp),
+        Err(Ended::Time) => Err(too_long(limits.time).into()),
+        Err(Ended::Memory(bytes)) => Err(too_large(bytes).into()),
         Ok(Ok(read)) => Ok(read?),
         Ok(Err(error)) => {
             let words = last_words.recv_timeout(Duration::from_secs(1)).unwrap_or_default();
@@ -141,13 +141,13 @@ fn watched(
             Err(RecvTimeoutError::Timeout) => {}
         }
         if is_given_up.load(Ordering::Relaxed) {
-            return Err(Ended::ByWish);
+            return Err(Ended::Wish);
         }
         if begun.elapsed() > limits.time {
-            return Err(Ended::ByTime);
+            return Err(Ended::Time);
         }
         if memory.bytes() > most {
-            return Err(Ended::ByMemory(most));
+            return Err(Ended::Memory(most));
         }
     }
 }
