@@ -151,8 +151,9 @@ pub fn json(placed: &PlacedModel, file: &Path) -> Result<String, ExportError> {
 pub fn summary(placed: &PlacedModel, words: &dyn Words) -> String {
     let (parts, triangles) = (placed.model.parts.len(), placed.model.triangles());
     let components = if parts == 1 { "component" } else { "components" };
+    let faces = if triangles == 1 { "triangle" } else { "triangles" };
     format!(
-        "{parts} {components}, {triangles} triangles\n{}",
+        "{parts} {components}, {triangles} {faces}\n{}",
         contents::table(std::slice::from_ref(&placed.contents), words)
     )
 }

@@ -104,7 +104,9 @@ pub(super) fn read(
         Ok(Ok(read)) => Ok(read?),
         Ok(Err(error)) => {
             let words = last_words.recv_timeout(Duration::from_secs(1)).unwrap_or_default();
-            Err(broken_off(&mut process, &error, &words).into())
+            let fault = broken_off(&mut process, &error, &words);
+            // on a terminal Ctrl-C reaches both processes, and that one may end first
+            if is_given_up.load(Ordering::Relaxed) { Err(ModelFault::GivenUp) } else { Err(fault.into()) }
         }
     }
 }
