@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 const MAY_KNOW: &[(&str, &[&str])] = &[
     ("message", &[]),
     ("choice", &[]),
+    ("crs", &[]),
     ("look", &[]),
     ("mesh", &[]),
     ("sun", &[]),
     ("view", &[]),
     ("formats", &["mesh"]),
-    ("site", &["choice", "mesh", "sun", "view", "formats"]),
+    ("site", &["choice", "crs", "mesh", "sun", "view", "formats"]),
     ("silhouette", &["mesh"]),
     ("volume", &["mesh", "silhouette"]),
     ("gpu", &[]),
@@ -24,7 +25,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         "study",
         &["choice", "mesh", "sun", "view", "site", "silhouette", "volume", "gpu", "shadow", "picture", "profile"],
     ),
-    ("export", &["choice", "look", "mesh", "sun", "view", "site", "volume", "profile"]),
+    ("export", &["choice", "look", "mesh", "sun", "view", "formats", "site", "volume", "profile"]),
     ("deliver", &["choice", "mesh", "sun", "view", "site", "volume", "shadow", "profile", "study", "export"]),
     ("fault", &["choice", "sun", "site", "gpu", "shadow", "study", "export", "deliver"]),
     (

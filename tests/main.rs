@@ -6,6 +6,7 @@ mod choice;
 mod clock;
 mod command;
 mod counts;
+mod crs;
 mod daylight;
 mod deliver;
 #[cfg(feature = "desktop")]
