@@ -18,6 +18,7 @@ mod export;
 mod far;
 mod folders;
 mod geometry;
+mod georeference;
 mod gpu_silhouettes;
 mod live;
 mod look;

@@ -124,13 +124,13 @@ pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
 
 /// `gnomon check`
 pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
-    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path, &asked.model.onto(nothing_asked()))?;
+    let LoadedMesh { mesh, frame, notes, references } = load_mesh(&asked.path, &asked.model.onto(nothing_asked()))?;
     interrupt::check()?;
     let components = mesh_report::components(&mesh);
     interrupt::check()?;
     match asked.common.json {
-        true => say(&check::json(&mesh, &components, frame, &notes)?),
-        false => say(&check::table(&mesh, &components, frame, &notes, &Options)),
+        true => say(&check::json(&mesh, &components, frame, &notes, &references)?),
+        false => say(&check::table(&mesh, &components, frame, &notes, &references, &Options)),
     }
 }
 

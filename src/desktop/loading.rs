@@ -152,11 +152,7 @@ pub(super) fn name_of(path: &Path) -> String {
 fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, LoadError> {
     let (path, written) = match wanted {
         LoadRequest::File(path) => match WrittenSite::read(&path, &Overrides::default()) {
-            Err(SiteError::NoPlaceForModel { .. }) => {
-                // a model that cannot be read is told before its place is asked
-                crate::site::load_mesh(&path, &Overrides::default()).map_err(|error| told(&error, &FileWords))?;
-                return Err(LoadError::Bare(path));
-            }
+            Ok(written) if written.is_bare_model() => (None, written),
             Ok(written) => {
                 let path = if path.is_dir() { path.join("site.toml") } else { path };
                 (Some(path), written)
@@ -186,7 +182,7 @@ fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, Load
 /// The site as it is written, with what the window needs of it. What an open site has, and still does, is not made again.
 fn read(
     path: Option<PathBuf>,
-    written: WrittenSite,
+    mut written: WrittenSite,
     hidden: Hidden,
     before: Option<&LoadedSite>,
     progress: &LoadProgress,
@@ -199,7 +195,11 @@ fn read(
         let read = known.map_or_else(|| read_models(&written, progress), |models| Ok(models.clone()))?;
         Ok(models.insert(read).clone())
     })
-    .map_err(|error| told(&error, words))?;
+    .map_err(|error| match error {
+        // a model that cannot be read is told before its place is asked
+        SiteError::NoPlaceForModel { .. } => LoadError::Bare(PathBuf::from(&written.file)),
+        error => told(&error, words),
+    })?;
     if progress.cancelled.load(Ordering::Relaxed) {
         return Err(LoadError::Told("given up".to_owned()));
     }
@@ -217,6 +217,8 @@ fn read(
     };
     progress.tell(1.0, "Drawing");
     let Some(models) = models else { return Err(LoadError::Told("the models were not read".to_owned())) };
+    // what a file proposes is in the panel, and is saved
+    written.site.place = written.site.place.or_else(|| models.proposed_place().cloned());
     Ok(Project {
         path,
         written,

@@ -1,12 +1,13 @@
 //! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the places
 //! that matter most.
 
+use super::model_lines::{self, ModelLines};
 use super::places::{self, DefectKind};
 use super::{ExportError, report};
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
 use crate::message::{Field, Words, message};
-use crate::site::CoordinateFrame;
+use crate::site::{CoordinateFrame, ModelReference};
 use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
@@ -21,6 +22,8 @@ const PLACES_A_KIND: usize = 3;
 struct MeshReport<'a> {
     triangles: usize,
     vertices: usize,
+    #[serde(flatten)]
+    models: ModelLines<'a>,
     frame: &'static str,
     components: Vec<ComponentLine<'a>>,
     notes: &'a [String],
@@ -49,6 +52,7 @@ pub fn json(
     components: &[ComponentReport],
     frame: CoordinateFrame,
     notes: &[String],
+    references: &[ModelReference],
 ) -> Result<String, ExportError> {
     let lines = components.iter().map(|component| ComponentLine {
         name: &component.name,
@@ -65,6 +69,7 @@ pub fn json(
     report::json(&MeshReport {
         triangles: triangles(components),
         vertices: mesh.vertices.len(),
+        models: ModelLines::of(references),
         frame: places::frame(frame),
         components: lines.collect(),
         notes,
@@ -78,6 +83,7 @@ pub fn table(
     components: &[ComponentReport],
     frame: CoordinateFrame,
     notes: &[String],
+    references: &[ModelReference],
     words: &dyn Words,
 ) -> String {
     let mut table = format!(
@@ -86,6 +92,7 @@ pub fn table(
         counted(triangles(components), "triangle", "triangles"),
         counted(mesh.vertices.len(), "vertex", "vertices"),
     );
+    table.push_str(&model_lines::table(references));
     for note in notes {
         // Writing to a String cannot fail.
         let _ = writeln!(table, "note: {}", plain(note));

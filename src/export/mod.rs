@@ -8,6 +8,7 @@ pub mod checksum;
 pub mod comparison;
 pub mod figure;
 pub mod file;
+mod model_lines;
 mod places;
 pub mod probe;
 pub mod raster;

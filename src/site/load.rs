@@ -3,12 +3,11 @@
 use super::asked::{Overrides, refuse};
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
-use super::models::{Models, note_see_through};
-use super::placement::Placement;
+use super::models::Models;
 use super::written::WrittenSite;
-use super::{Finder, Ground, Method, Receivers, Site, camera, ground, likeness, notes, plan, study};
+use super::{Finder, Ground, Method, ModelReference, Receivers, Site, camera, ground, notes, plan, study};
 use crate::choice::ChoiceError;
-use crate::formats::{self, Model, ModelError, ReadOptions, on_disk};
+use crate::formats::{self, Model, ModelError, ReadOptions};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::message::{Field, message};
@@ -22,12 +21,13 @@ pub(super) const SHADOW_CUT: f64 = 4.3;
 /// As [`SHADOW_CUT`], for what the default camera must see.
 pub(super) const VIEW_CUT: f64 = 1.5;
 
-/// The place and its sun alone; the models are not read.
+/// The place and its sun alone; the models are not read, but where nobody else says the place.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form, its place and its study.
 pub fn load_sun(path: &Path, asked: &Overrides) -> Result<(Place, SunTrack), SiteError> {
-    let written = WrittenSite::read(path, asked)?;
+    let as_written = WrittenSite::read(path, asked)?;
+    let (written, _) = as_written.located(|| Models::read(&as_written, formats::read))?;
     let place = written.place(asked)?;
     let track = study::track(&place, &written, asked)?;
     Ok((place, track))
@@ -51,6 +51,8 @@ pub struct LoadedMesh {
     pub frame: CoordinateFrame,
     /// What the user should know of how they were read, as [`Site::notes`].
     pub notes: Vec<String>,
+    /// What is said of the coordinates of each.
+    pub references: Vec<ModelReference>,
 }
 
 /// The models alone: of a model file as it is, or of a site's models where they stand; [`Overrides::up`] goes before what a
@@ -60,31 +62,21 @@ pub struct LoadedMesh {
 /// Everything that can be wrong with a site file's form and its models.
 pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError> {
     let Overrides { up, words, .. } = *asked;
-    if formats::by_ending(path).is_some() && !path.is_dir() {
-        let placement = Placement { up, ..Placement::default() };
-        let model = placement.place(formats::read(&on_disk(path), &placement.read_options())?);
-        let said = [model.unit_m.is_some(), model.up_is_said || up.is_some()];
-        let Model { parts, notes, see_through, .. } = model;
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let seen_through = note_see_through(&see_through, &vec![true; parts.len()]);
-        let of_reader = notes.into_iter().map(|note| note.about(&name).in_words(words));
-        let mut notes: Vec<String> = of_reader.chain(seen_through.map(|note| format!("{name} {note}"))).collect();
-        let mesh = Mesh::build(parts)?;
-        let mends = likeness::of(&mesh, &mesh.components, &placement, said);
-        let of_model = notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends);
-        notes.extend(of_model.iter().map(|note| note.in_words(words)));
-        return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes });
-    }
-    let written = WrittenSite::read(path, &Overrides { up, ..Overrides::default() })?;
+    let mut written = WrittenSite::read(path, &Overrides { up, ..Overrides::default() })?;
+    let is_bare = formats::by_ending(path).is_some() && !path.is_dir();
     let models = Models::read(&written, formats::read)?;
     let [casts, _] = models.roles(&written)?;
-    let notes = models.notes(&written, &casts, words);
-    Ok(LoadedMesh { mesh: models.mesh, frame: CoordinateFrame::Place, notes })
+    let mut notes = models.notes(&written, &casts, words);
+    written.site.place = written.site.place.or_else(|| models.proposed_place().cloned());
+    notes.splice(..0, written.place_note().iter().map(|note| note.in_words(words)));
+    let references = models.references().to_vec();
+    let frame = if is_bare && !models.stand_on_earth() { CoordinateFrame::Model } else { CoordinateFrame::Place };
+    Ok(LoadedMesh { mesh: models.mesh, frame, notes, references })
 }
 
 impl Site {
     /// Reads and checks a request: `path` is a site file, a folder that holds a `site.toml`,
-    /// or a model file together with `asked.place`.
+    /// or a model file, which says its place, or together with `asked.place`.
     ///
     /// # Errors
     /// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
@@ -125,6 +117,8 @@ impl Site {
         asked: &Overrides,
         models: impl FnOnce() -> Result<Models, SiteError>,
     ) -> Result<Site, SiteError> {
+        let (written, models) = written.located(models)?;
+        let written = &*written;
         let place = written.place(asked)?;
         // Cheap and quick to fail; models come last.
         let track = study::track(&place, written, asked)?;
@@ -149,7 +143,8 @@ impl Site {
         let level = ground::level(written, asked)?;
         let models = models()?;
         let [casts, receives] = models.roles(written)?;
-        let mut notes = models.notes(written, &casts, asked.words);
+        let mut notes: Vec<String> = written.place_note().iter().map(|note| note.in_words(asked.words)).collect();
+        notes.extend(models.notes(written, &casts, asked.words));
         let Models { mesh, bounds, likenesses, .. } = models;
         let ground = Ground::of(&mesh, bounds, level);
         notes.extend(ground.notes(&mesh, receivers));

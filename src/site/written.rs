@@ -45,12 +45,12 @@ fn text_of(file: &str, bytes: Vec<u8>) -> Result<String, SiteError> {
 }
 
 impl WrittenSite {
-    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model together with `--place`.
+    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model, whose file or `--place` says its place.
     ///
     /// # Errors
     /// What cannot be read, and what is wrong with a site file's form.
     pub fn read(path: &Path, asked: &Overrides) -> Result<WrittenSite, SiteError> {
-        let mut written = Self::read_as_it_is(path, asked.place.is_some())?;
+        let mut written = Self::read_as_it_is(path)?;
         written.turn_up(asked);
         if let Some(place) = &asked.place {
             if written.site.place.is_some() {
@@ -75,7 +75,7 @@ impl WrittenSite {
     /// # Errors
     /// As [`WrittenSite::read`].
     pub fn read_beside(path: &Path, first: &WrittenSite, asked: &Overrides) -> Result<WrittenSite, SiteError> {
-        let mut written = Self::read_as_it_is(path, true)?;
+        let mut written = Self::read_as_it_is(path)?;
         written.turn_up(asked);
         if written.site.place.is_none() {
             written.site.place.clone_from(&first.site.place);
@@ -90,13 +90,12 @@ impl WrittenSite {
         }
     }
 
-    /// A model is `placed` where somebody says its place.
-    pub(super) fn read_as_it_is(path: &Path, placed: bool) -> Result<WrittenSite, SiteError> {
+    pub(super) fn read_as_it_is(path: &Path) -> Result<WrittenSite, SiteError> {
         let path = &*on_disk(path);
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
             _ if path.is_dir() => Self::read_file(&path.join("site.toml")),
-            _ if formats::by_ending(path).is_some() => Self::of_model(path, placed),
+            _ if formats::by_ending(path).is_some() => Self::of_model(path),
             "obj" | "stl" | "ply" | "ifc" | "fbx" | "dae" | "3ds" | "3dm" | "skp" | "dwg" | "dxf" | "blend" | "usd"
             | "usdz" | "rvt" => Err(SiteError::UnknownFormat { path: path.display().to_string() }),
             _ => Self::read_file(path),
@@ -121,14 +120,10 @@ impl WrittenSite {
         std::fs::read(path).is_ok_and(|bytes| bytes != self.text.as_bytes())
     }
 
-    fn of_model(path: &Path, placed: bool) -> Result<WrittenSite, SiteError> {
+    fn of_model(path: &Path) -> Result<WrittenSite, SiteError> {
         let file = path.display().to_string();
-        // A mistyped name is a better complaint than a missing place.
         if let Err(error) = std::fs::metadata(path) {
             return Err(SiteError::Unreadable { path: file, why: error.to_string() });
-        }
-        if !placed {
-            return Err(SiteError::NoPlaceForModel { path: file });
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(WrittenSite {
