@@ -6,29 +6,29 @@ use gnomon::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
 /// Systems, a longitude and latitude in WGS 84, where PROJ 9.5.1 has it on the map by the same parameters of the datum, and
 /// PROJ's own meridian convergence there (`get_factors`), degrees from the meridian of the map's datum.
 const BY_PROJ: &[(&str, [f64; 2], [f64; 2], f64)] = &[
-    ("EPSG:25832", [8.4366, 49.1004], [458_874.4871, 5_438_769.7050], -0.425856),
-    ("EPSG:32756", [151.2093, -33.8688], [334_368.6336, 6_250_948.3454], 0.998172),
-    ("EPSG:32733", [18.42, -33.92], [816_196.7118, 6_241_444.3144], -1.910063),
-    ("EPSG:3006", [18.0686, 59.3293], [674_571.8664, 6_580_743.0083], 2.640004),
-    ("EPSG:3006", [12.2, 57.7], [333_140.7888, 6_398_758.3548], -2.367274),
+    ("EPSG:25832", [8.4366, 49.1004], [458874.4871, 5438769.7050], -0.425856),
+    ("EPSG:32756", [151.2093, -33.8688], [334368.6336, 6250948.3454], 0.998172),
+    ("EPSG:32733", [18.42, -33.92], [816196.7118, 6241444.3144], -1.910063),
+    ("EPSG:3006", [18.0686, 59.3293], [674571.8664, 6580743.0083], 2.640004),
+    ("EPSG:3006", [12.2, 57.7], [333140.7888, 6398758.3548], -2.367274),
     // New York and North Carolina: Lambert, in feet; Florida: transverse Mercator, in feet
-    ("EPSG:2263", [-73.9857, 40.7484], [988_212.2372, 211_939.2786], 0.009353),
-    ("EPSG:2264", [-80.84, 35.22], [1_450_498.1080, 540_088.3352], -1.061993),
-    ("EPSG:2236", [-80.19, 25.76], [922_755.1620, 519_281.6565], 0.352047),
-    ("EPSG:5514", [14.42, 50.087], [-742_911.8107, -1_043_059.5810], -7.833393),
-    ("EPSG:28992", [4.9, 52.37], [121_819.3606, 487_013.7614], -0.385357),
-    ("EPSG:7415", [4.36, 52.01], [84_477.2776, 447_346.8459], -0.810496),
-    ("EPSG:2056", [8.54, 47.37], [2_683_186.2856, 1_247_156.7441], 0.804994),
-    ("EPSG:27700", [-3.19, 55.95], [325_784.7480, 673_635.7681], -0.984839),
-    ("EPSG:31467", [8.4366, 49.1004], [3_458_933.3430, 5_440_505.6903], -0.425144),
-    ("EPSG:3857", [13.4, 52.5], [1_491_681.1766, 6_891_041.7239], 0.0),
-    ("EPSG:2193", [174.76, -36.85], [1_756_911.9449, 5_920_321.8182], -1.055726),
-    ("EPSG:31370", [4.35, 50.85], [148_679.4474, 171_066.8103], -0.014470),
+    ("EPSG:2263", [-73.9857, 40.7484], [988212.2372, 211939.2786], 0.009353),
+    ("EPSG:2264", [-80.84, 35.22], [1450498.1080, 540088.3352], -1.061993),
+    ("EPSG:2236", [-80.19, 25.76], [922755.1620, 519281.6565], 0.352047),
+    ("EPSG:5514", [14.42, 50.087], [-742911.8107, -1043059.5810], -7.833393),
+    ("EPSG:28992", [4.9, 52.37], [121819.3606, 487013.7614], -0.385357),
+    ("EPSG:7415", [4.36, 52.01], [84477.2776, 447346.8459], -0.810496),
+    ("EPSG:2056", [8.54, 47.37], [2683186.2856, 1247156.7441], 0.804994),
+    ("EPSG:27700", [-3.19, 55.95], [325784.7480, 673635.7681], -0.984839),
+    ("EPSG:31467", [8.4366, 49.1004], [3458933.3430, 5440505.6903], -0.425144),
+    ("EPSG:3857", [13.4, 52.5], [1491681.1766, 6891041.7239], 0.0),
+    ("EPSG:2193", [174.76, -36.85], [1756911.9449, 5920321.8182], -1.055726),
+    ("EPSG:31370", [4.35, 50.85], [148679.4474, 171066.8103], -0.014470),
     // not conformal: there PROJ tells the lean of the meridian on the map; this is the azimuth of its inverse over 100 m
-    ("EPSG:3035", [8.4366, 49.1004], [4_206_812.9159, 2_888_687.5849], -1.193660),
-    ("EPSG:2154", [2.2945, 48.8583], [648_237.2022, 6_862_260.5625], -0.511916),
-    ("EPSG:31256", [16.37, 48.21], [2_814.2814, 341_289.3889], 0.028237),
-    ("EPSG:28355", [144.96, -37.81], [320_422.8203, 5_813_305.2226], 1.250946),
+    ("EPSG:3035", [8.4366, 49.1004], [4206812.9159, 2888687.5849], -1.193660),
+    ("EPSG:2154", [2.2945, 48.8583], [648237.2022, 6862260.5625], -0.511916),
+    ("EPSG:31256", [16.37, 48.21], [2814.2814, 341289.3889], 0.028237),
+    ("EPSG:28355", [144.96, -37.81], [320422.8203, 5813305.2226], 1.250946),
 ];
 
 fn crs(text: &str) -> Crs {
@@ -53,7 +53,7 @@ fn positions_and_convergence_are_those_of_proj() {
         assert!((found - convergence).abs() < within, "{name}: {found}° is not {convergence}°");
     }
     // an offset of a hundredth of a degree would be seen
-    let stockholm = crs("EPSG:3006").convergence_rad(674_571.8664, 6_580_743.0083).expect("on the map").to_degrees();
+    let stockholm = crs("EPSG:3006").convergence_rad(674571.8664, 6580743.0083).expect("on the map").to_degrees();
     assert!((stockholm - 2.650).abs() > 4e-3);
 }
 
@@ -62,14 +62,14 @@ fn positions_and_convergence_are_those_of_proj() {
 /// γ³-terms: in five degrees of longitude less than 0.005°.
 #[test]
 fn convergence_follows_the_textbooks() {
-    let carolina = crs("EPSG:2264").convergence_rad(1_450_498.1080, 540_088.3352).expect("on the map").to_degrees();
-    let by_lambert = 0.577_170_777 * (-80.84 + 79.0);
+    let carolina = crs("EPSG:2264").convergence_rad(1450498.1080, 540088.3352).expect("on the map").to_degrees();
+    let by_lambert = 0.577170777 * (-80.84 + 79.0);
     assert!((carolina - by_lambert).abs() < 1e-5, "{carolina}° is not {by_lambert}°");
     for (name, [longitude, latitude], [easting, northing], meridian) in [
-        ("EPSG:25832", [8.4366, 49.1004], [458_874.4871, 5_438_769.7050], 9.0_f64),
-        ("EPSG:32756", [151.2093, -33.8688], [334_368.6336, 6_250_948.3454], 153.0),
-        ("EPSG:3006", [18.0686, 59.3293], [674_571.8664, 6_580_743.0083], 15.0),
-        ("EPSG:2236", [-80.19, 25.76], [922_755.1620, 519_281.6565], -81.0),
+        ("EPSG:25832", [8.4366, 49.1004], [458874.4871, 5438769.7050], 9.0_f64),
+        ("EPSG:32756", [151.2093, -33.8688], [334368.6336, 6250948.3454], 153.0),
+        ("EPSG:3006", [18.0686, 59.3293], [674571.8664, 6580743.0083], 15.0),
+        ("EPSG:2236", [-80.19, 25.76], [922755.1620, 519281.6565], -81.0),
     ] {
         let (longitude, latitude): (f64, f64) = (longitude, latitude);
         let by_sphere = ((longitude - meridian).to_radians().tan() * latitude.to_radians().sin()).atan().to_degrees();
@@ -86,18 +86,18 @@ fn the_examples_of_guidance_note_7_2_come_out() {
     for (text, [easting, northing], [latitude, longitude]) in [
         (
             "+proj=tmerc +lat_0=49 +lon_0=-2 +k=0.9996012717 +x_0=400000 +y_0=-100000 +ellps=airy +no_defs",
-            [577_274.99, 69_740.50],
+            [577274.99, 69740.50],
             [50.5, 0.5],
         ),
         (
             "+proj=lcc +lat_1=18 +lat_0=18 +lon_0=-77 +k_0=1 +x_0=250000 +y_0=150000 +ellps=clrk66 +no_defs",
-            [255_966.58, 142_493.51],
+            [255966.58, 142493.51],
             [dms(17.0, 55.0, 55.80), -dms(76.0, 56.0, 37.26)],
         ),
         (
             "+proj=lcc +lat_1=28.383333333333333 +lat_2=30.283333333333333 +lat_0=27.833333333333333 +lon_0=-99 \
              +x_0=609601.2192024384 +y_0=0 +ellps=clrk66 +units=us-ft +no_defs",
-            [2_963_503.91, 254_759.80],
+            [2963503.91, 254759.80],
             [28.5, -96.0],
         ),
     ] {
@@ -198,12 +198,12 @@ fn web_mercator_is_never_measured_in() {
     let frame = around([20.0, 60.0]);
     let crs = crs("EPSG:3857");
     let to = MapToLocal { crs: &crs, frame: &frame };
-    let x = 20.0_f64.to_radians() * 6_378_137.0;
-    let y = (std::f64::consts::FRAC_PI_4 + 30.0_f64.to_radians()).tan().ln() * 6_378_137.0;
+    let x = 20.0_f64.to_radians() * 6378137.0;
+    let y = (std::f64::consts::FRAC_PI_4 + 30.0_f64.to_radians()).tan().ln() * 6378137.0;
     let [here, there] = [0.0, 100.0].map(|by| to.point(DVec3::new(x + by, y, 0.0)).expect("near"));
     assert!(here.length() < 1e-3, "{here}");
     // the ellipsoid's parallel is longer than the sphere's by 1/√(1 − e² sin² φ)
-    let parallel = 50.0 / (1.0 - 0.006_694_38 * 0.75_f64).sqrt();
+    let parallel = 50.0 / (1.0 - 0.00669438 * 0.75_f64).sqrt();
     assert!((there.distance(here) - parallel).abs() < 1e-3, "{}", there.distance(here));
 }
 
@@ -214,7 +214,7 @@ fn the_local_frame_is_azimuthal_equidistant() {
     let frame = LocalFrame::around(GeodeticPoint { latitude_deg: 49.1, longitude_deg: 8.43, height_m: 110.0 })
         .expect("a place");
     let found = frame.point(at).expect("near");
-    let by_proj = DVec3::new(481.962_404_6, 44.505_653_4, 50.0);
+    let by_proj = DVec3::new(481.9624046, 44.5056534, 50.0);
     assert!(found.distance(by_proj) < 1e-6, "{found}");
     assert_eq!(frame.point(GeodeticPoint { latitude_deg: -49.1, longitude_deg: -171.0, height_m: 0.0 }), None);
     assert!(LocalFrame::around(GeodeticPoint { latitude_deg: 91.0, ..at }).is_none());
@@ -228,12 +228,12 @@ fn the_local_frame_is_azimuthal_equidistant() {
 #[test]
 fn many_points_are_as_exact_as_few() {
     for (name, middle, side) in [
-        ("EPSG:25832", [458_874.0, 5_438_769.0], 8_000.0),
-        ("EPSG:31467", [3_458_933.0, 5_440_505.0], 8_000.0),
+        ("EPSG:25832", [458874.0, 5438769.0], 8000.0),
+        ("EPSG:31467", [3458933.0, 5440505.0], 8000.0),
         ("EPSG:4326", [10.0, 69.0], 0.12),
-        ("EPSG:3857", [1_491_681.0, 11_000_000.0], 8_000.0),
-        ("EPSG:5514", [-742_911.0, -1_043_059.0], 8_000.0),
-        ("EPSG:2263", [988_212.0, 211_939.0], 26_000.0),
+        ("EPSG:3857", [1491681.0, 11000000.0], 8000.0),
+        ("EPSG:5514", [-742911.0, -1043059.0], 8000.0),
+        ("EPSG:2263", [988212.0, 211939.0], 26000.0),
     ] {
         let crs = crs(name);
         let origin = crs.to_wgs84(DVec3::new(middle[0], middle[1], 0.0)).expect("on the map");
@@ -253,7 +253,47 @@ fn many_points_are_as_exact_as_few() {
     }
     let crs = crs("EPSG:25832");
     let frame = around([9.0, 49.0]);
-    let mut lost = vec![DVec3::new(500_000.0, 5_400_000.0, 0.0); 120_000];
+    let mut lost = vec![DVec3::new(500000.0, 5400000.0, 0.0); 120_000];
     lost[7] = DVec3::NAN;
     assert_eq!(MapToLocal { crs: &crs, frame: &frame }.convert(&mut lost), Err(7));
+}
+
+/// A thousand texts with letters changed, left out and doubled: each is a system or a message, and no point is a panic.
+#[test]
+fn mutated_texts_are_read_or_refused() {
+    const TEXTS: [&str; 6] = [
+        "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837",
+        "+proj=tmerc +lat_0=0 +lon_0=9 +k=0.9996 +x_0=500000 +y_0=0 +ellps=GRS80 +towgs84=0,0,0 +units=m +no_defs",
+        "+proj=lcc +lat_1=41.03 +lat_2=40.67 +lat_0=40.17 +lon_0=-74 +x_0=300000 +datum=NAD83 +units=us-ft",
+        "+proj=krovak +lat_0=49.5 +lon_0=24.83 +k=0.9999 +ellps=bessel +towgs84=589,76,480,0,0,0,0 +pm=ferro +axis=swu",
+        "+proj=sterea +lat_0=52.16 +lon_0=5.39 +k=0.9999 +x_0=155000 +a=6377397 +rf=299.15 +vunits=ft +to_meter=1",
+        "PROJCS[\"m\",GEOGCS[\"g\",DATUM[\"d\",SPHEROID[\"s\",6378137,298.25],TOWGS84[1,2,3]],PRIMEM[\"p\",2]],\
+         PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"False_Easting\",5],UNIT[\"f\",0.3]]",
+    ];
+    const LETTERS: &[u8] = b"0189.-+=e,:[]\"()EPSG/ n\xc3";
+    let mut state = 0x2545_f491_4f6c_dd1d_u64;
+    let mut random = |below: usize| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state % below as u64) as usize
+    };
+    let mut usable = 0;
+    for round in 0..1000 {
+        let mut text = TEXTS[round % TEXTS.len()].as_bytes().to_vec();
+        for _ in 0..=random(3) {
+            let at = random(text.len());
+            match random(3) {
+                0 => text[at] = LETTERS[random(LETTERS.len())],
+                1 => drop(text.remove(at)),
+                _ => text.insert(at, LETTERS[random(LETTERS.len())]),
+            }
+        }
+        let Ok(crs) = Crs::read(&String::from_utf8_lossy(&text)) else { continue };
+        usable += 1;
+        for [x, y] in [[0.0, 0.0], [458874.0, 5438769.0], [-1e7, 1e7], [8.0, 49.0]] {
+            let _ = (crs.to_wgs84(DVec3::new(x, y, 1.0)), crs.convergence_rad(x, y));
+        }
+    }
+    assert!(usable > 100, "{usable} of 1000 were read");
 }

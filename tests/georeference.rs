@@ -11,20 +11,17 @@ use tempfile::TempDir;
 const STUDY: &str = "[study]\ndate = 2026-06-21\nfrom = \"10:00\"\nto = \"12:00\"\nstep = \"1h\"\n";
 
 /// Where ETRS89 / UTM zone 32N has a point near Karlsruhe, by PROJ 9.5.1, and its longitude and latitude.
-const UTM: [f64; 2] = [458_874.0, 5_438_769.0];
-const LONG_LAT: [f64; 2] = [8.436_593_400, 49.100_393_626];
+const UTM: [f64; 2] = [458874.0, 5438769.0];
+const LONG_LAT: [f64; 2] = [8.436593400, 49.100393626];
 /// The same point in other systems, and those 20 m east of it on the UTM map and 20 m east and 30 m north.
-const GAUSS: [[f64; 2]; 3] =
-    [[3_458_932.8557, 5_440_504.9850], [3_458_952.8638, 5_440_504.9852], [3_458_952.8635, 5_440_534.9972]];
-const DEGREES: [[f64; 2]; 3] =
-    [[8.436_593_400, 49.100_393_626], [8.436_867_376, 49.100_394_963], [8.436_864_323, 49.100_664_813]];
-const WEB: [[f64; 2]; 3] =
-    [[939_157.2813, 6_291_913.2919], [939_187.7802, 6_291_913.5192], [939_187.4403, 6_291_959.3999]];
+const GAUSS: [[f64; 2]; 3] = [[3458932.8557, 5440504.9850], [3458952.8638, 5440504.9852], [3458952.8635, 5440534.9972]];
+const DEGREES: [[f64; 2]; 3] = [[8.436593400, 49.100393626], [8.436867376, 49.100394963], [8.436864323, 49.100664813]];
+const WEB: [[f64; 2]; 3] = [[939157.2813, 6291913.2919], [939187.7802, 6291913.5192], [939187.4403, 6291959.3999]];
 /// At 110 m above the ellipsoid.
 const EARTH: [[f64; 3]; 3] = [
-    [4_138_797.7568, 613_865.7228, 4_797_959.3042],
-    [4_138_794.7103, 613_885.4972, 4_797_959.4015],
-    [4_138_772.3043, 613_881.9484, 4_797_979.0508],
+    [4138797.7568, 613865.7228, 4797959.3042],
+    [4138794.7103, 613885.4972, 4797959.4015],
+    [4138772.3043, 613881.9484, 4797979.0508],
 ];
 
 fn folder(site: &str, models: &[&str]) -> TempDir {
@@ -50,7 +47,8 @@ fn drawing() -> Model {
 
 fn on_map(crs: &str, corners: [[f64; 2]; 3], z: f64) -> Model {
     let corners = corners.map(|[x, y]| DVec3::new(x, y, z));
-    Model { coordinates: Coordinates::Map(crs.to_owned()), unit_m: None, ..sheet(corners) }
+    // a format that is y up has its heights in z all the same
+    Model { coordinates: Coordinates::Map(crs.to_owned()), unit_m: None, up: Up::Y, ..sheet(corners) }
 }
 
 fn map_anchor(north_deg: f64) -> Anchor {
@@ -123,7 +121,7 @@ fn coordinates_of_any_map_stand_where_they_are() {
         let site = one("", on_map(crs, points, 110.0)).expect(crs);
         assert_near(&corners(&site.mesh, 0), &wanted, 0.002);
         assert!(
-            site.notes.iter().any(|note| note.contains("as its coordinates says") || note.contains("`crs`")),
+            site.notes.iter().any(|note| note.contains("as its file says") && note.contains("`crs`")),
             "{:?}",
             site.notes
         );
@@ -133,7 +131,7 @@ fn coordinates_of_any_map_stand_where_they_are() {
     assert_near(&corners(&site.mesh, 0), &wanted, 0.002);
     assert!(site.notes.iter().any(|note| note.contains("above the ellipsoid")), "{:?}", site.notes);
     // the key says what the file does not, or says it otherwise; position moves what stands
-    let local = Model { coordinates: Coordinates::Local, ..on_map("", GAUSS, 110.0) };
+    let local = Model { coordinates: Coordinates::Local, up: Up::Z, ..on_map("", GAUSS, 110.0) };
     let site = one("crs = \"EPSG:31467\"\nposition = [1.0, 2.0, -3.0]", local).expect("a crs");
     assert_near(&corners(&site.mesh, 0), &wanted.map(|at| at + DVec3::new(1.0, 2.0, -3.0)), 0.002);
     let site = one("crs = \"EPSG:31467\"", on_map("EPSG:25832", GAUSS, 110.0)).expect("a crs");
@@ -181,8 +179,8 @@ fn an_anchor_turns_by_its_angle_less_the_convergence() {
         DVec3::new(-sin, cos, 0.0)
     };
     for (keys, anchors, north) in [
-        ("", vec![map_anchor(0.0)], 0.425_86),
-        ("", vec![map_anchor(30.0)], 30.425_86),
+        ("", vec![map_anchor(0.0)], 0.42586),
+        ("", vec![map_anchor(30.0)], 30.42586),
         ("", vec![site_anchor(LONG_LAT, Some(50.0))], 50.0),
         ("", vec![site_anchor(LONG_LAT, None)], 0.0),
         // the place of one, the north of another
@@ -212,7 +210,7 @@ fn an_anchor_turns_by_its_angle_less_the_convergence() {
                 },
                 ..map_anchor(30.0)
             }],
-            30.425_86,
+            30.42586,
         ),
     ] {
         let site = one(keys, anchored(anchors.clone())).expect("a model");
@@ -262,7 +260,7 @@ fn what_the_user_wrote_goes_before_the_file() {
 fn units_of_maps_are_theirs() {
     // New York's state plane: 300 ft are 91.44 m
     let place = "[place]\nlatitude = 40.7484\nlongitude = -73.9857\nelevation = 0.0\n[[model]]\npath = \"a.glb\"\n";
-    let at = DVec3::new(988_212.2372, 211_939.2786, 0.0);
+    let at = DVec3::new(988212.2372, 211939.2786, 0.0);
     let feet = [at, at + DVec3::X * 300.0, at + DVec3::new(0.0, 300.0, 100.0)];
     let long = 300.0 * 1200.0 / 3937.0;
     for (unit_m, coordinates, keys, high) in [
@@ -387,7 +385,7 @@ fn a_bare_model_needs_no_place_where_its_file_has_one() {
     let site = Site::load_with(&path, &asked, |_, _| Ok(anchored(vec![map_anchor(0.0)]))).expect("the user's");
     assert_eq!(site.place.latitude_deg, 49.2);
     assert!(site.notes.iter().any(|note| note.contains("11.1 km from the place")), "{:?}", site.notes);
-    assert!((corners(&site.mesh, 0)[0].y + 11_080.0).abs() < 100.0, "{}", corners(&site.mesh, 0)[0]);
+    assert!((corners(&site.mesh, 0)[0].y + 11080.0).abs() < 100.0, "{}", corners(&site.mesh, 0)[0]);
 }
 
 /// What the user says the place is stays it; a file far off is told, and a map's anchor stays where it is.
@@ -450,7 +448,7 @@ fn references_say_unit_axis_place_and_north() {
     assert_eq!(model.crs.as_deref(), Some("EPSG:25832 (ETRS89 / UTM zone 32N)"));
     assert_eq!(model.said_by.as_deref(), Some("IfcMapConversion"));
     let convergence = model.convergence_deg.expect("a map");
-    assert!((convergence + 0.425_86).abs() < 1e-4 && (model.north_deg - 30.0 + convergence).abs() < 1e-9);
+    assert!((convergence + 0.42586).abs() < 1e-4 && (model.north_deg - 30.0 + convergence).abs() < 1e-9);
     assert!(model.place.is_some_and(|at| (at.longitude_deg - LONG_LAT[0]).abs() < 1e-7 && at.height_m == 110.0));
     let models = Models::read(&written, |_, _| Ok(drawing())).expect("models");
     let [model] = models.references() else { panic!("one") };

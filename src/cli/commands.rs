@@ -11,7 +11,7 @@ use crate::export::figure::Diagram;
 use crate::export::{check, file, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Provenance, Statistics};
-use crate::site::{Ground, LoadedMesh, Method, Site, inputs, load_mesh, load_sun};
+use crate::site::{Ground, LoadedMesh, LoadedSun, Method, Site, inputs, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -113,9 +113,9 @@ pub(super) fn took(statistics: &Statistics) -> String {
 
 /// `gnomon sun`
 pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
-    let (place, track) = load_sun(&asked.path, &asked.overrides())?;
+    let LoadedSun { place, track, notes } = load_sun(&asked.path, &asked.overrides())?;
     let mut progress = Progress::new(asked.common.quiet);
-    track.notes().into_iter().for_each(|note| progress.hear(&Event::Note(note)));
+    notes.into_iter().chain(track.notes()).for_each(|note| progress.hear(&Event::Note(note)));
     match asked.common.json {
         true => say(&report::sun_json(&place, &track)?),
         false => say(&report::sun_table(&place, &track)),

@@ -79,8 +79,7 @@ impl Lattice {
         let count = |size: f64| (size / cell).floor() + 1.0;
         let cells = [count(high.x - low.x), count(high.y - low.y)];
         let nodes = (2.0 * cells[0] + 1.0) * (2.0 * cells[1] + 1.0);
-        // a NaN is not below either
-        if !(nodes < points.len() as f64 / 4.0) {
+        if nodes >= points.len() as f64 / 4.0 {
             return None;
         }
         let cells = cells.map(|count| count as usize);

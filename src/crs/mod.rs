@@ -106,7 +106,7 @@ impl Crs {
             () => CrsKind::Projected,
         };
         // what has no inverse turns no point of a map into one of the Earth
-        if !proj.has_inverse() || !(proj.to_meter().is_finite() && proj.to_meter() > 0.0) {
+        if !(proj.has_inverse() && proj.to_meter().is_finite() && proj.to_meter() > 0.0) {
             return Err(unusable("its projection has no inverse here".to_owned()));
         }
         let height_unit_m = height_unit_m.or_else(|| usable.text.contains("+vunits=").then(|| proj.vto_meter()));

@@ -98,7 +98,7 @@ fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georefere
     let named = Crs::read(text);
     let written = placement.position.map(|_| "position").or(placement.north_rad.map(|_| "north"));
     match (named, written) {
-        (Ok(crs), None) => of_coordinates(model, placement, crs, "its coordinates"),
+        (Ok(crs), None) => of_coordinates(model, placement, crs, "coordinates"),
         (Err(mut error), None) => {
             error.hint = message![""; "write `crs` under [[model]], for example crs = \"EPSG:25832\""].hint;
             Err(("crs", error))

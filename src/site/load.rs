@@ -21,16 +21,28 @@ pub(super) const SHADOW_CUT: f64 = 4.3;
 /// As [`SHADOW_CUT`], for what the default camera must see.
 pub(super) const VIEW_CUT: f64 = 1.5;
 
+/// A place and its sun, without what stands there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedSun {
+    /// Where on Earth.
+    pub place: Place,
+    /// The instants asked.
+    pub track: SunTrack,
+    /// Where the place is from, where a model's file says it.
+    pub notes: Vec<String>,
+}
+
 /// The place and its sun alone; the models are not read, but where nobody else says the place.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form, its place and its study.
-pub fn load_sun(path: &Path, asked: &Overrides) -> Result<(Place, SunTrack), SiteError> {
+pub fn load_sun(path: &Path, asked: &Overrides) -> Result<LoadedSun, SiteError> {
     let as_written = WrittenSite::read(path, asked)?;
     let (written, _) = as_written.located(|| Models::read(&as_written, formats::read))?;
     let place = written.place(asked)?;
     let track = study::track(&place, &written, asked)?;
-    Ok((place, track))
+    let notes = written.place_note().iter().map(|note| note.in_words(asked.words)).collect();
+    Ok(LoadedSun { place, track, notes })
 }
 
 /// Whose coordinates a mesh has.

@@ -39,7 +39,7 @@ pub use ground::{Ground, GroundFrom, metres};
 pub use inputs::inputs;
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
 pub use likeness::{Likeness, Mend};
-pub use load::{CoordinateFrame, LoadedMesh, load_mesh, load_sun};
+pub use load::{CoordinateFrame, LoadedMesh, LoadedSun, load_mesh, load_sun};
 pub use model_place::{ModelReference, anchor_text};
 pub use models::Models;
 pub use pair::Pair;

@@ -14,7 +14,7 @@ use super::stand::{StandingModel, stand};
 use super::written::WrittenSite;
 use super::{notes, place_doubts};
 use crate::choice::ChoiceError;
-use crate::formats::{Model, ModelError, ReadOptions, SeeThrough, on_disk};
+use crate::formats::{Coordinates, Model, ModelError, ReadOptions, SeeThrough, Up, on_disk};
 use crate::mesh::{Component, Mesh};
 use crate::message::{Message, Words, few, message};
 use glam::DVec3;
@@ -241,7 +241,11 @@ pub(super) fn read_placed(
 ) -> Result<PlacedModels, SiteError> {
     let mut read = Vec::new();
     for index in 0..written.site.model.len() {
-        let (placement, model) = model(written, index, &read_model)?;
+        let (placement, mut model) = model(written, index, &read_model)?;
+        if matches!(model.coordinates, Coordinates::Map(_)) {
+            // a map's third coordinate is the height, whatever its format's axes are
+            (model.up, model.up_is_said) = (Up::Z, true);
+        }
         let said = Georeference::of(&model, &placement).map_err(|fault| written.model_fault(index, fault))?;
         read.push((placement, model, said));
     }

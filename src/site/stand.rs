@@ -198,7 +198,7 @@ fn note_map(model: &Model, crs: &Crs, said_by: &str, placement: &Placement, fram
     let [low, high] = bounds(model, |corner| corner)?;
     let middle = (low + high) / 2.0;
     let away = middle.truncate().length();
-    let mut said = format!("is in {}, as {} says", crs.name(), if said_by == "crs" { "`crs`" } else { said_by });
+    let mut said = format!("is in {}, as {} says", crs.name(), if said_by == "crs" { "`crs`" } else { "its file" });
     if away > FAR_M {
         said.push_str(&format!("; its middle is {} from the place", length(away)));
     }
