@@ -15,7 +15,7 @@ use std::fmt::Write;
 /// A table is cut to about so many rows, a screen; `--json` has all.
 const MOST_ROWS: usize = 40;
 /// Rows that are always there, and those that a kind takes with its worst places.
-const FIXED_ROWS: usize = 9;
+const FIXED_ROWS: usize = 11;
 const PLACES_A_KIND: usize = 3;
 
 #[derive(Serialize)]

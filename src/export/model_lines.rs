@@ -108,7 +108,7 @@ impl<'a> AnchorLine<'a> {
 pub(super) fn table(models: &[ModelReference]) -> String {
     let mut table = String::new();
     for model in models {
-        let guess = |is_said: bool| if is_said { "" } else { " (nobody says it)" };
+        let guess = |is_said: bool| if is_said { "" } else { " (assumed)" };
         // Writing to a String cannot fail.
         let _ = write!(
             table,

@@ -74,7 +74,8 @@ impl ModelReference {
             place: point.map(|point| point.at),
             has_height: point.is_some_and(|point| point.has_elevation),
             anchors: model.anchors.clone(),
-            north_deg: north_rad.to_degrees(),
+            // −0 is 0
+            north_deg: north_rad.to_degrees() + 0.0,
             convergence_deg: convergence.map(f64::to_degrees),
         }
     }

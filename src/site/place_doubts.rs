@@ -60,7 +60,7 @@ pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &Anch
         }
     }
     if let Some(turned) = turned.filter(|turned| turned.abs() > ONE_NORTH_RAD) {
-        differs.push(format!("turned by {:.2}°", turned.to_degrees()));
+        differs.push(format!("turned by {}", angle(turned)));
     }
     if differs.is_empty() {
         return None;
@@ -86,6 +86,12 @@ pub(super) fn of_shifts(models: &[ModelReference]) -> Option<Message> {
 pub(super) fn half_turn(angle: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     (angle + turn / 2.0).rem_euclid(turn) - turn / 2.0
+}
+
+/// An angle in degrees with two decimals: `30.43°`.
+pub(super) fn angle(radians: f64) -> String {
+    // −0 is 0
+    format!("{:.2}°", (radians.to_degrees() * 100.0).round() / 100.0 + 0.0)
 }
 
 /// `312 m`, `4.2 km`, `320 km`.

@@ -1,7 +1,7 @@
 //! A model with what is said of it → the model where it stands, in the one frame of the site.
 
 use super::georeference::{AnchoredNorth, AnchoredZero, Georeference, KeyFault, Reference, true_north};
-use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, degrees, half_turn, length};
+use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, angle, degrees, half_turn, length};
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
 use crate::formats::Model;
@@ -112,7 +112,7 @@ fn anchored(
         let note = match placement.north_rad {
             Some(_) if differs => Some(message![said_north(said_by, by_anchor, north)]),
             None if by_anchor.abs() > ONE_NORTH_RAD => {
-                let what = format!("is turned as its {said_by} says: north is {:.2}°", by_anchor.to_degrees());
+                let what = format!("is turned as its {said_by} says: north is {}", angle(by_anchor));
                 Some(message![what; "`north` under [[model]] changes it"])
             }
             _ => None,
@@ -164,9 +164,9 @@ fn anchored(
         (None, Some(by_anchor)) => {
             let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
             let of_map = convergence
-                .map(|convergence| format!(", with the map's convergence of {:.2}°", convergence.to_degrees()))
+                .map(|convergence| format!(", with the map's convergence of {}", angle(convergence)))
                 .unwrap_or_default();
-            said.push(format!("its north is {:.2}°{of_map}", by_anchor.to_degrees()));
+            said.push(format!("its north is {}{of_map}", angle(by_anchor)));
         }
         _ => {}
     }
@@ -180,7 +180,7 @@ fn anchored(
 }
 
 fn said_north(said_by: &str, by_anchor: f64, north: f64) -> String {
-    format!("north is {:.2}° by `north`, and {:.2}° by its {said_by}", north.to_degrees(), by_anchor.to_degrees())
+    format!("north is {} by `north`, and {} by its {said_by}", angle(north), angle(by_anchor))
 }
 
 /// That a model lies far above or below a place whose elevation nobody wrote.
