@@ -53,6 +53,7 @@ pub use {chrono, glam};
 pub mod message;
 
 pub mod choice;
+pub mod crs;
 pub mod look;
 pub mod mesh;
 pub mod sun;

@@ -1,6 +1,6 @@
 //! How models are read, and where the ground lies below them.
 
-use super::{interrupt, memory};
+use super::memory;
 use crate::formats::{ModelReader, ReadLimits, Up};
 use crate::site::Overrides;
 use crate::sun::parse_duration_secs;
@@ -35,18 +35,17 @@ struct ReadingArgs {
 
 impl ModelArgs {
     pub(super) fn onto(&self, asked: Overrides) -> Overrides {
-        Overrides { up: self.up, default_height: self.default_height, reading: self.reading.reading(), ..asked }
+        let reading = self.reading.onto(asked.reading);
+        Overrides { up: self.up, default_height: self.default_height, reading, ..asked }
     }
 }
 
 impl ReadingArgs {
-    fn reading(&self) -> ModelReader {
-        let of_program = ModelReader::of_this_program().until(interrupt::asked());
-        let usual = ReadLimits::default();
+    fn onto(&self, usual: ModelReader) -> ModelReader {
         ModelReader {
-            limits: ReadLimits { time: self.read_time.unwrap_or(usual.time), memory: self.read_memory },
-            cache: of_program.cache.filter(|_| !self.no_cache),
-            ..of_program
+            limits: ReadLimits { time: self.read_time.unwrap_or(usual.limits.time), memory: self.read_memory },
+            cache: usual.cache.filter(|_| !self.no_cache),
+            ..usual
         }
     }
 }

@@ -1,11 +1,14 @@
 //! What the command calls the fields of a request: its options.
 
+use super::interrupt;
+use crate::formats::ModelReader;
 use crate::message::{Field, Words};
 use crate::site::Overrides;
 
-/// Nothing is asked yet; what is noted is noted in the command's words.
+/// Nothing is asked yet; what is noted is noted in the command's words, and models are read as the program does.
 pub(super) fn nothing_asked() -> Overrides {
-    Overrides { words: &Options, ..Overrides::default() }
+    let reading = ModelReader::of_this_program().until(interrupt::asked());
+    Overrides { words: &Options, reading, ..Overrides::default() }
 }
 
 /// The command's words.

@@ -158,15 +158,9 @@ fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, Load
     let (path, written) = match wanted {
         LoadRequest::Files(paths) => {
             let path = paths.first().cloned().unwrap_or_default();
-            match WrittenSite::read(&path, &Overrides::default()) {
-                Err(SiteError::NoPlaceForModel { .. }) => {
-                    // a model that cannot be read is told before its place is asked
-                    let asked = Overrides { reading: progress.reading.clone(), ..Overrides::default() };
-                    for path in &paths {
-                        crate::site::load_mesh(path, &asked).map_err(|error| told(&error, &FileWords))?;
-                    }
-                    return Err(LoadError::Bare(paths));
-                }
+            let beside = paths.get(1..).unwrap_or_default().to_vec();
+            match WrittenSite::read(&path, &Overrides { beside, ..Overrides::default() }) {
+                Ok(written) if written.is_bare_model() => (None, written),
                 Ok(written) => {
                     let path = if path.is_dir() { path.join("site.toml") } else { path };
                     (Some(path), written)
@@ -198,7 +192,7 @@ fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, Load
 /// The site as it is written, with what the window needs of it. What an open site has, and still does, is not made again.
 fn read(
     path: Option<PathBuf>,
-    written: WrittenSite,
+    mut written: WrittenSite,
     hidden: Hidden,
     before: Option<&LoadedSite>,
     progress: &LoadProgress,
@@ -211,7 +205,11 @@ fn read(
         let read = known.map_or_else(|| read_models(&written, progress), |models| Ok(models.clone()))?;
         Ok(models.insert(read).clone())
     })
-    .map_err(|error| told(&error, words))?;
+    .map_err(|error| match error {
+        // a model that cannot be read is told before its place is asked
+        SiteError::NoPlaceForModel { .. } => LoadError::Bare(written.model_paths()),
+        error => told(&error, words),
+    })?;
     if progress.cancelled.load(Ordering::Relaxed) {
         return Err(LoadError::Told("given up".to_owned()));
     }
@@ -229,6 +227,8 @@ fn read(
     };
     progress.tell(1.0, "Drawing");
     let Some(models) = models else { return Err(LoadError::Told("the models were not read".to_owned())) };
+    // what a file proposes is in the panel, and is saved
+    written.site.place = written.site.place.or_else(|| models.proposed_place().cloned());
     Ok(Project {
         path,
         written,

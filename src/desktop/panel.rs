@@ -152,22 +152,26 @@ fn place(app: &mut App, ui: &mut Ui) {
     if let Some(open) = &app.open {
         ground(ui, typed, &mut app.settings.site.ground.level, &open.project.site.ground, unit);
     }
+    // what the file says of itself is shown, and goes on being so until something is written
+    let said = app.open.as_ref().and_then(|open| open.project.models.references().first());
     if let [model] = app.settings.site.model.as_mut_slice() {
+        let by_file = said.is_some_and(|said| said.said_by.is_some());
+        let has_unit = said.is_some_and(|said| said.unit_is_said);
         row(ui, "Model north", |ui, label| {
-            let mut north = model.north.unwrap_or_default();
+            let mut north = model.north.or(said.map(|said| said.north_deg)).unwrap_or_default();
             let number = NumberField { speed: 0.5, range: NORTH, unit: "degrees", suffix: "°", decimals: 0..=3 };
             let response = typed.number(ui, ("Model north", label), &mut north, &number);
             let response = response.on_hover_text("Degrees clockwise from the model's north to true north");
             if response.changed() {
-                model.north = Some(north).filter(|north| *north != 0.0);
+                model.north = Some(north).filter(|north| by_file || *north != 0.0);
             }
             let label = then(ui, "scale");
-            let mut scale = model.scale.unwrap_or(1.0);
+            let mut scale = model.scale.or(said.map(|said| said.unit_m)).unwrap_or(1.0);
             let number = NumberField { speed: 0.01, range: SCALE, unit: "metres a unit", suffix: "", decimals: 0..=6 };
             let response = typed.number(ui, ("scale", label), &mut scale, &number);
             let response = response.on_hover_text("Metres a unit of the model");
             if response.changed() {
-                model.scale = Some(scale).filter(|scale| *scale != 1.0);
+                model.scale = Some(scale).filter(|scale| has_unit || *scale != 1.0);
             }
         });
         typed.told(ui, &["Model north", "scale"]);

@@ -1,5 +1,5 @@
-//! What `gnomon check` says of model files beside their mesh: format, unit and axis, what stands there in which groups, and
-//! what was left out.
+//! What `gnomon check` says of model files beside their mesh: format, what stands there in which groups, and what
+//! was left out.
 
 use crate::formats::LeftOut;
 use crate::message::{Field, Words, message};
@@ -11,13 +11,11 @@ use std::fmt::Write;
 /// Groups and kinds of things left out that a table has a line for; JSON has all.
 const MOST: usize = 12;
 
+/// What a file holds.
 #[derive(Serialize)]
-struct ContentsReport<'a> {
+pub(super) struct ContentsReport<'a> {
     file: &'a str,
     format: &'a str,
-    unit_m: Option<f64>,
-    up: String,
-    up_is_said: bool,
     kinds: Map<String, Value>,
     groups: Vec<GroupLine<'a>>,
     left_out: Vec<LeftOutLine<'a>>,
@@ -36,29 +34,18 @@ struct LeftOutLine<'a> {
     why: &'a str,
 }
 
-/// An object a model.
-pub(super) fn report(models: &[ModelContents]) -> Value {
-    let of_model = |model: &ModelContents| {
-        json!(ContentsReport {
+impl<'a> ContentsReport<'a> {
+    pub(super) fn of(model: &'a ModelContents) -> ContentsReport<'a> {
+        let group = |group: &'a NameGroup| GroupLine { name: &group.name, components: group.components };
+        let left = |left: &'a LeftOut| LeftOutLine { what: &left.what, count: left.count, why: &left.why };
+        ContentsReport {
             file: &model.file,
             format: model.format,
-            unit_m: model.unit_m,
-            up: model.up.to_string(),
-            up_is_said: model.up_is_said,
             kinds: model.kinds.iter().map(|(kind, count)| (kind.word().to_owned(), json!(count))).collect(),
-            groups: model
-                .groups
-                .iter()
-                .map(|NameGroup { name, components }| GroupLine { name, components: *components })
-                .collect(),
-            left_out: model
-                .left_out
-                .iter()
-                .map(|LeftOut { what, count, why }| LeftOutLine { what, count: *count, why })
-                .collect(),
-        })
-    };
-    models.iter().map(of_model).collect()
+            groups: model.groups.iter().map(group).collect(),
+            left_out: model.left_out.iter().map(left).collect(),
+        }
+    }
 }
 
 /// Lines on each model; they end with a line break.
@@ -66,12 +53,7 @@ pub(super) fn table(models: &[ModelContents], words: &dyn Words) -> String {
     let mut table = String::new();
     // Writing to a String cannot fail.
     for model in models {
-        let unit = match model.unit_m {
-            Some(unit) => format!("{unit} m a unit"),
-            None => "says no unit".to_owned(),
-        };
-        let said = if model.up_is_said { "" } else { ", by custom" };
-        let _ = writeln!(table, "{}: {}, {unit}, {} up{said}", plain(&model.file), model.format, model.up);
+        let _ = writeln!(table, "{}: {}", plain(&model.file), model.format);
         if model.kinds.iter().any(|(kind, _)| *kind != Default::default()) {
             let kinds: Vec<String> =
                 model.kinds.iter().map(|(kind, count)| format!("{count} {}", kind.word())).collect();

@@ -12,6 +12,7 @@ pub mod figure;
 pub mod file;
 mod glb;
 pub mod model;
+mod model_lines;
 mod names;
 mod places;
 pub mod probe;

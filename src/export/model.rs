@@ -4,9 +4,10 @@
 //! zero keeps that, and one that is read from glTF its very numbers. What glTF has no word for stands in `extras`, under
 //! `gnomon`: a component's other names and its kind, and of the scene where it lies on a map or on the Earth.
 
+use super::contents::{self, ContentsReport};
 use super::glb::{GlbFile, asset};
 use super::volumes::in_gltf;
-use super::{ExportError, contents, report};
+use super::{ExportError, report};
 use crate::formats::{Anchor, AnchorPoint, Coordinates, LeftOut, PartKind};
 use crate::message::Words;
 use crate::site::PlacedModel;
@@ -142,7 +143,7 @@ pub fn json(placed: &PlacedModel, file: &Path) -> Result<String, ExportError> {
         "file": file.display().to_string(),
         "components": placed.model.parts.len(),
         "triangles": placed.model.triangles(),
-        "models": contents::report(std::slice::from_ref(&placed.contents)),
+        "model": ContentsReport::of(&placed.contents),
         "notes": placed.notes,
     }))
 }

@@ -69,8 +69,9 @@ pub enum Coordinates {
     #[default]
     Local,
     /// Of a map, or of the Earth: x is the easting or longitude, y the northing or latitude, z the height; Earth-centred ones
-    /// are x, y, z. The text is the reference system as the file says it: `EPSG:25832`, a name, WKT or PROJ's text. Longitudes
-    /// and latitudes are in degrees, heights in metres.
+    /// are x, y, z. The text is the reference system as the file says it: `EPSG:25832`, a name, WKT or PROJ's text. Eastings
+    /// and northings are in the system's unit, longitudes and latitudes in degrees. Heights are in the unit that `unit_m`
+    /// says; where it says none, in that which the system has for heights (a compound one), else in metres.
     Map(String),
 }
 

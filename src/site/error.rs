@@ -52,6 +52,8 @@ pub enum SiteError {
     NoPlaceForModel {
         /// As the user named it.
         path: String,
+        /// What its file says of a place that is none.
+        said: Option<Box<Message>>,
     },
     /// A model in a format that is not read.
     UnknownFormat {
@@ -155,7 +157,11 @@ impl Worded for SiteError {
                 "give a site file, a folder with a site.toml, or a model",
                 Piece::Where(Field::Place, pieces![" with ", (Field::Place, "LAT,LON")])
             ],
-            SiteError::NoPlaceForModel { path } => message![
+            SiteError::NoPlaceForModel { said: Some(said), .. } => Message {
+                hint: pieces!["say where it stands with ", (Field::Place, "LAT,LON")],
+                ..Message::clone(said)
+            },
+            SiteError::NoPlaceForModel { path, said: None } => message![
                 format!("{path} is a model: say where it stands with "),
                 (Field::Place, "LAT,LON"),
                 ", for example ",

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// What cannot be read, and what is wrong with a site file's form.
 pub fn inputs(path: &Path) -> Result<Vec<PathBuf>, SiteError> {
     let path = &*on_disk(path);
-    let written = WrittenSite::read_as_it_is(path, true)?;
+    let written = WrittenSite::read_as_it_is(path)?;
     let file = if path.is_dir() { path.join("site.toml") } else { path.to_owned() };
     Ok(iter::once(file).chain(written.model_files()).collect())
 }

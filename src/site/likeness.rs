@@ -3,7 +3,6 @@
 //! Files do not say it: glTF is in metres and y up, and many a program exports something else. Only keys that nobody wrote
 //! are doubted; who writes `scale` or `up` has decided.
 
-use super::placement::Placement;
 use crate::formats::Up;
 use crate::mesh::{Component, Mesh};
 use crate::message::{Field, Message, Piece, message, pieces};
@@ -162,20 +161,20 @@ impl ModelMeasures {
 /// Faces that one task looks at.
 const AT_ONCE: usize = 1 << 14;
 
-/// Looks at a model: its components, and where it stands; only at what nobody said.
+/// Looks at a model: its components, and how it was turned and moved; only at what nobody said.
 pub(super) fn of(
     mesh: &Mesh,
     components: &[Component],
-    placement: &Placement,
+    (north_rad, position): (f64, DVec3),
     [scale_is_said, up_is_said]: [bool; 2],
 ) -> Vec<Mend> {
     if scale_is_said && up_is_said {
         return Vec::new();
     }
-    let upright_from_world = DMat3::from_rotation_z(-placement.north_rad);
+    let upright_from_world = DMat3::from_rotation_z(-north_rad);
     let corner = |vertex: u32| {
         let world = mesh.origin + mesh.vertices[vertex as usize].as_dvec3();
-        upright_from_world * (world - placement.position)
+        upright_from_world * (world - position)
     };
     let of_faces = |faces: &[[u32; 3]], only_home: bool| {
         let mut measured = ModelMeasures::NOTHING;

@@ -1,15 +1,14 @@
 //! The request as written → as meant.
 
 use super::asked::{Overrides, refuse};
-use super::contents::{ModelContents, ReadContents, names_of};
+use super::contents::ModelContents;
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
-use super::models::{Models, note_see_through};
-use super::placement::Placement;
+use super::models::Models;
 use super::written::WrittenSite;
-use super::{Finder, Ground, Method, Receivers, Site, camera, ground, likeness, notes, plan, study};
+use super::{Finder, Ground, Method, ModelReference, Receivers, Site, camera, ground, notes, plan, study};
 use crate::choice::ChoiceError;
-use crate::formats::{self, Model, ModelError, ReadOptions, on_disk};
+use crate::formats::{self, Model, ModelError, ReadOptions};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::message::{Field, message};
@@ -23,15 +22,29 @@ pub(super) const SHADOW_CUT: f64 = 4.3;
 /// As [`SHADOW_CUT`], for what the default camera must see.
 pub(super) const VIEW_CUT: f64 = 1.5;
 
-/// The place and its sun alone; the models are not read.
+/// A place and its sun, without what stands there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedSun {
+    /// Where on Earth.
+    pub place: Place,
+    /// The instants asked.
+    pub track: SunTrack,
+    /// Where the place is from, where a model's file says it.
+    pub notes: Vec<String>,
+}
+
+/// The place and its sun alone; the models are not read, but where nobody else says the place.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form, its place and its study.
-pub fn load_sun(path: &Path, asked: &Overrides) -> Result<(Place, SunTrack), SiteError> {
-    let written = WrittenSite::read(path, asked)?;
+pub fn load_sun(path: &Path, asked: &Overrides) -> Result<LoadedSun, SiteError> {
+    let as_written = WrittenSite::read(path, asked)?;
+    let (written, _) =
+        as_written.located(|| Models::read(&as_written, |path, options| asked.reading.read(path, options)))?;
     let place = written.place(asked)?;
     let track = study::track(&place, &written, asked)?;
-    Ok((place, track))
+    let notes = written.place_note().iter().map(|note| note.in_words(asked.words)).collect();
+    Ok(LoadedSun { place, track, notes })
 }
 
 /// Whose coordinates a mesh has.
@@ -54,6 +67,8 @@ pub struct LoadedMesh {
     pub notes: Vec<String>,
     /// What each file holds.
     pub models: Vec<ModelContents>,
+    /// What is said of the coordinates of each.
+    pub references: Vec<ModelReference>,
 }
 
 /// The models alone: of a model file as it is, or of a site's models where they stand; [`Overrides::up`] goes before what a
@@ -62,36 +77,23 @@ pub struct LoadedMesh {
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
 pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError> {
-    let Overrides { up, words, default_height: default_height_m, .. } = *asked;
-    if formats::by_ending(path).is_some() && !path.is_dir() {
-        let placement = Placement { up, default_height_m, ..Placement::default() };
-        let model = placement.place(asked.reading.read(&on_disk(path), &placement.read_options())?);
-        let contents = ReadContents::of(&model);
-        let said = [model.unit_m.is_some(), model.up_is_said || up.is_some()];
-        let Model { parts, notes, see_through, .. } = model;
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let seen_through = note_see_through(&see_through, &vec![true; parts.len()]);
-        let of_reader = notes.into_iter().map(|note| note.about(&name).in_words(words));
-        let mut notes: Vec<String> = of_reader.chain(seen_through.map(|note| format!("{name} {note}"))).collect();
-        let mesh = Mesh::build(parts)?;
-        let mends = likeness::of(&mesh, &mesh.components, &placement, said);
-        let of_model = notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends);
-        notes.extend(of_model.iter().map(|note| note.in_words(words)));
-        let models = vec![contents.told(&name, &names_of(&mesh.components))];
-        return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes, models });
-    }
-    let written = WrittenSite::read(path, &Overrides { up, default_height: default_height_m, ..Overrides::default() })?;
+    let Overrides { up, words, default_height, .. } = *asked;
+    let mut written = WrittenSite::read(path, &Overrides { up, default_height, ..Overrides::default() })?;
+    let is_bare = formats::by_ending(path).is_some() && !path.is_dir();
     let models = Models::read(&written, |path, options| asked.reading.read(path, options))?;
     let [casts, _] = models.roles(&written)?;
     // what was left out is listed
-    let notes = models.notes_without_contents(&written, &casts, words);
-    let contents = models.contents(&written);
-    Ok(LoadedMesh { mesh: models.mesh, frame: CoordinateFrame::Place, notes, models: contents })
+    let mut notes = models.notes_without_contents(&written, &casts, words);
+    written.site.place = written.site.place.or_else(|| models.proposed_place().cloned());
+    notes.splice(..0, written.place_note().iter().map(|note| note.in_words(words)));
+    let (references, contents) = (models.references().to_vec(), models.contents(&written));
+    let frame = if is_bare && !models.stand_on_earth() { CoordinateFrame::Model } else { CoordinateFrame::Place };
+    Ok(LoadedMesh { mesh: models.mesh, frame, notes, models: contents, references })
 }
 
 impl Site {
     /// Reads and checks a request: `path` is a site file, a folder that holds a `site.toml`,
-    /// or a model file together with `asked.place`.
+    /// or a model file, which says its place, or together with `asked.place`.
     ///
     /// # Errors
     /// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
@@ -132,6 +134,8 @@ impl Site {
         asked: &Overrides,
         models: impl FnOnce() -> Result<Models, SiteError>,
     ) -> Result<Site, SiteError> {
+        let (written, models) = written.located(models)?;
+        let written = &*written;
         let place = written.place(asked)?;
         // Cheap and quick to fail; models come last.
         let track = study::track(&place, written, asked)?;
@@ -156,7 +160,8 @@ impl Site {
         let level = ground::level(written, asked)?;
         let models = models()?;
         let [casts, receives] = models.roles(written)?;
-        let mut notes = models.notes(written, &casts, asked.words);
+        let mut notes: Vec<String> = written.place_note().iter().map(|note| note.in_words(asked.words)).collect();
+        notes.extend(models.notes(written, &casts, asked.words));
         let Models { mesh, bounds, likenesses, .. } = models;
         let ground = Ground::of(&mesh, bounds, level);
         notes.extend(ground.notes(&mesh, receivers));

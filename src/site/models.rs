@@ -4,15 +4,18 @@ use super::asked::refuse;
 use super::contents::ReadContents;
 use super::error::SiteError;
 use super::extent::Bounds;
-use super::file::Names;
+use super::file::{Names, PlaceTable};
+use super::georeference::Georeference;
 use super::ground::Ground;
 use super::keys;
 use super::likeness::{self, Likeness};
-use super::notes;
+use super::model_place::{self, ModelReference};
 use super::placement::Placement;
+use super::stand::{StandingModel, stand};
 use super::written::WrittenSite;
+use super::{notes, place_doubts};
 use crate::choice::ChoiceError;
-use crate::formats::{Model, ModelError, ReadOptions, SeeThrough, on_disk};
+use crate::formats::{Coordinates, Model, ModelError, ReadOptions, SeeThrough, Up, on_disk};
 use crate::mesh::{Component, Mesh};
 use crate::message::{Message, Words, few, message};
 use glam::DVec3;
@@ -40,6 +43,16 @@ pub struct Models {
     see_through: Vec<Vec<SeeThrough>>,
     sources: Vec<Source>,
     mark: u64,
+    /// The place around which they stand, where one of them stands by the Earth.
+    place: Option<[Option<f64>; 3]>,
+    proposed: Option<PlaceTable>,
+    place_notes: Vec<Message>,
+    references: Vec<ModelReference>,
+}
+
+/// What of a place decides where models stand.
+fn numbers(table: &PlaceTable) -> [Option<f64>; 3] {
+    [table.latitude, table.longitude, table.elevation]
 }
 
 /// Where a model comes from, and where it stands.
@@ -65,33 +78,38 @@ impl Models {
         }
         // a file that changes while it is read has changed since
         let sources = sources(written)?;
+        let PlacedModels { models: placed, proposed, place_notes, references } = read_placed(written, &read_model)?;
+        let is_on_earth = placed.iter().any(|placed| placed.is_on_earth);
         let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        // by each model's file, of unit and axis
+        // by each model's file, of unit and axis; and how it was turned and moved
         let (mut said, mut contents) = (Vec::new(), Vec::new());
-        for index in 0..sources.len() {
-            let model = model(written, index, &read_model)?;
+        for (index, placed) in placed.into_iter().enumerate() {
+            let model = placed.model;
             let first = parts.len();
             contents.push(ReadContents::of(&model));
             parts.extend(model.parts);
             let name = name(written, index);
-            notes.extend(model.notes.into_iter().map(|note| note.about(name)));
-            said.push([model.unit_m.is_some(), model.up_is_said]);
+            notes.extend(model.notes.into_iter().chain(placed.notes).map(|note| note.about(name)));
+            said.push(([model.unit_m.is_some(), model.up_is_said], (placed.north_rad, placed.position)));
             models.push((name.to_owned(), first..parts.len()));
             see_through.push(model.see_through);
         }
+        notes.extend(place_doubts::of_shifts(&references));
         let mesh = Mesh::build(parts)?;
-        let looks = |(index, source): (usize, &Source)| {
+        let looks = |(index, (said, stands)): (usize, &([bool; 2], (f64, DVec3)))| {
             let table = &written.site.model[index];
             let components = &mesh.components[models[index].1.clone()];
-            let [unit, up] = said[index];
+            let [unit, up] = *said;
             let said = [unit || table.scale.is_some(), up || table.up.is_some()];
-            Likeness { model: index, mends: likeness::of(&mesh, components, &source.placement, said) }
+            Likeness { model: index, mends: likeness::of(&mesh, components, *stands, said) }
         };
-        let likenesses: Vec<Likeness> = sources.iter().enumerate().map(looks).collect();
+        let likenesses: Vec<Likeness> = said.iter().enumerate().map(looks).collect();
         for ((model, components), likeness) in models.iter().zip(&likenesses) {
             notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
         }
-        notes.extend(notes::of_all(&mesh).map(Message::from));
+        // a bare model stands in its own coordinates where nobody says a place
+        let has_place = !written.is_bare_model() || written.site.place.is_some() || proposed.is_some();
+        notes.extend(notes::of_all(&mesh, is_on_earth).filter(|_| has_place).map(Message::from));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
         let of_model = models.into_iter().map(|(_, components)| components).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
@@ -102,7 +120,22 @@ impl Models {
             mesh.origin.to_array().map(f64::to_bits),
             names.collect::<Vec<_>>(),
         ));
-        Ok(Models { mesh, bounds, notes, likenesses, of_model, contents, see_through, sources, mark })
+        let place = is_on_earth.then(|| proposed.as_ref().or(written.site.place.as_ref()).map(numbers)).flatten();
+        Ok(Models {
+            mesh,
+            bounds,
+            notes,
+            likenesses,
+            of_model,
+            contents,
+            see_through,
+            sources,
+            mark,
+            place,
+            proposed,
+            place_notes,
+            references,
+        })
     }
 
     /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.
@@ -110,7 +143,30 @@ impl Models {
         let is_it = |(index, source): (usize, &Source)| {
             placed(written, index).is_ok_and(|(file, placement)| file == source.file && placement == source.placement)
         };
-        written.site.model.len() == self.sources.len() && self.sources.iter().enumerate().all(is_it)
+        // what stands by the Earth stands elsewhere around another place
+        let place = written.site.place.as_ref().or(self.proposed.as_ref()).map(numbers);
+        let is_there = self.place.is_none_or(|here| place == Some(here));
+        is_there && written.site.model.len() == self.sources.len() && self.sources.iter().enumerate().all(is_it)
+    }
+
+    /// Whether one of them stands by what is said of the Earth.
+    pub(super) fn stand_on_earth(&self) -> bool {
+        self.place.is_some()
+    }
+
+    /// The place that a model's file proposes, where the site file says none.
+    pub fn proposed_place(&self) -> Option<&PlaceTable> {
+        self.proposed.as_ref()
+    }
+
+    /// What is said of places that are none, where that leaves the site without one.
+    pub(super) fn place_notes(&self) -> &[Message] {
+        &self.place_notes
+    }
+
+    /// What each model's file, and the site file, say of its coordinates.
+    pub fn references(&self) -> &[ModelReference] {
+        &self.references
     }
 
     /// The first of the files that is no more what was read. A file that a `.gltf` names is not asked.
@@ -179,7 +235,7 @@ impl Models {
 }
 
 /// Says which materials of a model light passes that cast as solid, the most frequent first.
-pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<String> {
+fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<String> {
     let casting = |material: &SeeThrough| material.parts.iter().filter(|&&part| casts[part]).count();
     let mut found: Vec<_> = materials.iter().map(|it| (casting(it), it)).filter(|(count, _)| *count > 0).collect();
     found.sort_by_key(|(count, _)| Reverse(*count));
@@ -195,12 +251,50 @@ pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Opti
     ))
 }
 
-/// Reads one of the models and puts it where it stands.
+/// All models where they stand, and what their files say of that.
+pub(super) struct PlacedModels {
+    pub(super) models: Vec<StandingModel>,
+    pub(super) proposed: Option<PlaceTable>,
+    pub(super) place_notes: Vec<Message>,
+    pub(super) references: Vec<ModelReference>,
+}
+
+/// Reads the models, and puts them into one frame: around the site's place, else around that which a file proposes.
+pub(super) fn read_placed(
+    written: &WrittenSite,
+    read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
+) -> Result<PlacedModels, SiteError> {
+    let mut read = Vec::new();
+    for index in 0..written.site.model.len() {
+        let (placement, mut model) = model(written, index, &read_model)?;
+        if matches!(model.coordinates, Coordinates::Map(_)) {
+            // a map's third coordinate is the height, whatever its format's axes are
+            (model.up, model.up_is_said) = (Up::Z, true);
+        }
+        let said = Georeference::of(&model, &placement).map_err(|fault| written.model_fault(index, fault))?;
+        read.push((placement, model, said));
+    }
+    let all = read.iter().enumerate().map(|(index, (_, model, said))| (name(written, index), model, said));
+    let (frame, proposed) = model_place::frame(written, all);
+    let mut placed = PlacedModels { models: Vec::new(), proposed, place_notes: Vec::new(), references: Vec::new() };
+    for (index, (placement, model, said)) in read.into_iter().enumerate() {
+        let name = name(written, index);
+        placed.references.push(ModelReference::of(name, &model, &placement, &said));
+        if frame.is_none() {
+            placed.place_notes.extend(said.notes.iter().cloned().map(|note| note.about(name)));
+        }
+        let standing = stand(model, &placement, said, frame.as_ref());
+        placed.models.push(standing.map_err(|fault| written.model_fault(index, fault))?);
+    }
+    Ok(placed)
+}
+
+/// Reads one of the models, as its file has it.
 fn model(
     written: &WrittenSite,
     index: usize,
     read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
-) -> Result<Model, SiteError> {
+) -> Result<(Placement, Model), SiteError> {
     let (file, placement) = placed(written, index)?;
     let file = on_disk(&file);
     if !file.is_file() {
@@ -210,7 +304,7 @@ fn model(
         true => refuse(written.model_key(index, "scene"), error.to_string()),
         false => error.into(),
     });
-    Ok(placement.place(read?))
+    Ok((placement, read?))
 }
 
 /// What people call a model: as the site file does.
@@ -266,15 +360,14 @@ pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Pl
         let model = keys::numbered("model", index, written.site.model.len());
         return Err(written.missing(format!("path in {model}"), keys::example("model", "path")));
     };
-    let north_deg = table.north.unwrap_or(0.0);
-    if !north_deg.is_finite() {
+    if let Some(north_deg) = table.north.filter(|north| !north.is_finite()) {
         return Err(refuse(
             at("north"),
             message![format!("{north_deg} is no angle"); "write degrees, for example 0.0"],
         ));
     }
-    let position = DVec3::from_array(table.position.unwrap_or_default());
-    if !position.is_finite() {
+    let position = table.position.map(DVec3::from_array);
+    if let Some(position) = position.filter(|position| !position.is_finite()) {
         return Err(refuse(
             at("position"),
             message![format!("{position} is no point"); "write metres, for example [0.0, 0.0, 0.0]"],
@@ -307,8 +400,9 @@ pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Pl
         Some(word) => Some(word.parse().map_err(|error: ChoiceError| refuse(at("up"), error.to_string()))?),
         None => None,
     };
-    let north_rad = north_deg.to_radians();
-    let placement = Placement { scene, default_height_m, up, north_rad, position, scale };
+    let north_rad = table.north.map(f64::to_radians);
+    let crs = table.crs.clone();
+    let placement = Placement { scene, default_height_m, up, north_rad, position, scale, crs };
     Ok((written.folder.join(path), placement))
 }
 

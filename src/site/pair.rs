@@ -65,15 +65,21 @@ impl Pair {
         models_before: impl FnOnce(&WrittenSite) -> Result<Models, SiteError>,
         models_after: impl FnOnce(&WrittenSite) -> Result<Models, SiteError>,
     ) -> Result<Pair, SiteError> {
-        let after_name = same_place(before, after, asked)?;
+        let (before, models_before) = before.located(|| models_before(before))?;
+        let before = &*before;
         let mut second = after.clone();
+        // what says no place, not even by a model's file of its own, stands in that of the other
+        if second.site.place.is_none() {
+            second.site.place.clone_from(&before.site.place);
+        }
+        let after_name = same_place(before, &second, asked)?;
         let table = &mut second.site;
         table.place.clone_from(&before.site.place);
         table.study = before.site.study.clone();
         table.plan = before.site.plan.clone();
         table.camera = before.site.camera.clone();
 
-        let mut first = Site::with_models(before, asked, || models_before(before))?;
+        let mut first = Site::with_models(before, asked, models_before)?;
         match table.ground.level {
             // the command line's goes before what either says
             Some(level) if asked.ground.is_none() && !first.ground.is_at(level) => {

@@ -51,7 +51,9 @@ pub struct ProbeSite {
 /// # Errors
 /// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
 pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteError> {
-    let written = WrittenSite::read(path, asked)?;
+    let as_written = WrittenSite::read(path, asked)?;
+    let (written, models) =
+        as_written.located(|| Models::read(&as_written, |path, options| asked.reading.read(path, options)))?;
     let place = written.place(asked)?;
     let probes = probes(&written, asked)?;
     let days = days(&place, &written, asked)?;
@@ -61,9 +63,10 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     }
     .map_err(|error| SiteError::sun(FieldLocation::Field(Field::Step), error))?;
     let level = ground::level(&written, asked)?;
-    let models = Models::read(&written, |path, options| asked.reading.read(path, options))?;
+    let models = models()?;
     let [casts, _] = models.roles(&written)?;
-    let mut notes = models.notes(&written, &casts, asked.words);
+    let mut notes: Vec<String> = written.place_note().iter().map(|note| note.in_words(asked.words)).collect();
+    notes.extend(models.notes(&written, &casts, asked.words));
     let Models { mesh, bounds, .. } = models;
     let ground = Ground::of(&mesh, bounds, level);
     // a probe below it says so itself

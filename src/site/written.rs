@@ -50,12 +50,12 @@ fn refuse_beside(message: Message) -> SiteError {
 }
 
 impl WrittenSite {
-    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model together with `--place`.
+    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model, whose file or `--place` says its place.
     ///
     /// # Errors
     /// What cannot be read, and what is wrong with a site file's form.
     pub fn read(path: &Path, asked: &Overrides) -> Result<WrittenSite, SiteError> {
-        let mut written = Self::read_as_it_is(path, asked.place.is_some())?;
+        let mut written = Self::read_as_it_is(path)?;
         written.add_models(&asked.beside)?;
         written.set_models(asked);
         if let Some(place) = &asked.place {
@@ -81,7 +81,7 @@ impl WrittenSite {
     /// # Errors
     /// As [`WrittenSite::read`].
     pub fn read_beside(path: &Path, first: &WrittenSite, asked: &Overrides) -> Result<WrittenSite, SiteError> {
-        let mut written = Self::read_as_it_is(path, true)?;
+        let mut written = Self::read_as_it_is(path)?;
         written.set_models(asked);
         if written.site.place.is_none() {
             written.site.place.clone_from(&first.site.place);
@@ -116,13 +116,12 @@ impl WrittenSite {
         }
     }
 
-    /// A model is `placed` where somebody says its place.
-    pub(super) fn read_as_it_is(path: &Path, placed: bool) -> Result<WrittenSite, SiteError> {
+    pub(super) fn read_as_it_is(path: &Path) -> Result<WrittenSite, SiteError> {
         let path = &*on_disk(path);
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
             _ if path.is_dir() => Self::read_file(&path.join("site.toml")),
-            _ if formats::by_ending(path).is_some() => Self::of_model(path, placed),
+            _ if formats::by_ending(path).is_some() => Self::of_model(path),
             "obj" | "stl" | "ply" | "ifc" | "fbx" | "dae" | "3ds" | "3dm" | "skp" | "dwg" | "dxf" | "blend" | "usd"
             | "usdz" | "rvt" => Err(SiteError::UnknownFormat { path: path.display().to_string() }),
             _ => Self::read_file(path),
@@ -142,6 +141,11 @@ impl WrittenSite {
         })
     }
 
+    /// Where its models lie, in their order.
+    pub fn model_paths(&self) -> Vec<PathBuf> {
+        self.site.model.iter().filter_map(|model| Some(self.folder.join(model.path.as_ref()?))).collect()
+    }
+
     /// A file as this site names it: by a relative path, where it lies beside the site file or below.
     pub fn path_of(&self, file: &Path) -> String {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
@@ -156,14 +160,10 @@ impl WrittenSite {
         std::fs::read(path).is_ok_and(|bytes| bytes != self.text.as_bytes())
     }
 
-    fn of_model(path: &Path, placed: bool) -> Result<WrittenSite, SiteError> {
+    fn of_model(path: &Path) -> Result<WrittenSite, SiteError> {
         let file = path.display().to_string();
-        // A mistyped name is a better complaint than a missing place.
         if let Err(error) = std::fs::metadata(path) {
             return Err(SiteError::Unreadable { path: file, why: error.to_string() });
-        }
-        if !placed {
-            return Err(SiteError::NoPlaceForModel { path: file });
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(WrittenSite {

@@ -41,7 +41,7 @@ fn glb_of_a_model_gives_the_same_triangles() {
     let [before, after] = ["tower.glb", "out.glb"].map(|file| corners(&read(&folder.path().join(file))));
     assert_eq!(before, after, "to the bit, near the zero");
     let report: Value = serde_json::from_str(&done(folder.path(), "convert tower.glb out.glb --json")).unwrap();
-    assert_eq!((&report["triangles"], &report["models"][0]["format"]), (&json!(12), &json!("glTF")));
+    assert_eq!((&report["triangles"], &report["model"]["format"]), (&json!(12), &json!("glTF")));
 }
 
 #[test]

@@ -68,9 +68,9 @@ fn check_lists_groups_kinds_and_what_is_left_out() {
     assert_eq!(mesh.models.len(), 1);
     let mut all = models.contents(&written);
     all[0].file = "house.ifc".to_owned();
-    let table = gnomon::export::check::table(&mesh.mesh, &[], mesh.frame, &[], &all, &Options);
+    let table = gnomon::export::check::table(&mesh.mesh, &[], mesh.frame, &[], &all, &[], &Options);
     for line in [
-        "house.ifc: glTF, says no unit, y up, by custom\n",
+        "house.ifc: glTF\n",
         "  kinds: 1 building, 1 terrain, 1 ground cover\n",
         "  groups: \"surroundings\" (2), \"default\" (1)\n",
         "  left out: 12 IfcSpace: they do not stand there\n",
