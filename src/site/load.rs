@@ -140,21 +140,7 @@ impl Site {
         // Cheap and quick to fail; models come last.
         let track = study::track(&place, written, asked)?;
         let method = method(written, asked)?;
-        if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
-            let message = message![
-                "is the depth of the paper's hextree";
-                "say ", (Field::Silhouette, "hextree"), " with it, or leave it out"
-            ];
-            return Err(refuse(FieldLocation::Field(Field::HextreeDepth), message));
-        }
-        // a NaN is not above zero either
-        if let Some(width) = asked.settings.smoothie_width_m.filter(|width| !(width.is_finite() && *width > 0.0)) {
-            let message = message![
-                format!("{width} is no width");
-                "write metres above 0, for example ", (Field::SmoothieWidth, "0.5")
-            ];
-            return Err(refuse(FieldLocation::Field(Field::SmoothieWidth), message));
-        }
+        check_settings(asked)?;
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
         let level = ground::level(written, asked)?;
@@ -192,6 +178,26 @@ impl Site {
             settings: asked.settings,
         })
     }
+}
+
+/// Errs where an option has no use, or no value that can be taken.
+fn check_settings(asked: &Overrides) -> Result<(), SiteError> {
+    if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
+        let message = message![
+            "is the depth of the paper's hextree";
+            "say ", (Field::Silhouette, "hextree"), " with it, or leave it out"
+        ];
+        return Err(refuse(FieldLocation::Field(Field::HextreeDepth), message));
+    }
+    // a NaN is not above zero either
+    if let Some(width) = asked.settings.smoothie_width_m.filter(|width| !(width.is_finite() && *width > 0.0)) {
+        let message = message![
+            format!("{width} is no width");
+            "write metres above 0, for example ", (Field::SmoothieWidth, "0.5")
+        ];
+        return Err(refuse(FieldLocation::Field(Field::SmoothieWidth), message));
+    }
+    Ok(())
 }
 
 fn method(written: &WrittenSite, asked: &Overrides) -> Result<Method, SiteError> {

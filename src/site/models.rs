@@ -107,26 +107,18 @@ impl Models {
         for ((model, components), likeness) in models.iter().zip(&likenesses) {
             notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
         }
-        // a bare model stands in its own coordinates where nobody says a place
-        let has_place = !written.is_bare_model() || written.site.place.is_some() || proposed.is_some();
-        notes.extend(notes::of_all(&mesh, is_on_earth).filter(|_| has_place).map(Message::from));
+        let is_placed = stands_at_a_place(written, proposed.as_ref());
+        notes.extend(notes::of_all(&mesh, is_on_earth).filter(|_| is_placed).map(Message::from));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
-        let of_model = models.into_iter().map(|(_, components)| components).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
-        let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
-        let mark = FxBuildHasher.hash_one((
-            bytemuck::cast_slice::<_, u8>(&mesh.vertices),
-            bytemuck::cast_slice::<_, u8>(&mesh.faces),
-            mesh.origin.to_array().map(f64::to_bits),
-            names.collect::<Vec<_>>(),
-        ));
+        let mark = mark(&mesh);
         let place = is_on_earth.then(|| proposed.as_ref().or(written.site.place.as_ref()).map(numbers)).flatten();
         Ok(Models {
             mesh,
             bounds,
             notes,
             likenesses,
-            of_model,
+            of_model: models.into_iter().map(|(_, components)| components).collect(),
             contents,
             see_through,
             sources,
@@ -232,6 +224,22 @@ impl Models {
         }
         notes
     }
+}
+
+/// Whether models stand at a place; a bare model stands in its own coordinates where nobody says one.
+fn stands_at_a_place(written: &WrittenSite, proposed: Option<&PlaceTable>) -> bool {
+    !written.is_bare_model() || written.site.place.is_some() || proposed.is_some()
+}
+
+/// A number of all that a mesh is, names too.
+fn mark(mesh: &Mesh) -> u64 {
+    let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
+    FxBuildHasher.hash_one((
+        bytemuck::cast_slice::<_, u8>(&mesh.vertices),
+        bytemuck::cast_slice::<_, u8>(&mesh.faces),
+        mesh.origin.to_array().map(f64::to_bits),
+        names.collect::<Vec<_>>(),
+    ))
 }
 
 /// Says which materials of a model light passes that cast as solid, the most frequent first.

@@ -114,9 +114,7 @@ impl Pair {
         (first.ground.lowest, second.ground.lowest) = (lowest, lowest);
         second.ground.from = first.ground.from;
 
-        let names = [first.place.name.trim(), after_name.trim()];
-        let told_apart = composed(names[0]) != composed(names[1]) && names.iter().all(|name| !name.is_empty());
-        let names = if told_apart { names.map(str::to_owned) } else { [before.file.clone(), after.file.clone()] };
+        let names = told_apart([&first.place.name, &after_name], [before, after]);
         second.place.name = after_name;
         Ok(Pair { before: first, after: second, names })
     }
@@ -127,6 +125,13 @@ impl Pair {
         notes.extend(self.after.notes.iter().filter(|note| !self.before.notes.contains(note)).cloned());
         notes
     }
+}
+
+/// What people call two states: their places' names where those differ, else their files.
+fn told_apart(places: [&str; 2], files: [&WrittenSite; 2]) -> [String; 2] {
+    let names = places.map(str::trim);
+    let told_apart = composed(names[0]) != composed(names[1]) && names.iter().all(|name| !name.is_empty());
+    if told_apart { names.map(str::to_owned) } else { files.map(|written| written.file.clone()) }
 }
 
 /// The name of the place of `after`; or why it is another place than that of `before`.
