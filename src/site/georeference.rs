@@ -269,7 +269,9 @@ fn zero(anchor: &Anchor, asked: Option<&Crs>, farthest_m: f64) -> Result<Anchore
                 return Err(place_doubts::zero(said_by));
             }
             let height_m = height.filter(|height| height.is_finite());
-            let on_map = DVec3::new(*easting, *northing, height_m.unwrap_or_default());
+            // anchors are in metres, and maps may be in feet
+            let [easting, northing] = [easting, northing].map(|metres| metres / crs.unit_m());
+            let on_map = DVec3::new(easting, northing, height_m.unwrap_or_default());
             let at = crs.to_wgs84(on_map).ok_or_else(|| {
                 let what = format!(
                     "says by its {said_by} that it stands at {easting}, {northing} in {}, which does not reach there",
