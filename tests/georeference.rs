@@ -282,6 +282,17 @@ fn units_of_maps_are_theirs() {
     let model = Model { unit_m: Some(0.001), ..sheet(true_sheet().map(|at| at * 1000.0)) };
     let site = one("crs = \"EPSG:25832\"", model).expect("millimetres");
     assert_near(&corners(&site.mesh, 0), &true_drawing(), 0.002);
+    // an anchor is in metres, also on a map in feet
+    let metres = [at.x, at.y].map(|feet| feet * 1200.0 / 3937.0);
+    let point = AnchorPoint::Map {
+        crs: "EPSG:2263".to_owned(),
+        easting: metres[0],
+        northing: metres[1],
+        height: Some(0.0),
+        scale: 1.0,
+    };
+    let site = load(place, &[("a.glb", anchored(vec![Anchor { at: point, ..map_anchor(0.0) }]))]).expect("New York");
+    assert_near(&corners(&site.mesh, 0)[..1], &[DVec3::ZERO], 0.005);
     // a drawing in feet that stands on a map keeps its own size
     let anchor = Anchor {
         at: AnchorPoint::Map {

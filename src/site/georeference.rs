@@ -246,46 +246,53 @@ fn zero(anchor: &Anchor, asked: Option<&Crs>, farthest_m: f64) -> Result<Anchore
             let north = anchor.north_rad.map(AnchoredNorth::True);
             Ok(AnchoredZero { at: Some(at), has_height: height_m.is_some(), on_map: None, north })
         }
-        AnchorPoint::Map { crs: text, easting, northing, height, .. } => {
-            let read;
-            let crs = match asked {
-                Some(asked) => asked,
-                None if text.trim().is_empty() => {
-                    let what = format!("says by its {said_by} where on a map it stands, and not on which map");
-                    return Err(message![what; "write `crs` under [[model]], for example crs = \"EPSG:25832\""]);
-                }
-                None => {
-                    read = Crs::read(text).map_err(|error| {
-                        let what = format!(
-                            "says by its {said_by} where it stands, but {}",
-                            error.in_words(&crate::message::PlainWords)
-                        );
-                        message![what; "or write `crs` under [[model]]"]
-                    })?;
-                    &read
-                }
-            };
-            if *easting == 0.0 && *northing == 0.0 && farthest_m < FAR_FROM_ZERO_M {
-                return Err(place_doubts::zero(said_by));
-            }
-            let height_m = height.filter(|height| height.is_finite());
-            let on_map = DVec3::new(*easting, *northing, height_m.unwrap_or_default());
-            let at = crs.to_wgs84(on_map).ok_or_else(|| {
-                let what = format!(
-                    "says by its {said_by} that it stands at {easting}, {northing} in {}, which does not reach there",
-                    crs.name()
-                );
-                message![what; "write `crs` or `position` under [[model]]"]
-            })?;
-            let north = anchor.north_rad.map(AnchoredNorth::Map);
-            Ok(AnchoredZero {
-                at: Some(at),
-                has_height: height_m.is_some(),
-                on_map: Some((crs.clone(), on_map)),
-                north,
-            })
+        AnchorPoint::Map { crs, easting, northing, height, .. } => {
+            let named = crs_of_anchor(crs, asked, said_by)?;
+            zero_on_map(anchor, named, DVec3::new(*easting, *northing, 0.0), *height, farthest_m)
         }
     }
+}
+
+/// The system of an anchor on a map: the user's word, else the file's.
+fn crs_of_anchor(text: &str, asked: Option<&Crs>, said_by: &str) -> Result<Crs, Message> {
+    match asked {
+        Some(asked) => Ok(asked.clone()),
+        None if text.trim().is_empty() => {
+            let what = format!("says by its {said_by} where on a map it stands, and not on which map");
+            Err(message![what; "write `crs` under [[model]], for example crs = \"EPSG:25832\""])
+        }
+        None => Crs::read(text).map_err(|error| {
+            let what = format!("says by its {said_by} where it stands, but {error}");
+            message![what; "or write `crs` under [[model]]"]
+        }),
+    }
+}
+
+/// Where an anchor on a map puts the zero: easting and northing in metres, on maps in feet as well.
+fn zero_on_map(
+    anchor: &Anchor,
+    crs: Crs,
+    metres: DVec3,
+    height: Option<f64>,
+    farthest_m: f64,
+) -> Result<AnchoredZero, Message> {
+    let said_by = anchor.said_by;
+    if metres == DVec3::ZERO && farthest_m < FAR_FROM_ZERO_M {
+        return Err(place_doubts::zero(said_by));
+    }
+    let height_m = height.filter(|height| height.is_finite());
+    let on_map = (metres / crs.unit_m()).with_z(height_m.unwrap_or_default());
+    let at = crs.to_wgs84(on_map).ok_or_else(|| {
+        let what = format!(
+            "says by its {said_by} that it stands at {}, {} in {}, which does not reach there",
+            metres.x,
+            metres.y,
+            crs.name()
+        );
+        message![what; "write `crs` or `position` under [[model]]"]
+    })?;
+    let north = anchor.north_rad.map(AnchoredNorth::Map);
+    Ok(AnchoredZero { at: Some(at), has_height: height_m.is_some(), on_map: Some((crs, on_map)), north })
 }
 
 /// The north of a map that is not known, where nobody says more: off by the map's convergence, which is told.

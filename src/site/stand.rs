@@ -104,20 +104,9 @@ fn anchored(
     placement: &Placement,
     frame: &SiteFrame,
 ) -> Result<(DVec3, f64, Option<Message>), KeyFault> {
-    let at_place = || placement.position.unwrap_or_default();
     let Some(at) = zero.at else {
-        let by_anchor = true_north(zero).unwrap_or_default();
-        let north = placement.north_rad.unwrap_or(by_anchor);
-        let differs = half_turn(north - by_anchor).abs() > ONE_NORTH_RAD;
-        let note = match placement.north_rad {
-            Some(_) if differs => Some(message![said_north(said_by, by_anchor, north)]),
-            None if by_anchor.abs() > ONE_NORTH_RAD => {
-                let what = format!("is turned as its {said_by} says: north is {}", angle(by_anchor));
-                Some(message![what; "`north` under [[model]] changes it"])
-            }
-            _ => None,
-        };
-        return Ok((at_place(), north, note));
+        let (north, note) = turned_alone(zero, said_by, placement);
+        return Ok((placement.position.unwrap_or_default(), north, note));
     };
     // without a height the zero lies as high as the place
     let place_height = frame.local.elevation_m();
@@ -177,6 +166,22 @@ fn anchored(
     let note =
         (!said.is_empty()).then(|| message![said.join("; "); "`position` and `north` under [[model]] change it"]);
     Ok((position, north, note))
+}
+
+/// The north of a model whose file says no place.
+fn turned_alone(zero: &AnchoredZero, said_by: &str, placement: &Placement) -> (f64, Option<Message>) {
+    let by_anchor = true_north(zero).unwrap_or_default();
+    let north = placement.north_rad.unwrap_or(by_anchor);
+    let differs = half_turn(north - by_anchor).abs() > ONE_NORTH_RAD;
+    let note = match placement.north_rad {
+        Some(_) if differs => Some(message![said_north(said_by, by_anchor, north)]),
+        None if by_anchor.abs() > ONE_NORTH_RAD => {
+            let what = format!("is turned as its {said_by} says: north is {}", angle(by_anchor));
+            Some(message![what; "`north` under [[model]] changes it"])
+        }
+        _ => None,
+    };
+    (north, note)
 }
 
 fn said_north(said_by: &str, by_anchor: f64, north: f64) -> String {
