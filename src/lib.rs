@@ -60,6 +60,8 @@ pub mod choice;
 #[doc(hidden)]
 pub mod contour;
 #[doc(hidden)]
+pub mod crs;
+#[doc(hidden)]
 pub mod look;
 pub mod mesh;
 pub mod sun;

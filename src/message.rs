@@ -2,6 +2,7 @@
 //!
 //! An error or a note names a [`Field`], and a face has [`Words`] for it: the command an option, the window a label.
 
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 
@@ -9,7 +10,7 @@ use std::fmt;
 macro_rules! fields {
     ($($(#[$doc:meta])* $field:ident => $name:literal,)+) => {
         /// What can be asked.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
         pub enum Field { $($(#[$doc])* $field,)+ }
 
         impl Field {
@@ -27,12 +28,20 @@ macro_rules! fields {
 fields! {
     /// Latitude and longitude.
     Place => "place",
+    /// Several model files at once.
+    Models => "models",
     /// The axis of all models that is up.
     Up => "up",
+    /// From the ground to the roof of a footprint whose file says no height.
+    DefaultHeight => "default height",
+    /// How long a reader of models may take.
+    ReadTime => "time to read a model",
+    /// How much memory a reader of models may take.
+    ReadMemory => "memory to read a model",
+    /// The list of what a model holds, and of what was left out.
+    Check => "check",
     /// The height of the ground.
     Ground => "ground",
-    /// The height of footprints of which a file says none.
-    DefaultHeight => "default height",
     /// The day of the study.
     Date => "date",
     /// The first of several days.
@@ -143,7 +152,7 @@ impl Default for &dyn Words {
 }
 
 /// A piece of what is said.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Piece {
     /// As it is.
     Text(Cow<'static, str>),
@@ -165,9 +174,9 @@ pub enum Piece {
     /// A key that a person may set in whatever site, where a face has a word for it.
     Setting {
         /// With its brackets.
-        table: &'static str,
+        table: Cow<'static, str>,
         /// In that table.
-        key: &'static str,
+        key: Cow<'static, str>,
         /// What it is to be set to.
         value: Option<String>,
         /// How a site file has it, in a sentence.
@@ -208,7 +217,7 @@ impl From<(Field, String)> for Piece {
 }
 
 /// What is wrong, or what is to be known; and apart from it what can be done.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Message {
     /// What is wrong.
     pub what: Vec<Piece>,
@@ -240,12 +249,12 @@ pub(crate) fn aside(field: Field) -> Piece {
 
 /// A key that may be set, as a sentence has it that speaks of a site file.
 pub(crate) fn setting(table: &'static str, key: &'static str, written: &'static str) -> Piece {
-    Piece::Setting { table, key, value: None, written: written.into() }
+    Piece::Setting { table: table.into(), key: key.into(), value: None, written: written.into() }
 }
 
 /// The same with the value that it is to have.
 pub(crate) fn set_to(table: &'static str, key: &'static str, value: String, written: String) -> Piece {
-    Piece::Setting { table, key, value: Some(value), written: written.into() }
+    Piece::Setting { table: table.into(), key: key.into(), value: Some(value), written: written.into() }
 }
 
 impl From<String> for Message {

@@ -347,7 +347,18 @@ fn check_says_what_is_wrong() {
             "from": json["components"][0]["places"]["open"][0]["from"],
             "to": json["components"][0]["places"]["open"][0]["to"]}]}});
     let frame = "metres along the file's own axes, turned z up (x, −z, y of the glTF)";
-    assert_eq!(json, json!({"triangles": 10, "vertices": 8, "frame": frame, "components": [part], "notes": []}));
+    let model = json!({"name": "open.glb", "unit_m": 1.0, "unit_is_said": false, "up": "y", "up_is_said": false, "crs": null,
+        "said_by": null, "place": null, "anchors": [], "north_deg": 0.0, "convergence_deg": null,
+        "file": "open.glb", "format": "glTF", "kinds": {"building": 1}, "groups": [{"name": "default", "components": 1}],
+        "left_out": []});
+    let said =
+        json!({"triangles": 10, "vertices": 8, "model": model, "frame": frame, "components": [part], "notes": []});
+    assert_eq!(json, said);
+    assert!(dirty.contains("\nopen.glb: glTF\n"), "{dirty}");
+    assert!(
+        clean.contains("tower.glb: unit 1 m (assumed), y up (assumed), north 0.00°, no place on Earth\n"),
+        "{clean}"
+    );
     assert!(dirty.contains("  tower: a hole of 4 edges, 40.00 m around, near (0.000, 0.000, 20.000)\n"), "{dirty}");
     // A site's models, and neither place nor study is asked for.
     std::fs::write(folder.path().join("bare.toml"), "[[model]]\npath = \"open.glb\"\n").unwrap();

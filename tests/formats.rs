@@ -1,15 +1,21 @@
 //! Formats of model files: what is read of each, what is told, and one building that each writes in its own way.
 
+mod apart;
 pub(crate) mod building;
 mod city;
 mod compressed;
+mod convert;
 mod dae;
 mod dxf;
 mod foreign;
 #[cfg(feature = "ifc")]
 mod ifc;
+mod kept;
+mod kinds;
+mod mutations;
 mod obj;
 mod ply;
+mod several;
 mod stl;
 mod terrain;
 

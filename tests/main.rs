@@ -7,6 +7,7 @@ mod circles;
 mod clock;
 mod command;
 mod counts;
+mod crs;
 mod daylight;
 mod deliver;
 #[cfg(feature = "desktop")]
@@ -20,6 +21,7 @@ mod far;
 mod folders;
 mod formats;
 mod geometry;
+mod georeference;
 mod gpu_silhouettes;
 mod live;
 mod look;

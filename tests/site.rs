@@ -8,7 +8,7 @@ use gnomon::formats::{Model, ModelError, ReadOptions, Up};
 use gnomon::mesh::Part;
 use gnomon::message::Worded;
 use gnomon::site::file::SiteFile;
-use gnomon::site::{Models, Overrides, Site, SiteError, WrittenSite, load_sun};
+use gnomon::site::{LoadedSun, Models, Overrides, Site, SiteError, WrittenSite, load_sun};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -182,10 +182,10 @@ fn a_site_is_a_file_a_folder_or_a_model_with_its_place() {
     let sun = |path: &Path, asked: &Overrides| load_sun(path, asked);
     assert_eq!(sun(folder.path(), &none).unwrap(), sun(&file, &none).unwrap());
     let model = folder.path().join("tower.glb");
-    let error = sun(&model, &none).expect_err("no place");
+    let error = Site::load_with(&model, &none, tower).expect_err("no place, also by its file");
     assert!(error.is_wrong_use() && error.in_words(&Options).contains("--place"), "{error}");
     let asked = Overrides { place: some("-33.8568, 151.2153"), at: some("2026-09-18T15:00"), ..none.clone() };
-    let (place, track) = sun(&model, &asked).unwrap();
+    let LoadedSun { place, track, .. } = sun(&model, &asked).unwrap();
     assert_eq!((place.latitude_deg, place.time_zone.name()), (-33.8568, "Australia/Sydney"));
     assert_eq!(track.instants.len(), 1);
     assert_eq!(Site::load_with(&model, &asked, tower).unwrap().casts, [true, true]);

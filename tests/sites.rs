@@ -144,7 +144,7 @@ fn faults(positions: &[DVec3], solid: &[[u32; 3]]) -> Vec<String> {
 
 #[test]
 fn the_files_are_what_the_maker_draws() {
-    for (path, bytes) in make::models() {
+    for (path, bytes) in make::files() {
         let found = std::fs::read(on_disk(path)).unwrap_or_default();
         assert!(found == bytes, "sites/{path} is not what `cargo run --example make-sites` writes");
         assert!(bytes.len() < 5 << 20, "{path} has {} bytes", bytes.len());

@@ -9,7 +9,7 @@ use super::progress::Progress;
 use crate::deliver::Folder;
 use crate::deliver::animation::{AnimationAnswer, AnimationRequest, FPS, WIDTH, animation};
 use crate::export::figure;
-use crate::site::{Overrides, Site, inputs};
+use crate::site::{Overrides, Site};
 use crate::study::Stopwatch;
 use clap::{Args, value_parser};
 use std::path::PathBuf;
@@ -54,10 +54,10 @@ impl AnimateArgs {
 pub(super) fn animate(asked: &AnimateArgs) -> anyhow::Result<()> {
     let watch = Stopwatch::start();
     asked.view.check(&asked.plan.given())?;
-    let site = Site::load(&asked.site.path, &asked.overrides())?;
+    let site = Site::load(asked.site.path(), &asked.overrides())?;
     let request = AnimationRequest { view: asked.view.of(&site), width: asked.width, fps: asked.fps, watch };
     let mut progress = Progress::new(asked.common.quiet);
-    let folder = Folder { path: &asked.out, who: &who(), inputs: &inputs(&asked.site.path)? };
+    let folder = Folder { path: &asked.out, who: &who(), inputs: &asked.site.inputs()? };
     let AnimationAnswer { gif, frames, report, drawn } =
         animation(&site, &request, folder, &mut |event| progress.heard(&event))?;
     if asked.common.json {

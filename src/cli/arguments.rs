@@ -9,10 +9,10 @@ pub(super) use super::technique::DrawArgs;
 use super::technique::{self, FinderArgs, MapArgs};
 use super::wrong_use::WrongUse;
 use crate::choice::Receivers;
-use crate::site::Overrides;
+use crate::site::{Overrides, SiteError, inputs};
 use crate::study::verify::SIZE;
 use clap::{Args, ValueEnum, value_parser};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What every subcommand takes.
 #[derive(Debug, Args)]
@@ -31,9 +31,9 @@ pub(super) struct Common {
 /// Where.
 #[derive(Debug, Args)]
 pub(super) struct SiteArgs {
-    /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
-    #[arg(value_name = "SITE")]
-    pub(super) path: PathBuf,
+    /// A site file, a folder that holds a site.toml, or one or more models together with --place
+    #[arg(value_name = "SITE", required = true)]
+    paths: Vec<PathBuf>,
     #[command(flatten)]
     place: PlaceArgs,
     #[command(flatten)]
@@ -199,7 +199,7 @@ pub(super) enum ShowArg {
 
 #[derive(Debug, Args)]
 pub(super) struct SunArgs {
-    /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
+    /// A site file, a folder that holds a site.toml, or a model together with --place
     #[arg(value_name = "SITE")]
     pub(super) path: PathBuf,
     #[command(flatten)]
@@ -215,7 +215,7 @@ pub(super) struct SunArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// A model (.glb, .gltf), or a site with its models
+    /// A model, or a site with its models
     #[arg(value_name = "MODEL")]
     pub(super) path: PathBuf,
     #[command(flatten)]
@@ -269,7 +269,18 @@ pub(super) struct VerifyArgs {
 
 impl SiteArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        self.ground.onto(self.place.overrides())
+        let beside = self.paths.get(1..).unwrap_or_default().to_vec();
+        Overrides { beside, ..self.ground.onto(self.place.overrides()) }
+    }
+
+    /// The site, or the first of several models.
+    pub(super) fn path(&self) -> &Path {
+        self.paths.first().map_or(Path::new(""), PathBuf::as_path)
+    }
+
+    /// The files that the request is read from.
+    pub(super) fn inputs(&self) -> Result<Vec<PathBuf>, SiteError> {
+        Ok(self.paths.iter().map(|path| inputs(path)).collect::<Result<Vec<_>, _>>()?.concat())
     }
 }
 

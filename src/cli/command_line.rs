@@ -3,7 +3,10 @@
 use super::animate::AnimateArgs;
 use super::arguments::{CheckArgs, Common, ProfileArgs, ShadowArgs, SunArgs, VerifyArgs, VolumesArgs};
 use super::compare::CompareArgs;
+use super::convert::ConvertArgs;
 use super::probe::ProbeArgs;
+use super::read_model::ReadModelArgs;
+use crate::formats::child;
 use crate::sun::ZoneRules;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -42,6 +45,8 @@ pub(super) enum Command {
     Sun(SunArgs),
     /// What a model's mesh is: components, triangles, open, crowded, flipped and degenerate parts
     Check(CheckArgs),
+    /// A model as glTF, in metres and y up, components and all: to see what was read, and for other programs
+    Convert(ConvertArgs),
     /// The shadow volumes at one instant as solids down to the ground, in a .glb for other programs
     Volumes(VolumesArgs),
     /// Every technique against ray casting on this site: how many cells differ, how far, by how many hours
@@ -49,19 +54,23 @@ pub(super) enum Command {
     Verify(VerifyArgs),
     /// When points lie in the sun, on a day or over a range of dates: to the second, and what blocks in between
     Probe(ProbeArgs),
+    /// A model, read for the program itself
+    #[command(name = child::SUBCOMMAND, hide = true)]
+    ReadModel(ReadModelArgs),
 }
 
 impl Command {
     /// What every command takes; the window takes nothing.
     pub(super) fn common(&self) -> Option<&Common> {
         Some(match self {
-            Command::Open(_) => return None,
+            Command::Open(_) | Command::ReadModel(_) => return None,
             Command::Profile(asked) => &asked.common,
             Command::Compare(asked) => &asked.common,
             Command::Shadow(asked) => &asked.common,
             Command::Animate(asked) => &asked.common,
             Command::Sun(asked) => &asked.common,
             Command::Check(asked) => &asked.common,
+            Command::Convert(asked) => &asked.common,
             Command::Volumes(asked) => &asked.common,
             Command::Verify(asked) => &asked.common,
             Command::Probe(asked) => &asked.common,
@@ -71,7 +80,7 @@ impl Command {
 
 #[derive(Debug, Args)]
 pub(super) struct OpenArgs {
-    /// A site file, a folder that holds a site.toml, or a model (.glb, .gltf), which is asked for its place
+    /// A site file, a folder that holds a site.toml, or a model, which is asked for its place
     #[arg(value_name = "SITE|MODEL")]
     pub(super) path: PathBuf,
 }

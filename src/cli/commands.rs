@@ -15,7 +15,7 @@ use crate::export::figure::Diagram;
 use crate::export::{check, file, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Provenance, Statistics};
-use crate::site::{Ground, LoadedMesh, Site, inputs, load_mesh, load_sun};
+use crate::site::{Ground, LoadedMesh, LoadedSun, Site, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         return Err(WrongUse("--out and --mask name the same file; name two".to_owned()).into());
     }
 
-    let site = Site::load(&asked.site.path, &asked.overrides())?;
+    let site = Site::load(asked.site.path(), &asked.overrides())?;
     // the site file may name the technique
     if diagram == Some(Diagram::Mask) && !site.method.row().shows_mask {
         let techniques = listed(&showing_mask(), "or");
@@ -68,7 +68,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         watch,
     };
     let mut progress = Progress::new(asked.common.quiet);
-    let sink = Sink::Paths { inputs: &inputs(&asked.site.path)? };
+    let sink = Sink::Paths { inputs: &asked.site.inputs()? };
     let answer = instant::instant(&site, &request, sink, &mut |event| progress.heard(&event))?;
     if asked.common.json {
         return say(&answer.report);
@@ -118,9 +118,9 @@ pub(super) fn took(statistics: &Statistics) -> String {
 
 /// `gnomon sun`
 pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
-    let (place, track) = load_sun(&asked.path, &asked.overrides())?;
+    let LoadedSun { place, track, notes } = load_sun(&asked.path, &asked.overrides())?;
     let mut progress = Progress::new(asked.common.quiet);
-    track.notes().into_iter().for_each(|note| progress.hear(&Event::Note(note)));
+    notes.into_iter().chain(track.notes()).for_each(|note| progress.hear(&Event::Note(note)));
     match asked.common.json {
         true => say(&report::sun_json(&place, &track)?),
         false => say(&report::sun_table(&place, &track)),
@@ -129,13 +129,14 @@ pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
 
 /// `gnomon check`
 pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
-    let LoadedMesh { mesh, frame, notes } = load_mesh(&asked.path, &asked.model.onto(nothing_asked()))?;
+    let LoadedMesh { mesh, frame, notes, models, references } =
+        load_mesh(&asked.path, &asked.model.onto(nothing_asked()))?;
     interrupt::check()?;
     let components = mesh_report::components(&mesh);
     interrupt::check()?;
     match asked.common.json {
-        true => say(&check::json(&mesh, &components, frame, &notes, &Options)?),
-        false => say(&check::table(&mesh, &components, frame, &notes, &Options)),
+        true => say(&check::json(&mesh, &components, frame, &notes, &models, &references, &Options)?),
+        false => say(&check::table(&mesh, &components, frame, &notes, &models, &references, &Options)),
     }
 }
 

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(super) struct CompareArgs {
-    /// The site as it is: a site file, a folder that holds a site.toml, or a model (.glb, .gltf) together with --place
+    /// The site as it is: a site file, a folder that holds a site.toml, or a model together with --place
     #[arg(value_name = "BEFORE")]
     before: PathBuf,
     /// The site as it is to be; what says no place stands where the first does

@@ -3,8 +3,14 @@
 use crate::study::StudyError;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock};
 
-static ASKED: AtomicBool = AtomicBool::new(false);
+static ASKED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+
+/// Set by Ctrl-C.
+pub(super) fn asked() -> &'static Arc<AtomicBool> {
+    &ASKED
+}
 
 /// Hears Ctrl-C from now on. Where the system does not let us, it ends the program as it always does.
 pub(super) fn listen() {

@@ -7,6 +7,7 @@ mod arguments;
 mod command_line;
 mod commands;
 mod compare;
+mod convert;
 mod draw;
 mod eye;
 mod interrupt;
@@ -18,6 +19,7 @@ mod patches;
 mod probe;
 mod profile;
 mod progress;
+mod read_model;
 mod technique;
 mod verify;
 mod volumes;
@@ -76,6 +78,10 @@ pub fn main(window: Option<WindowOpener>) -> ExitCode {
 }
 
 fn run(command: &Command) -> anyhow::Result<()> {
+    if let Command::ReadModel(asked) = command {
+        // Ctrl-C ends it at once, as whoever asks for it
+        return read_model::read_model(asked);
+    }
     let threads = command.common().and_then(|common| common.threads);
     // this thread is one of them: work does not go to and fro between it and others that wait meanwhile
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).use_current_thread();
@@ -94,8 +100,9 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Volumes(asked) => volumes::volumes(asked),
         Command::Verify(asked) => verify::verify(asked),
         Command::Probe(asked) => probe::probe(asked),
-        // main's own
-        Command::Open(_) => Ok(()),
+        Command::Convert(asked) => convert::convert(asked),
+        // main's own, and answered above
+        Command::Open(_) | Command::ReadModel(_) => Ok(()),
     }
 }
 
@@ -107,7 +114,8 @@ fn status(error: &anyhow::Error) -> u8 {
         || error.downcast_ref().is_some_and(ExportError::is_wrong_use)
         || error.downcast_ref().is_some_and(DeliverError::is_wrong_use);
     let interrupted = matches!(error.downcast_ref(), Some(StudyError::Interrupted))
-        || error.downcast_ref().is_some_and(DeliverError::is_interrupted);
+        || error.downcast_ref().is_some_and(DeliverError::is_interrupted)
+        || error.downcast_ref().is_some_and(SiteError::is_given_up);
     match (interrupted, wrong_use) {
         (true, _) => 130,
         (_, true) => 2,

@@ -1,19 +1,66 @@
 //! How models are read, and where the ground lies below them.
 
-use crate::formats::Up;
+use super::memory;
+use crate::formats::{ModelReader, ReadLimits, Up};
 use crate::site::Overrides;
+use crate::sun::parse_duration_secs;
 use clap::Args;
+use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(super) struct ModelArgs {
-    /// Which axis of the models is up, y or z, whatever the site file says [default: y, as glTF has it]
+    /// Which axis of the models is up, y or z, whatever the site file says [default: as the format has it]
     #[arg(long, value_name = "AXIS")]
     pub(super) up: Option<Up>,
+    /// How high buildings are whose footprints say no height, metres
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = height)]
+    default_height: Option<f64>,
+    #[command(flatten)]
+    reading: ReadingArgs,
+}
+
+/// Within which limits models are read.
+#[derive(Debug, Args)]
+struct ReadingArgs {
+    /// Read models anew, and keep nothing of them for the next time
+    #[arg(long)]
+    no_cache: bool,
+    /// How long a reader that runs in a process of its own may take for a model [default: 10min]
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    read_time: Option<Duration>,
+    /// How much memory it may take, as 8GiB [default: three quarters of the machine's]
+    #[arg(long, value_name = "SIZE", value_parser = memory::parse)]
+    read_memory: Option<u64>,
 }
 
 impl ModelArgs {
     pub(super) fn onto(&self, asked: Overrides) -> Overrides {
-        Overrides { up: self.up, ..asked }
+        let reading = self.reading.onto(asked.reading);
+        Overrides { up: self.up, default_height: self.default_height, reading, ..asked }
+    }
+}
+
+impl ReadingArgs {
+    fn onto(&self, usual: ModelReader) -> ModelReader {
+        ModelReader {
+            limits: ReadLimits { time: self.read_time.unwrap_or(usual.limits.time), memory: self.read_memory },
+            cache: usual.cache.filter(|_| !self.no_cache),
+            ..usual
+        }
+    }
+}
+
+/// Metres above zero.
+fn height(text: &str) -> Result<f64, String> {
+    let height = text.parse().ok().filter(|height: &f64| height.is_finite() && *height > 0.0);
+    height.ok_or_else(|| "write metres above 0, for example 9".to_owned())
+}
+
+/// As long as a step of a study.
+fn duration(text: &str) -> Result<Duration, String> {
+    match parse_duration_secs(text) {
+        Ok(secs @ 1..) => Ok(Duration::from_secs(secs.into())),
+        _ => Err("write a time above 0, for example 30min or 1h".to_owned()),
     }
 }
 

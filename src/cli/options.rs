@@ -1,11 +1,14 @@
 //! What the command calls the fields of a request: its options.
 
+use super::interrupt;
+use crate::formats::ModelReader;
 use crate::message::{Field, Words};
 use crate::site::Overrides;
 
-/// Nothing is asked yet; what is noted is noted in the command's words.
+/// Nothing is asked yet; what is noted is noted in the command's words, and models are read as the program does.
 pub(super) fn nothing_asked() -> Overrides {
-    Overrides { words: &Options, ..Overrides::default() }
+    let reading = ModelReader::of_this_program().until(interrupt::asked());
+    Overrides { words: &Options, reading, ..Overrides::default() }
 }
 
 /// The command's words.
@@ -17,8 +20,12 @@ impl Words for Options {
         Some(match field {
             Field::Place => "--place",
             Field::Up => "--up",
-            Field::Ground => "--ground",
+            Field::Models => "SITE",
             Field::DefaultHeight => "--default-height",
+            Field::ReadTime => "--read-time",
+            Field::ReadMemory => "--read-memory",
+            Field::Check => "gnomon check",
+            Field::Ground => "--ground",
             Field::Date => "--date",
             Field::FromDate => "--from-date",
             Field::ToDate => "--to-date",

@@ -7,7 +7,7 @@ use super::progress::Progress;
 use super::wrong_use::WrongUse;
 use crate::deliver::patches::{PatchesRequest, patches as deliver};
 use crate::deliver::{Folder, Sink};
-use crate::site::{Site, inputs};
+use crate::site::Site;
 use crate::study::Stopwatch;
 use std::fmt::Write;
 
@@ -35,7 +35,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, watch: Stopwatch) -> any
         watch,
     };
     let mut progress = Progress::new(asked.common.quiet);
-    let sink = Sink::Folder(Folder { path: &asked.out, who: &who(), inputs: &inputs(&asked.site.path)? });
+    let sink = Sink::Folder(Folder { path: &asked.out, who: &who(), inputs: &asked.site.inputs()? });
     let answer = deliver(site, &request, sink, &mut |event| progress.heard(&event))?;
     if asked.common.json {
         return say(&answer.report);

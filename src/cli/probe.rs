@@ -10,7 +10,7 @@ use super::wrong_use::WrongUse;
 use crate::deliver::Sink;
 use crate::deliver::probe::{ProbeAnswer, ProbeRequest, probe as deliver};
 use crate::export::probe as told;
-use crate::site::{Overrides, inputs, load_probes};
+use crate::site::{Overrides, load_probes};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -78,10 +78,10 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
             return Err(WrongUse(what).into());
         }
     }
-    let probing = load_probes(&asked.site.path, &asked.overrides())?;
+    let probing = load_probes(asked.site.path(), &asked.overrides())?;
     let request = ProbeRequest { drawing: asked.out.clone(), table: asked.csv.clone(), words: &Options };
     let mut progress = Progress::of("days", asked.common.quiet);
-    let sink = Sink::Paths { inputs: &inputs(&asked.site.path)? };
+    let sink = Sink::Paths { inputs: &asked.site.inputs()? };
     let ProbeAnswer { sunlight, written } = deliver(&probing, &request, sink, &mut |event| progress.heard(&event))?;
     match asked.common.json {
         true => say(&told::json(&sunlight, &probing.place, &probing.ground, (&probing.notes, &Options))?),

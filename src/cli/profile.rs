@@ -8,14 +8,14 @@ use super::progress::Progress;
 use crate::choice::Receivers;
 use crate::deliver::profile::{ProfileAnswer, ProfileRequest, profile as deliver};
 use crate::deliver::{Folder, Sink};
-use crate::site::{Site, inputs};
+use crate::site::Site;
 use crate::study::Stopwatch;
 use std::fmt::Write;
 
 /// `gnomon profile`
 pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let watch = Stopwatch::start();
-    let site = Site::load(&asked.site.path, &asked.overrides())?;
+    let site = Site::load(asked.site.path(), &asked.overrides())?;
     if site.receivers == Receivers::Patches {
         return patches::profile(asked, &site, watch);
     }
@@ -33,7 +33,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         watch,
     };
     let mut progress = Progress::new(asked.common.quiet);
-    let sink = Sink::Folder(Folder { path: &asked.out, who: &who(), inputs: &inputs(&asked.site.path)? });
+    let sink = Sink::Folder(Folder { path: &asked.out, who: &who(), inputs: &asked.site.inputs()? });
     let answer = deliver(&site, &request, sink, &mut |event| progress.heard(&event))?;
     if asked.common.json {
         return say(&answer.report);

@@ -5,6 +5,7 @@
 
 pub mod animation;
 pub mod comparison;
+pub mod conversion;
 pub mod disk;
 mod error;
 pub mod instant;

@@ -9,6 +9,7 @@ use crate::desktop::app::device::devices;
 use crate::desktop::app::state::App;
 use crate::desktop::event_loop::{self, Panic};
 use crate::desktop::parts::theme;
+use crate::formats::ModelReader;
 use crate::gpu::{Gpu, GpuError};
 use anyhow::anyhow;
 use eframe::egui::layers::GraphicLayers;
@@ -30,15 +31,24 @@ const MOMENT: Duration = Duration::from_secs(60);
 /// # Errors
 /// No display, or no graphics adapter.
 pub fn open(path: Option<&Path>) -> anyhow::Result<()> {
-    open_with(path, &|_| (), &mut |_, _| ())
+    open_reading(path, &ModelReader::of_this_program(), &|_| (), &mut |_, _| ())
 }
 
-/// The same with further options for eframe, and an eye on each frame: for tests.
+/// The same with further options for eframe, and an eye on each frame: for tests. Models are read in this process.
 ///
 /// # Errors
 /// As [`open`].
 pub fn open_with(
     path: Option<&Path>,
+    set: &dyn Fn(&mut NativeOptions),
+    on_frame: &mut dyn FnMut(&mut App, &egui::Context),
+) -> anyhow::Result<()> {
+    open_reading(path, &ModelReader::default(), set, on_frame)
+}
+
+fn open_reading(
+    path: Option<&Path>,
+    reading: &ModelReader,
     set: &dyn Fn(&mut NativeOptions),
     on_frame: &mut dyn FnMut(&mut App, &egui::Context),
 ) -> anyhow::Result<()> {
@@ -56,7 +66,7 @@ pub fn open_with(
         let note = ways.note.take();
         let create: AppCreator<'_> = Box::new(move |cc| {
             match slot {
-                None => *slot = Some(App::new(cc, path)?.recovering()),
+                None => *slot = Some(App::with_reader(cc, path, reading.clone())?.recovering()),
                 Some(app) => app.move_to(cc, egui.as_ref())?,
             }
             *egui = Some(cc.egui_ctx.clone());

@@ -1,12 +1,13 @@
 //! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the places
 //! that matter most.
 
+use super::model_lines::{self, ModelLines};
 use super::places::{self, DefectKind};
-use super::{ExportError, report};
+use super::{ExportError, contents, report};
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
 use crate::message::{Field, Message, Words, message};
-use crate::site::CoordinateFrame;
+use crate::site::{CoordinateFrame, ModelContents, ModelReference};
 use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
@@ -14,13 +15,15 @@ use std::fmt::Write;
 /// A table is cut to about so many rows, a screen; `--json` has all.
 const MOST_ROWS: usize = 40;
 /// Rows that are always there, and those that a kind takes with its worst places.
-const FIXED_ROWS: usize = 9;
+const FIXED_ROWS: usize = 11;
 const PLACES_A_KIND: usize = 3;
 
 #[derive(Serialize)]
 struct MeshReport<'a> {
     triangles: usize,
     vertices: usize,
+    #[serde(flatten)]
+    models: ModelLines<'a>,
     frame: &'static str,
     components: Vec<ComponentLine<'a>>,
     notes: Vec<String>,
@@ -49,6 +52,8 @@ pub fn json(
     components: &[ComponentReport],
     frame: CoordinateFrame,
     notes: &[Message],
+    models: &[ModelContents],
+    references: &[ModelReference],
     words: &dyn Words,
 ) -> Result<String, ExportError> {
     let lines = components.iter().map(|component| ComponentLine {
@@ -66,6 +71,7 @@ pub fn json(
     report::json(&MeshReport {
         triangles: triangles(components),
         vertices: mesh.vertices.len(),
+        models: ModelLines::of(references, models),
         frame: places::frame(frame),
         components: lines.collect(),
         notes: report::said(notes, words),
@@ -79,6 +85,8 @@ pub fn table(
     components: &[ComponentReport],
     frame: CoordinateFrame,
     notes: &[Message],
+    models: &[ModelContents],
+    references: &[ModelReference],
     words: &dyn Words,
 ) -> String {
     let mut table = format!(
@@ -87,6 +95,8 @@ pub fn table(
         counted(triangles(components), "triangle", "triangles"),
         counted(mesh.vertices.len(), "vertex", "vertices"),
     );
+    table.push_str(&contents::table(models, words));
+    table.push_str(&model_lines::table(references));
     for note in notes {
         // Writing to a String cannot fail.
         let _ = writeln!(table, "note: {}", plain(&note.in_words(words)));

@@ -7,18 +7,23 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is counted
 //! before memory is taken.
 
+mod cache;
+pub mod child;
 mod city;
 mod citygml;
 mod cityjson;
 mod crs;
 mod dae;
 mod dxf;
+mod encoded;
+mod exact;
 mod footprints;
 pub mod gltf;
 mod ifc;
 mod json_head;
 mod left_out;
 mod model;
+mod model_reader;
 mod names;
 mod obj;
 mod ply;
@@ -32,12 +37,15 @@ mod tiles3d;
 mod vertices;
 mod whole;
 
+pub use cache::{CacheEntry, ModelCache};
 pub use model::{
     Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,
     SeeThrough, Up,
 };
+pub use model_reader::{ModelReader, ReadLimits};
 pub(crate) use names::{composed, on_disk};
 pub(crate) use refused::refusal;
+pub(crate) use terrain::POINT_CLASSES;
 
 use crate::message::message;
 use std::fs::File;
@@ -74,6 +82,11 @@ pub trait Format: Sync {
     /// Whether the reader is others' code, which runs in a process of its own with limits.
     fn is_foreign(&self) -> bool {
         false
+    }
+
+    /// Whether what was read is kept, as reading the file takes longer than reading that back.
+    fn is_kept(&self) -> bool {
+        self.is_foreign()
     }
 
     /// The files that a file names: they lie beside it, and are its user's, whether they are read or not.
@@ -136,12 +149,18 @@ fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> {
     })
 }
 
-/// Reads a model file of any format; every part has triangles, and there is at least one.
+/// Reads a file as one of a format.
+fn read_as(format: &dyn Format, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+    Model { format: format.name(), ..format.read(path, options)? }.checked()
+}
+
+/// Reads a model file of any format, in this process; every part has triangles, and there is at least one. [`ModelReader`] has
+/// limits and a cache.
 ///
 /// # Errors
 /// What is wrong with the file, with the way out.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
-    let read = || format_of(path)?.read(path, options)?.checked();
+    let read = || read_as(format_of(path)?, path, options);
     read().map_err(|fault| ModelError { file: path.to_owned(), fault })
 }
 

@@ -1,14 +1,18 @@
 //! What every reader gives: parts in the file's own coordinates, what these are, and what was left out.
 
+use super::exact::{self, option as exact_option};
 use super::{MAX_COMPONENTS, MAX_TRIANGLES, gltf};
 use crate::mesh::Part;
 use crate::message::{Message, message};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::PathBuf;
 
 /// What a model file gives.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
+    /// What people call the file's format; [`super::read`] says it.
+    pub format: &'static str,
     /// In the file's order. Positions are in the file's own units, axes and coordinates; so are the steps of what is
     /// written coarsely.
     pub parts: Vec<Part>,
@@ -22,6 +26,9 @@ pub struct Model {
     pub unit_m: Option<f64>,
     /// What the coordinates are.
     pub coordinates: Coordinates,
+    /// Whether heights are measured from the ground, which the file does not know: its parts stand on the terrain below
+    /// them, where there is any.
+    pub stands_on_ground: bool,
     /// Where the file says that its own zero lies, the most exact first. Where several disagree, all are shown.
     pub anchors: Vec<Anchor>,
     /// What was in the file and could not be taken, or does not stand there.
@@ -33,7 +40,7 @@ pub struct Model {
 }
 
 /// What a part is, and so what it does where nobody says it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PartKind {
     /// It casts and receives.
     #[default]
@@ -44,15 +51,30 @@ pub enum PartKind {
     GroundCover,
 }
 
+impl PartKind {
+    /// All of them.
+    pub const ALL: [PartKind; 3] = [PartKind::Building, PartKind::Terrain, PartKind::GroundCover];
+
+    /// What people call it.
+    pub fn word(self) -> &'static str {
+        match self {
+            PartKind::Building => "building",
+            PartKind::Terrain => "terrain",
+            PartKind::GroundCover => "ground cover",
+        }
+    }
+}
+
 /// What a file's coordinates are.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Coordinates {
     /// The drawing's own.
     #[default]
     Local,
     /// Of a map, or of the Earth: x is the easting or longitude, y the northing or latitude, z the height; Earth-centred ones
-    /// are x, y, z. The text is the reference system as the file says it: `EPSG:25832`, a name, WKT or PROJ's text. Longitudes
-    /// and latitudes are in degrees, heights in metres.
+    /// are x, y, z. The text is the reference system as the file says it: `EPSG:25832`, a name, WKT or PROJ's text. Eastings
+    /// and northings are in the system's unit, longitudes and latitudes in degrees. Heights are in the unit that `unit_m`
+    /// says; where it says none, in that which the system has for heights (a compound one), else in metres.
     Map(String),
 }
 
@@ -69,28 +91,35 @@ pub struct Anchor {
 }
 
 /// A point of a map, or of the Earth.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum AnchorPoint {
     /// Of a map.
     Map {
         /// As in [`Coordinates::Map`]; empty where the file does not name it.
         crs: String,
         /// Metres.
+        #[serde(with = "exact")]
         easting: f64,
         /// Metres.
+        #[serde(with = "exact")]
         northing: f64,
         /// Metres, where the file says it.
+        #[serde(with = "exact_option")]
         height: Option<f64>,
         /// Metres on the map a unit of the file.
+        #[serde(with = "exact")]
         scale: f64,
     },
     /// Of the Earth, in WGS 84.
     Geographic {
         /// Degrees, north positive.
+        #[serde(with = "exact")]
         latitude_deg: f64,
         /// Degrees, east positive.
+        #[serde(with = "exact")]
         longitude_deg: f64,
         /// Metres, where the file says it.
+        #[serde(with = "exact_option")]
         elevation_m: Option<f64>,
     },
     /// The file says only which way north is.
@@ -98,7 +127,7 @@ pub enum AnchorPoint {
 }
 
 /// Things of a kind that were left out.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeftOut {
     /// In the file's own terms: `IfcSpace`, `3DSOLID`.
     pub what: String,
@@ -109,7 +138,7 @@ pub struct LeftOut {
 }
 
 /// A material that is cut out or translucent.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SeeThrough {
     /// Its name, by which `casts` may mean it.
     pub material: String,
@@ -118,7 +147,7 @@ pub struct SeeThrough {
 }
 
 /// Which of a model's axes is up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Up {
     /// As glTF has it: x is east, and −z north.
     #[default]
@@ -147,15 +176,18 @@ impl fmt::Display for SceneName {
 }
 
 /// What is asked of a file, beside the file itself.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReadOptions {
     /// Which of several scenes; the file's default one where none is said.
     pub scene: Option<SceneName>,
     /// Numbers that are written in coarser steps than this are told, in the file's units.
+    #[serde(with = "exact")]
     pub told_step: f64,
     /// Metres from the ground to the roof of a footprint whose file says no height.
+    #[serde(with = "exact_option")]
     pub default_height_m: Option<f64>,
     /// How far a thinned terrain may lie from its heights, metres.
+    #[serde(with = "exact")]
     pub terrain_error_m: f64,
     /// The classes of measured points that stand there beside the ground: `building`, `vegetation`.
     pub point_classes: Vec<String>,
@@ -197,6 +229,24 @@ pub enum ModelFault {
     Gltf(gltf::Fault),
     /// With one of another format: what, whose subject is the file, and the way out.
     Unusable(Message),
+    /// Nobody wants it any more.
+    GivenUp,
+}
+
+impl ModelError {
+    /// What is wrong, and what can be done.
+    pub fn message(&self) -> Message {
+        let file = self.file.display().to_string();
+        match &self.fault {
+            ModelFault::Unusable(message) => Message::clone(message).of(file.into()),
+            fault => format!("{file}: {fault}").into(),
+        }
+    }
+
+    /// Whether nothing is wrong, and somebody ended the reading.
+    pub fn is_given_up(&self) -> bool {
+        matches!(self.fault, ModelFault::GivenUp)
+    }
 }
 
 impl std::error::Error for ModelFault {}
@@ -206,6 +256,7 @@ impl fmt::Display for ModelFault {
         match self {
             ModelFault::Gltf(fault) => fault.fmt(f),
             ModelFault::Unusable(message) => message.fmt(f),
+            ModelFault::GivenUp => f.write_str("was not read to its end, as somebody ended that"),
         }
     }
 }
@@ -240,9 +291,14 @@ impl Model {
         self.kinds.get(part).copied().unwrap_or_default()
     }
 
+    /// How many triangles it has.
+    pub fn triangles(&self) -> u64 {
+        self.parts.iter().map(|part| part.triangles.len() as u64).sum()
+    }
+
     /// The model, where it holds to what every reader promises.
     pub(super) fn checked(self) -> Result<Self, ModelFault> {
-        let triangles: u64 = self.parts.iter().map(|part| part.triangles.len() as u64).sum();
+        let triangles = self.triangles();
         if triangles == 0 {
             return Err(message![
                 "has no triangles, so nothing casts a shadow"; "export what stands there as a mesh or as solids"
@@ -252,6 +308,11 @@ impl Model {
         if triangles > MAX_TRIANGLES {
             let what = format!("has {triangles} triangles, and a model may have {MAX_TRIANGLES}");
             return Err(message![what; "export it in parts or with less detail"].into());
+        }
+        let corners: u64 = self.parts.iter().map(|part| part.positions.len() as u64).sum();
+        if corners > 3 * MAX_TRIANGLES {
+            let what = format!("has {corners} corners, more than {MAX_TRIANGLES} triangles can have");
+            return Err(message![what; "export it without points that no face has"].into());
         }
         if self.parts.len() > MAX_COMPONENTS {
             let what = format!("has {} components, and a model may have {MAX_COMPONENTS}", self.parts.len());

@@ -52,6 +52,8 @@ pub enum SiteError {
     NoPlaceForModel {
         /// As the user named it.
         path: String,
+        /// What its file says of a place that is none.
+        said: Option<Box<Message>>,
     },
     /// A model in a format that is not read: which, with the way out.
     UnknownFormat(Message),
@@ -152,7 +154,11 @@ impl Worded for SiteError {
                 "give a site file, a folder with a site.toml, or a model",
                 Piece::Where(Field::Place, pieces![" with ", (Field::Place, "LAT,LON")])
             ],
-            SiteError::NoPlaceForModel { path } => message![
+            SiteError::NoPlaceForModel { said: Some(said), .. } => Message {
+                hint: pieces!["say where it stands with ", (Field::Place, "LAT,LON")],
+                ..Message::clone(said)
+            },
+            SiteError::NoPlaceForModel { path, said: None } => message![
                 format!("{path} is a model: say where it stands with "),
                 (Field::Place, "LAT,LON"),
                 ", for example ",
@@ -189,7 +195,7 @@ impl Worded for SiteError {
             SiteError::EmptyMesh => {
                 message!["the mesh holds no triangles, so nothing casts a shadow"; "give it parts that do"]
             }
-            SiteError::Model(error) => error.to_string().into(),
+            SiteError::Model(error) => error.message(),
             SiteError::Mesh(error) => error.to_string().into(),
         }
     }
@@ -214,6 +220,11 @@ impl SiteError {
     /// A fault of place or time, where it was asked.
     pub(super) fn sun(at: FieldLocation, error: SunError) -> SiteError {
         SiteError::Sun { at, error: Box::new(error) }
+    }
+
+    /// Whether nothing is wrong, and somebody ended the reading of a model.
+    pub fn is_given_up(&self) -> bool {
+        matches!(self, SiteError::Model(error) if error.is_given_up())
     }
 
     /// Whether the command line was wrong (exit status 2) rather than a file (exit status 1).

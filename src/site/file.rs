@@ -47,6 +47,18 @@ pub struct PlaceTable {
     pub elevation: Option<f64>,
     /// IANA name.
     pub time_zone: Option<String>,
+    /// The model's file that proposed it, where one did; a text has it in a comment.
+    #[serde(skip)]
+    pub source: Option<PlaceSource>,
+}
+
+/// Which file proposed a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaceSource {
+    /// The file, and what in it: `house.ifc, IfcSite`.
+    pub said: String,
+    /// The latitude and longitude that it proposed: other ones are a person's.
+    pub at: [f64; 2],
 }
 
 /// `[[model]]`
@@ -64,6 +76,14 @@ pub struct ModelTable {
     pub position: Option<[f64; 3]>,
     /// Metres per model unit.
     pub scale: Option<f64>,
+    /// Metres from the ground to the roof of a footprint without a height.
+    pub default_height: Option<f64>,
+    /// How far a thinned terrain may lie from its heights, metres.
+    pub terrain_error: Option<f64>,
+    /// The classes of measured points that stand there beside the ground.
+    pub classes: Option<Vec<String>>,
+    /// The reference system of its coordinates.
+    pub crs: Option<String>,
     /// What casts.
     #[serde(default, skip_serializing_if = "is_default")]
     pub casts: Names,

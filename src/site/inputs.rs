@@ -1,7 +1,7 @@
 //! Which files a request is read from, so that no answer is written over one of them.
 
 use super::SiteError;
-use super::models::placed;
+use super::model_table::placed;
 use super::written::WrittenSite;
 use crate::formats;
 use crate::formats::on_disk;
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// What cannot be read, and what is wrong with a site file's form.
 pub fn inputs(path: &Path) -> Result<Vec<PathBuf>, SiteError> {
     let path = &*on_disk(path);
-    let written = WrittenSite::read_as_it_is(path, true)?;
+    let written = WrittenSite::read_as_it_is(path)?;
     let file = if path.is_dir() { path.join("site.toml") } else { path.to_owned() };
     Ok(iter::once(file).chain(written.model_files()).collect())
 }

@@ -92,11 +92,11 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .means("What drawings and reports call the place."),
     key("place", "latitude", ValueType::Number, "latitude = 48.8583")
         .unit("degrees")
-        .default("must be written")
+        .default("must be written, but where a model's file says the place")
         .means("North is positive, −90 to 90."),
     key("place", "longitude", ValueType::Number, "longitude = 2.2945")
         .unit("degrees")
-        .default("must be written")
+        .default("as `latitude`")
         .means("East is positive, −180 to 180."),
     key("place", "elevation", ValueType::Number, "elevation = 35.0")
         .unit("metres")
@@ -107,7 +107,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .means("The IANA name of the zone whose clock is read."),
     key("model", "path", ValueType::Text, "path = \"tower.glb\"")
         .default("must be written")
-        .means("The file, glTF or GLB: relative to the site file, or absolute."),
+        .means("The file, of any format of [formats.md](formats.md): relative to the site file, or absolute."),
     key("model", "scene", ValueType::TextOrNumber, "scene = \"existing\"")
         .default("the file's default scene, or its first")
         .means(
@@ -117,13 +117,13 @@ pub const SITE_KEYS: &[SiteKey] = &[
     key("model", "up", ValueType::Word(up_words), "up = \"z\"")
         .default("`\"y\"`, as glTF has it")
         .means("Which axis of the model points upwards."),
-    key("model", "north", ValueType::Number, "north = 0.0").unit("degrees").default("0").means(
+    key("model", "north", ValueType::Number, "north = 0.0").unit("degrees").default("as the file says, else 0").means(
         "The angle clockwise from the model's north to true north. The model's north is −z, or +y where z is \
              up.",
     ),
     key("model", "position", ValueType::Numbers(3), "position = [0.0, 0.0, 0.0]")
         .unit("metres")
-        .default("`[0, 0, 0]`")
+        .default("where the file says, else `[0, 0, 0]`")
         .means(
             "Where the model's origin lies, east, north and up of the place. The model is scaled first, then \
              turned, then moved.",
@@ -132,9 +132,28 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .unit("metres")
         .default("1")
         .means("The length of one unit of the model: 0.001 for a model in millimetres."),
+    key("model", "default_height", ValueType::Number, "default_height = 9.0")
+        .unit("metres")
+        .default("none: such footprints are refused")
+        .means("How high a building is whose footprint says no height."),
+    key("model", "terrain_error", ValueType::Number, "terrain_error = 0.1")
+        .unit("metres")
+        .default("0.1")
+        .means("How far a raster of heights may lie from the triangles that it becomes, at most."),
+    key("model", "classes", ValueType::Names, "classes = [\"building\", \"vegetation\"]")
+        .default("the ground alone")
+        .means(
+            "Of measured points, which classes stand there beside the ground: `building`, `vegetation`, `bridge`, `water`.",
+        ),
+    key("model", "crs", ValueType::Text, "crs = \"EPSG:25832\"")
+        .default("as the file says")
+        .means(
+            "The reference system of the model's coordinates, which gives position and north: its number in the EPSG dataset, \
+             its name, WKT, or PROJ's text. See [georeference.md](georeference.md).",
+        ),
     key("model", "casts", ValueType::Names, "casts = [\"roof\", \"walls\"]").default("true").means(
-        "What casts shadows: everything, nothing, or what the names name; `\"!glass\"` takes out what is named \
-             glass.",
+        "What casts shadows: everything but what lies on the ground, nothing, or what the names name; `\"!glass\"` \
+             takes out what is named glass.",
     ),
     key("model", "receives", ValueType::Names, "receives = true")
         .default("true")

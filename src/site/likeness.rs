@@ -3,7 +3,6 @@
 //! Many files do not say it: glTF is in metres and y up, STL by custom z up, and many a program exports something else. Only keys that nobody wrote
 //! are doubted; who writes `scale` or `up` has decided.
 
-use super::placement::Placement;
 use crate::formats::{Model, Up};
 use crate::mesh::{Component, Mesh};
 use crate::message::{Field, Message, Piece, message, pieces, set_to};
@@ -187,15 +186,20 @@ impl TakenFrame {
     }
 }
 
-/// Looks at a model: its components, and where it stands; only at what nobody said.
-pub(super) fn of(mesh: &Mesh, components: &[Component], placement: &Placement, taken: TakenFrame) -> Vec<Mend> {
+/// Looks at a model: its components, and how it was turned and moved; only at what nobody said.
+pub(super) fn of(
+    mesh: &Mesh,
+    components: &[Component],
+    (north_rad, position): (f64, DVec3),
+    taken: TakenFrame,
+) -> Vec<Mend> {
     if taken.unit_is_said && taken.up_is_said {
         return Vec::new();
     }
-    let upright_from_world = DMat3::from_rotation_z(-placement.north_rad);
+    let upright_from_world = DMat3::from_rotation_z(-north_rad);
     let corner = |vertex: u32| {
         let world = mesh.origin + mesh.vertices[vertex as usize].as_dvec3();
-        upright_from_world * (world - placement.position)
+        upright_from_world * (world - position)
     };
     let of_faces = |faces: &[[u32; 3]], only_home: bool| {
         let mut measured = ModelMeasures::NOTHING;

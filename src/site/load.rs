@@ -1,15 +1,15 @@
 //! The request as written → as meant.
 
+use super::contents::ModelContents;
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
-use super::likeness::TakenFrame;
-use super::models::{Models, note_see_through};
+use super::model_place::ModelReference;
+use super::models::Models;
 use super::overrides::{Overrides, refuse};
-use super::placement::Placement;
 use super::written::WrittenSite;
-use super::{Ground, Site, camera, ground, likeness, notes, plan, study};
+use super::{Ground, Site, camera, ground, notes, plan, study};
 use crate::choice::{ChoiceError, Finder, Method, Receivers};
-use crate::formats::{self, Model, ModelError, ReadOptions, on_disk};
+use crate::formats::{self, Model, ModelError, ReadOptions};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::message::{Field, Message, message};
@@ -23,15 +23,29 @@ pub(super) const SHADOW_CUT: f64 = 4.3;
 /// As [`SHADOW_CUT`], for what the default camera must see.
 pub(super) const VIEW_CUT: f64 = 1.5;
 
-/// The place and its sun alone; the models are not read.
+/// A place and its sun, without what stands there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedSun {
+    /// Where on Earth.
+    pub place: Place,
+    /// The instants asked.
+    pub track: SunTrack,
+    /// Where the place is from, where a model's file says it.
+    pub notes: Vec<Message>,
+}
+
+/// The place and its sun alone; the models are not read, but where nobody else says the place.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form, its place and its study.
-pub fn load_sun(path: &Path, asked: &Overrides) -> Result<(Place, SunTrack), SiteError> {
-    let written = WrittenSite::read(path, asked)?;
+pub fn load_sun(path: &Path, asked: &Overrides) -> Result<LoadedSun, SiteError> {
+    let as_written = WrittenSite::read(path, asked)?;
+    let (written, _) =
+        as_written.located(|| Models::read(&as_written, |path, options| asked.reading.read(path, options)))?;
     let place = written.place(asked)?;
     let track = study::track(&place, &written, asked)?;
-    Ok((place, track))
+    let notes = written.place_note().into_iter().collect();
+    Ok(LoadedSun { place, track, notes })
 }
 
 /// Whose coordinates a mesh has.
@@ -52,6 +66,10 @@ pub struct LoadedMesh {
     pub frame: CoordinateFrame,
     /// What the user should know of how they were read, as [`Site::notes`].
     pub notes: Vec<Message>,
+    /// What each file holds.
+    pub models: Vec<ModelContents>,
+    /// What is said of the coordinates of each.
+    pub references: Vec<ModelReference>,
 }
 
 /// The models alone: of a model file as it is, or of a site's models where they stand; [`Overrides::up`] goes before what a
@@ -60,36 +78,28 @@ pub struct LoadedMesh {
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
 pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError> {
-    let up = asked.up;
-    if formats::by_ending(path).is_some() && !path.is_dir() {
-        let placement = Placement { up, ..Placement::default() };
-        let model = placement.place(formats::read(&on_disk(path), &placement.read_options())?);
-        let taken = TakenFrame::of_file(&model).written(false, up.is_some());
-        let Model { parts, notes, see_through, .. } = model;
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let seen_through = note_see_through(&see_through, &vec![true; parts.len()]);
-        let mut notes: Vec<Message> = notes.into_iter().chain(seen_through).map(|note| note.about(&name)).collect();
-        let mesh = Mesh::build(parts)?;
-        let mends = likeness::of(&mesh, &mesh.components, &placement, taken);
-        let of_model = notes::of_model(&mesh, &name, 0..mesh.components.len(), &mends);
-        notes.extend(of_model);
-        return Ok(LoadedMesh { mesh, frame: CoordinateFrame::Model, notes });
-    }
-    let written = WrittenSite::read(path, &Overrides { up, ..Overrides::default() })?;
-    let models = Models::read(&written, formats::read)?;
+    let Overrides { up, default_height, .. } = *asked;
+    let mut written = WrittenSite::read(path, &Overrides { up, default_height, ..Overrides::default() })?;
+    let is_bare = formats::by_ending(path).is_some() && !path.is_dir();
+    let models = Models::read(&written, |path, options| asked.reading.read(path, options))?;
     let [casts, _] = models.roles(&written)?;
-    let notes = models.notes(&written, &casts);
-    Ok(LoadedMesh { mesh: models.mesh, frame: CoordinateFrame::Place, notes })
+    // what was left out is listed
+    let mut notes = models.notes_without_contents(&written, &casts);
+    written.site.place = written.site.place.or_else(|| models.proposed_place().cloned());
+    notes.splice(..0, written.place_note());
+    let (references, contents) = (models.references().to_vec(), models.contents(&written));
+    let frame = if is_bare && !models.stand_on_earth() { CoordinateFrame::Model } else { CoordinateFrame::Place };
+    Ok(LoadedMesh { mesh: models.mesh, frame, notes, models: contents, references })
 }
 
 impl Site {
     /// Reads and checks a request: `path` is a site file, a folder that holds a `site.toml`,
-    /// or a model file together with `asked.place`.
+    /// or a model file, which says its place, or together with `asked.place`.
     ///
     /// # Errors
     /// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
     pub fn load(path: &Path, asked: &Overrides) -> Result<Site, SiteError> {
-        Self::load_with(path, asked, formats::read)
+        Self::load_with(path, asked, |path, options| asked.reading.read(path, options))
     }
 
     /// As [`Site::load`], with another reader of model files.
@@ -128,6 +138,8 @@ impl Site {
         asked: &Overrides,
         models: impl FnOnce() -> Result<Models, SiteError>,
     ) -> Result<Site, SiteError> {
+        let (written, models) = written.located(models)?;
+        let written = &*written;
         let place = written.place(asked)?;
         // Cheap and quick to fail; models come last.
         let track = study::track(&place, written, asked)?;
@@ -138,7 +150,8 @@ impl Site {
         let level = ground::level(written, asked)?;
         let models = models()?.with_terrain(written)?;
         let [casts, receives] = models.roles(written)?;
-        let mut notes = models.notes(written, &casts);
+        let mut notes: Vec<Message> = written.place_note().into_iter().collect();
+        notes.extend(models.notes(written, &casts));
         let Models { mesh, bounds, likenesses, .. } = models;
         let ground = Ground::of(&mesh, bounds, &receives, level);
         notes.extend(ground.notes(&mesh, &receives, receivers));
@@ -172,7 +185,7 @@ impl Site {
     }
 }
 
-/// Refuses a setting without the technique's part that it is of, and one that is no measure.
+/// Errs where an option has no use, or no value that can be taken.
 fn check_settings(asked: &Overrides) -> Result<(), SiteError> {
     if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
         let message = message![

@@ -4,27 +4,36 @@
 
 mod camera;
 mod choice;
+mod contents;
 mod dates;
 mod error;
 mod extent;
 #[doc(hidden)]
 pub mod file;
+mod georeference;
 mod ground;
 mod in_memory;
 mod inputs;
 mod key_table;
 mod keys;
+mod left_out;
 mod likeness;
 mod load;
+mod model_place;
+mod model_table;
 mod models;
 mod names;
 mod notes;
+mod on_terrain;
 mod overrides;
 mod pair;
+mod place_doubts;
+mod placed_model;
 mod placement;
 mod plan;
 mod probe;
 mod rewrite;
+mod stand;
 mod standing;
 mod study;
 mod terrain;
@@ -32,6 +41,8 @@ mod terrain;
 pub mod typed;
 mod written;
 
+#[doc(hidden)]
+pub use contents::{ModelContents, NameGroup};
 pub use error::{FieldLocation, SiteError};
 #[doc(hidden)]
 pub use ground::metres;
@@ -42,12 +53,16 @@ pub use inputs::inputs;
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
 pub use likeness::{Likeness, Mend};
 #[doc(hidden)]
-pub use load::{CoordinateFrame, LoadedMesh, load_mesh, load_sun};
+pub use load::{CoordinateFrame, LoadedMesh, LoadedSun, load_mesh, load_sun};
+#[doc(hidden)]
+pub use model_place::{ModelReference, anchor_text};
 #[doc(hidden)]
 pub use models::Models;
 pub use overrides::Overrides;
 #[doc(hidden)]
 pub use pair::Pair;
+#[doc(hidden)]
+pub use placed_model::{PlacedModel, load_model};
 #[doc(hidden)]
 pub use placement::Placement;
 #[doc(hidden)]

@@ -1,18 +1,21 @@
 //! The models of a site where they stand, and which of their components are chosen.
 
+use super::contents::ReadContents;
 use super::error::SiteError;
 use super::extent::Bounds;
-use super::file::Names;
+use super::file::{Names, PlaceTable};
+use super::georeference::Georeference;
 use super::ground::Ground;
-use super::keys;
 use super::likeness::{self, Likeness, TakenFrame};
-use super::notes;
+use super::model_place::{self, ModelReference};
+use super::model_table::placed;
 use super::overrides::refuse;
 use super::placement::Placement;
+use super::stand::{StandingModel, stand};
 use super::standing::{self, TerrainFaces};
 use super::written::WrittenSite;
-use crate::choice::ChoiceError;
-use crate::formats::{Model, ModelError, PartKind, ReadOptions, SeeThrough, on_disk};
+use super::{notes, on_terrain, place_doubts};
+use crate::formats::{Coordinates, Model, ModelError, PartKind, ReadOptions, SeeThrough, Up, on_disk};
 use crate::mesh::{Component, Mesh};
 use crate::message::{Message, few, message, set_to};
 use glam::DVec3;
@@ -38,10 +41,22 @@ pub struct Models {
     kinds: Vec<PartKind>,
     /// How the buildings of each model stand on the terrain.
     standing: Vec<Message>,
+    /// What else each model holds.
+    contents: Vec<ReadContents>,
     /// Each model's materials that light passes; its parts are counted among its own.
     see_through: Vec<Vec<SeeThrough>>,
     sources: Vec<Source>,
     mark: u64,
+    /// The place around which they stand, where one of them stands by the Earth.
+    place: Option<[Option<f64>; 3]>,
+    proposed: Option<PlaceTable>,
+    place_notes: Vec<Message>,
+    references: Vec<ModelReference>,
+}
+
+/// What of a place decides where models stand.
+fn numbers(table: &PlaceTable) -> [Option<f64>; 3] {
+    [table.latitude, table.longitude, table.elevation]
 }
 
 /// Where a model comes from, and where it stands.
@@ -67,45 +82,60 @@ impl Models {
         }
         // a file that changes while it is read has changed since
         let sources = sources(written)?;
+        let PlacedModels { models: mut placed, proposed, place_notes, references } = read_placed(written, &read_model)?;
+        on_terrain::settle(&mut placed);
+        let is_on_earth = placed.iter().any(|placed| placed.is_on_earth);
         let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut kinds = Vec::new();
-        // by each model's file, of unit and axis
-        let mut said = Vec::new();
-        for index in 0..sources.len() {
-            let model = model(written, index, &read_model)?;
-            said.push(TakenFrame::of_file(&model));
+        // by each model's file, of unit and axis; and how it was turned and moved
+        let (mut said, mut contents) = (Vec::new(), Vec::new());
+        for (index, placed) in placed.into_iter().enumerate() {
+            let model = placed.model;
+            said.push((TakenFrame::of_file(&model), (placed.north_rad, placed.position)));
             let first = parts.len();
             kinds.extend((0..model.parts.len()).map(|part| model.kind(part)));
+            contents.push(ReadContents::of(&model));
             parts.extend(model.parts);
             let name = name(written, index);
-            notes.extend(model.notes.into_iter().map(|note| note.about(name)));
+            notes.extend(model.notes.into_iter().chain(placed.notes).map(|note| note.about(name)));
             models.push((name.to_owned(), first..parts.len()));
             see_through.push(model.see_through);
         }
+        notes.extend(place_doubts::of_shifts(&references));
         let mesh = Mesh::build(parts)?;
-        let looks = |(index, source): (usize, &Source)| {
+        let looks = |(index, (taken, stands)): (usize, &(TakenFrame, (f64, DVec3)))| {
             let table = &written.site.model[index];
             let components = &mesh.components[models[index].1.clone()];
-            let taken = said[index].written(table.scale.is_some(), table.up.is_some());
-            Likeness { model: index, mends: likeness::of(&mesh, components, &source.placement, taken) }
+            let taken = taken.written(table.scale.is_some(), table.up.is_some());
+            Likeness { model: index, mends: likeness::of(&mesh, components, *stands, taken) }
         };
-        let likenesses: Vec<Likeness> = sources.iter().enumerate().map(looks).collect();
+        let likenesses: Vec<Likeness> = said.iter().enumerate().map(looks).collect();
         for ((model, components), likeness) in models.iter().zip(&likenesses) {
             notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
         }
-        notes.extend(notes::of_all(&mesh));
+        let is_placed = stands_at_a_place(written, proposed.as_ref());
+        notes.extend(notes::of_all(&mesh, is_on_earth).filter(|_| is_placed));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
-        let of_model = models.into_iter().map(|(_, components)| components).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
-        let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
-        let mark = FxBuildHasher.hash_one((
-            bytemuck::cast_slice::<_, u8>(&mesh.vertices),
-            bytemuck::cast_slice::<_, u8>(&mesh.faces),
-            mesh.origin.to_array().map(f64::to_bits),
-            names.collect::<Vec<_>>(),
-        ));
-        let standing = Vec::new();
-        let models = Models { mesh, bounds, notes, likenesses, of_model, kinds, standing, see_through, sources, mark };
+        let mark = mark(&mesh);
+        let place = is_on_earth.then(|| proposed.as_ref().or(written.site.place.as_ref()).map(numbers)).flatten();
+        let models = Models {
+            mesh,
+            bounds,
+            notes,
+            likenesses,
+            of_model: models.into_iter().map(|(_, components)| components).collect(),
+            kinds,
+            standing: Vec::new(),
+            contents,
+            see_through,
+            sources,
+            mark,
+            place,
+            proposed,
+            place_notes,
+            references,
+        };
         models.with_terrain(written)
     }
 
@@ -143,7 +173,30 @@ impl Models {
         let is_it = |(index, source): (usize, &Source)| {
             placed(written, index).is_ok_and(|(file, placement)| file == source.file && placement == source.placement)
         };
-        written.site.model.len() == self.sources.len() && self.sources.iter().enumerate().all(is_it)
+        // what stands by the Earth stands elsewhere around another place
+        let place = written.site.place.as_ref().or(self.proposed.as_ref()).map(numbers);
+        let is_there = self.place.is_none_or(|here| place == Some(here));
+        is_there && written.site.model.len() == self.sources.len() && self.sources.iter().enumerate().all(is_it)
+    }
+
+    /// Whether one of them stands by what is said of the Earth.
+    pub(super) fn stand_on_earth(&self) -> bool {
+        self.place.is_some()
+    }
+
+    /// The place that a model's file proposes, where the site file says none.
+    pub fn proposed_place(&self) -> Option<&PlaceTable> {
+        self.proposed.as_ref()
+    }
+
+    /// What is said of places that are none, where that leaves the site without one.
+    pub(super) fn place_notes(&self) -> &[Message] {
+        &self.place_notes
+    }
+
+    /// What each model's file, and the site file, say of its coordinates.
+    pub fn references(&self) -> &[ModelReference] {
+        &self.references
     }
 
     /// The first of the files that is no more what was read. A file that a `.gltf` names is not asked.
@@ -168,12 +221,19 @@ impl Models {
         self.of_model.iter().map(Range::len).collect()
     }
 
+    /// What was read of each model, and its components.
+    pub(super) fn by_model(&self) -> impl Iterator<Item = (&ReadContents, &[Component])> {
+        let of_model = self.of_model.iter().map(|range| &self.mesh.components[range.clone()]);
+        self.contents.iter().zip(of_model)
+    }
+
     /// Per component whether it casts, and whether it receives, as a request says it.
     pub(super) fn roles(&self, written: &WrittenSite) -> Result<[Vec<bool>; 2], SiteError> {
         let mut roles = [Vec::new(), Vec::new()];
         for (index, (table, of_model)) in written.site.model.iter().zip(&self.of_model).enumerate() {
             let components = &self.mesh.components[of_model.clone()];
-            roles[0].extend(chosen(written, index, "casts", &table.casts, components)?);
+            chosen(written, index, "casts", &table.casts, components)?;
+            roles[0].extend(self.contents[index].casts(&table.casts, components));
             roles[1].extend(chosen(written, index, "receives", &table.receives, components)?);
         }
         Ok(roles)
@@ -182,6 +242,13 @@ impl Models {
     /// What the user should know of how they were read, and of what casts; each a sentence without its stop that names the
     /// model.
     pub(super) fn notes(&self, written: &WrittenSite, casts: &[bool]) -> Vec<Message> {
+        let mut notes = self.notes_without_contents(written, casts);
+        notes.extend(self.notes_on_contents(written));
+        notes
+    }
+
+    /// The same without what is listed by [`Models::contents`].
+    pub(super) fn notes_without_contents(&self, written: &WrittenSite, casts: &[bool]) -> Vec<Message> {
         let mut notes: Vec<Message> = self.notes.iter().chain(&self.standing).cloned().collect();
         for (index, (of_model, materials)) in self.of_model.iter().zip(&self.see_through).enumerate() {
             let casts = &casts[of_model.clone()];
@@ -192,8 +259,24 @@ impl Models {
     }
 }
 
+/// Whether models stand at a place; a bare model stands in its own coordinates where nobody says one.
+fn stands_at_a_place(written: &WrittenSite, proposed: Option<&PlaceTable>) -> bool {
+    !written.is_bare_model() || written.site.place.is_some() || proposed.is_some()
+}
+
+/// A number of all that a mesh is, names too.
+fn mark(mesh: &Mesh) -> u64 {
+    let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
+    FxBuildHasher.hash_one((
+        bytemuck::cast_slice::<_, u8>(&mesh.vertices),
+        bytemuck::cast_slice::<_, u8>(&mesh.faces),
+        mesh.origin.to_array().map(f64::to_bits),
+        names.collect::<Vec<_>>(),
+    ))
+}
+
 /// Says which materials of a model light passes that cast as solid, the most frequent first.
-pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<Message> {
+fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<Message> {
     let casting = |material: &SeeThrough| material.parts.iter().filter(|&&part| casts[part]).count();
     let mut found: Vec<_> = materials.iter().map(|it| (casting(it), it)).filter(|(count, _)| *count > 0).collect();
     found.sort_by_key(|(count, _)| Reverse(*count));
@@ -212,12 +295,50 @@ pub(super) fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Opti
     ])
 }
 
-/// Reads one of the models and puts it where it stands.
+/// All models where they stand, and what their files say of that.
+pub(super) struct PlacedModels {
+    pub(super) models: Vec<StandingModel>,
+    pub(super) proposed: Option<PlaceTable>,
+    pub(super) place_notes: Vec<Message>,
+    pub(super) references: Vec<ModelReference>,
+}
+
+/// Reads the models, and puts them into one frame: around the site's place, else around that which a file proposes.
+pub(super) fn read_placed(
+    written: &WrittenSite,
+    read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
+) -> Result<PlacedModels, SiteError> {
+    let mut read = Vec::new();
+    for index in 0..written.site.model.len() {
+        let (placement, mut model) = model(written, index, &read_model)?;
+        if matches!(model.coordinates, Coordinates::Map(_)) {
+            // a map's third coordinate is the height, whatever its format's axes are
+            (model.up, model.up_is_said) = (Up::Z, true);
+        }
+        let said = Georeference::of(&model, &placement).map_err(|fault| written.model_fault(index, fault))?;
+        read.push((placement, model, said));
+    }
+    let all = read.iter().enumerate().map(|(index, (_, model, said))| (name(written, index), model, said));
+    let (frame, proposed) = model_place::frame(written, all);
+    let mut placed = PlacedModels { models: Vec::new(), proposed, place_notes: Vec::new(), references: Vec::new() };
+    for (index, (placement, model, said)) in read.into_iter().enumerate() {
+        let name = name(written, index);
+        placed.references.push(ModelReference::of(name, &model, &placement, &said));
+        if frame.is_none() {
+            placed.place_notes.extend(said.notes.iter().cloned().map(|note| note.about(name)));
+        }
+        let standing = stand(model, &placement, said, frame.as_ref());
+        placed.models.push(standing.map_err(|fault| written.model_fault(index, fault))?);
+    }
+    Ok(placed)
+}
+
+/// Reads one of the models, as its file has it.
 fn model(
     written: &WrittenSite,
     index: usize,
     read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
-) -> Result<Model, SiteError> {
+) -> Result<(Placement, Model), SiteError> {
     let (file, placement) = placed(written, index)?;
     let file = on_disk(&file);
     if !file.is_file() {
@@ -227,11 +348,11 @@ fn model(
         true => refuse(written.model_key(index, "scene"), error.to_string()),
         false => error.into(),
     });
-    Ok(placement.place(read?))
+    Ok((placement, read?))
 }
 
 /// What people call a model: as the site file does.
-fn name(written: &WrittenSite, index: usize) -> &str {
+pub(super) fn name(written: &WrittenSite, index: usize) -> &str {
     written.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default()
 }
 
@@ -273,49 +394,6 @@ fn sources(written: &WrittenSite) -> Result<Vec<Source>, SiteError> {
 fn stamp(file: &Path) -> Option<(SystemTime, u64)> {
     let told = on_disk(file).metadata().ok()?;
     Some((told.modified().ok()?, told.len()))
-}
-
-/// Where one of the models lies, and where it stands.
-pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Placement), SiteError> {
-    let table = &written.site.model[index];
-    let at = |key: &str| written.model_key(index, key);
-    let Some(path) = &table.path else {
-        let model = keys::numbered("model", index, written.site.model.len());
-        return Err(written.missing(format!("path in {model}"), keys::example("model", "path")));
-    };
-    let north_deg = table.north.unwrap_or(0.0);
-    if !north_deg.is_finite() {
-        return Err(refuse(
-            at("north"),
-            message![format!("{north_deg} is no angle"); "write degrees, for example 0.0"],
-        ));
-    }
-    let position = DVec3::from_array(table.position.unwrap_or_default());
-    if !position.is_finite() {
-        return Err(refuse(
-            at("position"),
-            message![format!("{position} is no point"); "write metres, for example [0.0, 0.0, 0.0]"],
-        ));
-    }
-    let scale = table.scale;
-    // A NaN is not above zero either.
-    if let Some(scale) = scale
-        && !(scale.is_finite() && scale > 0.0)
-    {
-        return Err(refuse(
-            at("scale"),
-            message![
-                format!("{scale} is no scale");
-                "write metres per model unit above 0, for example 0.001 for millimetres"
-            ],
-        ));
-    }
-    let scene = table.scene.clone();
-    let up = match &table.up {
-        Some(word) => Some(word.parse().map_err(|error: ChoiceError| refuse(at("up"), error.to_string()))?),
-        None => None,
-    };
-    Ok((written.folder.join(path), Placement { scene, up, north_rad: north_deg.to_radians(), position, scale }))
 }
 
 /// Per component, whether a list of names (or all) means it.

@@ -38,6 +38,14 @@ impl Names {
         components.iter().map(|of| (!is_closed || has(of, &wanted)) && !has(of, &unwanted)).collect()
     }
 
+    /// Whether nothing is meant but what it names.
+    pub(super) fn means_only_named(&self, components: &[Component]) -> bool {
+        match self {
+            Names::All(all) => !all,
+            Names::Some(names) => list(names, components).is_closed,
+        }
+    }
+
     /// The first of the names that no component has, and the nearest that one has.
     pub(super) fn unknown(&self, components: &[Component]) -> Option<(String, String)> {
         let Names::Some(names) = self else { return None };

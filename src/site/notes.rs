@@ -14,14 +14,18 @@ const FAR_M: f64 = 20_000.0;
 /// coordinates always more.
 const ASKED_FAR_M: f64 = 50_000.0;
 
-/// The note on all models together, in the frame of a place.
-pub(super) fn of_all(mesh: &Mesh) -> Option<Message> {
+/// The note on all models together, in the frame of a place; whether a file says where on Earth they stand.
+pub(super) fn of_all(mesh: &Mesh, are_on_earth: bool) -> Option<Message> {
     let distance = mesh.origin.truncate().length();
     (distance > FAR_M).then(|| {
-        message![
-            format!("the models stand {:.0} km from the place", distance / 1000.0);
-            "if they are in map coordinates, bring them here with ", position()
-        ]
+        let what = format!("the models stand {:.0} km from the place", distance / 1000.0);
+        match are_on_earth {
+            true => message![
+                what;
+                "the sun is that of the place: write the latitude and longitude that are meant in [place]"
+            ],
+            false => message![what; "if they are in map coordinates, bring them here with ", position()],
+        }
     })
 }
 

@@ -2,11 +2,12 @@
 
 use super::error::{FieldLocation, SiteError};
 use crate::choice::{Engine, Finder, Method, Receivers, Settings};
-use crate::formats::Up;
+use crate::formats::{ModelReader, Up};
 use crate::message::{Field, Message, Words, message};
 use crate::sun::Zone;
 use crate::view::Side;
 use chrono::DateTime;
+use std::path::PathBuf;
 
 /// Options of the command line; each, where given, goes before the site file.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +16,12 @@ pub struct Overrides {
     pub place: Option<String>,
     /// `--up y|z`: of all models, whatever their files say.
     pub up: Option<Up>,
+    /// `--default-height M`: of all models' footprints without a height, whatever the site file says.
+    pub default_height: Option<f64>,
+    /// Further model files, which stand in the same site as a first one.
+    pub beside: Vec<PathBuf>,
+    /// How model files are read.
+    pub reading: ModelReader,
     /// `--ground METRES`
     pub ground: Option<f64>,
     /// `--date 2026-09-18`

@@ -8,7 +8,7 @@ use super::overrides::{Overrides, refuse};
 use super::written::WrittenSite;
 use super::{Ground, GroundFrom, Site, metres, plan};
 use crate::formats::composed;
-use crate::formats::{self, Model, ModelError, ReadOptions};
+use crate::formats::{Model, ModelError, ReadOptions};
 use crate::message::{Message, message};
 use std::path::Path;
 
@@ -37,7 +37,7 @@ impl Pair {
     pub fn load(before: &Path, after: &Path, asked: &Overrides) -> Result<Pair, SiteError> {
         let before = WrittenSite::read(before, asked)?;
         let after = WrittenSite::read_beside(after, &before, asked)?;
-        Self::of(&before, &after, asked, formats::read)
+        Self::of(&before, &after, asked, |path, options| asked.reading.read(path, options))
     }
 
     /// As [`Pair::load`], of two requests that are in memory, with another reader of model files.
@@ -65,15 +65,21 @@ impl Pair {
         models_before: impl FnOnce(&WrittenSite) -> Result<Models, SiteError>,
         models_after: impl FnOnce(&WrittenSite) -> Result<Models, SiteError>,
     ) -> Result<Pair, SiteError> {
-        let after_name = same_place(before, after, asked)?;
+        let (before, models_before) = before.located(|| models_before(before))?;
+        let before = &*before;
         let mut second = after.clone();
+        // what says no place, not even by a model's file of its own, stands in that of the other
+        if second.site.place.is_none() {
+            second.site.place.clone_from(&before.site.place);
+        }
+        let after_name = same_place(before, &second, asked)?;
         let table = &mut second.site;
         table.place.clone_from(&before.site.place);
         table.study = before.site.study.clone();
         table.plan = before.site.plan.clone();
         table.camera = before.site.camera.clone();
 
-        let mut first = Site::with_models(before, asked, || models_before(before))?;
+        let mut first = Site::with_models(before, asked, models_before)?;
         match table.ground.level {
             // the command line's goes before what either says
             Some(level) if asked.ground.is_none() && !first.ground.is_at(level) => {
@@ -111,9 +117,7 @@ impl Pair {
         (first.ground.lowest, second.ground.lowest) = (lowest, lowest);
         second.ground.from = first.ground.from;
 
-        let names = [first.place.name.trim(), after_name.trim()];
-        let told_apart = composed(names[0]) != composed(names[1]) && names.iter().all(|name| !name.is_empty());
-        let names = if told_apart { names.map(str::to_owned) } else { [before.file.clone(), after.file.clone()] };
+        let names = told_apart([&first.place.name, &after_name], [before, after]);
         second.place.name = after_name;
         Ok(Pair { before: first, after: second, names })
     }
@@ -124,6 +128,13 @@ impl Pair {
         notes.extend(self.after.notes.iter().filter(|note| !self.before.notes.contains(note)).cloned());
         notes
     }
+}
+
+/// What people call two states: their places' names where those differ, else their files.
+fn told_apart(places: [&str; 2], files: [&WrittenSite; 2]) -> [String; 2] {
+    let names = places.map(str::trim);
+    let told_apart = composed(names[0]) != composed(names[1]) && names.iter().all(|name| !name.is_empty());
+    if told_apart { names.map(str::to_owned) } else { files.map(|written| written.file.clone()) }
 }
 
 /// The name of the place of `after`; or why it is another place than that of `before`.

@@ -1,4 +1,4 @@
-//! Where a model stands: its own coordinates → the world's.
+//! What a site file says of where a model stands, and models that stand by that alone.
 
 use crate::formats::{Model, ReadOptions, SceneName, Up};
 use glam::{DAffine3, DMat3, DVec3};
@@ -9,28 +9,49 @@ use rayon::prelude::*;
 pub struct Placement {
     /// The scene; the file's default one where none is said.
     pub scene: Option<SceneName>,
+    /// Metres from the ground to the roof of a footprint whose file says no height.
+    pub default_height_m: Option<f64>,
+    /// How far a thinned terrain may lie from its heights, metres.
+    pub terrain_error_m: Option<f64>,
+    /// The classes of measured points that stand there beside the ground.
+    pub point_classes: Vec<String>,
     /// Which of the model's axes is up; as its file or format says where none is said.
     pub up: Option<Up>,
     /// Radians clockwise from the model's north (−Z where its y is up, +Y where its z is) to true north; the model is turned
-    /// by as much the other way.
-    pub north_rad: f64,
-    /// Metres east, north and up.
-    pub position: DVec3,
+    /// by as much the other way. As its file says, else 0, where none is said.
+    pub north_rad: Option<f64>,
+    /// Metres east, north and up. Where its file says, else at the place, where none is said.
+    pub position: Option<DVec3>,
     /// Metres per model unit, above zero; as its file says, else 1, where none is said.
     pub scale: Option<f64>,
+    /// The reference system of its coordinates; as its file says where none is said.
+    pub crs: Option<String>,
 }
 
 impl Placement {
     /// What the reader is asked.
     pub fn read_options(&self) -> ReadOptions {
         let told_step = ReadOptions::TOLD_M / self.scale.unwrap_or(1.0);
-        ReadOptions { scene: self.scene.clone(), told_step, ..ReadOptions::default() }
+        ReadOptions {
+            scene: self.scene.clone(),
+            told_step,
+            default_height_m: self.default_height_m,
+            terrain_error_m: self.terrain_error_m.unwrap_or(ReadOptions::TERRAIN_ERROR_M),
+            point_classes: self.point_classes.clone(),
+        }
     }
 
-    /// Puts a model where it stands: positions and steps become metres in the world frame.
-    pub fn place(&self, mut model: Model) -> Model {
-        let scale = self.scale.or(model.unit_m).unwrap_or(1.0);
-        let world_from_model = self.world_from_model(self.up.unwrap_or(model.up), scale);
+    /// Puts a model where it stands by this alone, whatever its file says of the Earth: positions and steps become metres in
+    /// the world frame.
+    pub fn place(&self, model: Model) -> Model {
+        self.place_at(model, self.north_rad.unwrap_or_default(), self.position.unwrap_or_default())
+    }
+
+    /// The same with a north and a position that come from elsewhere, too.
+    pub(super) fn place_at(&self, mut model: Model, north_rad: f64, position: DVec3) -> Model {
+        let scale = self.unit_m(&model);
+        let turned = DMat3::from_rotation_z(north_rad);
+        let world_from_model = DAffine3::from_mat3_translation(turned * self.upright(&model) * scale, position);
         for part in &mut model.parts {
             let corners = part.positions.par_iter_mut();
             corners.for_each(|corner| *corner = world_from_model.transform_point3(*corner));
@@ -39,14 +60,16 @@ impl Placement {
         model
     }
 
-    /// A model that is y up has its north at −z: (x, y, z) becomes (x, −z, y), then the placement follows. A model that is z
-    /// up has the world's axes.
-    fn world_from_model(&self, up: Up, scale: f64) -> DAffine3 {
-        let upright = match up {
+    /// Metres of a model's unit.
+    pub(super) fn unit_m(&self, model: &Model) -> f64 {
+        self.scale.or(model.unit_m).unwrap_or(1.0)
+    }
+
+    /// A model that is y up has its north at −z: (x, y, z) becomes (x, −z, y). A model that is z up has the world's axes.
+    pub(super) fn upright(&self, model: &Model) -> DMat3 {
+        match self.up.unwrap_or(model.up) {
             Up::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
             Up::Z => DMat3::IDENTITY,
-        };
-        let turned = DMat3::from_rotation_z(self.north_rad);
-        DAffine3::from_mat3_translation(turned * upright * scale, self.position)
+        }
     }
 }

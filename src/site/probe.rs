@@ -9,7 +9,6 @@ use super::overrides::{Overrides, numbers, refuse};
 use super::study::no_study;
 use super::written::WrittenSite;
 use crate::choice::Receivers;
-use crate::formats;
 use crate::formats::composed;
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Words, message};
@@ -54,7 +53,9 @@ pub struct ProbeSite {
 /// # Errors
 /// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
 pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteError> {
-    let written = WrittenSite::read(path, asked)?;
+    let as_written = WrittenSite::read(path, asked)?;
+    let (written, models) =
+        as_written.located(|| Models::read(&as_written, |path, options| asked.reading.read(path, options)))?;
     let place = written.place(asked)?;
     let probes = probes(&written, asked)?;
     let days = days(&place, &written, asked)?;
@@ -64,9 +65,10 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     }
     .map_err(|error| SiteError::sun(FieldLocation::Field(Field::Step), error))?;
     let level = ground::level(&written, asked)?;
-    let models = Models::read(&written, formats::read)?;
+    let models = models()?.with_terrain(&written)?;
     let [casts, receives] = models.roles(&written)?;
-    let mut notes = models.notes(&written, &casts);
+    let mut notes: Vec<Message> = written.place_note().into_iter().collect();
+    notes.extend(models.notes(&written, &casts));
     let Models { mesh, bounds, .. } = models;
     let ground = Ground::of(&mesh, bounds, &receives, level);
     // a probe below it says so itself

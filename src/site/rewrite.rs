@@ -21,7 +21,23 @@ impl SiteFile {
         let mut document: DocumentMut =
             text.parse().map_err(|error: toml_edit::TomlError| unwritable(error.to_string()))?;
         merge(document.as_table_mut(), &before, &table(self)?).map_err(unwritable)?;
+        if !before.contains_key("place") {
+            self.note_source(&mut document);
+        }
         Ok(document.to_string())
+    }
+}
+
+impl SiteFile {
+    /// Says above a new [place] which file it is from.
+    fn note_source(&self, document: &mut DocumentMut) {
+        let said = self.place.as_ref().and_then(|place| place.said_by());
+        let table = document.get_mut("place").and_then(Item::as_table_mut);
+        if let (Some(said), Some(table)) = (said, table) {
+            // a file's name may have a line break
+            let said = said.replace(char::is_control, " ");
+            table.decor_mut().set_prefix(format!("\n# from {said}\n"));
+        }
     }
 }
 

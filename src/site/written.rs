@@ -6,7 +6,7 @@ use super::keys;
 use super::overrides::{Overrides, refuse};
 use super::typed::{self, TypedError};
 use crate::formats::{self, on_disk};
-use crate::message::{Field, Worded, message};
+use crate::message::{Field, Message, Worded, message};
 use crate::sun::Place;
 use std::path::{Path, PathBuf};
 
@@ -44,14 +44,20 @@ fn text_of(file: &str, bytes: Vec<u8>) -> Result<String, SiteError> {
     }
 }
 
+/// What is wrong with several paths.
+fn refuse_beside(message: Message) -> SiteError {
+    refuse(FieldLocation::Field(Field::Models), message)
+}
+
 impl WrittenSite {
-    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model together with `--place`.
+    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model, whose file or `--place` says its place.
     ///
     /// # Errors
     /// What cannot be read, and what is wrong with a site file's form.
     pub fn read(path: &Path, asked: &Overrides) -> Result<WrittenSite, SiteError> {
-        let mut written = Self::read_as_it_is(path, asked.place.is_some())?;
-        written.turn_up(asked);
+        let mut written = Self::read_as_it_is(path)?;
+        written.add_models(&asked.beside)?;
+        written.set_models(asked);
         if let Some(place) = &asked.place {
             if written.site.place.is_some() {
                 return Err(refuse(
@@ -75,29 +81,48 @@ impl WrittenSite {
     /// # Errors
     /// As [`WrittenSite::read`].
     pub fn read_beside(path: &Path, first: &WrittenSite, asked: &Overrides) -> Result<WrittenSite, SiteError> {
-        let mut written = Self::read_as_it_is(path, true)?;
-        written.turn_up(asked);
+        let mut written = Self::read_as_it_is(path)?;
+        written.set_models(asked);
         if written.site.place.is_none() {
             written.site.place.clone_from(&first.site.place);
         }
         Ok(written)
     }
 
-    /// Writes for all models which axis is up, where the command line says it.
-    fn turn_up(&mut self, asked: &Overrides) {
+    /// Adds models to a bare one.
+    fn add_models(&mut self, files: &[PathBuf]) -> Result<(), SiteError> {
+        for file in files {
+            let name = file.display().to_string();
+            if !self.text.is_empty() {
+                let what = format!("{name} stands beside the site file {}", self.file);
+                return Err(refuse_beside(message![what; "name it under [[model]] in the site file"]));
+            }
+            if formats::by_ending(file).is_none() {
+                let what = format!("{name} is no model of a known format");
+                return Err(refuse_beside(message![what; "name model files alone, or one site"]));
+            }
+            self.site.model.push(ModelTable { path: Some(self.path_of(file)), ..ModelTable::default() });
+        }
+        Ok(())
+    }
+
+    /// Writes for all models which axis is up and how high footprints are, where the command line says it.
+    fn set_models(&mut self, asked: &Overrides) {
+        if let Some(height) = asked.default_height {
+            self.site.model.iter_mut().for_each(|model| model.default_height = Some(height));
+        }
         if let Some(up) = asked.up {
             self.site.model.iter_mut().for_each(|model| model.up = Some(up.word().to_owned()));
         }
     }
 
-    /// A model is `placed` where somebody says its place.
-    pub(super) fn read_as_it_is(path: &Path, placed: bool) -> Result<WrittenSite, SiteError> {
+    pub(super) fn read_as_it_is(path: &Path) -> Result<WrittenSite, SiteError> {
         let path = &*on_disk(path);
         if path.is_dir() {
             return Self::read_file(&path.join("site.toml"));
         }
         if formats::by_ending(path).is_some() {
-            return Self::of_model(path, placed);
+            return Self::of_model(path);
         }
         match formats::refusal(path) {
             Some(refusal) => Err(SiteError::UnknownFormat(refusal.about(&path.display().to_string()))),
@@ -118,19 +143,29 @@ impl WrittenSite {
         })
     }
 
+    /// Where its models lie, in their order.
+    pub fn model_paths(&self) -> Vec<PathBuf> {
+        self.site.model.iter().filter_map(|model| Some(self.folder.join(model.path.as_ref()?))).collect()
+    }
+
+    /// A file as this site names it: by a relative path, where it lies beside the site file or below.
+    pub fn path_of(&self, file: &Path) -> String {
+        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let folder = if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder };
+        let there = absolute(file);
+        let path = there.strip_prefix(absolute(folder)).unwrap_or(&there).display().to_string();
+        if cfg!(windows) { path.replace('\\', "/") } else { path }
+    }
+
     /// Whether the site file at a path says something else by now. One that cannot be read is told by whoever reads it.
     pub fn has_changed_at(&self, path: &Path) -> bool {
         std::fs::read(path).is_ok_and(|bytes| bytes != self.text.as_bytes())
     }
 
-    fn of_model(path: &Path, placed: bool) -> Result<WrittenSite, SiteError> {
+    fn of_model(path: &Path) -> Result<WrittenSite, SiteError> {
         let file = path.display().to_string();
-        // A mistyped name is a better complaint than a missing place.
         if let Err(error) = std::fs::metadata(path) {
             return Err(SiteError::Unreadable { path: file, why: error.to_string() });
-        }
-        if !placed {
-            return Err(SiteError::NoPlaceForModel { path: file });
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(WrittenSite {

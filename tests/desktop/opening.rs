@@ -44,11 +44,36 @@ fn bad_model_is_told_as_by_the_command() {
     let asked = Overrides { place, at, ..Overrides::default() };
     let error = Site::load(&bad, &asked).expect_err("a bad model").to_string();
     drop_file(&mut harness, &bad);
+    click(&mut harness, "Open instead");
+    settle(&mut harness);
     harness.get_by_label(&error);
     assert_eq!(*harness.state().site_file(), before);
     harness.get_by_label("Works");
     click(&mut harness, "Close");
     assert!(harness.query_by_label(&error).is_none());
+}
+
+/// A model that is dropped on an open site is added to it, where that is what is meant; undo takes it out again.
+#[test]
+fn dropped_model_is_added_to_the_open_site() {
+    let (folder, site) = small_site();
+    let mut harness = window(Some(&site));
+    let models = |harness: &Harness<'_, App>| harness.state().site_file().model.len();
+    let before = models(&harness);
+    let other = folder.path().join("other.glb");
+    std::fs::copy(sample("industry/industry.glb"), &other).unwrap();
+    drop_file(&mut harness, &other);
+    harness.get_by_label_contains("other.glb is a model. Add it to");
+    click(&mut harness, "Cancel");
+    settle(&mut harness);
+    assert_eq!(models(&harness), before);
+    drop_file(&mut harness, &other);
+    click(&mut harness, "Add to the site");
+    settle(&mut harness);
+    assert_eq!(models(&harness), before + 1);
+    let path = harness.state().site_file().model.last().and_then(|model| model.path.clone());
+    assert_eq!(path.as_deref(), Some("other.glb"), "beside the site file it is named from there");
+    assert!(harness.state().is_unsaved() && harness.state().told()[0].is_none(), "{:?}", harness.state().told());
 }
 
 #[test]
@@ -61,7 +86,7 @@ fn loading_can_be_cancelled() {
     harness.get_by_label("Loading headquarters");
     click(&mut harness, "Cancel");
     settle(&mut harness);
-    harness.get_by_label("or drop a .toml, .glb or .gltf on this window");
+    harness.get_by_label("or drop sites and models on this window");
 }
 
 #[test]

@@ -126,6 +126,44 @@ fn changed_site_file_is_read_and_undone() {
     assert_eq!(step(&harness).as_deref(), Some("1h"));
 }
 
+/// Where the site file leaves the place to a model's file, reading both again sets it as opening them does.
+#[test]
+fn place_of_a_models_file_is_set_when_its_site_is_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let corners = [[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [0.0, 20.0], [0.0, 0.0]];
+    let corners = corners.map(|[east, north]| [691_000.0 + east, 5_334_000.0 + north]);
+    let model = serde_json::json!({
+        "type": "FeatureCollection",
+        "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}},
+        "features": [{
+            "type": "Feature",
+            "properties": {"name": "House", "building": "yes", "height": 10},
+            "geometry": {"type": "Polygon", "coordinates": [corners]},
+        }],
+    });
+    std::fs::write(folder.path().join("house.geojson"), model.to_string()).unwrap();
+    let site = folder.path().join("site.toml");
+    let text = "[[model]]\npath = \"house.geojson\"\n[study]\ndate = 2026-03-21\nfrom = \"9:00\"\nto = \"17:00\"\n\
+                step = \"2h\"\n[plan]\ncell = 2.0\n";
+    std::fs::write(&site, text).unwrap();
+    let mut harness = window(Some(&site));
+    assert!(harness.query_by_label("Where does it stand?").is_none(), "the model says it");
+    let place = harness.state().site_file().place.clone().expect("the model's");
+    assert!(place.latitude.is_some_and(|latitude| (latitude - 48.13).abs() < 0.05), "{place:?}");
+    std::fs::write(&site, text.replace("2h", "4h")).unwrap();
+    harness.key_press(Key::F5);
+    harness.step();
+    settle(&mut harness);
+    let set = harness.state().site_file();
+    assert_eq!((set.study.step.as_deref(), set.place.as_ref()), (Some("4h"), Some(&place)));
+    assert!(!harness.state().is_unsaved(), "a window that has just read it has nothing to save");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+    harness.step();
+    settle(&mut harness);
+    let set = harness.state().site_file();
+    assert_eq!((set.study.step.as_deref(), set.place.as_ref()), (Some("2h"), Some(&place)), "undo takes one step back");
+}
+
 #[test]
 fn model_that_cannot_be_read_leaves_the_open_site() {
     let (folder, site) = small_site();

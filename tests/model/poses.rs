@@ -141,7 +141,9 @@ fn a_skin_is_placed_as_its_model_is() {
     let path = folder.path().join("model.glb");
     std::fs::write(&path, skinned(100.0, json!({"scale": [0.01, 0.01, 0.01]})).glb()).unwrap();
     let position = DVec3::new(100.0, 200.0, 5.0);
-    let part = &load(&path, &Placement { position, scale: Some(2.0), ..Placement::default() }).unwrap().parts[0];
+    let part = &load(&path, &Placement { position: Some(position), scale: Some(2.0), ..Placement::default() })
+        .unwrap()
+        .parts[0];
     assert_eq!(bounds(part), [[90.0, 190.0, 5.0], [110.0, 210.0, 65.0]]);
 }
 

@@ -20,8 +20,8 @@ fn a_placement_scales_then_turns_then_moves() {
     std::fs::write(&path, Model::triangle().glb()).unwrap();
     // True north lies 90° clockwise of the model's north, so the model's north points west.
     let placement = Placement {
-        north_rad: FRAC_PI_2,
-        position: DVec3::new(100.0, 200.0, 5.0),
+        north_rad: Some(FRAC_PI_2),
+        position: Some(DVec3::new(100.0, 200.0, 5.0)),
         scale: Some(2.0),
         ..Placement::default()
     };
@@ -281,7 +281,8 @@ fn a_model_that_is_z_up_has_its_y_in_the_north() {
     let path = folder.path().join("model.glb");
     std::fs::write(&path, model.glb()).unwrap();
     let placed = |north_rad: f64| {
-        let placement = Placement { up: Some(Up::Z), north_rad, scale: Some(10.0), ..Placement::default() };
+        let placement =
+            Placement { up: Some(Up::Z), north_rad: Some(north_rad), scale: Some(10.0), ..Placement::default() };
         load(&path, &placement).unwrap().parts[0].positions.clone()
     };
     assert_eq!(placed(0.0), [DVec3::X * 10.0, DVec3::Y * 20.0, DVec3::Z * 30.0]);

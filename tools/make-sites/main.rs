@@ -1,9 +1,10 @@
-//! Draws the models of the sample sites: `cargo run --example make-sites` writes each `sites/NAME/NAME.glb`.
+//! Draws the models of the sample sites: `cargo run --example make-sites` writes what lies in `sites/NAME`.
 //!
 //! The tests include this file to see that what lies in the repository is what it draws.
 
 mod glb;
 mod headquarters;
+mod hillside;
 mod houses;
 mod industry;
 mod plant;
@@ -12,7 +13,12 @@ mod shapes;
 mod solids;
 mod tower;
 
-/// Every model's path in `sites/` and its bytes.
+/// Every file's path in `sites/` and its bytes.
+pub(crate) fn files() -> Vec<(&'static str, Vec<u8>)> {
+    [models(), hillside::files()].concat()
+}
+
+/// Those of them that are GLB.
 pub(crate) fn models() -> Vec<(&'static str, Vec<u8>)> {
     vec![
         ("tower/tower.glb", tower::model().to_glb()),
@@ -24,10 +30,10 @@ pub(crate) fn models() -> Vec<(&'static str, Vec<u8>)> {
 #[cfg(not(test))]
 fn main() -> std::io::Result<()> {
     let sites = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("sites");
-    for (path, bytes) in models() {
+    for (path, bytes) in files() {
         let path = sites.join(path);
         // Beside first, so that whoever reads meanwhile finds a whole file.
-        let beside = path.with_extension("glb.new");
+        let beside = path.with_extension("new");
         std::fs::write(&beside, &bytes)?;
         std::fs::rename(&beside, &path)?;
         println!("{}: {} bytes", path.display(), bytes.len());

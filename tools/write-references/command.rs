@@ -27,7 +27,7 @@ struct Entry {
 pub(super) fn blocks() -> Vec<Block> {
     let mut command = gnomon::cli::definition();
     command.build();
-    let shown = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
+    let shown = command.get_subcommands_mut().filter(|command| command.get_name() != "help" && !command.is_hide_set());
     let subcommands: Vec<Subcommand> = shown.map(subcommand).collect();
     let shared = shared(&subcommands);
     let mut blocks =

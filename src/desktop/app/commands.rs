@@ -56,7 +56,7 @@ impl App {
                 self.settings.site = written.site.clone();
                 let hidden = Arc::clone(&self.settings.hidden);
                 let wanted = LoadRequest::Again(Box::new(written), hidden, Box::new(open.project.before(true)));
-                self.loading = Some(LoadJob::start(wanted, context.clone()));
+                self.loading = Some(LoadJob::start(wanted, &self.reading, context.clone()));
                 self.is_reading = true;
                 if is_of_file {
                     let technique = self.settings.site.study.technique.as_deref();
@@ -81,7 +81,7 @@ impl App {
     pub(in crate::desktop) fn answer(&mut self, purpose: Purpose, path: PathBuf, context: &egui::Context) {
         self.notice = None;
         match purpose {
-            Purpose::Open => return self.load(LoadRequest::File(path), context),
+            Purpose::Open => return self.load(LoadRequest::Files(vec![path]), context),
             Purpose::Compare => return self.compare_with(&path, context),
             Purpose::SaveSite => return self.write_site(path, context),
             _ => {}

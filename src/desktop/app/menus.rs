@@ -151,7 +151,7 @@ impl App {
                 for path in self.kept.recent.clone() {
                     let name = name_of(&path);
                     if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                        self.load(LoadRequest::File(path), &context);
+                        self.load(LoadRequest::Files(vec![path]), &context);
                     }
                 }
             });

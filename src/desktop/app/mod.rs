@@ -3,6 +3,7 @@
 pub(in crate::desktop) mod cards;
 pub(in crate::desktop) mod commands;
 pub(in crate::desktop) mod device;
+pub(in crate::desktop) mod dropping;
 pub(in crate::desktop) mod menus;
 pub(in crate::desktop) mod messages;
 pub(in crate::desktop) mod opening;

@@ -8,6 +8,7 @@ use crate::desktop::state::project::Project;
 use crate::desktop::state::settings::WindowSettings;
 use crate::desktop::work::loading::{LoadJob, LoadRequest};
 use crate::desktop::work::samples;
+use crate::site::file::{PlaceTable, SiteFile};
 use crate::sun::{Instant, SunTrack};
 use eframe::egui;
 use std::sync::Arc;
@@ -15,7 +16,7 @@ use std::sync::Arc;
 impl App {
     pub(in crate::desktop) fn open_sample(&mut self, name: &str, context: &egui::Context) {
         match samples::sample(name) {
-            Ok(path) => self.load(LoadRequest::File(path), context),
+            Ok(path) => self.load(LoadRequest::Files(vec![path]), context),
             Err(error) => self.fault = Some(error.to_string()),
         }
     }
@@ -29,9 +30,26 @@ impl App {
         match &mut self.open {
             Some(open) if !opens => {
                 self.fault = None;
+                let place = project.written.site.place.clone();
                 open.change_to(project, &middle, self.loaded);
+                self.set_proposed_place(place.as_ref());
             }
             _ => self.open_project(project, &middle),
+        }
+    }
+
+    /// A site file that was read again may leave the place to a model's file, as one that is opened may: what that says is
+    /// set, saved, and what undo keeps.
+    fn set_proposed_place(&mut self, place: Option<&PlaceTable>) {
+        let propose = |site: &mut SiteFile| {
+            if site.place.is_none() {
+                site.place = place.cloned();
+            }
+        };
+        propose(&mut self.settings.site);
+        self.history.change_all(propose);
+        if let Some((site, _)) = &mut self.saving.saved {
+            propose(site);
         }
     }
 
@@ -82,7 +100,7 @@ impl App {
             written.site = self.settings.site.clone();
             let hidden = Arc::clone(&self.settings.hidden);
             let wanted = LoadRequest::Again(Box::new(written), hidden, Box::new(project.before(false)));
-            self.loading = Some(LoadJob::start(wanted, context.clone()));
+            self.loading = Some(LoadJob::start(wanted, &self.reading, context.clone()));
             self.is_reading = true;
         }
     }

@@ -16,7 +16,7 @@ use crate::export::figure::Diagram;
 use crate::message::Message;
 use crate::site::file::{ModelTable, PlaceTable, Text};
 use crate::site::typed::{Axis, TypedError, clock, date, step};
-use crate::site::{Ground, Mend};
+use crate::site::{Ground, Mend, ModelReference};
 use eframe::egui::{self, Ui, vec2};
 use std::ops::RangeInclusive;
 
@@ -126,7 +126,8 @@ fn place(app: &mut App, ui: &mut Ui) {
         ground(ui, typed, &mut app.settings.site.ground.level, &open.project.site.ground, unit);
     }
     if let [model] = app.settings.site.model.as_mut_slice() {
-        placement(ui, typed, model);
+        let said = app.open.as_ref().and_then(|open| open.project.models.references().first());
+        placement(ui, typed, model, said);
     }
 }
 
@@ -172,23 +173,25 @@ fn elevation(ui: &mut Ui, typed: &mut TypedText, table: &mut PlaceTable, unit: U
     typed.show_faults(ui, &["Elevation"]);
 }
 
-/// How the only model is turned and scaled.
-fn placement(ui: &mut Ui, typed: &mut TypedText, model: &mut ModelTable) {
+/// How the only model is turned and scaled. What its file says of itself is shown until something is written.
+fn placement(ui: &mut Ui, typed: &mut TypedText, model: &mut ModelTable, said: Option<&ModelReference>) {
+    let by_file = said.is_some_and(|said| said.said_by.is_some());
+    let has_unit = said.is_some_and(|said| said.unit_is_said);
     row(ui, "Model north", |ui, label| {
-        let mut north = model.north.unwrap_or_default();
+        let mut north = model.north.or(said.map(|said| said.north_deg)).unwrap_or_default();
         let number = NumberField { speed: 0.5, range: NORTH, unit: "degrees", suffix: "°", decimals: 0..=3 };
         let response = typed.number(ui, ("Model north", label), &mut north, &number);
         let response = response.on_hover_text("Degrees clockwise from the model's north to true north");
         if response.changed() {
-            model.north = Some(north).filter(|north| *north != 0.0);
+            model.north = Some(north).filter(|north| by_file || *north != 0.0);
         }
         let label = then(ui, "scale");
-        let mut scale = model.scale.unwrap_or(1.0);
+        let mut scale = model.scale.or(said.map(|said| said.unit_m)).unwrap_or(1.0);
         let number = NumberField { speed: 0.01, range: SCALE, unit: "metres a unit", suffix: "", decimals: 0..=6 };
         let response = typed.number(ui, ("scale", label), &mut scale, &number);
         let response = response.on_hover_text("Metres a unit of the model");
         if response.changed() {
-            model.scale = Some(scale).filter(|scale| *scale != 1.0);
+            model.scale = Some(scale).filter(|scale| has_unit || *scale != 1.0);
         }
     });
     typed.show_faults(ui, &["Model north", "scale"]);

@@ -5,6 +5,7 @@ use crate::desktop::parts::fields::refused;
 use crate::desktop::parts::theme;
 use crate::desktop::state::project::name_of;
 use crate::desktop::work::loading::LoadRequest;
+use crate::message::few;
 use eframe::egui::{self, Key, Response, TextEdit, Ui};
 
 /// A field, and below it why what was typed is not taken: until something else is.
@@ -36,7 +37,9 @@ impl App {
         let modal = theme::modal(context, "place").show(context, |ui| {
             ui.set_width(420.0);
             ui.heading("Where does it stand?");
-            ui.label(format!("{} is a model, and says not where.", name_of(&bare.path)));
+            let names: Vec<String> = [&bare.path].into_iter().chain(&bare.beside).map(|file| name_of(file)).collect();
+            let said = if names.len() == 1 { "is a model, and says" } else { "are models, and say" };
+            ui.label(format!("{} {said} not where.", few(names)));
             ui.add_space(6.0);
             egui::Grid::new("bare").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
                 let [of_place, of_north] = &mut bare.faults;

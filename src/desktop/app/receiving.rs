@@ -43,9 +43,7 @@ impl App {
         match result {
             Ok(project) if opens => self.go_on_or_ask(PendingAction::Open(Box::new(project)), context),
             Ok(project) => self.take(project, false),
-            Err(LoadError::Bare(path)) => {
-                self.bare = Some(BareModel::new(path));
-            }
+            Err(LoadError::Bare(paths)) => self.bare = Some(BareModel::new(paths)),
             Err(LoadError::Message(fault)) => {
                 self.fault = Some(fault);
                 if !opens {

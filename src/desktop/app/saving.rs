@@ -169,7 +169,7 @@ impl App {
 
     /// Whether something is asked, and nothing else goes on.
     pub(in crate::desktop) fn is_questioned(&self) -> bool {
-        self.saving.question.is_some() || self.saving.recovery.is_offering()
+        self.saving.question.is_some() || self.saving.recovery.is_offering() || !self.dropped.is_empty()
     }
 
     /// Keeps the window open over what is not saved: also while it is hidden, and shown by nobody.

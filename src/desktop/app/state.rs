@@ -18,6 +18,7 @@ use crate::desktop::state::settings::{History, WindowSettings};
 use crate::desktop::work::Work;
 use crate::desktop::work::loading::{LoadJob, LoadRequest};
 use crate::export::figure::Colours;
+use crate::formats::ModelReader;
 use crate::gpu::{Gpu, readback};
 use crate::sunlight::Sunlight;
 use eframe::egui;
@@ -79,6 +80,10 @@ pub struct App {
     /// Settings of which it is known that no site comes of them.
     pub(in crate::desktop) refused: Option<WindowSettings>,
     pub(in crate::desktop) bare: Option<BareModel>,
+    /// Models that were dropped on the open site, until it is answered what becomes of them.
+    pub(in crate::desktop) dropped: Vec<PathBuf>,
+    /// How model files are read.
+    pub(in crate::desktop) reading: ModelReader,
     pub(in crate::desktop) asking: Option<PathDialog>,
     pub(in crate::desktop) writing: Option<Work<PathBuf>>,
     /// What is typed into the panel's fields.
@@ -98,13 +103,22 @@ pub struct App {
 }
 
 impl App {
-    /// A window on eframe's device, with a site or a model in it where one is named.
+    /// A window on eframe's device, with a site or a model in it where one is named. Models are read in this process.
     ///
     /// # Errors
     /// Where eframe has no device.
     pub fn new(
         cc: &eframe::CreationContext<'_>,
         path: Option<&Path>,
+    ) -> Result<App, Box<dyn std::error::Error + Send + Sync>> {
+        Self::with_reader(cc, path, ModelReader::default())
+    }
+
+    /// The same, with another way to read models.
+    pub(in crate::desktop) fn with_reader(
+        cc: &eframe::CreationContext<'_>,
+        path: Option<&Path>,
+        reading: ModelReader,
     ) -> Result<App, Box<dyn std::error::Error + Send + Sync>> {
         theme::set(&cc.egui_ctx);
         let (gpu, render, stage) = devices(cc)?;
@@ -122,6 +136,8 @@ impl App {
             is_reading: false,
             refused: None,
             bare: None,
+            dropped: Vec::new(),
+            reading,
             asking: None,
             writing: None,
             typed: TypedText::default(),
@@ -133,7 +149,7 @@ impl App {
             had_focus: true,
         };
         if let Some(path) = path {
-            app.load(LoadRequest::File(path.to_owned()), &cc.egui_ctx);
+            app.load(LoadRequest::Files(vec![path.to_owned()]), &cc.egui_ctx);
         }
         Ok(app)
     }
@@ -169,8 +185,9 @@ impl App {
             loading.cancel();
         }
         (self.fault, self.notice, self.bare) = (None, None, None);
+        self.dropped.clear();
         self.saving.recovery.let_go();
-        self.loading = Some(LoadJob::start(wanted, context.clone()));
+        self.loading = Some(LoadJob::start(wanted, &self.reading, context.clone()));
     }
 
     pub(in crate::desktop) fn set(&mut self, settings: Option<WindowSettings>) {

@@ -7,7 +7,6 @@ use crate::desktop::parts::path_dialog::{DialogAnswer, Purpose};
 use crate::desktop::parts::view::ViewRequest;
 use crate::desktop::parts::{screen, theme};
 use crate::desktop::state::unit::Unit;
-use crate::desktop::work::loading::LoadRequest;
 use crate::desktop::work::{samples, studies};
 use crate::view::Probe;
 use eframe::egui::{self, Ui};
@@ -22,10 +21,7 @@ impl eframe::App for App {
         let context = ui.ctx().clone();
         self.receive(&context);
         self.shortcuts(&context);
-        let dropped = context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
-        if let Some(path) = dropped {
-            self.load(LoadRequest::File(path), &context);
-        }
+        self.take_dropped(&context);
         ui.painter().add(screen::ground(ui.max_rect(), ui.visuals().panel_fill));
         let on_ground = egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT);
         egui::Panel::top("menus").frame(on_ground).show(ui, |ui| self.menus(ui));
@@ -57,6 +53,7 @@ impl eframe::App for App {
             egui::CentralPanel::no_frame().show(ui, |ui| self.view(ui));
         }
         self.ask_place(&context);
+        self.ask_dropped(&context);
         self.look_for_changes(&context);
         if let Some(mut asking) = self.asking.take() {
             match asking.show(&context) {
@@ -115,7 +112,7 @@ impl App {
             if ui.button("Open a site or a model…").clicked() {
                 self.ask(Purpose::Open, &context);
             }
-            ui.weak("or drop a .toml, .glb or .gltf on this window");
+            ui.weak("or drop sites and models on this window");
             ui.add_space(16.0);
             ui.weak("Samples");
             for name in samples::SAMPLES {

@@ -4,7 +4,7 @@ use crate::desktop::parts::theme;
 use crate::desktop::state::project::Project;
 use crate::desktop::state::settings::{Hidden, WindowSettings};
 use crate::export::figure::without_middle;
-use crate::site::file::{ModelTable, Names};
+use crate::site::file::Names;
 use eframe::egui::{self, Color32, Sense};
 use std::sync::Arc;
 
@@ -22,10 +22,8 @@ pub(in crate::desktop) fn list(ui: &mut egui::Ui, project: &Project, settings: &
     let site = &project.site;
     heading(ui, site.mesh.components.len());
     // what is switched already and not read yet counts, too
-    let roles = (settings.site.model != project.written.site.model).then(|| {
-        let of = |names: fn(&ModelTable) -> &Names| roles(project, settings, names);
-        [of(|table| &table.casts), of(|table| &table.receives)]
-    });
+    let roles = (settings.site.model != project.written.site.model)
+        .then(|| [roles(project, settings, true), roles(project, settings, false)]);
     let [casts, receives] = match &roles {
         Some([casts, receives]) => [casts, receives],
         None => [&site.casts, &site.receives],
@@ -141,14 +139,14 @@ pub(in crate::desktop) fn hide(settings: &mut WindowSettings, name: &str, hides:
     }
 }
 
-/// Per component whether it has a role, as the settings say it.
-fn roles(project: &Project, settings: &WindowSettings, names: fn(&ModelTable) -> &Names) -> Vec<bool> {
+/// Per component whether it casts, or else whether it receives, as the settings say it.
+fn roles(project: &Project, settings: &WindowSettings, casts: bool) -> Vec<bool> {
     let mut components = project.site.mesh.components.as_slice();
-    let counts = project.models.component_counts().into_iter().zip(&settings.site.model);
-    let of_model = counts.flat_map(|(count, table)| {
+    let counts = project.models.component_counts().into_iter().zip(&settings.site.model).enumerate();
+    let of_model = counts.flat_map(|(model, (count, table))| {
         let (of_it, others) = components.split_at(count);
         components = others;
-        names(table).chosen(of_it)
+        if casts { project.models.casts_of(model, &table.casts) } else { table.receives.chosen(of_it) }
     });
     of_model.collect()
 }
@@ -162,9 +160,14 @@ fn switch(project: &Project, settings: &mut WindowSettings, (index, casts, on): 
             let Some(table) = settings.site.model.get_mut(model) else { return };
             let is_on = |at: usize| if at == index { on } else { now[at] };
             let chosen: Vec<usize> = (first..first + count).filter(|at| is_on(*at)).collect();
+            // what holds where nobody says it: what lies on the ground does not cast
+            let usual = match casts {
+                true => project.models.casts_of(model, &Names::All(true)),
+                false => vec![true; count],
+            };
             let names = match chosen.len() {
                 0 => Names::All(false),
-                all if all == count => Names::All(true),
+                _ if (first..first + count).map(is_on).eq(usual) => Names::All(true),
                 _ => Names::Some(chosen.iter().map(|at| site.mesh.components[*at].name.clone()).collect()),
             };
             *(if casts { &mut table.casts } else { &mut table.receives }) = names;

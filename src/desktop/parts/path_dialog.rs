@@ -4,6 +4,7 @@ use crate::deliver::lines::Lines;
 use crate::desktop::parts::question::Question;
 use crate::desktop::parts::theme;
 use crate::export::animation::Frames;
+use crate::formats::FORMATS;
 use eframe::egui;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -112,10 +113,9 @@ impl PathDialog {
             let name = name.unwrap_or_default().to_string_lossy().into_owned();
             // before a file is replaced the system asks
             let path = match purpose {
-                Purpose::Open | Purpose::Compare => dialog
-                    .add_filter("Sites and models", &["toml", "glb", "gltf"])
-                    .add_filter("All", &["*"])
-                    .pick_file(),
+                Purpose::Open | Purpose::Compare => {
+                    dialog.add_filter("Sites and models", &endings()).add_filter("All", &["*"]).pick_file()
+                }
                 Purpose::SaveSite => dialog.add_filter("Site", &["toml"]).set_file_name(name).save_file(),
                 Purpose::Drawing => dialog.add_filter("PNG", &["png"]).set_file_name(name).save_file(),
                 Purpose::Hours | Purpose::Lines(_) | Purpose::Animation => dialog.pick_folder(),
@@ -223,13 +223,18 @@ impl PathDialog {
     }
 }
 
+/// How the names of sites and models end.
+fn endings() -> Vec<&'static str> {
+    ["toml"].into_iter().chain(FORMATS.iter().flat_map(|format| format.endings()).copied()).collect()
+}
+
 /// Folders, sites and models around what is typed, to be clicked.
 fn listing(ui: &mut egui::Ui, typed: &mut String) {
     let path = PathBuf::from(typed.trim());
     let folder = if path.is_dir() { path } else { path.parent().map(Path::to_owned).unwrap_or_default() };
     let is_ours = |path: &Path| {
         let kind = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        path.is_dir() || matches!(kind.as_str(), "toml" | "glb" | "gltf")
+        path.is_dir() || endings().contains(&kind.as_str())
     };
     let Ok(entries) = folder.read_dir() else { return };
     let visible = |path: &PathBuf| path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.'));

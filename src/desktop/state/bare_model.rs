@@ -1,4 +1,4 @@
-//! A model without a site file, whose place is asked for.
+//! A model without a site file, or several, whose place is asked for.
 
 use crate::desktop::state::words::PanelWords;
 use crate::message::Worded;
@@ -14,6 +14,8 @@ pub(in crate::desktop) const NORTH: RangeInclusive<f64> = -360.0..=360.0;
 pub(in crate::desktop) struct BareModel {
     /// The model's file.
     pub(in crate::desktop) path: PathBuf,
+    /// Further models, which stand in the same site.
+    pub(in crate::desktop) beside: Vec<PathBuf>,
     /// What was answered so far, as typed.
     pub(in crate::desktop) place: String,
     /// Degrees clockwise from the model's north to true north, as typed.
@@ -24,8 +26,10 @@ pub(in crate::desktop) struct BareModel {
 
 impl BareModel {
     /// Nothing is answered yet.
-    pub(in crate::desktop) fn new(path: PathBuf) -> BareModel {
-        BareModel { path, place: String::new(), north: "0".to_owned(), faults: [None, None] }
+    pub(in crate::desktop) fn new(paths: Vec<PathBuf>) -> BareModel {
+        let mut paths = paths.into_iter();
+        let path = paths.next().unwrap_or_default();
+        BareModel { path, beside: paths.collect(), place: String::new(), north: "0".to_owned(), faults: [None, None] }
     }
 
     /// Degrees clockwise from the model's north to true north.

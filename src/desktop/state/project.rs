@@ -1,6 +1,7 @@
 //! The open site: as it is written, as it is meant, and what the window needs of it.
 
 use crate::desktop::state::settings::{Hidden, WindowSettings};
+use crate::formats::ModelReader;
 use crate::mesh::Mesh;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::file::{PlaceTable, SiteFile, Text};
@@ -22,6 +23,8 @@ pub(in crate::desktop) struct Project {
     pub(in crate::desktop) visible: Arc<Site>,
     /// Its models where they stand, whatever is asked of them.
     pub(in crate::desktop) models: Models,
+    /// How its models are read.
+    pub(in crate::desktop) reading: ModelReader,
     /// The colour of each component.
     pub(in crate::desktop) colours: Vec<[u8; 3]>,
     /// What is visible, to be asked what lies under the pointer; and whose faces those are.

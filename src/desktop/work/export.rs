@@ -11,7 +11,6 @@ use crate::desktop::state::project::Project;
 use crate::desktop::state::settings::WindowSettings;
 use crate::desktop::state::technique;
 use crate::desktop::work::{WHO, Work};
-use crate::formats;
 use crate::site::file::{CameraTable, SiteFile};
 use crate::site::{Models, Overrides, Site, SiteError, WrittenSite};
 use crate::study::{Event, Stopwatch};
@@ -74,7 +73,9 @@ fn seen_from(project: &Project, settings: &WindowSettings, eye: &Eye) -> Written
 
 /// What is handed in is what is seen: of the models that are open, whatever their files have become.
 fn site_of(written: &WrittenSite, overrides: &Overrides, models: Option<Models>) -> Result<Site, SiteError> {
-    Site::with_models(written, overrides, || models.map_or_else(|| Models::read(written, formats::read), Ok))
+    Site::with_models(written, overrides, || {
+        models.map_or_else(|| Models::read(written, |path, options| overrides.reading.read(path, options)), Ok)
+    })
 }
 
 fn view_from(site: &Site, eye: &Eye) -> View {
@@ -95,7 +96,7 @@ pub(in crate::desktop) fn drawing(
 ) -> Work<PathBuf> {
     let written = seen_from(project, settings, &eye);
     let models = project.models_of(&written);
-    let inputs = project.inputs(settings.before.as_deref());
+    let (inputs, reading) = (project.inputs(settings.before.as_deref()), project.reading.clone());
     let shown = settings.shown;
     Work::start(context, move |on_event| {
         let is_perspective = eye.stand == Stand::Perspective;
@@ -106,7 +107,7 @@ pub(in crate::desktop) fn drawing(
             _ => Method::Auto,
         };
         // for the region of this instant's shadows
-        let overrides = Overrides { instant: Some(time), technique: Some(method), ..Overrides::default() };
+        let overrides = Overrides { instant: Some(time), technique: Some(method), reading, ..Overrides::default() };
         let site = site_of(&written, &overrides, models)?;
         let request = InstantRequest {
             view: view_from(&site, &eye),
@@ -136,11 +137,11 @@ pub(in crate::desktop) fn animation(
 ) -> Work<PathBuf> {
     let written = seen_from(project, settings, &eye);
     let models = project.models_of(&written);
-    let inputs = project.inputs(settings.before.as_deref());
+    let (inputs, reading) = (project.inputs(settings.before.as_deref()), project.reading.clone());
     let method = settings.shown.method;
     Work::start(context, move |on_event| {
         let method = if technique::draws(method, eye.stand) { method } else { Method::Auto };
-        let overrides = Overrides { technique: Some(method), ..Overrides::default() };
+        let overrides = Overrides { technique: Some(method), reading, ..Overrides::default() };
         let site = site_of(&written, &overrides, models)?;
         // the frames, and then each once more in the GIF
         let count = site.track.instants.len();

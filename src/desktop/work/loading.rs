@@ -6,7 +6,7 @@ use crate::desktop::state::settings::Hidden;
 use crate::desktop::state::words::{FileWords, PanelWords};
 use crate::export::figure::component_colours;
 use crate::fault;
-use crate::formats;
+use crate::formats::ModelReader;
 use crate::message::Words;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::{Models, Overrides, Site, SiteError, WrittenSite};
@@ -18,16 +18,16 @@ use std::sync::{Arc, Mutex, mpsc};
 
 /// Why there is no project.
 pub(in crate::desktop) enum LoadError {
-    /// It is a bare model.
-    Bare(PathBuf),
+    /// It is a bare model, or several.
+    Bare(Vec<PathBuf>),
     /// What the command would say.
     Message(String),
 }
 
 /// What is to be loaded.
 pub(in crate::desktop) enum LoadRequest {
-    /// What somebody opens.
-    File(PathBuf),
+    /// What somebody opens: a site, or one or more models.
+    Files(Vec<PathBuf>),
     /// A bare model, where it stands.
     Placed(BareModel),
     /// What a window that has ended had open: its site file, and what was read of it.
@@ -51,9 +51,9 @@ pub(in crate::desktop) struct LoadJob {
 
 impl LoadJob {
     /// Begins.
-    pub(in crate::desktop) fn start(wanted: LoadRequest, context: egui::Context) -> LoadJob {
+    pub(in crate::desktop) fn start(wanted: LoadRequest, reading: &ModelReader, context: egui::Context) -> LoadJob {
         let path = match &wanted {
-            LoadRequest::File(path) => path.clone(),
+            LoadRequest::Files(paths) => paths.first().cloned().unwrap_or_default(),
             LoadRequest::Placed(bare) => bare.path.clone(),
             LoadRequest::Left(_, written) | LoadRequest::Again(written, ..) => PathBuf::from(&written.file),
         };
@@ -62,7 +62,8 @@ impl LoadJob {
         let cancelled = Arc::new(AtomicBool::new(false));
         let opens = !matches!(wanted, LoadRequest::Again(..));
         let reads = !matches!(&wanted, LoadRequest::Again(_, _, before) if before.models.is_some());
-        let progress = LoadProgress { stage: Arc::clone(&stage), cancelled: Arc::clone(&cancelled), context };
+        let (shown, reading) = (Arc::clone(&stage), reading.until(&cancelled));
+        let progress = LoadProgress { stage: shown, reading, cancelled: Arc::clone(&cancelled), context };
         std::thread::spawn(move || {
             let project = project(wanted, &progress);
             // who gave the loading up listens no more
@@ -96,6 +97,8 @@ impl LoadJob {
 
 struct LoadProgress {
     stage: Arc<Mutex<(f32, String)>>,
+    /// Until it is cancelled.
+    reading: ModelReader,
     cancelled: Arc<AtomicBool>,
     context: egui::Context,
 }
@@ -110,43 +113,48 @@ impl LoadProgress {
 }
 
 fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, LoadError> {
-    let (path, written) = match wanted {
-        LoadRequest::File(path) => match WrittenSite::read(&path, &Overrides::default()) {
-            Err(SiteError::NoPlaceForModel { .. }) => {
-                // a model that cannot be read is told before its place is asked
-                crate::site::load_mesh(&path, &Overrides::default()).map_err(|error| failure(&error, &FileWords))?;
-                return Err(LoadError::Bare(path));
-            }
-            Ok(written) => {
-                let path = if path.is_dir() { path.join("site.toml") } else { path };
-                (Some(path), written)
-            }
-            Err(error) => return Err(failure(&error, &FileWords)),
-        },
-        LoadRequest::Placed(bare) => {
-            let overrides = Overrides { place: Some(bare.place.clone()), ..Overrides::default() };
-            let mut written = WrittenSite::read(&bare.path, &overrides).map_err(|error| failure(&error, &FileWords))?;
-            if let Some(table) = written.site.model.first_mut() {
-                let north = bare.north().map_err(|error| failure(&error, &FileWords))?;
-                table.north = Some(north).filter(|north| *north != 0.0);
-            }
-            (None, written)
-        }
+    let (path, mut written) = match wanted {
+        LoadRequest::Files(paths) => from_files(paths)?,
+        LoadRequest::Placed(bare) => (None, placed(bare)?),
         LoadRequest::Left(path, written) => (path, *written),
         // what is left out of the open site by hand is told, and not filled in
         LoadRequest::Again(written, hidden, before) => {
             return read(before.path.clone(), *written, hidden, Some(&before), progress);
         }
     };
-    let mut written = written;
     complete(&mut written.site);
     read(path, written, Hidden::default(), None, progress)
+}
+
+/// What somebody opens as it is written, and where its site file lies; models have none.
+fn from_files(paths: Vec<PathBuf>) -> Result<(Option<PathBuf>, WrittenSite), LoadError> {
+    let mut paths = paths.into_iter();
+    let path = paths.next().unwrap_or_default();
+    let overrides = Overrides { beside: paths.collect(), ..Overrides::default() };
+    let written = WrittenSite::read(&path, &overrides).map_err(|error| failure(&error, &FileWords))?;
+    if written.is_bare_model() {
+        return Ok((None, written));
+    }
+    let path = if path.is_dir() { path.join("site.toml") } else { path };
+    Ok((Some(path), written))
+}
+
+/// Bare models, where they stand.
+fn placed(bare: BareModel) -> Result<WrittenSite, LoadError> {
+    let north = bare.north().map_err(|error| failure(&error, &FileWords))?;
+    let BareModel { path, beside, place, .. } = bare;
+    let overrides = Overrides { place: Some(place), beside, ..Overrides::default() };
+    let mut written = WrittenSite::read(&path, &overrides).map_err(|error| failure(&error, &FileWords))?;
+    for table in &mut written.site.model {
+        table.north = Some(north).filter(|north| *north != 0.0);
+    }
+    Ok(written)
 }
 
 /// The site as it is written, with what the window needs of it. What an open site has, and still does, is not made again.
 fn read(
     path: Option<PathBuf>,
-    written: WrittenSite,
+    mut written: WrittenSite,
     hidden: Hidden,
     before: Option<&LoadedSite>,
     progress: &LoadProgress,
@@ -159,7 +167,11 @@ fn read(
         let read = at_hand.map_or_else(|| read_models(&written, progress), |models| Ok(models.clone()))?;
         Ok(models.insert(read).clone())
     })
-    .map_err(|error| failure(&error, words))?;
+    .map_err(|error| match error {
+        // a model that cannot be read is told before its place is asked
+        SiteError::NoPlaceForModel { .. } => LoadError::Bare(written.model_paths()),
+        error => failure(&error, words),
+    })?;
     if progress.cancelled.load(Ordering::Relaxed) {
         return Err(LoadError::Message("given up".to_owned()));
     }
@@ -177,10 +189,14 @@ fn read(
     };
     progress.tell(1.0, "Drawing");
     let Some(models) = models else { return Err(LoadError::Message("the models were not read".to_owned())) };
+    // what a file proposes is in the panel, and is saved
+    written.site.place = written.site.place.or_else(|| models.proposed_place().cloned());
     Ok(Project {
         path,
         written,
         models,
+        // what is read of it later is nobody's to cancel here
+        reading: progress.reading.until(&Arc::default()),
         colours: component_colours(&site.mesh, &site.casts),
         seen,
         site,
@@ -204,7 +220,7 @@ fn read_models(written: &WrittenSite, progress: &LoadProgress) -> Result<Models,
     let count = written.site.model.len().max(1) as f32;
     let done = Cell::new(0.0);
     Models::read(written, |path, options| {
-        let read = formats::read(path, options)?;
+        let read = progress.reading.read(path, options)?;
         done.set(done.get() + 1.0);
         let share = done.get() / count;
         progress.tell(0.15 + 0.35 * share, if share < 1.0 { "Reading the models" } else { "Joining triangles" });

@@ -16,7 +16,6 @@ use crate::desktop::state::project::Project;
 use crate::desktop::work::{WHO, Work};
 use crate::export::figure::{self, ChangeColours};
 use crate::export::patches::Atlas;
-use crate::formats;
 use crate::site::{Models, Overrides, Pair, ProbeSite, Site, WrittenSite};
 use crate::study::{CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
 use crate::sun::DayWindow;
@@ -109,7 +108,7 @@ pub(in crate::desktop) fn change(
     let site = Arc::clone(&project.site);
     let (mut after, written) = (project.written.clone(), project.written.site.clone());
     let (models_after, mark) = (project.models.clone(), project.models.mark());
-    let name = project.name();
+    let (name, reading) = (project.name(), project.reading.clone());
     Work::start(context, move |on_event| {
         let mut watch = Stopwatch::start();
         // the picture lies on this ground
@@ -120,7 +119,7 @@ pub(in crate::desktop) fn change(
         first.site.plan = after.site.plan.clone();
         first.site.camera = after.site.camera.clone();
         let at_hand = state.as_ref().and_then(BeforeState::models);
-        let models = at_hand.map_or_else(|| Models::read(&first, formats::read), Ok)?;
+        let models = at_hand.map_or_else(|| Models::read(&first, |path, options| reading.read(path, options)), Ok)?;
         let takes_ground = first.site.ground.level.is_none() && !models.stand_on(&first, site.ground.level);
         if takes_ground {
             first.site.ground.level = Some(site.ground.level);

@@ -6,6 +6,7 @@
 
 use super::{Exposure, PatchContext, pages};
 use crate::export::ExportError;
+use crate::export::glb::{ARRAY_BUFFER, FLOAT, GlbFile, asset};
 use crate::export::raster::png_bytes;
 use crate::export::report::{place_report, stamp, tz_version};
 use crate::export::volumes::in_gltf;
@@ -13,20 +14,17 @@ use crate::look::LOOK;
 use crate::mesh::Component;
 use crate::mesh::patches::Patch;
 use glam::Vec3;
-use gltf::binary::{Glb, Header};
 use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Numbers of the format (glTF 2.0, section 5).
-const FLOAT: u32 = 5126;
-const UNSIGNED_INT: u32 = 5125;
-const ARRAY_BUFFER: u32 = 34962;
-const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 const NEAREST: u32 = 9728;
 const LINEAR: u32 = 9729;
 const CLAMP_TO_EDGE: u32 = 33071;
+
+/// What this is, where it is refused.
+const WHAT: &str = "surfaces";
 
 /// In a texture of numbers, what belongs to no patch.
 const NO_NUMBER: u16 = u16::MAX;
@@ -39,7 +37,7 @@ pub fn glb(found: &PatchContext) -> Result<Vec<u8>, ExportError> {
     if found.patches.list.is_empty() {
         return Err(refused("no surface receives; check `receives`"));
     }
-    let mut file = File::default();
+    let mut file = SurfaceFile::default();
     let seconds = seconds_a_unit(found);
     let pages = pages::pages(found.patches, found.hours);
     let images: Vec<[usize; 2]> =
@@ -62,7 +60,7 @@ pub fn glb(found: &PatchContext) -> Result<Vec<u8>, ExportError> {
     }
     let materials: Vec<Value> = (0..pages.len()).map(material).chain([not_judged()]).collect();
     let mut document = json!({
-        "asset": {"version": "2.0", "generator": concat!("gnomon ", env!("CARGO_PKG_VERSION"))},
+        "asset": asset(),
         "extensionsUsed": ["KHR_materials_unlit"],
         "scene": 0,
         "scenes": [{"name": "hours of sun", "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras(found, seconds)}],
@@ -73,11 +71,12 @@ pub fn glb(found: &PatchContext) -> Result<Vec<u8>, ExportError> {
     });
     document["textures"] =
         images.iter().flatten().map(|image| json!({"sampler": 0, "source": image})).collect::<Vec<_>>().into();
-    file.finish(document)
+    document["images"] = file.images.into();
+    file.glb.finish(WHAT, document)
 }
 
 fn refused(why: impl ToString) -> ExportError {
-    ExportError::encode("surfaces", why)
+    ExportError::encode(WHAT, why)
 }
 
 /// So many seconds a unit of the textures of numbers, that the window's daylight fits.
@@ -125,35 +124,14 @@ fn not_judged() -> Value {
     })
 }
 
-/// The lists of the format, and the data they point into.
+/// What the file is put together from.
 #[derive(Default)]
-struct File {
-    data: Vec<u8>,
-    views: Vec<Value>,
-    accessors: Vec<Value>,
+struct SurfaceFile {
+    glb: GlbFile,
     images: Vec<Value>,
 }
 
-impl File {
-    fn view(&mut self, bytes: impl IntoIterator<Item = u8>, target: Option<u32>) -> usize {
-        let offset = self.data.len();
-        self.data.extend(bytes);
-        let mut view = json!({"buffer": 0, "byteOffset": offset, "byteLength": self.data.len() - offset});
-        if let Some(target) = target {
-            view["target"] = target.into();
-        }
-        // what follows may be read as words of four bytes
-        self.data.resize(self.data.len().next_multiple_of(4), 0);
-        self.views.push(view);
-        self.views.len() - 1
-    }
-
-    fn accessor(&mut self, mut accessor: Value, bytes: impl IntoIterator<Item = u8>, target: u32) -> usize {
-        accessor["bufferView"] = self.view(bytes, Some(target)).into();
-        self.accessors.push(accessor);
-        self.accessors.len() - 1
-    }
-
+impl SurfaceFile {
     /// A page's colours and numbers.
     fn images(&mut self, found: &PatchContext, page: &[u32], seconds: u32) -> Result<[usize; 2], ExportError> {
         let (bands, samples, side) = (found.bands(), found.hours.samples, found.patches.page_size);
@@ -167,7 +145,7 @@ impl File {
         let numbers: Vec<u8> = page.iter().map(number).flat_map(u16::to_be_bytes).collect();
         let mut image = |name: &str, kind, pixels: &[u8]| {
             let bytes = png_bytes((side, side), kind, None, pixels).map_err(refused)?;
-            let view = self.view(bytes, None);
+            let view = self.glb.view(bytes, None);
             self.images.push(json!({"name": name, "mimeType": "image/png", "bufferView": view}));
             Ok::<_, ExportError>(self.images.len() - 1)
         };
@@ -186,12 +164,12 @@ impl File {
             for patch in patches {
                 append(found, patch, &mut positions, &mut places, &mut corners);
             }
-            let place = self.accessor(
+            let place = self.glb.accessor(
                 json!({"componentType": FLOAT, "type": "VEC2", "count": places.len()}),
                 places.iter().flatten().copied().flat_map(f32::to_le_bytes),
                 ARRAY_BUFFER,
             );
-            let [position, indices] = self.triangles(&positions, &corners);
+            let [position, indices] = self.glb.triangles(&positions, &corners);
             json!({"attributes": {"POSITION": position, "TEXCOORD_0": place}, "indices": indices, "material": page})
         };
         of_pages.into_iter().map(primitive).collect()
@@ -210,40 +188,8 @@ impl File {
             })
         };
         let corners: Vec<u32> = faces.iter().flatten().map(&mut corner).collect();
-        let [position, indices] = self.triangles(&positions, &corners);
+        let [position, indices] = self.glb.triangles(&positions, &corners);
         json!({"attributes": {"POSITION": position}, "indices": indices, "material": material})
-    }
-
-    /// The accessors of positions and indices.
-    fn triangles(&mut self, positions: &[Vec3], corners: &[u32]) -> [usize; 2] {
-        let low = positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
-        let high = positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
-        let position = self.accessor(
-            json!({"componentType": FLOAT, "type": "VEC3", "count": positions.len(),
-                   "min": low.to_array(), "max": high.to_array()}),
-            positions.iter().flat_map(Vec3::to_array).flat_map(f32::to_le_bytes),
-            ARRAY_BUFFER,
-        );
-        let indices = self.accessor(
-            json!({"componentType": UNSIGNED_INT, "type": "SCALAR", "count": corners.len()}),
-            corners.iter().copied().flat_map(u32::to_le_bytes),
-            ELEMENT_ARRAY_BUFFER,
-        );
-        [position, indices]
-    }
-
-    fn finish(self, mut document: Value) -> Result<Vec<u8>, ExportError> {
-        document["images"] = self.images.into();
-        document["accessors"] = self.accessors.into();
-        document["bufferViews"] = self.views.into();
-        document["buffers"] = json!([{"byteLength": self.data.len()}]);
-        let document = serde_json::to_vec(&document).map_err(refused)?;
-        let total = 12 + 8 + document.len().next_multiple_of(4) as u64 + 8 + self.data.len() as u64;
-        let Ok(length) = u32::try_from(total) else {
-            return Err(ExportError::LargeGlb { size: total });
-        };
-        let header = Header { magic: *b"glTF", version: 2, length };
-        Glb { header, json: Cow::Owned(document), bin: Some(Cow::Owned(self.data)) }.to_vec().map_err(refused)
     }
 }
 

@@ -57,6 +57,11 @@ impl FootprintOutline {
         self.polygons.iter().map(|polygon| 2 * (polygon.triangles.len() + polygon.corners.len()) as u64).sum()
     }
 
+    /// Whether its corners have no heights.
+    pub(super) fn is_at_zero(&self) -> bool {
+        self.polygons.iter().all(|polygon| polygon.foot == 0.0)
+    }
+
     /// The block.
     pub(super) fn part(&self, layer: Option<&str>) -> Part {
         let (name, aliases) = names_of(&self.tags, self.number, layer);

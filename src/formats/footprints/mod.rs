@@ -96,6 +96,7 @@ impl Footprints {
                 counted(replaced.partly as u64, "outline")
             )]);
         }
+        let stands_on_ground = self.bodies.is_empty() && outlines.iter().all(|outline| outline.is_at_zero());
         let mut at = 0;
         outlines.retain(|_| {
             at += 1;
@@ -115,6 +116,7 @@ impl Footprints {
             up_is_said: true,
             unit_m: Some(1.0),
             coordinates,
+            stands_on_ground,
             left_out: self.tally.into_left_out(),
             notes: self.notes,
             ..Model::default()

@@ -9,6 +9,7 @@ use super::pose::{Pose, Skins};
 use super::primitive::{self, MaterialGroup, MeshTriangles, PrimitiveTriangles};
 use super::scene::PlacedNode;
 use super::{Fault, MAX_COMPONENTS, MAX_MOVES, MAX_TRIANGLES, SeeThrough};
+use crate::formats::PartKind;
 use crate::mesh::Part;
 use glam::DAffine3;
 use rayon::prelude::*;
@@ -21,6 +22,8 @@ const ABSENT: u32 = u32::MAX;
 pub(super) struct BuiltScene {
     /// One part per node and material, in the order of the scene.
     pub parts: Vec<Part>,
+    /// What each part is, where one is not a building.
+    pub kinds: Vec<PartKind>,
     /// Each name once.
     pub see_through: Vec<SeeThrough>,
 }
@@ -38,7 +41,8 @@ pub(super) fn build(
     let mut skins = Skins::new(document);
     let mut builder = Builder { told_step, ..Builder::default() };
     let (mut triangles, mut moves) = (0_u64, 0_u64);
-    let (mut parts, mut see_through) = (Vec::new(), BTreeMap::<String, Vec<usize>>::new());
+    let (mut parts, mut kinds) = (Vec::new(), Vec::new());
+    let mut see_through = BTreeMap::<String, Vec<usize>>::new();
     for place in placed {
         let Some(surfaces) = known.get_mut(place.mesh) else {
             continue; // `scene::place` has checked the index.
@@ -79,7 +83,10 @@ pub(super) fn build(
                 true => node.clone(),
                 false => format!("{node}/{material}"),
             };
-            part.aliases = aliases(&node, document.mesh_name(place.mesh), &material);
+            let own = document.nodes.get(place.node).map(|node| &node.own);
+            let further = own.map_or(&[][..], |own| &own.aliases);
+            part.aliases = aliases(&node, document.mesh_name(place.mesh), &material, further);
+            kinds.push(own.map(|own| own.kind).unwrap_or_default());
             if group.material.is_some_and(|index| document.is_see_through(index, group.has_faded_vertices)) {
                 see_through.entry(material).or_default().push(parts.len());
             }
@@ -90,13 +97,16 @@ pub(super) fn build(
         }
     }
     let see_through = see_through.into_iter().map(|(material, parts)| SeeThrough { material, parts }).collect();
-    Ok(BuiltScene { parts, see_through })
+    if kinds.iter().all(|kind| *kind == PartKind::Building) {
+        kinds.clear();
+    }
+    Ok(BuiltScene { parts, kinds, see_through })
 }
 
 /// The names by which a part may be meant, each once.
-fn aliases(node: &str, mesh: Option<&str>, material: &str) -> Vec<String> {
+fn aliases(node: &str, mesh: Option<&str>, material: &str, further: &[String]) -> Vec<String> {
     let mut aliases = vec![node.to_owned()];
-    for alias in mesh.into_iter().chain([material]) {
+    for alias in mesh.into_iter().chain([material]).chain(further.iter().map(String::as_str)) {
         if !aliases.iter().any(|known| known == alias) {
             aliases.push(alias.to_owned());
         }

@@ -6,6 +6,7 @@
 
 use super::Fault;
 use super::material::Material;
+use super::own::{self, OwnExtras};
 use crate::formats::composed;
 use gltf::json::{Accessor, Buffer, Mesh, buffer::View};
 use serde::{Deserialize, Deserializer};
@@ -127,6 +128,8 @@ pub(super) struct Node {
     pub scale: Option<[f64; 3]>,
     #[serde(default)]
     pub extensions: NodeExtensions,
+    #[serde(default, rename = "extras", deserialize_with = "own::read")]
+    pub own: OwnExtras,
 }
 
 #[derive(Default, Deserialize)]

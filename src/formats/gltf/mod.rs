@@ -8,7 +8,7 @@
 //! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
 //! binary chunk), `document` and `material` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
 //! and `reader` (bytes → numbers), `draco` and `meshopt` (what is compressed), `coarse` (how exact those are), `instances`, `primitive` (which triangles a mesh has),
-//! `pose` (morphs and skins), `build` (all of it → parts), `notes` (what the user should know of it); beside it `named`
+//! `pose` (morphs and skins), `build` (all of it → parts), `own` (what this program itself has written of them), `notes` (what the user should know of it); beside it `named`
 //! (which other files are the model's).
 
 use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
@@ -28,6 +28,7 @@ mod material;
 mod meshopt;
 mod named;
 mod notes;
+mod own;
 mod pose;
 mod primitive;
 mod reader;
@@ -87,7 +88,7 @@ pub(super) fn read_bytes(bytes: &[u8], path: &Path, options: &ReadOptions, appli
     let mut buffers = buffers::Buffers::new(&document, container.binary, folder);
     let meshes: BTreeSet<usize> = standing.placed.iter().map(|place| place.mesh).collect();
     meshes.into_iter().try_for_each(|mesh| buffers.unpack(mesh))?;
-    let build::BuiltScene { parts, see_through } =
+    let build::BuiltScene { parts, kinds, see_through } =
         build::build(&document, &buffers, &standing.placed, options.told_step)?;
     if parts.is_empty() {
         let scene = if is_asked { "that scene" } else { "its default scene" };
@@ -95,5 +96,5 @@ pub(super) fn read_bytes(bytes: &[u8], path: &Path, options: &ReadOptions, appli
     }
     let notes = notes::of(&document, &standing, is_asked);
     // glTF is in metres and y up, and many a program exports something else: nothing is said, so that it can be doubted
-    Ok(Model { parts, notes, see_through, ..Model::default() })
+    Ok(Model { parts, kinds, notes, see_through, ..Model::default() })
 }

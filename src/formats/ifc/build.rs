@@ -74,6 +74,7 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
         left_out,
         notes,
         see_through: parts.see_through,
+        ..Model::default()
     })
 }
 

@@ -15,7 +15,7 @@ mod thin;
 pub use ascii_grid::AsciiGrid;
 pub use geotiff::GeoTiff;
 pub use landxml::LandXml;
-pub use points::LasPoints;
+pub use points::{LasPoints, POINT_CLASSES};
 
 use super::{Coordinates, Model, ModelFault, PartKind, Up};
 use crate::mesh::Part;

@@ -27,8 +27,11 @@ const GROUND: [u8; 2] = [2, 8];
 const NOISE: [u8; 2] = [7, 18];
 
 /// Classes that can be asked, with their numbers.
-pub(super) const CLASSES: &[(&str, &[u8])] =
-    &[("building", &[6]), ("vegetation", &[3, 4, 5]), ("bridge", &[17]), ("water", &[9])];
+const CLASSES: [(&str, &[u8]); POINT_CLASSES.len()] =
+    [(POINT_CLASSES[0], &[6]), (POINT_CLASSES[1], &[3, 4, 5]), (POINT_CLASSES[2], &[17]), (POINT_CLASSES[3], &[9])];
+
+/// The classes of points that can be asked to stand beside the ground.
+pub const POINT_CLASSES: [&str; 4] = ["building", "vegetation", "bridge", "water"];
 
 impl Format for LasPoints {
     fn name(&self) -> &'static str {

@@ -36,7 +36,8 @@ pub(super) fn ifc() -> String {
         storeys.push(house.storey(name, number as f64 * STOREY));
     }
     let top = 2.0 * STOREY;
-    let roof = house.product("IFCROOF", "Roof", ([-600.0, -600.0, top], [LENGTH + 1200.0, WIDTH + 1200.0, 300.0]), house.roof);
+    let roof =
+        house.product("IFCROOF", "Roof", ([-600.0, -600.0, top], [LENGTH + 1200.0, WIDTH + 1200.0, 300.0]), house.roof);
     house.contain(storeys[1], &[roof]);
     house.aggregate(project, &[site]);
     house.aggregate(site, &[building]);
@@ -108,17 +109,22 @@ impl House {
         let owner = self.owner;
         let placement = self.placement([0.0; 3]);
         let guid = self.step.guid();
-        let storey = self.step.add(format!(
-            "IFCBUILDINGSTOREY({guid},#{owner},'{name}',$,$,#{placement},$,$,.ELEMENT.,{level:.1})"
-        ));
+        let storey = self
+            .step
+            .add(format!("IFCBUILDINGSTOREY({guid},#{owner},'{name}',$,$,#{placement},$,$,.ELEMENT.,{level:.1})"));
         let wall_height = STOREY - FLOOR;
         let foot = level + FLOOR;
         let mut products =
             vec![self.product("IFCSLAB", "Floor", ([0.0, 0.0, level], [LENGTH, WIDTH, FLOOR]), self.wall)];
-        let south: Vec<Block> = (0..4).map(|at| self::window([1200.0 + 3600.0 * f64::from(at), 0.0, foot], true)).collect();
-        let north: Vec<Block> = (0..3).map(|at| self::window([2000.0 + 4800.0 * f64::from(at), WIDTH - WALL, foot], true)).collect();
+        let south: Vec<Block> =
+            (0..4).map(|at| self::window([1200.0 + 3600.0 * f64::from(at), 0.0, foot], true)).collect();
+        let north: Vec<Block> =
+            (0..3).map(|at| self::window([2000.0 + 4800.0 * f64::from(at), WIDTH - WALL, foot], true)).collect();
         let west = vec![self::window([0.0, 3600.0, foot], false)];
-        let east = vec![self::window([LENGTH - WALL, 2000.0, foot], false), self::window([LENGTH - WALL, 5600.0, foot], false)];
+        let east = vec![
+            self::window([LENGTH - WALL, 2000.0, foot], false),
+            self::window([LENGTH - WALL, 5600.0, foot], false),
+        ];
         let walls: [(&str, Block, Vec<Block>); 4] = [
             ("South wall", ([0.0, 0.0, foot], [LENGTH, WALL, wall_height]), south),
             ("North wall", ([0.0, WIDTH - WALL, foot], [LENGTH, WALL, wall_height]), north),
@@ -137,8 +143,9 @@ impl House {
         let shape = self.shape(inside, None);
         let placement = self.placement([0.0; 3]);
         let guid = self.step.guid();
-        let room =
-            self.step.add(format!("IFCSPACE({guid},#{owner},'Room',$,$,#{placement},#{shape},$,.ELEMENT.,.INTERNAL.,$)"));
+        let room = self
+            .step
+            .add(format!("IFCSPACE({guid},#{owner},'Room',$,$,#{placement},#{shape},$,.ELEMENT.,.INTERNAL.,$)"));
         self.aggregate(storey, &[room]);
         storey
     }
@@ -157,7 +164,9 @@ impl House {
         let placement = self.placement([0.0; 3]);
         let shape = self.shape(hole, None);
         let guid = self.step.guid();
-        let hole = self.step.add(format!("IFCOPENINGELEMENT({guid},#{owner},'Opening',$,$,#{placement},#{shape},$,.OPENING.)"));
+        let hole = self
+            .step
+            .add(format!("IFCOPENINGELEMENT({guid},#{owner},'Opening',$,$,#{placement},#{shape},$,.OPENING.)"));
         let guid = self.step.guid();
         self.step.add(format!("IFCRELVOIDSELEMENT({guid},#{owner},$,$,#{wall},#{hole})"));
         let window = self.product("IFCWINDOW", name, pane, self.glass);
@@ -195,10 +204,7 @@ impl House {
 
     fn contain(&mut self, storey: Line, products: &[Line]) {
         let (owner, guid) = (self.owner, self.step.guid());
-        self.step.add(format!(
-            "IFCRELCONTAINEDINSPATIALSTRUCTURE({guid},#{owner},$,$,{},#{storey})",
-            list(products)
-        ));
+        self.step.add(format!("IFCRELCONTAINEDINSPATIALSTRUCTURE({guid},#{owner},$,$,{},#{storey})", list(products)));
     }
 
     fn aggregate(&mut self, whole: Line, parts: &[Line]) {

@@ -1,0 +1,23 @@
+//! `gnomon read-model`, which the program asks of itself: reads a model file and writes it to standard output. Whoever asks
+//! holds standard input open; once that is closed nobody wants the model.
+
+use crate::formats::child;
+use clap::Args;
+use std::io::{self, BufRead, BufReader, BufWriter};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(super) struct ReadModelArgs {
+    path: PathBuf,
+}
+
+pub(super) fn read_model(asked: &ReadModelArgs) -> anyhow::Result<()> {
+    let mut input = BufReader::new(io::stdin());
+    let mut request = String::new();
+    input.read_line(&mut request)?;
+    std::thread::spawn(move || {
+        let _ = io::copy(&mut input, &mut io::sink());
+        std::process::exit(1);
+    });
+    Ok(child::answer(&asked.path, &request, &mut BufWriter::with_capacity(1 << 20, io::stdout().lock()))?)
+}

@@ -1,0 +1,79 @@
+//! The site's own frame: azimuthal equidistant around the place.
+
+use super::{Crs, CrsKind, GeodeticPoint};
+use glam::{DVec2, DVec3};
+use proj4rs::Proj;
+use proj4rs::transform::transform;
+
+/// Beyond this distance the flat frame says nothing of a model any more, metres.
+pub const TOO_FAR_M: f64 = 2.0e6;
+
+/// Metres to either side of a point between which directions are measured.
+const STEP_M: f64 = 50.0;
+
+/// Metres east and north of a place along the ellipsoid of WGS 84, true in distance and direction from it; heights above
+/// its elevation. It is the frame of the GeoTIFF of hours.
+#[derive(Clone)]
+pub struct LocalFrame {
+    proj: Proj,
+    longlat: Proj,
+    elevation_m: f64,
+}
+
+impl std::fmt::Debug for LocalFrame {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "LocalFrame({:?})", self.proj.latitude_of_origin())
+    }
+}
+
+impl LocalFrame {
+    /// Around a point; none where that is no point of the Earth.
+    pub fn around(place: GeodeticPoint) -> Option<LocalFrame> {
+        let GeodeticPoint { latitude_deg, longitude_deg, height_m } = place;
+        if !(latitude_deg.abs() <= 90.0 && longitude_deg.abs() <= 360.0 && height_m.is_finite()) {
+            return None;
+        }
+        let text = format!("+proj=aeqd +lat_0={latitude_deg} +lon_0={longitude_deg} +datum=WGS84 +units=m +no_defs");
+        let longlat = Proj::from_proj_string("+proj=longlat +datum=WGS84 +no_defs").ok()?;
+        Some(LocalFrame { proj: Proj::from_proj_string(&text).ok()?, longlat, elevation_m: height_m })
+    }
+
+    /// Metres above the sea of its zero.
+    pub fn elevation_m(&self) -> f64 {
+        self.elevation_m
+    }
+
+    /// A point of the Earth in this frame; none where it lies so far away that the frame says nothing of it.
+    pub fn point(&self, at: GeodeticPoint) -> Option<DVec3> {
+        let mut point = (at.longitude_deg.to_radians(), at.latitude_deg.to_radians(), 0.0);
+        transform(&self.longlat, &self.proj, &mut point).ok()?;
+        let local = DVec3::new(point.0, point.1, at.height_m - self.elevation_m);
+        (local.is_finite() && local.truncate().length() <= TOO_FAR_M).then_some(local)
+    }
+
+    /// The direction of true north at a point, radians clockwise from this frame's north.
+    pub fn true_north_rad(&self, at: GeodeticPoint) -> Option<f64> {
+        let step = STEP_M / super::RADIUS_M.to_radians();
+        let beside = |by: f64| self.point(GeodeticPoint { latitude_deg: at.latitude_deg + by, ..at });
+        // at a pole there is none; next to it one side is enough
+        let [south, north] = [-step, step].map(|by| beside(by).filter(|_| (at.latitude_deg + by).abs() < 90.0));
+        let here = self.point(at);
+        direction((north.or(here)? - south.or(here)?).truncate())
+    }
+
+    /// The direction of a map's north at one of its points, radians clockwise from this frame's north.
+    pub fn map_north_rad(&self, crs: &Crs, at: DVec3) -> Option<f64> {
+        let step = match crs.kind() {
+            CrsKind::EarthCentred => return None,
+            CrsKind::Geographic => STEP_M / super::RADIUS_M.to_radians(),
+            CrsKind::Projected => STEP_M / crs.unit_m(),
+        };
+        let [south, north] = [-step, step].map(|by| self.point(crs.to_wgs84(at + DVec3::Y * by)?));
+        direction((north? - south?).truncate())
+    }
+}
+
+/// Clockwise from north; none of no way at all.
+fn direction(way: DVec2) -> Option<f64> {
+    (way.length_squared() > 0.0).then(|| way.x.atan2(way.y))
+}

@@ -1,0 +1,207 @@
+//! Coordinates of a map or of the Earth → longitude and latitude → metres around a place.
+//!
+//! The reference systems are those of the EPSG dataset as `crs-definitions` has them, the arithmetic is that of `proj4rs`.
+//! Datums are shifted by the three or seven parameters of the definition, in place of the grids that surveyors have.
+//! Heights above the sea stay what they are: a shift of the datum moves a point along the ground and leaves its height, as
+//! no one measures a height from an old ellipsoid.
+
+mod convert;
+mod datums;
+mod local;
+mod names;
+mod wkt;
+
+pub use convert::MapToLocal;
+pub use local::{LocalFrame, TOO_FAR_M};
+
+use crate::message::{Message, message};
+use glam::DVec3;
+use proj4rs::Proj;
+use proj4rs::transform::transform;
+use std::sync::LazyLock;
+
+/// A text that is longer is no reference system.
+const MOST_BYTES: usize = 64 * 1024;
+
+/// Metres to either side of a point between which the direction of the map's north is measured.
+const STEP_M: f64 = 50.0;
+
+/// WGS 84's longitudes and latitudes, in radians, as `proj4rs` has them.
+static WGS84: LazyLock<Option<Proj>> =
+    LazyLock::new(|| Proj::from_proj_string("+proj=longlat +datum=WGS84 +no_defs").ok());
+
+/// WGS 84's ellipsoid: its larger radius in metres, and the square of its eccentricity.
+const RADIUS_M: f64 = 6_378_137.0;
+const ECCENTRICITY_SQUARED: f64 = 0.006_694_379_990_141_316;
+
+/// A point of the Earth in WGS 84.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeodeticPoint {
+    /// Degrees, north positive.
+    pub latitude_deg: f64,
+    /// Degrees, east positive.
+    pub longitude_deg: f64,
+    /// Metres.
+    pub height_m: f64,
+}
+
+/// A coordinate reference system.
+#[derive(Clone)]
+pub struct Crs {
+    proj: Proj,
+    name: String,
+    kind: CrsKind,
+    /// Metres of a unit of heights, where the system has one of its own.
+    height_unit_m: Option<f64>,
+    /// How the datum is shifted to WGS 84; empty where it is not.
+    shift: String,
+    doubt: Option<&'static str>,
+}
+
+/// What a system's coordinates are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CrsKind {
+    /// Eastings and northings on a map.
+    Projected,
+    /// Longitudes and latitudes, in degrees.
+    Geographic,
+    /// x, y, z from the middle of the Earth.
+    EarthCentred,
+}
+
+impl std::fmt::Debug for Crs {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Crs({})", self.name)
+    }
+}
+
+impl Crs {
+    /// Reads what a file or a person writes: `EPSG:25832`, its forms as URN or URL, a compound system, a name, WKT, or PROJ's
+    /// text.
+    ///
+    /// # Errors
+    /// What is wrong with it, and the way out; the subject is the text.
+    pub fn read(text: &str) -> Result<Crs, Message> {
+        let text = text.trim();
+        if text.is_empty() || text.len() > MOST_BYTES {
+            return Err(message!["a reference system must be named"; "write for example \"EPSG:25832\""]);
+        }
+        let found = if text.contains('[') { wkt::definition(text)? } else { names::definition(text)? };
+        Self::of(found, text)
+    }
+
+    fn of(found: Definition, text: &str) -> Result<Crs, Message> {
+        let Definition { name, proj: definition, height_unit_m, doubt } = found;
+        let unusable = |why: String| {
+            message![
+                format!("{} cannot be used: {why}", shortened(text));
+                "export the model in another system, such as UTM on WGS 84 or ETRS89"
+            ]
+        };
+        let usable = datums::usable(&definition).map_err(|why| unusable(why.to_owned()))?;
+        let proj = Proj::from_proj_string(&usable.text).map_err(|error| unusable(error.to_string()))?;
+        let kind = match () {
+            () if proj.is_latlong() => CrsKind::Geographic,
+            () if proj.is_geocent() => CrsKind::EarthCentred,
+            () => CrsKind::Projected,
+        };
+        // what has no inverse turns no point of a map into one of the Earth
+        if !(proj.has_inverse() && proj.to_meter().is_finite() && proj.to_meter() > 0.0) {
+            return Err(unusable("its projection has no inverse here".to_owned()));
+        }
+        let height_unit_m = height_unit_m.or_else(|| usable.text.contains("+vunits=").then(|| proj.vto_meter()));
+        Ok(Crs { proj, name, kind, height_unit_m, shift: usable.shift, doubt: doubt.or(usable.doubt) })
+    }
+
+    /// What people call it: `EPSG:25832 (ETRS89 / UTM zone 32N)`.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What its coordinates are.
+    pub fn kind(&self) -> CrsKind {
+        self.kind
+    }
+
+    /// Metres of a unit of its eastings and northings; 1 where these are degrees.
+    pub fn unit_m(&self) -> f64 {
+        if self.kind == CrsKind::Geographic { 1.0 } else { self.proj.to_meter() }
+    }
+
+    /// Metres of a unit of its heights, where it has one of its own.
+    pub fn height_unit_m(&self) -> Option<f64> {
+        self.height_unit_m
+    }
+
+    /// By which parameters its datum is shifted to WGS 84; empty where both are the same to a metre.
+    pub fn shift(&self) -> &str {
+        &self.shift
+    }
+
+    /// Why places in it may be wrong by more than a few metres, as a clause.
+    pub fn doubt(&self) -> Option<&'static str> {
+        self.doubt
+    }
+
+    /// A point of the map as one of the Earth; none where the map does not reach.
+    ///
+    /// x and y are in the system's units, or degrees; z is in metres and stays what it is, but where the system is
+    /// Earth-centred: then all three are in its unit, and the height is above the ellipsoid.
+    pub fn to_wgs84(&self, at: DVec3) -> Option<GeodeticPoint> {
+        if !at.is_finite() {
+            return None;
+        }
+        let mut point = match self.kind {
+            CrsKind::Geographic if at.x.abs() > 720.0 || at.y.abs() > 90.0 + 1e-9 => return None,
+            CrsKind::Geographic => (at.x.to_radians(), at.y.to_radians(), 0.0),
+            CrsKind::EarthCentred => (at.x, at.y, at.z),
+            CrsKind::Projected => (at.x, at.y, 0.0),
+        };
+        transform(&self.proj, WGS84.as_ref()?, &mut point).ok()?;
+        let height_m = if self.kind == CrsKind::EarthCentred { point.2 } else { at.z };
+        let turned = (point.0.to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
+        let found = GeodeticPoint { latitude_deg: point.1.to_degrees(), longitude_deg: turned, height_m };
+        let is_point = found.latitude_deg.abs() <= 90.0 && turned.is_finite() && height_m.is_finite();
+        is_point.then_some(found)
+    }
+
+    /// The meridian convergence at a point of the map: radians clockwise from true north to the map's. None where the map
+    /// does not reach, and for Earth-centred coordinates, which have no north.
+    pub fn convergence_rad(&self, easting: f64, northing: f64) -> Option<f64> {
+        let step = match self.kind {
+            CrsKind::EarthCentred => return None,
+            CrsKind::Geographic => STEP_M / RADIUS_M.to_radians(),
+            CrsKind::Projected => STEP_M / self.unit_m(),
+        };
+        let [south, north] = [-step, step].map(|by| self.to_wgs84(DVec3::new(easting, northing + by, 0.0)));
+        let (south, north) = (south?, north?);
+        let latitude = ((south.latitude_deg + north.latitude_deg) / 2.0).to_radians();
+        let turned = (north.longitude_deg - south.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;
+        // the radii of the ellipsoid there: along the parallel, and along the meridian
+        let w = 1.0 - ECCENTRICITY_SQUARED * latitude.sin().powi(2);
+        let (along_parallel, along_meridian) = (latitude.cos(), (1.0 - ECCENTRICITY_SQUARED) / w);
+        let east = turned * along_parallel;
+        let up = (north.latitude_deg - south.latitude_deg) * along_meridian;
+        (east != 0.0 || up != 0.0).then(|| east.atan2(up))
+    }
+}
+
+/// A system as it is found, before its arithmetic is set up.
+#[derive(Debug)]
+struct Definition {
+    name: String,
+    /// PROJ's text.
+    proj: String,
+    height_unit_m: Option<f64>,
+    doubt: Option<&'static str>,
+}
+
+/// A text that a message can hold.
+fn shortened(text: &str) -> String {
+    const MOST: usize = 60;
+    let one_line: String = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match one_line.char_indices().nth(MOST) {
+        Some((end, _)) => format!("\"{}…\"", &one_line[..end]),
+        None => format!("\"{one_line}\""),
+    }
+}

@@ -1,0 +1,60 @@
+//! What is dropped on the window: a site is opened; models, too, or they are added to the open site.
+
+use crate::desktop::app::state::App;
+use crate::desktop::parts::question::Question;
+use crate::desktop::state::project::name_of;
+use crate::desktop::work::loading::LoadRequest;
+use crate::formats;
+use crate::message::few;
+use crate::site::file::ModelTable;
+use eframe::egui;
+use std::path::PathBuf;
+
+impl App {
+    /// Takes what is dropped: what is no model is opened, and models are where no site is open.
+    pub(in crate::desktop) fn take_dropped(&mut self, context: &egui::Context) {
+        let dropped = |input: &egui::InputState| {
+            input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<PathBuf>>()
+        };
+        let files = context.input(dropped);
+        let is_model = |file: &PathBuf| formats::by_ending(file).is_some() && !file.is_dir();
+        match files.iter().find(|file| !is_model(file)) {
+            _ if files.is_empty() => {}
+            Some(site) => self.load(LoadRequest::Files(vec![site.clone()]), context),
+            None if self.open.is_none() => self.load(LoadRequest::Files(files), context),
+            None => self.dropped = files,
+        }
+    }
+
+    /// Asks what becomes of models that were dropped on an open site.
+    pub(in crate::desktop) fn ask_dropped(&mut self, context: &egui::Context) {
+        let files = std::mem::take(&mut self.dropped);
+        if files.is_empty() {
+            return;
+        }
+        let names = few(files.iter().map(|file| name_of(file)).collect());
+        let (is, it) = if files.len() == 1 { ("is a model", "it") } else { ("are models", "them") };
+        let open = self.open.as_ref().map(|open| open.project.name()).unwrap_or_default();
+        let answer = Question {
+            heading: "Add to the site?",
+            text: &format!("{names} {is}. Add {it} to {open}, or open {it} instead?"),
+            path: "",
+            answers: ["Add to the site", "Open instead", "Cancel"],
+            first: 0,
+        };
+        match answer.show(context) {
+            None => self.dropped = files,
+            Some(0) => self.add_models(&files),
+            Some(1) => self.load(LoadRequest::Files(files), context),
+            Some(_) => {}
+        }
+    }
+
+    /// Writes models into the open site, which is read again.
+    fn add_models(&mut self, files: &[PathBuf]) {
+        let Some(open) = &self.open else { return };
+        let written = &open.project.written;
+        let tables = files.iter().map(|file| ModelTable { path: Some(written.path_of(file)), ..ModelTable::default() });
+        self.settings.site.model.extend(tables);
+    }
+}

@@ -1,0 +1,90 @@
+//! What `gnomon check` says of model files beside their mesh: format, what stands there in which groups, and what
+//! was left out.
+
+use crate::formats::LeftOut;
+use crate::message::{Field, Words, message};
+use crate::site::{ModelContents, NameGroup};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// Groups and kinds of things left out that a table has a line for; JSON has all.
+const MOST: usize = 12;
+
+/// What a file holds.
+#[derive(Serialize)]
+pub(super) struct ContentsReport<'a> {
+    file: &'a str,
+    format: &'a str,
+    kinds: Map<String, Value>,
+    groups: Vec<GroupLine<'a>>,
+    left_out: Vec<LeftOutLine<'a>>,
+}
+
+#[derive(Serialize)]
+struct GroupLine<'a> {
+    name: &'a str,
+    components: usize,
+}
+
+#[derive(Serialize)]
+struct LeftOutLine<'a> {
+    what: &'a str,
+    count: u64,
+    why: &'a str,
+}
+
+impl<'a> ContentsReport<'a> {
+    pub(super) fn of(model: &'a ModelContents) -> ContentsReport<'a> {
+        let group = |group: &'a NameGroup| GroupLine { name: &group.name, components: group.components };
+        let left = |left: &'a LeftOut| LeftOutLine { what: &left.what, count: left.count, why: &left.why };
+        ContentsReport {
+            file: &model.file,
+            format: model.format,
+            kinds: model.kinds.iter().map(|(kind, count)| (kind.word().to_owned(), json!(count))).collect(),
+            groups: model.groups.iter().map(group).collect(),
+            left_out: model.left_out.iter().map(left).collect(),
+        }
+    }
+}
+
+/// Lines on each model; they end with a line break.
+pub(super) fn table(models: &[ModelContents], words: &dyn Words) -> String {
+    let mut table = String::new();
+    // Writing to a String cannot fail.
+    for model in models {
+        let _ = writeln!(table, "{}: {}", plain(&model.file), model.format);
+        if model.kinds.iter().any(|(kind, _)| *kind != Default::default()) {
+            let kinds: Vec<String> =
+                model.kinds.iter().map(|(kind, count)| format!("{count} {}", kind.word())).collect();
+            let _ = writeln!(table, "  kinds: {}", kinds.join(", "));
+        }
+        if !model.groups.is_empty() {
+            let shown = model.groups.iter().take(MOST);
+            let shown: Vec<String> =
+                shown.map(|group| format!("\"{}\" ({})", plain(&group.name), group.components)).collect();
+            let _ = writeln!(table, "  groups: {}{}", shown.join(", "), more(model.groups.len(), words));
+        }
+        for LeftOut { what, count, why } in model.left_out.iter().take(MOST) {
+            let _ = writeln!(table, "  left out: {count} {}: {}", plain(what), plain(why));
+        }
+        let others = more(model.left_out.len(), words);
+        if !others.is_empty() {
+            let _ = writeln!(table, "  left out:{others}");
+        }
+    }
+    table
+}
+
+/// That there is more than is shown.
+fn more(count: usize, words: &dyn Words) -> String {
+    match count.checked_sub(MOST) {
+        None | Some(0) => String::new(),
+        Some(more) => message![format!(" … and {more} more"); Field::Json, " has all"].in_words(words),
+    }
+}
+
+/// A name without what would break the line.
+fn plain(name: &str) -> String {
+    name.replace(char::is_control, " ")
+}

@@ -1,0 +1,160 @@
+//! A model as it was read, as a binary glTF 2.0 file: in metres and y up, a node a component.
+//!
+//! Corners are `f32` around one origin for all, whole metres, which is the nodes' translation; a model that is near its own
+//! zero keeps that, and one that is read from glTF its very numbers. What glTF has no word for stands in `extras`, under
+//! `gnomon`: a component's other names and its kind, and of the scene where it lies on a map or on the Earth.
+
+use super::contents::{self, ContentsReport};
+use super::glb::{GlbFile, asset};
+use super::volumes::in_gltf;
+use super::{ExportError, report};
+use crate::formats::{Anchor, AnchorPoint, Coordinates, LeftOut, PartKind};
+use crate::message::Words;
+use crate::site::PlacedModel;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// What this is, where it is refused.
+const WHAT: &str = "model";
+
+/// A model whose corners are nearer to its zero than this keeps that, metres: `f32` has 0.06 mm there.
+const NEAR_M: f64 = 1000.0;
+
+/// The file.
+///
+/// # Errors
+/// [`ExportError::Encode`] where it would be 4 GiB or larger: before memory is taken.
+pub fn glb(placed: &PlacedModel) -> Result<Vec<u8>, ExportError> {
+    let parts = &placed.model.parts;
+    let size = parts.iter().map(|part| 12 * (part.positions.len() as u64 + part.triangles.len() as u64)).sum();
+    if size > u64::from(u32::MAX) {
+        return Err(too_large(size));
+    }
+    let origin = origin(placed);
+    let mut file = GlbFile::default();
+    let (mut nodes, mut meshes) = (Vec::with_capacity(parts.len()), Vec::with_capacity(parts.len()));
+    for (index, part) in parts.iter().enumerate() {
+        let local = |corner: &DVec3| Vec3::from(in_gltf((corner - origin).as_vec3()));
+        let positions: Vec<Vec3> = part.positions.par_iter().map(local).collect();
+        let [position, indices] = file.triangles(&positions, part.triangles.as_flattened());
+        meshes.push(json!({
+            "name": part.name,
+            "primitives": [{"attributes": {"POSITION": position}, "indices": indices}],
+        }));
+        let mut node = json!({"name": part.name, "mesh": index});
+        if origin != DVec3::ZERO {
+            node["translation"] = json!([origin.x, origin.z, 0.0 - origin.y]);
+        }
+        let (kind, aliases) = (placed.model.kind(index), part.aliases.iter().filter(|alias| **alias != part.name));
+        let aliases: Vec<&String> = aliases.collect();
+        let mut ours = json!({});
+        if !aliases.is_empty() {
+            ours["aliases"] = json!(aliases);
+        }
+        if kind != PartKind::Building {
+            ours["kind"] = kind.word().into();
+        }
+        if ours != json!({}) {
+            node["extras"] = json!({"gnomon": ours});
+        }
+        nodes.push(node);
+    }
+    let document = json!({
+        "asset": asset(),
+        "scene": 0,
+        "scenes": [{
+            "name": placed.name,
+            "nodes": (0..nodes.len()).collect::<Vec<_>>(),
+            "extras": {"gnomon": scene(placed)},
+        }],
+        "nodes": nodes,
+        "meshes": meshes,
+    });
+    file.finish(WHAT, document).map_err(|error| match error {
+        ExportError::LargeGlb { size } => too_large(size),
+        error => error,
+    })
+}
+
+fn too_large(size: u64) -> ExportError {
+    let gib = size as f64 / f64::from(1 << 30);
+    ExportError::encode(WHAT, format!("it would be {gib:.1} GiB, and GLB ends at 4; export the model in parts"))
+}
+
+/// Around which all corners are.
+fn origin(placed: &PlacedModel) -> DVec3 {
+    let corners = placed.model.parts.par_iter().flat_map(|part| &part.positions);
+    let none = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = corners
+        .fold(none, |(low, high), corner| (low.min(*corner), high.max(*corner)))
+        .reduce(none, |one, other| (one.0.min(other.0), one.1.max(other.1)));
+    match low.abs().max(high.abs()).max_element() < NEAR_M {
+        true => DVec3::ZERO,
+        // +0 makes −0 and 0 one
+        false => ((low + high) / 2.0).round() + 0.0,
+    }
+}
+
+/// What is told of the model as a whole.
+fn scene(placed: &PlacedModel) -> Value {
+    let model = &placed.model;
+    let left_out = |LeftOut { what, count, why }: &LeftOut| json!({"what": what, "count": count, "why": why});
+    let mut told = json!({
+        "source": placed.name,
+        "format": model.format,
+        "left_out": model.left_out.iter().map(left_out).collect::<Vec<_>>(),
+    });
+    if let Coordinates::Map(crs) = &model.coordinates {
+        told["crs"] = json!(crs);
+    }
+    if !model.anchors.is_empty() {
+        told["anchors"] = model.anchors.iter().map(|found| anchor(found, placed.scale_m)).collect();
+    }
+    told
+}
+
+/// Where the file says that its zero lies. Directions are clockwise from the model's north, −z, in degrees.
+fn anchor(anchor: &Anchor, scale_m: f64) -> Value {
+    let mut told = match &anchor.at {
+        AnchorPoint::Map { crs, easting, northing, height, scale } => json!({
+            "crs": crs, "easting": easting, "northing": northing, "height": height, "map_metres": scale / scale_m,
+        }),
+        AnchorPoint::Geographic { latitude_deg, longitude_deg, elevation_m } => json!({
+            "latitude": latitude_deg, "longitude": longitude_deg, "elevation": elevation_m,
+        }),
+        AnchorPoint::Nowhere => json!({}),
+    };
+    told["said_by"] = anchor.said_by.into();
+    if let Some(north) = anchor.north_rad {
+        told["north"] = north.to_degrees().into();
+    }
+    told
+}
+
+/// `convert --json`: what was written where, and what is in it.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn json(placed: &PlacedModel, file: &Path) -> Result<String, ExportError> {
+    report::json(&json!({
+        "gnomon": env!("CARGO_PKG_VERSION"),
+        "file": file.display().to_string(),
+        "components": placed.model.parts.len(),
+        "triangles": placed.model.triangles(),
+        "model": ContentsReport::of(&placed.contents),
+        "notes": placed.notes,
+    }))
+}
+
+/// What was written, and what of the file was not, in lines for people.
+pub fn summary(placed: &PlacedModel, words: &dyn Words) -> String {
+    let (parts, triangles) = (placed.model.parts.len(), placed.model.triangles());
+    let components = if parts == 1 { "component" } else { "components" };
+    let faces = if triangles == 1 { "triangle" } else { "triangles" };
+    format!(
+        "{parts} {components}, {triangles} {faces}\n{}",
+        contents::table(std::slice::from_ref(&placed.contents), words)
+    )
+}

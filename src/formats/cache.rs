@@ -1,0 +1,155 @@
+//! What was read is kept: a file that takes long to read is opened at once the second time.
+//!
+//! An entry is a file in a folder beside the user's other caches. Its name is a number made of all that the reading depends
+//! on: the content of the file and of those that it names, the format, what was asked, and the program's version. It is
+//! written whole, checked by its checksum, and removed where it is damaged; of too many the oldest go.
+
+use super::{Format, Model, ReadOptions, encoded};
+use siphasher::sip128::{Hasher128, SipHasher13};
+use std::fs::{self, File};
+use std::hash::{Hash, Hasher};
+use std::io::{self, BufReader, BufWriter, Read};
+use std::path::{Path, PathBuf};
+
+/// How the names of entries end, and of those that are being written.
+const WHOLE: &str = "model";
+const PARTIAL: &str = "part";
+
+/// A folder in which models are kept.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ModelCache {
+    /// Where it is; it is made where it is missing.
+    pub folder: PathBuf,
+    /// Bytes of all entries together.
+    pub most_bytes: u64,
+}
+
+impl ModelCache {
+    /// Bytes of all entries, where nobody says another number: 2 GiB.
+    pub const MOST_BYTES: u64 = 2 << 30;
+
+    /// The user's own, where the system says where caches lie.
+    pub fn of_user() -> Option<ModelCache> {
+        let folder = dirs::cache_dir()?.join("gnomon").join("models");
+        Some(ModelCache { folder, most_bytes: Self::MOST_BYTES })
+    }
+
+    /// The entry of a file as it is now.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub fn entry(&self, format: &dyn Format, path: &Path, options: &ReadOptions) -> io::Result<CacheEntry<'_>> {
+        let mut number = SipHasher13::new();
+        (env!("CARGO_PKG_VERSION"), encoded::VERSION, format.name()).hash(&mut number);
+        serde_json::to_string(options)?.hash(&mut number);
+        add_file(&mut number, path)?;
+        for named in format.named_by(path) {
+            // what is not there is told by whoever reads it
+            let is_there = add_file(&mut number, &named).is_ok();
+            is_there.hash(&mut number);
+        }
+        Ok(CacheEntry { cache: self, name: format!("{:032x}", number.finish128().as_u128()) })
+    }
+
+    /// All entries, whole and partial: how old each is, its bytes and where it lies.
+    fn files(&self) -> Vec<(std::time::SystemTime, u64, PathBuf)> {
+        let Ok(entries) = self.folder.read_dir() else { return Vec::new() };
+        let is_ours = |path: &PathBuf| path.extension().is_some_and(|ending| ending == WHOLE || ending == PARTIAL);
+        let told = |entry: fs::DirEntry| {
+            let told = entry.metadata().ok()?;
+            Some((told.modified().ok()?, told.len(), Some(entry.path()).filter(is_ours)?))
+        };
+        entries.filter_map(Result::ok).filter_map(told).collect()
+    }
+
+    /// Removes the oldest entries until all together have room, but not the newest one.
+    fn make_room(&self, newest: &Path) {
+        let mut files = self.files();
+        files.sort();
+        let mut all: u64 = files.iter().map(|(_, bytes, _)| bytes).sum();
+        for (_, bytes, path) in files {
+            if all <= self.most_bytes {
+                break;
+            }
+            if path != newest {
+                // one that another process has removed is gone as well
+                let _ = fs::remove_file(path);
+                all = all.saturating_sub(bytes);
+            }
+        }
+    }
+}
+
+/// Adds a file's length and content.
+fn add_file(number: &mut SipHasher13, path: &Path) -> io::Result<()> {
+    let mut file = File::open(path)?;
+    let (mut bytes, mut length) = (vec![0; 1 << 18], 0_u64);
+    loop {
+        let count = match file.read(&mut bytes) {
+            Ok(0) => break,
+            Ok(count) => count,
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            Err(error) => return Err(error),
+        };
+        number.write(bytes.get(..count).unwrap_or_default());
+        length += count as u64;
+    }
+    length.hash(number);
+    Ok(())
+}
+
+/// What is kept of one file, or may be.
+#[derive(Debug)]
+pub struct CacheEntry<'a> {
+    cache: &'a ModelCache,
+    name: String,
+}
+
+impl CacheEntry<'_> {
+    fn path(&self) -> PathBuf {
+        self.cache.folder.join(&self.name).with_extension(WHOLE)
+    }
+
+    /// The model, where it is kept; an entry that is damaged is removed.
+    pub fn read(&self) -> Option<Model> {
+        let path = self.path();
+        let file = File::open(&path).ok()?;
+        match encoded::read(&mut BufReader::with_capacity(1 << 20, file)) {
+            Ok(Ok(model)) => Some(model),
+            _ => {
+                let _ = fs::remove_file(path);
+                None
+            }
+        }
+    }
+
+    /// Keeps a model. One that is larger than all entries may be is not kept.
+    ///
+    /// # Errors
+    /// What the file system refuses.
+    pub fn keep(&self, model: &Model) -> io::Result<()> {
+        if encoded::raw_bytes(model) > self.cache.most_bytes {
+            return Ok(());
+        }
+        fs::create_dir_all(&self.cache.folder)?;
+        // two processes that read the same file write the same bytes, each its own
+        let beside = self.cache.folder.join(format!("{}.{}.{PARTIAL}", self.name, std::process::id()));
+        let written = File::create(&beside)
+            .and_then(|file| encoded::write(Ok(model), &mut BufWriter::with_capacity(1 << 20, file)))
+            .and_then(|()| self.put(&beside));
+        if written.is_err() {
+            let _ = fs::remove_file(&beside);
+        }
+        written
+    }
+
+    /// Puts what is whole in its place, and makes room for it.
+    fn put(&self, beside: &Path) -> io::Result<()> {
+        if beside.metadata()?.len() > self.cache.most_bytes {
+            return fs::remove_file(beside);
+        }
+        fs::rename(beside, self.path())?;
+        self.cache.make_room(&self.path());
+        Ok(())
+    }
+}

@@ -1,0 +1,228 @@
+//! A model that is read in a process of its own: the same program, started again with a file, which writes what it reads as
+//! [`super::encoded`] has it.
+//!
+//! Readers that are others' code may hang, crash, end their process or take all memory. In a process of their own that is
+//! one clear error. The process that asks watches time and memory, and ends the other one; if it ends itself, the other
+//! one finds its standard input closed, and ends, too.
+
+use super::encoded::{self, EncodingError};
+use super::{Model, ModelFault, ReadLimits, ReadOptions};
+use crate::message::{Field, Message, Piece, message, pieces};
+use std::collections::VecDeque;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::{Duration, Instant};
+use sysinfo::{Pid, ProcessRefreshKind, ProcessesToUpdate, System};
+
+/// The subcommand of the program that reads a model and writes it to standard output; it stands in no help.
+pub const SUBCOMMAND: &str = "read-model";
+
+/// How often time, memory and the wish to end are looked at.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Answers a request, in the process that was started for it.
+///
+/// # Errors
+/// What is no request, and what the writer says.
+pub fn answer(path: &Path, request: &str, out: &mut impl Write) -> io::Result<()> {
+    let options: ReadOptions = serde_json::from_str(request)?;
+    match super::read(path, &options) {
+        Ok(model) => encoded::write(Ok(&model), out),
+        Err(error) => {
+            let message = match error.fault {
+                ModelFault::Unusable(message) => message,
+                fault => fault.to_string().into(),
+            };
+            encoded::write(Err(&message), out)
+        }
+    }
+}
+
+/// Why a process was ended.
+enum Ended {
+    Wish,
+    Time,
+    Memory(u64),
+}
+
+/// Reads a file in a process of its own.
+///
+/// # Errors
+/// What that says is wrong with the file; that it took too much, or broke off.
+pub(super) fn read(
+    program: &Path,
+    limits: ReadLimits,
+    is_given_up: &AtomicBool,
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<Model, ModelFault> {
+    let unstarted = |error: io::Error| {
+        let what = format!("cannot be read, as no process can be started for it: {error}");
+        ModelFault::from(message![what; "close other programs, or start Gnomon again"])
+    };
+    let mut process = EndingProcess(start(program, path).map_err(unstarted)?);
+    // kept open until the end: where it is closed the process ends
+    let mut ask = process.0.stdin.take();
+    let request = serde_json::to_string(options);
+    if let (Some(ask), Ok(request)) = (&mut ask, request) {
+        // one that ends at once is told below
+        let _ = writeln!(ask, "{request}").and_then(|()| ask.flush());
+    }
+    let (Some(out), Some(told)) = (process.0.stdout.take(), process.0.stderr.take()) else {
+        return Err(unstarted(io::ErrorKind::BrokenPipe.into()));
+    };
+    let (tell, outcome) = mpsc::channel();
+    thread::spawn(move || {
+        // who ended the process listens no more
+        let _ = tell.send(encoded::read(&mut BufReader::with_capacity(1 << 20, out)));
+    });
+    let (tell, last_words) = mpsc::channel();
+    thread::spawn(move || {
+        let _ = tell.send(last_lines(told));
+    });
+    match watched(&mut process, limits, is_given_up, &outcome) {
+        Err(Ended::Wish) => Err(ModelFault::GivenUp),
+        Err(Ended::Time) => Err(too_long(limits.time).into()),
+        Err(Ended::Memory(bytes)) => Err(too_large(bytes).into()),
+        Ok(Ok(read)) => Ok(read?),
+        Ok(Err(error)) => {
+            let words = last_words.recv_timeout(Duration::from_secs(1)).unwrap_or_default();
+            let fault = broken_off(&mut process, &error, &words);
+            // on a terminal Ctrl-C reaches both processes, and that one may end first
+            if is_given_up.load(Ordering::Relaxed) { Err(ModelFault::GivenUp) } else { Err(fault.into()) }
+        }
+    }
+}
+
+fn start(program: &Path, path: &Path) -> io::Result<Child> {
+    let mut command = Command::new(program);
+    command.arg(SUBCOMMAND).arg("--").arg(path);
+    command.env("RAYON_NUM_THREADS", rayon::current_num_threads().to_string());
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    #[cfg(windows)]
+    {
+        use std::os::windows::process::CommandExt as _;
+        // CREATE_NO_WINDOW: no console appears beside the window
+        command.creation_flags(0x0800_0000);
+    }
+    command.spawn()
+}
+
+/// Waits for what a process writes; or says why it has to end.
+fn watched(
+    process: &mut EndingProcess,
+    limits: ReadLimits,
+    is_given_up: &AtomicBool,
+    outcome: &mpsc::Receiver<Result<Result<Model, Message>, EncodingError>>,
+) -> Result<Result<Result<Model, Message>, EncodingError>, Ended> {
+    let (begun, most) = (Instant::now(), limits.memory_bytes());
+    let mut memory = MemoryWatch { system: System::new().ok(), process: Pid::from_u32(process.0.id()) };
+    loop {
+        match outcome.recv_timeout(LOOK) {
+            Ok(outcome) => return Ok(outcome),
+            Err(RecvTimeoutError::Disconnected) => {
+                return Ok(Err(EncodingError::Damaged("what it gives cannot be taken")));
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        if is_given_up.load(Ordering::Relaxed) {
+            return Err(Ended::Wish);
+        }
+        if begun.elapsed() > limits.time {
+            return Err(Ended::Time);
+        }
+        if memory.bytes() > most {
+            return Err(Ended::Memory(most));
+        }
+    }
+}
+
+/// A process that ends with whoever has started it.
+struct EndingProcess(Child);
+
+impl Drop for EndingProcess {
+    fn drop(&mut self) {
+        // it may have ended by itself
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// How much memory a process has.
+struct MemoryWatch {
+    /// None on a system that tells nothing of processes.
+    system: Option<System>,
+    process: Pid,
+}
+
+impl MemoryWatch {
+    /// Nothing where the system does not say it.
+    fn bytes(&mut self) -> u64 {
+        let Some(system) = &mut self.system else { return 0 };
+        let kind = ProcessRefreshKind::nothing().with_memory();
+        system.refresh_processes_specifics(ProcessesToUpdate::Some(&[self.process]), false, kind);
+        system.process(self.process).map_or(0, sysinfo::Process::memory)
+    }
+}
+
+/// The end of what a process says: a panic names its reason in the last lines.
+fn last_lines(told: impl Read) -> String {
+    const MOST: usize = 2;
+    /// A line without an end is none.
+    const LONGEST: u64 = 1 << 16;
+    let (mut lines, mut told) = (VecDeque::new(), BufReader::new(told));
+    loop {
+        let mut line = Vec::new();
+        match told.by_ref().take(LONGEST).read_until(b'\n', &mut line) {
+            Ok(0) | Err(_) => break,
+            Ok(_) => {}
+        }
+        let line = String::from_utf8_lossy(&line);
+        let line = line.split_whitespace().collect::<Vec<_>>().join(" ");
+        if line.is_empty() || line.starts_with("note: ") {
+            continue;
+        }
+        lines.push_back(line.chars().take(300).collect::<String>());
+        if lines.len() > MOST {
+            lines.pop_front();
+        }
+    }
+    Vec::from(lines).join(" ")
+}
+
+const SMALLER: &str = "export it in parts or with less detail";
+
+fn too_long(time: Duration) -> Message {
+    let secs = time.as_secs_f64();
+    let time = if secs >= 60.0 { format!("{:.0} min", secs / 60.0) } else { format!("{secs:.0} s") };
+    message![
+        format!("takes longer to read than {time}, and was given up");
+        SMALLER, Piece::Where(Field::ReadTime, pieces![", or allow it more with ", (Field::ReadTime, "1h")])
+    ]
+}
+
+fn too_large(bytes: u64) -> Message {
+    let gib = bytes as f64 / f64::from(1 << 30);
+    message![
+        format!("takes more memory to read than {gib:.1} GiB, and was given up");
+        SMALLER, Piece::Where(Field::ReadMemory, pieces![", or allow it more with ", (Field::ReadMemory, "64GiB")])
+    ]
+}
+
+fn broken_off(process: &mut EndingProcess, error: &EncodingError, words: &str) -> Message {
+    // it may still be writing what nobody reads
+    let _ = process.0.kill();
+    let ended = match process.0.wait() {
+        Ok(status) => status.to_string(),
+        Err(error) => error.to_string(),
+    };
+    let words = if words.is_empty() { error.to_string() } else { words.to_owned() };
+    message![
+        format!("cannot be read: its reader broke off ({ended}): {words}");
+        "export it again, from another program or in another format, such as glTF"
+    ]
+}

@@ -1,0 +1,107 @@
+//! How model files are read: where, within which limits, and what is kept of it.
+
+use super::{Model, ModelCache, ModelError, ModelFault, ReadOptions, child, format_of, read_as};
+use crate::message::message;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+use sysinfo::{MemoryRefreshKind, RefreshKind, System};
+
+/// How model files are read.
+///
+/// The default reads in this process, without limits and without a cache, as a program does that uses Gnomon as a library:
+/// it is another program, and does not answer `gnomon read-model`. One that ships the command beside itself can name that.
+#[derive(Clone, Debug, Default)]
+pub struct ModelReader {
+    /// The program that is started again for readers that are others' code ([`super::Format::is_foreign`]).
+    pub program: Option<PathBuf>,
+    /// What such a process may take.
+    pub limits: ReadLimits,
+    /// Where models are kept that take long to read.
+    pub cache: Option<ModelCache>,
+    /// Set by whoever wants no model any more: such a process is ended, and the reading is [`ModelFault::GivenUp`].
+    pub given_up: Arc<AtomicBool>,
+}
+
+/// What the reading of one file may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReadLimits {
+    /// How long.
+    pub time: Duration,
+    /// Bytes; three quarters of the machine's where nobody says it.
+    pub memory: Option<u64>,
+}
+
+impl Default for ReadLimits {
+    fn default() -> Self {
+        Self { time: Duration::from_secs(600), memory: None }
+    }
+}
+
+impl ReadLimits {
+    /// Bytes; no limit where the system does not say how many it has.
+    pub(super) fn memory_bytes(self) -> u64 {
+        self.memory.unwrap_or_else(|| {
+            let ram = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
+            let Ok(system) = System::new_with_specifics(ram) else { return u64::MAX };
+            let of_machine = system.total_memory();
+            let of_group = system.cgroup_limits().map_or(of_machine, |limits| limits.total_memory);
+            match of_machine.min(of_group) {
+                0 => u64::MAX,
+                bytes => bytes / 4 * 3,
+            }
+        })
+    }
+}
+
+impl ModelReader {
+    /// As the program itself reads: readers of others' code in processes of this very program, and with the user's cache.
+    pub fn of_this_program() -> ModelReader {
+        ModelReader { program: std::env::current_exe().ok(), cache: ModelCache::of_user(), ..ModelReader::default() }
+    }
+
+    /// The same, to be ended by another wish.
+    pub fn until(&self, given_up: &Arc<AtomicBool>) -> ModelReader {
+        ModelReader { given_up: Arc::clone(given_up), ..self.clone() }
+    }
+
+    /// Reads a model file of any format; every part has triangles, and there is at least one.
+    ///
+    /// # Errors
+    /// What is wrong with the file, with the way out.
+    pub fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
+        self.read_within(path, options).map_err(|fault| ModelError { file: path.to_owned(), fault })
+    }
+
+    fn read_within(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+        let format = format_of(path)?;
+        let cache = self.cache.as_ref().filter(|_| format.is_kept());
+        let entry =
+            cache.map(|cache| cache.entry(format, path, options)).transpose().map_err(ModelFault::unreadable)?;
+        if let Some(model) = entry.as_ref().and_then(|entry| entry.read()) {
+            return Ok(model);
+        }
+        let mut model = match self.program.as_deref().filter(|_| format.is_foreign()) {
+            Some(program) => child::read(program, self.limits, &self.given_up, path, options)?,
+            None => read_as(format, path, options)?,
+        };
+        if let Some(Err(error)) = entry.map(|entry| entry.keep(&model)) {
+            let note = format!("is read anew each time, as the cache cannot be written: {error}");
+            model.notes.push(message![note]);
+        }
+        Ok(model)
+    }
+
+    /// As [`ModelReader::read`] in a process of the program's, whoever has written the reader, and without the cache.
+    ///
+    /// # Errors
+    /// As [`ModelReader::read`]; where no program is named.
+    pub fn read_apart(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
+        let read = || match &self.program {
+            Some(program) => child::read(program, self.limits, &self.given_up, path, options),
+            None => Err(message!["cannot be read apart"; "name a program that reads it"].into()),
+        };
+        read().map_err(|fault| ModelError { file: path.to_owned(), fault })
+    }
+}

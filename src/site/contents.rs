@@ -1,0 +1,120 @@
+//! What a model file holds, as `gnomon check` lists it.
+
+use super::file::Names;
+use crate::formats::{LeftOut, Model, PartKind, Up};
+use crate::mesh::Component;
+use rustc_hash::FxHashMap;
+use std::cmp::Reverse;
+
+/// What a model file holds.
+#[derive(Clone, Debug)]
+pub struct ModelContents {
+    /// The file, as the user named it.
+    pub file: String,
+    /// What people call its format.
+    pub format: &'static str,
+    /// Metres a unit, where the file or its format says it.
+    pub unit_m: Option<f64>,
+    /// Which of its axes is up.
+    pub up: Up,
+    /// Whether the file or its format says so.
+    pub up_is_said: bool,
+    /// Storeys, layers, groups and materials: each name by which `casts` and `receives` may mean several components, or one
+    /// of another name; the one that means most first.
+    pub groups: Vec<NameGroup>,
+    /// How many components are of each kind, of those kinds that there are.
+    pub kinds: Vec<(PartKind, usize)>,
+    /// What was in the file and could not be taken, or does not stand there.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// A name, and how many components it means.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NameGroup {
+    /// As in `casts`.
+    pub name: String,
+    /// At least one.
+    pub components: usize,
+}
+
+/// A component's name, and all names by which it may be meant.
+pub(super) type ComponentNames<'a> = (&'a str, &'a [String]);
+
+/// The names of components.
+pub(super) fn names_of(components: &[Component]) -> Vec<ComponentNames<'_>> {
+    components.iter().map(|component| (component.name.as_str(), component.aliases.as_slice())).collect()
+}
+
+/// What is kept of a model beside its parts.
+#[derive(Clone, Debug)]
+pub(super) struct ReadContents {
+    format: &'static str,
+    unit_m: Option<f64>,
+    up: Up,
+    up_is_said: bool,
+    kinds: Vec<PartKind>,
+    pub(super) left_out: Vec<LeftOut>,
+}
+
+impl ReadContents {
+    pub(super) fn of(model: &Model) -> ReadContents {
+        ReadContents {
+            format: model.format,
+            unit_m: model.unit_m,
+            up: model.up,
+            up_is_said: model.up_is_said,
+            kinds: model.kinds.clone(),
+            left_out: model.left_out.clone(),
+        }
+    }
+
+    /// Which of the components are sheets on the ground.
+    pub(super) fn covers(&self, components: usize) -> impl Iterator<Item = bool> {
+        (0..components).map(|part| self.kinds.get(part) == Some(&PartKind::GroundCover))
+    }
+
+    /// Per component whether it casts: what lies on the ground does so only where it is named.
+    pub(super) fn casts(&self, names: &Names, components: &[Component]) -> Vec<bool> {
+        let chosen = names.chosen(components);
+        if self.kinds.is_empty() || names.means_only_named(components) {
+            return chosen;
+        }
+        let covers = self.covers(components.len());
+        chosen.into_iter().zip(covers).map(|(chosen, covers)| chosen && !covers).collect()
+    }
+
+    /// All of it, for whoever asks.
+    pub(super) fn told(&self, file: &str, components: &[ComponentNames<'_>]) -> ModelContents {
+        let kind = |part: usize| self.kinds.get(part).copied().unwrap_or_default();
+        let count = |of: PartKind| (of, (0..components.len()).filter(|part| kind(*part) == of).count());
+        let kinds = PartKind::ALL.map(count).into_iter().filter(|(_, count)| *count > 0).collect();
+        let ReadContents { format, unit_m, up, up_is_said, left_out, .. } = self.clone();
+        ModelContents {
+            file: file.to_owned(),
+            format,
+            unit_m,
+            up,
+            up_is_said,
+            groups: groups(components),
+            kinds,
+            left_out,
+        }
+    }
+}
+
+/// The names of several components, or of one that has another name of its own.
+fn groups(components: &[ComponentNames<'_>]) -> Vec<NameGroup> {
+    let mut counts: FxHashMap<&str, (usize, bool)> = FxHashMap::default();
+    for (name, aliases) in components {
+        for alias in *aliases {
+            let (count, is_own) = counts.entry(alias).or_default();
+            *count += 1;
+            *is_own |= alias == name;
+        }
+    }
+    let groups = counts.into_iter().filter(|(_, (count, is_own))| *count > 1 || !is_own);
+    let mut groups: Vec<NameGroup> =
+        groups.map(|(name, (components, _))| NameGroup { name: name.to_owned(), components }).collect();
+    groups.sort_by(|one, other| (Reverse(one.components), &one.name).cmp(&(Reverse(other.components), &other.name)));
+    groups
+}

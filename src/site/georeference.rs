@@ -1,0 +1,358 @@
+//! What a model's file and the site file say of where on Earth the model stands.
+//!
+//! A model stands by its coordinates, where these are of a map, else by the first of its anchors that can be used; what the
+//! user wrote goes before either.
+
+use super::place_doubts;
+use super::placement::Placement;
+use super::stand::bounds;
+use crate::crs::{Crs, CrsKind, GeodeticPoint};
+use crate::formats::{Anchor, AnchorPoint, Coordinates, Model};
+use crate::message::{Message, message};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+
+/// A model that lies farther from its zero than this is brought into the site's frame corner by corner, metres: the map's
+/// scale, some parts in 10,000, would have moved it by metres.
+const FAR_FROM_ZERO_M: f64 = 5_000.0;
+
+/// Units that differ by less are one: files say "foot" of either foot.
+const ONE_UNIT: f64 = 1e-5;
+
+/// Metres of a degree of latitude.
+const DEGREE_M: f64 = 111_195.0;
+
+/// Where a model stands, and who says so.
+#[derive(Clone, Debug)]
+pub(super) struct Georeference {
+    pub(super) reference: Reference,
+    /// In the file's own term: `IfcMapConversion`; or `crs` where the user says it. Empty where nobody says anything.
+    pub(super) said_by: String,
+    /// What should be known of it, each with the file for its subject.
+    pub(super) notes: Vec<Message>,
+}
+
+/// What says where a model stands.
+#[derive(Clone, Debug)]
+pub(super) enum Reference {
+    /// The site file alone.
+    Placement,
+    /// Its coordinates, which become those of a map.
+    Map {
+        crs: Box<Crs>,
+        /// From the file's own coordinates: to the system's units along the ground, and metres of height.
+        map_from_model: DAffine3,
+        /// Metres of one of the file's units, for what is as short as a step.
+        unit_m: f64,
+    },
+    /// A point of the Earth, where its zero stands.
+    Anchor(Box<AnchoredZero>),
+}
+
+/// Where a model's zero stands, and which way it is turned; what is not said is none.
+#[derive(Clone, Debug)]
+pub(super) struct AnchoredZero {
+    pub(super) at: Option<GeodeticPoint>,
+    /// Whether the height of `at` is said.
+    pub(super) has_height: bool,
+    /// The point of a map that it is, where it is one.
+    pub(super) on_map: Option<(Crs, DVec3)>,
+    pub(super) north: Option<AnchoredNorth>,
+}
+
+/// Radians clockwise from the file's north.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum AnchoredNorth {
+    /// To the north of the anchor's map.
+    Map(f64),
+    /// To true north.
+    True(f64),
+}
+
+/// What is wrong with a key of the model.
+pub(super) type KeyFault = (&'static str, Message);
+
+impl Georeference {
+    /// What is said of a model.
+    ///
+    /// # Errors
+    /// A system that is not known, where the model's coordinates are of it, and keys that do not go together.
+    pub(super) fn of(model: &Model, placement: &Placement) -> Result<Georeference, KeyFault> {
+        let asked = placement.crs.as_deref().map(Crs::read).transpose().map_err(|error| ("crs", error))?;
+        let has_map_anchor = model.anchors.iter().any(|anchor| matches!(anchor.at, AnchorPoint::Map { .. }));
+        match (&model.coordinates, asked) {
+            (Coordinates::Map(_), Some(crs)) => of_coordinates(model, placement, crs, "crs"),
+            (Coordinates::Map(text), None) => of_file(model, placement, text),
+            (Coordinates::Local, Some(crs)) if !has_map_anchor => of_coordinates(model, placement, crs, "crs"),
+            (Coordinates::Local, asked) => Ok(of_anchors(model, placement, asked.as_ref())),
+        }
+    }
+
+    /// What says nothing.
+    pub(super) fn none() -> Georeference {
+        Georeference { reference: Reference::Placement, said_by: String::new(), notes: Vec::new() }
+    }
+}
+
+/// Coordinates of a map that the file names. Where the user says how it stands, they are plain metres.
+fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georeference, KeyFault> {
+    let named = Crs::read(text);
+    let written = placement.position.map(|_| "position").or(placement.north_rad.map(|_| "north"));
+    match (named, written) {
+        (Ok(crs), None) => of_coordinates(model, placement, crs, "coordinates"),
+        (Err(mut error), None) => {
+            error.hint = message![""; "write `crs` under [[model]], for example crs = \"EPSG:25832\""].hint;
+            Err(("crs", error))
+        }
+        (Ok(crs), Some(key)) if crs.kind() != CrsKind::Projected => Err((
+            key,
+            message![
+                format!("the file's coordinates are of {}, and no metres that could be moved or turned", crs.name());
+                "leave it out, or write `crs` and `position` together: the model is then moved from where it stands"
+            ],
+        )),
+        (named, Some(key)) => {
+            let name = named.map_or_else(|_| text.to_owned(), |crs| crs.name().to_owned());
+            let what =
+                format!("is of {name}, but stands as `{key}` under [[model]] says, its coordinates taken as metres");
+            let notes = vec![message![what; "leave that out, and it stands where its coordinates say"]];
+            Ok(Georeference { notes, ..Georeference::none() })
+        }
+    }
+}
+
+/// Coordinates of a map, by the user's word or the file's.
+fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str) -> Result<Georeference, KeyFault> {
+    if placement.north_rad.is_some() {
+        let what = format!("{} says which way north is", crs.name());
+        return Err(("north", message![what; "leave out `north` or `crs` under [[model]]"]));
+    }
+    let mut notes = Vec::new();
+    if let (Coordinates::Map(text), Some(_)) = (&model.coordinates, &placement.crs) {
+        let of_file = Crs::read(text).map_or_else(|_| text.clone(), |crs| crs.name().to_owned());
+        if of_file != crs.name() {
+            notes.push(message![format!("says that it is of {of_file}; `crs` under [[model]] says {}", crs.name())]);
+        }
+    }
+    notes.extend(crs.doubt().map(|doubt| message![format!("is of {}: {doubt}", crs.name())]));
+    if crs.kind() == CrsKind::EarthCentred {
+        notes.push(message![
+            "has Earth-centred coordinates, whose heights are above the ellipsoid: those above the sea are up to 100 m \
+             lower or higher";
+            "to move it up or down beside models of other kinds, write `crs` with `position` under [[model]]"
+        ]);
+    }
+    let [ground, height] = map_units(model, placement, &crs);
+    let scale = DMat3::from_diagonal(DVec3::new(ground, ground, height));
+    let map_from_model = DAffine3::from_mat3(scale * placement.upright(model));
+    let unit_m = if crs.kind() == CrsKind::Geographic { DEGREE_M } else { ground * crs.unit_m() };
+    let reference = Reference::Map { crs: Box::new(crs), map_from_model, unit_m };
+    Ok(Georeference { reference, said_by: said_by.to_owned(), notes })
+}
+
+/// By how much a file's numbers are multiplied, along the ground and upwards, to be of a system's units and of metres.
+///
+/// Where the file itself says that they are of a map, those along the ground are in its units, and heights in the unit that
+/// the file says, else in that which the system has for heights, else in metres. Coordinates of a drawing are in its unit,
+/// else in the system's, heights as well.
+fn map_units(model: &Model, placement: &Placement, crs: &Crs) -> [f64; 2] {
+    let of_file = matches!(model.coordinates, Coordinates::Map(_)) && placement.scale.is_none();
+    let said = placement.scale.or(model.unit_m);
+    let ratio = |unit: f64| {
+        let ratio = unit / crs.unit_m();
+        if (ratio - 1.0).abs() < ONE_UNIT { 1.0 } else { ratio }
+    };
+    match crs.kind() {
+        CrsKind::EarthCentred if of_file => [1.0; 2],
+        CrsKind::EarthCentred => [said.map_or(1.0, ratio); 2],
+        CrsKind::Geographic => [1.0, said.or(crs.height_unit_m()).unwrap_or(1.0)],
+        CrsKind::Projected if of_file => [1.0, said.or(crs.height_unit_m()).unwrap_or(1.0)],
+        CrsKind::Projected => {
+            let height = said.or(crs.height_unit_m()).unwrap_or_else(|| crs.unit_m());
+            [said.map_or(1.0, ratio), height]
+        }
+    }
+}
+
+/// The first of the anchors that can be used, with what the others say otherwise.
+fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Georeference {
+    let mut notes = Vec::new();
+    let farthest_m = farthest_m(model, placement);
+    let mut read: Vec<(&Anchor, AnchoredZero)> = Vec::new();
+    for anchor in &model.anchors {
+        match zero(anchor, asked, farthest_m) {
+            Ok(zero) => {
+                notes.extend(place_doubts::of(zero.at, anchor.said_by));
+                read.push((anchor, zero));
+            }
+            Err(doubt) => notes.push(doubt),
+        }
+    }
+    // who says where need not say which way, and the other way round
+    let best = read.iter().position(|(_, zero)| zero.at.is_some()).unwrap_or(0);
+    let north = read.iter().find_map(|(_, zero)| true_north(zero)).map(AnchoredNorth::True);
+    let Some((anchor, mut zero)) = read.get(best).cloned().or_else(|| map_north(model, &mut notes)) else {
+        return Georeference { notes, ..Georeference::none() };
+    };
+    // IFC's default is the map's own north
+    zero.north = zero.north.or(north).or(zero.on_map.as_ref().map(|_| AnchoredNorth::Map(0.0)));
+    notes.extend(
+        read.iter()
+            .enumerate()
+            .filter(|(index, _)| *index != best)
+            .filter_map(|(_, (other, said))| place_doubts::apart(anchor.said_by, &zero, other.said_by, said)),
+    );
+    notes.extend(
+        zero.on_map
+            .as_ref()
+            .and_then(|(crs, _)| crs.doubt().map(|doubt| message![format!("is placed in {}: {doubt}", crs.name())])),
+    );
+    notes.extend(scale_doubt(anchor, placement.unit_m(model)));
+    let said_by = anchor.said_by.to_owned();
+    if farthest_m > FAR_FROM_ZERO_M
+        && let Some(reference) = beyond(model, placement, anchor, &zero)
+    {
+        return Georeference { reference, said_by, notes };
+    }
+    Georeference { reference: Reference::Anchor(Box::new(zero)), said_by, notes }
+}
+
+/// Where an anchor puts the zero; or why it cannot be used, as a note.
+fn zero(anchor: &Anchor, asked: Option<&Crs>, farthest_m: f64) -> Result<AnchoredZero, Message> {
+    let said_by = anchor.said_by;
+    match &anchor.at {
+        AnchorPoint::Nowhere => Ok(AnchoredZero {
+            at: None,
+            has_height: false,
+            on_map: None,
+            north: anchor.north_rad.map(AnchoredNorth::True),
+        }),
+        AnchorPoint::Geographic { latitude_deg, longitude_deg, elevation_m } => {
+            if *latitude_deg == 0.0 && *longitude_deg == 0.0 {
+                return Err(place_doubts::zero(said_by));
+            }
+            let is_point = latitude_deg.abs() <= 90.0 && longitude_deg.abs() <= 360.0;
+            if !is_point {
+                let what = format!(
+                    "says by its {said_by} that it stands at {latitude_deg}, {longitude_deg}, which is no place"
+                );
+                return Err(message![what]);
+            }
+            let height_m = elevation_m.filter(|height| height.is_finite());
+            let at = GeodeticPoint {
+                latitude_deg: *latitude_deg,
+                longitude_deg: *longitude_deg,
+                height_m: height_m.unwrap_or_default(),
+            };
+            let north = anchor.north_rad.map(AnchoredNorth::True);
+            Ok(AnchoredZero { at: Some(at), has_height: height_m.is_some(), on_map: None, north })
+        }
+        AnchorPoint::Map { crs, easting, northing, height, .. } => {
+            let named = crs_of_anchor(crs, asked, said_by)?;
+            zero_on_map(anchor, named, DVec3::new(*easting, *northing, 0.0), *height, farthest_m)
+        }
+    }
+}
+
+/// The system of an anchor on a map: the user's word, else the file's.
+fn crs_of_anchor(text: &str, asked: Option<&Crs>, said_by: &str) -> Result<Crs, Message> {
+    match asked {
+        Some(asked) => Ok(asked.clone()),
+        None if text.trim().is_empty() => {
+            let what = format!("says by its {said_by} where on a map it stands, and not on which map");
+            Err(message![what; "write `crs` under [[model]], for example crs = \"EPSG:25832\""])
+        }
+        None => Crs::read(text).map_err(|error| {
+            let what = format!("says by its {said_by} where it stands, but {error}");
+            message![what; "or write `crs` under [[model]]"]
+        }),
+    }
+}
+
+/// Where an anchor on a map puts the zero: easting and northing in metres, on maps in feet as well.
+fn zero_on_map(
+    anchor: &Anchor,
+    crs: Crs,
+    metres: DVec3,
+    height: Option<f64>,
+    farthest_m: f64,
+) -> Result<AnchoredZero, Message> {
+    let said_by = anchor.said_by;
+    if metres == DVec3::ZERO && farthest_m < FAR_FROM_ZERO_M {
+        return Err(place_doubts::zero(said_by));
+    }
+    let height_m = height.filter(|height| height.is_finite());
+    let on_map = (metres / crs.unit_m()).with_z(height_m.unwrap_or_default());
+    let at = crs.to_wgs84(on_map).ok_or_else(|| {
+        let what = format!(
+            "says by its {said_by} that it stands at {}, {} in {}, which does not reach there",
+            metres.x,
+            metres.y,
+            crs.name()
+        );
+        message![what; "write `crs` or `position` under [[model]]"]
+    })?;
+    let north = anchor.north_rad.map(AnchoredNorth::Map);
+    Ok(AnchoredZero { at: Some(at), has_height: height_m.is_some(), on_map: Some((crs, on_map)), north })
+}
+
+/// The north of a map that is not known, where nobody says more: off by the map's convergence, which is told.
+fn map_north<'a>(model: &'a Model, notes: &mut Vec<Message>) -> Option<(&'a Anchor, AnchoredZero)> {
+    let (anchor, north) = model.anchors.iter().find_map(|anchor| Some((anchor, anchor.north_rad?)))?;
+    let what = format!(
+        "says by its {} which way the north of a map is, and it is taken for true north: in most maps that is wrong by up to 2°",
+        anchor.said_by
+    );
+    notes.push(message![what; "write `crs` or `north` under [[model]]"]);
+    let north = Some(AnchoredNorth::True(north));
+    Some((anchor, AnchoredZero { at: None, has_height: false, on_map: None, north }))
+}
+
+/// Radians clockwise from the file's north to true north, where an anchor says it.
+pub(super) fn true_north(zero: &AnchoredZero) -> Option<f64> {
+    match (zero.north?, &zero.on_map) {
+        (AnchoredNorth::True(north), _) => Some(north),
+        (AnchoredNorth::Map(north), Some((crs, at))) => Some(north - crs.convergence_rad(at.x, at.y)?),
+        (AnchoredNorth::Map(_), None) => None,
+    }
+}
+
+/// A model far from its zero, by an anchor on a map: its coordinates become the map's, by the file's own scale. None where
+/// the user says how it stands.
+fn beyond(model: &Model, placement: &Placement, anchor: &Anchor, zero: &AnchoredZero) -> Option<Reference> {
+    let (AnchorPoint::Map { scale, .. }, Some((crs, at))) = (&anchor.at, &zero.on_map) else { return None };
+    let Some(AnchoredNorth::Map(north)) = zero.north else { return None };
+    let is_free = placement.north_rad.is_none() && placement.position.is_none() && placement.scale.is_none();
+    if !is_free || !scale.is_finite() || *scale <= 0.0 {
+        return None;
+    }
+    let unit_m = placement.unit_m(model);
+    let along = DMat3::from_diagonal(DVec3::new(scale / crs.unit_m(), scale / crs.unit_m(), unit_m));
+    let turned = DMat3::from_rotation_z(north) * along * placement.upright(model);
+    let map_from_model = DAffine3::from_mat3_translation(turned, *at);
+    Some(Reference::Map { crs: Box::new(crs.clone()), map_from_model, unit_m })
+}
+
+/// Metres from the zero to the middle of a box around the model, along the ground.
+fn farthest_m(model: &Model, placement: &Placement) -> f64 {
+    let upright = placement.upright(model) * placement.unit_m(model);
+    let Some([low, high]) = bounds(model, |corner| corner) else { return 0.0 };
+    let middle: DVec2 = (upright * ((low + high) / 2.0)).truncate();
+    if middle.is_finite() { middle.length() } else { 0.0 }
+}
+
+/// A map's scale says how long a metre of the file is on the map. The model keeps its own size, of the file's unit: the
+/// difference of a few parts in 10,000 is the map's distortion. A scale that is quite another one is told.
+fn scale_doubt(anchor: &Anchor, unit_m: f64) -> Option<Message> {
+    const DISTORTION: f64 = 0.005;
+    let AnchorPoint::Map { scale, .. } = anchor.at else { return None };
+    let is_near = (scale / unit_m - 1.0).abs() <= DISTORTION;
+    (!is_near).then(|| {
+        message![
+            format!(
+                "says by its {} that a unit of it is {scale} m on the map, and it is taken as {unit_m} m",
+                anchor.said_by
+            );
+            "write `scale` under [[model]] if that is wrong"
+        ]
+    })
+}

@@ -1,0 +1,214 @@
+//! The place that models' files propose, and what `gnomon check` says of each.
+
+use super::error::SiteError;
+use super::file::{PlaceSource, PlaceTable};
+use super::georeference::{AnchoredZero, Georeference, Reference, true_north};
+use super::overrides::refuse;
+use super::place_doubts::{self, degrees};
+use super::placement::Placement;
+use super::stand::{ProposedPoint, SiteFrame, map_middle, proposal};
+use super::written::WrittenSite;
+use super::{Models, metres};
+use crate::crs::{GeodeticPoint, LocalFrame};
+use crate::formats::{Anchor, AnchorPoint, Model, Up};
+use crate::message::{Field, Message, Piece, message, pieces};
+use std::borrow::Cow;
+use std::path::Path;
+
+/// What a model's file, and the site file, say of its coordinates.
+#[derive(Clone, Debug)]
+pub struct ModelReference {
+    /// As the site file names it.
+    pub name: String,
+    /// Metres a unit, and whether somebody says so.
+    pub unit_m: f64,
+    /// Whether the file or the site file says the unit.
+    pub unit_is_said: bool,
+    /// The axis that is up.
+    pub up: Up,
+    /// Whether the file, its format or the site file says the axis.
+    pub up_is_said: bool,
+    /// The reference system of its coordinates, or of the anchor by which it stands.
+    pub crs: Option<String>,
+    /// Who says where it stands.
+    pub said_by: Option<String>,
+    /// Where its zero stands, or its middle where its coordinates are of a map.
+    pub place: Option<GeodeticPoint>,
+    /// Whether the height of that is said.
+    pub has_height: bool,
+    /// All that its file says.
+    pub anchors: Vec<Anchor>,
+    /// Degrees clockwise from its north to true north, as the site file says, else its anchor.
+    pub north_deg: f64,
+    /// Degrees clockwise from true north to the map's, there.
+    pub convergence_deg: Option<f64>,
+    /// How its map's datum is shifted to WGS 84; none where it stands on no map.
+    pub(super) shift: Option<String>,
+}
+
+impl ModelReference {
+    pub(super) fn of(name: &str, model: &Model, placement: &Placement, said: &Georeference) -> ModelReference {
+        let point = proposal(model, said);
+        let (crs, convergence, by_anchor) = match &said.reference {
+            Reference::Placement => (None, None, None),
+            Reference::Map { crs, map_from_model, .. } => {
+                let convergence = map_middle(model, *map_from_model).and_then(|at| crs.convergence_rad(at.x, at.y));
+                (Some(&**crs), convergence, convergence.map(|convergence| -convergence))
+            }
+            Reference::Anchor(zero) => {
+                let AnchoredZero { on_map, .. } = &**zero;
+                let convergence = on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
+                (on_map.as_ref().map(|(crs, _)| crs), convergence, true_north(zero))
+            }
+        };
+        let north_rad = placement.north_rad.or(by_anchor).unwrap_or_default();
+        ModelReference {
+            name: name.to_owned(),
+            unit_m: placement.unit_m(model),
+            unit_is_said: placement.scale.is_some() || model.unit_m.is_some(),
+            up: placement.up.unwrap_or(model.up),
+            up_is_said: placement.up.is_some() || model.up_is_said,
+            crs: crs.map(|crs| crs.name().to_owned()),
+            shift: crs.map(|crs| crs.shift().to_owned()),
+            said_by: Some(said.said_by.clone()).filter(|by| !by.is_empty()),
+            place: point.map(|point| point.at),
+            has_height: point.is_some_and(|point| point.has_elevation),
+            anchors: model.anchors.clone(),
+            // −0 is 0
+            north_deg: north_rad.to_degrees() + 0.0,
+            convergence_deg: convergence.map(f64::to_degrees),
+        }
+    }
+}
+
+/// The place of the models: the site file's, else the first that a file proposes; one that is a program's own only where
+/// there is no other.
+pub(super) fn frame<'a>(
+    written: &WrittenSite,
+    models: impl Iterator<Item = (&'a str, &'a Model, &'a Georeference)>,
+) -> (Option<SiteFrame>, Option<PlaceTable>) {
+    let around =
+        |at: GeodeticPoint, has_elevation: bool| Some(SiteFrame { local: LocalFrame::around(at)?, has_elevation });
+    if let Some(table) = &written.site.place {
+        let point = table.latitude.zip(table.longitude).map(|(latitude_deg, longitude_deg)| GeodeticPoint {
+            latitude_deg,
+            longitude_deg,
+            height_m: table.elevation.unwrap_or_default(),
+        });
+        return (point.and_then(|at| around(at, table.elevation.is_some())), None);
+    }
+    let mut proposed: Vec<(ProposedPoint, String, bool)> = Vec::new();
+    for (name, model, said) in models {
+        if let Some(point) = proposal(model, said) {
+            let is_doubted = place_doubts::of(Some(point.at), &said.said_by).is_some();
+            proposed.push((point, format!("{}, {}", file_name(name), said.said_by), is_doubted));
+        }
+    }
+    let sure = proposed.iter().find(|(.., is_doubted)| !is_doubted).or(proposed.first());
+    let Some((ProposedPoint { at, has_elevation }, said, _)) = sure else { return (None, None) };
+    let height_m = if *has_elevation { at.height_m } else { 0.0 };
+    let table = PlaceTable {
+        latitude: Some(at.latitude_deg),
+        longitude: Some(at.longitude_deg),
+        elevation: has_elevation.then_some(height_m),
+        source: Some(PlaceSource { said: said.clone(), at: [at.latitude_deg, at.longitude_deg] }),
+        ..PlaceTable::default()
+    };
+    (around(GeodeticPoint { height_m, ..*at }, *has_elevation), Some(table))
+}
+
+fn file_name(path: &str) -> &str {
+    Path::new(path).file_name().and_then(|name| name.to_str()).unwrap_or(path)
+}
+
+/// Models that are read where they are asked for.
+pub(super) type LazyModels<'a> = Box<dyn FnOnce() -> Result<Models, SiteError> + 'a>;
+
+impl WrittenSite {
+    /// The request with a place: its own, or that which a model's file proposes, for which the models are read first.
+    ///
+    /// # Errors
+    /// Everything that can be wrong with the models, and that nobody says a place.
+    pub(super) fn located<'a>(
+        &'a self,
+        models: impl FnOnce() -> Result<Models, SiteError> + 'a,
+    ) -> Result<(Cow<'a, WrittenSite>, LazyModels<'a>), SiteError> {
+        if self.site.place.is_some() {
+            return Ok((Cow::Borrowed(self), Box::new(models)));
+        }
+        if self.site.model.is_empty() {
+            return Err(self.no_place(&[]));
+        }
+        let models = models()?;
+        let Some(place) = models.proposed_place() else { return Err(self.no_place(models.place_notes())) };
+        let mut written = self.clone();
+        written.site.place = Some(place.clone());
+        Ok((Cow::Owned(written), Box::new(move || Ok(models))))
+    }
+
+    /// Whether it is a model without a site file.
+    pub fn is_bare_model(&self) -> bool {
+        self.text.is_empty() && !self.site.model.is_empty()
+    }
+
+    /// That nobody says a place; and what files say of one that is none.
+    fn no_place(&self, said: &[Message]) -> SiteError {
+        if self.is_bare_model() {
+            let said = said.first().cloned().map(Box::new);
+            return SiteError::NoPlaceForModel { path: self.file.clone(), said };
+        }
+        self.missing("[place]", "[place] with latitude = 48.8583 and longitude = 2.2945")
+    }
+
+    /// That its place is a file's, where nobody has changed it since; a sentence without its stop.
+    pub(super) fn place_note(&self) -> Option<Message> {
+        let table = self.site.place.as_ref()?;
+        let said = table.said_by()?;
+        let at = GeodeticPoint {
+            latitude_deg: table.latitude?,
+            longitude_deg: table.longitude?,
+            height_m: table.elevation.unwrap_or_default(),
+        };
+        let height = table.elevation.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
+        Some(message![
+            format!("place from {said}: {}{height}", degrees(at));
+            "latitude, longitude and elevation in [place] change it",
+            Piece::Where(Field::Place, pieces![", or ", (Field::Place, "LAT,LON")])
+        ])
+    }
+
+    /// A fault of a model's key.
+    pub(super) fn model_fault(&self, index: usize, (key, fault): (&str, Message)) -> SiteError {
+        refuse(self.model_key(index, key), fault)
+    }
+}
+
+impl PlaceTable {
+    /// Which file said it, and by what, where it is still what that says.
+    pub fn said_by(&self) -> Option<&str> {
+        let source = self.source.as_ref()?;
+        let is_its = self.latitude == Some(source.at[0]) && self.longitude == Some(source.at[1]);
+        is_its.then_some(source.said.as_str())
+    }
+}
+
+/// The point of an anchor, in words: `EPSG:25832 458874.49, 5438769.71`.
+pub fn anchor_text(at: &AnchorPoint) -> String {
+    match at {
+        AnchorPoint::Nowhere => String::new(),
+        AnchorPoint::Geographic { latitude_deg, longitude_deg, elevation_m } => {
+            let at = GeodeticPoint {
+                latitude_deg: *latitude_deg,
+                longitude_deg: *longitude_deg,
+                height_m: elevation_m.unwrap_or_default(),
+            };
+            let height = elevation_m.map(|height| format!(", {}", metres(height))).unwrap_or_default();
+            format!("{}{height}", degrees(at))
+        }
+        AnchorPoint::Map { crs, easting, northing, height, .. } => {
+            let crs = if crs.is_empty() { "an unnamed map" } else { crs };
+            let height = height.map(|height| format!(", {}", metres(height))).unwrap_or_default();
+            format!("{easting}, {northing} in {crs}{height}")
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Models whose heights are measured from the ground stand on the terrain of the others.
+
+use super::stand::StandingModel;
+use crate::formats::PartKind;
+use crate::mesh::Part;
+use crate::message::message;
+use glam::{DVec2, DVec3};
+use std::ops::RangeInclusive;
+
+/// Cells of the raster in which terrain is looked up, to a side at most.
+const MOST_CELLS: f64 = 1024.0;
+
+/// Moves the parts of models that stand on the ground up or down to the terrain below them: to its lowest point below their
+/// corners, from which OpenStreetMap, too, measures heights. Without terrain they stand at the place's elevation.
+pub(super) fn settle(models: &mut [StandingModel]) {
+    if !models.iter().any(|standing| standing.model.stands_on_ground) {
+        return;
+    }
+    let Some(terrain) = TerrainHeights::of(models) else { return };
+    for standing in models.iter_mut().filter(|standing| standing.model.stands_on_ground) {
+        let mut beyond = 0;
+        for part in &mut standing.model.parts {
+            let heights = part.positions.iter().filter_map(|corner| terrain.height(corner.truncate()));
+            match heights.min_by(f64::total_cmp) {
+                Some(lowest) => part.positions.iter_mut().for_each(|corner| corner.z += lowest),
+                None => beyond += 1,
+            }
+        }
+        let count = standing.model.parts.len();
+        standing.notes.push(message![
+            format!("says no height of the ground: {} of its {count} parts stand on the terrain", count - beyond),
+            match beyond {
+                0 => String::new(),
+                beyond => format!(", and {beyond}, which lie beyond it, at the place's elevation"),
+            }
+        ]);
+    }
+}
+
+/// The terrain's triangles, by the cells of a raster that they touch.
+struct TerrainHeights {
+    triangles: Vec<[DVec3; 3]>,
+    low: DVec2,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    /// Where each cell's triangles begin, and where the last one's end.
+    first: Vec<usize>,
+    /// Numbers of triangles, cell after cell.
+    in_cells: Vec<u32>,
+}
+
+impl TerrainHeights {
+    /// Of all models; none where nothing is terrain.
+    fn of(models: &[StandingModel]) -> Option<TerrainHeights> {
+        let parts = models.iter().flat_map(|standing| {
+            let model = &standing.model;
+            model.parts.iter().enumerate().filter(|(part, _)| model.kind(*part) == PartKind::Terrain)
+        });
+        let corners = |(_, part): (usize, &'_ Part)| -> Vec<[DVec3; 3]> {
+            part.triangles.iter().map(|triangle| triangle.map(|corner| part.positions[corner as usize])).collect()
+        };
+        let triangles: Vec<[DVec3; 3]> = parts.flat_map(corners).collect();
+        let all = || triangles.iter().flatten().map(|corner| corner.truncate());
+        let (low, high) = (all().reduce(DVec2::min)?, all().reduce(DVec2::max)?);
+        let size = high - low;
+        let side = (triangles.len() as f64).sqrt().clamp(1.0, MOST_CELLS);
+        let cell = (size.max_element() / side).max(f64::MIN_POSITIVE);
+        let [columns, rows] = size.to_array().map(|length| (length / cell) as usize + 1);
+        let mut found = TerrainHeights { triangles, low, cell, columns, rows, first: Vec::new(), in_cells: Vec::new() };
+        found.sort();
+        Some(found)
+    }
+
+    /// Fills the cells: counted first, so that all lie in one list.
+    fn sort(&mut self) {
+        let mut first = vec![0; self.columns * self.rows + 1];
+        for triangle in &self.triangles {
+            self.cells(triangle).for_each(|cell| first[cell + 1] += 1);
+        }
+        for cell in 1..first.len() {
+            first[cell] += first[cell - 1];
+        }
+        let mut next = first.clone();
+        let mut in_cells = vec![0; first.last().copied().unwrap_or_default()];
+        for (number, triangle) in (0..).zip(&self.triangles) {
+            for cell in self.cells(triangle) {
+                in_cells[next[cell]] = number;
+                next[cell] += 1;
+            }
+        }
+        (self.first, self.in_cells) = (first, in_cells);
+    }
+
+    /// The cells of a box around a triangle.
+    fn cells(&self, triangle: &[DVec3; 3]) -> impl Iterator<Item = usize> + use<> {
+        let range = |axis: usize, count: usize| -> RangeInclusive<usize> {
+            let at = triangle.map(|corner| ((corner[axis] - self.low[axis]) / self.cell) as usize);
+            let [low, high] = [at.iter().min(), at.iter().max()].map(|end| end.copied().unwrap_or_default());
+            low.min(count - 1)..=high.min(count - 1)
+        };
+        let (across, down, columns) = (range(0, self.columns), range(1, self.rows), self.columns);
+        down.flat_map(move |row| across.clone().map(move |column| row * columns + column))
+    }
+
+    /// The highest terrain at a point of the plan; none beside it.
+    fn height(&self, at: DVec2) -> Option<f64> {
+        let cell = (at - self.low) / self.cell;
+        let is_inside = cell.min_element() >= 0.0 && (cell.x as usize) < self.columns && (cell.y as usize) < self.rows;
+        let cell = is_inside.then(|| cell.y as usize * self.columns + cell.x as usize)?;
+        let numbers = &self.in_cells[self.first[cell]..self.first[cell + 1]];
+        let heights = numbers.iter().filter_map(|&number| above(&self.triangles[number as usize], at));
+        heights.max_by(f64::total_cmp)
+    }
+}
+
+/// The height of a triangle above a point of its plan.
+fn above(&[a, b, c]: &[DVec3; 3], at: DVec2) -> Option<f64> {
+    let area = (b - a).truncate().perp_dot((c - a).truncate());
+    let share = |one: DVec3, other: DVec3| (one.truncate() - at).perp_dot(other.truncate() - at) / area;
+    let shares = [share(b, c), share(c, a), share(a, b)];
+    // a point on the side of two is in both
+    let is_inside = area != 0.0 && shares.iter().all(|share| *share >= -1e-9);
+    is_inside.then(|| shares[0] * a.z + shares[1] * b.z + shares[2] * c.z)
+}

@@ -1,0 +1,115 @@
+//! Places that a file says and nobody meant, and sources that disagree.
+
+use super::georeference::{AnchoredZero, true_north};
+use super::model_place::ModelReference;
+use crate::crs::{GeodeticPoint, LocalFrame};
+use crate::message::{Message, message};
+
+/// Two sources that agree to this are one: metres along the ground and in height, and radians of north (0.1°).
+pub(super) const ONE_PLACE_M: f64 = 10.0;
+pub(super) const ONE_NORTH_RAD: f64 = 0.1 * std::f64::consts::PI / 180.0;
+
+/// How near to a default a place is it, degrees: some 150 m.
+const NEAR_DEG: f64 = 0.0015;
+
+/// Places that programs write where nobody has set one, as they were found in their files: latitude and longitude.
+const DEFAULTS: &[(f64, f64, &str)] = &[
+    (42.3584, -71.0598, "the middle of Boston, which Revit writes"),
+    (42.3587, -71.0567, "the middle of Boston, which Revit writes"),
+    (42.2124, -71.0333, "a weather station near Boston, which Revit writes"),
+    (24.466_67, 54.416_67, "a point of Abu Dhabi, which templates for IFC write"),
+];
+
+/// What is to be said of a place that is a program's own.
+pub(super) fn of(at: Option<GeodeticPoint>, said_by: &str) -> Option<Message> {
+    let at = at?;
+    let is_near = |(latitude, longitude, _): &&(f64, f64, &str)| {
+        (at.latitude_deg - latitude).abs() < NEAR_DEG && (at.longitude_deg - longitude).abs() < NEAR_DEG
+    };
+    let (.., place) = DEFAULTS.iter().find(is_near)?;
+    let what = format!("says by its {said_by} that it stands at {}: {place} where nobody has set a place", degrees(at));
+    Some(
+        message![what; "if it stands elsewhere, say so: latitude and longitude in [place], and `position` under [[model]]"],
+    )
+}
+
+/// Where latitude and longitude, or easting and northing, are 0.
+pub(super) fn zero(said_by: &str) -> Message {
+    message![
+        format!("says by its {said_by} that it stands at 0, 0, which is what is written where nobody has set a place");
+        "it is not used"
+    ]
+}
+
+/// What another source says that differs from the one that is used; nothing where it says less.
+pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &AnchoredZero) -> Option<Message> {
+    let away = one.at.zip(other.at).and_then(|(one, other)| {
+        let there = LocalFrame::around(one)?.point(other);
+        let ground = there.map_or(f64::INFINITY, |there| there.truncate().length());
+        Some([ground, other.height_m - one.height_m])
+    });
+    let heights = one.has_height && other.has_height;
+    let turned = true_north(one).zip(true_north(other)).map(|(one, other)| half_turn(other - one));
+    let mut differs = Vec::new();
+    if let Some([ground, up]) = away {
+        if ground > ONE_PLACE_M {
+            differs.push(format!("{} away from where it says", length(ground)));
+        }
+        if heights && up.abs() > ONE_PLACE_M {
+            differs.push(format!("{} {}", length(up.abs()), if up > 0.0 { "higher" } else { "lower" }));
+        }
+    }
+    if let Some(turned) = turned.filter(|turned| turned.abs() > ONE_NORTH_RAD) {
+        differs.push(format!("turned by {}", angle(turned)));
+    }
+    if differs.is_empty() {
+        return None;
+    }
+    let what = format!("is placed by its {used}; its {other_by} says otherwise: {}", differs.join(", "));
+    Some(message![what; "`position` and `north` under [[model]] go before both"])
+}
+
+/// That models are on maps of two datums, which are matched by a few parameters alone.
+pub(super) fn of_shifts(models: &[ModelReference]) -> Option<Message> {
+    let on_maps = || models.iter().filter_map(|model| Some((model, model.shift.as_deref()?, model.crs.as_deref()?)));
+    let (one, shift, crs) = on_maps().next()?;
+    let (other, _, other_crs) = on_maps().find(|(_, other, _)| *other != shift)?;
+    let what = format!(
+        "{} is in {crs}, and {} in {other_crs}: their datums differ, and are matched by a few parameters, which hold to some \
+         metres",
+        one.name, other.name
+    );
+    Some(message![what; "export both in one system to have them meet to the centimetre"])
+}
+
+/// Between −π and π.
+pub(super) fn half_turn(angle: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    (angle + turn / 2.0).rem_euclid(turn) - turn / 2.0
+}
+
+/// An angle in degrees with two decimals: `30.43°`.
+pub(super) fn angle(radians: f64) -> String {
+    // −0 is 0
+    format!("{:.2}°", (radians.to_degrees() * 100.0).round() / 100.0 + 0.0)
+}
+
+/// `312 m`, `4.2 km`, `320 km`.
+pub(super) fn length(metres: f64) -> String {
+    match metres {
+        _ if !metres.is_finite() => "thousands of kilometres".to_owned(),
+        _ if metres < 1000.0 => format!("{metres:.0} m"),
+        _ if metres < 20_000.0 => format!("{:.1} km", metres / 1000.0),
+        _ => format!("{:.0} km", metres / 1000.0),
+    }
+}
+
+/// `49.1004 N 8.4366 E`
+pub(super) fn degrees(at: GeodeticPoint) -> String {
+    let one = |value: f64, positive: &str, negative: &str| {
+        let text = format!("{:.5}", value.abs());
+        let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+        format!("{text} {}", if value < 0.0 { negative } else { positive })
+    };
+    format!("{} {}", one(at.latitude_deg, "N", "S"), one(at.longitude_deg, "E", "W"))
+}

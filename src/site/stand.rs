@@ -1,0 +1,280 @@
+//! A model with what is said of it → the model where it stands, in the one frame of the site.
+
+use super::georeference::{AnchoredNorth, AnchoredZero, Georeference, KeyFault, Reference, true_north};
+use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, angle, degrees, half_turn, length};
+use super::placement::Placement;
+use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
+use crate::formats::Model;
+use crate::message::{Message, message};
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
+
+/// A geographic anchor farther from the place than this contradicts it, metres.
+const FAR_M: f64 = 20_000.0;
+
+/// The site's frame, and whether somebody wrote how high it lies.
+#[derive(Clone, Debug)]
+pub(super) struct SiteFrame {
+    pub(super) local: LocalFrame,
+    pub(super) has_elevation: bool,
+}
+
+/// A model in the world frame.
+pub(super) struct StandingModel {
+    pub(super) model: Model,
+    /// How it was turned and moved, radians and metres; none where its corners were converted one by one.
+    pub(super) north_rad: f64,
+    pub(super) position: DVec3,
+    /// Whether it stands by what is said of the Earth, so that another place has it elsewhere.
+    pub(super) is_on_earth: bool,
+    /// What should be known of where it stands, each with the model for its subject.
+    pub(super) notes: Vec<Message>,
+}
+
+/// Puts a model where it stands. Without a frame nobody knows the place, and the site file alone counts.
+///
+/// # Errors
+/// A model that cannot stand where it is said, with the key that helps.
+pub(super) fn stand(
+    model: Model,
+    placement: &Placement,
+    said: Georeference,
+    frame: Option<&SiteFrame>,
+) -> Result<StandingModel, KeyFault> {
+    let Georeference { reference, said_by, mut notes } = said;
+    let by_site = |model: Model, north_rad: f64, position: DVec3, notes, is_on_earth| StandingModel {
+        model: placement.place_at(model, north_rad, position),
+        north_rad,
+        position,
+        is_on_earth,
+        notes,
+    };
+    let (north_rad, position) = (placement.north_rad.unwrap_or_default(), placement.position.unwrap_or_default());
+    match (reference, frame) {
+        (Reference::Map { crs, map_from_model, unit_m }, Some(frame)) => {
+            let model = converted(model, &crs, map_from_model, unit_m, position, frame)?;
+            notes.extend(note_map(&model, &crs, &said_by, placement, frame));
+            Ok(StandingModel { model, north_rad: 0.0, position, is_on_earth: true, notes })
+        }
+        (Reference::Anchor(zero), Some(frame)) => {
+            let (position, north_rad, note) = anchored(&zero, &said_by, placement, frame)?;
+            notes.extend(note);
+            Ok(by_site(model, north_rad, position, notes, zero.at.is_some()))
+        }
+        (Reference::Anchor(zero), None) => {
+            let north_rad = placement.north_rad.or(true_north(&zero)).unwrap_or_default();
+            Ok(by_site(model, north_rad, position, notes, false))
+        }
+        (Reference::Placement | Reference::Map { .. }, _) => Ok(by_site(model, north_rad, position, notes, false)),
+    }
+}
+
+/// Every corner from a map into the frame.
+fn converted(
+    mut model: Model,
+    crs: &Crs,
+    map_from_model: DAffine3,
+    unit_m: f64,
+    position: DVec3,
+    frame: &SiteFrame,
+) -> Result<Model, KeyFault> {
+    let to = MapToLocal { crs, frame: &frame.local };
+    for part in &mut model.parts {
+        part.positions.par_iter_mut().for_each(|corner| *corner = map_from_model.transform_point3(*corner));
+        let first = part.positions.first().copied();
+        let heights = model.stands_on_ground.then(|| part.positions.iter().map(|corner| corner.z).collect::<Vec<_>>());
+        to.convert(&mut part.positions).map_err(|_| {
+            let at = first.map(|at| format!(" (it begins at {:.2}, {:.2})", at.x, at.y)).unwrap_or_default();
+            let what = format!(
+                "'{}'{at} does not lie within 2000 km of the place, or not where {} reaches",
+                part.name,
+                crs.name()
+            );
+            ("crs", message![what; "check `crs` and `scale`, and latitude and longitude in [place]"])
+        })?;
+        // from the ground, and not from the level of the sea
+        part.positions
+            .iter_mut()
+            .zip(heights.unwrap_or_default())
+            .for_each(|(corner, height)| corner.z = height * unit_m);
+        part.positions.par_iter_mut().for_each(|corner| *corner += position);
+        part.coarse.iter_mut().for_each(|run| run.step_m *= unit_m);
+    }
+    Ok(model)
+}
+
+/// Where a zero stands in the frame, by how much its model is turned, and what is to be said of it.
+fn anchored(
+    zero: &AnchoredZero,
+    said_by: &str,
+    placement: &Placement,
+    frame: &SiteFrame,
+) -> Result<(DVec3, f64, Option<Message>), KeyFault> {
+    let Some(at) = zero.at else {
+        let (north, note) = turned_alone(zero, said_by, placement);
+        return Ok((placement.position.unwrap_or_default(), north, note));
+    };
+    // without a height the zero lies as high as the place
+    let place_height = frame.local.elevation_m();
+    let at = if zero.has_height { at } else { GeodeticPoint { height_m: place_height, ..at } };
+    let there = frame.local.point(at);
+    let away = there.map_or(f64::INFINITY, |there| there.truncate().length());
+    let is_elsewhere = zero.on_map.is_none() && away > FAR_M;
+    let Some(there) = there.filter(|_| !is_elsewhere).or(placement.position).or(is_elsewhere.then_some(DVec3::ZERO))
+    else {
+        let what = format!("by its {said_by} it stands at {}, {} from the place", degrees(at), length(away));
+        return Err((
+            "position",
+            message![what; "write position = [0.0, 0.0, 0.0] to have its zero at the place, or correct [place]"],
+        ));
+    };
+    let by_anchor = zero.north.and_then(|north| match (north, &zero.on_map) {
+        (AnchoredNorth::True(north), _) if is_elsewhere => Some(north),
+        (AnchoredNorth::True(north), _) => Some(north - frame.local.true_north_rad(at)?),
+        (AnchoredNorth::Map(north), Some((crs, on_map))) => Some(north - frame.local.map_north_rad(crs, *on_map)?),
+        (AnchoredNorth::Map(_), None) => None,
+    });
+    let north = placement.north_rad.or(by_anchor).unwrap_or_default();
+    let position = placement.position.unwrap_or(there);
+    let mut said = vec![match (is_elsewhere, placement.position) {
+        (true, None) => {
+            format!("stands at the place, though its {said_by} says {}, {} from there", degrees(at), length(away))
+        }
+        (_, Some(position)) if (position - there).length() <= ONE_PLACE_M => String::new(),
+        (_, Some(_)) => format!(
+            "stands where `position` says, {} from where its {said_by} says, {}",
+            length(position.distance(there)),
+            degrees(at)
+        ),
+        (false, None) => {
+            let on_map = zero.on_map.as_ref().map(|(crs, _)| format!(" in {}", crs.name())).unwrap_or_default();
+            let away = if away > ONE_PLACE_M { format!(", {} from the place", length(away)) } else { String::new() };
+            format!("stands where its {said_by} says{on_map}{away}")
+        }
+    }];
+    match (placement.north_rad, by_anchor) {
+        (Some(north), Some(by_anchor)) if half_turn(north - by_anchor).abs() > ONE_NORTH_RAD => {
+            said.push(said_north(said_by, by_anchor, north));
+        }
+        (None, Some(by_anchor)) => {
+            let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
+            let of_map = convergence
+                .map(|convergence| format!(", with the map's convergence of {}", angle(convergence)))
+                .unwrap_or_default();
+            said.push(format!("its north is {}{of_map}", angle(by_anchor)));
+        }
+        _ => {}
+    }
+    if placement.position.is_none() && !frame.has_elevation && there.z.abs() > ONE_PLACE_M {
+        said.push(no_elevation(there.z, place_height));
+    }
+    said.retain(|text| !text.is_empty());
+    let note =
+        (!said.is_empty()).then(|| message![said.join("; "); "`position` and `north` under [[model]] change it"]);
+    Ok((position, north, note))
+}
+
+/// The north of a model whose file says no place.
+fn turned_alone(zero: &AnchoredZero, said_by: &str, placement: &Placement) -> (f64, Option<Message>) {
+    let by_anchor = true_north(zero).unwrap_or_default();
+    let north = placement.north_rad.unwrap_or(by_anchor);
+    let differs = half_turn(north - by_anchor).abs() > ONE_NORTH_RAD;
+    let note = match placement.north_rad {
+        Some(_) if differs => Some(message![said_north(said_by, by_anchor, north)]),
+        None if by_anchor.abs() > ONE_NORTH_RAD => {
+            let what = format!("is turned as its {said_by} says: north is {}", angle(by_anchor));
+            Some(message![what; "`north` under [[model]] changes it"])
+        }
+        _ => None,
+    };
+    (north, note)
+}
+
+fn said_north(said_by: &str, by_anchor: f64, north: f64) -> String {
+    format!("north is {} by `north`, and {} by its {said_by}", angle(north), angle(by_anchor))
+}
+
+/// That a model lies far above or below a place whose elevation nobody wrote.
+fn no_elevation(above_m: f64, place_m: f64) -> String {
+    let side = if above_m > 0.0 { "above" } else { "below" };
+    format!(
+        "it lies {} {side} the place, as [place] says no elevation; `elevation = {:.0}` there would have it at 0",
+        length(above_m.abs()),
+        place_m + above_m
+    )
+}
+
+/// Where a model of a map stands.
+fn note_map(model: &Model, crs: &Crs, said_by: &str, placement: &Placement, frame: &SiteFrame) -> Option<Message> {
+    let [low, high] = bounds(model, |corner| corner)?;
+    let middle = (low + high) / 2.0;
+    let away = middle.truncate().length();
+    let mut said = format!("is in {}, as {} says", crs.name(), if said_by == "crs" { "`crs`" } else { "its file" });
+    if away > FAR_M {
+        said.push_str(&format!("; its middle is {} from the place", length(away)));
+    }
+    if !frame.has_elevation && low.z.abs() > ONE_PLACE_M && placement.position.is_none() {
+        said.push_str("; ");
+        said.push_str(&no_elevation(low.z, frame.local.elevation_m()));
+    }
+    Some(message![said; "`crs` under [[model]] changes it"])
+}
+
+/// A place that a model's file proposes: a point, and its elevation where the file says one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ProposedPoint {
+    pub(super) at: GeodeticPoint,
+    pub(super) has_elevation: bool,
+}
+
+/// Where a model stands on Earth, rounded as it is written into a site file: the zero of one with an anchor, and the middle
+/// of one in a map's coordinates, at its lowest point.
+pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoint> {
+    let rounded = |value: f64, digits: i32| (value * 10f64.powi(digits)).round() / 10f64.powi(digits);
+    let (at, has_elevation, digits) = match &said.reference {
+        Reference::Placement => return None,
+        Reference::Anchor(zero) => (zero.at?, zero.has_height, 8),
+        Reference::Map { crs, map_from_model, .. } => (middle(model, crs, *map_from_model)?, true, 6),
+    };
+    let at = GeodeticPoint {
+        latitude_deg: rounded(at.latitude_deg, digits),
+        longitude_deg: rounded(at.longitude_deg, digits),
+        height_m: rounded(at.height_m, 2),
+    };
+    // what no place can have is not proposed
+    let has_elevation = has_elevation && (-500.0..=9000.0).contains(&at.height_m);
+    Some(ProposedPoint { at, has_elevation })
+}
+
+/// The middle of a box around a model, in the units of its map; its height is the lowest.
+pub(super) fn map_middle(model: &Model, map_from_model: DAffine3) -> Option<DVec3> {
+    let [low, high] = bounds(model, |corner| map_from_model.transform_point3(corner))?;
+    Some(((low + high) / 2.0).with_z(low.z))
+}
+
+fn middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<GeodeticPoint> {
+    let of_map = |corner: DVec3| map_from_model.transform_point3(corner);
+    if crs.kind() == CrsKind::EarthCentred {
+        let [low, high] = bounds(model, of_map)?;
+        let at = crs.to_wgs84((low + high) / 2.0)?;
+        // of heights only the lowest counts
+        let height = |corner: DVec3| DVec3::splat(crs.to_wgs84(of_map(corner)).map_or(f64::INFINITY, |at| at.height_m));
+        let [lowest, _] = bounds(model, height)?;
+        return Some(GeodeticPoint { height_m: lowest.z.floor(), ..at });
+    }
+    let at = map_middle(model, map_from_model)?;
+    Some(GeodeticPoint { height_m: at.z.floor(), ..crs.to_wgs84(at)? })
+}
+
+/// A box around what is made of a model's corners; none where there are none.
+pub(super) fn bounds(model: &Model, of: impl Fn(DVec3) -> DVec3 + Sync) -> Option<[DVec3; 2]> {
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let wider = |[low, high]: [DVec3; 2], corner: &DVec3| {
+        let at = of(*corner);
+        [low.min(at), high.max(at)]
+    };
+    let both = |one: [DVec3; 2], other: [DVec3; 2]| [one[0].min(other[0]), one[1].max(other[1])];
+    let corners = model.parts.par_iter().flat_map(|part| part.positions.par_iter());
+    let found = corners.fold(|| none, wider).reduce(|| none, both);
+    (found[0].is_finite() && found[1].is_finite()).then_some(found)
+}

@@ -1,0 +1,131 @@
+//! What is read in a process of its own: it gives the same model, and whatever it does is one clear error.
+
+use crate::shared::program::site;
+use gnomon::formats::{self, ModelReader, ReadOptions};
+use std::path::PathBuf;
+
+/// The program itself.
+pub(super) fn apart() -> ModelReader {
+    ModelReader { program: Some(PathBuf::from(env!("CARGO_BIN_EXE_gnomon"))), ..ModelReader::default() }
+}
+
+#[test]
+fn model_that_is_read_apart_is_the_same() {
+    let folder = site();
+    let (file, options) = (folder.path().join("tower.glb"), ReadOptions::default());
+    let here = formats::read(&file, &options).unwrap();
+    let there = apart().read_apart(&file, &options).unwrap();
+    assert_eq!(format!("{here:?}"), format!("{there:?}"));
+    assert!(here.triangles() == 12 && here.format == "glTF");
+    // the reader of glTF is ours, and needs no program
+    assert!(ModelReader::default().read(&file, &options).is_ok());
+    let told = ModelReader::default().read_apart(&file, &options).unwrap_err().to_string();
+    assert!(told.contains("name a program"), "{told}");
+}
+
+#[test]
+fn mistakes_in_a_file_are_told_as_elsewhere() {
+    let folder = site();
+    let (file, options) = (folder.path().join("bad.glb"), ReadOptions::default());
+    std::fs::write(&file, b"glTF no more").unwrap();
+    let [here, there] = [formats::read(&file, &options), apart().read_apart(&file, &options)];
+    assert_eq!(here.unwrap_err().to_string(), there.unwrap_err().to_string());
+}
+
+#[test]
+fn program_that_is_not_there_is_told() {
+    let folder = site();
+    let nowhere = ModelReader { program: Some(folder.path().join("no-program")), ..ModelReader::default() };
+    let told = nowhere.read_apart(&folder.path().join("tower.glb"), &ReadOptions::default()).unwrap_err().to_string();
+    assert!(told.contains("no process can be started"), "{told}");
+}
+
+/// Programs that do what a bad reader may do.
+#[cfg(unix)]
+mod bad_readers {
+    use super::*;
+    use gnomon::cli::Options;
+    use gnomon::formats::{ModelError, ModelFault, ReadLimits};
+    use std::io::Write;
+    use std::path::Path;
+    use std::process::{Command, Stdio};
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::{Duration, Instant};
+
+    /// A program; another process writes it, as none can be started that is still open in this one.
+    fn program(folder: &Path, text: &str) -> PathBuf {
+        let path = folder.join("reader.sh");
+        let mut writer = Command::new("sh")
+            .args(["-c", "cat > \"$0\" && chmod +x \"$0\""])
+            .arg(&path)
+            .stdin(Stdio::piped())
+            .spawn()
+            .unwrap();
+        writer.stdin.take().unwrap().write_all(format!("#!/bin/sh\n{text}\n").as_bytes()).unwrap();
+        assert!(writer.wait().unwrap().success());
+        path
+    }
+
+    /// What comes of a model that such a program reads; in a few seconds, whatever it does.
+    fn read(text: &str, limits: ReadLimits, given_up: &Arc<AtomicBool>) -> ModelError {
+        let folder = site();
+        let program = Some(program(folder.path(), text));
+        let reading = ModelReader { program, limits, cache: None, given_up: Arc::clone(given_up) };
+        let begun = Instant::now();
+        let error = reading.read_apart(&folder.path().join("tower.glb"), &ReadOptions::default()).unwrap_err();
+        assert!(begun.elapsed() < Duration::from_secs(30), "{text} took {:?}", begun.elapsed());
+        assert!(error.to_string().contains("tower.glb: "), "{error} names the file");
+        error
+    }
+
+    fn told(text: &str) -> String {
+        read(text, ReadLimits::default(), &Arc::default()).to_string()
+    }
+
+    #[test]
+    fn one_that_hangs_is_ended() {
+        let limits = ReadLimits { time: Duration::from_millis(300), memory: None };
+        let error = read("exec sleep 600", limits, &Arc::default());
+        let told = error.message().in_words(&Options);
+        assert!(told.contains("takes longer to read than") && told.contains("--read-time 1h"), "{told}");
+    }
+
+    #[test]
+    fn one_that_takes_all_memory_is_ended() {
+        let limits = ReadLimits { memory: Some(200 << 20), ..ReadLimits::default() };
+        let error = read("exec tail /dev/zero", limits, &Arc::default());
+        let told = error.message().in_words(&Options);
+        assert!(told.contains("takes more memory to read than 0.2 GiB"), "{told}");
+        assert!(told.contains("--read-memory"), "{told}");
+        // a face without such an option names none
+        assert!(!error.to_string().contains("memory to read a model"), "{error}");
+    }
+
+    #[test]
+    fn one_that_breaks_off_is_told_with_its_last_words() {
+        let told = told("echo \"thread 'main' panicked at reader.rs:7:\" >&2; echo 'no such wall' >&2; exit 101");
+        assert!(told.contains("its reader broke off") && told.contains("no such wall"), "{told}");
+        assert!(super::bad_readers::told("kill -ABRT $$").contains("signal: 6"));
+    }
+
+    #[test]
+    fn one_that_gives_something_else_is_told() {
+        assert!(told("echo 'a model, I promise, of many a wall'").contains("they begin with another mark"));
+        let cut = format!("\"{}\" \"$@\" | head -c 400", env!("CARGO_BIN_EXE_gnomon"));
+        assert!(told(&cut).contains("they end early"));
+    }
+
+    #[test]
+    fn one_that_nobody_waits_for_is_ended() {
+        let given_up = Arc::new(AtomicBool::new(false));
+        let sets = Arc::clone(&given_up);
+        let setter = std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_millis(200));
+            sets.store(true, Ordering::Relaxed);
+        });
+        let error = read("exec sleep 600", ReadLimits::default(), &given_up);
+        setter.join().unwrap();
+        assert!(matches!(error.fault, ModelFault::GivenUp) && error.is_given_up(), "{error}");
+    }
+}

@@ -1,0 +1,84 @@
+//! What a reader says of its parts, and of what it left out, reaches whoever asks.
+
+use crate::shared::program::{PLACE, STUDY, site};
+use crate::shared::said;
+use gnomon::cli::Options;
+use gnomon::formats::{self, LeftOut, Model, PartKind};
+use gnomon::site::{Overrides, Site, WrittenSite, load_mesh};
+use std::path::Path;
+
+/// A tower, and its like as a road and as terrain.
+fn three(folder: &Path) -> Model {
+    let mut model = formats::read(&folder.join("tower.glb"), &formats::ReadOptions::default()).unwrap();
+    let tower = model.parts[0].clone();
+    for name in ["road", "hill"] {
+        let mut part = tower.clone();
+        part.name = name.to_owned();
+        part.aliases = vec![name.to_owned(), "surroundings".to_owned()];
+        model.parts.push(part);
+    }
+    model.kinds = vec![PartKind::Building, PartKind::GroundCover, PartKind::Terrain];
+    let why = || "they do not stand there".to_owned();
+    model.left_out = vec![
+        LeftOut { what: "IfcGrid".to_owned(), count: 3, why: why() },
+        LeftOut { what: "IfcSpace".to_owned(), count: 12, why: why() },
+    ];
+    model
+}
+
+fn loaded(keys: &str, asked: &Overrides) -> Site {
+    let folder = site();
+    let file = folder.path().join("site.toml");
+    std::fs::write(&file, format!("{PLACE}[[model]]\npath = \"tower.glb\"\n{keys}\n{STUDY}")).unwrap();
+    Site::load_with(&file, asked, |_, _| Ok(three(folder.path()))).unwrap()
+}
+
+#[test]
+fn ground_cover_casts_only_where_it_is_named() {
+    let casts = |keys: &str| loaded(keys, &Overrides::default()).casts;
+    assert_eq!(casts(""), [true, false, true]);
+    assert_eq!(casts("casts = [\"!tower\"]"), [false, false, true]);
+    assert_eq!(casts("casts = [\"road\"]"), [false, true, false]);
+    assert_eq!(casts("casts = [\"surroundings\", \"tower\"]"), [true; 3]);
+    assert_eq!(casts("casts = false"), [false; 3]);
+    assert_eq!(loaded("", &Overrides::default()).receives, [true; 3]);
+    let is_said =
+        |keys: &str| said(&loaded(keys, &Overrides::default()).notes).iter().any(|note| note.contains("\"road\""));
+    assert!(is_said("") && !is_said("casts = [\"road\"]"), "a guess is told, and what is written is not");
+}
+
+#[test]
+fn what_is_left_out_is_told_once_and_listed_by_check() {
+    let notes = loaded("", &Overrides { words: &Options, ..Overrides::default() }).notes;
+    let notes: Vec<String> = notes.iter().map(|note| note.in_words(&Options)).collect();
+    let told = "tower.glb: 12 IfcSpace and 3 others left out; `gnomon check` lists them";
+    assert_eq!(notes.iter().filter(|note| note.contains("left out")).collect::<Vec<_>>(), [told]);
+    let elsewhere = said(&loaded("", &Overrides::default()).notes);
+    assert!(elsewhere.iter().any(|note| note == "tower.glb: 12 IfcSpace and 3 others left out"), "{elsewhere:?}");
+}
+
+#[test]
+fn check_lists_groups_kinds_and_what_is_left_out() {
+    let folder = site();
+    let written = WrittenSite::read(&folder.path().join("site.toml"), &Overrides::default()).unwrap();
+    let models = gnomon::site::Models::read(&written, |_, _| Ok(three(folder.path()))).unwrap();
+    let contents = models.contents(&written).remove(0);
+    let groups: Vec<_> = contents.groups.iter().map(|group| (group.name.as_str(), group.components)).collect();
+    assert_eq!(groups, [("surroundings", 2), ("default", 1)]);
+    assert_eq!(contents.kinds, PartKind::ALL.map(|kind| (kind, 1)));
+    assert_eq!((contents.format, contents.left_out.len()), ("glTF", 2));
+    let mesh = load_mesh(&folder.path().join("tower.glb"), &Overrides::default()).unwrap();
+    assert_eq!(mesh.models.len(), 1);
+    let mut all = models.contents(&written);
+    all[0].file = "house.ifc".to_owned();
+    let table = gnomon::export::check::table(&mesh.mesh, &[], mesh.frame, &[], &all, &[], &Options);
+    for line in [
+        "house.ifc: glTF\n",
+        "  kinds: 1 building, 1 terrain, 1 ground cover\n",
+        "  groups: \"surroundings\" (2), \"default\" (1)\n",
+        "  left out: 12 IfcSpace: they do not stand there\n",
+        "  left out: 3 IfcGrid: they do not stand there\n",
+    ] {
+        assert!(table.contains(line), "{table} lacks {line}");
+    }
+}
