@@ -4,8 +4,8 @@ use super::georeference::{AnchoredNorth, AnchoredZero, Georeference, KeyFault, R
 use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, angle, degrees, half_turn, length};
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
-use crate::formats::Model;
-use crate::message::{Message, message};
+use crate::formats::{Model, PartKind};
+use crate::message::{Message, message, set_to};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
@@ -65,8 +65,24 @@ pub(super) fn stand(
             let north_rad = placement.north_rad.or(true_north(&zero)).unwrap_or_default();
             Ok(by_site(model, north_rad, position, notes, false))
         }
-        (Reference::Placement | Reference::Map { .. }, _) => Ok(by_site(model, north_rad, position, notes, false)),
+        (Reference::Placement | Reference::Map { .. }, _) => {
+            notes.extend(note_no_map(&model, placement));
+            Ok(by_site(model, north_rad, position, notes, false))
+        }
     }
+}
+
+/// That terrain, which always is of some map, does not say of which one.
+fn note_no_map(model: &Model, placement: &Placement) -> Option<Message> {
+    let is_terrain = model.kinds.contains(&PartKind::Terrain);
+    let is_placed = placement.position.is_some() || placement.crs.is_some();
+    let crs = || set_to("[[model]]", "crs", "EPSG:…".to_owned(), "`crs = \"EPSG:…\"` under [[model]]".to_owned());
+    (is_terrain && !is_placed).then(|| {
+        message![
+            "does not say of which map its coordinates are, so they are taken as metres from the place";
+            "write ", crs()
+        ]
+    })
 }
 
 /// Every corner from a map into the frame.
@@ -79,6 +95,7 @@ fn converted(
     frame: &SiteFrame,
 ) -> Result<Model, KeyFault> {
     let to = MapToLocal { crs, frame: &frame.local };
+    let height_unit_m = model.unit_m.unwrap_or(1.0);
     for part in &mut model.parts {
         part.positions.par_iter_mut().for_each(|corner| *corner = map_from_model.transform_point3(*corner));
         let first = part.positions.first().copied();
@@ -96,7 +113,7 @@ fn converted(
         part.positions
             .iter_mut()
             .zip(heights.unwrap_or_default())
-            .for_each(|(corner, height)| corner.z = height * unit_m);
+            .for_each(|(corner, height)| corner.z = height * height_unit_m);
         part.positions.par_iter_mut().for_each(|corner| *corner += position);
         part.coarse.iter_mut().for_each(|run| run.step_m *= unit_m);
     }

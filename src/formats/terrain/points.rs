@@ -177,12 +177,6 @@ fn vertical_unit_m(wkt: &str) -> Option<f64> {
 
 fn notes(keys: &GeoKeys, points: &ClassedPoints) -> Vec<Message> {
     let mut notes = Vec::new();
-    if keys.crs.is_none() {
-        notes.push(message![
-            "does not say of which map its coordinates are, so they are taken as metres from the place";
-            "write `crs = \"EPSG:…\"` under [[model]]"
-        ]);
-    }
     match (keys.height_unit_m, keys.map_unit_m) {
         (Some(_), _) => (),
         (None, Some(unit)) if unit != 1.0 => {
