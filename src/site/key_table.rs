@@ -40,6 +40,8 @@ pub enum ValueType {
     TextOrNumber,
     /// `true`, `false`, or a list of names.
     Names,
+    /// A list of texts in quotes.
+    Texts,
     /// One of some words, in quotes.
     Word(fn() -> Vec<&'static str>),
 }
@@ -140,7 +142,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .unit("metres")
         .default("0.1")
         .means("How far a raster of heights may lie from the triangles that it becomes, at most."),
-    key("model", "classes", ValueType::Names, "classes = [\"building\", \"vegetation\"]")
+    key("model", "classes", ValueType::Texts, "classes = [\"building\", \"vegetation\"]")
         .default("the ground alone")
         .means(
             "Of measured points, which classes stand there beside the ground: `building`, `vegetation`, `bridge`, `water`.",
