@@ -73,6 +73,10 @@ year docs/pictures/headquarters-year.png headquarters
 surfaces docs/pictures/headquarters-surfaces.png headquarters
 probes docs/pictures/headquarters-probes.png headquarters 2026-01-01 2026-12-31
 
+# A house as IFC, its neighbours as footprints, and a terrain.
+camera sites/hillside/picture.png hillside 2026-12-21T12:00
+profile docs/pictures/hillside-profile.png hillside
+
 # The comparison sheets after Brabec and Seidel and after Chan's thesis. The milliseconds in some of their
 # captions are measured as they are drawn.
 cargo run --release --example draw-figures
