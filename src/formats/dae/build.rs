@@ -1,8 +1,7 @@
 //! Nodes with their geometries → parts.
 
-use super::document::{DaeDocument, DaeMaterial, DaeUp};
-use super::mesh::DaeGeometry;
-use super::node::{DaeNode, GeometryInstance, MOST_DEPTH};
+use super::document::{DaeDocument, DaeGeometry, DaeMaterial, DaeNode, DaeUp, GeometryInstance};
+use super::node::MOST_DEPTH;
 use crate::formats::left_out::LeftOutTally;
 use crate::formats::obj::cutter_notes;
 use crate::formats::vertices::VertexPicker;

@@ -1,6 +1,6 @@
 //! Meshes: sources of positions, and the triangles, polygons, strips and fans that use them.
 
-use super::document::DaeDocument;
+use super::document::{DaeDocument, DaeGeometry};
 use super::xml::{DaeXml, attribute, local_id};
 use crate::formats::MAX_TRIANGLES;
 use crate::formats::left_out::label;
@@ -9,15 +9,6 @@ use crate::message::{Message, message};
 use glam::DVec3;
 use quick_xml::events::BytesStart;
 use rustc_hash::FxHashMap;
-
-/// A geometry: triangles by their material's symbol.
-#[derive(Default)]
-pub(super) struct DaeGeometry {
-    pub name: String,
-    pub positions: Vec<DVec3>,
-    /// Every vertex is among the positions.
-    pub surfaces: Vec<(Option<String>, Vec<[u32; 3]>)>,
-}
 
 /// Numbers, and how to take points from them.
 #[derive(Default)]

@@ -7,7 +7,7 @@ mod faces;
 mod material;
 
 use super::left_out::{LeftOutTally, counted};
-use super::source::{TextLines, as_ascii, beside, text};
+use super::source::{TextLines, as_ascii, text};
 use super::vertices::VertexPicker;
 use super::whole::whole_file;
 use super::{Format, Model, ModelFault, ReadOptions, SeeThrough};
@@ -44,20 +44,10 @@ impl Format for Obj {
         let Ok(source) = whole_file(path) else { return Vec::new() };
         let source = as_ascii(source);
         let lines = TextLines::new(&source).filter_map(|line| line.trim_ascii_start().strip_prefix(b"mtllib"));
-        let libraries: Vec<PathBuf> = lines.flat_map(|names| beside_each(path, &text(names))).collect();
+        let libraries: Vec<PathBuf> = lines.flat_map(|names| material::beside_each(path, &text(names))).collect();
         let textures: Vec<PathBuf> = libraries.iter().flat_map(|library| material::textures(library)).collect();
         libraries.into_iter().chain(textures).collect()
     }
-}
-
-/// The files that a line of libraries names: all of it, as names have blanks, and each word.
-fn beside_each(model: &Path, names: &str) -> Vec<PathBuf> {
-    let mut found: Vec<PathBuf> = beside(model, names).into_iter().collect();
-    let several = || names.split_ascii_whitespace();
-    if several().nth(1).is_some() {
-        found.extend(several().filter_map(|name| beside(model, name)));
-    }
-    found
 }
 
 fn model_of(geometry: ObjGeometry, path: &Path) -> Model {
