@@ -1,8 +1,8 @@
 //! What a Collada file says, by its ids.
 
 use super::effect::DaeEffect;
+use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::LeftOutTally;
-use crate::formats::polygon::PolygonCutter;
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -71,7 +71,7 @@ pub(super) struct DaeDocument {
     pub materials: FxHashMap<String, DaeMaterial>,
     pub effects: FxHashMap<String, DaeEffect>,
     pub left_out: LeftOutTally,
-    pub cutter: PolygonCutter,
+    pub cutter: FaceCutter,
     /// Triangles of all geometries, each once.
     pub triangles: u64,
 }

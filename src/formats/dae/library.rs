@@ -3,8 +3,8 @@
 use super::document::{DaeDocument, DaeGeometry, DaeMaterial, DaeNode, DaeScene, DaeUp};
 use super::effect;
 use super::xml::{DaeXml, attribute, local_id};
+use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::{LeftOutTally, label};
-use crate::formats::polygon::PolygonCutter;
 use crate::message::{Message, message};
 use quick_xml::events::BytesStart;
 use rustc_hash::FxHashMap;
@@ -22,7 +22,7 @@ impl DaeDocument {
             materials: FxHashMap::default(),
             effects: FxHashMap::default(),
             left_out: LeftOutTally::default(),
-            cutter: PolygonCutter::new(),
+            cutter: FaceCutter::new(),
             triangles: 0,
         };
         let mut xml = DaeXml::new(source);

@@ -1,7 +1,7 @@
 //! What a DXF file says: its layers, its blocks, and what stands in the model space.
 
+use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::LeftOutTally;
-use crate::formats::polygon::PolygonCutter;
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -75,7 +75,7 @@ pub(super) struct Drawing {
     pub model_space: DxfBlock,
     pub unit: Option<i64>,
     pub left_out: LeftOutTally,
-    pub cutter: PolygonCutter,
+    pub cutter: FaceCutter,
     /// Bodies whose shape is ACIS's.
     pub acis: u64,
     /// Polylines that have a width, which is not read.

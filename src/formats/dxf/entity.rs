@@ -79,7 +79,7 @@ fn surface(
 ) -> Result<(), Message> {
     let layer = drawing.layer(&fields.name(8));
     let mut found = LayerTriangles::default();
-    let mut surface = EntityFaces::new(&mut found, &mut drawing.cutter);
+    let mut surface = EntityFaces::new(&mut found, &mut drawing.cutter, &mut drawing.left_out);
     let is_wide = |code: i32| fields.given(code).is_some_and(|width| width > 0.0);
     match kind {
         b"3DFACE" => surface.face(&[10, 11, 12, 13].map(|code| fields.point(code))),

@@ -4,8 +4,8 @@ use super::drawing::{Drawing, DxfBlock, DxfLayer};
 use super::entity;
 use super::fields::DxfFields;
 use super::group::{DxfGroup, DxfGroups, cut_off};
+use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::LeftOutTally;
-use crate::formats::polygon::PolygonCutter;
 use crate::message::{Message, message};
 use rustc_hash::FxHashMap;
 
@@ -18,7 +18,7 @@ impl Drawing {
             model_space: DxfBlock::default(),
             unit: None,
             left_out: LeftOutTally::default(),
-            cutter: PolygonCutter::new(),
+            cutter: FaceCutter::new(),
             acis: 0,
             wide: 0,
             lidless: 0,

@@ -5,8 +5,8 @@
 //! `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (what is said of an outline, and
 //! lengths as people write them), `footprint` (one outline, and its names), `overlap` (which outlines their parts replace), `extrude` (outlines → blocks).
 
+use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted};
-use super::rings::FaceCutter;
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
 use crate::mesh::Part;
 use crate::message::{Field, Message, message};

@@ -6,7 +6,6 @@
 mod faces;
 mod material;
 
-use super::left_out::{LeftOutTally, counted};
 use super::source::{TextLines, as_ascii, text};
 use super::vertices::VertexPicker;
 use super::whole::whole_file;
@@ -51,13 +50,13 @@ impl Format for Obj {
 }
 
 fn model_of(geometry: ObjGeometry, path: &Path) -> Model {
-    let ObjGeometry { positions, parts, names, libraries, cutter, left_out: mut tally, odd_number, .. } = geometry;
+    let ObjGeometry { positions, parts, names, libraries, cutter, left_out: tally, odd_number, .. } = geometry;
     let mut model = Model::default();
     let (faded, missing) = material::see_through(path, &libraries);
     let (built, see_through) = build(&positions, parts, &names, &faded);
     model.parts = built;
     model.see_through = see_through;
-    cutter_notes(&mut model, &mut tally, [cutter.empty, cutter.large, cutter.crossed]);
+    model.notes.extend(cutter.crossing_note());
     model.left_out = tally.into_left_out();
     if !missing.is_empty() && model.parts.iter().any(|part| part.aliases.len() > 1) {
         model.notes.push(message![
@@ -70,17 +69,6 @@ fn model_of(geometry: ObjGeometry, path: &Path) -> Model {
         model.notes.push(message![what; "export it again if that is a coordinate"]);
     }
     model
-}
-
-/// Tells which polygons have no triangles, or others than they should: empty, too large, crossed.
-pub(super) fn cutter_notes(model: &mut Model, tally: &mut LeftOutTally, [empty, large, crossed]: [u64; 3]) {
-    tally.add_many("faces", "they have no area", empty);
-    tally.add_many("faces", "they have more than 20,000 corners", large);
-    if crossed > 0 {
-        let cross = if crossed == 1 { "crosses itself" } else { "cross themselves" };
-        let faces = counted(crossed, "face");
-        model.notes.push(message![format!("has {faces} that {cross}, so what of them casts is a guess")]);
-    }
 }
 
 /// The parts with their names, and which of them have a material that light passes.
