@@ -11,7 +11,7 @@ use super::written::WrittenSite;
 use super::{Models, metres};
 use crate::crs::{GeodeticPoint, LocalFrame};
 use crate::formats::{Anchor, AnchorPoint, Model, Up};
-use crate::message::{Field, Message, Piece, message, pieces};
+use crate::message::{Field, Message, Piece, message, pieces, setting};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -172,7 +172,9 @@ impl WrittenSite {
         let height = table.elevation.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
         Some(message![
             format!("place from {said}: {}{height}", degrees(at));
-            "latitude, longitude and elevation in [place] change it",
+            setting("[place]", "latitude", "latitude"), ", ",
+            setting("[place]", "longitude", "longitude"), " and ",
+            setting("[place]", "elevation", "elevation in [place]"), " change it",
             Piece::Where(Field::Place, pieces![", or ", (Field::Place, "LAT,LON")])
         ])
     }

@@ -5,7 +5,7 @@ use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, angle, degrees, half_turn,
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
 use crate::formats::Model;
-use crate::message::{Message, message};
+use crate::message::{Message, message, setting};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
@@ -90,7 +90,7 @@ fn converted(
                 part.name,
                 crs.name()
             );
-            ("crs", message![what; "check `crs` and `scale`, and latitude and longitude in [place]"])
+            ("crs", message![what; "check ", setting("[[model]]", "crs", "`crs`"), " and ", setting("[[model]]", "scale", "`scale`"), ", and ", setting("[place]", "latitude", "latitude"), " and ", setting("[place]", "longitude", "longitude in [place]")])
         })?;
         // from the ground, and not from the level of the sea
         part.positions
@@ -170,7 +170,7 @@ fn anchored(
     }
     said.retain(|text| !text.is_empty());
     let note =
-        (!said.is_empty()).then(|| message![said.join("; "); "`position` and `north` under [[model]] change it"]);
+        (!said.is_empty()).then(|| message![said.join("; "); setting("[[model]]", "position", "`position`"), " and ", setting("[[model]]", "north", "`north` under [[model]]"), " change it"]);
     Ok((position, north, note))
 }
 
@@ -183,7 +183,7 @@ fn turned_alone(zero: &AnchoredZero, said_by: &str, placement: &Placement) -> (f
         Some(_) if differs => Some(message![said_north(said_by, by_anchor, north)]),
         None if by_anchor.abs() > ONE_NORTH_RAD => {
             let what = format!("is turned as its {said_by} says: north is {}", angle(by_anchor));
-            Some(message![what; "`north` under [[model]] changes it"])
+            Some(message![what; setting("[[model]]", "north", "`north` under [[model]]"), " changes it"])
         }
         _ => None,
     };
@@ -217,7 +217,7 @@ fn note_map(model: &Model, crs: &Crs, said_by: &str, placement: &Placement, fram
         said.push_str("; ");
         said.push_str(&no_elevation(low.z, frame.local.elevation_m()));
     }
-    Some(message![said; "`crs` under [[model]] changes it"])
+    Some(message![said; setting("[[model]]", "crs", "`crs` under [[model]]"), " changes it"])
 }
 
 /// A place that a model's file proposes: a point, and its elevation where the file says one.
