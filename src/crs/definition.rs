@@ -1,0 +1,30 @@
+//! What a text that names a reference system means, and what is said of one that means none.
+
+use crate::message::{Message, message};
+
+/// A system as it is found, before its arithmetic is set up.
+#[derive(Debug)]
+pub(super) struct Definition {
+    pub name: String,
+    /// PROJ's text.
+    pub proj: String,
+    pub height_unit_m: Option<f64>,
+    pub doubt: Option<&'static str>,
+}
+
+/// A text that a message can hold.
+pub(super) fn shortened(text: &str) -> String {
+    const MOST: usize = 60;
+    let one_line: String = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match one_line.char_indices().nth(MOST) {
+        Some((end, _)) => format!("\"{}…\"", &one_line[..end]),
+        None => format!("\"{one_line}\""),
+    }
+}
+
+pub(super) fn unknown(text: &str) -> Message {
+    message![
+        format!("{} is no reference system that Gnomon knows", shortened(text));
+        "write its number in the EPSG dataset, for example \"EPSG:25832\""
+    ]
+}
