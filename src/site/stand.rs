@@ -1,6 +1,8 @@
 //! A model with what is said of it → the model where it stands, in the one frame of the site.
 
-use super::georeference::{AnchoredNorth, AnchoredZero, Georeference, KeyFault, Reference, true_north};
+use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
+use super::georeference::{Georeference, KeyFault, Reference};
+use super::model_bounds::bounds;
 use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, angle, degrees, half_turn, length};
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
@@ -264,17 +266,4 @@ fn middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<Geodetic
     }
     let at = map_middle(model, map_from_model)?;
     Some(GeodeticPoint { height_m: at.z.floor(), ..crs.to_wgs84(at)? })
-}
-
-/// A box around what is made of a model's corners; none where there are none.
-pub(super) fn bounds(model: &Model, of: impl Fn(DVec3) -> DVec3 + Sync) -> Option<[DVec3; 2]> {
-    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    let wider = |[low, high]: [DVec3; 2], corner: &DVec3| {
-        let at = of(*corner);
-        [low.min(at), high.max(at)]
-    };
-    let both = |one: [DVec3; 2], other: [DVec3; 2]| [one[0].min(other[0]), one[1].max(other[1])];
-    let corners = model.parts.par_iter().flat_map(|part| part.positions.par_iter());
-    let found = corners.fold(|| none, wider).reduce(|| none, both);
-    (found[0].is_finite() && found[1].is_finite()).then_some(found)
 }
