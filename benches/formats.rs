@@ -32,7 +32,9 @@ fn main() {
     }
     let folder = std::env::temp_dir().join(format!("gnomon-bench-formats-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
-    println!("| format | things | MB | triangles | ms | ten times as many, ms | ratio |\n|---|---|---|---|---|---|---|");
+    println!(
+        "| format | things | MB | triangles | ms | ten times as many, ms | ratio |\n|---|---|---|---|---|---|---|"
+    );
     for (name, ending, write, things) in WRITERS {
         let [one, ten] = [things, 10 * things].map(|things| {
             let path = folder.join(format!("{things}.{ending}"));
@@ -55,7 +57,10 @@ fn main() {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         println!("| {name} | 1 | {:.1} | {} | {:.1} | | |", file.megabytes, file.triangles, file.ms);
     }
-    println!("\nMedians of {TIMES}; {} threads; read in this process, without the cache.", rayon::current_num_threads());
+    println!(
+        "\nMedians of {TIMES}; {} threads; read in this process, without the cache.",
+        rayon::current_num_threads()
+    );
     std::fs::remove_dir_all(&folder).expect("the bench's own folder");
 }
 
@@ -139,7 +144,9 @@ fn city_json(buildings: usize) -> Vec<u8> {
             }
         }
         let v = |corner: usize| 8 * building + corner;
-        let ring = |corners: [usize; 4]| format!("[[{},{},{},{}]]", v(corners[0]), v(corners[1]), v(corners[2]), v(corners[3]));
+        let ring = |corners: [usize; 4]| {
+            format!("[[{},{},{},{}]]", v(corners[0]), v(corners[1]), v(corners[2]), v(corners[3]))
+        };
         let sides = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]].map(ring);
         write!(
             objects,

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The rooms, and folders of rooms, that are not held to it yet.
-const NOT_HELD: &[&str] = &["formats", "study"];
+const NOT_HELD: &[&str] = &[];
 
 /// The folders of `desktop` as layers: each knows itself and those before it, and no file beside the folders.
 const LAYERS: &[&str] = &["state", "results", "work", "stage", "parts", "app"];

@@ -1,13 +1,15 @@
-//! What a reference system is called and how PROJ writes it, before its arithmetic is set up.
+//! What a text that names a reference system means, and what is said of one that means none.
+
+use crate::message::{Message, message};
 
 /// A system as it is found, before its arithmetic is set up.
 #[derive(Debug)]
 pub(super) struct Definition {
-    pub(super) name: String,
+    pub name: String,
     /// PROJ's text.
-    pub(super) proj: String,
-    pub(super) height_unit_m: Option<f64>,
-    pub(super) doubt: Option<&'static str>,
+    pub proj: String,
+    pub height_unit_m: Option<f64>,
+    pub doubt: Option<&'static str>,
 }
 
 /// A text that a message can hold.
@@ -18,4 +20,11 @@ pub(super) fn shortened(text: &str) -> String {
         Some((end, _)) => format!("\"{}…\"", &one_line[..end]),
         None => format!("\"{one_line}\""),
     }
+}
+
+pub(super) fn unknown(text: &str) -> Message {
+    message![
+        format!("{} is no reference system that Gnomon knows", shortened(text));
+        "write its number in the EPSG dataset, for example \"EPSG:25832\""
+    ]
 }

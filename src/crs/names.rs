@@ -1,7 +1,7 @@
 //! By which names a system goes: codes of the EPSG dataset in all their spellings, and the dataset's own names.
 
-use super::definition::{Definition, shortened};
-use crate::message::{Message, message};
+use super::definition::{Definition, shortened, unknown};
+use crate::message::Message;
 use rustc_hash::FxHashMap;
 use std::sync::LazyLock;
 
@@ -103,13 +103,6 @@ pub(super) fn by_code(code: u32) -> Option<Definition> {
         height_unit_m: None,
         doubt: None,
     })
-}
-
-pub(super) fn unknown(text: &str) -> Message {
-    message![
-        format!("{} is no reference system that Gnomon knows", shortened(text));
-        "write its number in the EPSG dataset, for example \"EPSG:25832\""
-    ]
 }
 
 /// The codes that stand behind `EPSG` or `ESRI` in lower-case text, or a number alone: the system on the ground first, then

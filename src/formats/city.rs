@@ -4,8 +4,8 @@
 //! building, some 20,000 in a tile of 5,000 buildings. One LoD of an object stands there, and parts of a building replace
 //! what the building says itself.
 
+use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted, label};
-use super::rings::FaceCutter;
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, PartKind, Up};
 use crate::mesh::{CornerPrecision, Part};
 use crate::message::message;
@@ -51,7 +51,6 @@ pub(super) struct CityBuilder {
     pub tally: LeftOutTally,
     cutter: FaceCutter,
     triangles: u64,
-    crossing: u64,
     outlines: u64,
     unnamed: u64,
     /// The open object, and its parts so far, each with the kind of its surfaces.
@@ -70,7 +69,6 @@ impl CityBuilder {
             tally: LeftOutTally::default(),
             cutter: FaceCutter::new(),
             triangles: 0,
-            crossing: 0,
             outlines: 0,
             unnamed: 0,
             open: None,
@@ -106,8 +104,7 @@ impl CityBuilder {
                 return Ok(());
             }
         };
-        self.crossing += u64::from(!cut.is_exact);
-        self.triangles += (cut.corners.len() / 3) as u64;
+        self.triangles += cut.triangles.len() as u64;
         if self.triangles > MAX_TRIANGLES {
             let what = format!("has more than {MAX_TRIANGLES} triangles, which is the most that a model may have");
             return Err(message![what; "export it in parts or with less detail"].into());
@@ -124,8 +121,8 @@ impl CityBuilder {
         let part = &mut self.surfaces[at].1;
         let first = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
         part.positions.extend_from_slice(points);
-        part.triangles.extend(cut.corners.chunks_exact(3).map(|corners| {
-            let [a, b, c] = [0, 1, 2].map(|at| first.saturating_add(corners[at]));
+        part.triangles.extend(cut.triangles.iter().map(|corners| {
+            let [a, b, c] = corners.map(|corner| first.saturating_add(corner));
             if is_turned { [a, c, b] } else { [a, b, c] }
         }));
         Ok(())
@@ -162,13 +159,7 @@ impl CityBuilder {
     /// The model: metres, z up.
     pub(super) fn finish(mut self, coordinates: Coordinates) -> Model {
         self.close();
-        let mut notes = Vec::new();
-        if self.crossing > 0 {
-            notes.push(message![format!(
-                "has {} whose rings cross themselves or each other, so that the triangles may cover too much or too little",
-                counted(self.crossing, "face")
-            )]);
-        }
+        let mut notes: Vec<_> = self.cutter.crossing_note().into_iter().collect();
         if self.outlines > 0 {
             notes.push(message![
                 format!("has {} of which there is a flat outline alone (LoD 0), which lies there as a sheet", counted(self.outlines, "object"));

@@ -1,12 +1,11 @@
 //! How model files are read: where, within which limits, and what is kept of it.
 
-use super::{Model, ModelCache, ModelError, ModelFault, ReadOptions, child, format_of, read_as};
+use super::table::{format_of, read_as};
+use super::{Model, ModelCache, ModelError, ModelFault, ReadLimits, ReadOptions, child};
 use crate::message::message;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
-use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
 /// How model files are read.
 ///
@@ -22,37 +21,6 @@ pub struct ModelReader {
     pub cache: Option<ModelCache>,
     /// Set by whoever wants no model any more: such a process is ended, and the reading is [`ModelFault::GivenUp`].
     pub given_up: Arc<AtomicBool>,
-}
-
-/// What the reading of one file may take.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ReadLimits {
-    /// How long.
-    pub time: Duration,
-    /// Bytes; three quarters of the machine's where nobody says it.
-    pub memory: Option<u64>,
-}
-
-impl Default for ReadLimits {
-    fn default() -> Self {
-        Self { time: Duration::from_secs(600), memory: None }
-    }
-}
-
-impl ReadLimits {
-    /// Bytes; no limit where the system does not say how many it has.
-    pub(super) fn memory_bytes(self) -> u64 {
-        self.memory.unwrap_or_else(|| {
-            let ram = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
-            let Ok(system) = System::new_with_specifics(ram) else { return u64::MAX };
-            let of_machine = system.total_memory();
-            let of_group = system.cgroup_limits().map_or(of_machine, |limits| limits.total_memory);
-            match of_machine.min(of_group) {
-                0 => u64::MAX,
-                bytes => bytes / 4 * 3,
-            }
-        })
-    }
 }
 
 impl ModelReader {

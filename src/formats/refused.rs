@@ -124,6 +124,6 @@ pub(crate) fn refusal(path: &Path) -> Option<Message> {
         return None;
     }
     let mut head = Vec::new();
-    File::open(path).ok()?.take(super::HEAD_BYTES).read_to_end(&mut head).ok()?;
+    File::open(path).ok()?.take(super::format::HEAD_BYTES).read_to_end(&mut head).ok()?;
     by_content(&head, path).or_else(|| by_ending(path))
 }

@@ -1,8 +1,7 @@
 //! STL, of text or of numbers → a part for each solid.
 
+use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, label};
-use super::obj::cutter_notes;
-use super::polygon::PolygonCutter;
 use super::source::{TextLines, as_ascii, keyword, number, stem, text, words, wrong_line};
 use super::vertices::note_floats;
 use super::whole::whole_file;
@@ -107,7 +106,8 @@ struct StlText {
     corners: Vec<DVec3>,
     is_in_facet: bool,
     is_in_solid: bool,
-    cutter: PolygonCutter,
+    cutter: FaceCutter,
+    left_out: LeftOutTally,
 }
 
 fn of_text(source: &[u8], path: &Path) -> Result<Model, Message> {
@@ -116,7 +116,8 @@ fn of_text(source: &[u8], path: &Path) -> Result<Model, Message> {
         corners: Vec::new(),
         is_in_facet: false,
         is_in_solid: false,
-        cutter: PolygonCutter::new(),
+        cutter: FaceCutter::new(),
+        left_out: LeftOutTally::default(),
     };
     let mut lines = TextLines::new(source);
     while let Some(line) = lines.next() {
@@ -126,10 +127,10 @@ fn of_text(source: &[u8], path: &Path) -> Result<Model, Message> {
         let what = format!("is cut off in line {}", lines.number);
         return Err(message![what; "copy or export it again"]);
     }
-    let (mut tally, mut model) = (LeftOutTally::default(), Model::default());
+    let mut model = Model::default();
     for part in text.parts {
         if part.triangles.is_empty() {
-            tally.add("solid", "they are empty");
+            text.left_out.add("solid", "they are empty");
         } else {
             model.parts.push(part);
         }
@@ -137,9 +138,8 @@ fn of_text(source: &[u8], path: &Path) -> Result<Model, Message> {
     if text.is_in_solid {
         model.notes.push(message!["ends without `endsolid`, so it may be cut off"; "copy or export it again if it is"]);
     }
-    let cutter = &text.cutter;
-    cutter_notes(&mut model, &mut tally, [cutter.empty, cutter.large, cutter.crossed]);
-    model.left_out = tally.into_left_out();
+    model.notes.extend(text.cutter.crossing_note());
+    model.left_out = text.left_out.into_left_out();
     Ok(model)
 }
 
@@ -180,7 +180,7 @@ impl StlText {
         if !self.is_in_solid {
             self.open(unnamed(path, self.parts.len()))?;
         }
-        let triangles = self.cutter.cut(&self.corners, &[]);
+        let triangles = self.cutter.polygon(&self.corners, &mut self.left_out);
         if let Some(part) = self.parts.last_mut().filter(|_| !triangles.is_empty()) {
             push(part, &self.corners, triangles);
         }

@@ -3,13 +3,13 @@
 //! A model stands by its coordinates, where these are of a map, else by the first of its anchors that can be used; what the
 //! user wrote goes before either.
 
-use super::anchored::{AnchoredNorth, AnchoredZero, true_north};
-use super::extent::bounds_of;
+use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
+use super::model_bounds::bounds;
 use super::place_doubts;
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint};
 use crate::formats::{Anchor, AnchorPoint, Coordinates, Model};
-use crate::message::{Message, message};
+use crate::message::{Message, message, setting};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 /// A model that lies farther from its zero than this is brought into the site's frame corner by corner, metres: the map's
@@ -81,14 +81,14 @@ fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georefere
     match (named, written) {
         (Ok(crs), None) => of_coordinates(model, placement, crs, "coordinates"),
         (Err(mut error), None) => {
-            error.hint = message![""; "write `crs` under [[model]], for example crs = \"EPSG:25832\""].hint;
+            error.hint = message![""; "write ", setting("[[model]]", "crs", "`crs` under [[model]]"), ", for example crs = \"EPSG:25832\""].hint;
             Err(("crs", error))
         }
         (Ok(crs), Some(key)) if crs.kind() != CrsKind::Projected => Err((
             key,
             message![
                 format!("the file's coordinates are of {}, and no metres that could be moved or turned", crs.name());
-                "leave it out, or write `crs` and `position` together: the model is then moved from where it stands"
+                "leave it out, or write ", setting("[[model]]", "crs", "`crs`"), " and ", setting("[[model]]", "position", "`position`"), " together: the model is then moved from where it stands"
             ],
         )),
         (named, Some(key)) => {
@@ -105,13 +105,20 @@ fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georefere
 fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str) -> Result<Georeference, KeyFault> {
     if placement.north_rad.is_some() {
         let what = format!("{} says which way north is", crs.name());
-        return Err(("north", message![what; "leave out `north` or `crs` under [[model]]"]));
+        return Err((
+            "north",
+            message![what; "leave out ", setting("[[model]]", "north", "`north`"), " or ", setting("[[model]]", "crs", "`crs` under [[model]]")],
+        ));
     }
     let mut notes = Vec::new();
     if let (Coordinates::Map(text), Some(_)) = (&model.coordinates, &placement.crs) {
         let of_file = Crs::read(text).map_or_else(|_| text.clone(), |crs| crs.name().to_owned());
         if of_file != crs.name() {
-            notes.push(message![format!("says that it is of {of_file}; `crs` under [[model]] says {}", crs.name())]);
+            notes.push(message![
+                format!("says that it is of {of_file}; "),
+                setting("[[model]]", "crs", "`crs` under [[model]]"),
+                format!(" says {}", crs.name())
+            ]);
         }
     }
     notes.extend(crs.doubt().map(|doubt| message![format!("is of {}: {doubt}", crs.name())]));
@@ -119,7 +126,7 @@ fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str)
         notes.push(message![
             "has Earth-centred coordinates, whose heights are above the ellipsoid: those above the sea are up to 100 m \
              lower or higher";
-            "to move it up or down beside models of other kinds, write `crs` with `position` under [[model]]"
+            "to move it up or down beside models of other kinds, write ", setting("[[model]]", "crs", "`crs`"), " with ", setting("[[model]]", "position", "`position` under [[model]]")
         ]);
     }
     let [ground, height] = map_units(model, placement, &crs);
@@ -240,11 +247,13 @@ fn crs_of_anchor(text: &str, asked: Option<&Crs>, said_by: &str) -> Result<Crs, 
         Some(asked) => Ok(asked.clone()),
         None if text.trim().is_empty() => {
             let what = format!("says by its {said_by} where on a map it stands, and not on which map");
-            Err(message![what; "write `crs` under [[model]], for example crs = \"EPSG:25832\""])
+            Err(
+                message![what; "write ", setting("[[model]]", "crs", "`crs` under [[model]]"), ", for example crs = \"EPSG:25832\""],
+            )
         }
         None => Crs::read(text).map_err(|error| {
             let what = format!("says by its {said_by} where it stands, but {error}");
-            message![what; "or write `crs` under [[model]]"]
+            message![what; "or write ", setting("[[model]]", "crs", "`crs` under [[model]]")]
         }),
     }
 }
@@ -270,7 +279,7 @@ fn zero_on_map(
             metres.y,
             crs.name()
         );
-        message![what; "write `crs` or `position` under [[model]]"]
+        message![what; "write ", setting("[[model]]", "crs", "`crs`"), " or ", setting("[[model]]", "position", "`position` under [[model]]")]
     })?;
     let north = anchor.north_rad.map(AnchoredNorth::Map);
     Ok(AnchoredZero { at: Some(at), has_height: height_m.is_some(), on_map: Some((crs, on_map)), north })
@@ -283,7 +292,7 @@ fn map_north<'a>(model: &'a Model, notes: &mut Vec<Message>) -> Option<(&'a Anch
         "says by its {} which way the north of a map is, and it is taken for true north: in most maps that is wrong by up to 2°",
         anchor.said_by
     );
-    notes.push(message![what; "write `crs` or `north` under [[model]]"]);
+    notes.push(message![what; "write ", setting("[[model]]", "crs", "`crs`"), " or ", setting("[[model]]", "north", "`north` under [[model]]")]);
     let north = Some(AnchoredNorth::True(north));
     Some((anchor, AnchoredZero { at: None, has_height: false, on_map: None, north }))
 }
@@ -307,7 +316,7 @@ fn beyond(model: &Model, placement: &Placement, anchor: &Anchor, zero: &Anchored
 /// Metres from the zero to the middle of a box around the model, along the ground.
 fn farthest_m(model: &Model, placement: &Placement) -> f64 {
     let upright = placement.upright(model) * placement.unit_m(model);
-    let Some([low, high]) = bounds_of(model, |corner| corner) else { return 0.0 };
+    let Some([low, high]) = bounds(model, |corner| corner) else { return 0.0 };
     let middle: DVec2 = (upright * ((low + high) / 2.0)).truncate();
     if middle.is_finite() { middle.length() } else { 0.0 }
 }
@@ -324,7 +333,7 @@ fn scale_doubt(anchor: &Anchor, unit_m: f64) -> Option<Message> {
                 "says by its {} that a unit of it is {scale} m on the map, and it is taken as {unit_m} m",
                 anchor.said_by
             );
-            "write `scale` under [[model]] if that is wrong"
+            "write ", setting("[[model]]", "scale", "`scale` under [[model]]"), " if that is wrong"
         ]
     })
 }

@@ -2,7 +2,7 @@
 //!
 //! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unproven.
 
-mod anchored;
+mod anchored_zero;
 mod camera;
 mod choice;
 mod contents;
@@ -20,6 +20,8 @@ mod keys;
 mod left_out;
 mod likeness;
 mod load;
+mod located;
+mod model_bounds;
 mod model_place;
 mod model_table;
 mod models;

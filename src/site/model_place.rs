@@ -1,19 +1,18 @@
 //! The place that models' files propose, and what `gnomon check` says of each.
 
-use super::anchored::{AnchoredZero, true_north};
+use super::anchored_zero::{AnchoredZero, true_north};
 use super::error::SiteError;
 use super::file::{PlaceSource, PlaceTable};
 use super::georeference::{Georeference, Reference};
+use super::metres;
 use super::overrides::refuse;
 use super::place_doubts::{self, degrees};
 use super::placement::Placement;
 use super::stand::{ProposedPoint, SiteFrame, map_middle, proposal};
 use super::written::WrittenSite;
-use super::{Models, metres};
 use crate::crs::{GeodeticPoint, LocalFrame};
 use crate::formats::{Anchor, AnchorPoint, Model, Up};
-use crate::message::{Field, Message, Piece, message, pieces};
-use std::borrow::Cow;
+use crate::message::{Field, Message, Piece, message, pieces, setting};
 use std::path::Path;
 
 /// What a model's file, and the site file, say of its coordinates.
@@ -122,43 +121,10 @@ fn file_name(path: &str) -> &str {
     Path::new(path).file_name().and_then(|name| name.to_str()).unwrap_or(path)
 }
 
-/// Models that are read where they are asked for.
-pub(super) type LazyModels<'a> = Box<dyn FnOnce() -> Result<Models, SiteError> + 'a>;
-
 impl WrittenSite {
-    /// The request with a place: its own, or that which a model's file proposes, for which the models are read first.
-    ///
-    /// # Errors
-    /// Everything that can be wrong with the models, and that nobody says a place.
-    pub(super) fn located<'a>(
-        &'a self,
-        models: impl FnOnce() -> Result<Models, SiteError> + 'a,
-    ) -> Result<(Cow<'a, WrittenSite>, LazyModels<'a>), SiteError> {
-        if self.site.place.is_some() {
-            return Ok((Cow::Borrowed(self), Box::new(models)));
-        }
-        if self.site.model.is_empty() {
-            return Err(self.no_place(&[]));
-        }
-        let models = models()?;
-        let Some(place) = models.proposed_place() else { return Err(self.no_place(models.place_notes())) };
-        let mut written = self.clone();
-        written.site.place = Some(place.clone());
-        Ok((Cow::Owned(written), Box::new(move || Ok(models))))
-    }
-
     /// Whether it is a model without a site file.
     pub fn is_bare_model(&self) -> bool {
         self.text.is_empty() && !self.site.model.is_empty()
-    }
-
-    /// That nobody says a place; and what files say of one that is none.
-    fn no_place(&self, said: &[Message]) -> SiteError {
-        if self.is_bare_model() {
-            let said = said.first().cloned().map(Box::new);
-            return SiteError::NoPlaceForModel { path: self.file.clone(), said };
-        }
-        self.missing("[place]", "[place] with latitude = 48.8583 and longitude = 2.2945")
     }
 
     /// That its place is a file's, where nobody has changed it since; a sentence without its stop.
@@ -173,7 +139,9 @@ impl WrittenSite {
         let height = table.elevation.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
         Some(message![
             format!("place from {said}: {}{height}", degrees(at));
-            "latitude, longitude and elevation in [place] change it",
+            setting("[place]", "latitude", "latitude"), ", ",
+            setting("[place]", "longitude", "longitude"), " and ",
+            setting("[place]", "elevation", "elevation in [place]"), " change it",
             Piece::Where(Field::Place, pieces![", or ", (Field::Place, "LAT,LON")])
         ])
     }
@@ -212,4 +180,17 @@ pub fn anchor_text(at: &AnchorPoint) -> String {
             format!("{easting}, {northing} in {crs}{height}")
         }
     }
+}
+
+/// That models are on maps of two datums, which are matched by a few parameters alone.
+pub(super) fn of_shifts(models: &[ModelReference]) -> Option<Message> {
+    let on_maps = || models.iter().filter_map(|model| Some((model, model.shift.as_deref()?, model.crs.as_deref()?)));
+    let (one, shift, crs) = on_maps().next()?;
+    let (other, _, other_crs) = on_maps().find(|(_, other, _)| *other != shift)?;
+    let what = format!(
+        "{} is in {crs}, and {} in {other_crs}: their datums differ, and are matched by a few parameters, which hold to some \
+         metres",
+        one.name, other.name
+    );
+    Some(message![what; "export both in one system to have them meet to the centimetre"])
 }

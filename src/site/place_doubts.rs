@@ -1,9 +1,8 @@
 //! Places that a file says and nobody meant, and sources that disagree.
 
-use super::anchored::{AnchoredZero, true_north};
-use super::model_place::ModelReference;
+use super::anchored_zero::{AnchoredZero, true_north};
 use crate::crs::{GeodeticPoint, LocalFrame};
-use crate::message::{Message, message};
+use crate::message::{Message, message, setting};
 
 /// Two sources that agree to this are one: metres along the ground and in height, and radians of north (0.1°).
 pub(super) const ONE_PLACE_M: f64 = 10.0;
@@ -29,7 +28,7 @@ pub(super) fn of(at: Option<GeodeticPoint>, said_by: &str) -> Option<Message> {
     let (.., place) = DEFAULTS.iter().find(is_near)?;
     let what = format!("says by its {said_by} that it stands at {}: {place} where nobody has set a place", degrees(at));
     Some(
-        message![what; "if it stands elsewhere, say so: latitude and longitude in [place], and `position` under [[model]]"],
+        message![what; "if it stands elsewhere, say so: ", setting("[place]", "latitude", "latitude"), " and ", setting("[place]", "longitude", "longitude in [place]"), ", and ", setting("[[model]]", "position", "`position` under [[model]]")],
     )
 }
 
@@ -66,20 +65,9 @@ pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &Anch
         return None;
     }
     let what = format!("is placed by its {used}; its {other_by} says otherwise: {}", differs.join(", "));
-    Some(message![what; "`position` and `north` under [[model]] go before both"])
-}
-
-/// That models are on maps of two datums, which are matched by a few parameters alone.
-pub(super) fn of_shifts(models: &[ModelReference]) -> Option<Message> {
-    let on_maps = || models.iter().filter_map(|model| Some((model, model.shift.as_deref()?, model.crs.as_deref()?)));
-    let (one, shift, crs) = on_maps().next()?;
-    let (other, _, other_crs) = on_maps().find(|(_, other, _)| *other != shift)?;
-    let what = format!(
-        "{} is in {crs}, and {} in {other_crs}: their datums differ, and are matched by a few parameters, which hold to some \
-         metres",
-        one.name, other.name
-    );
-    Some(message![what; "export both in one system to have them meet to the centimetre"])
+    Some(
+        message![what; setting("[[model]]", "position", "`position`"), " and ", setting("[[model]]", "north", "`north` under [[model]]"), " go before both"],
+    )
 }
 
 /// Between −π and π.

@@ -1,13 +1,13 @@
 //! A model with what is said of it → the model where it stands, in the one frame of the site.
 
-use super::anchored::{AnchoredNorth, AnchoredZero, true_north};
-use super::extent::bounds_of;
+use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
 use super::georeference::{Georeference, KeyFault, Reference};
+use super::model_bounds::bounds;
 use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, angle, degrees, half_turn, length};
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
 use crate::formats::{Model, PartKind};
-use crate::message::{Message, message, set_to};
+use crate::message::{Message, message, set_to, setting};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
@@ -109,7 +109,7 @@ fn converted(
                 part.name,
                 crs.name()
             );
-            ("crs", message![what; "check `crs` and `scale`, and latitude and longitude in [place]"])
+            ("crs", message![what; "check ", setting("[[model]]", "crs", "`crs`"), " and ", setting("[[model]]", "scale", "`scale`"), ", and ", setting("[place]", "latitude", "latitude"), " and ", setting("[place]", "longitude", "longitude in [place]")])
         })?;
         // from the ground, and not from the level of the sea
         part.positions
@@ -162,7 +162,7 @@ fn anchored(
     }
     said.retain(|text| !text.is_empty());
     let note =
-        (!said.is_empty()).then(|| message![said.join("; "); "`position` and `north` under [[model]] change it"]);
+        (!said.is_empty()).then(|| message![said.join("; "); setting("[[model]]", "position", "`position`"), " and ", setting("[[model]]", "north", "`north` under [[model]]"), " change it"]);
     Ok((position, north, note))
 }
 
@@ -219,7 +219,7 @@ fn turned_alone(zero: &AnchoredZero, said_by: &str, placement: &Placement) -> (f
         Some(_) if differs => Some(message![said_north(said_by, by_anchor, north)]),
         None if by_anchor.abs() > ONE_NORTH_RAD => {
             let what = format!("is turned as its {said_by} says: north is {}", angle(by_anchor));
-            Some(message![what; "`north` under [[model]] changes it"])
+            Some(message![what; setting("[[model]]", "north", "`north` under [[model]]"), " changes it"])
         }
         _ => None,
     };
@@ -242,7 +242,7 @@ fn no_elevation(above_m: f64, place_m: f64) -> String {
 
 /// Where a model of a map stands.
 fn note_map(model: &Model, crs: &Crs, said_by: &str, placement: &Placement, frame: &SiteFrame) -> Option<Message> {
-    let [low, high] = bounds_of(model, |corner| corner)?;
+    let [low, high] = bounds(model, |corner| corner)?;
     let middle = (low + high) / 2.0;
     let away = middle.truncate().length();
     let mut said = format!("is in {}, as {} says", crs.name(), if said_by == "crs" { "`crs`" } else { "its file" });
@@ -253,7 +253,7 @@ fn note_map(model: &Model, crs: &Crs, said_by: &str, placement: &Placement, fram
         said.push_str("; ");
         said.push_str(&no_elevation(low.z, frame.local.elevation_m()));
     }
-    Some(message![said; "`crs` under [[model]] changes it"])
+    Some(message![said; setting("[[model]]", "crs", "`crs` under [[model]]"), " changes it"])
 }
 
 /// A place that a model's file proposes: a point, and its elevation where the file says one.
@@ -284,18 +284,18 @@ pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoi
 
 /// The middle of a box around a model, in the units of its map; its height is the lowest.
 pub(super) fn map_middle(model: &Model, map_from_model: DAffine3) -> Option<DVec3> {
-    let [low, high] = bounds_of(model, |corner| map_from_model.transform_point3(corner))?;
+    let [low, high] = bounds(model, |corner| map_from_model.transform_point3(corner))?;
     Some(((low + high) / 2.0).with_z(low.z))
 }
 
 fn middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<GeodeticPoint> {
     let of_map = |corner: DVec3| map_from_model.transform_point3(corner);
     if crs.kind() == CrsKind::EarthCentred {
-        let [low, high] = bounds_of(model, of_map)?;
+        let [low, high] = bounds(model, of_map)?;
         let at = crs.to_wgs84((low + high) / 2.0)?;
         // of heights only the lowest counts
         let height = |corner: DVec3| DVec3::splat(crs.to_wgs84(of_map(corner)).map_or(f64::INFINITY, |at| at.height_m));
-        let [lowest, _] = bounds_of(model, height)?;
+        let [lowest, _] = bounds(model, height)?;
         return Some(GeodeticPoint { height_m: lowest.z.floor(), ..at });
     }
     let at = map_middle(model, map_from_model)?;

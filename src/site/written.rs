@@ -150,8 +150,13 @@ impl WrittenSite {
 
     /// A file as this site names it: by a relative path, where it lies beside the site file or below.
     pub fn path_of(&self, file: &Path) -> String {
+        WrittenSite::name_in(&self.folder, file)
+    }
+
+    /// A file as a site file in a folder names it: what lies beside or below is relative, so that both can move together.
+    pub fn name_in(folder: &Path, file: &Path) -> String {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        let folder = if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder };
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let there = absolute(file);
         let path = there.strip_prefix(absolute(folder)).unwrap_or(&there).display().to_string();
         if cfg!(windows) { path.replace('\\', "/") } else { path }

@@ -89,3 +89,10 @@ pub(crate) fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), S
 pub(crate) fn note_models(notes: &[Message], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
 }
+
+/// Says when the plan is done in tiles.
+pub(super) fn note_tiles(tiles: &[Tile], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let [first, _, ..] = tiles else { return Ok(()) };
+    let [width, height] = first.size;
+    tell(on_event, Event::Note(format!("the plan is done in {} tiles of {width} × {height} cells", tiles.len()).into()))
+}

@@ -1,7 +1,7 @@
 //! Every instant of a study as a picture: night too.
 
 use super::again::persist;
-use super::machine::{choose, not_patches};
+use super::chooser::{choose, not_patches};
 use super::{Event, OnEvent, SiteView, StudyError, judged, night, note_models, subject_of, tell, tiles};
 use crate::choice::Receivers;
 use crate::gpu::Gpu;

@@ -1,7 +1,7 @@
 //! One instant's shadows, seen from above, from a side or by a camera.
 
 use super::again::persist;
-use super::machine::{choose, counting, not_patches, stencil_alone};
+use super::chooser::{choose, counting, not_patches, stencil_alone};
 use super::{Event, InstantOutcome, InstantWants, NOTHING_COUNTED, OnEvent, SiteView, Stopwatch, StudyError};
 use super::{judged, night, note_models, subject_of, tell, tiles};
 use crate::gpu::Gpu;
@@ -49,7 +49,7 @@ fn once(
     let look = SiteView { site, machine: &machine, view, receivers: judged(site, &view) };
     let tiles = tiles_of(&look, wants)?;
     let first = tiles.first().filter(|tile| !tile.is_whole());
-    tiles::note(&tiles, on_event)?;
+    super::event::note_tiles(&tiles, on_event)?;
     let mut technique = first.map_or_else(|| look.technique(), |tile| look.technique_of(*tile))?;
     let surface = match (wants.surface, view) {
         (false, _) => None,

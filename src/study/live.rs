@@ -2,7 +2,8 @@
 //!
 //! The same techniques draw as in `study::instant`; what is kept between two pictures is the only difference.
 
-use super::machine::{Machine, choose};
+use super::chooser::choose;
+use super::machine::Machine;
 use super::{StudyError, night};
 use crate::choice::{Method, Receivers, Settings};
 use crate::gpu::Gpu;

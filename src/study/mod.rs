@@ -8,6 +8,7 @@
 
 #[doc(hidden)]
 pub mod again;
+mod chooser;
 mod compare;
 mod daylight;
 mod error;
@@ -25,11 +26,14 @@ pub mod probe;
 mod profile;
 mod site_view;
 mod stopwatch;
+mod subject;
+mod tiled_study;
 mod tiles;
 #[doc(hidden)]
 pub mod verify;
 mod wants;
 
+pub(crate) use chooser::not_patches;
 #[doc(hidden)]
 pub use compare::CompareOutcome;
 #[cfg(feature = "test-hooks")]
@@ -43,7 +47,7 @@ pub(crate) use event::{note_models, tell};
 pub use frames::{Frame, frames};
 #[doc(hidden)]
 pub use instant::instant;
-pub(crate) use machine::not_patches;
+
 #[doc(hidden)]
 pub use outcome::InstantOutcome;
 pub use outcome::Outcome;
@@ -54,15 +58,16 @@ pub use patches::PatchOutcome;
 pub use patches::patches;
 pub(crate) use patches::patches_kept;
 pub(crate) use patches::seen_receivers;
-pub use profile::{TiledOutcome, TiledStudy, in_tiles, paste, run};
-#[doc(hidden)]
-pub use site_view::judged;
+pub use profile::{TiledOutcome, in_tiles, paste, run};
 #[doc(hidden)]
 pub use stopwatch::Stopwatch;
-pub use tiles::Budget;
-pub use wants::Wants;
+#[doc(hidden)]
+pub use subject::judged;
+pub use tiled_study::TiledStudy;
+pub use wants::{Budget, Wants};
 #[doc(hidden)]
 pub use wants::{CountingPurpose, InstantWants};
 
-use site_view::{SiteView, night, subject, subject_of};
+use site_view::{SiteView, night};
+use subject::{subject, subject_of};
 use wants::NOTHING_COUNTED;

@@ -1,7 +1,7 @@
 //! The study on patches: hours of sun on every flat patch of what receives.
 
 use super::again::persist;
-use super::machine::opened;
+use super::chooser::opened;
 use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, fingerprint, note_models, tell};
 use crate::choice::{Engine, Method, Misfit, Settings, Subject};
 use crate::gpu::Gpu;

@@ -2,12 +2,12 @@
 
 use super::machine::Machine;
 use super::{InstantWants, StudyError};
-use crate::choice::{Receivers, Subject};
+use crate::choice::Receivers;
 use crate::mesh::Mesh;
 use crate::picture::overlay::VolumePicture;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{GpuSurface, Scene, ShadowError, Technique, plan_surface};
-use crate::site::{GroundKind, Site};
+use crate::site::Site;
 use crate::view::{Camera, Mask, Overlay, Surface, Tile, View};
 use glam::DVec3;
 
@@ -78,31 +78,6 @@ impl SiteView<'_> {
             }
         }
     }
-}
-
-/// What a view judges: the plan what was asked, a camera what it sees.
-pub fn judged(site: &Site, view: &View) -> Receivers {
-    match view {
-        View::Plan(_) => site.receivers,
-        View::Camera(_) | View::Elevation(_) => Receivers::Top,
-    }
-}
-
-/// What a technique draws of a view.
-pub(super) fn subject(view: &View, receivers: Receivers, ground: GroundKind) -> Subject {
-    match (view, receivers, ground) {
-        (View::Camera(_), ..) => Subject::Camera,
-        (View::Elevation(_), ..) => Subject::Side,
-        (View::Plan(_), Receivers::Top, _) => Subject::Top,
-        (View::Plan(_), Receivers::Ground, GroundKind::Plane) => Subject::Ground,
-        (View::Plan(_), Receivers::Ground, GroundKind::Terrain) => Subject::Terrain,
-        (View::Plan(_), Receivers::Patches, _) => Subject::Patches,
-    }
-}
-
-/// What a technique draws of a view of a site.
-pub(super) fn subject_of(site: &Site, view: &View) -> Subject {
-    subject(view, judged(site, view), site.ground.kind)
 }
 
 /// Nothing sees the sun.

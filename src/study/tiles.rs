@@ -1,21 +1,11 @@
 //! A plan in tiles: where it has more cells than the adapter draws at once, or than there is memory for.
 
 use super::machine::Machine;
-use super::{Event, OnEvent, StudyError, Wants, subject_of, tell};
+use super::{Budget, StudyError, Wants, subject_of};
 use crate::choice::Subject;
 use crate::profile::accumulate::MOST_SECS;
 use crate::site::Site;
 use crate::view::{Grid, Tile, View};
-
-/// Memory for all that grows with the raster: sums, masks, what cells see and what the drawing takes, on the adapter too.
-/// The models, the program with the few megabytes that each of its threads works with, and the adapter's driver come on top.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Budget {
-    /// All that there is, bytes.
-    pub bytes: u64,
-    /// What whoever asks takes of it for a drawing once the sums are done, bytes.
-    pub drawing: u64,
-}
 
 /// Rows of the smallest tile: the models are projected once for each tile.
 const LEAST_ROWS: u32 = 16;
@@ -83,11 +73,4 @@ fn split(grid: Grid, columns: u32, rows: u32) -> Vec<Tile> {
         size: [columns.min(grid.width - column), rows.min(grid.height - row)],
     };
     begins(grid.height, rows).flat_map(|row| begins(grid.width, columns).map(move |at| tile(row, at))).collect()
-}
-
-/// Says when the plan is done in tiles.
-pub(super) fn note(tiles: &[Tile], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-    let [first, _, ..] = tiles else { return Ok(()) };
-    let [width, height] = first.size;
-    tell(on_event, Event::Note(format!("the plan is done in {} tiles of {width} × {height} cells", tiles.len()).into()))
 }

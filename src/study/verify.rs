@@ -4,7 +4,8 @@
 //! itself without its trees, at some cells.
 
 use super::again::persist;
-use super::machine::{Machine, not_patches, opened};
+use super::chooser::{not_patches, opened};
+use super::machine::Machine;
 use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_models, subject_of, tell, tiles};
 use crate::choice::{Engine, Method, MethodRow, Promise, Subject, TABLE, Truth};
 use crate::gpu::Gpu;

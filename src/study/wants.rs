@@ -1,9 +1,18 @@
 //! What is made beside the answer.
 
-use super::Budget;
 use crate::message::Field;
 use std::path::PathBuf;
 use std::time::Duration;
+
+/// Memory for all that grows with the raster: sums, masks, what cells see and what the drawing takes, on the adapter too.
+/// The models, the program with the few megabytes that each of its threads works with, and the adapter's driver come on top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// All that there is, bytes.
+    pub bytes: u64,
+    /// What whoever asks takes of it for a drawing once the sums are done, bytes.
+    pub drawing: u64,
+}
 
 /// What is made beside the profile.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -28,6 +28,13 @@ impl Words for PanelWords {
     fn setting(&self, table: &str, key: &str, value: Option<&str>, written: &str) -> String {
         match (table, key, value) {
             ("[ground]", "level", _) => "\"Ground\" under Place".to_owned(),
+            ("[place]", "latitude", _) => "\"Latitude\"".to_owned(),
+            ("[place]", "longitude", _) => "\"Longitude\"".to_owned(),
+            ("[place]", "elevation", _) => "\"Elevation\" under Place".to_owned(),
+            ("[[model]]", "north", _) => "\"Model north\" under Place".to_owned(),
+            // the panel does not set them
+            ("[[model]]", "crs" | "position", _) => format!("`{key}` under [[model]] in the site file"),
+            ("[[model]]", "scale", None) => "\"scale\" under Place".to_owned(),
             ("[[model]]", "scale", Some(value)) => format!("{value} for \"scale\" under Place"),
             ("[[model]]", "receives", _) => "\"receives\" under Components".to_owned(),
             ("[[model]]", "casts", _) => "\"casts\" switched off under Components".to_owned(),

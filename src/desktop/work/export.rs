@@ -41,13 +41,8 @@ fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {
 
 /// Names the models of a site file that lay in one folder so that one in another means the same.
 pub(in crate::desktop) fn move_models(site: &mut SiteFile, from: &Path, to: &Path) {
-    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    for model in &mut site.model {
-        let Some(name) = &mut model.path else { continue };
-        let there = absolute(&from.join(&*name));
-        // beside or below the site file the path is relative, so that both can move together
-        let relative = there.strip_prefix(absolute(to)).unwrap_or(&there).display().to_string();
-        *name = if cfg!(windows) { relative.replace('\\', "/") } else { relative };
+    for name in site.model.iter_mut().filter_map(|model| model.path.as_mut()) {
+        *name = WrittenSite::name_in(to, &from.join(&*name));
     }
 }
 

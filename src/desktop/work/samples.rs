@@ -11,8 +11,7 @@ struct SampleSite {
 }
 
 /// The sample sites: their names, in the menu's order.
-pub(in crate::desktop) const SAMPLES: [&str; 4] =
-    [SITES[0].name, SITES[1].name, SITES[2].name, SITES[3].name];
+pub(in crate::desktop) const SAMPLES: [&str; 4] = [SITES[0].name, SITES[1].name, SITES[2].name, SITES[3].name];
 
 const SITES: [SampleSite; 4] = [
     SampleSite {

@@ -1,10 +1,8 @@
 //! Nodes with their geometries → parts.
 
-use super::document::{DaeDocument, DaeMaterial, DaeUp};
-use super::mesh::DaeGeometry;
-use super::node::{DaeNode, GeometryInstance, MOST_DEPTH};
+use super::document::{DaeDocument, DaeGeometry, DaeMaterial, DaeNode, DaeUp, GeometryInstance};
+use super::node::MOST_DEPTH;
 use crate::formats::left_out::LeftOutTally;
-use crate::formats::obj::cutter_notes;
 use crate::formats::vertices::VertexPicker;
 use crate::formats::{MAX_COMPONENTS, MAX_TRIANGLES, Model, SeeThrough, Up};
 use crate::mesh::Part;
@@ -41,8 +39,7 @@ pub(super) fn model_of(mut document: DaeDocument) -> Result<Model, Message> {
     let see_through = std::mem::take(&mut placer.see_through);
     model.parts = placer.parts;
     model.see_through = see_through.into_iter().map(|(material, parts)| SeeThrough { material, parts }).collect();
-    let cutter = &document.cutter;
-    cutter_notes(&mut model, &mut left_out, [cutter.empty, cutter.large, cutter.crossed]);
+    model.notes.extend(document.cutter.crossing_note());
     model.left_out = left_out.into_left_out();
     if let Some(read) = scene.and_then(|scene| document.scenes.get(scene)).filter(|_| document.scenes.len() > 1) {
         let what = format!("has {} scenes, and `{}` alone is read", document.scenes.len(), read.name);

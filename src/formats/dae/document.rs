@@ -1,13 +1,9 @@
 //! What a Collada file says, by its ids.
 
-use super::effect::{self, DaeEffect};
-use super::mesh::DaeGeometry;
-use super::node::DaeNode;
-use super::xml::{DaeXml, attribute, local_id};
-use crate::formats::left_out::{LeftOutTally, label};
-use crate::formats::polygon::PolygonCutter;
-use crate::message::{Message, message};
-use quick_xml::events::BytesStart;
+use super::effect::DaeEffect;
+use crate::formats::face_cutter::FaceCutter;
+use crate::formats::left_out::LeftOutTally;
+use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
 /// Which axis is up.
@@ -21,7 +17,7 @@ pub(super) enum DaeUp {
 /// A material's name and effect.
 pub(super) struct DaeMaterial {
     pub name: String,
-    effect: Option<String>,
+    pub effect: Option<String>,
 }
 
 /// A scene: its name, and the nodes that stand in it.
@@ -30,6 +26,35 @@ pub(super) struct DaeScene {
     pub id: String,
     pub name: String,
     pub roots: Vec<usize>,
+}
+
+/// A geometry: triangles by their material's symbol.
+#[derive(Default)]
+pub(super) struct DaeGeometry {
+    pub name: String,
+    pub positions: Vec<DVec3>,
+    /// Every vertex is among the positions.
+    pub surfaces: Vec<(Option<String>, Vec<[u32; 3]>)>,
+}
+
+/// A node.
+pub(super) struct DaeNode {
+    /// Its name, else its id; empty where it has neither.
+    pub name: String,
+    pub parent_from_node: DAffine3,
+    pub children: Vec<usize>,
+    /// Ids of nodes that stand here, too.
+    pub instances: Vec<String>,
+    pub geometries: Vec<GeometryInstance>,
+    /// Whether it is placed in a way that is not read, as cameras are.
+    pub is_astray: bool,
+}
+
+/// A geometry that stands at a node.
+pub(super) struct GeometryInstance {
+    pub geometry: String,
+    /// The geometry's symbols for materials, and the materials' ids.
+    pub materials: Vec<(String, String)>,
 }
 
 /// What a file says.
@@ -44,128 +69,14 @@ pub(super) struct DaeDocument {
     /// The id of the scene that stands there.
     pub scene: Option<String>,
     pub materials: FxHashMap<String, DaeMaterial>,
-    effects: FxHashMap<String, DaeEffect>,
+    pub effects: FxHashMap<String, DaeEffect>,
     pub left_out: LeftOutTally,
-    pub cutter: PolygonCutter,
+    pub cutter: FaceCutter,
     /// Triangles of all geometries, each once.
     pub triangles: u64,
 }
 
 impl DaeDocument {
-    pub(super) fn read(source: &str) -> Result<Self, Message> {
-        let mut document = Self {
-            unit_m: None,
-            up: None,
-            geometries: FxHashMap::default(),
-            nodes: Vec::new(),
-            node_of: FxHashMap::default(),
-            scenes: Vec::new(),
-            scene: None,
-            materials: FxHashMap::default(),
-            effects: FxHashMap::default(),
-            left_out: LeftOutTally::default(),
-            cutter: PolygonCutter::new(),
-            triangles: 0,
-        };
-        let mut xml = DaeXml::new(source);
-        let root = xml.root()?;
-        if root.local_name().as_ref() != "COLLADA" {
-            let what = format!("is XML, and not Collada: its first element is `{}`", label(root.local_name().as_ref()));
-            return Err(message![what; "export it again, as Collada (.dae)"]);
-        }
-        xml.children(|xml, name, _| document.library(xml, name))?;
-        Ok(document)
-    }
-
-    fn library(&mut self, xml: &mut DaeXml, name: &str) -> Result<(), Message> {
-        match name {
-            "asset" => self.asset(xml),
-            "library_geometries" => xml.children(|xml, name, element| match name {
-                "geometry" => DaeGeometry::read(xml, element, self),
-                _ => xml.skip(),
-            }),
-            "library_nodes" => xml.children(|xml, name, element| match name {
-                "node" => DaeNode::read(xml, element, self, 0).map(|_| ()),
-                _ => xml.skip(),
-            }),
-            "library_visual_scenes" => xml.children(|xml, name, element| match name {
-                "visual_scene" => self.visual_scene(xml, element),
-                _ => xml.skip(),
-            }),
-            "library_materials" => xml.children(|xml, name, element| match name {
-                "material" => self.material(xml, element),
-                _ => xml.skip(),
-            }),
-            "library_effects" => xml.children(|xml, name, element| match name {
-                "effect" => {
-                    let id = attribute(element, "id").unwrap_or_default();
-                    let effect = effect::read(xml)?;
-                    self.effects.insert(id, effect);
-                    Ok(())
-                }
-                _ => xml.skip(),
-            }),
-            "scene" => xml.children(|xml, name, element| {
-                if name == "instance_visual_scene" {
-                    self.scene = local_id(element, "url");
-                }
-                xml.skip()
-            }),
-            _ => xml.skip(),
-        }
-    }
-
-    fn asset(&mut self, xml: &mut DaeXml) -> Result<(), Message> {
-        xml.children(|xml, name, element| match name {
-            "unit" => {
-                let metres = attribute(element, "meter").and_then(|text| text.trim().parse::<f64>().ok());
-                self.unit_m = metres.filter(|metres| metres.is_finite() && *metres > 0.0);
-                xml.skip()
-            }
-            "up_axis" => {
-                self.up = match xml.word()?.as_str() {
-                    "X_UP" => Some(DaeUp::X),
-                    "Y_UP" => Some(DaeUp::Y),
-                    "Z_UP" => Some(DaeUp::Z),
-                    _ => None,
-                };
-                Ok(())
-            }
-            _ => xml.skip(),
-        })
-    }
-
-    fn visual_scene(&mut self, xml: &mut DaeXml, element: &BytesStart) -> Result<(), Message> {
-        let mut scene = DaeScene {
-            id: attribute(element, "id").unwrap_or_default(),
-            name: label(&attribute(element, "name").unwrap_or_default()),
-            roots: Vec::new(),
-        };
-        xml.children(|xml, name, element| match name {
-            "node" => {
-                scene.roots.push(DaeNode::read(xml, element, self, 0)?);
-                Ok(())
-            }
-            _ => xml.skip(),
-        })?;
-        self.scenes.push(scene);
-        Ok(())
-    }
-
-    fn material(&mut self, xml: &mut DaeXml, element: &BytesStart) -> Result<(), Message> {
-        let id = attribute(element, "id").unwrap_or_default();
-        let name = label(&attribute(element, "name").unwrap_or_else(|| id.clone()));
-        let mut material = DaeMaterial { name, effect: None };
-        xml.children(|xml, name, element| {
-            if name == "instance_effect" {
-                material.effect = local_id(element, "url");
-            }
-            xml.skip()
-        })?;
-        self.materials.insert(id, material);
-        Ok(())
-    }
-
     /// Whether light passes a material.
     pub(super) fn is_see_through(&self, material: &DaeMaterial) -> bool {
         let effect = material.effect.as_ref().and_then(|effect| self.effects.get(effect));

@@ -1,6 +1,6 @@
 //! Meshes: sources of positions, and the triangles, polygons, strips and fans that use them.
 
-use super::document::DaeDocument;
+use super::document::{DaeDocument, DaeGeometry};
 use super::xml::{DaeXml, attribute, local_id};
 use crate::formats::MAX_TRIANGLES;
 use crate::formats::left_out::label;
@@ -9,15 +9,6 @@ use crate::message::{Message, message};
 use glam::DVec3;
 use quick_xml::events::BytesStart;
 use rustc_hash::FxHashMap;
-
-/// A geometry: triangles by their material's symbol.
-#[derive(Default)]
-pub(super) struct DaeGeometry {
-    pub name: String,
-    pub positions: Vec<DVec3>,
-    /// Every vertex is among the positions.
-    pub surfaces: Vec<(Option<String>, Vec<[u32; 3]>)>,
-}
 
 /// Numbers, and how to take points from them.
 #[derive(Default)]
@@ -104,7 +95,7 @@ impl DaeGeometry {
         }
         let mut triangles = Vec::new();
         let mut corners: Vec<DVec3> = Vec::new();
-        for (ring, holes) in primitive.rings() {
+        for (ring, ends) in primitive.rings() {
             match primitive.kind.as_str() {
                 "tristrips" => triangles.extend(of_strip(ring)),
                 "trifans" => triangles.extend(ring.windows(2).skip(1).filter_map(|two| match *two {
@@ -115,7 +106,7 @@ impl DaeGeometry {
                     corners.clear();
                     corners.extend(ring.iter().filter_map(|&vertex| self.positions.get(vertex as usize)));
                     let vertex = |corner: u32| ring.get(corner as usize).copied().unwrap_or(0);
-                    let cut = document.cutter.cut(&corners, &holes);
+                    let cut = document.cutter.triangles(&corners, &ends, &mut document.left_out);
                     triangles.extend(cut.iter().map(|triangle| triangle.map(vertex)));
                 }
             }
@@ -125,20 +116,20 @@ impl DaeGeometry {
 }
 
 impl DaePrimitive {
-    /// Each ring with the holes in it, and where those begin.
-    fn rings(&self) -> impl Iterator<Item = (&[u32], Vec<u32>)> {
+    /// Each ring with the holes in it, and where each of them ends.
+    fn rings(&self) -> impl Iterator<Item = (&[u32], Vec<usize>)> {
         let mut at = 0_usize;
         std::iter::from_fn(move || {
             let begin = at.checked_sub(1).and_then(|last| self.ends.get(last)).map_or(0, |&end| end);
             let mut end = *self.ends.get(at)?;
-            let mut holes = Vec::new();
+            let mut ends = vec![end - begin];
             at += 1;
             while self.holes.get(at) == Some(&true) {
-                holes.push((end - begin) as u32);
                 end = *self.ends.get(at)?;
+                ends.push(end - begin);
                 at += 1;
             }
-            Some((self.vertices.get(begin..end)?, holes))
+            Some((self.vertices.get(begin..end)?, ends))
         })
     }
 

@@ -1,11 +1,12 @@
 //! Collada 1.4 and 1.5 → parts: one per node and material, wherever the node stands.
 //!
-//! The XML is read once, from its beginning to its end, and no entity in it is expanded. `xml` reads elements, `document`
+//! The XML is read once, from its beginning to its end, and no entity in it is expanded. `xml` reads elements, `library`
 //! and its `mesh`, `node` and `effect` what they say, `build` places the nodes.
 
 mod build;
 mod document;
 mod effect;
+mod library;
 mod mesh;
 mod node;
 mod xml;

@@ -1,6 +1,6 @@
 //! Nodes: where they stand, and what is below them.
 
-use super::document::DaeDocument;
+use super::document::{DaeDocument, DaeNode, GeometryInstance};
 use super::xml::{DaeXml, attribute, local_id};
 use crate::formats::left_out::label;
 use crate::message::{Message, message};
@@ -9,26 +9,6 @@ use quick_xml::events::BytesStart;
 
 /// How deep nodes may lie in nodes.
 pub(super) const MOST_DEPTH: usize = 100;
-
-/// A node.
-pub(super) struct DaeNode {
-    /// Its name, else its id; empty where it has neither.
-    pub name: String,
-    pub parent_from_node: DAffine3,
-    pub children: Vec<usize>,
-    /// Ids of nodes that stand here, too.
-    pub instances: Vec<String>,
-    pub geometries: Vec<GeometryInstance>,
-    /// Whether it is placed in a way that is not read, as cameras are.
-    pub is_astray: bool,
-}
-
-/// A geometry that stands at a node.
-pub(super) struct GeometryInstance {
-    pub geometry: String,
-    /// The geometry's symbols for materials, and the materials' ids.
-    pub materials: Vec<(String, String)>,
-}
 
 impl DaeNode {
     /// Reads the node that was given last, with all below it; gives its number.
@@ -57,19 +37,38 @@ impl DaeNode {
                 node.children.push(Self::read(xml, element, document, depth + 1)?);
                 Ok(())
             }
+            _ => node.element(xml, name, element, document),
+        })?;
+        let number = document.nodes.len();
+        document.nodes.push(node);
+        if let Some(id) = id {
+            document.node_of.insert(id, number);
+        }
+        Ok(number)
+    }
+
+    /// Reads what moves the node, or stands at it.
+    fn element(
+        &mut self,
+        xml: &mut DaeXml,
+        name: &str,
+        element: &BytesStart,
+        document: &mut DaeDocument,
+    ) -> Result<(), Message> {
+        match name {
             "matrix" | "translate" | "rotate" | "scale" => {
                 let step = transform(name, &xml.numbers()?);
-                node.parent_from_node *= step.unwrap_or(DAffine3::IDENTITY);
-                node.is_astray |= step.is_none();
+                self.parent_from_node *= step.unwrap_or(DAffine3::IDENTITY);
+                self.is_astray |= step.is_none();
                 Ok(())
             }
             "skew" | "lookat" => {
-                node.is_astray = true;
+                self.is_astray = true;
                 xml.skip()
             }
             "instance_node" => {
                 match local_id(element, "url") {
-                    Some(id) => node.instances.push(id),
+                    Some(id) => self.instances.push(id),
                     None => document.left_out.add("nodes of other files", "nothing outside of the file is followed"),
                 }
                 xml.skip()
@@ -77,7 +76,7 @@ impl DaeNode {
             "instance_geometry" => match local_id(element, "url") {
                 Some(geometry) => {
                     let materials = materials(xml)?;
-                    node.geometries.push(GeometryInstance { geometry, materials });
+                    self.geometries.push(GeometryInstance { geometry, materials });
                     Ok(())
                 }
                 None => {
@@ -90,13 +89,7 @@ impl DaeNode {
                 xml.skip()
             }
             _ => xml.skip(),
-        })?;
-        let number = document.nodes.len();
-        document.nodes.push(node);
-        if let Some(id) = id {
-            document.node_of.insert(id, number);
         }
-        Ok(number)
     }
 }
 

@@ -1,11 +1,7 @@
-//! The sections of a DXF file → its layers, its blocks, and what stands in the model space.
+//! What a DXF file says: its layers, its blocks, and what stands in the model space.
 
-use super::entity;
-use super::fields::DxfFields;
-use super::group::{DxfGroup, DxfGroups};
+use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::LeftOutTally;
-use crate::formats::polygon::PolygonCutter;
-use crate::message::{Message, message};
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -49,7 +45,7 @@ pub(super) struct DxfInsert {
 pub(super) struct DxfBlock {
     pub base: DVec3,
     pub triangles: Vec<LayerTriangles>,
-    triangles_of: FxHashMap<u32, usize>,
+    pub triangles_of: FxHashMap<u32, usize>,
     pub inserts: Vec<DxfInsert>,
 }
 
@@ -74,12 +70,12 @@ impl DxfBlock {
 pub(super) struct Drawing {
     /// By number; the first is `0`.
     pub layers: Vec<DxfLayer>,
-    layer_of: FxHashMap<String, u32>,
+    pub layer_of: FxHashMap<String, u32>,
     pub blocks: FxHashMap<String, DxfBlock>,
     pub model_space: DxfBlock,
     pub unit: Option<i64>,
     pub left_out: LeftOutTally,
-    pub cutter: PolygonCutter,
+    pub cutter: FaceCutter,
     /// Bodies whose shape is ACIS's.
     pub acis: u64,
     /// Polylines that have a width, which is not read.
@@ -91,45 +87,6 @@ pub(super) struct Drawing {
 }
 
 impl Drawing {
-    pub(super) fn read(bytes: &[u8]) -> Result<Self, Message> {
-        let mut drawing = Self {
-            layers: Vec::new(),
-            layer_of: FxHashMap::default(),
-            blocks: FxHashMap::default(),
-            model_space: DxfBlock::default(),
-            unit: None,
-            left_out: LeftOutTally::default(),
-            cutter: PolygonCutter::new(),
-            acis: 0,
-            wide: 0,
-            lidless: 0,
-            triangles: 0,
-        };
-        drawing.layer("0");
-        let mut groups = DxfGroups::new(bytes);
-        let mut has_end = false;
-        while let Some(group) = groups.next()? {
-            match (group.code, group.bytes()) {
-                (0, b"EOF") => {
-                    has_end = true;
-                    break;
-                }
-                (0, b"SECTION") => drawing.section(&mut groups)?,
-                _ => (),
-            }
-        }
-        // many a small program leaves the last line out, but no section
-        if !has_end && drawing.is_empty() {
-            let what = format!("ends in {} without entities", groups.position());
-            return Err(message![what; "the file is cut off or damaged: copy or export it again"]);
-        }
-        Ok(drawing)
-    }
-
-    fn is_empty(&self) -> bool {
-        self.model_space.triangles.is_empty() && self.model_space.inserts.is_empty()
-    }
-
     /// The number of a layer, upper and lower case alike.
     pub(super) fn layer(&mut self, name: &str) -> u32 {
         let key = name.to_uppercase();
@@ -141,117 +98,4 @@ impl Drawing {
         self.layer_of.insert(key, number);
         number
     }
-
-    fn section(&mut self, groups: &mut DxfGroups) -> Result<(), Message> {
-        let name = groups.next()?;
-        match name.filter(|group| group.code == 2).map(|group| group.bytes().to_vec()).as_deref() {
-            Some(b"HEADER") => self.header(groups),
-            Some(b"TABLES") => self.tables(groups),
-            Some(b"BLOCKS") => self.blocks(groups),
-            Some(b"ENTITIES") => self.entities(groups),
-            _ => until_end(groups),
-        }
-    }
-
-    fn header(&mut self, groups: &mut DxfGroups) -> Result<(), Message> {
-        let mut variable: &[u8] = &[];
-        while let Some(group) = groups.next()? {
-            match group.code {
-                0 if group.bytes() == b"ENDSEC" => return Ok(()),
-                9 => variable = group.bytes(),
-                70 if variable == b"$INSUNITS" => self.unit = group.whole(),
-                _ => (),
-            }
-        }
-        Err(cut_off(groups))
-    }
-
-    fn tables(&mut self, groups: &mut DxfGroups) -> Result<(), Message> {
-        let mut is_layer = false;
-        let mut layer = DxfLayer::default();
-        while let Some(group) = groups.next()? {
-            match group.code {
-                0 => {
-                    if is_layer {
-                        self.keep(std::mem::take(&mut layer));
-                    }
-                    is_layer = group.bytes() == b"LAYER";
-                    if group.bytes() == b"ENDSEC" {
-                        return Ok(());
-                    }
-                }
-                2 if is_layer => layer.name = group.name(),
-                70 if is_layer => layer.is_frozen = group.whole().is_some_and(|flags| flags & 1 != 0),
-                62 if is_layer => layer.is_off = group.whole().is_some_and(|colour| colour < 0),
-                _ => (),
-            }
-        }
-        Err(cut_off(groups))
-    }
-
-    fn keep(&mut self, layer: DxfLayer) {
-        let number = self.layer(&layer.name);
-        if let Some(known) = self.layers.get_mut(number as usize) {
-            *known = layer;
-        }
-    }
-
-    fn blocks(&mut self, groups: &mut DxfGroups) -> Result<(), Message> {
-        let Some(mut group) = groups.next()? else { return Err(cut_off(groups)) };
-        loop {
-            match group.bytes() {
-                b"ENDSEC" => return Ok(()),
-                b"BLOCK" => {
-                    let (head, next) = DxfFields::read(groups)?;
-                    let name = head.name(2);
-                    let mut block = DxfBlock { base: head.point(10), ..DxfBlock::default() };
-                    group = self.fill(&mut block, next, groups)?;
-                    // a definition is written once, and an external one not at all
-                    self.blocks.entry(name.to_uppercase()).or_insert(block);
-                }
-                _ => group = DxfFields::read(groups)?.1,
-            }
-        }
-    }
-
-    fn entities(&mut self, groups: &mut DxfGroups) -> Result<(), Message> {
-        let Some(first) = groups.next()? else { return Err(cut_off(groups)) };
-        let mut space = std::mem::take(&mut self.model_space);
-        self.fill(&mut space, first, groups)?;
-        self.model_space = space;
-        Ok(())
-    }
-
-    /// Reads entities into a block until it ends, or its section does; gives the group behind its end.
-    fn fill<'a>(
-        &mut self,
-        block: &mut DxfBlock,
-        first: DxfGroup<'a>,
-        groups: &mut DxfGroups<'a>,
-    ) -> Result<DxfGroup<'a>, Message> {
-        let mut group = first;
-        loop {
-            match group.bytes() {
-                b"ENDSEC" => return Ok(group),
-                b"ENDBLK" => return Ok(DxfFields::read(groups)?.1),
-                kind => {
-                    group = entity::add(self, block, kind, groups)?;
-                }
-            }
-        }
-    }
-}
-
-fn until_end(groups: &mut DxfGroups) -> Result<(), Message> {
-    while let Some(group) = groups.next()? {
-        if group.code == 0 && group.bytes() == b"ENDSEC" {
-            return Ok(());
-        }
-    }
-    Err(cut_off(groups))
-}
-
-pub(super) fn cut_off(groups: &DxfGroups) -> Message {
-    let what = format!("is cut off in {}", groups.position());
-    message![what; "copy or export it again"]
 }

@@ -1,6 +1,7 @@
 //! Entities → triangles of their layer, inserts, and what is left out.
 
 use super::drawing::{Drawing, DxfBlock, DxfInsert, LayerTriangles};
+use super::faces::EntityFaces;
 use super::fields::DxfFields;
 use super::frame::world_from_object;
 use super::group::{DxfGroup, DxfGroups};
@@ -8,7 +9,6 @@ use super::outline;
 use super::polyline::{self, PolylineVertex};
 use crate::formats::MAX_TRIANGLES;
 use crate::formats::left_out::label;
-use crate::formats::polygon::PolygonCutter;
 use crate::message::{Message, message};
 use glam::{DAffine3, DVec3};
 
@@ -29,33 +29,6 @@ pub(super) const ACIS: &[&[u8]] = &[
 /// Why those are left out.
 pub(super) const NO_ACIS: &str =
     "CAD programs alone can read their shape: in AutoCAD, make meshes of them with MESHSMOOTH";
-
-/// Where an entity's faces go.
-pub(super) struct EntityFaces<'a> {
-    pub into: &'a mut LayerTriangles,
-    pub cutter: &'a mut PolygonCutter,
-    ring: Vec<DVec3>,
-}
-
-impl EntityFaces<'_> {
-    /// Adds a face. Corners that follow each other at one point are one.
-    pub(super) fn face(&mut self, corners: &[DVec3]) {
-        self.ring.clear();
-        self.ring.extend_from_slice(corners);
-        self.ring.dedup();
-        while self.ring.len() > 1 && self.ring.first() == self.ring.last() {
-            self.ring.pop();
-        }
-        let triangles = self.cutter.cut(&self.ring, &[]);
-        if triangles.is_empty() {
-            return;
-        }
-        // a file of 4 GiB has fewer corners
-        let first = self.into.positions.len() as u32;
-        self.into.triangles.extend(triangles.iter().map(|triangle| triangle.map(|corner| first + corner)));
-        self.into.positions.extend_from_slice(&self.ring);
-    }
-}
 
 /// Adds an entity to a block; gives what the next one begins with.
 pub(super) fn add<'a>(
@@ -106,7 +79,7 @@ fn surface(
 ) -> Result<(), Message> {
     let layer = drawing.layer(&fields.name(8));
     let mut found = LayerTriangles::default();
-    let mut surface = EntityFaces { into: &mut found, cutter: &mut drawing.cutter, ring: Vec::new() };
+    let mut surface = EntityFaces::new(&mut found, &mut drawing.cutter, &mut drawing.left_out);
     let is_wide = |code: i32| fields.given(code).is_some_and(|width| width > 0.0);
     match kind {
         b"3DFACE" => surface.face(&[10, 11, 12, 13].map(|code| fields.point(code))),

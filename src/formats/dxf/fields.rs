@@ -1,7 +1,6 @@
 //! What one entity of a DXF file says: its groups, up to the next entity.
 
-use super::drawing::cut_off;
-use super::group::{DxfGroup, DxfGroups};
+use super::group::{DxfGroup, DxfGroups, cut_off};
 use crate::message::Message;
 use glam::DVec3;
 

@@ -153,3 +153,8 @@ fn take<const N: usize>(rest: &mut &[u8]) -> Option<[u8; N]> {
     *rest = behind;
     Some(*bytes)
 }
+
+pub(super) fn cut_off(groups: &DxfGroups) -> Message {
+    let what = format!("is cut off in {}", groups.position());
+    message![what; "copy or export it again"]
+}

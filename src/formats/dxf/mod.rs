@@ -1,17 +1,19 @@
 //! DXF, of text or binary → parts: one per layer, and per block and layer.
 //!
 //! The reader is our own: the crate `dxf` keeps whole drawings of all entities as structs, and knows neither MESH nor what of
-//! a file it passed over. `group` reads codes and values, `drawing` the sections, `fields` an entity, `entity`,
+//! a file it passed over. `group` reads codes and values, `sections` the sections, `fields` an entity, `entity`,
 //! `outline` and `polyline` turn it into triangles, `frame` has the axes of what is drawn in a plane of its own, and `place` puts blocks where they are inserted.
 
 mod drawing;
 mod entity;
+mod faces;
 mod fields;
 mod frame;
 mod group;
 mod outline;
 mod place;
 mod polyline;
+mod sections;
 
 use super::source::{as_ascii, words};
 use super::whole::whole_file;

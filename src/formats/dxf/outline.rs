@@ -1,6 +1,6 @@
 //! What is drawn in a plane → the walls that its thickness makes of it.
 
-use super::entity::EntityFaces;
+use super::faces::EntityFaces;
 use super::fields::DxfFields;
 use super::frame::world_from_object;
 use glam::{DMat3, DVec2, DVec3};

@@ -4,7 +4,6 @@ use super::drawing::{Drawing, DxfBlock, DxfLayer, LAYER_0};
 use super::entity::NO_ACIS;
 use super::frame::metres;
 use crate::formats::left_out::LeftOutTally;
-use crate::formats::obj::cutter_notes;
 use crate::formats::{MAX_COMPONENTS, MAX_TRIANGLES, Model, Up};
 use crate::mesh::Part;
 use crate::message::{Message, message};
@@ -53,9 +52,8 @@ fn tell(model: &mut Model, mut drawing: Drawing) {
         let why = if layer.is_frozen { "their layer is frozen" } else { "their layer is off" };
         drawing.left_out.add_many(&format!("entities of the layer {}", layer.name), why, layer.left_out);
     }
-    let (cutter, mut counts) = (&drawing.cutter, drawing.left_out);
-    cutter_notes(model, &mut counts, [0, cutter.large, cutter.crossed]);
-    model.left_out = counts.into_left_out();
+    model.notes.extend(drawing.cutter.crossing_note());
+    model.left_out = drawing.left_out.into_left_out();
     if drawing.acis > 0 {
         let (solids, cast) = if drawing.acis == 1 { ("solid", "casts") } else { ("solids", "cast") };
         model.notes.push(message![

@@ -1,6 +1,6 @@
 //! Polylines, of which some are meshes, and MESH.
 
-use super::entity::EntityFaces;
+use super::faces::EntityFaces;
 use super::fields::DxfFields;
 use super::frame::world_from_object;
 use super::outline::{bulged, walls};

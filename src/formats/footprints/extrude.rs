@@ -2,8 +2,8 @@
 
 use super::tags::{FootprintTags, Rise};
 use super::{Footprint, RingPolygon, names_of};
+use crate::formats::face_cutter::{FaceCutter, Uncut, ring_area};
 use crate::formats::left_out::LeftOutTally;
-use crate::formats::rings::{FaceCutter, ring_area};
 use crate::mesh::Part;
 use glam::{DVec2, DVec3};
 
@@ -42,7 +42,7 @@ impl FootprintOutline {
                     outline.polygons.push(flat);
                     outline.crosses |= !is_exact;
                 }
-                Err(why) => tally.add("polygons", why),
+                Err(uncut) => tally.add("polygons", uncut.why()),
             }
         }
         outline
@@ -75,7 +75,7 @@ impl FootprintOutline {
 
 impl FlatPolygon {
     /// The polygon, and whether its triangles are all that it encloses.
-    fn cut(polygon: &RingPolygon, cutter: &mut FaceCutter) -> Result<(Self, bool), &'static str> {
+    fn cut(polygon: &RingPolygon, cutter: &mut FaceCutter) -> Result<(Self, bool), Uncut> {
         let foot = polygon.points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
         let (mut corners, mut ends) = (Vec::new(), Vec::new());
         let mut start = 0;
@@ -89,12 +89,12 @@ impl FlatPolygon {
             }
         }
         let level: Vec<DVec3> = corners.iter().map(|corner| corner.extend(0.0)).collect();
-        let cut = cutter.cut(&level, &ends).map_err(|uncut| uncut.why())?;
+        let cut = cutter.cut(&level, &ends)?;
         if !foot.is_finite() {
-            return Err("a coordinate of theirs is no number");
+            return Err(Uncut::NoPoint);
         }
         let is_exact = cut.is_exact;
-        let triangles = cut.corners.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect();
+        let triangles = cut.triangles.to_vec();
         Ok((Self { corners, ends, triangles, foot }, is_exact))
     }
 

@@ -3,15 +3,16 @@
 //! Outlines keep the coordinates of their file, be they degrees or those of a map: only what does not depend on them is
 //! found here, and `site` brings every corner to its place. The files of this folder, in the order of the flow: `geojson`,
 //! `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (what is said of an outline, and
-//! lengths as people write them), `overlap` (which outlines their parts replace), `extrude` (outlines → blocks).
+//! lengths as people write them), `footprint` (one outline, and its names), `overlap` (which outlines their parts replace), `extrude` (outlines → blocks).
 
-use super::left_out::{LeftOutTally, counted, label};
-use super::rings::FaceCutter;
+use super::face_cutter::FaceCutter;
+use super::left_out::{LeftOutTally, counted};
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
 use crate::mesh::Part;
 use crate::message::{Field, Message, message};
 use extrude::FootprintOutline;
 pub(super) use flatgeobuf::FlatGeobuf;
+use footprint::{Footprint, NO_AREA, RingPolygon, names_of};
 pub(super) use geojson::GeoJson;
 use glam::DVec3;
 pub(super) use shapefile::Shapefile;
@@ -21,28 +22,11 @@ mod dbase;
 mod extrude;
 mod flatbuffer;
 mod flatgeobuf;
+mod footprint;
 mod geojson;
 mod overlap;
 mod shapefile;
 mod tags;
-
-/// Why what is no polygon is left out.
-const NO_AREA: &str = "they are no polygons";
-
-/// A polygon as a file has it: its rings follow each other, the outer one first.
-#[derive(Clone, Debug, Default)]
-struct RingPolygon {
-    points: Vec<DVec3>,
-    ends: Vec<usize>,
-}
-
-/// One feature: a building, a part of one, or something else.
-struct Footprint {
-    polygons: Vec<RingPolygon>,
-    tags: FootprintTags,
-    /// From 1, in the file.
-    number: u64,
-}
 
 /// Collects the features of a file.
 #[derive(Default)]
@@ -248,18 +232,4 @@ struct HeightCounts {
     /// Outlines that cross themselves.
     crossing: u64,
     triangles: u64,
-}
-
-/// What a feature is called, and by what else it may be meant.
-fn names_of(tags: &FootprintTags, number: u64, layer: Option<&str>) -> (String, Vec<String>) {
-    let kind = tags.kind().unwrap_or("footprint");
-    let address = tags.address();
-    let numbered = || format!("{kind} {}", tags.id.clone().unwrap_or_else(|| number.to_string()));
-    let name = tags.name.clone().or_else(|| address.clone()).unwrap_or_else(numbered);
-    let aliases =
-        [tags.name.clone(), address, tags.id.clone(), tags.kind().map(str::to_owned), layer.map(str::to_owned)];
-    let part = tags.is_part().then(|| "building:part".to_owned());
-    let mut aliases: Vec<String> = aliases.into_iter().chain([part]).flatten().map(|name| label(&name)).collect();
-    aliases.retain(|alias| !alias.is_empty());
-    (label(&name), aliases)
 }

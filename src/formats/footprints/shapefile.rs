@@ -4,7 +4,7 @@ use super::dbase::AttributeTable;
 use super::flatbuffer::bytes_at;
 use super::tags::FootprintTags;
 use super::{Footprints, NO_AREA, RingPolygon, names_of};
-use crate::formats::rings::{FaceCutter, ring_area};
+use crate::formats::face_cutter::{FaceCutter, ring_area};
 use crate::formats::whole::{sibling, whole_file};
 use crate::formats::{Coordinates, Format, Model, ModelFault, ReadOptions};
 use crate::mesh::Part;
@@ -214,8 +214,8 @@ impl ShapeRings {
                     match cutter.cut(&polygon.points, &polygon.ends) {
                         Ok(cut) => {
                             part.positions.extend_from_slice(&polygon.points);
-                            let corners = cut.corners.chunks_exact(3);
-                            part.triangles.extend(corners.map(|c| triangle([c[0], c[1], c[2]].map(|c| c as usize))));
+                            let cut = cut.triangles.iter();
+                            part.triangles.extend(cut.map(|corners| triangle(corners.map(|corner| corner as usize))));
                         }
                         Err(uncut) => footprints.tally.add("patches", uncut.why()),
                     }

@@ -50,7 +50,7 @@ impl<'a, 'file> Accessors<'a, 'file> {
         self.sparse_entries = self.sparse_entries.saturating_add(entries);
         if self.sparse_entries > MAX_SPARSE_ENTRIES {
             let problem = format!("is sparse, which makes more than {MAX_SPARSE_ENTRIES} entries");
-            return Err(fault(index, problem));
+            return Err(Fault::of_accessor(index, problem));
         }
         reader.check_sparse()?;
         *known = Some(reader);
@@ -65,7 +65,7 @@ fn open<'a>(
     accessor: &'a json::Accessor,
 ) -> Result<Reader<'a>, Fault> {
     let (Checked::Valid(component), Checked::Valid(shape)) = (&accessor.component_type, &accessor.type_) else {
-        return Err(fault(index, "has a type that glTF does not know"));
+        return Err(Fault::of_accessor(index, "has a type that glTF does not know"));
     };
     let (component, shape) = (component.0, *shape);
     let element_bytes = (component.size() * shape.multiplicity()) as u64;
@@ -81,20 +81,20 @@ fn open<'a>(
         _ if let Some(UnpackedElements { bytes, .. }) = unpacked => {
             let stride = element_bytes as usize;
             if bytes.len() as u64 != count.saturating_mul(element_bytes) {
-                return Err(fault(index, "has another type in two primitives"));
+                return Err(Fault::of_accessor(index, "has another type in two primitives"));
             }
             Some(StridedElements { bytes, stride })
         }
         Some(view) => Some(locate(view.value(), offset, count, element_bytes)?),
         None if count > MAX_ZEROS => {
-            return Err(fault(index, format!("has {count} elements and no bytes to hold them")));
+            return Err(Fault::of_accessor(index, format!("has {count} elements and no bytes to hold them")));
         }
         None => None,
     };
     let sparse = match &accessor.sparse {
         Some(table) => {
             let Checked::Valid(json::accessor::IndexComponentType(component)) = table.indices.component_type else {
-                return Err(fault(index, "has sparse indices of a type that glTF does not know"));
+                return Err(Fault::of_accessor(index, "has sparse indices of a type that glTF does not know"));
             };
             let (at, values, USize64(entries)) = (&table.indices, &table.values, table.count);
             let index_bytes = component.size() as u64;
@@ -138,7 +138,7 @@ fn strided<'a>(
     let buffer = view.buffer.value();
     let stride = view.byte_stride.map_or(span.element_bytes, |stride| stride.0 as u64);
     if stride < span.element_bytes {
-        return Err(fault(
+        return Err(Fault::of_accessor(
             accessor,
             format!("has elements of {} bytes every {stride} bytes, so they overlap", span.element_bytes),
         ));
@@ -176,9 +176,5 @@ fn strided<'a>(
 
 /// A count that memory could hold.
 fn length(accessor: usize, count: u64) -> Result<usize, Fault> {
-    usize::try_from(count).map_err(|_| fault(accessor, format!("has {count} elements")))
-}
-
-pub(super) fn fault(accessor: usize, problem: impl Into<String>) -> Fault {
-    Fault::Accessor { accessor, problem: problem.into() }
+    usize::try_from(count).map_err(|_| Fault::of_accessor(accessor, format!("has {count} elements")))
 }

@@ -8,12 +8,16 @@ use super::instances::Instances;
 use super::pose::{Pose, Skins};
 use super::primitive::{self, MaterialGroup, MeshTriangles, PrimitiveTriangles};
 use super::scene::PlacedNode;
-use super::{Fault, MAX_COMPONENTS, MAX_MOVES, MAX_TRIANGLES, SeeThrough};
+use super::{Fault, MAX_COMPONENTS, MAX_TRIANGLES, SeeThrough};
 use crate::formats::PartKind;
 use crate::mesh::Part;
 use glam::DAffine3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+
+/// The most numbers that may move the triangles of a model, each triangle's morph targets and joints counted: they cost
+/// no memory, but time.
+const MAX_MOVES: u64 = 1_000_000_000;
 
 /// A vertex that the part does not have yet.
 const ABSENT: u32 = u32::MAX;
@@ -28,6 +32,28 @@ pub(super) struct BuiltScene {
     pub see_through: Vec<SeeThrough>,
 }
 
+/// What a scene costs so far, held to what it may.
+#[derive(Default)]
+struct SceneWork {
+    triangles: u64,
+    moves: u64,
+}
+
+impl SceneWork {
+    fn add_triangles(&mut self, group: &MaterialGroup, instances: &Instances) -> Result<(), Fault> {
+        self.triangles = self.triangles.saturating_add(group.triangles().saturating_mul(instances.count as u64));
+        if self.triangles > MAX_TRIANGLES { Err(Fault::TooManyTriangles) } else { Ok(()) }
+    }
+
+    fn add_moves(&mut self, group: &MaterialGroup, poses: &[Pose], instances: &Instances) -> Result<(), Fault> {
+        for (surface, pose) in group.surfaces.iter().zip(poses) {
+            let each = (surface.triangles as u64).saturating_mul(pose.readers() as u64);
+            self.moves = self.moves.saturating_add(each.saturating_mul(instances.count as u64));
+        }
+        if self.moves > MAX_MOVES { Err(Fault::TooManyMoves) } else { Ok(()) }
+    }
+}
+
 /// Makes the parts of placed nodes; there may be none.
 pub(super) fn build(
     document: &Document,
@@ -40,7 +66,7 @@ pub(super) fn build(
     let mut known: Vec<Option<MeshTriangles>> = document.meshes.iter().map(|_| None).collect();
     let mut skins = Skins::new(document);
     let mut builder = Builder { told_step, ..Builder::default() };
-    let (mut triangles, mut moves) = (0_u64, 0_u64);
+    let mut work = SceneWork::default();
     let (mut parts, mut kinds) = (Vec::new(), Vec::new());
     let mut see_through = BTreeMap::<String, Vec<usize>>::new();
     for place in placed {
@@ -54,36 +80,23 @@ pub(super) fn build(
         if surfaces.groups.is_empty() {
             continue;
         }
-        let asked = document.nodes.get(place.node).and_then(|node| node.extensions.instancing.as_ref());
-        let instances = match asked {
+        let node = document.nodes.get(place.node);
+        let instances = match node.and_then(|node| node.extensions.instancing.as_ref()) {
             Some(asked) => Instances::open(place.node, asked, &mut accessors)?,
             None => Instances::one(place.node),
         };
-        let node = document.node_name(place.node);
+        let (own, node) = (node.map(|node| &node.own), document.node_name(place.node));
         for group in &surfaces.groups {
-            triangles = triangles.saturating_add(group.triangles().saturating_mul(instances.count as u64));
-            if triangles > MAX_TRIANGLES {
-                return Err(Fault::TooManyTriangles);
-            }
+            work.add_triangles(group, &instances)?;
             let open = |surface| Pose::open(document, &mut accessors, &mut skins, place, surface);
             let poses: Vec<Pose> = group.surfaces.iter().map(open).collect::<Result<_, _>>()?;
-            for (surface, pose) in group.surfaces.iter().zip(&poses) {
-                let each = (surface.triangles as u64).saturating_mul(pose.readers() as u64);
-                moves = moves.saturating_add(each.saturating_mul(instances.count as u64));
-            }
-            if moves > MAX_MOVES {
-                return Err(Fault::TooManyMoves);
-            }
+            work.add_moves(group, &poses, &instances)?;
             let mut part = builder.part(group, &poses, &instances, place.model_from_node)?;
             if part.triangles.is_empty() {
                 continue;
             }
             let material = document.material_name(group.material);
-            part.name = match surfaces.one_material {
-                true => node.clone(),
-                false => format!("{node}/{material}"),
-            };
-            let own = document.nodes.get(place.node).map(|node| &node.own);
+            part.name = if surfaces.one_material { node.clone() } else { format!("{node}/{material}") };
             let further = own.map_or(&[][..], |own| &own.aliases);
             part.aliases = aliases(&node, document.mesh_name(place.mesh), &material, further);
             kinds.push(own.map(|own| own.kind).unwrap_or_default());
@@ -189,7 +202,7 @@ impl Builder {
         ));
         for (vertex, point) in self.used.drain(..).zip(&part.positions[first as usize..]) {
             if !point.is_finite() {
-                return Err(primitive::fault(surface.mesh, surface.primitive, pose.problem(vertex as usize)));
+                return Err(Fault::of_primitive(surface.mesh, surface.primitive, pose.problem(vertex as usize)));
             }
             if let Some(number) = self.numbers.get_mut(vertex as usize) {
                 *number = ABSENT;

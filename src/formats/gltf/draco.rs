@@ -3,7 +3,6 @@
 //! The decoder is `draco-core`, in Rust alone. What it is given is anybody's bytes, so that it is caught where it panics.
 
 use super::document::Document;
-use super::primitive::fault;
 use super::{Fault, MAX_TRIANGLES};
 use draco_core::mesh_decoder::MeshDecoder;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh};
@@ -49,7 +48,7 @@ pub(super) fn unpack(
     (said, source): (&Value, &[u8]),
     into: &mut BTreeMap<usize, UnpackedElements>,
 ) -> Result<(), Fault> {
-    let fault = |problem: String| fault(mesh, number, format!("{problem} (Draco)"));
+    let fault = |problem: String| Fault::of_primitive(mesh, number, format!("{problem} (Draco)"));
     if primitive.mode != Checked::Valid(Mode::Triangles) {
         return Err(fault("is compressed, and is no list of triangles".into()));
     }

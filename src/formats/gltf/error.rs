@@ -137,3 +137,13 @@ pub enum Fault {
         way_out: String,
     },
 }
+
+impl Fault {
+    pub(super) fn of_accessor(accessor: usize, problem: impl Into<String>) -> Fault {
+        Fault::Accessor { accessor, problem: problem.into() }
+    }
+
+    pub(super) fn of_primitive(mesh: usize, primitive: usize, problem: impl Into<String>) -> Fault {
+        Fault::Primitive { mesh, primitive, problem: problem.into() }
+    }
+}

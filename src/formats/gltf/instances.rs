@@ -1,7 +1,7 @@
 //! EXT_mesh_gpu_instancing: many copies of one node's mesh.
 
 use super::Fault;
-use super::accessor::{Accessors, fault};
+use super::accessor::Accessors;
 use super::document::Instancing;
 use super::reader::Reader;
 use super::scene::unit;
@@ -31,7 +31,7 @@ impl<'a> Instances<'a> {
         for (name, &index) in &asked.attributes {
             let reader = accessors.get(index, || format!("instancing of node {node}"))?;
             if *first.get_or_insert(reader.count) != reader.count {
-                return Err(fault(index, format!("has {} instances, and others have not", reader.count)));
+                return Err(Fault::of_accessor(index, format!("has {} instances, and others have not", reader.count)));
             }
             let is_f32 = reader.component == ComponentType::F32;
             let is_small = matches!(reader.component, ComponentType::I8 | ComponentType::I16);
@@ -45,7 +45,7 @@ impl<'a> Instances<'a> {
                 _ => continue, // colours, numbers and the like
             };
             if !fits {
-                return Err(fault(index, format!("has a type that instances do not allow for {name}")));
+                return Err(Fault::of_accessor(index, format!("has a type that instances do not allow for {name}")));
             }
             *slot = Some(reader);
         }

@@ -7,9 +7,10 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
 //! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
 //! binary chunk), `document` and `material` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
-//! and `reader` (bytes → numbers), `draco` and `meshopt` (what is compressed), `coarse` (how exact those are), `instances`, `primitive` (which triangles a mesh has),
-//! `pose` (morphs and skins), `build` (all of it → parts), `own` (what this program itself has written of them), `notes` (what the user should know of it); beside it `named`
-//! (which other files are the model's).
+//! and `reader` (bytes → numbers), `draco` and `meshopt` (what is compressed), `coarse` (how exact those are),
+//! `instances`, `primitive` (which triangles a mesh has), `pose` (morphs and skins), `build` (all of it → parts), `own`
+//! (what this program itself has written of them), `notes` (what the user should know of it); beside it `named` (which
+//! other files are the model's).
 
 use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
 use std::collections::BTreeSet;
@@ -36,10 +37,6 @@ mod scene;
 
 pub(super) use buffers::percent_decode;
 pub use error::Fault;
-
-/// The most numbers that may move the triangles of a model, each triangle's morph targets and joints counted: they cost
-/// no memory, but time.
-const MAX_MOVES: u64 = 1_000_000_000;
 
 /// glTF 2.0, `.glb` and `.gltf`.
 pub struct Gltf;
@@ -77,8 +74,8 @@ pub(super) fn json_in(bytes: &[u8]) -> Option<&[u8]> {
     container::open(bytes).ok().map(|container| container.json)
 }
 
-/// Reads a glTF that is in memory, as a content of 3D Tiles is. What it names lies beside `path`; `applied` are extensions
-/// that the caller applies to what is read.
+/// Reads a glTF that is in memory, as a content of 3D Tiles is. What it names lies beside `path`; `applied` are
+/// extensions that the caller applies to what is read.
 pub(super) fn read_bytes(bytes: &[u8], path: &Path, options: &ReadOptions, applied: &[&str]) -> Result<Model, Fault> {
     let container = container::open(bytes)?;
     let document = document::Document::parse(container.json, applied)?;

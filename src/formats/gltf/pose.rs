@@ -6,7 +6,7 @@
 use super::Fault;
 use super::accessor::Accessors;
 use super::document::Document;
-use super::primitive::{PrimitiveTriangles, fault};
+use super::primitive::PrimitiveTriangles;
 use super::reader::Reader;
 use super::scene::{NodeTransforms, PlacedNode, affine};
 use glam::{DAffine3, DVec3};
@@ -137,7 +137,7 @@ fn targets<'a>(
         let what = || format!("a morph target of primitive {} of mesh {}", surface.primitive, surface.mesh);
         let reader = accessors.get(positions.value(), what)?;
         if reader.shape != Type::Vec3 || reader.component == ComponentType::U32 {
-            return Err(fault(
+            return Err(Fault::of_primitive(
                 surface.mesh,
                 surface.primitive,
                 "has a morph target of a type that glTF does not allow",
@@ -160,7 +160,7 @@ fn sets<'a>(
     surface: &PrimitiveTriangles,
     primitive: &Primitive,
 ) -> Result<Vec<(Reader<'a>, Reader<'a>)>, Fault> {
-    let fault = |problem: String| fault(surface.mesh, surface.primitive, problem);
+    let fault = |problem: String| Fault::of_primitive(surface.mesh, surface.primitive, problem);
     let user = || format!("primitive {} of mesh {}", surface.primitive, surface.mesh);
     let mut sets = Vec::new();
     for (semantic, joints) in &primitive.attributes {
@@ -186,7 +186,11 @@ fn check_count(what: &str, reader: &Reader, surface: &PrimitiveTriangles) -> Res
     if has == needs {
         return Ok(());
     }
-    Err(fault(surface.mesh, surface.primitive, format!("has {what} for {has} vertices, and there are {needs}")))
+    Err(Fault::of_primitive(
+        surface.mesh,
+        surface.primitive,
+        format!("has {what} for {has} vertices, and there are {needs}"),
+    ))
 }
 
 /// The skins of a file; each is read when it is first asked for.

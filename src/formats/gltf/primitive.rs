@@ -63,7 +63,7 @@ pub(super) fn surfaces<'a>(
             Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => mode,
             Checked::Valid(_) => continue,
             Checked::Invalid => {
-                return Err(fault(index, number, "has a mode that glTF does not know"));
+                return Err(Fault::of_primitive(index, number, "has a mode that glTF does not know"));
             }
         };
         let material = primitive.material.map(|material| material.value());
@@ -103,7 +103,7 @@ fn surface<'a>(
     primitive: &Primitive,
     mode: Mode,
 ) -> Result<PrimitiveTriangles<'a>, Fault> {
-    let fault = |problem| Err(fault(mesh, number, problem));
+    let fault = |problem| Err(Fault::of_primitive(mesh, number, problem));
     let user = || format!("primitive {number} of mesh {mesh}");
     let positions = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
     let positions = positions.map(|accessor| accessor.value());
@@ -170,7 +170,7 @@ impl PrimitiveTriangles<'_> {
             if is_restart || vertex as usize >= count {
                 let why = if is_restart { "glTF forbids that number" } else { "that is out of range" };
                 let problem = format!("names vertex {vertex} of {count} in triangle {index}; {why}");
-                return Err(fault(self.mesh, self.primitive, problem));
+                return Err(Fault::of_primitive(self.mesh, self.primitive, problem));
             }
         }
         let [a, b, c] = vertices;
@@ -186,8 +186,4 @@ fn restart(indices: &Reader) -> u32 {
         ComponentType::U16 => u16::MAX.into(),
         _ => u32::MAX,
     }
-}
-
-pub(super) fn fault(mesh: usize, primitive: usize, problem: impl Into<String>) -> Fault {
-    Fault::Primitive { mesh, primitive, problem: problem.into() }
 }

@@ -4,7 +4,6 @@
 //! so that a mistake there would read zeros and not crash.
 
 use super::Fault;
-use super::accessor::fault;
 use glam::DVec3;
 use gltf::json::accessor::{ComponentType, Type};
 use std::ops::Range;
@@ -143,7 +142,7 @@ impl Reader<'_> {
                     "has the sparse index {index} at {entry}, out of order or beyond its {} elements",
                     self.count
                 );
-                return Err(fault(self.accessor, problem));
+                return Err(Fault::of_accessor(self.accessor, problem));
             }
             next = index + 1;
         }

@@ -1,7 +1,7 @@
 //! The lines of an OBJ file → its vertices, and its triangles by object, group and material.
 
+use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::{LeftOutTally, label};
-use crate::formats::polygon::PolygonCutter;
 use crate::formats::source::{TextLines, keyword, number, text, words, wrong_line};
 use crate::formats::{MAX_COMPONENTS, MAX_TRIANGLES};
 use crate::message::{Message, message};
@@ -25,7 +25,7 @@ pub(super) struct ObjGeometry {
     pub names: Vec<String>,
     /// What `mtllib` names, a line each.
     pub libraries: Vec<String>,
-    pub cutter: PolygonCutter,
+    pub cutter: FaceCutter,
     pub left_out: LeftOutTally,
     /// The first word that is a number only at its beginning, and its line.
     pub odd_number: Option<(usize, String)>,
@@ -46,7 +46,7 @@ impl ObjGeometry {
             parts: Vec::new(),
             names: vec![String::new()],
             libraries: Vec::new(),
-            cutter: PolygonCutter::new(),
+            cutter: FaceCutter::new(),
             left_out: LeftOutTally::default(),
             odd_number: None,
             numbers_of: FxHashMap::default(),
@@ -118,7 +118,7 @@ impl ObjGeometry {
             self.corners.push(vertex);
             self.points.push(point);
         }
-        let triangles = self.cutter.cut(&self.points, &[]);
+        let triangles = self.cutter.polygon(&self.points, &mut self.left_out);
         if triangles.is_empty() {
             return Ok(());
         }

@@ -1,11 +1,20 @@
 //! Material libraries, MTL: which materials light passes, and which files they name.
 
-use super::beside_each;
 use crate::formats::left_out::label;
 use crate::formats::source::{TextLines, as_ascii, beside, keyword, number, text, words};
 use crate::formats::whole::whole_file;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+
+/// The files that a line of libraries names: all of it, as names have blanks, and each word.
+pub(super) fn beside_each(model: &Path, names: &str) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> = beside(model, names).into_iter().collect();
+    let several = || names.split_ascii_whitespace();
+    if several().nth(1).is_some() {
+        found.extend(several().filter_map(|name| beside(model, name)));
+    }
+    found
+}
 
 /// The names of materials that are translucent or cut out, and the libraries that cannot be read.
 pub(super) fn see_through(model: &Path, libraries: &[String]) -> (BTreeSet<String>, Vec<String>) {

@@ -6,8 +6,7 @@
 mod faces;
 mod material;
 
-use super::left_out::{LeftOutTally, counted};
-use super::source::{TextLines, as_ascii, beside, text};
+use super::source::{TextLines, as_ascii, text};
 use super::vertices::VertexPicker;
 use super::whole::whole_file;
 use super::{Format, Model, ModelFault, ReadOptions, SeeThrough};
@@ -44,30 +43,20 @@ impl Format for Obj {
         let Ok(source) = whole_file(path) else { return Vec::new() };
         let source = as_ascii(source);
         let lines = TextLines::new(&source).filter_map(|line| line.trim_ascii_start().strip_prefix(b"mtllib"));
-        let libraries: Vec<PathBuf> = lines.flat_map(|names| beside_each(path, &text(names))).collect();
+        let libraries: Vec<PathBuf> = lines.flat_map(|names| material::beside_each(path, &text(names))).collect();
         let textures: Vec<PathBuf> = libraries.iter().flat_map(|library| material::textures(library)).collect();
         libraries.into_iter().chain(textures).collect()
     }
 }
 
-/// The files that a line of libraries names: all of it, as names have blanks, and each word.
-fn beside_each(model: &Path, names: &str) -> Vec<PathBuf> {
-    let mut found: Vec<PathBuf> = beside(model, names).into_iter().collect();
-    let several = || names.split_ascii_whitespace();
-    if several().nth(1).is_some() {
-        found.extend(several().filter_map(|name| beside(model, name)));
-    }
-    found
-}
-
 fn model_of(geometry: ObjGeometry, path: &Path) -> Model {
-    let ObjGeometry { positions, parts, names, libraries, cutter, left_out: mut tally, odd_number, .. } = geometry;
+    let ObjGeometry { positions, parts, names, libraries, cutter, left_out: tally, odd_number, .. } = geometry;
     let mut model = Model::default();
     let (faded, missing) = material::see_through(path, &libraries);
     let (built, see_through) = build(&positions, parts, &names, &faded);
     model.parts = built;
     model.see_through = see_through;
-    cutter_notes(&mut model, &mut tally, [cutter.empty, cutter.large, cutter.crossed]);
+    model.notes.extend(cutter.crossing_note());
     model.left_out = tally.into_left_out();
     if !missing.is_empty() && model.parts.iter().any(|part| part.aliases.len() > 1) {
         model.notes.push(message![
@@ -80,17 +69,6 @@ fn model_of(geometry: ObjGeometry, path: &Path) -> Model {
         model.notes.push(message![what; "export it again if that is a coordinate"]);
     }
     model
-}
-
-/// Tells which polygons have no triangles, or others than they should: empty, too large, crossed.
-pub(super) fn cutter_notes(model: &mut Model, tally: &mut LeftOutTally, [empty, large, crossed]: [u64; 3]) {
-    tally.add_many("faces", "they have no area", empty);
-    tally.add_many("faces", "they have more than 20,000 corners", large);
-    if crossed > 0 {
-        let cross = if crossed == 1 { "crosses itself" } else { "cross themselves" };
-        let faces = counted(crossed, "face");
-        model.notes.push(message![format!("has {faces} that {cross}, so what of them casts is a guess")]);
-    }
 }
 
 /// The parts with their names, and which of them have a material that light passes.

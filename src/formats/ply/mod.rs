@@ -5,9 +5,8 @@
 mod body;
 mod header;
 
+use super::face_cutter::FaceCutter;
 use super::left_out::LeftOutTally;
-use super::obj::cutter_notes;
-use super::polygon::PolygonCutter;
 use super::source::stem;
 use super::vertices::{VertexPicker, note_floats};
 use super::whole::whole_file;
@@ -49,13 +48,13 @@ fn model_of(tables: PlyTables, path: &Path, has_floats: bool, options: &ReadOpti
         let what = format!("is a cloud of {} points without faces, and points cast no shadow", positions.len());
         return Err(message![what; "make a mesh of it, or take terrain from it as a raster or TIN"]);
     }
-    let (mut cutter, mut tally) = (PolygonCutter::new(), LeftOutTally::default());
+    let (mut cutter, mut tally) = (FaceCutter::new(), LeftOutTally::default());
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     let mut corners: Vec<DVec3> = Vec::new();
     for polygon in polygons.iter() {
         corners.clear();
         corners.extend(polygon.iter().filter_map(|&vertex| positions.get(vertex as usize)));
-        let cut = cutter.cut(&corners, &[]);
+        let cut = cutter.polygon(&corners, &mut tally);
         let vertex = |corner: u32| polygon.get(corner as usize).copied().unwrap_or(0);
         triangles.extend(cut.iter().map(|triangle| triangle.map(vertex)));
         if triangles.len() as u64 > MAX_TRIANGLES {
@@ -73,7 +72,7 @@ fn model_of(tables: PlyTables, path: &Path, has_floats: bool, options: &ReadOpti
         note_floats(&mut part, options.told_step);
     }
     let mut model = Model { parts: vec![part], up: Up::Z, ..Model::default() };
-    cutter_notes(&mut model, &mut tally, [cutter.empty, cutter.large, cutter.crossed]);
+    model.notes.extend(cutter.crossing_note());
     model.left_out = tally.into_left_out();
     Ok(model)
 }

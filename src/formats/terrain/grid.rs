@@ -1,8 +1,11 @@
 //! Heights on a raster.
 
-use super::{MAX_SAMPLES, too_many};
 use crate::formats::ModelFault;
+use crate::message::message;
 use glam::{DVec2, DVec3};
+
+/// The most samples that a raster may have: 10,000 to a side.
+const MAX_SAMPLES: u64 = 100_000_000;
 
 /// Heights on a raster, row after row.
 pub(super) struct HeightGrid {
@@ -62,4 +65,13 @@ fn rounded(number: f64) -> f64 {
     let digits = (2 - number.abs().log10().floor() as i32).clamp(0, 12);
     let power = 10_f64.powi(digits);
     (number * power).round() / power
+}
+
+/// That a raster is larger than anyone can study.
+fn too_many(columns: u64, rows: u64) -> ModelFault {
+    message![
+        format!("has {columns} × {rows} heights, and a terrain may have {MAX_SAMPLES}");
+        "cut it to the surroundings of the place in a GIS, or export it with larger cells"
+    ]
+    .into()
 }

@@ -41,7 +41,7 @@ impl Format for LandXml {
                     file.open(&start);
                     file.close(start.local_name().as_ref())?;
                 }
-                Event::Text(text) => file.text.push_str(&&text),
+                Event::Text(text) => file.text.push_str(&text),
                 Event::End(end) => file.close(end.local_name().as_ref())?,
                 Event::Eof => break,
                 // entities are not expanded: no number has one

@@ -23,9 +23,6 @@ use crate::message::message;
 use glam::DVec3;
 use grid::HeightGrid;
 
-/// The most samples that a raster may have: 10,000 to a side.
-const MAX_SAMPLES: u64 = 100_000_000;
-
 /// What a raster of heights gives: one part, thinned; `name` says what people call it.
 fn model_of(grid: &HeightGrid, error_m: f64, name: &str, crs: Option<String>) -> Result<Model, ModelFault> {
     let sheet = thin::sheet(grid, error_m as f32);
@@ -71,13 +68,4 @@ fn of_sheets(sheets: Vec<NamedSheet>, crs: Option<String>, notes: Vec<crate::mes
         notes,
         ..Model::default()
     }
-}
-
-/// That a raster is larger than anyone can study.
-fn too_many(columns: u64, rows: u64) -> ModelFault {
-    message![
-        format!("has {columns} × {rows} heights, and a terrain may have {MAX_SAMPLES}");
-        "cut it to the surroundings of the place in a GIS, or export it with larger cells"
-    ]
-    .into()
 }

@@ -147,7 +147,10 @@ impl Squares<'_> {
                 let height = self.grid.height(column, row);
                 let is_far = match has_height && !height.is_nan() {
                     // a plane that is none, as a corner has no height, is far from all
-                    true => !((start + slope.x * column as f32 - height).abs() <= self.error_m),
+                    true => {
+                        let off = (start + slope.x * column as f32 - height).abs();
+                        off.is_nan() || off > self.error_m
+                    }
                     false => has_height == height.is_nan(),
                 };
                 if is_far {

@@ -10,12 +10,12 @@ mod terrain;
 const LATITUDE: f64 = 47.8;
 const LONGITUDE: f64 = 13.04;
 /// The same point in EPSG:25833 (UTM zone 33, ETRS89), metres, by Krüger's series.
-const EASTING: f64 = 353_231.3655;
-const NORTHING: f64 = 5_295_931.4800;
+const EASTING: f64 = 353_231.365_5;
+const NORTHING: f64 = 5_295_931.48;
 /// How easting and northing grow with the degrees there: with latitude, and with longitude. Within 200 m of the place this is
 /// right to some millimetres.
-const PER_LATITUDE: [f64; 2] = [2_817.4795, 111_135.6796];
-const PER_LONGITUDE: [f64; 2] = [74_879.1352, -1_898.3141];
+const PER_LATITUDE: [f64; 2] = [2_817.479_5, 111_135.679_6];
+const PER_LONGITUDE: [f64; 2] = [74_879.135_2, -1_898.314_1];
 
 /// The files of the site.
 pub(crate) fn files() -> Vec<(&'static str, Vec<u8>)> {

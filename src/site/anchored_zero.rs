@@ -1,4 +1,4 @@
-//! Where a model's zero stands, by what its file says.
+//! A point of the Earth where a model's zero stands.
 
 use crate::crs::{Crs, GeodeticPoint};
 use glam::DVec3;

@@ -1,0 +1,204 @@
+//! Faces in space → triangles, as they are wound: polygons of meshes, faces of city models, outlines of footprints.
+
+use super::left_out::{LeftOutTally, counted};
+use crate::message::{Message, message};
+use earcut::Earcut;
+use glam::{DVec2, DVec3};
+use rustc_hash::FxHashSet;
+
+/// The most corners of a face: clipping one takes the square of them at worst.
+const MOST_CORNERS: usize = 20_000;
+
+/// Cuts faces; one is kept for all of a file, so that its memory is taken once.
+pub(super) struct FaceCutter {
+    earcut: Earcut<f64>,
+    flat: Vec<[f64; 2]>,
+    holes: Vec<u32>,
+    numbers: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+    /// Faces that cross themselves, whose triangles do not cover what they enclose.
+    crossed: u64,
+}
+
+/// Why a face has no triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Uncut {
+    /// Fewer than three corners, or all in a line.
+    NoArea,
+    /// A coordinate is infinite or no number.
+    NoPoint,
+    /// More corners than a face may have.
+    TooLarge,
+}
+
+impl Uncut {
+    /// As a clause of what is left out.
+    pub(super) fn why(self) -> &'static str {
+        match self {
+            Uncut::NoArea => "they have no area",
+            Uncut::NoPoint => "a coordinate of theirs is no number",
+            Uncut::TooLarge => "they have more than 20,000 corners",
+        }
+    }
+}
+
+/// A face in triangles.
+pub(super) struct CutFace<'a> {
+    /// Numbers of its corners, through all rings; they turn as the outer ring does.
+    pub triangles: &'a [[u32; 3]],
+    /// Whether the triangles cover what the rings enclose; they do not where rings cross.
+    pub is_exact: bool,
+}
+
+impl FaceCutter {
+    pub(super) fn new() -> Self {
+        Self {
+            earcut: Earcut::new(),
+            flat: Vec::new(),
+            holes: Vec::new(),
+            numbers: Vec::new(),
+            triangles: Vec::new(),
+            crossed: 0,
+        }
+    }
+
+    /// The triangles of a face whose rings follow each other in `points` and end before `ends`; the first is the outer one.
+    /// A ring may repeat its first point at its end.
+    pub(super) fn cut(&mut self, points: &[DVec3], ends: &[usize]) -> Result<CutFace<'_>, Uncut> {
+        let outer = points.get(..ends.first().copied().unwrap_or(0)).unwrap_or_default();
+        if points.len() > MOST_CORNERS {
+            return Err(Uncut::TooLarge);
+        }
+        if !points.iter().all(|point| point.is_finite()) {
+            return Err(Uncut::NoPoint);
+        }
+        let normal = normal(outer);
+        if outer.len() < 3 || !(normal.is_finite() && normal.length_squared() > 0.0) {
+            return Err(Uncut::NoArea);
+        }
+        self.triangles.clear();
+        let is_exact = match *points {
+            [_, _, _] => {
+                self.triangles.push([0, 1, 2]);
+                true
+            }
+            [a, b, c, d] if outer.len() == 4 && convex([a, b, c, d]) => {
+                self.triangles.extend([[0, 1, 2], [0, 2, 3]]);
+                true
+            }
+            _ => self.clip(points, ends, normal)?,
+        };
+        self.crossed += u64::from(!is_exact);
+        Ok(CutFace { triangles: &self.triangles, is_exact })
+    }
+
+    /// The triangles of a mesh's face; what has none is told. A triangle is not cut, and stays without area, too: whoever
+    /// welds counts it.
+    pub(super) fn triangles(&mut self, points: &[DVec3], ends: &[usize], tally: &mut LeftOutTally) -> &[[u32; 3]] {
+        if points.len() == 3 && ends.len() == 1 {
+            self.triangles.clear();
+            self.triangles.push([0, 1, 2]);
+            return &self.triangles;
+        }
+        match self.cut(points, ends) {
+            Ok(cut) => cut.triangles,
+            Err(uncut) => {
+                tally.add("faces", uncut.why());
+                &[]
+            }
+        }
+    }
+
+    /// The triangles of a mesh's face of one ring.
+    pub(super) fn polygon(&mut self, corners: &[DVec3], tally: &mut LeftOutTally) -> &[[u32; 3]] {
+        self.triangles(corners, &[corners.len()], tally)
+    }
+
+    /// That faces cross themselves, where some do: no triangles of theirs are right.
+    pub(super) fn crossing_note(&self) -> Option<Message> {
+        let cross = if self.crossed == 1 { "crosses itself" } else { "cross themselves" };
+        let faces = counted(self.crossed, "face");
+        (self.crossed > 0).then(|| message![format!("has {faces} that {cross}, so what of them casts is a guess")])
+    }
+
+    /// Clips a face, seen from the side to which it is turned; gives whether its triangles cover what it encloses.
+    fn clip(&mut self, points: &[DVec3], ends: &[usize], normal: DVec3) -> Result<bool, Uncut> {
+        let [first, ..] = *points else { return Err(Uncut::NoArea) };
+        let axes = seen_along(normal);
+        self.flat.clear();
+        self.flat.extend(points.iter().map(|&point| axes.map(|axis| (point - first)[axis])));
+        if repeats(&self.flat) {
+            // from the first corner to each side: right for one that runs around a convex polygon again and again
+            let last = (ends.first().copied().unwrap_or(0) as u32).saturating_sub(1);
+            self.triangles.extend((1..last).map(|corner| [0, corner, corner + 1]));
+            return Ok(false);
+        }
+        self.holes.clear();
+        self.holes.extend(ends[..ends.len().saturating_sub(1)].iter().map(|&end| end as u32));
+        self.earcut.earcut_slice(&self.flat, &self.holes, &mut self.numbers);
+        let mut covered = 0.0;
+        for &[a, b, c] in self.numbers.as_chunks().0 {
+            let at = |number: u32| self.flat.get(number as usize).map_or(DVec2::NAN, |&point| DVec2::from(point));
+            let area = (at(b) - at(a)).perp_dot(at(c) - at(a));
+            covered += area.abs();
+            // the ring runs counter-clockwise in these axes, and so must the triangles
+            self.triangles.push(if area < 0.0 { [a, c, b] } else { [a, b, c] });
+        }
+        if self.triangles.is_empty() || !covered.is_finite() {
+            return Err(Uncut::NoArea);
+        }
+        let enclosed = self.enclosed(ends);
+        Ok((covered - enclosed).abs() <= 1e-3 * enclosed)
+    }
+
+    /// Twice what the outer ring encloses, without the holes.
+    fn enclosed(&self, ends: &[usize]) -> f64 {
+        let (mut start, mut enclosed) = (0, 0.0);
+        for &end in ends {
+            let area = ring_area(self.flat.get(start..end).unwrap_or_default()).abs();
+            enclosed += if start == 0 { area } else { -area };
+            start = end;
+        }
+        enclosed
+    }
+}
+
+/// Twice the area of a flat ring, positive where it runs counter-clockwise.
+pub(super) fn ring_area(ring: &[[f64; 2]]) -> f64 {
+    let Some(&first) = ring.first() else { return 0.0 };
+    let from = |&point: &[f64; 2]| DVec2::from(point) - DVec2::from(first);
+    ring.windows(2).map(|pair| from(&pair[0]).perp_dot(from(&pair[1]))).sum()
+}
+
+/// Whether a large polygon comes to its corners again and again, more than twice to each: clipping it would take the cube of
+/// them. One that is cut open to its holes comes twice to some.
+fn repeats(corners: &[[f64; 2]]) -> bool {
+    const LARGE: usize = 200;
+    let distinct = || corners.iter().map(|corner| corner.map(f64::to_bits)).collect::<FxHashSet<_>>().len();
+    corners.len() > LARGE && 2 * distinct() < corners.len()
+}
+
+/// Whether the diagonal from the first to the third corner lies within, and both halves look to one side.
+fn convex([a, b, c, d]: [DVec3; 4]) -> bool {
+    let half = (b - a).cross(c - a);
+    let other = (c - a).cross(d - a);
+    half.dot(other) > 0.0 && (c - b).cross(d - b).dot((d - b).cross(a - b)) > 0.0
+}
+
+/// The normal of a ring by Newell's method, as long as twice its area.
+fn normal(ring: &[DVec3]) -> DVec3 {
+    let Some(&first) = ring.first() else { return DVec3::ZERO };
+    ring.windows(2)
+        .map(|two| match *two {
+            [a, b] => (a - first).cross(b - first),
+            _ => DVec3::ZERO,
+        })
+        .sum()
+}
+
+/// The two axes in which what has this normal is seen most broadly and counter-clockwise.
+fn seen_along(normal: DVec3) -> [usize; 2] {
+    let along = normal.abs().max_position();
+    let axes = [(along + 1) % 3, (along + 2) % 3];
+    if normal[along] < 0.0 { [axes[1], axes[0]] } else { axes }
+}

@@ -1,0 +1,37 @@
+//! One footprint as a file has it, and what it is called.
+
+use super::tags::FootprintTags;
+use crate::formats::left_out::label;
+use glam::DVec3;
+
+/// Why what is no polygon is left out.
+pub(super) const NO_AREA: &str = "they are no polygons";
+
+/// A polygon as a file has it: its rings follow each other, the outer one first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RingPolygon {
+    pub points: Vec<DVec3>,
+    pub ends: Vec<usize>,
+}
+
+/// One feature: a building, a part of one, or something else.
+pub(super) struct Footprint {
+    pub polygons: Vec<RingPolygon>,
+    pub tags: FootprintTags,
+    /// From 1, in the file.
+    pub number: u64,
+}
+
+/// What a feature is called, and by what else it may be meant.
+pub(super) fn names_of(tags: &FootprintTags, number: u64, layer: Option<&str>) -> (String, Vec<String>) {
+    let kind = tags.kind().unwrap_or("footprint");
+    let address = tags.address();
+    let numbered = || format!("{kind} {}", tags.id.clone().unwrap_or_else(|| number.to_string()));
+    let name = tags.name.clone().or_else(|| address.clone()).unwrap_or_else(numbered);
+    let aliases =
+        [tags.name.clone(), address, tags.id.clone(), tags.kind().map(str::to_owned), layer.map(str::to_owned)];
+    let part = tags.is_part().then(|| "building:part".to_owned());
+    let mut aliases: Vec<String> = aliases.into_iter().chain([part]).flatten().map(|name| label(&name)).collect();
+    aliases.retain(|alias| !alias.is_empty());
+    (label(&name), aliases)
+}

@@ -1,0 +1,41 @@
+//! What each format is: one trait.
+
+use super::model::{Model, ModelFault, ReadOptions};
+use std::path::{Path, PathBuf};
+
+/// Bytes at a file's start that tell its format.
+pub(super) const HEAD_BYTES: u64 = 16 * 1024;
+
+/// A format of model files.
+pub trait Format: Sync {
+    /// What people call it.
+    fn name(&self) -> &'static str;
+
+    /// How its files' names end: lower-case, without the dot, the commonest first.
+    fn endings(&self) -> &'static [&'static str];
+
+    /// Whether a file that begins with these bytes (as many as there are, at most 16 KiB) is of this format. Only what other
+    /// formats cannot begin with is a yes.
+    fn begins(&self, head: &[u8]) -> bool;
+
+    /// Reads a file; there may be no part in it.
+    ///
+    /// # Errors
+    /// What is wrong with the file, with the way out.
+    fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault>;
+
+    /// Whether the reader is others' code, which runs in a process of its own with limits.
+    fn is_foreign(&self) -> bool {
+        false
+    }
+
+    /// Whether what was read is kept, as reading the file takes longer than reading that back.
+    fn is_kept(&self) -> bool {
+        self.is_foreign()
+    }
+
+    /// The files that a file names: they lie beside it, and are its user's, whether they are read or not.
+    fn named_by(&self, _path: &Path) -> Vec<PathBuf> {
+        Vec::new()
+    }
+}

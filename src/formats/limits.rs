@@ -1,0 +1,41 @@
+//! How large a model may be, and what reading one may take.
+
+use std::time::Duration;
+use sysinfo::{MemoryRefreshKind, RefreshKind, System};
+
+/// The most triangles a model may have, instances counted. Their vertices take at most 7.2 GB, their indices 1.2 GB.
+pub const MAX_TRIANGLES: u64 = 100_000_000;
+
+/// The most components a model may have: each costs names and adjacency of its own, whatever its size.
+pub const MAX_COMPONENTS: usize = 1_000_000;
+
+/// What the reading of one file may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReadLimits {
+    /// How long.
+    pub time: Duration,
+    /// Bytes; three quarters of the machine's where nobody says it.
+    pub memory: Option<u64>,
+}
+
+impl Default for ReadLimits {
+    fn default() -> Self {
+        Self { time: Duration::from_secs(600), memory: None }
+    }
+}
+
+impl ReadLimits {
+    /// Bytes; no limit where the system does not say how many it has.
+    pub(super) fn memory_bytes(self) -> u64 {
+        self.memory.unwrap_or_else(|| {
+            let ram = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
+            let Ok(system) = System::new_with_specifics(ram) else { return u64::MAX };
+            let of_machine = system.total_memory();
+            let of_group = system.cgroup_limits().map_or(of_machine, |limits| limits.total_memory);
+            match of_machine.min(of_group) {
+                0 => u64::MAX,
+                bytes => bytes / 4 * 3,
+            }
+        })
+    }
+}

@@ -1,0 +1,89 @@
+//! The list of all formats, and the reading of a file as the one that it is of.
+
+use super::format::{Format, HEAD_BYTES};
+use super::model::{Model, ModelError, ModelFault, ReadOptions};
+use super::{citygml, cityjson, dae, dxf, footprints, gltf, ifc, obj, ply, refused, stl, terrain, tiles3d};
+use crate::message::message;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+/// All formats, in the order in which they are asked whether a file is theirs. Those that begin with a mark of their own come
+/// first: what they take is theirs, whatever stands behind the mark. A format that is told by words near its beginning could
+/// find them in another's file as well, so the loose ones (JSON, XML, ASCII grid, OBJ) come last.
+pub const FORMATS: &[&dyn Format] = &[
+    &gltf::Gltf,
+    &ifc::Ifc,
+    &footprints::FlatGeobuf,
+    &footprints::Shapefile,
+    &terrain::GeoTiff,
+    &terrain::LasPoints,
+    &ply::Ply,
+    // by words of their own
+    &dxf::Dxf,
+    &stl::Stl,
+    // JSON, by its keys
+    &cityjson::CityJson,
+    &tiles3d::Tiles3d,
+    &footprints::GeoJson,
+    // XML, by its root
+    &citygml::CityGml,
+    &terrain::LandXml,
+    &dae::Dae,
+    &terrain::AsciiGrid,
+    // by its name's ending alone
+    &obj::Obj,
+];
+
+/// The format whose files end as this one's name does.
+pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {
+    let ending = path.extension()?.to_string_lossy().to_lowercase();
+    FORMATS.iter().copied().find(|format| format.endings().contains(&ending.as_str()))
+}
+
+/// The format of a file: its content decides, then how its name ends.
+pub(super) fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> {
+    // Asked before opening: opening a pipe would wait for its writer.
+    let is_file = std::fs::metadata(path).map_err(ModelFault::unreadable)?.is_file();
+    if !is_file {
+        return Err(message!["is not a file"; "name a model file"].into());
+    }
+    let mut head = Vec::new();
+    File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head)).map_err(ModelFault::unreadable)?;
+    if let Some(format) = FORMATS.iter().copied().find(|format| format.begins(&head)) {
+        return Ok(format);
+    }
+    if let Some(refusal) = refused::by_content(&head, path) {
+        return Err(refusal.into());
+    }
+    by_ending(path).ok_or_else(|| {
+        let names: Vec<&str> = FORMATS.iter().map(|format| format.name()).collect();
+        let unknown = || {
+            message![
+                "is of no format that Gnomon knows";
+                format!("export it as one of these: {}", names.join(", "))
+            ]
+        };
+        refused::by_ending(path).unwrap_or_else(unknown).into()
+    })
+}
+
+/// Reads a file as one of a format.
+pub(super) fn read_as(format: &dyn Format, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+    Model { format: format.name(), ..format.read(path, options)? }.checked()
+}
+
+/// Reads a model file of any format, in this process; every part has triangles, and there is at least one. [`super::ModelReader`] has
+/// limits and a cache.
+///
+/// # Errors
+/// What is wrong with the file, with the way out.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
+    let read = || read_as(format_of(path)?, path, options);
+    read().map_err(|fault| ModelError { file: path.to_owned(), fault })
+}
+
+/// The files that a model names beside itself. One that cannot be read names none: whoever reads it says why.
+pub(crate) fn named_by(path: &Path) -> Vec<PathBuf> {
+    format_of(path).map_or_else(|_| Vec::new(), |format| format.named_by(path))
+}

@@ -1,0 +1,80 @@
+//! A study that is prepared, before it is run.
+
+use super::machine::Machine;
+use super::{SiteView, Stopwatch, StudyError, Wants, fingerprint};
+use crate::profile::accumulate::Sum;
+use crate::profile::{Shaded, Unfinished};
+use crate::site::Site;
+use crate::sun;
+use crate::view::{Tile, View};
+use std::cell::OnceCell;
+use std::fmt;
+
+/// A study that is prepared: with its sums tile by tile ([`Event::Tile`], [`Event::Summed`]), so that not all of them are held.
+pub struct TiledStudy<'a> {
+    pub(super) site: &'a Site,
+    pub(super) wants: Wants,
+    pub(super) machine: Machine,
+    pub(super) tiles: Vec<Tile>,
+    pub(super) number: OnceCell<u64>,
+    pub(super) watch: Stopwatch,
+}
+
+impl TiledStudy<'_> {
+    /// Which study it is: a number of all that its result depends on.
+    pub fn number(&self) -> u64 {
+        *self.number.get_or_init(|| fingerprint::of(self.site, &self.machine.drawn(), &self.tiles, &self.wants))
+    }
+
+    /// Its tiles, in their order.
+    pub fn tiles(&self) -> &[Tile] {
+        &self.tiles
+    }
+
+    /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
+    /// instants, whoever has found them. Sums of instants that make up the track add up to the tile's own to the bit, and
+    /// [`paste`] puts tiles together. Where the device fails, so does this.
+    ///
+    /// # Errors
+    /// [`StudyError::Shadow`], where drawing failed.
+    pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<Shaded, StudyError> {
+        let mut technique = self.look().technique_of(tile)?;
+        let mut sum = Sum::new(self.machine.gpu(), tile.size[0], tile.size[1]);
+        for instant in instants.iter().filter(|instant| !instant.night) {
+            sum.add(&technique.draw(instant.to_sun)?, instant.weight_secs)?;
+        }
+        Ok(sum.finish()?)
+    }
+
+    pub(super) fn look(&self) -> SiteView<'_> {
+        let TiledStudy { site, machine, .. } = self;
+        SiteView { site, machine, view: View::Plan(site.grid), receivers: site.receivers }
+    }
+
+    /// Whether that was left by this study.
+    pub fn is_of(&self, begun: &Unfinished) -> bool {
+        let count = self.tiles.len() * self.site.track.instants.len();
+        let tile = self.tiles.get(self.worked_on(begun.done));
+        begun.study == self.number()
+            && begun.statistics.is_some() == self.wants.statistics
+            && begun.tiles == self.tiles.len()
+            && begun.done <= count
+            && tile.is_some_and(|tile| begun.shaded.len() == tile.cells())
+    }
+
+    /// The tile that is worked on after so many instants, those of each tile counted: the last one until all of its instants
+    /// are done and told.
+    pub(crate) fn worked_on(&self, done: usize) -> usize {
+        done.saturating_sub(1) / self.site.track.instants.len().max(1)
+    }
+}
+
+impl fmt::Debug for TiledStudy<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("TiledStudy")
+            .field("wants", &self.wants)
+            .field("tiles", &self.tiles)
+            .finish_non_exhaustive()
+    }
+}
