@@ -57,12 +57,12 @@ pub(super) struct CityBuilder {
     /// The open object, and its parts so far, each with the kind of its surfaces.
     open: Option<(CityObjectName, PartKind)>,
     surfaces: Vec<(String, Part)>,
-    /// The step of the file's numbers, where it is coarser than what is told.
+    /// The step of the file's numbers, where it is so coarse that a note says it.
     step: Option<f64>,
 }
 
 impl CityBuilder {
-    /// `step` is that of the file's numbers; where it is finer than `told_step`, nobody is told.
+    /// `step` is that of the file's numbers; where it is finer than `told_step`, there is no note.
     pub(super) fn new(step: Option<f64>, told_step: f64) -> Self {
         Self {
             parts: Vec::new(),

@@ -1,4 +1,4 @@
-//! STL, of text or of numbers → a part for each solid.
+//! STL, ASCII or binary → a part for each solid.
 
 use super::left_out::{LeftOutTally, label};
 use super::obj::cutter_notes;

@@ -146,12 +146,10 @@ pub const SITE_KEYS: &[SiteKey] = &[
             "Which classes of [measured points](formats.md#las-and-laz) stand there beside the ground: `building`, \
              `vegetation`, `bridge`, `water`.",
         ),
-    key("model", "crs", ValueType::Text, "crs = \"EPSG:25832\"")
-        .default("as the file says")
-        .means(
-            "The reference system of the model's coordinates, which gives position and north: its number in the EPSG \
+    key("model", "crs", ValueType::Text, "crs = \"EPSG:25832\"").default("as the file says").means(
+        "The reference system of the model's coordinates, which gives position and north: its number in the EPSG \
              dataset, its name, WKT, or PROJ's text. See [georeference.md](georeference.md).",
-        ),
+    ),
     key("model", "casts", ValueType::Names, "casts = [\"roof\", \"walls\"]").default("true").means(
         "What casts shadows: everything but ground cover (roads, water), nothing, or what the names name; \
              `\"!glass\"` takes out what is named glass.",

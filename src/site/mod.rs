@@ -1,4 +1,4 @@
-//! What is asked: the site file and the models it names, checked once.
+//! The request: the site file and the models it names, checked once.
 //!
 //! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unproven.
 

@@ -1,4 +1,4 @@
-//! Places that a file says and nobody meant, and sources that disagree.
+//! Places in files that nobody has set, and sources that disagree.
 
 use super::georeference::{AnchoredZero, true_north};
 use super::model_place::ModelReference;

@@ -1,4 +1,4 @@
-//! A model with what is said of it → the model where it stands, in the one frame of the site.
+//! A model and what is known of its position → the model where it stands, in the one frame of the site.
 
 use super::georeference::{AnchoredNorth, AnchoredZero, Georeference, KeyFault, Reference, true_north};
 use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, angle, degrees, half_turn, length};

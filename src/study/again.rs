@@ -1,4 +1,4 @@
-//! Work that is done again where the graphics device fails that it is done on.
+//! Does work again when the graphics device fails on which it runs.
 
 use super::{Event, OnEvent, StudyError, tell};
 use crate::choice::{Engine, Finder};

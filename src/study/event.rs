@@ -1,4 +1,4 @@
-//! What happens on the way, and who hears it.
+//! The events of a study, and who receives them.
 
 use super::{StudyError, TiledStudy};
 use crate::message::Message;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub enum Event<'a> {
     /// Something that the user should know.
     Note(Message),
-    /// A graphics adapter failed, and the work is done again: what was told of it is void, but for notes.
+    /// A graphics adapter failed, and the work is done again: what was reported of it is void, except for notes.
     Anew,
     /// The same study is done again: whoever keeps what was done so far ([`Event::Kept`]) can put it here, and the study
     /// goes on from there.

@@ -185,7 +185,7 @@ pub fn in_tiles(
     // which study it is, where what is done of it is kept
     let number = wants.keep_every.map(|_| tiled.number());
     let mut at_hand = Some((tiled, begun));
-    // what counting takes is told of an adapter alone
+    // only an adapter reports what counting takes
     persist(site, !wants.statistics, on_event, &mut |again, gpu, on_event| {
         if let Some((tiled, begun)) = at_hand.take() {
             return once(tiled, begun, on_event);

@@ -1,4 +1,4 @@
-//! What is made beside the answer.
+//! What a study makes beside its answer.
 
 use super::Budget;
 use crate::message::Field;

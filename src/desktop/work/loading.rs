@@ -1,4 +1,4 @@
-//! A site is loaded beside the window, which shows how far it is and can give it up.
+//! Loads a site in a thread of its own; the window shows the progress and can cancel it.
 
 use crate::desktop::state::bare_model::BareModel;
 use crate::desktop::state::project::{LoadedSite, Project, complete, name_of};

@@ -2,7 +2,7 @@
 //!
 //! Outlines keep the coordinates of their file, be they degrees or those of a map: only what does not depend on them is
 //! found here, and `site` brings every corner to its place. The files of this folder, in the order of the flow: `geojson`,
-//! `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (what is said of an outline, and
+//! `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (the attributes of an outline, and
 //! lengths as people write them), `overlap` (which outlines their parts replace), `extrude` (outlines → blocks).
 
 use super::left_out::{LeftOutTally, counted, label};
@@ -234,7 +234,7 @@ impl Footprints {
     }
 }
 
-/// What is told of heights, and of how outlines became blocks.
+/// What the notes say about heights, and about how outlines became blocks.
 #[derive(Default)]
 struct HeightCounts {
     /// Nobody says a height.

@@ -1,4 +1,4 @@
-//! Whose storey, and of what material: names by which a product's parts can be meant.
+//! The storey and the materials of a product: names by which its parts can be selected.
 
 use super::scan::IfcScan;
 use ifc_lite_core::{DecodedEntity, EntityDecoder, IfcType};
