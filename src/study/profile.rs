@@ -123,7 +123,7 @@ impl<'a> TiledStudy<'a> {
     }
 
     /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
-    /// instants, whoever has found them. Sums of instants that make up the track add up to the tile's own to the bit, and
+    /// instants, which may come from another process. Sums of instants that make up the track add up to the tile's own to the bit, and
     /// [`paste`] puts tiles together. Where the device fails, so does this.
     ///
     /// # Errors
@@ -154,7 +154,7 @@ impl<'a> TiledStudy<'a> {
     }
 
     /// The tile that is worked on after so many instants, those of each tile counted: the last one until all of its instants
-    /// are done and told.
+    /// are done and reported.
     pub(crate) fn worked_on(&self, done: usize) -> usize {
         done.saturating_sub(1) / self.site.track.instants.len().max(1)
     }
@@ -170,9 +170,9 @@ impl fmt::Debug for TiledStudy<'_> {
     }
 }
 
-/// Every instant's shadows, summed; from where the study was stopped, where that is `begun`: sums are the same to the bit.
-/// Tiles before the one that was worked on are not told again. What another study left is not used. After [`Event::Anew`]
-/// all is told from the first instant on, or from what was put into [`Event::Resumes`].
+/// Sums every instant's shadows. A study that was stopped, given as `begun`, continues where it was; its sums are the same to
+/// the bit. Tiles before the one that was worked on are not reported again. What another study left is not used. After
+/// [`Event::Anew`] everything is reported from the first instant on, or from what was put into [`Event::Resumes`].
 ///
 /// # Errors
 /// [`StudyError`]

@@ -50,7 +50,8 @@ impl View {
         }
     }
 
-    /// The point from which everything is seen, homogeneous: the eye, or the direction straight up or level towards the viewer.
+    /// The point from which everything is seen, homogeneous: the eye, or the direction straight up, or level towards the
+    /// viewer.
     pub fn viewer(&self) -> DVec4 {
         match self {
             View::Plan(_) => DVec4::Z,
