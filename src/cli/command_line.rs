@@ -31,8 +31,8 @@ fn version() -> &'static str {
 pub(super) enum Command {
     /// The window, with a site or a model in it
     Open(OpenArgs),
-    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped goes
-    /// on where it was when it is asked again, but for outlines (--draw)
+    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped
+    /// continues where it was when the same command is given again, except for outlines (--draw)
     Profile(ProfileArgs),
     /// Two states of a site, existing and proposed: hours of sun lost and gained, with the areas, as compare.png,
     /// shadow-hours-difference.tif and compare.json. Study, plan and ground of the first are taken for both

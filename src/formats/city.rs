@@ -1,6 +1,6 @@
 //! What CityJSON and CityGML share: city objects → parts, one for each object and kind of surface.
 //!
-//! A roof can be meant without its walls, so an object's semantic surfaces are parts of their own: three or four a
+//! A roof can be selected without its walls, so an object's semantic surfaces are parts of their own: three or four a
 //! building, some 20,000 in a tile of 5,000 buildings. One LoD of an object stands there, and parts of a building replace
 //! what the building says itself.
 

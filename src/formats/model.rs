@@ -140,7 +140,7 @@ pub struct LeftOut {
 /// A material that is cut out or translucent.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SeeThrough {
-    /// Its name, by which `casts` may mean it.
+    /// Its name, by which `casts` can select it.
     pub material: String,
     /// The parts that have it, from 0; one or more.
     pub parts: Vec<usize>,

@@ -139,7 +139,7 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
 }
 
 impl App {
-    /// The same window, which keeps studies in a folder that are stopped: they go on when the same is asked again.
+    /// The same window, which keeps stopped studies in a folder: they continue when the same study is requested again.
     pub fn keeping_studies_in(mut self, folder: &Path) -> App {
         self.studies = Some(folder.to_owned());
         self

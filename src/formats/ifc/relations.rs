@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 /// How deep wholes and parts are followed; a file may go in circles.
 const MAX_DEPTH: usize = 64;
 
-/// The most materials that one product's set may have; each is a name by which it can be meant.
+/// The most materials that one product's set may have; each is a name by which it can be selected.
 const MAX_MATERIALS: usize = 64;
 
 /// What products belong to.
