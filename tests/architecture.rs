@@ -44,7 +44,20 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     (
         "export",
-        &["choice", "contour", "look", "mesh", "sun", "view", "site", "volume", "profile", "sunlight", "verification"],
+        &[
+            "choice",
+            "contour",
+            "look",
+            "mesh",
+            "sun",
+            "view",
+            "formats",
+            "site",
+            "volume",
+            "profile",
+            "sunlight",
+            "verification",
+        ],
     ),
     (
         "deliver",

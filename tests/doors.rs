@@ -42,7 +42,10 @@ const SHOWN: &[(&str, &[&str])] = &[
             "View",
         ],
     ),
-    ("site", &["FieldLocation", "Ground", "GroundFrom", "Likeness", "Mend", "Overrides", "Site", "SiteError"]),
+    (
+        "site",
+        &["FieldLocation", "Ground", "GroundFrom", "GroundKind", "Likeness", "Mend", "Overrides", "Site", "SiteError"],
+    ),
     ("silhouette", &["ProcessorFinder"]),
     ("gpu", &["Gpu", "GpuError"]),
     (

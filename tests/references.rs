@@ -59,6 +59,7 @@ fn samples(value: ValueType) -> (Vec<String>, Vec<String>) {
         ValueType::TwoMoments => (&["[\"x\", 2026-09-18]"], &["\"x\"", "[\"x\"]", "[1, 2]"]),
         ValueType::Number => (&["1", "-1.5"], &["\"x\"", "true", "[1.0]"]),
         ValueType::TextOrNumber => (&["\"x\"", "1"], &["true", "1.5", "-1"]),
+        ValueType::Texts => (&["[\"x\"]", "[]"], &["1", "\"x\"", "[1]", "true"]),
         ValueType::Names => (&["true", "false", "[\"x\"]"], &["1", "\"x\"", "[1]"]),
         ValueType::Numbers(count) => {
             let list = |count: usize| format!("[{}]", vec!["1"; count].join(", "));

@@ -7,6 +7,7 @@
 
 mod convert;
 mod datums;
+mod definition;
 mod local;
 mod names;
 mod wkt;
@@ -15,6 +16,7 @@ pub use convert::MapToLocal;
 pub use local::{LocalFrame, TOO_FAR_M};
 
 use crate::message::{Message, message};
+use definition::{Definition, shortened};
 use glam::DVec3;
 use proj4rs::Proj;
 use proj4rs::transform::transform;
@@ -183,25 +185,5 @@ impl Crs {
         let east = turned * along_parallel;
         let up = (north.latitude_deg - south.latitude_deg) * along_meridian;
         (east != 0.0 || up != 0.0).then(|| east.atan2(up))
-    }
-}
-
-/// A system as it is found, before its arithmetic is set up.
-#[derive(Debug)]
-struct Definition {
-    name: String,
-    /// PROJ's text.
-    proj: String,
-    height_unit_m: Option<f64>,
-    doubt: Option<&'static str>,
-}
-
-/// A text that a message can hold.
-fn shortened(text: &str) -> String {
-    const MOST: usize = 60;
-    let one_line: String = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match one_line.char_indices().nth(MOST) {
-        Some((end, _)) => format!("\"{}…\"", &one_line[..end]),
-        None => format!("\"{one_line}\""),
     }
 }

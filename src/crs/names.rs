@@ -1,6 +1,6 @@
 //! The names of reference systems: codes of the EPSG dataset in all their spellings, and the dataset's own names.
 
-use super::{Definition, shortened};
+use super::definition::{Definition, shortened};
 use crate::message::{Message, message};
 use rustc_hash::FxHashMap;
 use std::sync::LazyLock;

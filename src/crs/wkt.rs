@@ -1,8 +1,8 @@
 //! Reference systems in WKT, of either version: by the number in the EPSG dataset that they name, by their name, or by their
 //! parameters, as the `.prj` files of some programs have no number.
 
+use super::definition::{Definition, shortened};
 use super::names::{by_code, by_name, unknown};
-use super::{Definition, shortened};
 use crate::message::{Message, message};
 use std::fmt::Write as _;
 

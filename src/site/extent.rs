@@ -1,5 +1,6 @@
 //! How far the models and their shadows on the ground reach.
 
+use crate::formats::Model;
 use crate::mesh::Mesh;
 use crate::sun::SunTrack;
 use glam::{DVec2, DVec3};
@@ -79,4 +80,17 @@ fn around(mesh: &Mesh, of: impl Fn(usize) -> bool, first: Bounds, tell: impl Fn(
         let parts = faces.par_iter().with_min_len(AT_ONCE).fold(|| first, of_face);
         parts.reduce(|| bounds, Bounds::and)
     })
+}
+
+/// A box around what is made of a model's corners; none where there are none.
+pub(super) fn bounds_of(model: &Model, of: impl Fn(DVec3) -> DVec3 + Sync) -> Option<[DVec3; 2]> {
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let wider = |[low, high]: [DVec3; 2], corner: &DVec3| {
+        let at = of(*corner);
+        [low.min(at), high.max(at)]
+    };
+    let both = |one: [DVec3; 2], other: [DVec3; 2]| [one[0].min(other[0]), one[1].max(other[1])];
+    let corners = model.parts.par_iter().flat_map(|part| part.positions.par_iter());
+    let found = corners.fold(|| none, wider).reduce(|| none, both);
+    (found[0].is_finite() && found[1].is_finite()).then_some(found)
 }

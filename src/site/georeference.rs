@@ -3,9 +3,10 @@
 //! A model stands by its coordinates, where these are of a map, else by the first of its anchors that can be used; what the
 //! user wrote goes before either.
 
+use super::anchored::{AnchoredNorth, AnchoredZero, true_north};
+use super::extent::bounds_of;
 use super::place_doubts;
 use super::placement::Placement;
-use super::stand::bounds;
 use crate::crs::{Crs, CrsKind, GeodeticPoint};
 use crate::formats::{Anchor, AnchorPoint, Coordinates, Model};
 use crate::message::{Message, message};
@@ -46,26 +47,6 @@ pub(super) enum Reference {
     },
     /// A point of the Earth, where its zero stands.
     Anchor(Box<AnchoredZero>),
-}
-
-/// Where a model's zero stands, and which way it is turned; what is not said is none.
-#[derive(Clone, Debug)]
-pub(super) struct AnchoredZero {
-    pub(super) at: Option<GeodeticPoint>,
-    /// Whether the height of `at` is said.
-    pub(super) has_height: bool,
-    /// The point of a map that it is, where it is one.
-    pub(super) on_map: Option<(Crs, DVec3)>,
-    pub(super) north: Option<AnchoredNorth>,
-}
-
-/// Radians clockwise from the file's north.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum AnchoredNorth {
-    /// To the north of the anchor's map.
-    Map(f64),
-    /// To true north.
-    True(f64),
 }
 
 /// What is wrong with a key of the model.
@@ -307,15 +288,6 @@ fn map_north<'a>(model: &'a Model, notes: &mut Vec<Message>) -> Option<(&'a Anch
     Some((anchor, AnchoredZero { at: None, has_height: false, on_map: None, north }))
 }
 
-/// Radians clockwise from the file's north to true north, where an anchor says it.
-pub(super) fn true_north(zero: &AnchoredZero) -> Option<f64> {
-    match (zero.north?, &zero.on_map) {
-        (AnchoredNorth::True(north), _) => Some(north),
-        (AnchoredNorth::Map(north), Some((crs, at))) => Some(north - crs.convergence_rad(at.x, at.y)?),
-        (AnchoredNorth::Map(_), None) => None,
-    }
-}
-
 /// A model far from its zero, by an anchor on a map: its coordinates become the map's, by the file's own scale. None where
 /// the user says how it stands.
 fn beyond(model: &Model, placement: &Placement, anchor: &Anchor, zero: &AnchoredZero) -> Option<Reference> {
@@ -335,7 +307,7 @@ fn beyond(model: &Model, placement: &Placement, anchor: &Anchor, zero: &Anchored
 /// Metres from the zero to the middle of a box around the model, along the ground.
 fn farthest_m(model: &Model, placement: &Placement) -> f64 {
     let upright = placement.upright(model) * placement.unit_m(model);
-    let Some([low, high]) = bounds(model, |corner| corner) else { return 0.0 };
+    let Some([low, high]) = bounds_of(model, |corner| corner) else { return 0.0 };
     let middle: DVec2 = (upright * ((low + high) / 2.0)).truncate();
     if middle.is_finite() { middle.length() } else { 0.0 }
 }

@@ -40,6 +40,8 @@ pub enum ValueType {
     TextOrNumber,
     /// `true`, `false`, or a list of names.
     Names,
+    /// A list of texts in quotes.
+    Texts,
     /// One of some words, in quotes.
     Word(fn() -> Vec<&'static str>),
 }
@@ -140,7 +142,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .unit("metres")
         .default("0.1")
         .means("How far the triangles of a [raster of heights](formats.md#geotiff) may lie from its heights, at most."),
-    key("model", "classes", ValueType::Names, "classes = [\"building\", \"vegetation\"]")
+    key("model", "classes", ValueType::Texts, "classes = [\"building\", \"vegetation\"]")
         .default("the ground alone")
         .means(
             "Which classes of [measured points](formats.md#las-and-laz) stand there beside the ground: `building`, \

@@ -2,6 +2,7 @@
 //!
 //! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unproven.
 
+mod anchored;
 mod camera;
 mod choice;
 mod contents;

@@ -1,8 +1,9 @@
 //! The place that models' files propose, and what `gnomon check` says of each.
 
+use super::anchored::{AnchoredZero, true_north};
 use super::error::SiteError;
 use super::file::{PlaceSource, PlaceTable};
-use super::georeference::{AnchoredZero, Georeference, Reference, true_north};
+use super::georeference::{Georeference, Reference};
 use super::overrides::refuse;
 use super::place_doubts::{self, degrees};
 use super::placement::Placement;

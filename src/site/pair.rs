@@ -98,21 +98,8 @@ impl Pair {
         });
         first.grid = plan::grid(before, asked, || [low.min(other_low), high.max(other_high)])?;
         second.grid = first.grid;
-        // where nobody says it
         let is_found = after.site.ground.level.is_none() && first.ground.from != GroundFrom::Site;
-        let alone = Some(Ground::found(&second.mesh, &second.receives).level)
-            .filter(|alone| is_found && !first.ground.is_at(*alone));
-        second.notes.extend(alone.map(|alone| {
-            message![
-                format!(
-                    "{} has the ground of {}, {}, since a comparison has one",
-                    after.file,
-                    before.file,
-                    metres(first.ground.level)
-                );
-                format!("alone it would have {}", metres(alone))
-            ]
-        }));
+        second.notes.extend(other_ground([&first, &second], [&before.file, &after.file]).filter(|_| is_found));
         let lowest = first.ground.lowest.min(second.ground.lowest);
         (first.ground.lowest, second.ground.lowest) = (lowest, lowest);
         second.ground.from = first.ground.from;
@@ -159,4 +146,15 @@ fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> R
         return fault("time_zone", format!("{} is not {}, as of", there.time_zone, here.time_zone));
     }
     Ok(there.name)
+}
+
+/// That the state after would have another ground alone.
+fn other_ground([first, second]: [&Site; 2], [before, after]: [&str; 2]) -> Option<Message> {
+    let alone = Ground::found(&second.mesh, &second.receives).level;
+    (!first.ground.is_at(alone)).then(|| {
+        message![
+            format!("{after} has the ground of {before}, {}, since a comparison has one", metres(first.ground.level));
+            format!("alone it would have {}", metres(alone))
+        ]
+    })
 }

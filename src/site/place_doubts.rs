@@ -1,6 +1,6 @@
 //! Places in files that nobody has set, and sources that disagree.
 
-use super::georeference::{AnchoredZero, true_north};
+use super::anchored::{AnchoredZero, true_north};
 use super::model_place::ModelReference;
 use crate::crs::{GeodeticPoint, LocalFrame};
 use crate::message::{Message, message};

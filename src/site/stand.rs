@@ -1,11 +1,13 @@
 //! A model and what is known of its position → the model where it stands, in the one frame of the site.
 
-use super::georeference::{AnchoredNorth, AnchoredZero, Georeference, KeyFault, Reference, true_north};
+use super::anchored::{AnchoredNorth, AnchoredZero, true_north};
+use super::extent::bounds_of;
+use super::georeference::{Georeference, KeyFault, Reference};
 use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, angle, degrees, half_turn, length};
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
-use crate::formats::Model;
-use crate::message::{Message, message};
+use crate::formats::{Model, PartKind};
+use crate::message::{Message, message, set_to};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
@@ -65,8 +67,24 @@ pub(super) fn stand(
             let north_rad = placement.north_rad.or(true_north(&zero)).unwrap_or_default();
             Ok(by_site(model, north_rad, position, notes, false))
         }
-        (Reference::Placement | Reference::Map { .. }, _) => Ok(by_site(model, north_rad, position, notes, false)),
+        (Reference::Placement | Reference::Map { .. }, _) => {
+            notes.extend(note_no_map(&model, placement));
+            Ok(by_site(model, north_rad, position, notes, false))
+        }
     }
+}
+
+/// That terrain, which always is of some map, does not say of which one.
+fn note_no_map(model: &Model, placement: &Placement) -> Option<Message> {
+    let is_terrain = model.kinds.contains(&PartKind::Terrain);
+    let is_placed = placement.position.is_some() || placement.crs.is_some();
+    let crs = || set_to("[[model]]", "crs", "EPSG:…".to_owned(), "`crs = \"EPSG:…\"` under [[model]]".to_owned());
+    (is_terrain && !is_placed).then(|| {
+        message![
+            "does not say of which map its coordinates are, so they are taken as metres from the place";
+            "write ", crs()
+        ]
+    })
 }
 
 /// Every corner from a map into the frame.
@@ -79,6 +97,7 @@ fn converted(
     frame: &SiteFrame,
 ) -> Result<Model, KeyFault> {
     let to = MapToLocal { crs, frame: &frame.local };
+    let height_unit_m = model.unit_m.unwrap_or(1.0);
     for part in &mut model.parts {
         part.positions.par_iter_mut().for_each(|corner| *corner = map_from_model.transform_point3(*corner));
         let first = part.positions.first().copied();
@@ -96,7 +115,7 @@ fn converted(
         part.positions
             .iter_mut()
             .zip(heights.unwrap_or_default())
-            .for_each(|(corner, height)| corner.z = height * unit_m);
+            .for_each(|(corner, height)| corner.z = height * height_unit_m);
         part.positions.par_iter_mut().for_each(|corner| *corner += position);
         part.coarse.iter_mut().for_each(|run| run.step_m *= unit_m);
     }
@@ -136,35 +155,8 @@ fn anchored(
     });
     let north = placement.north_rad.or(by_anchor).unwrap_or_default();
     let position = placement.position.unwrap_or(there);
-    let mut said = vec![match (is_elsewhere, placement.position) {
-        (true, None) => {
-            format!("stands at the place, though its {said_by} says {}, {} from there", degrees(at), length(away))
-        }
-        (_, Some(position)) if (position - there).length() <= ONE_PLACE_M => String::new(),
-        (_, Some(_)) => format!(
-            "stands where `position` says, {} from where its {said_by} says, {}",
-            length(position.distance(there)),
-            degrees(at)
-        ),
-        (false, None) => {
-            let on_map = zero.on_map.as_ref().map(|(crs, _)| format!(" in {}", crs.name())).unwrap_or_default();
-            let away = if away > ONE_PLACE_M { format!(", {} from the place", length(away)) } else { String::new() };
-            format!("stands where its {said_by} says{on_map}{away}")
-        }
-    }];
-    match (placement.north_rad, by_anchor) {
-        (Some(north), Some(by_anchor)) if half_turn(north - by_anchor).abs() > ONE_NORTH_RAD => {
-            said.push(said_north(said_by, by_anchor, north));
-        }
-        (None, Some(by_anchor)) => {
-            let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
-            let of_map = convergence
-                .map(|convergence| format!(", with the map's convergence of {}", angle(convergence)))
-                .unwrap_or_default();
-            said.push(format!("its north is {}{of_map}", angle(by_anchor)));
-        }
-        _ => {}
-    }
+    let mut said = vec![said_point(zero, said_by, placement.position, (at, there, away))];
+    said.extend(said_turn(zero, said_by, placement.north_rad, by_anchor));
     if placement.position.is_none() && !frame.has_elevation && there.z.abs() > ONE_PLACE_M {
         said.push(no_elevation(there.z, place_height));
     }
@@ -172,6 +164,50 @@ fn anchored(
     let note =
         (!said.is_empty()).then(|| message![said.join("; "); "`position` and `north` under [[model]] change it"]);
     Ok((position, north, note))
+}
+
+/// Where a zero stands that is by its anchor `at`, so far `away` from the place, and `there` in the frame; empty where two
+/// say the same.
+fn said_point(
+    zero: &AnchoredZero,
+    said_by: &str,
+    position: Option<DVec3>,
+    (at, there, away): (GeodeticPoint, DVec3, f64),
+) -> String {
+    let is_elsewhere = zero.on_map.is_none() && away > FAR_M;
+    match (is_elsewhere, position) {
+        (true, None) => {
+            format!("stands at the place, though its {said_by} says {}, {} from there", degrees(at), length(away))
+        }
+        (_, Some(position)) if (position - there).length() <= ONE_PLACE_M => String::new(),
+        (_, Some(_)) => format!(
+            "stands where `position` says, {} from where its {said_by} says, {}",
+            length(position.unwrap_or_default().distance(there)),
+            degrees(at)
+        ),
+        (false, None) => {
+            let on_map = zero.on_map.as_ref().map(|(crs, _)| format!(" in {}", crs.name())).unwrap_or_default();
+            let away = if away > ONE_PLACE_M { format!(", {} from the place", length(away)) } else { String::new() };
+            format!("stands where its {said_by} says{on_map}{away}")
+        }
+    }
+}
+
+/// Which way a zero is turned, by its anchor or by the user.
+fn said_turn(zero: &AnchoredZero, said_by: &str, asked: Option<f64>, by_anchor: Option<f64>) -> Option<String> {
+    match (asked, by_anchor) {
+        (Some(north), Some(by_anchor)) if half_turn(north - by_anchor).abs() > ONE_NORTH_RAD => {
+            Some(said_north(said_by, by_anchor, north))
+        }
+        (None, Some(by_anchor)) => {
+            let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
+            let of_map = convergence
+                .map(|convergence| format!(", with the map's convergence of {}", angle(convergence)))
+                .unwrap_or_default();
+            Some(format!("its north is {}{of_map}", angle(by_anchor)))
+        }
+        _ => None,
+    }
 }
 
 /// The north of a model whose file says no place.
@@ -206,7 +242,7 @@ fn no_elevation(above_m: f64, place_m: f64) -> String {
 
 /// Where a model of a map stands.
 fn note_map(model: &Model, crs: &Crs, said_by: &str, placement: &Placement, frame: &SiteFrame) -> Option<Message> {
-    let [low, high] = bounds(model, |corner| corner)?;
+    let [low, high] = bounds_of(model, |corner| corner)?;
     let middle = (low + high) / 2.0;
     let away = middle.truncate().length();
     let mut said = format!("is in {}, as {} says", crs.name(), if said_by == "crs" { "`crs`" } else { "its file" });
@@ -248,33 +284,20 @@ pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoi
 
 /// The middle of a box around a model, in the units of its map; its height is the lowest.
 pub(super) fn map_middle(model: &Model, map_from_model: DAffine3) -> Option<DVec3> {
-    let [low, high] = bounds(model, |corner| map_from_model.transform_point3(corner))?;
+    let [low, high] = bounds_of(model, |corner| map_from_model.transform_point3(corner))?;
     Some(((low + high) / 2.0).with_z(low.z))
 }
 
 fn middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<GeodeticPoint> {
     let of_map = |corner: DVec3| map_from_model.transform_point3(corner);
     if crs.kind() == CrsKind::EarthCentred {
-        let [low, high] = bounds(model, of_map)?;
+        let [low, high] = bounds_of(model, of_map)?;
         let at = crs.to_wgs84((low + high) / 2.0)?;
         // of heights only the lowest counts
         let height = |corner: DVec3| DVec3::splat(crs.to_wgs84(of_map(corner)).map_or(f64::INFINITY, |at| at.height_m));
-        let [lowest, _] = bounds(model, height)?;
+        let [lowest, _] = bounds_of(model, height)?;
         return Some(GeodeticPoint { height_m: lowest.z.floor(), ..at });
     }
     let at = map_middle(model, map_from_model)?;
     Some(GeodeticPoint { height_m: at.z.floor(), ..crs.to_wgs84(at)? })
-}
-
-/// A box around what is made of a model's corners; none where there are none.
-pub(super) fn bounds(model: &Model, of: impl Fn(DVec3) -> DVec3 + Sync) -> Option<[DVec3; 2]> {
-    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    let wider = |[low, high]: [DVec3; 2], corner: &DVec3| {
-        let at = of(*corner);
-        [low.min(at), high.max(at)]
-    };
-    let both = |one: [DVec3; 2], other: [DVec3; 2]| [one[0].min(other[0]), one[1].max(other[1])];
-    let corners = model.parts.par_iter().flat_map(|part| part.positions.par_iter());
-    let found = corners.fold(|| none, wider).reduce(|| none, both);
-    (found[0].is_finite() && found[1].is_finite()).then_some(found)
 }

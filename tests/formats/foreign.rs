@@ -27,10 +27,11 @@ fn files_of_other_programs_say_how_to_export() {
     assert_refused("house.txt", b"a house", &["of no format that Gnomon knows", "glTF", "OBJ", "DXF"]);
 }
 
-/// Endings lead to one format each.
+/// Endings lead to one format each, but for those of texts of many formats, which their content tells apart.
 #[test]
 fn no_ending_is_two_formats_own() {
-    let mut endings: Vec<&str> = FORMATS.iter().flat_map(|format| format.endings()).copied().collect();
+    let endings = FORMATS.iter().flat_map(|format| format.endings()).copied();
+    let mut endings: Vec<&str> = endings.filter(|ending| !["json", "xml"].contains(ending)).collect();
     let count = endings.len();
     endings.sort_unstable();
     endings.dedup();

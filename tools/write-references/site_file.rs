@@ -26,6 +26,7 @@ fn value(key: &SiteKey) -> String {
         ValueType::Number => "a number".to_owned(),
         ValueType::Numbers(count) => format!("a list of {count} numbers"),
         ValueType::TextOrNumber => "text in quotes, or a whole number".to_owned(),
+        ValueType::Texts => "a list of texts in quotes".to_owned(),
         ValueType::Names => "`true`, `false`, or a list of names in quotes".to_owned(),
         ValueType::Word(words) => words().iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(", "),
     };

@@ -5,7 +5,7 @@
 
 /// The values of the keys that say where and how high.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct GeoKeys {
+pub(super) struct MapKeys {
     /// As `EPSG:25832`, or the name of one that has no number.
     pub crs: Option<String>,
     /// Metres a unit of height, where it is said.
@@ -31,9 +31,9 @@ const TEXTS: u16 = 34737;
 /// The value of what the file defines itself.
 const USER_DEFINED: u16 = 32767;
 
-impl GeoKeys {
+impl MapKeys {
     /// Reads a directory and the texts beside it.
-    pub(super) fn of(directory: &[u16], texts: &str) -> GeoKeys {
+    pub(super) fn of(directory: &[u16], texts: &str) -> MapKeys {
         let count = directory.get(3).copied().unwrap_or(0).into();
         let keys: Vec<[u16; 4]> =
             directory.get(4..).unwrap_or_default().as_chunks::<4>().0.iter().copied().take(count).collect();
@@ -48,7 +48,7 @@ impl GeoKeys {
             Some(2) => code(GEOGRAPHIC),
             _ => code(PROJECTED).or_else(|| code(GEOGRAPHIC).filter(|_| short(PROJECTED).is_none())),
         };
-        GeoKeys {
+        MapKeys {
             crs: horizontal
                 .map(|code| format!("EPSG:{code}"))
                 .or_else(|| text(PROJECTED_CITATION))

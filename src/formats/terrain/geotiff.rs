@@ -1,6 +1,6 @@
 //! GeoTIFF elevation: striped, tiled or planar, of any type of number.
 
-use super::geokeys::GeoKeys;
+use super::geokeys::MapKeys;
 use super::grid::HeightGrid;
 use super::model_of;
 use crate::formats::source::stem;
@@ -67,14 +67,14 @@ impl Format for GeoTiff {
     }
 }
 
-fn keys(tiff: &mut Tiff) -> GeoKeys {
+fn keys(tiff: &mut Tiff) -> MapKeys {
     let directory = tiff.get_tag_u16_vec(KEY_DIRECTORY).unwrap_or_default();
     let texts = tiff.get_tag_ascii_string(KEY_TEXTS).unwrap_or_default();
-    GeoKeys::of(&directory, &texts)
+    MapKeys::of(&directory, &texts)
 }
 
 /// Where the middle of the first cell lies, and the steps to its neighbours.
-fn placed(tiff: &mut Tiff, keys: &GeoKeys, path: &Path) -> Result<(DVec2, [DVec2; 2]), ModelFault> {
+fn placed(tiff: &mut Tiff, keys: &MapKeys, path: &Path) -> Result<(DVec2, [DVec2; 2]), ModelFault> {
     let numbers = |tiff: &mut Tiff, tag| tiff.get_tag_f64_vec(tag).unwrap_or_default();
     let middle = if keys.is_point { 0.0 } else { 0.5 };
     let (scale, ties) = (numbers(tiff, PIXEL_SCALE), numbers(tiff, TIE_POINT));
@@ -157,7 +157,7 @@ fn no_data(tiff: &mut Tiff, heights: &[f32], notes: &mut Vec<Message>) -> Option
 }
 
 /// Metres a unit of height.
-fn unit(keys: &GeoKeys, notes: &mut Vec<Message>) -> f64 {
+fn unit(keys: &MapKeys, notes: &mut Vec<Message>) -> f64 {
     match (keys.height_unit_m, keys.map_unit_m) {
         (Some(unit), _) => unit,
         (None, Some(unit)) if unit != 1.0 => {

@@ -130,12 +130,6 @@ impl LandXmlFile {
         if self.unit_m.is_none() {
             notes.push("does not say its unit; it is taken as metres".to_owned().into());
         }
-        if self.crs.is_none() {
-            notes.push(message![
-                "does not say of which map its coordinates are, so they are taken as metres from the place";
-                "write `crs = \"EPSG:…\"` under [[model]]"
-            ]);
-        }
         let unit_m = self.unit_m.unwrap_or(1.0);
         let is_of_map = self.crs.is_some();
         let sheets = self.surfaces.into_iter().map(|surface| -> NamedSheet {

@@ -44,12 +44,6 @@ fn model_of(grid: &HeightGrid, error_m: f64, name: &str, crs: Option<String>) ->
     if missing > 0 {
         notes.push(format!("has {missing} cells without a height, where there is no terrain").into());
     }
-    if crs.is_none() {
-        notes.push(message![
-            "does not say of which map its coordinates are, so they are taken as metres from the place";
-            "write `crs = \"EPSG:…\"` under [[model]]"
-        ]);
-    }
     Ok(of_sheets(vec![(name.to_owned(), sheet.positions, sheet.triangles, PartKind::Terrain)], crs, notes))
 }
 
@@ -71,7 +65,8 @@ fn of_sheets(sheets: Vec<NamedSheet>, crs: Option<String>, notes: Vec<crate::mes
         kinds,
         up: Up::Z,
         up_is_said: true,
-        unit_m: Some(1.0),
+        // without a map nobody knows the unit in plan
+        unit_m: crs.is_some().then_some(1.0),
         coordinates: crs.map_or(Coordinates::Local, Coordinates::Map),
         notes,
         ..Model::default()

@@ -1,7 +1,7 @@
 //! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on
 //! request.
 
-use super::geokeys::GeoKeys;
+use super::geokeys::MapKeys;
 use super::point_cells::{CellBlocks, PointCells};
 use super::{NamedSheet, of_sheets, thin};
 use crate::formats::source::stem;
@@ -152,17 +152,17 @@ impl ClassedPoints {
 }
 
 /// Of which map the points are: as WKT says it where there is one, else GeoTIFF's keys.
-fn keys(header: &Header) -> GeoKeys {
+fn keys(header: &Header) -> MapKeys {
     let record = |number: u16| {
         header.all_vlrs().find(|record| record.record_id == number && record.user_id == "LASF_Projection")
     };
     let shorts = |bytes: &[u8]| bytes.as_chunks::<2>().0.iter().map(|pair| u16::from_le_bytes(*pair)).collect();
     let directory: Vec<u16> = record(34735).map(|record| shorts(&record.data)).unwrap_or_default();
     let text = |number| record(number).map(|record| String::from_utf8_lossy(&record.data).into_owned());
-    let keys = GeoKeys::of(&directory, &text(34737).unwrap_or_default());
+    let keys = MapKeys::of(&directory, &text(34737).unwrap_or_default());
     let wkt = text(2112).map(|wkt| wkt.trim_end_matches('\0').trim().to_owned()).filter(|wkt| !wkt.is_empty());
     match wkt {
-        Some(wkt) => GeoKeys { height_unit_m: vertical_unit_m(&wkt), crs: Some(wkt), ..keys },
+        Some(wkt) => MapKeys { height_unit_m: vertical_unit_m(&wkt), crs: Some(wkt), ..keys },
         None => keys,
     }
 }
@@ -176,14 +176,8 @@ fn vertical_unit_m(wkt: &str) -> Option<f64> {
     number.parse().ok().filter(|unit| (1e-3..1e4).contains(unit))
 }
 
-fn notes(keys: &GeoKeys, points: &ClassedPoints) -> Vec<Message> {
+fn notes(keys: &MapKeys, points: &ClassedPoints) -> Vec<Message> {
     let mut notes = Vec::new();
-    if keys.crs.is_none() {
-        notes.push(message![
-            "does not say of which map its coordinates are, so they are taken as metres from the place";
-            "write `crs = \"EPSG:…\"` under [[model]]"
-        ]);
-    }
     match (keys.height_unit_m, keys.map_unit_m) {
         (Some(_), _) => (),
         (None, Some(unit)) if unit != 1.0 => {

@@ -21,7 +21,7 @@ const DEPTH: usize = 2 * HALVINGS;
 const ABSENT: u32 = u32::MAX;
 
 /// What comes of a raster.
-pub(super) struct Sheet {
+pub(super) struct ThinnedSheet {
     /// In the file's coordinates.
     pub positions: Vec<DVec3>,
     /// Counter-clockwise seen from above.
@@ -29,17 +29,17 @@ pub(super) struct Sheet {
 }
 
 /// A sample's column and row.
-type Sample = [usize; 2];
+type RasterSample = [usize; 2];
 
 /// A right triangle: the ends of its longest side, and its right angle.
 #[derive(Clone, Copy)]
 struct RightTriangle {
-    ends: [Sample; 2],
-    apex: Sample,
+    ends: [RasterSample; 2],
+    apex: RasterSample,
 }
 
 impl RightTriangle {
-    fn middle(&self) -> Sample {
+    fn middle(&self) -> RasterSample {
         let [one, other] = self.ends;
         [(one[0] + other[0]) / 2, (one[1] + other[1]) / 2]
     }
@@ -52,7 +52,7 @@ impl RightTriangle {
         ]
     }
 
-    fn corners(&self) -> [Sample; 3] {
+    fn corners(&self) -> [RasterSample; 3] {
         [self.ends[0], self.ends[1], self.apex]
     }
 }
@@ -69,7 +69,7 @@ struct Squares<'a> {
 }
 
 /// The triangles whose corners lie within `error_m` of a raster's samples, and all samples within that of them.
-pub(super) fn sheet(grid: &HeightGrid, error_m: f32) -> Sheet {
+pub(super) fn sheet(grid: &HeightGrid, error_m: f32) -> ThinnedSheet {
     let count = [grid.columns, grid.rows].map(|samples| samples.saturating_sub(1).div_ceil(SQUARE));
     let [width, height] = count.map(|squares| squares * SQUARE + 1);
     let halves = (0..width * height).into_par_iter().map(|_| AtomicBool::new(false)).collect();
@@ -96,7 +96,7 @@ impl Squares<'_> {
         (0..across * down).flat_map(square).collect()
     }
 
-    fn is_halved(&self, [column, row]: Sample) -> bool {
+    fn is_halved(&self, [column, row]: RasterSample) -> bool {
         self.halves.get(row * self.width + column).is_some_and(|is_halved| is_halved.load(Ordering::Relaxed))
     }
 
@@ -131,7 +131,9 @@ impl Squares<'_> {
         let [a, b, c] = triangle.corners();
         let [height_a, height_b, height_c] = [a, b, c].map(|[column, row]| self.grid.height(column, row));
         // the plane's slopes, from the two sides of the right angle, of which each may be any of the two axes
-        let at = |corner: Sample| DVec2::new(corner[0] as f64, corner[1] as f64) - DVec2::new(c[0] as f64, c[1] as f64);
+        let at = |corner: RasterSample| {
+            DVec2::new(corner[0] as f64, corner[1] as f64) - DVec2::new(c[0] as f64, c[1] as f64)
+        };
         let (to_a, to_b) = (at(a), at(b));
         let [rise_a, rise_b] = [height_a, height_b].map(|height| f64::from(height) - f64::from(height_c));
         let slope = (to_a * rise_a / to_a.length_squared() + to_b * rise_b / to_b.length_squared()).as_vec2();
@@ -156,13 +158,13 @@ impl Squares<'_> {
         false
     }
 
-    fn sheet(&self) -> Sheet {
+    fn sheet(&self) -> ThinnedSheet {
         let mut corners = Vec::new();
         for root in self.each_root() {
             self.gather(root, DEPTH, &mut corners);
         }
         let mut numbers = vec![ABSENT; self.halves.len()];
-        let mut sheet = Sheet { positions: Vec::new(), triangles: Vec::with_capacity(corners.len()) };
+        let mut sheet = ThinnedSheet { positions: Vec::new(), triangles: Vec::with_capacity(corners.len()) };
         for triangle in corners {
             let mut numbered = triangle.map(|[column, row]| {
                 let number = &mut numbers[row * self.width + column];
@@ -181,7 +183,7 @@ impl Squares<'_> {
     }
 
     /// The triangles below one that are close enough, or cannot be halved; without those that have no height.
-    fn gather(&self, triangle: RightTriangle, halvings: usize, found: &mut Vec<[Sample; 3]>) {
+    fn gather(&self, triangle: RightTriangle, halvings: usize, found: &mut Vec<[RasterSample; 3]>) {
         if halvings > 0 && self.is_halved(triangle.middle()) {
             return triangle.halves().into_iter().for_each(|half| self.gather(half, halvings - 1, found));
         }
@@ -193,7 +195,7 @@ impl Squares<'_> {
 }
 
 /// The first and the last column of a row that lie in a triangle whose sides are level, upright or at 45°.
-fn columns_of(corners: &[Sample; 3], row: usize) -> (usize, usize) {
+fn columns_of(corners: &[RasterSample; 3], row: usize) -> (usize, usize) {
     let mut found = (usize::MAX, 0);
     for (one, other) in [(0, 1), (1, 2), (2, 0)] {
         let [one, other] = [corners[one], corners[other]];

@@ -58,7 +58,9 @@ impl House {
         let axes = step.add(format!("IFCAXIS2PLACEMENT3D(#{origin},$,$)"));
         let context = step.add(format!("IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-05,#{axes},$)"));
         let up = step.add("IFCDIRECTION((0.,0.,1.))");
-        let crs = step.add("IFCPROJECTEDCRS('EPSG:25833','ETRS89 / UTM zone 33N','ETRS89',$,'UTM','33N',$)");
+        let metre = step.add("IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.)");
+        let crs =
+            step.add(format!("IFCPROJECTEDCRS('EPSG:25833','ETRS89 / UTM zone 33N','ETRS89',$,'UTM','33N',#{metre})"));
         let (sin, cos) = TURNED_DEG.to_radians().sin_cos();
         let on_ground = height(0.0, 0.0);
         step.add(format!(
@@ -89,7 +91,7 @@ impl House {
         let guid = self.step.guid();
         let site = self.step.add(format!(
             "IFCSITE({guid},#{owner},'Plot',$,$,#{placement},$,$,.ELEMENT.,(47,48,0,0),(13,2,24,0),{:.3},$,$)",
-            height(0.0, 0.0)
+            1000.0 * height(0.0, 0.0)
         ));
         let guid = self.step.guid();
         let building =
