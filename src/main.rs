@@ -1,4 +1,4 @@
-//! The program: a subcommand goes to the command's face, none to the window.
+//! The program: with a subcommand it is the command, without one the window.
 
 use std::process::ExitCode;
 

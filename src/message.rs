@@ -1,4 +1,4 @@
-//! What is said to people, while it is not known where they sit: text in which the fields of a request are marked.
+//! Messages for people, before it is known through which face they are read: text in which the fields of a request are marked.
 //!
 //! An error or a note names a [`Field`], and a face has [`Words`] for it: the command an option, the window a label.
 

@@ -206,7 +206,7 @@ fn a_study_stopped_at_its_drawing_says_where_it_goes_on() {
     assert!(told.contains("100%") && told.contains("the same command goes on from there"), "{told}");
     assert!(numberless(&bits).iter().any(|name| name == "profile.N.unfinished"));
     let told = stopped(path, &format!("{asked} --out short"), "100%");
-    assert!(told.contains("is not kept; the same command begins anew"), "{told}");
+    assert!(told.contains("is not kept; the same command starts over"), "{told}");
     assert_eq!(numberless(&path.join("short")), [""; 0]);
 }
 
@@ -272,13 +272,13 @@ fn what_another_study_left_is_not_used() {
     // half a file is none
     fs::write(&file, &kept[..kept.len() - 1]).unwrap();
     let told = stderr(&gnomon(path, &asked));
-    assert!(told.contains("begins anew") && !told.contains("goes on"), "{told}");
+    assert!(told.contains("starts over") && !told.contains("goes on"), "{told}");
     // and the number of the study is looked at, not the file's name alone
     let short = asked.replace("3min", "2min");
     stopped(path, &short, "10%");
     fs::rename(left(&path.join("out")), &file).unwrap();
     let told = stderr(&gnomon(path, &asked));
-    assert!(told.contains("begins anew") && !told.contains("goes on"), "{told}");
+    assert!(told.contains("starts over") && !told.contains("goes on"), "{told}");
     fs::write(&file, &kept).unwrap();
     assert!(stderr(&gnomon(path, &asked)).contains("goes on"));
     assert_eq!(numberless(&path.join("out")), ["shadow-hours.tif"]);

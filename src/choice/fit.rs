@@ -1,4 +1,4 @@
-//! What fits what.
+//! Which choices go together.
 
 use super::table::{Method, MethodRow, Setting, Subject, TABLE};
 use super::{Engine, Finder, Settings, listed};

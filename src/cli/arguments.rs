@@ -31,7 +31,8 @@ pub(super) struct Common {
 /// Where.
 #[derive(Debug, Args)]
 pub(super) struct SiteArgs {
-    /// A site file, a folder that holds a site.toml, or one or more models together with --place
+    /// A site file, a folder that holds a site.toml, or one or more models; without a site file, a model's file or
+    /// --place says the place
     #[arg(value_name = "SITE", required = true)]
     paths: Vec<PathBuf>,
     #[command(flatten)]
@@ -40,10 +41,10 @@ pub(super) struct SiteArgs {
     ground: GroundArgs,
 }
 
-/// Where a model stands, and in which air.
+/// Where the models stand, and in which air.
 #[derive(Debug, Args)]
 pub(super) struct PlaceArgs {
-    /// Where a model stands, degrees north and east: 48.8583,2.2945
+    /// Where the models stand, degrees north and east: 48.8583,2.2945 [default: where a model's file says]
     #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true)]
     place: Option<String>,
     /// Directions without the air's refraction
@@ -199,7 +200,8 @@ pub(super) enum ShowArg {
 
 #[derive(Debug, Args)]
 pub(super) struct SunArgs {
-    /// A site file, a folder that holds a site.toml, or a model together with --place
+    /// A site file, a folder that holds a site.toml, or a model; without a site file, the model's file or --place says
+    /// the place
     #[arg(value_name = "SITE")]
     pub(super) path: PathBuf,
     #[command(flatten)]

@@ -31,8 +31,8 @@ fn version() -> &'static str {
 pub(super) enum Command {
     /// The window, with a site or a model in it
     Open(OpenArgs),
-    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped goes
-    /// on where it was when it is asked again, but for outlines (--draw)
+    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped
+    /// continues where it was when the same command is given again, except for outlines (--draw)
     Profile(ProfileArgs),
     /// Two states of a site, existing and proposed: hours of sun lost and gained, with the areas, as compare.png,
     /// shadow-hours-difference.tif and compare.json. Study, plan and ground of the first are taken for both
@@ -43,9 +43,10 @@ pub(super) enum Command {
     Animate(AnimateArgs),
     /// The sun at the study's instants: time, azimuth, altitude, weight; sunrise, noon, sunset
     Sun(SunArgs),
-    /// What a model's mesh is: components, triangles, open, crowded, flipped and degenerate parts
+    /// What a model's file says (format, unit, axis, place, north), what was left out, and what its mesh is: components,
+    /// triangles, open, crowded, flipped and degenerate parts
     Check(CheckArgs),
-    /// A model as glTF, in metres and y up, components and all: to see what was read, and for other programs
+    /// A model as it was read, with its components, as glTF in metres and y up: to look at, and for other programs
     Convert(ConvertArgs),
     /// The shadow volumes at one instant as solids down to the ground, in a .glb for other programs
     Volumes(VolumesArgs),
@@ -54,7 +55,7 @@ pub(super) enum Command {
     Verify(VerifyArgs),
     /// When points lie in the sun, on a day or over a range of dates: to the second, and what blocks in between
     Probe(ProbeArgs),
-    /// A model, read for the program itself
+    /// Reads a model for the program itself
     #[command(name = child::SUBCOMMAND, hide = true)]
     ReadModel(ReadModelArgs),
 }
@@ -80,7 +81,7 @@ impl Command {
 
 #[derive(Debug, Args)]
 pub(super) struct OpenArgs {
-    /// A site file, a folder that holds a site.toml, or a model, which is asked for its place
+    /// A site file, a folder that holds a site.toml, or a model; the window asks for its place if its file does not say it
     #[arg(value_name = "SITE|MODEL")]
     pub(super) path: PathBuf,
 }

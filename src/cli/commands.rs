@@ -1,4 +1,4 @@
-//! The subcommands: load, work, write, say.
+//! The subcommands: each loads a site, asks for a deliverable, and prints the answer.
 
 use super::arguments::{CheckArgs, ShadowArgs, ShowArg, SunArgs};
 use super::eye::Viewpoint;

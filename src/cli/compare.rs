@@ -15,10 +15,10 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(super) struct CompareArgs {
-    /// The site as it is: a site file, a folder that holds a site.toml, or a model together with --place
+    /// The site as it is: a site file, a folder that holds a site.toml, or a model, whose file or --place says the place
     #[arg(value_name = "BEFORE")]
     before: PathBuf,
-    /// The site as it is to be; what says no place stands where the first does
+    /// The site as it is to be; where it says no place, it has that of the first
     #[arg(value_name = "AFTER")]
     after: PathBuf,
     #[command(flatten)]

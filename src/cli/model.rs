@@ -12,7 +12,7 @@ pub(super) struct ModelArgs {
     /// Which axis of the models is up, y or z, whatever the site file says [default: as the format has it]
     #[arg(long, value_name = "AXIS")]
     pub(super) up: Option<Up>,
-    /// How high buildings are whose footprints say no height, metres
+    /// The height of buildings whose footprints say none, metres [default: they are left out]
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = height)]
     default_height: Option<f64>,
     #[command(flatten)]
@@ -22,13 +22,13 @@ pub(super) struct ModelArgs {
 /// Within which limits models are read.
 #[derive(Debug, Args)]
 struct ReadingArgs {
-    /// Read models anew, and keep nothing of them for the next time
+    /// Neither use what is kept of models that were read before, nor keep anything of them
     #[arg(long)]
     no_cache: bool,
     /// How long a reader that runs in a process of its own may take for a model [default: 10min]
     #[arg(long, value_name = "TIME", value_parser = duration)]
     read_time: Option<Duration>,
-    /// How much memory it may take, as 8GiB [default: three quarters of the machine's]
+    /// How much memory such a reader may take, as 8GiB [default: three quarters of the machine's]
     #[arg(long, value_name = "SIZE", value_parser = memory::parse)]
     read_memory: Option<u64>,
 }

@@ -1,4 +1,4 @@
-//! What the command says on standard output and of itself.
+//! What the command prints on standard output, and what it says about itself.
 
 use std::io::{self, Write};
 

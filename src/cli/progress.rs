@@ -18,7 +18,7 @@ pub(super) struct Progress {
     bar: Option<ProgressBar>,
     /// The tenth of the work that was told last.
     told: usize,
-    /// What was noted: what holds of both states of a site is told once.
+    /// The notes so far: one that holds for both states of a site is printed once.
     noted: HashSet<String>,
     /// What was done before, and since when it goes on.
     begun: (usize, Instant),

@@ -1,5 +1,5 @@
-//! `gnomon read-model`, which the program asks of itself: reads a model file and writes it to standard output. Whoever asks
-//! holds standard input open; once that is closed nobody wants the model.
+//! `gnomon read-model`, which the program calls itself: it reads a model file and writes it to standard output. The parent
+//! process holds standard input open; once that is closed, nobody wants the model.
 
 use crate::formats::child;
 use clap::Args;

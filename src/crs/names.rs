@@ -1,4 +1,4 @@
-//! By which names a system goes: codes of the EPSG dataset in all their spellings, and the dataset's own names.
+//! The names of reference systems: codes of the EPSG dataset in all their spellings, and the dataset's own names.
 
 use super::definition::{Definition, shortened, unknown};
 use crate::message::Message;

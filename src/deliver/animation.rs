@@ -16,7 +16,7 @@ pub const WIDTH: u32 = 1280;
 /// Pictures a second where nobody says.
 pub const FPS: u16 = 4;
 
-/// What is asked of an animation.
+/// The request for an animation.
 #[derive(Clone, Debug)]
 pub struct AnimationRequest {
     /// From where the site is seen.

@@ -1,4 +1,4 @@
-//! Why there is no deliverable.
+//! Why a deliverable could not be made.
 
 use super::lines::{LinesError, by_clock};
 use crate::export::ExportError;

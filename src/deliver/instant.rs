@@ -10,7 +10,7 @@ use crate::study::{self, CountingPurpose, Event, InstantOutcome, InstantWants, O
 use crate::view::{Surface, View};
 use std::path::PathBuf;
 
-/// What is asked of the first instant of a site's study.
+/// The request for the first instant of a site's study.
 #[derive(Clone, Debug)]
 pub struct InstantRequest {
     /// From where it is seen.

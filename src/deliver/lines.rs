@@ -23,7 +23,7 @@ pub enum Lines {
 pub enum LinesError {
     /// All instants are at night.
     NoSun,
-    /// Outlines are told apart by their times.
+    /// Outlines are distinguished by their times.
     SeveralDays {
         /// The first of them.
         date: NaiveDate,

@@ -1,4 +1,4 @@
-//! What every deliverable is put together from: what a drawing is told, what a report is told, and the notes on both.
+//! What all deliverables share: the facts for a drawing, the facts for a report, and the notes on both.
 
 use crate::choice::Receivers;
 use crate::export::figure;

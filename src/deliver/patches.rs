@@ -17,7 +17,7 @@ const MODEL: &str = "surfaces.glb";
 const TABLE: &str = "surfaces.csv";
 const REPORT: &str = "profile.json";
 
-/// What is asked of a study on patches.
+/// The request for a study on patches.
 #[derive(Clone, Debug)]
 pub struct PatchesRequest {
     /// `surfaces.png`

@@ -1,4 +1,4 @@
-//! What is kept of a study that is stopped: what is said of it, the shelf of a window, and the store of a study on patches.
+//! What is kept of a stopped study: the note about it, the shelf of a window, and the store of a study on patches.
 
 use super::disk::unfinished::{self, Checks, StoredStudy};
 use super::parts::note;
@@ -26,7 +26,7 @@ pub(super) fn note_kept(kept: Option<PathBuf>, on_event: &mut OnEvent<'_>) {
 /// The work was ended while files were made of it: tells what is kept of it, where it works in a folder.
 pub(super) fn note_end(kept: Option<Option<PathBuf>>, on_event: &mut OnEvent<'_>) {
     if let Some(None) = kept {
-        let note = "what is done took little time and is not kept; the same command begins anew";
+        let note = "what is done took little time and is not kept; the same command starts over";
         // who ended the work has said all there is to say
         let _ = on_event(Event::Note(note.to_owned().into()));
     }
@@ -35,7 +35,7 @@ pub(super) fn note_end(kept: Option<Option<PathBuf>>, on_event: &mut OnEvent<'_>
 
 /// Tells that what a study left cannot be gone on with.
 pub(super) fn note_refused(path: &Path, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-    let what = "is not what the study left there when it was stopped: it begins anew";
+    let what = "is not what the study left there when it was stopped: it starts over";
     note(Some(format!("{} {what}", path.display())), on_event)
 }
 

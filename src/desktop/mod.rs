@@ -1,4 +1,4 @@
-//! The window: a site, its sun and its shadows at the speed of the hand. Everything that it finds, the library finds.
+//! The window: a site, its sun and its shadows at the speed of the hand. The library computes everything that it shows.
 //!
 //! One thread draws the window and never waits. A second one (`stage`) draws the picture and takes the newest wish, on a
 //! device of its own; others load sites and add up hours (`work`).

@@ -1,4 +1,4 @@
-//! A number that is another where any byte of a file is: what is taken over from a stopped study is checked by it.
+//! A checksum of a file's bytes, by which is checked what a study takes over from a stopped one.
 //!
 //! SipHash-1-3 in 64 bits. A CRC of 32 bits would do for flipped bits, but of another study's files one in four thousand
 //! million would pass, and there are many masks; a number that withstands an attack would be slower, and nobody gains by one.

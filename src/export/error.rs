@@ -1,4 +1,4 @@
-//! Why an answer did not become a file.
+//! Why a file could not be written.
 
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use std::io;
@@ -99,7 +99,7 @@ impl Worded for ExportError {
             },
             ExportError::Read { path, source } => message![
                 format!("cannot read {}, which a stopped study left: {source}", path.display());
-                "remove it, and the study begins anew"
+                "remove it, and the study starts over"
             ],
             ExportError::NoRoom { path, size, room } => no_room(path, *size, *room),
             ExportError::Busy { folder, who } => message![

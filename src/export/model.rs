@@ -97,7 +97,7 @@ fn origin(placed: &PlacedModel) -> DVec3 {
     }
 }
 
-/// What is told of the model as a whole.
+/// What the file says about the model as a whole.
 fn scene(placed: &PlacedModel) -> Value {
     let model = &placed.model;
     let left_out = |LeftOut { what, count, why }: &LeftOut| json!({"what": what, "count": count, "why": why});

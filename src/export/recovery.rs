@@ -1,4 +1,4 @@
-//! What a window has not saved, kept beside the app's own data until it is: a crash or a kill loses none of it.
+//! A window's unsaved settings, kept beside the app's own data until they are saved: a crash or a kill loses none of them.
 //!
 //! Each window has a slot: a file, and beside it another one that it holds locked as long as it lives, however it ends. So a
 //! window knows whether another one is still at work on what it finds.

@@ -1,4 +1,4 @@
-//! What was read is kept: a file that takes long to read is opened at once the second time.
+//! The cache of models that were read: a file that takes long to read opens at once the second time.
 //!
 //! An entry is a file in a folder beside the user's other caches. Its name is a number made of all that the reading depends
 //! on: the content of the file and of those that it names, the format, what was asked, and the program's version. It is
@@ -44,7 +44,7 @@ impl ModelCache {
         serde_json::to_string(options)?.hash(&mut number);
         add_file(&mut number, path)?;
         for named in format.named_by(path) {
-            // what is not there is told by whoever reads it
+            // whoever reads a file that is not there reports it
             let is_there = add_file(&mut number, &named).is_ok();
             is_there.hash(&mut number);
         }

@@ -1,6 +1,6 @@
 //! What CityJSON and CityGML share: city objects → parts, one for each object and kind of surface.
 //!
-//! A roof can be meant without its walls, so an object's semantic surfaces are parts of their own: three or four a
+//! A roof can be selected without its walls, so an object's semantic surfaces are parts of their own: three or four a
 //! building, some 20,000 in a tile of 5,000 buildings. One LoD of an object stands there, and parts of a building replace
 //! what the building says itself.
 
@@ -56,12 +56,12 @@ pub(super) struct CityBuilder {
     /// The open object, and its parts so far, each with the kind of its surfaces.
     open: Option<(CityObjectName, PartKind)>,
     surfaces: Vec<(String, Part)>,
-    /// The step of the file's numbers, where it is coarser than what is told.
+    /// The step of the file's numbers, where it is so coarse that a note says it.
     step: Option<f64>,
 }
 
 impl CityBuilder {
-    /// `step` is that of the file's numbers; where it is finer than `told_step`, nobody is told.
+    /// `step` is that of the file's numbers; where it is finer than `told_step`, there is no note.
     pub(super) fn new(step: Option<f64>, told_step: f64) -> Self {
         Self {
             parts: Vec::new(),

@@ -140,7 +140,7 @@ pub struct LeftOut {
 /// A material that is cut out or translucent.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SeeThrough {
-    /// Its name, by which `casts` may mean it.
+    /// Its name, by which `casts` can select it.
     pub material: String,
     /// The parts that have it, from 0; one or more.
     pub parts: Vec<usize>,
@@ -175,12 +175,12 @@ impl fmt::Display for SceneName {
     }
 }
 
-/// What is asked of a file, beside the file itself.
+/// How a file is to be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReadOptions {
     /// Which of several scenes; the file's default one where none is said.
     pub scene: Option<SceneName>,
-    /// Numbers that are written in coarser steps than this are told, in the file's units.
+    /// Numbers that are written in coarser steps than this get a note, in the file's units.
     #[serde(with = "exact")]
     pub told_step: f64,
     /// Metres from the ground to the roof of a footprint whose file says no height.

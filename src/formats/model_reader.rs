@@ -55,7 +55,7 @@ impl ModelReader {
             None => read_as(format, path, options)?,
         };
         if let Some(Err(error)) = entry.map(|entry| entry.keep(&model)) {
-            let note = format!("is read anew each time, as the cache cannot be written: {error}");
+            let note = format!("is read again each time, as the cache cannot be written: {error}");
             model.notes.push(message![note]);
         }
         Ok(model)

@@ -1,4 +1,4 @@
-//! Files of programs that are known and not read: how to export from each what can be.
+//! Files of known programs that are not read, and how to export from each program what can be read.
 
 use crate::message::{Message, message};
 use std::fs::File;
@@ -99,14 +99,14 @@ impl RefusedFormat {
     }
 }
 
-/// What is said of a file that begins with these bytes, where they tell a format that is not read.
+/// The error for a file that begins with these bytes, where they show a format that is not read.
 pub(super) fn by_content(head: &[u8], path: &Path) -> Option<Message> {
     let mut alike = REFUSED.iter().filter(|format| format.begins(head));
     let first = alike.clone().next()?;
     Some(alike.find(|format| format.ends(path)).unwrap_or(first).message())
 }
 
-/// What is said of a file whose name ends as those of a format that is not read.
+/// The error for a file whose name ends as those of a format that is not read.
 pub(super) fn by_ending(path: &Path) -> Option<Message> {
     REFUSED.iter().find(|format| format.ends(path)).map(RefusedFormat::message)
 }

@@ -1,4 +1,4 @@
-//! STL, of text or of numbers → a part for each solid.
+//! STL, ASCII or binary → a part for each solid.
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, label};

@@ -6,7 +6,7 @@ use glam::DVec3;
 /// A vertex that the part does not have yet.
 const ABSENT: u32 = u32::MAX;
 
-/// Numbers vertices anew for each part. Many parts may each use a few of many vertices: only those are looked at.
+/// Gives the vertices of each part numbers of their own. Many parts may each use a few of many vertices: only those are looked at.
 #[derive(Default)]
 pub(super) struct VertexPicker {
     /// Per vertex of the file its number in the part at hand; all [`ABSENT`] between parts.

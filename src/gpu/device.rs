@@ -25,23 +25,23 @@ pub struct Gpu {
     pub(super) timers: std::sync::OnceLock<Timers>,
 }
 
-/// Why the GPU gives no answer.
+/// Why the graphics adapter could not do its work.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum GpuError {
-    /// Nothing to draw with.
+    /// There is no adapter.
     NoAdapter,
-    /// There is one, but too little of one.
+    /// There is one, but it lacks something or its driver refuses it.
     Unusable {
         /// The adapter's name.
         adapter: String,
         /// What is missing, or what the driver said.
         reason: String,
     },
-    /// It cannot do what is asked.
+    /// It could not do the work.
     Failed {
         /// The adapter's name.
         adapter: String,
-        /// What it cannot.
+        /// What failed.
         reason: String,
     },
     /// It failed while working, so that nothing more can be done on the device; on a new one it may.
@@ -82,7 +82,7 @@ impl Worded for GpuError {
 }
 
 impl GpuError {
-    /// What went wrong, without a way out: in the words of whoever has another one.
+    /// What went wrong, without a hint, for callers that have a hint of their own.
     pub fn why(&self) -> String {
         match self {
             GpuError::NoAdapter => "no graphics adapter was found".to_owned(),

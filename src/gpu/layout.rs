@@ -106,7 +106,7 @@ pub struct PictureUniforms {
 /// `LookUniforms` of `shaders/picture.wgsl`: what `crate::look::Look` says of each, colours as display values from 0 to 1.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[expect(missing_docs, reason = "each field is told where the look is")]
+#[expect(missing_docs, reason = "each field is documented where the look is")]
 pub struct LookUniforms {
     pub building: [f32; 3],
     pub cut_earth: f32,

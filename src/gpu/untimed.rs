@@ -1,4 +1,4 @@
-//! Passes are not timed: who asks for that, tests and benches, builds with the feature `test-hooks`.
+//! Passes are not timed in this build: only tests and benches time them, with the feature `test-hooks`.
 
 use super::Gpu;
 use wgpu::{ComputePassTimestampWrites, RenderPassTimestampWrites};

@@ -1,4 +1,4 @@
-//! How a mesh comes of parts: welded, around one origin; and how one comes of some parts of another.
+//! Makes a mesh of parts: welded, around one origin; and a mesh of some parts of another.
 
 use super::together::CornerGroups;
 use super::weld::{self, WeldedPart};

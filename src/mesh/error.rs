@@ -1,4 +1,4 @@
-//! Why parts make no mesh.
+//! Why parts cannot become a mesh.
 
 use super::Mesh;
 

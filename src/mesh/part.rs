@@ -3,12 +3,12 @@
 use glam::DVec3;
 use std::ops::Range;
 
-/// One component as a model file gives it: triangles of one node and one material, before welding.
+/// One component as a model file gives it, before welding: in most formats the triangles of one object in one material.
 #[derive(Clone, Debug, Default)]
 pub struct Part {
-    /// `node/material`, or `node` where the node has one material.
+    /// Such as `node/material` of glTF, or `IfcWindow/Glass` of IFC.
     pub name: String,
-    /// The names by which `casts` and `receives` may mean it: of its node, mesh and material.
+    /// Further names by which `casts` and `receives` can select it: of its node, mesh, material, storey or layer.
     pub aliases: Vec<String>,
     /// Metres in the world frame.
     pub positions: Vec<DVec3>,
@@ -23,8 +23,8 @@ pub struct Part {
 pub struct CornerPrecision {
     /// Of the part's positions.
     pub corners: Range<u32>,
-    /// From one number to the next, metres in the world.
+    /// The distance from one number to the next, metres in the world.
     pub step_m: f64,
-    /// Whether that is so since single precision holds no larger numbers better; else they are whole numbers.
+    /// Whether single precision is the reason; otherwise the numbers are written as whole steps.
     pub is_float: bool,
 }

@@ -1,4 +1,4 @@
-//! The planes of faces, and one plane for what lies in one plane.
+//! The planes of faces: one common plane for all faces that lie in it.
 //!
 //! A modeller's wall is many triangles whose planes, computed each from its own rounded corners, differ in the last
 //! digits, so that some would face a low sun and some not. Neighbours that lie in the plane of a larger face

@@ -1,5 +1,5 @@
 //! What stands together. Drawings have leftovers, often a thousand kilometres from what was meant: how exact the models
-//! are must not be up to them.
+//! are must not depend on them.
 //!
 //! Corners stand together where they lie in neighbouring cells of a grid. One grid is fine: what a cell or more parts in
 //! it is welded each for itself. The other is coarse: what two cells, 20 km, or more part in it from all else has another

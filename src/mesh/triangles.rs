@@ -8,19 +8,19 @@ use std::sync::{Arc, OnceLock};
 /// A named part of the mesh, a run of its faces. Adjacency never crosses it, and no vertex is shared across it.
 #[derive(Clone, Debug)]
 pub struct Component {
-    /// `node/material`, or `node` where the node has one material.
+    /// Such as `node/material` of glTF, or `IfcWindow/Glass` of IFC.
     pub name: String,
-    /// The names by which `casts` and `receives` may mean it: of its node, mesh and material.
+    /// Further names by which `casts` and `receives` can select it: of its node, mesh, material, storey or layer.
     pub aliases: Vec<String>,
     /// Its faces.
     pub faces: Range<u32>,
     /// Its edges.
     pub edges: Range<u32>,
-    /// Triangles that the file has and the mesh has not, as welding made two of their corners one: the lines that are left.
+    /// Triangles of the file that became lines because welding joined two of their corners: these lines.
     pub collapsed: Arc<[[u32; 2]]>,
     /// How many of those have three corners apart in the file: welding has changed what the file says.
     pub flattened: usize,
-    /// The coarsest of its corners, but for strays that lie far off; none where the file writes all of them finely.
+    /// The coarsest precision of its corners, strays left out; `None` if the file writes all of them finely.
     pub coarse: Option<CornerPrecision>,
     /// Whether it is terrain: the ground as it was measured.
     pub is_terrain: bool,

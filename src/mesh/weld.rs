@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 /// How far apart two corners may lie and still be one vertex, as a part of the size of what stands together: eight to
 /// sixteen steps of `f32` at its ends.
 const TOLERANCE: f64 = 1e-6;
-/// And never farther, metres: a receiver is judged so far above itself, and nobody models less.
+/// And never farther than this, metres: a receiver is judged so far above itself, and models have no smaller details.
 const MOST_M: f64 = 0.001;
 
 /// And at least so many steps of `f32` at the largest coordinate: one either way on each axis is what files round.

@@ -236,7 +236,7 @@ impl Picture {
         Ok(gpu.check()?)
     }
 
-    /// What the shader is told of one picture.
+    /// The uniforms of one picture.
     fn uniforms(&self, to_sun: DVec3, style: &Style) -> PictureUniforms {
         let is = |there: bool| f32::from(u8::from(there));
         let ([west, north, cell], over) = match &self.hours {

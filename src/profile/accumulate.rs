@@ -59,7 +59,7 @@ impl BitCounts {
         self.instants += 1;
     }
 
-    /// Adds what was counted to the sum, and begins anew.
+    /// Adds what was counted to the sum, and begins at 0 again.
     fn add_to(&mut self, sum: &mut [u32]) {
         if self.instants == 0 {
             return;

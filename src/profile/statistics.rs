@@ -1,4 +1,4 @@
-//! What counting shadow volumes took in all.
+//! How much work counting shadow volumes took in a whole study.
 
 use crate::view::{Decider, FragmentCounts};
 

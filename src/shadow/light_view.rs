@@ -205,7 +205,7 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
-/// What is asked of smoothies.
+/// The request for smoothies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Smoothies {
     /// Metres; 0 where the sun's disc decides.

@@ -119,25 +119,25 @@ pub trait Technique {
     /// What the cells see of the receivers.
     fn surface(&self) -> Result<Surface, ShadowError>;
 
-    /// Where the technique did not apply to the last mask, and what was done there; none where it did everywhere.
+    /// Where the technique did not apply to the last mask, and what was done there; `None` if it applied everywhere.
     fn note(&self) -> Option<String> {
         None
     }
 
-    /// What counting takes for that sun; none where nothing is counted. Slow: it is read back.
+    /// How much work counting takes for that sun; `None` for a technique that does not count. Slow, as it is read back.
     fn counted(&mut self, _to_sun: DVec3) -> Result<Option<FragmentCounts>, ShadowError> {
         Ok(None)
     }
 }
 
-/// Why there is no mask.
+/// Why a mask could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum ShadowError {
     /// The raster does not fit the adapter.
     TooLarge {
-        /// Columns asked.
+        /// Columns of the raster.
         width: u32,
-        /// Rows asked.
+        /// Rows of the raster.
         height: u32,
         /// The adapter's limit.
         largest: u32,
@@ -146,7 +146,7 @@ pub enum ShadowError {
     },
     /// The map does not fit the adapter.
     MapTooLarge {
-        /// Texels asked.
+        /// Texels along the map's side.
         size: u32,
         /// The adapter's limit.
         largest: u32,

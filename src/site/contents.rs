@@ -19,7 +19,7 @@ pub struct ModelContents {
     pub up: Up,
     /// Whether the file or its format says so.
     pub up_is_said: bool,
-    /// Storeys, layers, groups and materials: each name by which `casts` and `receives` may mean several components, or one
+    /// Storeys, layers, groups and materials: each name by which `casts` and `receives` can select several components, or one
     /// of another name; the one that means most first.
     pub groups: Vec<NameGroup>,
     /// How many components are of each kind, of those kinds that there are.

@@ -159,7 +159,7 @@ impl Worded for SiteError {
                 ..Message::clone(said)
             },
             SiteError::NoPlaceForModel { path, said: None } => message![
-                format!("{path} is a model: say where it stands with "),
+                format!("{path} is a model whose file does not say its place: say where it stands with "),
                 (Field::Place, "LAT,LON"),
                 ", for example ",
                 (Field::Place, "48.8583,2.2945")
@@ -185,7 +185,7 @@ impl Worded for SiteError {
                 Piece::Where(Field::Point, pieces![", or ask for one point with ", (Field::Point, "12,-3,4.5")])
             ],
             SiteError::UnknownName { at, name, nearest } => {
-                let what = format!("no component, node, mesh or material is named \"{name}\"");
+                let what = format!("no component or group is named \"{name}\"");
                 at.tells(message![what; format!("the nearest is \"{nearest}\"")])
             }
             SiteError::NoTriangles { file } => message![

@@ -285,7 +285,7 @@ fn zero_on_map(
     Ok(AnchoredZero { at: Some(at), has_height: height_m.is_some(), on_map: Some((crs, on_map)), north })
 }
 
-/// The north of a map that is not known, where nobody says more: off by the map's convergence, which is told.
+/// The north of a map that is not known, where nobody says more: off by the map's convergence, which a note says.
 fn map_north<'a>(model: &'a Model, notes: &mut Vec<Message>) -> Option<(&'a Anchor, AnchoredZero)> {
     let (anchor, north) = model.anchors.iter().find_map(|anchor| Some((anchor, anchor.north_rad?)))?;
     let what = format!(
@@ -322,7 +322,7 @@ fn farthest_m(model: &Model, placement: &Placement) -> f64 {
 }
 
 /// A map's scale says how long a metre of the file is on the map. The model keeps its own size, of the file's unit: the
-/// difference of a few parts in 10,000 is the map's distortion. A scale that is quite another one is told.
+/// difference of a few parts in 10,000 is the map's distortion. A note reports a scale that is quite another one.
 fn scale_doubt(anchor: &Anchor, unit_m: f64) -> Option<Message> {
     const DISTORTION: f64 = 0.005;
     let AnchorPoint::Map { scale, .. } = anchor.at else { return None };

@@ -49,8 +49,8 @@ pub enum ValueType {
 /// The tables, in the order in which they are explained; whether there may be several of one; and what each is about.
 pub const SITE_TABLES: &[(&str, bool, &str)] = &[
     ("place", false, "Where on earth the models stand."),
-    ("model", true, "A model file. There is one table for each model, and at least one."),
-    ("ground", false, "The horizontal plane on which the models stand."),
+    ("model", true, "A model file of any [format](formats.md). There is one table for each model, and at least one."),
+    ("ground", false, "The horizontal plane that is the ground where there is no terrain."),
     ("study", false, "The instants that are computed. Options of the command can replace or supply single keys."),
     ("plan", false, "The raster of cells in which ground and roofs are judged."),
     ("camera", false, "From where the perspective is seen, or which side an elevation shows."),
@@ -94,7 +94,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .means("What drawings and reports call the place."),
     key("place", "latitude", ValueType::Number, "latitude = 48.8583")
         .unit("degrees")
-        .default("must be written, but where a model's file says the place")
+        .default("must be written, unless a model's file says the place")
         .means("North is positive, −90 to 90."),
     key("place", "longitude", ValueType::Number, "longitude = 2.2945")
         .unit("degrees")
@@ -109,15 +109,15 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .means("The IANA name of the zone whose clock is read."),
     key("model", "path", ValueType::Text, "path = \"tower.glb\"")
         .default("must be written")
-        .means("The file, of any format of [formats.md](formats.md): relative to the site file, or absolute."),
+        .means("The file, relative to the site file, or absolute."),
     key("model", "scene", ValueType::TextOrNumber, "scene = \"existing\"")
         .default("the file's default scene, or its first")
         .means(
-            "Which scene of the file is read: its name, or its number from 0. Two scenes of one name need the \
+            "Which scene of a glTF file is read: its name, or its number from 0. Two scenes of one name need the \
              number.",
         ),
     key("model", "up", ValueType::Word(up_words), "up = \"z\"")
-        .default("`\"y\"`, as glTF has it")
+        .default("as the file says, else as its [format](formats.md) has it")
         .means("Which axis of the model points upwards."),
     key("model", "north", ValueType::Number, "north = 0.0").unit("degrees").default("as the file says, else 0").means(
         "The angle clockwise from the model's north to true north. The model's north is −z, or +y where z is \
@@ -132,30 +132,29 @@ pub const SITE_KEYS: &[SiteKey] = &[
         ),
     key("model", "scale", ValueType::Number, "scale = 1.0")
         .unit("metres")
-        .default("1")
+        .default("as the file says, else 1")
         .means("The length of one unit of the model: 0.001 for a model in millimetres."),
     key("model", "default_height", ValueType::Number, "default_height = 9.0")
         .unit("metres")
-        .default("none: such footprints are refused")
-        .means("How high a building is whose footprint says no height."),
+        .default("none: such footprints are left out")
+        .means("The height of [footprints](formats.md#footprints) that say none."),
     key("model", "terrain_error", ValueType::Number, "terrain_error = 0.1")
         .unit("metres")
         .default("0.1")
-        .means("How far a raster of heights may lie from the triangles that it becomes, at most."),
+        .means("How far the triangles of a [raster of heights](formats.md#geotiff) may lie from its heights, at most."),
     key("model", "classes", ValueType::Texts, "classes = [\"building\", \"vegetation\"]")
         .default("the ground alone")
         .means(
-            "Of measured points, which classes stand there beside the ground: `building`, `vegetation`, `bridge`, `water`.",
+            "Which classes of [measured points](formats.md#las-and-laz) stand there beside the ground: `building`, \
+             `vegetation`, `bridge`, `water`.",
         ),
-    key("model", "crs", ValueType::Text, "crs = \"EPSG:25832\"")
-        .default("as the file says")
-        .means(
-            "The reference system of the model's coordinates, which gives position and north: its number in the EPSG dataset, \
-             its name, WKT, or PROJ's text. See [georeference.md](georeference.md).",
-        ),
+    key("model", "crs", ValueType::Text, "crs = \"EPSG:25832\"").default("as the file says").means(
+        "The reference system of the model's coordinates, which gives position and north: its number in the EPSG \
+             dataset, its name, WKT, or PROJ's text. See [georeference.md](georeference.md).",
+    ),
     key("model", "casts", ValueType::Names, "casts = [\"roof\", \"walls\"]").default("true").means(
-        "What casts shadows: everything but what lies on the ground, nothing, or what the names name; `\"!glass\"` \
-             takes out what is named glass.",
+        "What casts shadows: everything but ground cover (roads, water), nothing, or what the names name; \
+             `\"!glass\"` takes out what is named glass.",
     ),
     key("model", "receives", ValueType::Names, "receives = true")
         .default("true")

@@ -1,4 +1,4 @@
-//! Holds a site file to the keys that there are, and says what to do about one that is not among them.
+//! Checks the keys of a site file, and says what to do about one that does not exist.
 
 use super::error::{FieldLocation, SiteError};
 use super::key_table::{SITE_KEYS, SITE_TABLES, SiteKey};

@@ -1,4 +1,4 @@
-//! What each model of a site holds: all of it for whoever lists it, and a short note on what was left out for all others.
+//! What each model of a site holds: all of it for `gnomon check`, and for all others a short note on what was left out.
 
 use super::contents::{ModelContents, ReadContents, names_of};
 use super::file::Names;

@@ -1,4 +1,4 @@
-//! What is asked: the site file and the models it names, checked once.
+//! The request: the site file and the models it names, checked once.
 //!
 //! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unproven.
 
@@ -82,24 +82,24 @@ use crate::view::{Camera, Grid, Side, View};
 /// The checked request: place, models, receivers, study.
 #[derive(Clone, Debug)]
 pub struct Site {
-    /// Where on earth.
+    /// The place on earth where the models stand.
     pub place: Place,
     /// All models, welded, in the world frame.
     pub mesh: Mesh,
     /// What the user should know of how the models were read, each a sentence without its stop that names the model; and
     /// of the clock.
     pub notes: Vec<Message>,
-    /// What whoever asked calls the fields of a request, for notes that go into files.
+    /// The face's words for the fields of a request, for notes that go into files.
     pub words: &'static dyn Words,
-    /// What models look like that are not as they are read, with the keys that would mend them.
+    /// Models that look as if their unit or upward axis were another one, with the keys that would mend them.
     pub likenesses: Vec<Likeness>,
     /// Per component: whether it casts.
     pub casts: Vec<bool>,
-    /// Per component: whether it receives; what does not is looked through.
+    /// Per component: whether it receives. A component that does not is looked through.
     pub receives: Vec<bool>,
     /// The ground.
     pub ground: Ground,
-    /// The instants asked.
+    /// The instants of the study.
     pub track: SunTrack,
     /// The plan.
     pub grid: Grid,
@@ -107,19 +107,19 @@ pub struct Site {
     pub camera: Camera,
     /// The side that is seen instead, with as much of it as the perspective shows at its target.
     pub side: Option<Side>,
-    /// What is judged.
+    /// Which surfaces are judged.
     pub receivers: Receivers,
     /// Side of a texel of [`Receivers::Patches`], metres.
     pub patch_cell: f64,
-    /// How.
+    /// The technique that is chosen.
     pub method: Method,
-    /// With which finder.
+    /// The finder of silhouettes that is chosen.
     pub finder: Finder,
-    /// The depth of the paper's hextree, where that was asked.
+    /// The depth of the paper's hextree, if the request gives one.
     pub hextree_depth: Option<u32>,
-    /// On which machine.
+    /// The machine that is chosen.
     pub engine: Engine,
-    /// What was asked of single techniques.
+    /// The settings of single techniques.
     pub settings: Settings,
 }
 

@@ -20,12 +20,11 @@ struct NameList<'a> {
 }
 
 impl Names {
-    /// Per component whether it is meant: all, none, or those of a list. A component has the names of its node, mesh and
-    /// material, too.
+    /// Per component whether it is chosen: all, none, or those of a list. A component also has the names of its groups.
     ///
-    /// A list's names mean what has them; `!glass` leaves out what is named glass, also of what other names mean, and a
-    /// list of such names alone means all else. Where something is named `!glass` itself, that is meant. What no component
-    /// is named means nothing.
+    /// A name in a list chooses the components that have it. `!glass` leaves out those that are named glass, even if other
+    /// names choose them, and a list of such names alone chooses all others. If something is itself named `!glass`, the name
+    /// chooses that. A name that no component has chooses nothing.
     pub fn chosen(&self, components: &[Component]) -> Vec<bool> {
         let names = match self {
             Names::All(all) => return vec![*all; components.len()],

@@ -1,4 +1,4 @@
-//! What the user should know of where models stand, of what is asked far from them, and of the numbers that they are written with.
+//! Notes on where models stand, on requests far from them, and on how precisely their numbers are written.
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};
@@ -10,7 +10,7 @@ use std::ops::Range;
 /// Beyond this distance a place's sun and its flat frame no longer hold to what the drawing says, metres.
 const FAR_M: f64 = 20_000.0;
 
-/// A plan, an eye or a probe farther from the place than this is told, metres: a town's models reach less far, and map
+/// A plan, an eye or a probe farther from the place than this gets a note, metres: a town's models reach less far, and map
 /// coordinates always more.
 const ASKED_FAR_M: f64 = 50_000.0;
 

@@ -1,4 +1,4 @@
-//! What a face asks beside the site file, and the reading of its values.
+//! What a face requests beside the site file, and the reading of its values.
 
 use super::error::{FieldLocation, SiteError};
 use crate::choice::{Engine, Finder, Method, Receivers, Settings};
@@ -18,7 +18,7 @@ pub struct Overrides {
     pub up: Option<Up>,
     /// `--default-height M`: of all models' footprints without a height, whatever the site file says.
     pub default_height: Option<f64>,
-    /// Further model files, which stand in the same site as a first one.
+    /// Further model files, for the same site as the first one.
     pub beside: Vec<PathBuf>,
     /// How model files are read.
     pub reading: ModelReader,
@@ -38,7 +38,7 @@ pub struct Overrides {
     pub to_date: Option<String>,
     /// `--at 2026-09-18T15:00`: this instant alone, instead of the study.
     pub at: Option<String>,
-    /// The same of a time that is known already; it goes before all else that says when.
+    /// The same as a time that need not be read; it goes before all other fields that say when.
     pub instant: Option<DateTime<Zone>>,
     /// `--point X,Y,Z`, metres: this probe alone, instead of the file's.
     pub point: Option<String>,
@@ -68,7 +68,7 @@ pub struct Overrides {
     pub settings: Settings,
     /// `--no-refraction`
     pub no_refraction: bool,
-    /// What whoever asks calls all this, for the notes on the site: they go into files as well as to people.
+    /// The face's words for these fields, for the notes on the site, which go into files as well as to people.
     pub words: &'static dyn Words,
 }
 

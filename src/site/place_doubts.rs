@@ -1,4 +1,4 @@
-//! Places that a file says and nobody meant, and sources that disagree.
+//! Places in files that nobody has set, and sources that disagree.
 
 use super::anchored_zero::{AnchoredZero, true_north};
 use crate::crs::{GeodeticPoint, LocalFrame};

@@ -1,4 +1,4 @@
-//! One model file as it was read, upright and in metres, for whoever writes it.
+//! One model file as it was read, upright and in metres, to be written as another file.
 
 use super::contents::{ModelContents, ReadContents};
 use super::error::SiteError;

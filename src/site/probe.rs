@@ -1,4 +1,4 @@
-//! What is asked of probes: which points, on which days.
+//! The request for probes: which points, on which days.
 
 use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};

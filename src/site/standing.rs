@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3, Vec3Swizzles as _};
 const MOST_CELLS: f64 = 512.0;
 /// Smaller ones tell nothing more, metres.
 const LEAST_CELL_M: f64 = 0.25;
-/// What floats less high, or reaches less deep, is told to nobody, metres: terrain is thinned to this.
+/// What floats less high, or reaches less deep, gets no note, metres: terrain is thinned to this.
 const TOLD_M: f64 = 0.1;
 /// Points nearer to each other in height than this are one foot, metres.
 const LEVEL_M: f64 = 0.001;

@@ -12,7 +12,7 @@ pub(super) const ON_GROUND_M: f64 = 0.001;
 const POINTS: f64 = 256.0;
 /// The first of them, in their distances from each other, so that none lies on an edge of a regular model.
 pub(super) const FIRST: f64 = 0.381_966;
-/// Less of the plan than this hidden is told to nobody.
+/// Where less of the plan than this is hidden, there is no note.
 const LEAST_SHARE: f64 = 0.005;
 /// Terrain is what is seen of the models from above on at least so much of their plan.
 const TERRAIN_SHARE: f64 = 0.25;

@@ -162,7 +162,7 @@ impl WrittenSite {
         if cfg!(windows) { path.replace('\\', "/") } else { path }
     }
 
-    /// Whether the site file at a path says something else by now. One that cannot be read is told by whoever reads it.
+    /// Whether the site file at a path says something else by now. Where it cannot be read, the next reader reports that.
     pub fn has_changed_at(&self, path: &Path) -> bool {
         std::fs::read(path).is_ok_and(|bytes| bytes != self.text.as_bytes())
     }

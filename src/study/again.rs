@@ -1,4 +1,4 @@
-//! Work that is done again where the graphics device fails that it is done on.
+//! Does work again when the graphics device fails on which it runs.
 
 use super::{Event, OnEvent, StudyError, tell};
 use crate::choice::{Engine, Finder};
@@ -10,9 +10,10 @@ use std::sync::Arc;
 /// Work on a site, on this adapter where there is one, else on whatever adapter it opens.
 pub type Attempt<'a, T> = dyn FnMut(&Site, Option<&Arc<Gpu>>, &mut OnEvent<'_>) -> Result<T, StudyError> + 'a;
 
-/// Does what is asked of a site. Where the device fails on the way it is done once more on a new one. Where that fails too
-/// the processor takes over, if it `can` do what is asked, and nobody asked for what draws on an adapter alone; else an
-/// adapter that is a program on the processor, so that the technique stays the one that was asked for. Notes say so.
+/// Does work on a site. If the device fails on the way, the work is done once more on a new one. If that fails, too, the
+/// processor takes over, if it `can` do the work and the request does not name something that only an adapter draws;
+/// otherwise an adapter that is a program on the processor takes over, so that the technique stays the requested one. Notes
+/// say so.
 ///
 /// # Errors
 /// What the work says; [`StudyError::NoDevice`] where every device fails.

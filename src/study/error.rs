@@ -18,9 +18,9 @@ pub enum StudyError {
     },
     /// Technique, engine and settings that do not go together, or not with what is drawn.
     Misfit(#[from] Misfit),
-    /// The plan does not fit the memory that there is for it.
+    /// The plan needs more memory than it may take.
     LittleMemory {
-        /// What there is, bytes.
+        /// What it may take, bytes.
         asked: u64,
         /// What the smallest tile takes, bytes.
         least: u64,
@@ -47,11 +47,11 @@ pub enum StudyError {
     NoInstant,
     /// No adapter, or not a good one.
     Gpu(#[from] GpuError),
-    /// Volumes and silhouettes are the stencil's alone.
+    /// Volumes and silhouettes were requested of a technique other than the stencil.
     NoVolumes(String),
     /// Techniques are held against ray casting where they draw.
     NoVerification(String),
-    /// Every device failed on which what is asked was tried, and nothing else can do it.
+    /// Every device on which the work was tried failed, and nothing else can do it.
     NoDevice(String),
     /// All instants are at night.
     NoDay,
@@ -59,7 +59,7 @@ pub enum StudyError {
     Sun(#[from] SunError),
     /// Drawing failed.
     Shadow(#[from] ShadowError),
-    /// As asked by the listener.
+    /// The listener ended the work.
     Interrupted,
 }
 

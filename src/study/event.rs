@@ -1,4 +1,4 @@
-//! What happens on the way, and who hears it.
+//! The events of a study, and who receives them.
 
 use super::{StudyError, TiledStudy};
 use crate::message::Message;
@@ -15,22 +15,22 @@ use std::sync::Arc;
 pub enum Event<'a> {
     /// Something that the user should know.
     Note(Message),
-    /// A graphics adapter failed, and the work is done again: what was told of it is void, but for notes.
+    /// A graphics adapter failed, and the work is done again: what was reported of it is void, except for notes.
     Anew,
-    /// The same study is done again: whoever keeps what was done so far ([`Event::Kept`]) can put it here, and the study
-    /// goes on from there.
+    /// The same study is done again. A listener that has kept what was done so far ([`Event::Kept`]) can put it here, and
+    /// the study continues from there.
     Resumes {
         /// The study.
         study: &'a TiledStudy<'a>,
-        /// What is to be gone on from.
+        /// From what the study is to continue.
         begun: &'a RefCell<Option<Unfinished>>,
     },
-    /// A study on patches is prepared that is to be kept (`patches_kept`): whoever keeps what is done so far can
-    /// put it here, and the study goes on from there.
+    /// A study on patches that is to be kept (`patches_kept`) is prepared. A listener that has kept what was done so far
+    /// can put it here, and the study continues from there.
     Prepared {
         /// Which study it is: a number of all that its result depends on.
         number: u64,
-        /// What is to be gone on from.
+        /// From what the study is to continue.
         begun: &'a RefCell<Option<Unfinished>>,
     },
     /// All is prepared; drawing begins.
@@ -40,12 +40,12 @@ pub enum Event<'a> {
         /// How many tiles there are.
         tiles: usize,
     },
-    /// So many of them were done before, and are not drawn again.
+    /// Some of the instants were done before, and are not drawn again.
     GoesOn {
         /// How many.
         done: usize,
     },
-    /// A tile of the plan begins, or goes on: the next instants are its.
+    /// A tile of the plan begins or continues: the next instants belong to it.
     Tile(Tile),
     /// The tile's sums, once all of its instants are done.
     Summed(Arc<Shaded>),
@@ -64,14 +64,14 @@ pub enum Event<'a> {
     },
     /// What is done so far, to be kept: with it the study can go on another time.
     Kept(&'a Unfinished),
-    /// The study is done, and of what is made of it another stage is.
+    /// After the study: one more stage of making its files is done.
     Stage(&'static str),
 }
 
-/// Hears what happens; [`ControlFlow::Break`] ends the work with [`StudyError::Interrupted`].
+/// Receives the events; [`ControlFlow::Break`] ends the work with [`StudyError::Interrupted`].
 pub type OnEvent<'a> = dyn FnMut(Event<'_>) -> ControlFlow<()> + 'a;
 
-/// Tells what happens.
+/// Passes an event to the listener.
 ///
 /// # Errors
 /// [`StudyError::Interrupted`] as asked by the listener.

@@ -99,7 +99,7 @@ fn tiles_of(look: &SiteView<'_>, wants: &InstantWants) -> Result<Vec<Tile>, Stud
     match (tiles.first().filter(|tile| !tile.is_whole()), wants.counted) {
         (Some(_), Some(counted)) => {
             let message = message![
-                "the plan is done in tiles, and what counting took is told of the whole";
+                "the plan is done in tiles, and what counting took is reported for the whole";
                 "take larger cells", aside(Field::Cell), ", or leave it out"
             ];
             Err(StudyError::Conflict { field: counted.field(), message })

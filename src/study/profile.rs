@@ -104,9 +104,9 @@ impl<'a> TiledStudy<'a> {
     }
 }
 
-/// Every instant's shadows, summed; from where the study was stopped, where that is `begun`: sums are the same to the bit.
-/// Tiles before the one that was worked on are not told again. What another study left is not used. After [`Event::Anew`]
-/// all is told from the first instant on, or from what was put into [`Event::Resumes`].
+/// Sums every instant's shadows. A study that was stopped, given as `begun`, continues where it was; its sums are the same to
+/// the bit. Tiles before the one that was worked on are not reported again. What another study left is not used. After
+/// [`Event::Anew`] everything is reported from the first instant on, or from what was put into [`Event::Resumes`].
 ///
 /// # Errors
 /// [`StudyError`]
@@ -119,7 +119,7 @@ pub fn in_tiles(
     // which study it is, where what is done of it is kept
     let number = wants.keep_every.map(|_| tiled.number());
     let mut at_hand = Some((tiled, begun));
-    // what counting takes is told of an adapter alone
+    // only an adapter reports what counting takes
     persist(site, !wants.statistics, on_event, &mut |again, gpu, on_event| {
         if let Some((tiled, begun)) = at_hand.take() {
             return once(tiled, begun, on_event);

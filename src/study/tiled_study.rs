@@ -32,7 +32,7 @@ impl TiledStudy<'_> {
     }
 
     /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
-    /// instants, whoever has found them. Sums of instants that make up the track add up to the tile's own to the bit, and
+    /// instants, which may come from another process. Sums of instants that make up the track add up to the tile's own to the bit, and
     /// [`paste`] puts tiles together. Where the device fails, so does this.
     ///
     /// # Errors

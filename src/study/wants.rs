@@ -1,4 +1,4 @@
-//! What is made beside the answer.
+//! What a study makes beside its answer.
 
 use crate::message::Field;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! When a reading is at a place: the instants that its clock or the sun gives it.
+//! When a reading occurs at a place: the instants that the clock there, or the sun, gives it.
 
 use super::day::light;
 use super::zone::Jump;

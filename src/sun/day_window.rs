@@ -1,4 +1,4 @@
-//! The part of a day that is asked, for questions of single days.
+//! The part of a day that a question about single days covers.
 
 use super::day::midnight;
 use super::{Day, Place, Reading, SunError, Window, Zone};

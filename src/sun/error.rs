@@ -4,7 +4,7 @@ use super::Zone;
 use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
 use chrono::{DateTime, NaiveDate, NaiveDateTime};
 
-/// Why there is no sun for what was asked.
+/// Why a place, a reading or a window has no sun track.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SunError {
     /// A coordinate outside the earth, or not a number.
@@ -53,9 +53,9 @@ pub enum SunError {
     ZeroStep,
     /// More instants than anyone wants.
     TooManyInstants {
-        /// The step asked.
+        /// The requested step.
         step_secs: u32,
-        /// The window asked.
+        /// The requested window.
         window_secs: i64,
         /// How many that makes.
         instants: i64,

@@ -1,4 +1,4 @@
-//! What somebody means who writes a time zone that is none: an offset, a city, or a zone with a slip of the pen.
+//! What is probably meant by a time zone that does not exist: an offset, a city, or a zone with a slip of the pen.
 
 use super::{Zone, zone_names};
 use unicode_normalization::UnicodeNormalization;

@@ -3,7 +3,7 @@
 use super::{Day, Instant, Polar, Reading, Zone};
 use crate::message::Message;
 
-/// The part of each day that a study of several days asks, as written; the whole day where nothing is.
+/// The part of each day that a study of several days covers, as written; the whole day where neither end is given.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EachDay {
     /// Its beginning.
@@ -19,7 +19,7 @@ pub struct SunTrack {
     pub instants: Vec<Instant>,
     /// The days the window touches.
     pub days: Vec<Day>,
-    /// Where a window was asked on each of several days: which.
+    /// The window of each day, if the study has several days.
     pub each_day: Option<EachDay>,
     /// The step between instants in seconds; 0 for a single instant.
     pub step_secs: u32,

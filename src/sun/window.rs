@@ -13,7 +13,7 @@ pub(super) const MOST_INSTANTS: i64 = 1_000_000;
 /// Ten years: weights and their sums stay far inside their integers.
 pub const MOST_DAYS: i64 = 3660;
 
-/// The window of a study as asked: from one reading to another, in steps.
+/// The requested window of a study: from one reading to another, in steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Window {
     /// The local date on which it begins; not needed where `from` has its own.

@@ -1,4 +1,4 @@
-//! When points lie in the sun, and what keeps it from them.
+//! When points lie in the sun, and what blocks it.
 
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::sun::{DayWindow, Zone};

@@ -1,4 +1,4 @@
-//! What came of holding every technique against ray casting, over the instants of a study.
+//! The result of comparing every technique with ray casting, over the instants of a study.
 
 mod difference;
 mod edges;

@@ -1,4 +1,4 @@
-//! What counting shadow volumes takes, cell by cell.
+//! How much work counting shadow volumes takes, cell by cell.
 
 /// What decided a cell's share, where a map decides some and volumes the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

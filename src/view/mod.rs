@@ -1,4 +1,4 @@
-//! What is looked at, and what comes of it.
+//! What is looked at (a plan, a camera, a side, probes), and what is found there: surfaces and masks.
 //!
 //! A [`View`] is the plan's [`Grid`] of cells, a [`Camera`] or an [`Elevation`]; a [`Probe`] is a single point. Of a view each cell
 //! sees a [`Surface`], and for one sun there is a [`Mask`].
@@ -50,7 +50,8 @@ impl View {
         }
     }
 
-    /// From whence everything is seen, homogeneous: the eye, or the direction straight up or level towards the viewer.
+    /// The point from which everything is seen, homogeneous: the eye, or the direction straight up, or level towards the
+    /// viewer.
     pub fn viewer(&self) -> DVec4 {
         match self {
             View::Plan(_) => DVec4::Z,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// A point of which is asked when it lies in the sun.
+/// A point for which is computed when it lies in the sun.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
     /// What people call it.

@@ -17,7 +17,7 @@ fn hours_are_found_by_the_technique_chosen() {
     harness.get_by_label("shadow-map").click();
     harness.step();
     settle(&mut harness);
-    harness.get_by_label("What is asked has changed since: find it anew.");
+    harness.get_by_label("The request has changed since: find it again.");
     click(&mut harness, "Find the hours");
     settle(&mut harness);
     menu(&mut harness, "Export the hours…");
@@ -142,7 +142,7 @@ fn undo_passes_over_the_hours_that_came() {
     undo(&mut harness);
     assert_eq!(harness.state().site_file().study.step.as_deref(), Some("2h"), "the step is what was set last");
     assert!(shown(&harness), "what is looked at stays");
-    harness.get_by_label("What is asked has changed since: find it anew.");
+    harness.get_by_label("The request has changed since: find it again.");
     // nor does ticking it count
     click(&mut harness, "Show the hours");
     assert!(!shown(&harness));

@@ -177,16 +177,16 @@ fn change_from_a_kept_state_is_the_engines() {
     harness.get_by_label("Find the change");
     again(&mut harness, undo, 1);
     harness.get_by_label("Find the hours");
-    harness.get_by_label("What is asked has changed since: find it anew.");
+    harness.get_by_label("The request has changed since: find it again.");
     again(&mut harness, undo.plus(egui::Modifiers::SHIFT), 2);
     harness.get_by_label("Find the change");
-    assert!(harness.query_by_label("What is asked has changed since: find it anew.").is_none());
+    assert!(harness.query_by_label("The request has changed since: find it again.").is_none());
     click(&mut harness, "Compare no more");
     harness.get_by_label("Find the hours");
     assert!(harness.query_by_label("Sun lost and gained").is_none(), "nothing is told of a change any more");
 }
 
-/// What was kept is of another study once that changes, and is found anew.
+/// What was kept is of another study once that changes, and is found again.
 #[test]
 fn kept_state_follows_the_study() {
     let (_folder, site) = small_site();

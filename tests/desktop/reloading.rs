@@ -39,7 +39,7 @@ fn replace_model(folder: &Path) {
 }
 
 const NOTICE: &str = "works.glb has changed on the disk.";
-const STALE: &str = "What is asked has changed since: find it anew.";
+const STALE: &str = "The request has changed since: find it again.";
 
 /// What is open is what was read, in the picture and in what is handed in, until somebody reloads it.
 #[test]
@@ -183,7 +183,7 @@ fn model_that_cannot_be_read_leaves_the_open_site() {
     assert!(harness.state().picture().unwrap().2 != before);
 }
 
-/// The state is kept, the model is drawn anew elsewhere, and the change is that between the two.
+/// The state is kept, the model is drawn again elsewhere, and the change is that between the two.
 #[test]
 fn kept_state_is_what_it_was_when_its_model_changes() {
     let (folder, site) = small_site();

@@ -83,13 +83,13 @@ fn damaged_files_are_not_gone_on_with() {
                 !told.contains("goes on") && told.contains(&format!("{out}/{file} is not what the study left")),
                 "{told}"
             );
-            assert!(told.contains("begins anew"), "{told}");
+            assert!(told.contains("starts over"), "{told}");
             assert!(files(&path.join(&out)) == right, "{out}: {:?}", files(&path.join(&out)).keys());
         }
         // and where nothing is, it goes on
         stopped(path, &asked("well"), "40%");
         let told = stderr(&gnomon(path, &asked("well")));
-        assert!(told.contains("goes on where it was stopped") && !told.contains("begins anew"), "{told}");
+        assert!(told.contains("goes on where it was stopped") && !told.contains("starts over"), "{told}");
         assert!(files(&path.join("well")) == right, "{name}");
         fs::remove_dir_all(path.join("well")).unwrap();
     }
@@ -105,7 +105,7 @@ fn masks_of_another_study_are_not_kept() {
     stopped(path, &study("2026-09-18", "out"), "50%");
     done(path, &study("2026-06-18", "other"));
     let told = stderr(&gnomon(path, &study("2026-09-18", "out")));
-    assert!(told.contains("masks/mask-0000.png is not what the study left") && told.contains("begins anew"), "{told}");
+    assert!(told.contains("masks/mask-0000.png is not what the study left") && told.contains("starts over"), "{told}");
     assert!(files(&path.join("masks")) == files(&path.join("right-masks")));
     assert!(files(&path.join("out")) == files(&path.join("right")));
     // those beyond a shorter study's are told of
@@ -122,7 +122,7 @@ fn several_stopped_studies_lie_side_by_side() {
     let dates = ["2026-09-18", "2026-06-18", "2026-03-18"];
     for date in &dates[..2] {
         let told = stopped(path, &study(date, "out"), "40%");
-        assert!(!told.contains("begins anew"), "{told}");
+        assert!(!told.contains("starts over"), "{told}");
     }
     let both = ["profile.N.unfinished", "profile.N.unfinished", "shadow.bits.N.unfinished", "shadow.bits.N.unfinished"];
     assert_eq!(numberless(&path.join("out")), both);

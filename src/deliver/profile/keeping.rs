@@ -1,4 +1,4 @@
-//! What a study writes while it goes on, and what it goes on from where it was stopped.
+//! What a study writes while it runs, and how it continues from that after it was stopped.
 
 use super::request::{ProfileRequest, mask_path};
 use super::sums::Sums;

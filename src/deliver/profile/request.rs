@@ -1,4 +1,4 @@
-//! What is asked of a study on the plan, and what its files are called.
+//! The request for a study on the plan, and the names of its files.
 
 use crate::deliver::disk::bits;
 use crate::deliver::lines::Lines;
@@ -13,7 +13,7 @@ pub(super) const DRAWING: &str = "profile.png";
 pub(super) const RASTER: &str = "shadow-hours.tif";
 pub(super) const REPORT: &str = "profile.json";
 
-/// What is asked of a study on the plan.
+/// The request for a study on the plan.
 #[derive(Clone, Debug)]
 pub struct ProfileRequest<'a> {
     /// `profile.png`

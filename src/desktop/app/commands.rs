@@ -36,7 +36,7 @@ impl App {
         self.had_focus = has_focus;
     }
 
-    /// Reads the open site's files anew. What was set in the window stays where the site file has not changed on the disk;
+    /// Reads the open site's files again. What was set in the window stays where the site file has not changed on the disk;
     /// else it is asked about, and is what undo brings back.
     pub(in crate::desktop) fn reload(&mut self, context: &egui::Context) {
         let Some(open) = &self.open else { return };

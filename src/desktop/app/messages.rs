@@ -1,4 +1,4 @@
-//! What goes on, what was done, and what went wrong.
+//! The window's messages: work in progress, work that is done, and errors.
 
 use crate::desktop::app::state::App;
 use crate::desktop::work::export;

@@ -1,4 +1,4 @@
-//! A site becomes the open one, or is read again as its settings have changed.
+//! Opens a site, and reads the open one again when its settings have changed.
 
 use crate::desktop::app::state::{App, Open};
 use crate::desktop::parts::fields::TypedText;

@@ -1,4 +1,4 @@
-//! A bare model is asked for its place.
+//! Asks for the place of a model without a site file.
 
 use crate::desktop::app::state::App;
 use crate::desktop::parts::fields::refused;

@@ -1,4 +1,4 @@
-//! What the work beside the window has come to.
+//! Receives the results of the work in other threads.
 
 use crate::desktop::app::state::App;
 use crate::desktop::results::StudyResult;
@@ -69,7 +69,7 @@ impl App {
         match result {
             // colours of faces are those of the very model that they were found on
             Ok(result) if !result.lies_on(&open.project.site) => {
-                self.notice = Some("The model has changed since: find the hours anew".to_owned());
+                self.notice = Some("The model has changed since: find the hours again".to_owned());
             }
             Ok(result) => self.lay(result),
             Err(fault) => self.fault = Some(fault),

@@ -1,4 +1,4 @@
-//! What is not saved is kept, and offered after a crash or a kill.
+//! Keeps unsaved settings, and offers them after a crash or a kill.
 
 use crate::desktop::app::state::App;
 use crate::desktop::parts::question::Question;

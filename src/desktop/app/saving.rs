@@ -1,4 +1,4 @@
-//! The site file is saved, and what is not saved is asked about before it would be lost.
+//! Saves the site file, and asks before unsaved settings would be lost.
 
 use crate::desktop::app::state::App;
 use crate::desktop::parts::path_dialog::Purpose;

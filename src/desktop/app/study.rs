@@ -1,4 +1,4 @@
-//! The panel's part that finds hours and changes, and tells what was found.
+//! The part of the panel that finds hours and changes, and shows the results.
 
 use crate::choice::{Engine, Subject, listed};
 use crate::desktop::app::state::{App, Open};
@@ -51,7 +51,7 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
     let mut exports = false;
     if let Some(result) = &open.result {
         if !result.is_asked(&open.project, &app.settings) {
-            ui.weak("What is asked has changed since: find it anew.");
+            ui.weak("The request has changed since: find it again.");
         }
         ui.horizontal(|ui| {
             ui.checkbox(&mut open.shows_hours, "Show the hours");
@@ -139,7 +139,7 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
 }
 
 impl App {
-    /// The same window, which keeps studies in a folder that are stopped: they go on when the same is asked again.
+    /// The same window, which keeps stopped studies in a folder: they continue when the same study is requested again.
     pub fn keeping_studies_in(mut self, folder: &Path) -> App {
         self.studies = Some(folder.to_owned());
         self

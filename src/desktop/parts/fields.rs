@@ -1,5 +1,5 @@
-//! Fields that are typed into: what stands in one is read when it is finished, as people write it. What cannot be read
-//! changes nothing, and is told under its field.
+//! Fields for typing: the text is read when it is finished, as people write it. Text that cannot be read changes nothing,
+//! and the reason stands under its field.
 
 use crate::desktop::state::words::PanelWords;
 use crate::message::Worded;

@@ -1,4 +1,4 @@
-//! Paths that are asked for: by dialogs of the system, or one in the window where the system has none; and samples.
+//! Asks for paths: with the system's dialogs, or with one in the window where the system has none; and offers samples.
 
 use crate::deliver::lines::Lines;
 use crate::desktop::parts::question::Question;

@@ -1,4 +1,4 @@
-//! Questions before something would be lost.
+//! Asks before something would be lost.
 
 use crate::desktop::parts::theme;
 use eframe::egui::{self, RichText};

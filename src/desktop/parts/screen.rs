@@ -76,7 +76,7 @@ pub(in crate::desktop) fn set_up(render: &RenderState) {
 pub(in crate::desktop) struct Print(BindGroup);
 
 impl Print {
-    /// Of a texture, which may be drawn anew at any time.
+    /// Of a texture, which may be drawn again at any time.
     pub(in crate::desktop) fn of(texture: &Texture, render: &RenderState) -> Option<Print> {
         let renderer = render.renderer.read();
         let screen: &ScreenPipelines = renderer.callback_resources.get()?;

@@ -1,4 +1,4 @@
-//! The picture, and the hand on it.
+//! The picture, and what the pointer does on it.
 
 use crate::choice::{Method, Settings};
 use crate::desktop::parts::screen::Print;
@@ -134,7 +134,7 @@ impl Viewer {
     }
 
     /// Chooses the size of the next quick look by how long rays took for this picture. Sizes lie apart, as another one is
-    /// looked at anew; it does not grow before there is time to spare.
+    /// looked at again; it does not grow before there is time to spare.
     fn adapt(&mut self, shown: &StagePicture) {
         const SIZES: [f64; 8] = [0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
         let Some(best) = &self.best else { return };

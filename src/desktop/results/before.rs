@@ -20,7 +20,7 @@ pub(in crate::desktop) struct BeforeState {
 }
 
 impl BeforeState {
-    /// Its models, where they need not be read anew.
+    /// Its models, where they need not be read again.
     pub(in crate::desktop) fn models(&self) -> Option<Models> {
         let holds = self.result.is_some() || self.models.changed_file().is_none();
         holds.then(|| self.models.clone())

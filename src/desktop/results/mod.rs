@@ -1,4 +1,4 @@
-//! What was found of a site's study, ready to be laid over the scene.
+//! The results of a site's study, ready to be laid over the scene.
 
 pub(in crate::desktop) mod before;
 pub(in crate::desktop) mod cells;

@@ -64,7 +64,7 @@ impl Easel {
             Ok(gpu) => return Some(self.take(&mut at_hand, gpu)),
             Err(error) => error,
         };
-        // an adapter whose driver was reset is found anew
+        // an adapter whose driver was reset is found again
         match Gpu::open().or_else(|_| Gpu::open_software()) {
             Ok(gpu) => {
                 self.tell(format!("{}; pictures are drawn by '{}'", error.why(), gpu.name()));

@@ -1,4 +1,4 @@
-//! A model without a site file, or several, whose place is asked for.
+//! One or several models without a site file, for which the window asks the place.
 
 use crate::desktop::state::words::PanelWords;
 use crate::message::Worded;

@@ -1,4 +1,4 @@
-//! What is open, what a person sets, and what is kept of it against a crash: nothing is drawn here, and no thread works.
+//! What is open, what a person sets, and what of that is kept in case of a crash. Nothing is drawn here, and no thread runs.
 
 pub(in crate::desktop) mod bare_model;
 pub(in crate::desktop) mod clock;

@@ -34,7 +34,7 @@ pub(in crate::desktop) struct Project {
 /// What an open site is made of.
 pub(in crate::desktop) struct LoadedSite {
     pub(in crate::desktop) path: Option<PathBuf>,
-    /// None where they are to be read anew.
+    /// None where they are to be read again.
     pub(in crate::desktop) models: Option<Models>,
     pub(in crate::desktop) visible: Arc<Site>,
     pub(in crate::desktop) seen: Arc<(Mesh, RayCaster)>,

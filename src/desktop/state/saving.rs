@@ -1,4 +1,4 @@
-//! What is saved, and what is asked before something would be lost.
+//! What is saved, and the questions before something would be lost.
 
 use crate::choice::Method;
 use crate::desktop::state::project::Project;
@@ -37,7 +37,7 @@ pub(in crate::desktop) enum PendingAction {
     Close,
     /// Another site is open.
     Open(Box<Project>),
-    /// The site file is read anew.
+    /// The site file is read again.
     Reload,
 }
 

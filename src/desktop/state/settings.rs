@@ -55,7 +55,7 @@ impl History {
     /// How many are kept.
     const MOST: usize = 200;
 
-    /// Begins anew with another site.
+    /// Starts over with another site.
     pub(in crate::desktop) fn restart(&mut self, now: &WindowSettings) {
         *self = History { last: now.clone(), ..History::default() };
     }

@@ -1,4 +1,4 @@
-//! A site is loaded beside the window, which shows how far it is and can give it up.
+//! Loads a site in a thread of its own; the window shows the progress and can cancel it.
 
 use crate::desktop::state::bare_model::BareModel;
 use crate::desktop::state::project::{LoadedSite, Project, complete, name_of};
@@ -117,7 +117,7 @@ fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, Load
         LoadRequest::Files(paths) => from_files(paths)?,
         LoadRequest::Placed(bare) => (None, placed(bare)?),
         LoadRequest::Left(path, written) => (path, *written),
-        // what is left out of the open site by hand is told, and not filled in
+        // a key that is left out of the open site by hand is reported, and not filled in
         LoadRequest::Again(written, hidden, before) => {
             return read(before.path.clone(), *written, hidden, Some(&before), progress);
         }
@@ -168,7 +168,7 @@ fn read(
         Ok(models.insert(read).clone())
     })
     .map_err(|error| match error {
-        // a model that cannot be read is told before its place is asked
+        // a model that cannot be read is reported before its place is asked for
         SiteError::NoPlaceForModel { .. } => LoadError::Bare(written.model_paths()),
         error => failure(&error, words),
     })?;

@@ -1,4 +1,4 @@
-//! Work that goes on beside the window.
+//! Work in threads beside the window's own.
 
 pub(in crate::desktop) mod export;
 pub(in crate::desktop) mod loading;

@@ -1,4 +1,4 @@
-//! What counting took, as colours of cells: seed 000, figures 3-5 and 3-9.
+//! How much work counting took, as colours of cells: seed 000, figures 3-5 and 3-9.
 
 use super::scale::{Rgb, mix};
 use crate::view::{Decider, FragmentCounts};

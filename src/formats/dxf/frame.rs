@@ -1,4 +1,4 @@
-//! The axes of what is drawn in a plane of its own: DXF gives the plane's normal alone, and its "arbitrary axis algorithm".
+//! The axes of what is drawn in a plane of its own: DXF gives only the plane's normal, and an "arbitrary axis algorithm".
 
 use glam::{DMat3, DVec3};
 

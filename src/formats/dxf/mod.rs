@@ -1,4 +1,4 @@
-//! DXF, of text or binary → parts: one per layer, and per block and layer.
+//! DXF, ASCII or binary → parts: one per layer, and per block and layer.
 //!
 //! The reader is our own: the crate `dxf` keeps whole drawings of all entities as structs, and knows neither MESH nor what of
 //! a file it passed over. `group` reads codes and values, `sections` the sections, `fields` an entity, `entity`,

@@ -2,8 +2,9 @@
 //!
 //! Outlines keep the coordinates of their file, be they degrees or those of a map: only what does not depend on them is
 //! found here, and `site` brings every corner to its place. The files of this folder, in the order of the flow: `geojson`,
-//! `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (what is said of an outline, and
-//! lengths as people write them), `footprint` (one outline, and its names), `overlap` (which outlines their parts replace), `extrude` (outlines → blocks).
+//! `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (the attributes of an outline, and
+//! lengths as people write them), `footprint` (one outline, and its names), `overlap` (which outlines their parts replace),
+//! `extrude` (outlines → blocks).
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted};
@@ -218,7 +219,7 @@ impl Footprints {
     }
 }
 
-/// What is told of heights, and of how outlines became blocks.
+/// What the notes say about heights, and about how outlines became blocks.
 #[derive(Default)]
 struct HeightCounts {
     /// Nobody says a height.

@@ -136,7 +136,7 @@ struct Builder {
     numbers: Vec<u32>,
     /// Vertices in the order of their numbers.
     used: Vec<u32>,
-    /// Coarser steps of numbers are told.
+    /// Coarser steps of numbers get a note.
     told_step: f64,
 }
 

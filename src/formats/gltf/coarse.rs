@@ -1,4 +1,4 @@
-//! How coarse the numbers are that a file's corners are written with, where that is coarser than what is told.
+//! How coarse the numbers of a file's corners are, where they are so coarse that a note says it.
 
 use super::reader::Reader;
 use crate::mesh::CornerPrecision;
@@ -21,7 +21,7 @@ pub(super) fn corners(
         let all = CornerPrecision { corners: first..first + used.len() as u32, step_m, is_float: false };
         return if step_m > told_step { vec![all] } else { Vec::new() };
     }
-    // how large the numbers can be at most is told by where the corners stand; nearly always that is enough
+    // where the corners stand shows how large the numbers can be at most; nearly always that is enough
     let reach = points.iter().fold(DVec3::ZERO, |reach, point| reach.max((point - model_from_mesh.translation).abs()));
     let mesh_from_model = matrix.inverse();
     let largest = [mesh_from_model.x_axis, mesh_from_model.y_axis, mesh_from_model.z_axis]

@@ -1,4 +1,4 @@
-//! What this program itself writes of a component, where glTF has no word for it: under `gnomon` in a node's `extras`.
+//! What this program itself writes about a component, where glTF has no word for it: under `gnomon` in a node's `extras`.
 
 use crate::formats::{PartKind, composed};
 use serde::{Deserialize, Deserializer};

@@ -1,5 +1,5 @@
-//! IFC → the parts that stand there. Reading and shapes are `ifc-lite`'s work; what of it stands, what it is called and
-//! where it lies is decided here.
+//! IFC → the parts that stand there. `ifc-lite` reads the text and builds the shapes; which of them stand there, what they
+//! are called and where they lie is decided here.
 //!
 //! The reader is others' code, in the feature `ifc`: without it a file of the format is one error. The files of this
 //! folder, in the order of the flow: `container` (a file, zipped or not → its text), `scan` (text → which records matter),

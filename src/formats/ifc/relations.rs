@@ -1,4 +1,4 @@
-//! Whose storey, and of what material: names by which a product's parts can be meant.
+//! The storey and the materials of a product: names by which its parts can be selected.
 
 use super::scan::IfcScan;
 use ifc_lite_core::{DecodedEntity, EntityDecoder, IfcType};
@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 /// How deep wholes and parts are followed; a file may go in circles.
 const MAX_DEPTH: usize = 64;
 
-/// The most materials that one product's set may have; each is a name by which it can be meant.
+/// The most materials that one product's set may have; each is a name by which it can be selected.
 const MAX_MATERIALS: usize = 64;
 
 /// What products belong to.

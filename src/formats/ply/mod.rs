@@ -1,4 +1,4 @@
-//! PLY, of text or of numbers of either end → one part.
+//! PLY, ASCII or binary of either byte order → one part.
 //!
 //! `header` reads what the file holds, `body` the numbers.
 

@@ -1,4 +1,5 @@
-//! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation stand there if asked.
+//! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on
+//! request.
 
 use super::geokeys::MapKeys;
 use super::point_cells::{CellBlocks, PointCells};

@@ -84,7 +84,9 @@ impl TileBuilder {
                 *corner = world.transform_point3(upright);
             }
             if !part.positions.iter().all(|corner| corner.is_finite()) {
-                return Err(message!["is brought to no place by its tile's transform"; "export it again"].into());
+                return Err(
+                    message!["has corners that are not finite after its tile's transform"; "export it again"].into()
+                );
             }
             if is_mirrored {
                 part.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));

@@ -1,4 +1,4 @@
-//! What of the patches is no surface of its own: what is there twice, and what lies between parts that touch.
+//! Parts of patches that are no surfaces of their own: those that are there twice, and those between parts that touch.
 //!
 //! Patches share a place where one lies in the other's plane, within the millimetre at which receivers are judged. Two
 //! outsides that look at each other there have a solid on either side, so that no sun reaches them. All else that shares a

@@ -1,4 +1,4 @@
-//! What is asked of a patch: its samples, how it is judged, and what stands before it.
+//! The request for a patch: its samples, how it is judged, and what stands before it.
 
 use super::occluders::Occluders;
 use crate::mesh::patches::{Patch, Patches};
@@ -56,7 +56,7 @@ pub(super) fn is_drawn(patch: &Patch, choice: Choice) -> bool {
     worth_it && patch.alone.is_none()
 }
 
-/// What is asked of occluders.
+/// The request for occluders.
 pub(super) struct OccluderQuery<'a> {
     pub(super) patches: &'a Patches,
     pub(super) occluders: &'a Occluders,

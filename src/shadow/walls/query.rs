@@ -1,4 +1,4 @@
-//! What is asked of walls, and what all ways to make them have in common.
+//! The request for walls, and what all ways to make them have in common.
 
 use super::borders::Borders;
 use crate::gpu::{GpuError, layout};

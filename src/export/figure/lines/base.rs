@@ -1,4 +1,4 @@
-//! What lies under the lines: the ground, the buildings, and where something else parts cells than the sun.
+//! What is drawn under the lines: the ground, the buildings, and those borders between cells that the sun does not make.
 
 use super::{Line, LineGroup, Scale, fill, group, line, paths, stroke};
 use crate::contour::{Contour, ScalarField, contours};

@@ -1,4 +1,4 @@
-//! Letters on lines: where they can be read, and lie on nothing else if that can be.
+//! Labels on lines, placed where they can be read and, if possible, cover nothing else.
 
 use super::{distance, length};
 use crate::export::figure::scale::Rgb;
