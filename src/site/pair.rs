@@ -102,17 +102,7 @@ impl Pair {
         let is_found = after.site.ground.level.is_none() && first.ground.from != GroundFrom::Site;
         let alone = Some(Ground::found(&second.mesh, &second.receives).level)
             .filter(|alone| is_found && !first.ground.is_at(*alone));
-        second.notes.extend(alone.map(|alone| {
-            message![
-                format!(
-                    "{} has the ground of {}, {}, since a comparison has one",
-                    after.file,
-                    before.file,
-                    metres(first.ground.level)
-                );
-                format!("alone it would have {}", metres(alone))
-            ]
-        }));
+        second.notes.extend(alone.map(|alone| note_ground([before, after], first.ground.level, alone)));
         let lowest = first.ground.lowest.min(second.ground.lowest);
         (first.ground.lowest, second.ground.lowest) = (lowest, lowest);
         second.ground.from = first.ground.from;
@@ -159,4 +149,12 @@ fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> R
         return fault("time_zone", format!("{} is not {}, as of", there.time_zone, here.time_zone));
     }
     Ok(there.name)
+}
+
+/// That the second state has the ground of the first, and which it would have alone.
+fn note_ground([before, after]: [&WrittenSite; 2], level: f64, alone: f64) -> Message {
+    message![
+        format!("{} has the ground of {}, {}, since a comparison has one", after.file, before.file, metres(level));
+        format!("alone it would have {}", metres(alone))
+    ]
 }

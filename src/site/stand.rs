@@ -92,7 +92,20 @@ fn converted(
                 part.name,
                 crs.name()
             );
-            ("crs", message![what; "check ", setting("[[model]]", "crs", "`crs`"), " and ", setting("[[model]]", "scale", "`scale`"), ", and ", setting("[place]", "latitude", "latitude"), " and ", setting("[place]", "longitude", "longitude in [place]")])
+            (
+                "crs",
+                message![
+                    what;
+                    "check ",
+                    setting("[[model]]", "crs", "`crs`"),
+                    " and ",
+                    setting("[[model]]", "scale", "`scale`"),
+                    ", and ",
+                    setting("[place]", "latitude", "latitude"),
+                    " and ",
+                    setting("[place]", "longitude", "longitude in [place]")
+                ],
+            )
         })?;
         // from the ground, and not from the level of the sea
         part.positions
@@ -130,12 +143,7 @@ fn anchored(
             message![what; "write position = [0.0, 0.0, 0.0] to have its zero at the place, or correct [place]"],
         ));
     };
-    let by_anchor = zero.north.and_then(|north| match (north, &zero.on_map) {
-        (AnchoredNorth::True(north), _) if is_elsewhere => Some(north),
-        (AnchoredNorth::True(north), _) => Some(north - frame.local.true_north_rad(at)?),
-        (AnchoredNorth::Map(north), Some((crs, on_map))) => Some(north - frame.local.map_north_rad(crs, *on_map)?),
-        (AnchoredNorth::Map(_), None) => None,
-    });
+    let by_anchor = north_by_anchor(zero, at, is_elsewhere, frame);
     let north = placement.north_rad.or(by_anchor).unwrap_or_default();
     let position = placement.position.unwrap_or(there);
     let mut said = vec![match (is_elsewhere, placement.position) {
@@ -159,11 +167,7 @@ fn anchored(
             said.push(said_north(said_by, by_anchor, north));
         }
         (None, Some(by_anchor)) => {
-            let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
-            let of_map = convergence
-                .map(|convergence| format!(", with the map's convergence of {}", angle(convergence)))
-                .unwrap_or_default();
-            said.push(format!("its north is {}{of_map}", angle(by_anchor)));
+            said.push(own_north(zero, by_anchor));
         }
         _ => {}
     }
@@ -171,9 +175,32 @@ fn anchored(
         said.push(no_elevation(there.z, place_height));
     }
     said.retain(|text| !text.is_empty());
-    let note =
-        (!said.is_empty()).then(|| message![said.join("; "); setting("[[model]]", "position", "`position`"), " and ", setting("[[model]]", "north", "`north` under [[model]]"), " change it"]);
+    let note = (!said.is_empty()).then(|| {
+        message![
+            said.join("; ");
+            setting("[[model]]", "position", "`position`"),
+            " and ",
+            setting("[[model]]", "north", "`north` under [[model]]"),
+            " change it"
+        ]
+    });
     Ok((position, north, note))
+}
+
+/// Radians clockwise from the model's north to the frame's, as an anchor says it.
+fn north_by_anchor(zero: &AnchoredZero, at: GeodeticPoint, is_elsewhere: bool, frame: &SiteFrame) -> Option<f64> {
+    match (zero.north?, &zero.on_map) {
+        (AnchoredNorth::True(north), _) if is_elsewhere => Some(north),
+        (AnchoredNorth::True(north), _) => Some(north - frame.local.true_north_rad(at)?),
+        (AnchoredNorth::Map(north), Some((crs, on_map))) => Some(north - frame.local.map_north_rad(crs, *on_map)?),
+        (AnchoredNorth::Map(_), None) => None,
+    }
+}
+
+fn own_north(zero: &AnchoredZero, by_anchor: f64) -> String {
+    let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
+    let of_map = convergence.map(|convergence| format!(", with the map's convergence of {}", angle(convergence)));
+    format!("its north is {}{}", angle(by_anchor), of_map.unwrap_or_default())
 }
 
 /// The north of a model whose file says no place.
