@@ -146,22 +146,7 @@ fn anchored(
     let by_anchor = north_by_anchor(zero, at, is_elsewhere, frame);
     let north = placement.north_rad.or(by_anchor).unwrap_or_default();
     let position = placement.position.unwrap_or(there);
-    let mut said = vec![match (is_elsewhere, placement.position) {
-        (true, None) => {
-            format!("stands at the place, though its {said_by} says {}, {} from there", degrees(at), length(away))
-        }
-        (_, Some(position)) if (position - there).length() <= ONE_PLACE_M => String::new(),
-        (_, Some(_)) => format!(
-            "stands where `position` says, {} from where its {said_by} says, {}",
-            length(position.distance(there)),
-            degrees(at)
-        ),
-        (false, None) => {
-            let on_map = zero.on_map.as_ref().map(|(crs, _)| format!(" in {}", crs.name())).unwrap_or_default();
-            let away = if away > ONE_PLACE_M { format!(", {} from the place", length(away)) } else { String::new() };
-            format!("stands where its {said_by} says{on_map}{away}")
-        }
-    }];
+    let mut said = vec![stands_where(zero, said_by, placement.position, (at, there, away), is_elsewhere)];
     match (placement.north_rad, by_anchor) {
         (Some(north), Some(by_anchor)) if half_turn(north - by_anchor).abs() > ONE_NORTH_RAD => {
             said.push(said_north(said_by, by_anchor, north));
@@ -185,6 +170,32 @@ fn anchored(
         ]
     });
     Ok((position, north, note))
+}
+
+/// Where a model stands, beside what its anchor says; empty where both are one.
+fn stands_where(
+    zero: &AnchoredZero,
+    said_by: &str,
+    position: Option<DVec3>,
+    (at, there, away): (GeodeticPoint, DVec3, f64),
+    is_elsewhere: bool,
+) -> String {
+    match (is_elsewhere, position) {
+        (true, None) => {
+            format!("stands at the place, though its {said_by} says {}, {} from there", degrees(at), length(away))
+        }
+        (_, Some(position)) if (position - there).length() <= ONE_PLACE_M => String::new(),
+        (_, Some(position)) => format!(
+            "stands where `position` says, {} from where its {said_by} says, {}",
+            length(position.distance(there)),
+            degrees(at)
+        ),
+        (false, None) => {
+            let on_map = zero.on_map.as_ref().map(|(crs, _)| format!(" in {}", crs.name())).unwrap_or_default();
+            let away = if away > ONE_PLACE_M { format!(", {} from the place", length(away)) } else { String::new() };
+            format!("stands where its {said_by} says{on_map}{away}")
+        }
+    }
 }
 
 /// Radians clockwise from the model's north to the frame's, as an anchor says it.
