@@ -75,11 +75,13 @@ impl ReadContents {
 
     /// Per component whether it casts: what lies on the ground does so only where it is named.
     pub(super) fn casts(&self, names: &Names, components: &[Component]) -> Vec<bool> {
+        let is_terrain = components.iter().map(|component| component.is_terrain);
         let chosen = names.chosen(components);
         if self.kinds.is_empty() || names.means_only_named(components) {
             return chosen;
         }
-        let covers = self.covers(components.len());
+        // what somebody calls terrain is no cover
+        let covers = self.covers(components.len()).zip(is_terrain).map(|(covers, is_terrain)| covers && !is_terrain);
         chosen.into_iter().zip(covers).map(|(chosen, covers)| chosen && !covers).collect()
     }
 

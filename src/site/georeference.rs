@@ -81,7 +81,13 @@ fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georefere
     match (named, written) {
         (Ok(crs), None) => of_coordinates(model, placement, crs, "coordinates"),
         (Err(mut error), None) => {
-            error.hint = message![""; "write ", setting("[[model]]", "crs", "`crs` under [[model]]"), ", for example crs = \"EPSG:25832\""].hint;
+            error.hint = message![
+                "";
+                "write ",
+                setting("[[model]]", "crs", "`crs` under [[model]]"),
+                ", for example crs = \"EPSG:25832\""
+            ]
+            .hint;
             Err(("crs", error))
         }
         (Ok(crs), Some(key)) if crs.kind() != CrsKind::Projected => Err((
@@ -107,7 +113,13 @@ fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str)
         let what = format!("{} says which way north is", crs.name());
         return Err((
             "north",
-            message![what; "leave out ", setting("[[model]]", "north", "`north`"), " or ", setting("[[model]]", "crs", "`crs` under [[model]]")],
+            message![
+                what;
+                "leave out ",
+                setting("[[model]]", "north", "`north`"),
+                " or ",
+                setting("[[model]]", "crs", "`crs` under [[model]]")
+            ],
         ));
     }
     let mut notes = Vec::new();
@@ -181,6 +193,10 @@ fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Geor
     let Some((anchor, mut zero)) = read.get(best).cloned().or_else(|| map_north(model, &mut notes)) else {
         return Georeference { notes, ..Georeference::none() };
     };
+    // an angle to the north of a map that is not known is better than none
+    if zero.north.is_none() && north.is_none() && zero.on_map.is_none() {
+        zero.north = map_north(model, &mut notes).and_then(|(_, of_map)| of_map.north);
+    }
     // IFC's default is the map's own north
     zero.north = zero.north.or(north).or(zero.on_map.as_ref().map(|_| AnchoredNorth::Map(0.0)));
     notes.extend(
@@ -247,9 +263,12 @@ fn crs_of_anchor(text: &str, asked: Option<&Crs>, said_by: &str) -> Result<Crs, 
         Some(asked) => Ok(asked.clone()),
         None if text.trim().is_empty() => {
             let what = format!("says by its {said_by} where on a map it stands, and not on which map");
-            Err(
-                message![what; "write ", setting("[[model]]", "crs", "`crs` under [[model]]"), ", for example crs = \"EPSG:25832\""],
-            )
+            Err(message![
+                what;
+                "write ",
+                setting("[[model]]", "crs", "`crs` under [[model]]"),
+                ", for example crs = \"EPSG:25832\""
+            ])
         }
         None => Crs::read(text).map_err(|error| {
             let what = format!("says by its {said_by} where it stands, but {error}");
@@ -279,7 +298,13 @@ fn zero_on_map(
             metres.y,
             crs.name()
         );
-        message![what; "write ", setting("[[model]]", "crs", "`crs`"), " or ", setting("[[model]]", "position", "`position` under [[model]]")]
+        message![
+            what;
+            "write ",
+            setting("[[model]]", "crs", "`crs`"),
+            " or ",
+            setting("[[model]]", "position", "`position` under [[model]]")
+        ]
     })?;
     let north = anchor.north_rad.map(AnchoredNorth::Map);
     Ok(AnchoredZero { at: Some(at), has_height: height_m.is_some(), on_map: Some((crs, on_map)), north })
@@ -292,7 +317,13 @@ fn map_north<'a>(model: &'a Model, notes: &mut Vec<Message>) -> Option<(&'a Anch
         "says by its {} which way the north of a map is, and it is taken for true north: in most maps that is wrong by up to 2°",
         anchor.said_by
     );
-    notes.push(message![what; "write ", setting("[[model]]", "crs", "`crs`"), " or ", setting("[[model]]", "north", "`north` under [[model]]")]);
+    notes.push(message![
+        what;
+        "write ",
+        setting("[[model]]", "crs", "`crs`"),
+        " or ",
+        setting("[[model]]", "north", "`north` under [[model]]")
+    ]);
     let north = Some(AnchoredNorth::True(north));
     Some((anchor, AnchoredZero { at: None, has_height: false, on_map: None, north }))
 }

@@ -253,22 +253,6 @@ impl Models {
     }
 }
 
-/// What each model looks like, by its file's unit and axis and by how it was turned and moved.
-fn likenesses(
-    written: &WrittenSite,
-    mesh: &Mesh,
-    models: &[(String, Range<usize>)],
-    said: &[(TakenFrame, (f64, DVec3))],
-) -> Vec<Likeness> {
-    let looks = |(index, (taken, stands)): (usize, &(TakenFrame, (f64, DVec3)))| {
-        let table = &written.site.model[index];
-        let components = &mesh.components[models[index].1.clone()];
-        let taken = taken.written(table.scale.is_some(), table.up.is_some());
-        Likeness { model: index, mends: likeness::of(mesh, components, *stands, taken) }
-    };
-    said.iter().enumerate().map(looks).collect()
-}
-
 /// Whether models stand at a place; a bare model stands in its own coordinates where nobody says one.
 fn stands_at_a_place(written: &WrittenSite, proposed: Option<&PlaceTable>) -> bool {
     !written.is_bare_model() || written.site.place.is_some() || proposed.is_some()
@@ -418,4 +402,19 @@ fn chosen(
         Some((name, nearest)) => Err(SiteError::UnknownName { at: written.model_key(index, key), name, nearest }),
         None => Ok(names.chosen(components)),
     }
+}
+
+/// What each model looks like, by its file's unit and axis, and by how it was turned and moved.
+fn likenesses(
+    written: &WrittenSite,
+    mesh: &Mesh,
+    models: &[(String, Range<usize>)],
+    said: &[(TakenFrame, (f64, DVec3))],
+) -> Vec<Likeness> {
+    let tables = written.site.model.iter().zip(models).zip(said).enumerate();
+    let looks = tables.map(|(index, ((table, (_, components)), (taken, stands)))| {
+        let taken = taken.written(table.scale.is_some(), table.up.is_some());
+        Likeness { model: index, mends: likeness::of(mesh, &mesh.components[components.clone()], *stands, taken) }
+    });
+    looks.collect()
 }

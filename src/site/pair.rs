@@ -98,8 +98,11 @@ impl Pair {
         });
         first.grid = plan::grid(before, asked, || [low.min(other_low), high.max(other_high)])?;
         second.grid = first.grid;
+        // where nobody says it
         let is_found = after.site.ground.level.is_none() && first.ground.from != GroundFrom::Site;
-        second.notes.extend(other_ground([&first, &second], [&before.file, &after.file]).filter(|_| is_found));
+        let alone = Some(Ground::found(&second.mesh, &second.receives).level)
+            .filter(|alone| is_found && !first.ground.is_at(*alone));
+        second.notes.extend(alone.map(|alone| note_ground([before, after], first.ground.level, alone)));
         let lowest = first.ground.lowest.min(second.ground.lowest);
         (first.ground.lowest, second.ground.lowest) = (lowest, lowest);
         second.ground.from = first.ground.from;
@@ -148,13 +151,10 @@ fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> R
     Ok(there.name)
 }
 
-/// That the state after would have another ground alone.
-fn other_ground([first, second]: [&Site; 2], [before, after]: [&str; 2]) -> Option<Message> {
-    let alone = Ground::found(&second.mesh, &second.receives).level;
-    (!first.ground.is_at(alone)).then(|| {
-        message![
-            format!("{after} has the ground of {before}, {}, since a comparison has one", metres(first.ground.level));
-            format!("alone it would have {}", metres(alone))
-        ]
-    })
+/// That the second state has the ground of the first, and which it would have alone.
+fn note_ground([before, after]: [&WrittenSite; 2], level: f64, alone: f64) -> Message {
+    message![
+        format!("{} has the ground of {}, {}, since a comparison has one", after.file, before.file, metres(level));
+        format!("alone it would have {}", metres(alone))
+    ]
 }

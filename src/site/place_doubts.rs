@@ -27,9 +27,15 @@ pub(super) fn of(at: Option<GeodeticPoint>, said_by: &str) -> Option<Message> {
     };
     let (.., place) = DEFAULTS.iter().find(is_near)?;
     let what = format!("says by its {said_by} that it stands at {}: {place} where nobody has set a place", degrees(at));
-    Some(
-        message![what; "if it stands elsewhere, say so: ", setting("[place]", "latitude", "latitude"), " and ", setting("[place]", "longitude", "longitude in [place]"), ", and ", setting("[[model]]", "position", "`position` under [[model]]")],
-    )
+    Some(message![
+        what;
+        "if it stands elsewhere, say so: ",
+        setting("[place]", "latitude", "latitude"),
+        " and ",
+        setting("[place]", "longitude", "longitude in [place]"),
+        ", and ",
+        setting("[[model]]", "position", "`position` under [[model]]")
+    ])
 }
 
 /// Where latitude and longitude, or easting and northing, are 0.

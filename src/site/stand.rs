@@ -1,4 +1,4 @@
-//! A model and what is known of its position → the model where it stands, in the one frame of the site.
+//! A model with what is said of it → the model where it stands, in the one frame of the site.
 
 use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
 use super::georeference::{Georeference, KeyFault, Reference};
@@ -109,7 +109,20 @@ fn converted(
                 part.name,
                 crs.name()
             );
-            ("crs", message![what; "check ", setting("[[model]]", "crs", "`crs`"), " and ", setting("[[model]]", "scale", "`scale`"), ", and ", setting("[place]", "latitude", "latitude"), " and ", setting("[place]", "longitude", "longitude in [place]")])
+            (
+                "crs",
+                message![
+                    what;
+                    "check ",
+                    setting("[[model]]", "crs", "`crs`"),
+                    " and ",
+                    setting("[[model]]", "scale", "`scale`"),
+                    ", and ",
+                    setting("[place]", "latitude", "latitude"),
+                    " and ",
+                    setting("[place]", "longitude", "longitude in [place]")
+                ],
+            )
         })?;
         // from the ground, and not from the level of the sea
         part.positions
@@ -147,42 +160,51 @@ fn anchored(
             message![what; "write position = [0.0, 0.0, 0.0] to have its zero at the place, or correct [place]"],
         ));
     };
-    let by_anchor = zero.north.and_then(|north| match (north, &zero.on_map) {
-        (AnchoredNorth::True(north), _) if is_elsewhere => Some(north),
-        (AnchoredNorth::True(north), _) => Some(north - frame.local.true_north_rad(at)?),
-        (AnchoredNorth::Map(north), Some((crs, on_map))) => Some(north - frame.local.map_north_rad(crs, *on_map)?),
-        (AnchoredNorth::Map(_), None) => None,
-    });
+    let by_anchor = north_by_anchor(zero, at, is_elsewhere, frame);
     let north = placement.north_rad.or(by_anchor).unwrap_or_default();
     let position = placement.position.unwrap_or(there);
-    let mut said = vec![said_point(zero, said_by, placement.position, (at, there, away))];
-    said.extend(said_turn(zero, said_by, placement.north_rad, by_anchor));
+    let mut said = vec![stands_where(zero, said_by, placement.position, (at, there, away), is_elsewhere)];
+    match (placement.north_rad, by_anchor) {
+        (Some(north), Some(by_anchor)) if half_turn(north - by_anchor).abs() > ONE_NORTH_RAD => {
+            said.push(said_north(said_by, by_anchor, north));
+        }
+        (None, Some(by_anchor)) => {
+            said.push(own_north(zero, by_anchor));
+        }
+        _ => {}
+    }
     if placement.position.is_none() && !frame.has_elevation && there.z.abs() > ONE_PLACE_M {
         said.push(no_elevation(there.z, place_height));
     }
     said.retain(|text| !text.is_empty());
-    let note =
-        (!said.is_empty()).then(|| message![said.join("; "); setting("[[model]]", "position", "`position`"), " and ", setting("[[model]]", "north", "`north` under [[model]]"), " change it"]);
+    let note = (!said.is_empty()).then(|| {
+        message![
+            said.join("; ");
+            setting("[[model]]", "position", "`position`"),
+            " and ",
+            setting("[[model]]", "north", "`north` under [[model]]"),
+            " change it"
+        ]
+    });
     Ok((position, north, note))
 }
 
-/// Where a zero stands that is by its anchor `at`, so far `away` from the place, and `there` in the frame; empty where two
-/// say the same.
-fn said_point(
+/// Where a model stands, beside what its anchor says; empty where both are one.
+fn stands_where(
     zero: &AnchoredZero,
     said_by: &str,
     position: Option<DVec3>,
     (at, there, away): (GeodeticPoint, DVec3, f64),
+    is_elsewhere: bool,
 ) -> String {
-    let is_elsewhere = zero.on_map.is_none() && away > FAR_M;
     match (is_elsewhere, position) {
         (true, None) => {
             format!("stands at the place, though its {said_by} says {}, {} from there", degrees(at), length(away))
         }
         (_, Some(position)) if (position - there).length() <= ONE_PLACE_M => String::new(),
-        (_, Some(_)) => format!(
+        (_, Some(position)) => format!(
             "stands where `position` says, {} from where its {said_by} says, {}",
-            length(position.unwrap_or_default().distance(there)),
+            length(position.distance(there)),
             degrees(at)
         ),
         (false, None) => {
@@ -193,21 +215,20 @@ fn said_point(
     }
 }
 
-/// Which way a zero is turned, by its anchor or by the user.
-fn said_turn(zero: &AnchoredZero, said_by: &str, asked: Option<f64>, by_anchor: Option<f64>) -> Option<String> {
-    match (asked, by_anchor) {
-        (Some(north), Some(by_anchor)) if half_turn(north - by_anchor).abs() > ONE_NORTH_RAD => {
-            Some(said_north(said_by, by_anchor, north))
-        }
-        (None, Some(by_anchor)) => {
-            let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
-            let of_map = convergence
-                .map(|convergence| format!(", with the map's convergence of {}", angle(convergence)))
-                .unwrap_or_default();
-            Some(format!("its north is {}{of_map}", angle(by_anchor)))
-        }
-        _ => None,
+/// Radians clockwise from the model's north to the frame's, as an anchor says it.
+fn north_by_anchor(zero: &AnchoredZero, at: GeodeticPoint, is_elsewhere: bool, frame: &SiteFrame) -> Option<f64> {
+    match (zero.north?, &zero.on_map) {
+        (AnchoredNorth::True(north), _) if is_elsewhere => Some(north),
+        (AnchoredNorth::True(north), _) => Some(north - frame.local.true_north_rad(at)?),
+        (AnchoredNorth::Map(north), Some((crs, on_map))) => Some(north - frame.local.map_north_rad(crs, *on_map)?),
+        (AnchoredNorth::Map(_), None) => None,
     }
+}
+
+fn own_north(zero: &AnchoredZero, by_anchor: f64) -> String {
+    let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
+    let of_map = convergence.map(|convergence| format!(", with the map's convergence of {}", angle(convergence)));
+    format!("its north is {}{}", angle(by_anchor), of_map.unwrap_or_default())
 }
 
 /// The north of a model whose file says no place.

@@ -88,7 +88,12 @@ fn placed(tiff: &mut Tiff, keys: &MapKeys, path: &Path) -> Result<(DVec2, [DVec2
         world_file(path)
     };
     let is_usable = |(first, [across, down]): &(DVec2, [DVec2; 2])| {
-        first.is_finite() && across.is_finite() && down.is_finite() && across.perp_dot(*down) != 0.0
+        first.is_finite()
+            && across.is_finite()
+            && down.is_finite()
+            && across.perp_dot(*down).is_normal()
+            && across.length_squared().is_normal()
+            && down.length_squared().is_normal()
     };
     found.filter(is_usable).ok_or_else(|| {
         message![

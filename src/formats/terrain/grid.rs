@@ -62,7 +62,7 @@ impl HeightGrid {
 
 /// Three digits are enough for people.
 fn rounded(number: f64) -> f64 {
-    let digits = (2 - number.abs().log10().floor() as i32).clamp(0, 12);
+    let digits = (2.0 - number.abs().log10().floor()).clamp(0.0, 12.0) as i32;
     let power = 10_f64.powi(digits);
     (number * power).round() / power
 }

@@ -89,7 +89,8 @@ impl LandXmlFile {
             "CoordinateSystem" => {
                 let code = attribute(start, "epsgCode").filter(|code| !code.is_empty() && code != "0");
                 let code = code.map(|code| format!("EPSG:{}", code.trim_start_matches("EPSG:")));
-                self.crs = code.or_else(|| attribute(start, "ogcWktCode")).or(self.crs.take());
+                let name = attribute(start, "name").filter(|name| !name.trim().is_empty());
+                self.crs = code.or_else(|| attribute(start, "ogcWktCode")).or(name).or(self.crs.take());
             }
             "Surface" => {
                 let name = attribute(start, "name").unwrap_or_default();
