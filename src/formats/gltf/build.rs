@@ -84,8 +84,11 @@ pub(super) fn build(
                 false => format!("{node}/{material}"),
             };
             let own = document.nodes.get(place.node).map(|node| &node.own);
-            let further = own.map_or(&[][..], |own| &own.aliases);
-            part.aliases = aliases(&node, document.mesh_name(place.mesh), &material, further);
+            part.aliases = match own.and_then(|own| own.aliases.clone()) {
+                // all of them, and the material that another program has given it since
+                Some(ours) => aliases(ours, group.material.map(|_| material.as_str())),
+                None => aliases(vec![node.clone()], document.mesh_name(place.mesh).into_iter().chain([&*material])),
+            };
             kinds.push(own.map(|own| own.kind).unwrap_or_default());
             if group.material.is_some_and(|index| document.is_see_through(index, group.has_faded_vertices)) {
                 see_through.entry(material).or_default().push(parts.len());
@@ -104,9 +107,8 @@ pub(super) fn build(
 }
 
 /// The names by which a part may be meant, each once.
-fn aliases(node: &str, mesh: Option<&str>, material: &str, further: &[String]) -> Vec<String> {
-    let mut aliases = vec![node.to_owned()];
-    for alias in mesh.into_iter().chain([material]).chain(further.iter().map(String::as_str)) {
+fn aliases<'a>(mut aliases: Vec<String>, further: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+    for alias in further {
         if !aliases.iter().any(|known| known == alias) {
             aliases.push(alias.to_owned());
         }
