@@ -2,13 +2,14 @@
 //!
 //! Corners are `f32` around one origin for all, whole metres, which is the nodes' translation; a model that is near its own
 //! zero keeps that, and one that is read from glTF its very numbers. What glTF has no word for stands in `extras`, under
-//! `gnomon`: a component's other names and its kind, and of the scene where it lies on a map or on the Earth.
+//! `gnomon`: a component's other names and its kind, and of the scene where its zero stands on Earth, which way true north
+//! is, and what else the file says of itself. `formats::gltf::own` reads it.
 
 use super::contents::{self, ContentsReport};
 use super::glb::{GlbFile, asset};
 use super::volumes::in_gltf;
 use super::{ExportError, report};
-use crate::formats::{Anchor, AnchorPoint, Coordinates, LeftOut, PartKind};
+use crate::formats::{Anchor, AnchorPoint, LeftOut, Model, PartKind};
 use crate::message::Words;
 use crate::site::PlacedModel;
 use glam::{DVec3, Vec3};
@@ -32,36 +33,26 @@ pub fn glb(placed: &PlacedModel) -> Result<Vec<u8>, ExportError> {
     if size > u64::from(u32::MAX) {
         return Err(too_large(size));
     }
-    let origin = origin(placed);
+    let (origin, material_of) = (origin(placed), materials(&placed.model));
     let mut file = GlbFile::default();
     let (mut nodes, mut meshes) = (Vec::with_capacity(parts.len()), Vec::with_capacity(parts.len()));
     for (index, part) in parts.iter().enumerate() {
         let local = |corner: &DVec3| Vec3::from(in_gltf((corner - origin).as_vec3()));
         let positions: Vec<Vec3> = part.positions.par_iter().map(local).collect();
         let [position, indices] = file.triangles(&positions, part.triangles.as_flattened());
-        meshes.push(json!({
-            "name": part.name,
-            "primitives": [{"attributes": {"POSITION": position}, "indices": indices}],
-        }));
+        let mut primitive = json!({"attributes": {"POSITION": position}, "indices": indices});
+        if let Some(material) = material_of[index] {
+            primitive["material"] = material.into();
+        }
+        meshes.push(json!({"name": part.name, "primitives": [primitive]}));
         let mut node = json!({"name": part.name, "mesh": index});
         if origin != DVec3::ZERO {
             node["translation"] = json!([origin.x, origin.z, 0.0 - origin.y]);
         }
-        let (kind, aliases) = (placed.model.kind(index), part.aliases.iter().filter(|alias| **alias != part.name));
-        let aliases: Vec<&String> = aliases.collect();
-        let mut ours = json!({});
-        if !aliases.is_empty() {
-            ours["aliases"] = json!(aliases);
-        }
-        if kind != PartKind::Building {
-            ours["kind"] = kind.word().into();
-        }
-        if ours != json!({}) {
-            node["extras"] = json!({"gnomon": ours});
-        }
+        node["extras"] = json!({"gnomon": component(&placed.model, index)});
         nodes.push(node);
     }
-    let document = json!({
+    let mut document = json!({
         "asset": asset(),
         "scene": 0,
         "scenes": [{
@@ -72,10 +63,45 @@ pub fn glb(placed: &PlacedModel) -> Result<Vec<u8>, ExportError> {
         "nodes": nodes,
         "meshes": meshes,
     });
+    // an empty list is none in glTF
+    if !placed.model.see_through.is_empty() {
+        document["materials"] = placed.model.see_through.iter().map(|it| translucent(&it.material)).collect();
+    }
     file.finish(WHAT, document).map_err(|error| match error {
         ExportError::LargeGlb { size } => too_large(size),
         error => error,
     })
+}
+
+/// Per part which of the materials that light passes it has.
+fn materials(model: &Model) -> Vec<Option<usize>> {
+    let mut of_part = vec![None; model.parts.len()];
+    for (index, material) in model.see_through.iter().enumerate() {
+        for part in &material.parts {
+            of_part[*part] = Some(index);
+        }
+    }
+    of_part
+}
+
+/// A material that light passes: how much of it, nobody has kept.
+fn translucent(name: &str) -> Value {
+    json!({
+        "name": name,
+        "alphaMode": "BLEND",
+        "doubleSided": true,
+        "pbrMetallicRoughness": {"baseColorFactor": [1.0, 1.0, 1.0, 0.5], "metallicFactor": 0.0},
+    })
+}
+
+/// What is told of a component.
+fn component(model: &Model, index: usize) -> Value {
+    let mut told = json!({"aliases": model.parts[index].aliases});
+    let kind = model.kind(index);
+    if kind != PartKind::Building {
+        told["kind"] = kind.word().into();
+    }
+    told
 }
 
 fn too_large(size: u64) -> ExportError {
@@ -101,21 +127,32 @@ fn origin(placed: &PlacedModel) -> DVec3 {
 fn scene(placed: &PlacedModel) -> Value {
     let model = &placed.model;
     let left_out = |LeftOut { what, count, why }: &LeftOut| json!({"what": what, "count": count, "why": why});
-    let mut told = json!({
-        "source": placed.name,
-        "format": model.format,
-        "left_out": model.left_out.iter().map(left_out).collect::<Vec<_>>(),
-    });
-    if let Coordinates::Map(crs) = &model.coordinates {
-        told["crs"] = json!(crs);
+    let mut told = placed.zero.as_ref().map_or(json!({}), |zero| anchor(zero, placed.scale_m));
+    told["source"] = json!(placed.name);
+    told["format"] = model.format.into();
+    told["left_out"] = model.left_out.iter().map(left_out).collect();
+    // glTF says both itself, and many a program writes something else: that they are meant stands here
+    if placed.unit_is_said {
+        told["unit_m"] = 1.0.into();
+    }
+    if placed.up_is_said {
+        told["up"] = "y".into();
+    }
+    if model.stands_on_ground {
+        told["stands_on_ground"] = true.into();
     }
     if !model.anchors.is_empty() {
-        told["anchors"] = model.anchors.iter().map(|found| anchor(found, placed.scale_m)).collect();
+        let said = |found: &Anchor| {
+            let mut told = anchor(found, placed.scale_m);
+            told["said_by"] = found.said_by.into();
+            told
+        };
+        told["anchors"] = model.anchors.iter().map(said).collect();
     }
     told
 }
 
-/// Where the file says that its zero lies. Directions are clockwise from the model's north, −z, in degrees.
+/// Where a zero lies. Directions are clockwise from the model's north, −z, in degrees.
 fn anchor(anchor: &Anchor, scale_m: f64) -> Value {
     let mut told = match &anchor.at {
         AnchorPoint::Map { crs, easting, northing, height, scale } => json!({
@@ -126,7 +163,6 @@ fn anchor(anchor: &Anchor, scale_m: f64) -> Value {
         }),
         AnchorPoint::Nowhere => json!({}),
     };
-    told["said_by"] = anchor.said_by.into();
     if let Some(north) = anchor.north_rad {
         told["north"] = north.to_degrees().into();
     }

@@ -1,13 +1,17 @@
 //! One model file as it was read, upright and in metres, to be written as another file.
 
+use super::anchored_zero::true_north;
 use super::contents::{ModelContents, ReadContents};
 use super::error::SiteError;
+use super::georeference::{Georeference, KeyFault, Reference};
+use super::metres;
 use super::overrides::Overrides;
+use super::place_doubts::degrees;
 use super::placement::Placement;
-use crate::formats::{Coordinates, Model, ModelError, on_disk};
+use super::stand::{ProposedPoint, SiteFrame, proposal, stand};
+use crate::crs::{GeodeticPoint, LocalFrame};
+use crate::formats::{Anchor, AnchorPoint, Coordinates, Model, ModelError, Up, on_disk};
 use crate::message::{Message, message};
-use glam::DVec3;
-use rayon::prelude::*;
 use std::path::Path;
 
 /// A model file that was read.
@@ -15,49 +19,101 @@ use std::path::Path;
 pub struct PlacedModel {
     /// What people call the file.
     pub name: String,
-    /// In metres, z up, around the file's own zero, or in the coordinates of its map.
+    /// In metres, z up, around the file's own zero; of one in the coordinates of a map around the place in its middle.
     pub model: Model,
+    /// Where that zero stands on Earth, and which way true north is, as far as anybody says it.
+    pub zero: Option<Anchor>,
     /// How many metres a unit of the file was taken for.
     pub scale_m: f64,
+    /// Whether the file, its format or its map says that.
+    pub unit_is_said: bool,
+    /// Whether the file, its format, its map or the user says which axis is up.
+    pub up_is_said: bool,
     /// What the user should know of how it was read, each a sentence without its stop that names it.
     pub notes: Vec<Message>,
     /// What it holds.
     pub contents: ModelContents,
 }
 
-/// Farther up than this stands nothing on a map, metres: such coordinates are Earth-centred.
-const HIGHEST_M: f64 = 100_000.0;
-
 /// Reads a model file; of what is asked that takes axis, heights, words and the way of reading.
 ///
 /// # Errors
-/// What is wrong with the file, and coordinates that are not of a flat map.
+/// What is wrong with the file, and coordinates of a map that is not known.
 pub fn load_model(path: &Path, asked: &Overrides) -> Result<PlacedModel, SiteError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let placement = Placement { up: asked.up, default_height_m: asked.default_height, ..Placement::default() };
-    let model = asked.reading.read(&on_disk(path), &placement.read_options())?;
-    let scale_m = model.unit_m.unwrap_or(1.0);
-    let model = placement.place(model);
-    if let Some(what) = not_flat(&model) {
-        let fault = message![what; "place it in a site file, which turns it to the place"].into();
-        return Err(ModelError { file: path.to_owned(), fault }.into());
+    let mut model = asked.reading.read(&on_disk(path), &placement.read_options())?;
+    if matches!(model.coordinates, Coordinates::Map(_)) {
+        // a map's third coordinate is the height, whatever its format's axes are
+        (model.up, model.up_is_said) = (Up::Z, true);
     }
-    let notes = model.notes.iter().map(|note| note.clone().about(&name)).collect();
+    let refused = |(_, mut fault): KeyFault| {
+        // there is no key to write here
+        fault.hint = message![""; "export the file in another map, for example EPSG:25832"].hint;
+        SiteError::from(ModelError { file: path.to_owned(), fault: fault.into() })
+    };
+    let said = Georeference::of(&model, &placement).map_err(refused)?;
+    let is_of_map = matches!(said.reference, Reference::Map { .. });
+    let (scale_m, unit_is_said) = (model.unit_m.unwrap_or(1.0), model.unit_m.is_some() || is_of_map);
+    let up_is_said = asked.up.is_some() || model.up_is_said;
+    let mut notes = [model.notes.as_slice(), said.notes.as_slice()].concat();
+    let (model, zero) = match &said.reference {
+        Reference::Map { .. } => {
+            let (model, zero, note) = around_its_middle(model, &placement, said).map_err(refused)?;
+            notes.push(note);
+            (model, Some(zero))
+        }
+        reference => {
+            let zero = zero(reference);
+            (placement.place(model), zero)
+        }
+    };
+    let notes = notes.into_iter().map(|note| note.about(&name)).collect();
     let names: Vec<_> = model.parts.iter().map(|part| (part.name.as_str(), part.aliases.as_slice())).collect();
     let contents = ReadContents::of(&model).told(&name, &names);
-    Ok(PlacedModel { contents, name, scale_m, notes, model })
+    Ok(PlacedModel { contents, name, zero, scale_m, unit_is_said, up_is_said, notes, model })
 }
 
-/// Why coordinates of a map are no metres east, north and up.
-fn not_flat(model: &Model) -> Option<&'static str> {
-    if model.coordinates == Coordinates::Local {
-        return None;
-    }
-    let corners = || model.parts.par_iter().flat_map(|part| &part.positions);
-    let is_degrees = |at: &DVec3| at.x.abs() <= 360.0 && at.y.abs() <= 90.0;
-    if corners().all(is_degrees) {
-        return Some("has its coordinates in degrees, which are no metres");
-    }
-    let is_far_up = |at: &DVec3| at.z.abs() > HIGHEST_M;
-    corners().any(is_far_up).then_some("has Earth-centred coordinates, in which no axis is up")
+/// A model that lies on a map, corner by corner in the frame of the place that it proposes; and that place.
+fn around_its_middle(
+    model: Model,
+    placement: &Placement,
+    said: Georeference,
+) -> Result<(Model, Anchor, Message), KeyFault> {
+    let around = |ProposedPoint { at, has_elevation }| {
+        let at = GeodeticPoint { height_m: if has_elevation { at.height_m } else { 0.0 }, ..at };
+        Some((at, SiteFrame { local: LocalFrame::around(at)?, has_elevation }))
+    };
+    let (at, frame) = proposal(&model, &said)
+        .and_then(around)
+        .ok_or_else(|| ("crs", message!["has coordinates where its map does not reach"]))?;
+    let mut model = stand(model, placement, said, Some(&frame))?.model;
+    // that was said of the file's own zero
+    model.anchors.clear();
+    model.coordinates = Coordinates::Local;
+    // heights from the ground stand on whatever height the place has
+    let elevation_m = (!model.stands_on_ground).then_some(at.height_m);
+    let height = elevation_m.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
+    let note = message![format!(
+        "was in the coordinates of a map, and stands in metres east, north and up of {}{height}, by true north",
+        degrees(at)
+    )];
+    let point = AnchorPoint::Geographic { latitude_deg: at.latitude_deg, longitude_deg: at.longitude_deg, elevation_m };
+    Ok((model, Anchor { said_by: "gnomon", at: point, north_rad: Some(0.0) }, note))
+}
+
+/// Where the file's own zero stands, by the anchor that counts.
+fn zero(reference: &Reference) -> Option<Anchor> {
+    let Reference::Anchor(zero) = reference else { return None };
+    let north_rad = true_north(zero);
+    let at = zero.at.map(|at| AnchorPoint::Geographic {
+        latitude_deg: at.latitude_deg,
+        longitude_deg: at.longitude_deg,
+        elevation_m: zero.has_height.then_some(at.height_m),
+    });
+    (at.is_some() || north_rad.is_some()).then(|| Anchor {
+        said_by: "gnomon",
+        at: at.unwrap_or(AnchorPoint::Nowhere),
+        north_rad,
+    })
 }

@@ -2,7 +2,7 @@
 
 mod archive;
 mod hostile;
-mod house;
+pub(super) mod house;
 mod place;
 
 use glam::DVec3;

@@ -73,10 +73,10 @@ pub(super) fn build(
         let Some(surfaces) = known.get_mut(place.mesh) else {
             continue; // `scene::place` has checked the index.
         };
-        let surfaces = match surfaces {
-            Some(surfaces) => surfaces,
-            None => surfaces.insert(primitive::surfaces(document, &mut accessors, place.mesh)?),
-        };
+        if surfaces.is_none() {
+            *surfaces = Some(primitive::surfaces(document, &mut accessors, place.mesh)?);
+        }
+        let Some(surfaces) = surfaces else { continue };
         if surfaces.groups.is_empty() {
             continue;
         }
@@ -97,8 +97,10 @@ pub(super) fn build(
             }
             let material = document.material_name(group.material);
             part.name = if surfaces.one_material { node.clone() } else { format!("{node}/{material}") };
-            let further = own.map_or(&[][..], |own| &own.aliases);
-            part.aliases = aliases(&node, document.mesh_name(place.mesh), &material, further);
+            part.aliases = match own.and_then(|own| own.aliases.clone()) {
+                Some(ours) => since_written(ours, group, &material),
+                None => aliases(vec![node.clone()], document.mesh_name(place.mesh).into_iter().chain([&*material])),
+            };
             kinds.push(own.map(|own| own.kind).unwrap_or_default());
             if group.material.is_some_and(|index| document.is_see_through(index, group.has_faded_vertices)) {
                 see_through.entry(material).or_default().push(parts.len());
@@ -116,10 +118,14 @@ pub(super) fn build(
     Ok(BuiltScene { parts, kinds, see_through })
 }
 
+/// The names that this program wrote, and the material that another program has given a part since.
+fn since_written(ours: Vec<String>, group: &MaterialGroup, material: &str) -> Vec<String> {
+    aliases(ours, group.material.map(|_| material))
+}
+
 /// The names by which a part may be meant, each once.
-fn aliases(node: &str, mesh: Option<&str>, material: &str, further: &[String]) -> Vec<String> {
-    let mut aliases = vec![node.to_owned()];
-    for alias in mesh.into_iter().chain([material]).chain(further.iter().map(String::as_str)) {
+fn aliases<'a>(mut aliases: Vec<String>, further: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+    for alias in further {
         if !aliases.iter().any(|known| known == alias) {
             aliases.push(alias.to_owned());
         }

@@ -6,7 +6,7 @@
 
 use super::Fault;
 use super::material::Material;
-use super::own::{self, OwnExtras};
+use super::own::{self, OwnExtras, OwnScene};
 use crate::formats::composed;
 use gltf::json::{Accessor, Buffer, Mesh, buffer::View};
 use serde::{Deserialize, Deserializer};
@@ -100,6 +100,8 @@ pub(super) struct DocumentScene {
     name: Option<String>,
     #[serde(default)]
     pub nodes: Vec<usize>,
+    #[serde(default, rename = "extras", deserialize_with = "own::read_scene")]
+    pub own: OwnScene,
 }
 
 /// Which nodes move the vertices of a mesh.

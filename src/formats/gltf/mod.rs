@@ -92,6 +92,11 @@ pub(super) fn read_bytes(bytes: &[u8], path: &Path, options: &ReadOptions, appli
         return Err(Fault::Empty { scene, way_out: notes::way_out(&document, &standing) });
     }
     let notes = notes::of(&document, &standing, is_asked);
-    // glTF is in metres and y up, and many a program exports something else: nothing is said, so that it can be doubted
-    Ok(Model { parts, kinds, notes, see_through, ..Model::default() })
+    let scene = standing.scene.and_then(|scene| document.scenes.get(scene));
+    let own::OwnScene { anchor, unit_m, up_is_said, stands_on_ground } =
+        scene.map(|scene| scene.own.clone()).unwrap_or_default();
+    let anchors = anchor.into_iter().collect();
+    // glTF is in metres and y up, and many a program exports something else: where we have not written it ourselves nothing
+    // is said, so that it can be doubted
+    Ok(Model { parts, kinds, notes, see_through, anchors, unit_m, up_is_said, stands_on_ground, ..Model::default() })
 }

@@ -1,6 +1,6 @@
-//! What this program itself writes about a component, where glTF has no word for it: under `gnomon` in a node's `extras`.
+//! What this program itself writes, where glTF has no word for it: under `gnomon` in the `extras` of a node and of a scene.
 
-use crate::formats::{PartKind, composed};
+use crate::formats::{Anchor, AnchorPoint, PartKind, composed};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
@@ -8,22 +8,63 @@ use serde_json::Value;
 const MOST_ALIASES: usize = 64;
 const LONGEST: usize = 1000;
 
-/// A component's further names, and its kind.
+/// All names of a component beside its own, where they are said, and its kind.
 #[derive(Debug, Default)]
 pub(super) struct OwnExtras {
-    pub aliases: Vec<String>,
+    pub aliases: Option<Vec<String>>,
     pub kind: PartKind,
 }
 
-/// Reads them; what others write there is theirs.
+/// Of a scene: where its zero stands, and what was said of it before it was glTF.
+#[derive(Clone, Debug, Default)]
+pub(super) struct OwnScene {
+    pub anchor: Option<Anchor>,
+    /// Metres a unit, where somebody had said the unit.
+    pub unit_m: Option<f64>,
+    /// Whether somebody had said the axis.
+    pub up_is_said: bool,
+    pub stands_on_ground: bool,
+}
+
+/// Reads a node's; what others write there is theirs.
 pub(super) fn read<'de, D: Deserializer<'de>>(from: D) -> Result<OwnExtras, D::Error> {
     let extras = Value::deserialize(from)?;
     let Some(ours) = extras.get("gnomon") else { return Ok(OwnExtras::default()) };
-    let aliases = ours.get("aliases").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str);
-    let aliases = aliases.filter(|alias| (1..=LONGEST).contains(&alias.len())).take(MOST_ALIASES);
     let kind = ours.get("kind").and_then(Value::as_str);
     Ok(OwnExtras {
-        aliases: aliases.map(|alias| composed(alias).into_owned()).collect(),
+        aliases: ours.get("aliases").and_then(Value::as_array).map(|list| aliases(list)),
         kind: PartKind::ALL.into_iter().find(|known| Some(known.word()) == kind).unwrap_or_default(),
     })
+}
+
+fn aliases(list: &[Value]) -> Vec<String> {
+    let texts = list.iter().filter_map(Value::as_str).filter(|alias| (1..=LONGEST).contains(&alias.len()));
+    texts.take(MOST_ALIASES).map(|alias| composed(alias).into_owned()).collect()
+}
+
+/// Reads a scene's.
+pub(super) fn read_scene<'de, D: Deserializer<'de>>(from: D) -> Result<OwnScene, D::Error> {
+    let extras = Value::deserialize(from)?;
+    let Some(ours) = extras.get("gnomon") else { return Ok(OwnScene::default()) };
+    Ok(OwnScene {
+        anchor: anchor(ours),
+        // glTF has no other
+        unit_m: ours["unit_m"].as_f64().filter(|unit| *unit == 1.0),
+        up_is_said: ours["up"] == "y",
+        stands_on_ground: ours["stands_on_ground"] == true,
+    })
+}
+
+/// Where the scene's zero stands; whether there is such a place, whoever uses it asks.
+fn anchor(ours: &Value) -> Option<Anchor> {
+    let number = |key: &str| ours.get(key).and_then(Value::as_f64);
+    let north_rad = number("north").map(f64::to_radians);
+    let at = match number("latitude").zip(number("longitude")) {
+        Some((latitude_deg, longitude_deg)) => {
+            AnchorPoint::Geographic { latitude_deg, longitude_deg, elevation_m: number("elevation") }
+        }
+        None if north_rad.is_some() => AnchorPoint::Nowhere,
+        None => return None,
+    };
+    Some(Anchor { said_by: "gnomon", at, north_rad })
 }

@@ -98,6 +98,6 @@ const REST: &str = "
 ";
 
 /// The file, with records of the test's own.
-pub(super) fn house(more: &str) -> String {
+pub(in crate::formats) fn house(more: &str) -> String {
     format!("{HEAD}{PROJECT}{BLOCK}{REST}{more}\nENDSEC;\nEND-ISO-10303-21;\n")
 }
