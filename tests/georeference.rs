@@ -1,5 +1,7 @@
 //! Where models stand on Earth: by their coordinates, by their anchors, by what the user writes; and the place they propose.
 
+mod doubts;
+
 use crate::shared::said;
 use glam::DVec3;
 use gnomon::formats::{Anchor, AnchorPoint, Coordinates, Model, ModelError, ReadOptions, Up};
@@ -420,7 +422,7 @@ fn sources_that_disagree_are_both_shown() {
     assert!(said(&site.notes).iter().any(|note| note.contains("450 km from the place")), "{:?}", site.notes);
     let high = "[place]\nlatitude = 49.100393626\nlongitude = 8.4365934\n[[model]]\npath = \"house.glb\"\n";
     let site = load(high, &[("house.glb", anchored(vec![map_anchor(0.0)]))]).expect("no elevation");
-    assert!(said(&site.notes).concat().contains("elevation = 110"), "{:?}", site.notes);
+    assert!(said(&site.notes).concat().contains("the elevation of the place, 110"), "{:?}", site.notes);
 }
 
 /// The proposed place is written with a word of where it is from, and read back as the user's.

@@ -9,6 +9,7 @@ mod convert;
 mod datums;
 mod definition;
 mod local;
+mod meridian;
 mod names;
 mod wkt;
 
@@ -18,12 +19,21 @@ pub use local::{LocalFrame, TOO_FAR_M};
 use crate::message::{Message, message};
 use definition::{Definition, shortened};
 use glam::DVec3;
+use meridian::MiddleMeridian;
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 use std::sync::LazyLock;
 
 /// A text that is longer is no reference system.
 const MOST_BYTES: usize = 64 * 1024;
+
+/// A point that does not come back by so much is not of the map, metres.
+const COMES_BACK_M: f64 = 1.0;
+
+/// So near to a map's zero are a drawing's own numbers and no map's, where the map keeps its zero away by a false easting or
+/// northing of at least so much, metres.
+const NEAR_ZERO_M: f64 = 5_000.0;
+const FALSE_ORIGIN_M: f64 = 100_000.0;
 
 /// Metres to either side of a point between which the direction of the map's north is measured.
 const STEP_M: f64 = 50.0;
@@ -58,6 +68,7 @@ pub struct Crs {
     /// How the datum is shifted to WGS 84; empty where it is not.
     shift: String,
     doubt: Option<&'static str>,
+    meridian: Option<MiddleMeridian>,
 }
 
 /// What a system's coordinates are.
@@ -112,7 +123,8 @@ impl Crs {
             return Err(unusable("its projection has no inverse here".to_owned()));
         }
         let height_unit_m = height_unit_m.or_else(|| usable.text.contains("+vunits=").then(|| proj.vto_meter()));
-        Ok(Crs { proj, name, kind, height_unit_m, shift: usable.shift, doubt: doubt.or(usable.doubt) })
+        let meridian = MiddleMeridian::of(&usable.text);
+        Ok(Crs { proj, name, kind, height_unit_m, shift: usable.shift, doubt: doubt.or(usable.doubt), meridian })
     }
 
     /// What people call it: `EPSG:25832 (ETRS89 / UTM zone 32N)`.
@@ -165,6 +177,29 @@ impl Crs {
         let found = GeodeticPoint { latitude_deg: point.1.to_degrees(), longitude_deg: turned, height_m };
         let is_point = found.latitude_deg.abs() <= 90.0 && turned.is_finite() && height_m.is_finite();
         is_point.then_some(found)
+    }
+
+    /// Whether a point of the map lies far outside of what the map is for, so that its numbers are rather another map's, or
+    /// of another unit or order. Definitions say no area of use: this is what arithmetic can tell.
+    pub fn is_far_outside(&self, at: DVec3) -> bool {
+        if self.kind != CrsKind::Projected {
+            return false;
+        }
+        let Some(on_earth) = self.to_wgs84(at) else { return true };
+        let is_beside = self.meridian.is_some_and(|meridian| meridian.is_far_from(on_earth));
+        let to_m = self.proj.to_meter();
+        let is_kept_away =
+            self.proj.false_easting().abs() >= FALSE_ORIGIN_M || self.proj.false_northing().abs() >= FALSE_ORIGIN_M;
+        let is_at_zero = is_kept_away && at.truncate().length() * to_m < NEAR_ZERO_M;
+        is_beside || is_at_zero || !self.comes_back(on_earth, at)
+    }
+
+    /// Whether a point of the Earth is that of the map, by the forward conversion.
+    fn comes_back(&self, on_earth: GeodeticPoint, at: DVec3) -> bool {
+        let mut point = (on_earth.longitude_deg.to_radians(), on_earth.latitude_deg.to_radians(), 0.0);
+        let found = WGS84.as_ref().and_then(|wgs84| transform(wgs84, &self.proj, &mut point).ok());
+        let apart_m = (point.0 - at.x).hypot(point.1 - at.y) * self.proj.to_meter();
+        found.is_some() && apart_m <= COMES_BACK_M
     }
 
     /// The meridian convergence at a point of the map: radians clockwise from true north to the map's. None where the map

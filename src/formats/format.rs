@@ -34,6 +34,11 @@ pub trait Format: Sync {
         self.is_foreign()
     }
 
+    /// Which keys of a model it uses, of those that not all formats do.
+    fn keys(&self) -> &'static [&'static str] {
+        &[]
+    }
+
     /// The files that a file names: they lie beside it, and are its user's, whether they are read or not.
     fn named_by(&self, _path: &Path) -> Vec<PathBuf> {
         Vec::new()

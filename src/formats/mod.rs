@@ -49,6 +49,6 @@ pub use model::{
 pub use model_reader::ModelReader;
 pub(crate) use names::{composed, on_disk};
 pub(crate) use refused::refusal;
-pub(crate) use table::named_by;
 pub use table::{FORMATS, by_ending, read};
+pub(crate) use table::{is_model, keys_of, named_by};
 pub(crate) use terrain::POINT_CLASSES;

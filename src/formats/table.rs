@@ -41,6 +41,30 @@ pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {
     FORMATS.iter().copied().find(|format| format.endings().contains(&ending.as_str()))
 }
 
+fn by_content(head: &[u8]) -> Option<&'static dyn Format> {
+    FORMATS.iter().copied().find(|format| format.begins(head))
+}
+
+/// The bytes by which a file's format is known.
+fn head_of(path: &Path) -> std::io::Result<Vec<u8>> {
+    let mut head = Vec::new();
+    File::open(path)?.take(HEAD_BYTES).read_to_end(&mut head)?;
+    Ok(head)
+}
+
+/// Whether a path names a model and no site file: its name ends as those of a format, or it is a file whose content is of
+/// one.
+pub(crate) fn is_model(path: &Path) -> bool {
+    let is_site = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let begins = || path.is_file() && head_of(path).is_ok_and(|head| by_content(&head).is_some());
+    !is_site && (by_ending(path).is_some() || begins())
+}
+
+/// Which keys of a model the format of that name uses, of those that not all do; none where there is no such format.
+pub(crate) fn keys_of(name: &str) -> Option<&'static [&'static str]> {
+    FORMATS.iter().find(|format| format.name() == name).map(|format| format.keys())
+}
+
 /// The format of a file: its content decides, then how its name ends.
 pub(super) fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> {
     // Asked before opening: opening a pipe would wait for its writer.
@@ -48,9 +72,8 @@ pub(super) fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> 
     if !is_file {
         return Err(message!["is not a file"; "name a model file"].into());
     }
-    let mut head = Vec::new();
-    File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head)).map_err(ModelFault::unreadable)?;
-    if let Some(format) = FORMATS.iter().copied().find(|format| format.begins(&head)) {
+    let head = head_of(path).map_err(ModelFault::unreadable)?;
+    if let Some(format) = by_content(&head) {
         return Ok(format);
     }
     if let Some(refusal) = refused::by_content(&head, path) {

@@ -146,7 +146,15 @@ fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str)
     let map_from_model = DAffine3::from_mat3(scale * placement.upright(model));
     let unit_m = if crs.kind() == CrsKind::Geographic { DEGREE_M } else { ground * crs.unit_m() };
     let reference = Reference::Map { crs: Box::new(crs), map_from_model, unit_m };
+    notes.extend(outside_of_map(model, &reference, None));
     Ok(Georeference { reference, said_by: said_by.to_owned(), notes })
+}
+
+/// That a model's middle lies far outside of its map.
+fn outside_of_map(model: &Model, reference: &Reference, said_by: Option<&str>) -> Option<Message> {
+    let Reference::Map { crs, map_from_model, .. } = reference else { return None };
+    let [low, high] = bounds(model, |corner| map_from_model.transform_point3(corner))?;
+    place_doubts::outside(crs, (low + high) / 2.0, said_by)
 }
 
 /// By how much a file's numbers are multiplied, along the ground and upwards, to be of a system's units and of metres.
@@ -178,17 +186,29 @@ fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Geor
     let mut notes = Vec::new();
     let farthest_m = farthest_m(model, placement);
     let mut read: Vec<(&Anchor, AnchoredZero)> = Vec::new();
+    let mut unplaced: Vec<&Anchor> = Vec::new();
     for anchor in &model.anchors {
         match zero(anchor, asked, farthest_m) {
             Ok(zero) => {
                 notes.extend(place_doubts::of(zero.at, anchor.said_by));
                 read.push((anchor, zero));
             }
-            Err(doubt) => notes.push(doubt),
+            Err(doubt) => {
+                notes.push(doubt);
+                unplaced.push(anchor);
+            }
         }
     }
-    // who says where need not say which way, and the other way round
-    let best = read.iter().position(|(_, zero)| zero.at.is_some()).unwrap_or(0);
+    // the zero of what lies far from it is a number of the map alone
+    let outside = |(anchor, zero): &(&Anchor, AnchoredZero)| {
+        let (crs, at) = zero.on_map.as_ref().filter(|_| farthest_m <= FAR_FROM_ZERO_M)?;
+        place_doubts::outside(crs, *at, Some(anchor.said_by))
+    };
+    notes.extend(read.iter().filter_map(outside));
+    // who says where need not say which way, and the other way round; a point outside of its map comes last
+    let is_there = |(_, zero): &(&Anchor, AnchoredZero)| zero.at.is_some();
+    let sure = read.iter().position(|said| is_there(said) && outside(said).is_none());
+    let best = sure.or_else(|| read.iter().position(is_there)).unwrap_or(0);
     let north = read.iter().find_map(|(_, zero)| true_north(zero)).map(AnchoredNorth::True);
     let Some((anchor, mut zero)) = read.get(best).cloned().or_else(|| map_north(model, &mut notes)) else {
         return Georeference { notes, ..Georeference::none() };
@@ -210,11 +230,13 @@ fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Geor
             .as_ref()
             .and_then(|(crs, _)| crs.doubt().map(|doubt| message![format!("is placed in {}: {doubt}", crs.name())])),
     );
+    notes.extend(unplaced.iter().filter_map(|other| place_doubts::turned_apart(anchor.said_by, &zero, other)));
     notes.extend(scale_doubt(anchor, placement.unit_m(model)));
     let said_by = anchor.said_by.to_owned();
     if farthest_m > FAR_FROM_ZERO_M
         && let Some(reference) = beyond(model, placement, anchor, &zero)
     {
+        notes.extend(outside_of_map(model, &reference, Some(&said_by)));
         return Georeference { reference, said_by, notes };
     }
     Georeference { reference: Reference::Anchor(Box::new(zero)), said_by, notes }

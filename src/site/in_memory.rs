@@ -39,7 +39,8 @@ impl Site {
         let shadows = with_shadows(&mesh, bounds, &all, ground.level, &track, VIEW_CUT);
         let camera = camera::found(place.latitude_deg, bounds, shadows, ground.level, &track);
         let receivers = Receivers::default();
-        let of_mesh = notes::of_all(&mesh, false).into_iter().chain(ground.notes(&mesh, &all, receivers));
+        let of_mesh =
+            notes::of_all(&mesh, notes::FarFrom::Place).into_iter().chain(ground.notes(&mesh, &all, receivers));
         let notes = of_mesh.chain(track.notes()).chain(notes::on_view(&mesh, &grid, None)).collect();
         Ok(Site {
             place,

@@ -9,7 +9,7 @@ use super::overrides::{Overrides, refuse};
 use super::written::WrittenSite;
 use super::{Ground, Site, camera, ground, notes, plan, study};
 use crate::choice::{ChoiceError, Finder, Method, Receivers};
-use crate::formats::{self, Model, ModelError, ReadOptions};
+use crate::formats::{Model, ModelError, ReadOptions};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
 use crate::message::{Field, Message, message};
@@ -80,7 +80,7 @@ pub struct LoadedMesh {
 pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError> {
     let Overrides { up, default_height, .. } = *asked;
     let mut written = WrittenSite::read(path, &Overrides { up, default_height, ..Overrides::default() })?;
-    let is_bare = formats::by_ending(path).is_some() && !path.is_dir();
+    let is_bare = written.is_bare_model();
     let models = Models::read(&written, |path, options| asked.reading.read(path, options))?;
     let [casts, _] = models.roles(&written)?;
     // what was left out is listed
@@ -140,15 +140,19 @@ impl Site {
     ) -> Result<Site, SiteError> {
         let (written, models) = written.located(models)?;
         let written = &*written;
-        let place = written.place(asked)?;
+        let mut place = written.place(asked)?;
         // Cheap and quick to fail; models come last.
-        let track = study::track(&place, written, asked)?;
+        let mut track = study::track(&place, written, asked)?;
         let method = method(written, asked)?;
         check_settings(asked)?;
         let receivers = asked.receivers.unwrap_or_default();
         let patch_cell = patch_cell(receivers, asked)?;
         let level = ground::level(written, asked)?;
         let models = models()?.with_terrain(written)?;
+        if let Some(elevation_m) = models.elevation_m {
+            place.elevation_m = elevation_m;
+            track = study::track(&place, written, asked)?;
+        }
         let [casts, receives] = models.roles(written)?;
         let mut notes: Vec<Message> = written.place_note().into_iter().collect();
         notes.extend(models.notes(written, &casts));

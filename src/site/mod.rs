@@ -15,6 +15,7 @@ mod georeference;
 mod ground;
 mod in_memory;
 mod inputs;
+mod key_notes;
 mod key_table;
 mod keys;
 mod left_out;

@@ -8,11 +8,11 @@ use super::metres;
 use super::overrides::refuse;
 use super::place_doubts::{self, degrees};
 use super::placement::Placement;
-use super::stand::{ProposedPoint, SiteFrame, map_middle, proposal};
+use super::stand::{FAR_M, ProposedPoint, SiteFrame, map_middle, proposal};
 use super::written::WrittenSite;
 use crate::crs::{GeodeticPoint, LocalFrame};
 use crate::formats::{Anchor, AnchorPoint, Model, Up};
-use crate::message::{Field, Message, Piece, message, pieces, setting};
+use crate::message::{Field, Message, Piece, message, pieces, set_to, setting};
 use std::path::Path;
 
 /// What a model's file, and the site file, say of its coordinates.
@@ -81,31 +81,64 @@ impl ModelReference {
     }
 }
 
+/// A model, as the site file names it, and what is said of it.
+pub(super) type SaidModel<'a> = (&'a str, &'a Model, &'a Placement, &'a Georeference);
+
+/// Where the models stand.
+#[derive(Default)]
+pub(super) struct ModelsFrame {
+    /// None where nobody says a place.
+    pub(super) frame: Option<SiteFrame>,
+    /// The place, where a file says it.
+    pub(super) proposed: Option<PlaceTable>,
+    /// The place's elevation, where the site file says the place without one, and the model whose file says it.
+    pub(super) elevation: Option<(usize, f64)>,
+}
+
+/// The frame around a place that the site file says. Where it says no elevation, that of the first model is, whose file says
+/// one and that stands nearby: the models stand at 0, as those do whose files say none.
+fn written_frame<'a>(table: &PlaceTable, models: impl Iterator<Item = SaidModel<'a>>) -> ModelsFrame {
+    let Some((latitude_deg, longitude_deg)) = table.latitude.zip(table.longitude) else {
+        return ModelsFrame::default();
+    };
+    let at = GeodeticPoint { latitude_deg, longitude_deg, height_m: table.elevation.unwrap_or_default() };
+    let Some(local) = LocalFrame::around(at) else { return ModelsFrame::default() };
+    let said = |(index, (_, model, placement, said)): (usize, SaidModel)| {
+        let point = proposal(model, said).filter(|point| point.has_elevation && placement.position.is_none())?;
+        let is_near = local.point(point.at).is_some_and(|there| there.truncate().length() <= FAR_M);
+        is_near.then_some((index, point.at.height_m))
+    };
+    let elevation = if table.elevation.is_none() { models.enumerate().find_map(said) } else { None };
+    let around = elevation.and_then(|(_, height_m)| LocalFrame::around(GeodeticPoint { height_m, ..at }));
+    let has_elevation = table.elevation.is_some() || around.is_some();
+    let frame = Some(SiteFrame { local: around.unwrap_or(local), has_elevation });
+    ModelsFrame { frame, proposed: None, elevation }
+}
+
+/// That a model's file says the place's elevation, with the model for its subject.
+pub(super) fn elevation_note(height_m: f64) -> Message {
+    let key = set_to("[place]", "elevation", height_m.to_string(), "`elevation`".to_owned());
+    message![
+        format!("says the elevation of the place, {}, as nobody wrote one", metres(height_m));
+        key, " in [place] changes it"
+    ]
+}
+
 /// The place of the models: the site file's, else the first that a file proposes; one that is a program's own only where
 /// there is no other.
-pub(super) fn frame<'a>(
-    written: &WrittenSite,
-    models: impl Iterator<Item = (&'a str, &'a Model, &'a Georeference)>,
-) -> (Option<SiteFrame>, Option<PlaceTable>) {
-    let around =
-        |at: GeodeticPoint, has_elevation: bool| Some(SiteFrame { local: LocalFrame::around(at)?, has_elevation });
+pub(super) fn frame<'a>(written: &WrittenSite, models: impl Iterator<Item = SaidModel<'a>>) -> ModelsFrame {
     if let Some(table) = &written.site.place {
-        let point = table.latitude.zip(table.longitude).map(|(latitude_deg, longitude_deg)| GeodeticPoint {
-            latitude_deg,
-            longitude_deg,
-            height_m: table.elevation.unwrap_or_default(),
-        });
-        return (point.and_then(|at| around(at, table.elevation.is_some())), None);
+        return written_frame(table, models);
     }
     let mut proposed: Vec<(ProposedPoint, String, bool)> = Vec::new();
-    for (name, model, said) in models {
+    for (name, model, _, said) in models {
         if let Some(point) = proposal(model, said) {
             let is_doubted = place_doubts::of(Some(point.at), &said.said_by).is_some();
             proposed.push((point, format!("{}, {}", file_name(name), said.said_by), is_doubted));
         }
     }
     let sure = proposed.iter().find(|(.., is_doubted)| !is_doubted).or(proposed.first());
-    let Some((ProposedPoint { at, has_elevation }, said, _)) = sure else { return (None, None) };
+    let Some((ProposedPoint { at, has_elevation }, said, _)) = sure else { return ModelsFrame::default() };
     let height_m = if *has_elevation { at.height_m } else { 0.0 };
     let table = PlaceTable {
         latitude: Some(at.latitude_deg),
@@ -114,7 +147,9 @@ pub(super) fn frame<'a>(
         source: Some(PlaceSource { said: said.clone(), at: [at.latitude_deg, at.longitude_deg] }),
         ..PlaceTable::default()
     };
-    (around(GeodeticPoint { height_m, ..*at }, *has_elevation), Some(table))
+    let local = LocalFrame::around(GeodeticPoint { height_m, ..*at });
+    let frame = local.map(|local| SiteFrame { local, has_elevation: *has_elevation });
+    ModelsFrame { frame, proposed: Some(table), elevation: None }
 }
 
 fn file_name(path: &str) -> &str {

@@ -7,14 +7,15 @@ use super::file::{Names, PlaceTable};
 use super::georeference::Georeference;
 use super::ground::Ground;
 use super::likeness::{self, Likeness, TakenFrame};
-use super::model_place::{self, ModelReference};
+use super::model_place::{self, ModelReference, ModelsFrame};
 use super::model_table::placed;
+use super::notes::FarFrom;
 use super::overrides::refuse;
 use super::placement::Placement;
 use super::stand::{StandingModel, stand};
 use super::standing::{self, TerrainFaces};
 use super::written::WrittenSite;
-use super::{notes, on_terrain};
+use super::{key_notes, notes, on_terrain};
 use crate::formats::{Coordinates, Model, ModelError, PartKind, ReadOptions, SeeThrough, Up, on_disk};
 use crate::mesh::{Component, Mesh};
 use crate::message::{Message, few, message, set_to};
@@ -50,6 +51,8 @@ pub struct Models {
     /// The place around which they stand, where one of them stands by the Earth.
     place: Option<[Option<f64>; 3]>,
     proposed: Option<PlaceTable>,
+    /// The place's elevation, where a model's file says it in place of the site file.
+    pub(super) elevation_m: Option<f64>,
     place_notes: Vec<Message>,
     references: Vec<ModelReference>,
 }
@@ -82,7 +85,8 @@ impl Models {
         }
         // a file that changes while it is read has changed since
         let sources = sources(written)?;
-        let PlacedModels { models: mut placed, proposed, place_notes, references } = read_placed(written, &read_model)?;
+        let PlacedModels { models: mut placed, proposed, elevation_m, place_notes, references } =
+            read_placed(written, &read_model)?;
         on_terrain::settle(&mut placed);
         let is_on_earth = placed.iter().any(|placed| placed.is_on_earth);
         let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -107,8 +111,12 @@ impl Models {
         for ((model, components), likeness) in models.iter().zip(&likenesses) {
             notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
         }
-        let is_placed = stands_at_a_place(written, proposed.as_ref());
-        notes.extend(notes::of_all(&mesh, is_on_earth).filter(|_| is_placed));
+        let from = match stands_at_a_place(written, proposed.as_ref()) {
+            true if is_on_earth => FarFrom::PlaceOnEarth,
+            true => FarFrom::Place,
+            false => FarFrom::OwnZero,
+        };
+        notes.extend(notes::of_all(&mesh, from));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
         let mark = mark(&mesh);
@@ -127,6 +135,7 @@ impl Models {
             mark,
             place,
             proposed,
+            elevation_m,
             place_notes,
             references,
         };
@@ -293,6 +302,8 @@ fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<Message>
 pub(super) struct PlacedModels {
     pub(super) models: Vec<StandingModel>,
     pub(super) proposed: Option<PlaceTable>,
+    /// The place's elevation, where a model's file says it in place of the site file.
+    pub(super) elevation_m: Option<f64>,
     pub(super) place_notes: Vec<Message>,
     pub(super) references: Vec<ModelReference>,
 }
@@ -312,10 +323,20 @@ pub(super) fn read_placed(
         let said = Georeference::of(&model, &placement).map_err(|fault| written.model_fault(index, fault))?;
         read.push((placement, model, said));
     }
-    let all = read.iter().enumerate().map(|(index, (_, model, said))| (name(written, index), model, said));
-    let (frame, proposed) = model_place::frame(written, all);
-    let mut placed = PlacedModels { models: Vec::new(), proposed, place_notes: Vec::new(), references: Vec::new() };
-    for (index, (placement, model, said)) in read.into_iter().enumerate() {
+    let of_model = |(index, (placement, model, said))| (name(written, index), model, placement, said);
+    let all = read.iter().map(|(placement, model, said)| (placement, model, said)).enumerate().map(of_model);
+    let ModelsFrame { frame, proposed, elevation } = model_place::frame(written, all);
+    let mut placed = PlacedModels {
+        models: Vec::new(),
+        proposed,
+        elevation_m: elevation.map(|(_, height_m)| height_m),
+        place_notes: Vec::new(),
+        references: Vec::new(),
+    };
+    for (index, (placement, model, mut said)) in read.into_iter().enumerate() {
+        let of_elevation = elevation.filter(|(of_model, _)| *of_model == index);
+        said.notes.extend(of_elevation.map(|(_, height_m)| model_place::elevation_note(height_m)));
+        said.notes.extend(key_notes::of(&written.site.model, index, &placement, &model));
         let name = name(written, index);
         placed.references.push(ModelReference::of(name, &model, &placement, &said));
         if frame.is_none() {

@@ -2,7 +2,7 @@
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};
-use crate::message::{Message, Piece, message, setting};
+use crate::message::{Message, Piece, message, set_to, setting};
 use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -14,23 +14,46 @@ const FAR_M: f64 = 20_000.0;
 /// coordinates always more.
 const ASKED_FAR_M: f64 = 50_000.0;
 
-/// The note on all models together, in the frame of a place; whether a file says where on Earth they stand.
-pub(super) fn of_all(mesh: &Mesh, are_on_earth: bool) -> Option<Message> {
+/// From where the note on all models counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FarFrom {
+    /// The place, on an Earth of which a file says where the models stand.
+    PlaceOnEarth,
+    /// The place.
+    Place,
+    /// A file's own zero, as nobody says a place.
+    OwnZero,
+}
+
+/// The note on all models together.
+pub(super) fn of_all(mesh: &Mesh, from: FarFrom) -> Option<Message> {
     let distance = mesh.origin.truncate().length();
     (distance > FAR_M).then(|| {
-        let what = format!("the models stand {:.0} km from the place", distance / 1000.0);
-        match are_on_earth {
-            true => message![
-                what;
+        let km = distance / 1000.0;
+        let from_place = || format!("the models stand {km:.0} km from the place");
+        match from {
+            FarFrom::PlaceOnEarth => message![
+                from_place();
                 "the sun is that of the place: write the latitude and longitude that are meant in [place]"
             ],
-            false => message![what; "if they are in map coordinates, bring them here with ", position()],
+            FarFrom::Place => message![
+                from_place();
+                "if they are in map coordinates, write ", crs(), ", which turns them and moves them to the place, or ", position()
+            ],
+            FarFrom::OwnZero => message![
+                format!("the models stand {km:.0} km from their own zero, as those in map coordinates do");
+                "if they are, write ", crs(), ", which turns them to true north and has them where they are"
+            ],
         }
     })
 }
 
 fn position() -> Piece {
     setting("[[model]]", "position", "`position`")
+}
+
+fn crs() -> Piece {
+    set_to("[[model]]", "crs", "EPSG:…".to_owned(), "`crs = \"EPSG:…\"` under [[model]]".to_owned())
 }
 
 /// The notes on one of the models, each a sentence without its stop that begins with its name.
@@ -98,7 +121,7 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message
     if triangles == components.iter().map(|component| component.faces.len()).sum::<usize>() {
         return Some(message![
             format!("{model} stands {km:.0} km from all else, and the default region and camera leave it out");
-            "if it is in map coordinates, bring it here with ", position()
+            "if it is in map coordinates, write ", crs(), ", which turns it and moves it to the place, or ", position()
         ]);
     }
     let others = match of_component.len() - 1 {

@@ -10,6 +10,7 @@ use super::{Ground, GroundFrom, Site, metres, plan};
 use crate::formats::composed;
 use crate::formats::{Model, ModelError, ReadOptions};
 use crate::message::{Message, message};
+use std::cell::Cell;
 use std::path::Path;
 
 /// Places nearer to each other than this are one, metres along the ground and in height.
@@ -79,7 +80,12 @@ impl Pair {
         table.plan = before.site.plan.clone();
         table.camera = before.site.camera.clone();
 
-        let mut first = Site::with_models(before, asked, models_before)?;
+        let elevation = Cell::new(None);
+        let mut first = Site::with_models(before, asked, || {
+            let models = models_before()?;
+            elevation.set(models.elevation_m);
+            Ok(models)
+        })?;
         match table.ground.level {
             // the command line's goes before what either says
             Some(level) if asked.ground.is_none() && !first.ground.is_at(level) => {
@@ -89,7 +95,14 @@ impl Pair {
             }
             _ => table.ground.level = Some(first.ground.level),
         }
+        // a model's file has said it for both
+        if let Some((place, height_m)) = second.site.place.as_mut().zip(elevation.get()) {
+            place.elevation = Some(height_m);
+        }
         let mut second = Site::with_models(&second, asked, || models_after(&second))?;
+        // one sun, where a file of the second alone says an elevation
+        second.place.clone_from(&first.place);
+        second.track.clone_from(&first.track);
         let [(low, high), (other_low, other_high)] = [&first, &second].map(|site| {
             // a site has a triangle
             let bounds = Bounds::of(&site.mesh).unwrap_or_default();

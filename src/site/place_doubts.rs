@@ -1,12 +1,17 @@
 //! Places in files that nobody has set, and sources that disagree.
 
 use super::anchored_zero::{AnchoredZero, true_north};
-use crate::crs::{GeodeticPoint, LocalFrame};
+use crate::crs::{Crs, GeodeticPoint, LocalFrame};
+use crate::formats::{Anchor, AnchorPoint};
 use crate::message::{Message, message, setting};
+use glam::DVec3;
 
 /// Two sources that agree to this are one: metres along the ground and in height, and radians of north (0.1°).
 pub(super) const ONE_PLACE_M: f64 = 10.0;
 pub(super) const ONE_NORTH_RAD: f64 = 0.1 * std::f64::consts::PI / 180.0;
+
+/// A map's north is not farther from true north where people build with it: 5°, radians.
+const LARGEST_CONVERGENCE_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
 /// How near to a default a place is it, degrees: some 150 m.
 const NEAR_DEG: f64 = 0.0015;
@@ -46,6 +51,21 @@ pub(super) fn zero(said_by: &str) -> Message {
     ]
 }
 
+/// That a point lies far outside of its map, where it does; who says it, where that is an anchor.
+pub(super) fn outside(crs: &Crs, at: DVec3, said_by: Option<&str>) -> Option<Message> {
+    if !crs.is_far_outside(at) {
+        return None;
+    }
+    let by = said_by.map(|by| format!(" by its {by}")).unwrap_or_default();
+    let there = crs.to_wgs84(at).map(|there| format!(", which is {}", degrees(there))).unwrap_or_default();
+    let what = format!("stands{by} at {:.0}, {:.0} in {}{there}: far outside of that map", at.x, at.y, crs.name());
+    Some(message![
+        what;
+        "easting and northing may be exchanged or in another unit, or the map another one: correct the file, or write `crs` \
+         or `position` under [[model]]"
+    ])
+}
+
 /// What another source says that differs from the one that is used; nothing where it says less.
 pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &AnchoredZero) -> Option<Message> {
     let away = one.at.zip(other.at).and_then(|(one, other)| {
@@ -74,6 +94,21 @@ pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &Anch
     Some(
         message![what; setting("[[model]]", "position", "`position`"), " and ", setting("[[model]]", "north", "`north` under [[model]]"), " go before both"],
     )
+}
+
+/// That an anchor on a map that cannot be used says another north than the one that is used, by more than a map's
+/// convergence can be.
+pub(super) fn turned_apart(used: &str, one: &AnchoredZero, other: &Anchor) -> Option<Message> {
+    let turned = half_turn(other.north_rad? - true_north(one)?);
+    let is_map = matches!(other.at, AnchorPoint::Map { .. });
+    (is_map && turned.abs() > LARGEST_CONVERGENCE_RAD).then(|| {
+        let what = format!(
+            "is turned by its {used}; its {} says otherwise, by {}: more than a map's north differs from true north",
+            other.said_by,
+            angle(turned)
+        );
+        message![what; "`north` under [[model]] goes before both"]
+    })
 }
 
 /// Between −π and π.

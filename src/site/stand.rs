@@ -12,7 +12,7 @@ use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 /// A geographic anchor farther from the place than this contradicts it, metres.
-const FAR_M: f64 = 20_000.0;
+pub(super) const FAR_M: f64 = 20_000.0;
 
 /// The site's frame, and whether somebody wrote how high it lies.
 #[derive(Clone, Debug)]

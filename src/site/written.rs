@@ -97,7 +97,7 @@ impl WrittenSite {
                 let what = format!("{name} stands beside the site file {}", self.file);
                 return Err(refuse_beside(message![what; "name it under [[model]] in the site file"]));
             }
-            if formats::by_ending(file).is_none() {
+            if !formats::is_model(file) {
                 let what = format!("{name} is no model of a known format");
                 return Err(refuse_beside(message![what; "name model files alone, or one site"]));
             }
@@ -121,7 +121,7 @@ impl WrittenSite {
         if path.is_dir() {
             return Self::read_file(&path.join("site.toml"));
         }
-        if formats::by_ending(path).is_some() {
+        if formats::is_model(path) {
             return Self::of_model(path);
         }
         match formats::refusal(path) {

@@ -17,7 +17,7 @@ impl App {
             input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<PathBuf>>()
         };
         let files = context.input(dropped);
-        let is_model = |file: &PathBuf| formats::by_ending(file).is_some() && !file.is_dir();
+        let is_model = |file: &PathBuf| formats::is_model(file) && !file.is_dir();
         match files.iter().find(|file| !is_model(file)) {
             _ if files.is_empty() => {}
             Some(site) => self.load(LoadRequest::Files(vec![site.clone()]), context),

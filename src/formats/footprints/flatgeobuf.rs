@@ -32,6 +32,10 @@ impl Format for FlatGeobuf {
         &["fgb"]
     }
 
+    fn keys(&self) -> &'static [&'static str] {
+        &["default_height"]
+    }
+
     fn begins(&self, head: &[u8]) -> bool {
         head.starts_with(MAGIC)
     }

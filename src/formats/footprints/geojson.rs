@@ -30,6 +30,10 @@ impl Format for GeoJson {
         &["geojson", "json", "geojsonl"]
     }
 
+    fn keys(&self) -> &'static [&'static str] {
+        &["default_height"]
+    }
+
     fn begins(&self, head: &[u8]) -> bool {
         json_head::has_member(head, "type", |kind| KINDS.contains(&kind))
             && ["features", "coordinates", "geometry", "geometries"].iter().any(|key| json_head::has_key(head, key))

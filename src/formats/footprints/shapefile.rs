@@ -34,6 +34,10 @@ impl Format for Shapefile {
         &["shp"]
     }
 
+    fn keys(&self) -> &'static [&'static str] {
+        &["default_height"]
+    }
+
     fn begins(&self, head: &[u8]) -> bool {
         // the index has the same header
         head.starts_with(&MAGIC) && head.get(28..32) == Some(&1000_u32.to_le_bytes())

@@ -50,6 +50,10 @@ impl Format for Gltf {
         &["glb", "gltf"]
     }
 
+    fn keys(&self) -> &'static [&'static str] {
+        &["scene"]
+    }
+
     fn begins(&self, head: &[u8]) -> bool {
         head.starts_with(b"glTF")
     }

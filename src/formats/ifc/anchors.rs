@@ -19,6 +19,10 @@ const FARTHEST_SITE_M: f64 = 20_000.0;
 const EQUATOR_M: f64 = 6_378_137.0;
 const ECCENTRICITY2: f64 = 0.006_694_379_990_14;
 
+/// Maps keep what they show at least so far from their zero, and no farther than a quarter of the Earth, metres.
+const BESIDE_ZERO_M: f64 = 100_000.0;
+const LARGEST_MAP_M: f64 = 1.1e7;
+
 /// Two factors are the same within this.
 const SAME: f64 = 0.01;
 
@@ -42,6 +46,7 @@ pub(super) fn of(scan: &IfcScan, frame: &IfcFrame, decoder: &mut EntityDecoder) 
     let mut places = IfcPlaces::default();
     if let Ok(Some((map, details))) = GeoRefExtractor::extract_with_details(decoder, &scan.georeference) {
         places.on_map(&map, &details, frame.unit_m);
+        places.no_direction(scan, decoder);
     }
     let true_north = places.true_north(scan, decoder);
     places.of_site(scan, frame, true_north, decoder);
@@ -71,7 +76,7 @@ impl IfcPlaces {
             self.anchors.push(Anchor { said_by, at, north_rad: Some(0.0) });
             return;
         }
-        let map_unit_m = map.map_unit_scale.unwrap_or(unit_m);
+        let map_unit_m = map.map_unit_scale.unwrap_or_else(|| self.unsaid_map_unit_m(map, said_by, unit_m));
         let crs = map.crs_name.clone().map(|name| name.trim().to_owned()).filter(|name| !name.is_empty());
         let at = AnchorPoint::Map {
             crs: crs.or_else(|| details.well_known_text.clone()).unwrap_or_default(),
@@ -81,6 +86,42 @@ impl IfcPlaces {
             scale: self.scale(map, said_by, map_unit_m, unit_m),
         };
         self.anchors.push(Anchor { said_by, at, north_rad: Some(map.rotation()) });
+    }
+
+    /// Says that a map conversion has an axis without a direction, which is taken for the map's east.
+    fn no_direction(&mut self, scan: &IfcScan, decoder: &mut EntityDecoder) {
+        let conversions = scan.georeference.iter().filter(|(_, kind)| *kind == IfcType::IfcMapConversion);
+        for &(id, _) in conversions {
+            let Ok(conversion) = decoder.decode_by_id(id) else { continue };
+            let axis = conversion.get_float(5).zip(conversion.get_float(6));
+            if axis.is_some_and(|(x, y)| x.hypot(y) < 1e-9) {
+                self.notes.push(message![
+                    "says by its IfcMapConversion an XAxis of (0, 0), which is no direction: it is taken as not turned on its map";
+                    "`north` under [[model]] turns it"
+                ]);
+                return;
+            }
+        }
+    }
+
+    /// Metres of a map's unit that is not said: the project's, as IFC has it; but metres, where the numbers are those of a map
+    /// in metres and would lie beside its zero in the project's unit. Many programs write them so.
+    fn unsaid_map_unit_m(&mut self, map: &GeoReference, said_by: &str, unit_m: f64) -> f64 {
+        let is_named = map.crs_name.as_deref().is_some_and(|name| !name.trim().is_empty());
+        let as_metres = map.eastings.hypot(map.northings);
+        let is_of_map = BESIDE_ZERO_M < as_metres && as_metres < LARGEST_MAP_M;
+        if !(is_named && is_of_map && as_metres * unit_m < BESIDE_ZERO_M) {
+            return unit_m;
+        }
+        self.notes.push(message![
+            format!(
+                "says by its {said_by} {}, {} without the map's unit (MapUnit): in its own unit of {unit_m} m that is beside the \
+                 map's zero, so it is taken in metres",
+                map.eastings, map.northings
+            );
+            "`position` under [[model]] changes where it stands"
+        ]);
+        1.0
     }
 
     /// Metres on the map a metre of the file. Scale converts units, too: from the file's to the map's.

@@ -21,6 +21,10 @@ impl Format for AsciiGrid {
         &["asc"]
     }
 
+    fn keys(&self) -> &'static [&'static str] {
+        &["terrain_error"]
+    }
+
     fn begins(&self, head: &[u8]) -> bool {
         head.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"ncols"))
     }

@@ -37,6 +37,10 @@ impl Format for GeoTiff {
         &["tif", "tiff"]
     }
 
+    fn keys(&self) -> &'static [&'static str] {
+        &["terrain_error"]
+    }
+
     fn begins(&self, head: &[u8]) -> bool {
         [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|mark| head.starts_with(*mark))
     }

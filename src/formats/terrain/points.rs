@@ -43,6 +43,10 @@ impl Format for LasPoints {
         &["las", "laz"]
     }
 
+    fn keys(&self) -> &'static [&'static str] {
+        &["terrain_error", "classes"]
+    }
+
     fn begins(&self, head: &[u8]) -> bool {
         head.starts_with(b"LASF")
     }

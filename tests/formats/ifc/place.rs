@@ -134,6 +134,24 @@ fn a_scale_that_forgets_the_units_is_told_and_does_not_shrink() {
     }
 }
 
+/// IFC has the project's unit where MapUnit is not said; numbers that are metres of a map all the same are taken so.
+#[test]
+fn metres_without_a_map_unit_are_told() {
+    let unsaid = "'EPSG:25832',$,$,$,$,$,$";
+    let model = on_map("IFCMAPCONVERSION(#10,#950,458870.5,5438230.25,115.,1.,0.,0.001)", unsaid);
+    is_on_map(&model.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 1.0);
+    assert!(notes(&model).contains("without the map's unit"), "{}", notes(&model));
+    let model = on_map("IFCMAPCONVERSION(#10,#950,458870500.,5438230250.,115000.,1.,0.,1.)", unsaid);
+    is_on_map(&model.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 1.0);
+    assert!(!notes(&model).contains("without the map's unit"), "{}", notes(&model));
+}
+
+#[test]
+fn an_axis_without_a_direction_is_told() {
+    let model = on_map("IFCMAPCONVERSION(#10,#950,458870.5,5438230.25,115.,0.,0.,0.001)", UTM);
+    assert!(notes(&model).contains("an XAxis of (0, 0)"), "{}", notes(&model));
+}
+
 #[test]
 fn its_relatives_are_read() {
     let rigid = "IFCRIGIDOPERATION(#10,#950,IFCLENGTHMEASURE(458870.5),IFCLENGTHMEASURE(5438230.25),7.)";

@@ -1,0 +1,46 @@
+//! The middle meridian of a transverse Mercator map, far from which it is no map any more.
+
+use super::GeodeticPoint;
+
+/// As far from the middle meridian nobody maps, degrees of the equator: Norway's map in one zone of UTM reaches 5.
+const FAR_DEG: f64 = 10.0;
+
+/// UTM ends at this latitude, degrees.
+const UTM_ENDS_DEG: f64 = 84.0;
+
+/// The middle meridian of a transverse Mercator map.
+#[derive(Clone, Copy)]
+pub(super) struct MiddleMeridian {
+    longitude_deg: f64,
+    is_utm: bool,
+}
+
+impl MiddleMeridian {
+    /// Of a definition in PROJ's text; none of other projections, and of meridians that do not count from Greenwich.
+    pub(super) fn of(text: &str) -> Option<MiddleMeridian> {
+        let value = |key: &str| {
+            text.split_whitespace().find_map(|token| token.trim_start_matches('+').strip_prefix(key)?.strip_prefix('='))
+        };
+        if value("pm").is_some_and(|meridian| meridian != "greenwich") {
+            return None;
+        }
+        match value("proj")? {
+            "utm" => {
+                let zone: f64 = value("zone")?.parse().ok()?;
+                Some(MiddleMeridian { longitude_deg: zone * 6.0 - 183.0, is_utm: true })
+            }
+            "tmerc" | "etmerc" => {
+                let longitude_deg = value("lon_0").map_or(Some(0.0), |degrees| degrees.parse().ok())?;
+                Some(MiddleMeridian { longitude_deg, is_utm: false })
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a point lies far outside of its map.
+    pub(super) fn is_far_from(self, at: GeodeticPoint) -> bool {
+        let beside = (at.longitude_deg - self.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;
+        let is_beside = (beside * at.latitude_deg.to_radians().cos()).abs() > FAR_DEG || beside.abs() > 90.0;
+        is_beside || (self.is_utm && at.latitude_deg.abs() > UTM_ENDS_DEG)
+    }
+}

@@ -1,0 +1,157 @@
+//! What nobody meant, or nobody uses, is told.
+
+use super::{LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, load, map_anchor, one, sheet, site_anchor};
+use crate::shared::said;
+use glam::DVec3;
+use gnomon::crs::Crs;
+use gnomon::formats::{Anchor, AnchorPoint, Model};
+use gnomon::site::{Overrides, Site, WrittenSite, load_mesh};
+
+/// A triangle of PLY, z up.
+const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+     element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n10 0 0\n0 10 5\n3 0 1 2\n";
+
+fn told(site: &Site) -> String {
+    said(&site.notes).join("\n")
+}
+
+/// An anchor of UTM's zone 32.
+fn anchor_at(easting: f64, northing: f64) -> Anchor {
+    let at = AnchorPoint::Map { crs: "EPSG:25832".to_owned(), easting, northing, height: None, scale: 1.0 };
+    Anchor { at, ..map_anchor(0.0) }
+}
+
+#[test]
+fn an_anchor_outside_of_its_map_is_told() {
+    for [easting, northing] in [[UTM[1], UTM[0]], [15.0, 0.0], [UTM[0] / 1000.0, 12.0]] {
+        let place = "[[model]]\npath = \"house.glb\"\n";
+        let site = load(place, &[("house.glb", anchored(vec![anchor_at(easting, northing)]))]).expect("a place");
+        assert!(told(&site).contains("far outside of that map"), "{easting} {northing}: {}", told(&site));
+        // what else the file says is the better word
+        let two = anchored(vec![anchor_at(easting, northing), site_anchor(LONG_LAT, Some(0.0))]);
+        let site = load(place, &[("house.glb", two)]).expect("a place");
+        assert!((site.place.latitude_deg - LONG_LAT[1]).abs() < 1e-6, "{:?}", site.place);
+    }
+    let site = one("", anchored(vec![map_anchor(0.0)])).expect("inside");
+    assert!(!told(&site).contains("outside"), "{}", told(&site));
+    // coordinates that the user takes for a map's
+    let site = one("crs = \"EPSG:25832\"\nposition = [0.0, 0.0, 0.0]", anchored(vec![]));
+    let outside = site.map_or_else(|error| error.to_string(), |site| told(&site));
+    assert!(outside.contains("far outside of that map") || outside.contains("from the place"), "{outside}");
+}
+
+#[test]
+fn maps_reach_as_far_as_they_are_used() {
+    let far = |crs: &str, x: f64, y: f64| Crs::read(crs).expect(crs).is_far_outside(DVec3::new(x, y, 0.0));
+    // all of Norway is mapped in zone 33, Kirkenes 15° beside its meridian; Lisbon; the Scilly Isles; Zürich; Sydney
+    for (crs, x, y) in [
+        ("EPSG:25833", 1_060_000.0, 7_780_000.0),
+        ("EPSG:25832", UTM[0], UTM[1]),
+        ("EPSG:3763", -87_000.0, -105_000.0),
+        ("EPSG:27700", 90_000.0, 10_000.0),
+        ("EPSG:2056", 2_683_000.0, 1_247_000.0),
+        ("EPSG:28992", 121_000.0, 487_000.0),
+        ("EPSG:5514", -743_000.0, -1_043_000.0),
+        ("EPSG:7856", 334_000.0, 6_251_000.0),
+        ("EPSG:3857", 0.0, 0.0),
+    ] {
+        assert!(!far(crs, x, y), "{crs} {x} {y}");
+    }
+    assert!(far("EPSG:27700", 12.0, 30.0) && far("EPSG:2056", 0.0, 0.0) && far("EPSG:25832", UTM[1], UTM[0]));
+    assert!(far("EPSG:3857", 3.0e7, 0.0), "beyond the date line nothing comes back");
+}
+
+/// Coordinates of a map without its name.
+#[test]
+fn coordinates_like_a_maps_ask_for_crs_first() {
+    let [east, north] = UTM;
+    let far = || sheet([[0.0, 0.0], [20.0, 0.0], [0.0, 20.0]].map(|[x, y]| DVec3::new(east + x, north + y, 0.0)));
+    let site = one("", far()).expect("far away");
+    let told = told(&site);
+    let [crs, position] = ["`crs = ", "`position`"].map(|key| told.find(key));
+    assert!(crs.is_some() && crs < position, "{told}");
+    // and `gnomon check` of the file alone
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("far.ply");
+    std::fs::write(
+        &path,
+        PLY.replace("0 0 0\n", "458874 5438769 0\n")
+            .replace("10 0 0", "458884 5438769 0")
+            .replace("0 10 5", "458874 5438779 5"),
+    )
+    .expect("a model");
+    let mesh = load_mesh(&path, &Overrides::default()).expect("a mesh");
+    let told = said(&mesh.notes).join("\n");
+    assert!(told.contains("from their own zero") && told.contains("`crs = "), "{told}");
+}
+
+/// Where nobody writes the place's elevation it is a file's, so that its model stands beside those without heights.
+#[test]
+fn an_elevation_that_nobody_wrote_is_a_files() {
+    let place = "[place]\nlatitude = 49.100393626\nlongitude = 8.4365934\n";
+    let models = "[[model]]\npath = \"plain.glb\"\n[[model]]\npath = \"house.glb\"\n";
+    let both = [("plain.glb", drawing()), ("house.glb", anchored(vec![map_anchor(0.0)]))];
+    let site = load(&format!("{place}{models}"), &both).expect("both");
+    assert_eq!(site.place.elevation_m, 110.0);
+    for component in [0, 1] {
+        assert!(corners(&site.mesh, component).iter().all(|corner| corner.z.abs() < 0.01), "{component}");
+    }
+    assert!(told(&site).contains("house.glb says the elevation of the place, 110"), "{}", told(&site));
+    // what is written counts
+    let site = load(&format!("{place}elevation = 0.0\n{models}"), &both).expect("written");
+    assert_eq!((site.place.elevation_m, corners(&site.mesh, 1)[0].z.round()), (0.0, 110.0));
+    assert!(!told(&site).contains("the elevation of the place"), "{}", told(&site));
+}
+
+/// A map without a name says no place, and its north is held against the other one all the same.
+#[test]
+fn norths_are_compared_without_the_map() {
+    let unnamed = |north_deg: f64| {
+        let at = AnchorPoint::Map { crs: String::new(), easting: 5e5, northing: 5e6, height: None, scale: 1.0 };
+        anchored(vec![Anchor { at, ..map_anchor(north_deg) }, site_anchor(LONG_LAT, Some(0.0))])
+    };
+    let site = one("", unnamed(50.0)).expect("50°");
+    assert!(told(&site).contains("IfcMapConversion says otherwise, by 50.00°"), "{}", told(&site));
+    let site = one("", unnamed(3.0)).expect("3°");
+    assert!(!told(&site).contains("otherwise"), "{}", told(&site));
+}
+
+#[test]
+fn keys_that_contradict_the_file_are_told() {
+    let site = one("scale = 0.001\nup = \"y\"\n", drawing()).expect("millimetres");
+    assert!(told(&site).contains("has a unit of 0.001 m by `scale`, and of 1 m by itself"), "{}", told(&site));
+    assert!(told(&site).contains("has y up by `up`, and z by itself"), "{}", told(&site));
+    let site =
+        one("scale = 0.001\nup = \"y\"\n", Model { unit_m: None, up_is_said: false, ..drawing() }).expect("unsaid");
+    assert!(!told(&site).contains("by itself"), "{}", told(&site));
+}
+
+#[test]
+fn keys_without_a_use_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("sheet.ply"), PLY).expect("a model");
+    let keys = "scene = 0\nterrain_error = 0.5\ndefault_height = 3.0\n";
+    let text = format!("{PLACE}[[model]]\npath = \"sheet.ply\"\n{keys}{STUDY}");
+    std::fs::write(folder.path().join("site.toml"), text).expect("a site file");
+    let site = Site::load(folder.path(), &Overrides::default()).expect("a site");
+    for key in ["scene", "terrain_error", "default_height"] {
+        assert!(told(&site).contains(&format!("sheet.ply has no use for `{key}`")), "{key}: {}", told(&site));
+    }
+}
+
+/// The content makes a model, where the name does not tell.
+#[test]
+fn a_model_without_an_ending_is_a_model() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("noending");
+    std::fs::write(&path, PLY).expect("a model");
+    assert!(WrittenSite::read(&path, &Overrides::default()).expect("a model").is_bare_model());
+    let asked = Overrides { beside: vec![path.clone()], ..Overrides::default() };
+    assert_eq!(WrittenSite::read(&path, &asked).expect("two").site.model.len(), 2);
+    let mesh = load_mesh(&path, &Overrides::default()).expect("a mesh");
+    assert_eq!(mesh.models[0].format, "PLY");
+    // a site file stays one
+    let path = folder.path().join("site.toml");
+    std::fs::write(&path, "[[model]]\npath = \"noending\"\n").expect("a site file");
+    assert!(!WrittenSite::read(&path, &Overrides::default()).expect("a site").is_bare_model());
+}
