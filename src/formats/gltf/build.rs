@@ -86,7 +86,7 @@ pub(super) fn build(
             let own = document.nodes.get(place.node).map(|node| &node.own);
             part.aliases = match own.and_then(|own| own.aliases.clone()) {
                 // all of them, and the material that another program has given it since
-                Some(ours) => aliases(ours, group.material.map(|_| material.as_str())),
+                Some(ours) => aliases(ours, group.material.map(|_| &*material).filter(|given| *given != node)),
                 None => aliases(vec![node.clone()], document.mesh_name(place.mesh).into_iter().chain([&*material])),
             };
             kinds.push(own.map(|own| own.kind).unwrap_or_default());
