@@ -155,6 +155,10 @@ fn models_on_maps_stand_in_metres_around_their_place() {
     };
     let (model, said) = comes_back("map.geojson", &collection(json!(outline)).to_string());
     assert!(model.stands_on_ground && !said.has_height, "its height is that of any ground");
+    let corners = [[8.4365934, 49.1003936], [8.4368674, 49.100395], [8.4368643, 49.1006648], [8.4365934, 49.1003936]];
+    let mut degrees = collection(json!(corners));
+    degrees.as_object_mut().unwrap().remove("crs");
+    comes_back("degrees.geojson", &degrees.to_string());
     let high = outline.map(|[x, y]| [x, y, 110.0]);
     let (model, said) = comes_back("high.geojson", &collection(json!(high)).to_string());
     assert!(said.has_height && (said.place.unwrap().height_m - 110.0).abs() < 1e-9, "{said:?}");
