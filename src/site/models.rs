@@ -16,12 +16,13 @@ use super::standing::{self, TerrainFaces};
 use super::written::WrittenSite;
 use super::{notes, on_terrain, place_doubts};
 use crate::formats::{Coordinates, Model, ModelError, PartKind, ReadOptions, SeeThrough, Up, on_disk};
-use crate::mesh::{Component, Mesh};
+use crate::mesh::{Component, Mesh, MeshError};
 use crate::message::{Message, few, message, set_to};
 use glam::DVec3;
 use rustc_hash::FxBuildHasher;
 use std::cmp::Reverse;
 use std::hash::BuildHasher;
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -102,7 +103,7 @@ impl Models {
             see_through.push(model.see_through);
         }
         notes.extend(place_doubts::of_shifts(&references));
-        let mesh = Mesh::build(parts)?;
+        let mesh = Mesh::build(parts).map_err(|error| no_mesh(&models, error))?;
         let likenesses = likenesses(written, &mesh, &models, &said);
         for ((model, components), likeness) in models.iter().zip(&likenesses) {
             notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
@@ -253,6 +254,17 @@ impl Models {
     }
 }
 
+/// That the parts make no mesh, and whose the part is that is at fault.
+fn no_mesh(models: &[(String, Range<usize>)], error: MeshError) -> SiteError {
+    let whose = |model: &&(String, Range<usize>)| match (&error, models.len()) {
+        (_, 1) => true,
+        (MeshError::TooWide { part, .. }, _) => model.1.contains(part),
+        _ => false,
+    };
+    let file = models.iter().find(whose).map(|(file, _)| file.clone());
+    SiteError::Mesh { file, error }
+}
+
 /// What each model looks like, by its file's unit and axis and by how it was turned and moved.
 fn likenesses(
     written: &WrittenSite,
@@ -351,7 +363,11 @@ fn model(
 ) -> Result<(Placement, Model), SiteError> {
     let (file, placement) = placed(written, index)?;
     let file = on_disk(&file);
-    if !file.is_file() {
+    if written.is_bare_model() {
+        if let Some(fault) = bare_fault(&file) {
+            return Err(ModelError { file, fault: fault.into() }.into());
+        }
+    } else if !file.is_file() {
         return Err(refuse(written.model_key(index, "path"), no_file(name(written, index), &file)));
     }
     let read = read_model(&file, &placement.read_options()).map_err(|error| match error.fault.is_about_scene() {
@@ -364,6 +380,18 @@ fn model(
 /// What people call a model: as the site file does.
 pub(super) fn name(written: &WrittenSite, index: usize) -> &str {
     written.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default()
+}
+
+/// Why a model that nobody but the command line names cannot be opened.
+fn bare_fault(file: &Path) -> Option<Message> {
+    match std::fs::metadata(file) {
+        Ok(found) if found.is_file() => None,
+        Ok(_) => Some(message!["is no regular file"; "give a model file"]),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            Some(message!["there is no such file"; "check its name and its folder"])
+        }
+        Err(error) => Some(message![format!("cannot be read: {error}"); "check who may read it"]),
+    }
 }
 
 /// That a model's file is not there, and what may be wrong with its path.

@@ -2,7 +2,7 @@
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};
-use crate::message::{Message, Piece, message, setting};
+use crate::message::{Message, Piece, kilometres, message, setting};
 use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -18,7 +18,7 @@ const ASKED_FAR_M: f64 = 50_000.0;
 pub(super) fn of_all(mesh: &Mesh, are_on_earth: bool) -> Option<Message> {
     let distance = mesh.origin.truncate().length();
     (distance > FAR_M).then(|| {
-        let what = format!("the models stand {:.0} km from the place", distance / 1000.0);
+        let what = format!("the models stand {} from the place", kilometres(distance / 1000.0));
         match are_on_earth {
             true => message![
                 what;
@@ -67,9 +67,9 @@ pub(super) fn on_probes(probes: &[Probe]) -> Option<Message> {
 
 fn asked_far(what: &str, key: Piece, at: DVec2) -> Option<Message> {
     (at.length() > ASKED_FAR_M).then(|| {
-        let km = at.length() / 1000.0;
+        let far = kilometres(at.length() / 1000.0);
         message![
-            format!("{what} {km:.0} km from the place, maybe in another country");
+            format!("{what} {far} from the place, maybe in another country");
             "if ", key, " is in map coordinates, write metres east and north of the place"
         ]
     })
@@ -93,11 +93,11 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message
         .collect();
     let farthest = |found: &[f64]| found.iter().copied().fold(0.0, f64::max);
     let (worst, found) = of_component.iter().max_by(|one, other| farthest(&one.1).total_cmp(&farthest(&other.1)))?;
-    let km = farthest(found) / 1000.0;
+    let far = kilometres(farthest(found) / 1000.0);
     let triangles: usize = of_component.iter().map(|(_, found)| found.len()).sum();
     if triangles == components.iter().map(|component| component.faces.len()).sum::<usize>() {
         return Some(message![
-            format!("{model} stands {km:.0} km from all else, and the default region and camera leave it out");
+            format!("{model} stands {far} from all else, and the default region and camera leave it out");
             "if it is in map coordinates, bring it here with ", position()
         ]);
     }
@@ -108,7 +108,7 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message
     };
     let those = if triangles == 1 { "1 triangle".to_owned() } else { format!("{triangles} triangles") };
     Some(message![
-        format!("{model} has {those} of '{}'{others} as far as {km:.0} km from all else", worst.name);
+        format!("{model} has {those} of '{}'{others} as far as {far} from all else", worst.name);
         "the default region and camera leave out what lies there: delete it from the model if it is a leftover"
     ])
 }

@@ -91,7 +91,7 @@ impl FlatPolygon {
         let level: Vec<DVec3> = corners.iter().map(|corner| corner.extend(0.0)).collect();
         let cut = cutter.cut(&level, &ends).map_err(|uncut| uncut.why())?;
         if !foot.is_finite() {
-            return Err("a coordinate of theirs is no number");
+            return Err("a coordinate is no number");
         }
         let is_exact = cut.is_exact;
         let triangles = cut.corners.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect();

@@ -84,8 +84,8 @@ fn model_of(geometry: ObjGeometry, path: &Path) -> Model {
 
 /// Tells which polygons have no triangles, or others than they should: empty, too large, crossed.
 pub(super) fn cutter_notes(model: &mut Model, tally: &mut LeftOutTally, [empty, large, crossed]: [u64; 3]) {
-    tally.add_many("faces", "they have no area", empty);
-    tally.add_many("faces", "they have more than 20,000 corners", large);
+    tally.add_many("faces", "no area", empty);
+    tally.add_many("faces", "more than 20,000 corners", large);
     if crossed > 0 {
         let cross = if crossed == 1 { "crosses itself" } else { "cross themselves" };
         let faces = counted(crossed, "face");
