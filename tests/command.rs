@@ -112,7 +112,7 @@ fn mistakes_are_told_in_one_line() {
     fails(path, "shadow . --at 2026-09-18T15:00 --out a.png --mask a.png", 2, &["--mask", "same"]);
     fails(path, "shadow . --at 2026-09-18T15:00 --view camera --cell 1", 2, &["--cell", "camera"]);
     fails(path, "sun . --engine cpu", 2, &["--engine"]);
-    fails(path, "check none.glb", 1, &["none.glb", "cannot be read"]);
+    fails(path, "check none.glb", 1, &["none.glb", "there is no such file"]);
     assert!(names(path.join("out")).is_empty());
 }
 

@@ -13,7 +13,7 @@ use super::overrides::refuse;
 use super::placement::Placement;
 use super::stand::{StandingModel, stand};
 use super::standing::{self, TerrainFaces};
-use super::written::WrittenSite;
+use super::written::{WrittenSite, bare_fault};
 use super::{notes, on_terrain, place_doubts};
 use crate::formats::{Coordinates, Model, ModelError, PartKind, ReadOptions, SeeThrough, Up, on_disk};
 use crate::mesh::{Component, Mesh, MeshError};
@@ -22,7 +22,6 @@ use glam::DVec3;
 use rustc_hash::FxBuildHasher;
 use std::cmp::Reverse;
 use std::hash::BuildHasher;
-use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -364,9 +363,7 @@ fn model(
     let (file, placement) = placed(written, index)?;
     let file = on_disk(&file);
     if written.is_bare_model() {
-        if let Some(fault) = bare_fault(&file) {
-            return Err(ModelError { file, fault: fault.into() }.into());
-        }
+        bare_fault(&file)?;
     } else if !file.is_file() {
         return Err(refuse(written.model_key(index, "path"), no_file(name(written, index), &file)));
     }
@@ -380,18 +377,6 @@ fn model(
 /// What people call a model: as the site file does.
 pub(super) fn name(written: &WrittenSite, index: usize) -> &str {
     written.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default()
-}
-
-/// Why a model that nobody but the command line names cannot be opened.
-fn bare_fault(file: &Path) -> Option<Message> {
-    match std::fs::metadata(file) {
-        Ok(found) if found.is_file() => None,
-        Ok(_) => Some(message!["is no regular file"; "give a model file"]),
-        Err(error) if error.kind() == ErrorKind::NotFound => {
-            Some(message!["there is no such file"; "check its name and its folder"])
-        }
-        Err(error) => Some(message![format!("cannot be read: {error}"); "check who may read it"]),
-    }
 }
 
 /// That a model's file is not there, and what may be wrong with its path.

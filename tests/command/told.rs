@@ -17,6 +17,8 @@ fn a_model_that_is_not_there_is_told_without_a_site_file() {
     let output = crate::shared::program::gnomon(folder.path(), "check missing.glb");
     let said = crate::shared::program::stderr(&output);
     assert!(!said.contains("[[model]]") && !said.contains("site file"), "{said}");
+    // a model beside another one, too
+    fails(folder.path(), "profile tower.glb missing.glb --place 48,2", 1, &told);
     // a site file's key is named where there is one
     std::fs::write(folder.path().join("one.toml"), "[[model]]\npath = \"missing.glb\"\n").unwrap();
     fails(folder.path(), "check one.toml", 1, &["[[model]]", "path", "there is no file"]);

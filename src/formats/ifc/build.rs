@@ -9,7 +9,7 @@ use super::marks::{is_ifc_text, is_whole};
 use super::parts::IfcParts;
 use super::relations::IfcRelations;
 use super::scan::{IfcProduct, IfcScan, renamed, scan};
-use crate::message::{Message, few, message};
+use crate::message::{Message, few, message, pieces};
 use ifc_lite_core::{EntityDecoder, IfcType};
 use ifc_lite_processing::{Batching, Features, ProcessingRequest, ProcessingResult, process, run_on_geometry_pool};
 use std::collections::BTreeMap;
@@ -27,8 +27,9 @@ const BATCH: usize = 400;
 pub(super) fn model(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
     // What the reader would print is counted here by a walk of its own.
     ifc_lite_core::set_report_sink(|_| {});
+    let is_one_of_several = !file.ignored.is_empty();
     let read = || run_on_geometry_pool(|| read(file, options));
-    match catch_unwind(AssertUnwindSafe(read)) {
+    let model = match catch_unwind(AssertUnwindSafe(read)) {
         Ok(Ok(model)) => model,
         Ok(Err(error)) => Err(message![format!("cannot be read: {error}")].into()),
         Err(_) => Err(message![
@@ -36,7 +37,19 @@ pub(super) fn model(file: IfcText, options: &ReadOptions) -> Result<Model, Model
             "check it with the program that wrote it, and export it again"
         ]
         .into()),
+    };
+    model.map_err(|fault| if is_one_of_several { first_of_several(fault) } else { fault })
+}
+
+/// What is wrong with the first model of an archive: the others may be what is meant.
+fn first_of_several(fault: ModelFault) -> ModelFault {
+    let ModelFault::Unusable(Message { what, hint }) = fault else { return fault };
+    let another = if hint.is_empty() { "unpack it to open another" } else { ", or unpack it to open another" };
+    Message {
+        what: [pieces!["is an archive of several models, of which the first "], what].concat(),
+        hint: [hint, pieces![another]].concat(),
     }
+    .into()
 }
 
 fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {

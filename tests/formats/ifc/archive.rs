@@ -70,6 +70,15 @@ fn a_zipped_file_is_the_file() {
 }
 
 #[test]
+fn the_others_are_told_where_the_first_of_several_cannot_be_read() {
+    let text = house("");
+    let archive = zipped(&[("a.ifc", &text.as_bytes()[..text.len() / 2]), ("b.ifc", text.as_bytes())]);
+    let told = "is an archive of several models, of which the first is cut off: its end is missing";
+    refused(&archive, told);
+    refused(&archive, "copy or export it again, or unpack it to open another");
+}
+
+#[test]
 fn bombs_and_broken_archives_are_refused() {
     refused(&zipped(&[("bomb.ifc", &vec![b' '; 200 << 20])]), "more than 100 times as many");
     refused(&zipped(&[("house.ifcxml", b"<ifcXML/>")]), "with no .ifc in it");
