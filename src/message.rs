@@ -348,6 +348,11 @@ macro_rules! plain_display {
 
 pub(crate) use plain_display;
 
+/// A distance; one that no map has is a mistake, and its digits say nothing.
+pub(crate) fn kilometres(km: f64) -> String {
+    if km > 1e6 { "more than a million km".to_owned() } else { format!("{km:.0} km") }
+}
+
 /// Things for a message: the first of them, and how many more there are. `a`, `a and b`, `a, b and 7 more`.
 pub(crate) fn few(mut items: Vec<String>) -> String {
     const MOST: usize = 5;

@@ -11,6 +11,7 @@ mod numbers;
 mod patches;
 mod sides;
 mod techniques;
+mod told;
 pub(crate) mod units;
 mod volumes;
 
@@ -111,7 +112,7 @@ fn mistakes_are_told_in_one_line() {
     fails(path, "shadow . --at 2026-09-18T15:00 --out a.png --mask a.png", 2, &["--mask", "same"]);
     fails(path, "shadow . --at 2026-09-18T15:00 --view camera --cell 1", 2, &["--cell", "camera"]);
     fails(path, "sun . --engine cpu", 2, &["--engine"]);
-    fails(path, "check none.glb", 1, &["none.glb", "cannot be read"]);
+    fails(path, "check none.glb", 1, &["none.glb", "there is no such file"]);
     assert!(names(path.join("out")).is_empty());
 }
 
@@ -346,10 +347,10 @@ fn check_says_what_is_wrong() {
         "places": {"open": [{"kind": "hole", "edges": 4, "length_m": 40.0, "near": [0.0, 0.0, 20.0],
             "from": json["components"][0]["places"]["open"][0]["from"],
             "to": json["components"][0]["places"]["open"][0]["to"]}]}});
-    let frame = "metres along the file's own axes, turned z up (x, −z, y of the glTF)";
+    let frame = "metres along the file's own axes, turned z up (x, −z, y of the file)";
     let model = json!({"name": "open.glb", "unit_m": 1.0, "unit_is_said": false, "up": "y", "up_is_said": false, "crs": null,
         "said_by": null, "place": null, "anchors": [], "north_deg": 0.0, "convergence_deg": null,
-        "file": "open.glb", "format": "glTF", "kinds": {"building": 1}, "groups": [{"name": "default", "components": 1}],
+        "file": "open.glb", "format": "glTF", "kinds": {"building": 1}, "groups": [{"name": "default", "components": 1}, {"name": "tower", "components": 1}],
         "left_out": []});
     let said =
         json!({"triangles": 10, "vertices": 8, "model": model, "frame": frame, "components": [part], "notes": []});

@@ -4,6 +4,7 @@
 use super::model_lines::{self, ModelLines};
 use super::places::{self, DefectKind};
 use super::{ExportError, contents, report};
+use crate::formats::Up;
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
 use crate::message::{Field, Message, Words, message};
@@ -72,10 +73,15 @@ pub fn json(
         triangles: triangles(components),
         vertices: mesh.vertices.len(),
         models: ModelLines::of(references, models),
-        frame: places::frame(frame),
+        frame: places::frame(frame, is_turned(references)),
         components: lines.collect(),
         notes: report::said(notes, words),
     })
+}
+
+/// Whether a file has y up.
+fn is_turned(references: &[ModelReference]) -> bool {
+    references.iter().any(|model| model.up == Up::Y)
 }
 
 /// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
@@ -111,7 +117,12 @@ pub fn table(
     let kinds: Vec<&DefectKind> = places::KINDS.iter().filter(|kind| sum(kind) > 0).collect();
     rows(&mut table, &dirty, &kinds, words);
     let clean = components.len() - dirty.len();
-    let _ = writeln!(table, "\n{} not clean, {clean} clean; where: {}", dirty.len(), places::frame(frame));
+    let _ = writeln!(
+        table,
+        "\n{} not clean, {clean} clean; where: {}",
+        dirty.len(),
+        places::frame(frame, is_turned(references))
+    );
     for kind in kinds {
         let _ = writeln!(table, "{} ({}): {}", kind.head, sum(kind), kind.meaning);
         let mut worst: Vec<(f64, &str, String)> = Vec::new();

@@ -65,8 +65,8 @@ pub(super) fn table(models: &[ModelContents], words: &dyn Words) -> String {
                 shown.map(|group| format!("\"{}\" ({})", plain(&group.name), group.components)).collect();
             let _ = writeln!(table, "  groups: {}{}", shown.join(", "), more(model.groups.len(), words));
         }
-        for LeftOut { what, count, why } in model.left_out.iter().take(MOST) {
-            let _ = writeln!(table, "  left out: {count} {}: {}", plain(what), plain(why));
+        for left in model.left_out.iter().take(MOST) {
+            let _ = writeln!(table, "  left out: {}: {}", plain(&left.counted()), plain(&left.why));
         }
         let others = more(model.left_out.len(), words);
         if !others.is_empty() {

@@ -119,14 +119,14 @@ pub(super) fn table(models: &[ModelReference]) -> String {
             table,
             "{}: unit {} m{}, {} up{}, north {:.2}°",
             plain(&model.name),
-            model.unit_m,
+            six_digits(model.unit_m),
             guess(model.unit_is_said),
             model.up,
             guess(model.up_is_said),
-            model.north_deg,
+            hundredths(model.north_deg),
         );
         if let Some(convergence) = model.convergence_deg {
-            let _ = write!(table, " (the map's convergence there: {convergence:.2}°)");
+            let _ = write!(table, " (the map's convergence there: {:.2}°)", hundredths(convergence));
         }
         match (&model.place, &model.said_by) {
             (Some(at), Some(said_by)) => {
@@ -143,11 +143,23 @@ pub(super) fn table(models: &[ModelReference]) -> String {
         }
         table.push('\n');
         for anchor in &model.anchors {
-            let north = anchor.north_rad.map(|north| format!(" north {:.2}°", north.to_degrees())).unwrap_or_default();
-            let _ = writeln!(table, "  {}: {}{north}", anchor.said_by, plain(&anchor_text(&anchor.at)));
+            let at = Some(plain(&anchor_text(&anchor.at))).filter(|at| !at.is_empty());
+            let north = anchor.north_rad.map(|north| format!("north {:.2}°", hundredths(north.to_degrees())));
+            let said = at.into_iter().chain(north).collect::<Vec<_>>().join(" ");
+            let _ = writeln!(table, "  {}: {said}", anchor.said_by);
         }
     }
     table
+}
+
+/// A number with six digits that count, without zeros at its end: an inch is 0.0254 m, whatever its last bits are.
+fn six_digits(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
+}
+
+/// A number to its hundredth; + 0 makes −0 into 0.
+fn hundredths(number: f64) -> f64 {
+    (number * 100.0).round() / 100.0 + 0.0
 }
 
 /// A text without what would break the line.

@@ -66,11 +66,12 @@ pub(super) const KINDS: [DefectKind; 6] = [
     },
 ];
 
-/// Whose coordinates places have.
-pub(super) fn frame(frame: CoordinateFrame) -> &'static str {
+/// Whose coordinates places have; `is_turned` where a file has y up.
+pub(super) fn frame(frame: CoordinateFrame, is_turned: bool) -> &'static str {
     match frame {
         CoordinateFrame::Place => "metres east, north, up from the place",
-        CoordinateFrame::Model => "metres along the file's own axes, turned z up (x, −z, y of the glTF)",
+        CoordinateFrame::Model if is_turned => "metres along the file's own axes, turned z up (x, −z, y of the file)",
+        CoordinateFrame::Model => "metres along the file's own axes",
     }
 }
 

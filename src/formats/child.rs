@@ -8,7 +8,6 @@
 use super::encoded::{self, EncodingError};
 use super::{Model, ModelFault, ReadLimits, ReadOptions};
 use crate::message::{Field, Message, Piece, message, pieces};
-use std::collections::VecDeque;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -80,9 +79,9 @@ pub(super) fn read(
         // who ended the process listens no more
         let _ = tell.send(encoded::read(&mut BufReader::with_capacity(1 << 20, out)));
     });
-    let (tell, last_words) = mpsc::channel();
+    let (tell, words) = mpsc::channel();
     thread::spawn(move || {
-        let _ = tell.send(last_lines(told));
+        let _ = tell.send(last_words(told));
     });
     match watched(&mut process, limits, is_given_up, &outcome) {
         Err(Ended::Wish) => Err(ModelFault::GivenUp),
@@ -90,7 +89,7 @@ pub(super) fn read(
         Err(Ended::Memory(bytes)) => Err(too_large(bytes).into()),
         Ok(Ok(read)) => Ok(read?),
         Ok(Err(error)) => {
-            let words = last_words.recv_timeout(Duration::from_secs(1)).unwrap_or_default();
+            let words = words.recv_timeout(Duration::from_secs(1)).unwrap_or_default();
             let fault = broken_off(&mut process, &error, &words);
             // on a terminal Ctrl-C reaches both processes, and that one may end first
             if is_given_up.load(Ordering::Relaxed) { Err(ModelFault::GivenUp) } else { Err(fault.into()) }
@@ -169,29 +168,30 @@ impl MemoryWatch {
     }
 }
 
-/// The end of what a process says: a panic names its reason in the last lines.
-fn last_lines(told: impl Read) -> String {
-    const MOST: usize = 2;
+/// The last of what a process says of itself: a line of the program's own, or a panic's message. All else is chatter of
+/// whatever it was built with.
+fn last_words(told: impl Read) -> String {
+    const MOST_LETTERS: usize = 200;
     /// A line without an end is none.
     const LONGEST: u64 = 1 << 16;
-    let (mut lines, mut told) = (VecDeque::new(), BufReader::new(told));
+    let (mut words, mut told, mut is_panic) = (String::new(), BufReader::new(told), false);
     loop {
         let mut line = Vec::new();
         match told.by_ref().take(LONGEST).read_until(b'\n', &mut line) {
-            Ok(0) | Err(_) => break,
+            Ok(0) | Err(_) => return words,
             Ok(_) => {}
         }
         let line = String::from_utf8_lossy(&line);
         let line = line.split_whitespace().collect::<Vec<_>>().join(" ");
-        if line.is_empty() || line.starts_with("note: ") {
+        if line.is_empty() {
             continue;
         }
-        lines.push_back(line.chars().take(300).collect::<String>());
-        if lines.len() > MOST {
-            lines.pop_front();
+        if is_panic || line.starts_with("gnomon:") {
+            words = line.chars().take(MOST_LETTERS).collect();
         }
+        // its message is in the next line
+        is_panic = line.starts_with("thread ") && line.contains(" panicked at ");
     }
-    Vec::from(lines).join(" ")
 }
 
 const SMALLER: &str = "export it in parts or with less detail";
@@ -206,9 +206,14 @@ fn too_long(time: Duration) -> Message {
 }
 
 fn too_large(bytes: u64) -> Message {
-    let gib = bytes as f64 / f64::from(1 << 30);
+    let [mib, gib] = [20, 30].map(|power| bytes as f64 / f64::from(1 << power));
+    let most = match gib {
+        gib if gib >= 1.0 => format!("{gib:.1} GiB"),
+        _ if mib >= 1.0 => format!("{mib:.0} MiB"),
+        _ => format!("{:.0} KiB", (mib * 1024.0).ceil()),
+    };
     message![
-        format!("takes more memory to read than {gib:.1} GiB, and was given up");
+        format!("takes more memory to read than {most}, and was given up");
         SMALLER, Piece::Where(Field::ReadMemory, pieces![", or allow it more with ", (Field::ReadMemory, "64GiB")])
     ]
 }
@@ -216,13 +221,18 @@ fn too_large(bytes: u64) -> Message {
 fn broken_off(process: &mut EndingProcess, error: &EncodingError, words: &str) -> Message {
     // it may still be writing what nobody reads
     let _ = process.0.kill();
-    let ended = match process.0.wait() {
-        Ok(status) => status.to_string(),
-        Err(error) => error.to_string(),
+    let (ended, is_done) = match process.0.wait() {
+        Ok(status) => (status.to_string(), status.success()),
+        Err(error) => (error.to_string(), false),
     };
-    let words = if words.is_empty() { error.to_string() } else { words.to_owned() };
+    let why = match (words, error) {
+        // how it ended says why it gave no more
+        ("", EncodingError::Cut(_)) if !is_done => String::new(),
+        ("", error) => format!(": {error}"),
+        (words, _) => format!(": {words}"),
+    };
     message![
-        format!("cannot be read: its reader broke off ({ended}): {words}");
+        format!("cannot be read: its reader broke off ({ended}){why}");
         "export it again, from another program or in another format, such as glTF"
     ]
 }

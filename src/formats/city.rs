@@ -94,7 +94,7 @@ impl CityBuilder {
         is_turned: bool,
     ) -> Result<(), ModelFault> {
         if surface == CLOSURE {
-            self.tally.add(CLOSURE, "they are not built");
+            self.tally.add(CLOSURE, "not built");
             return Ok(());
         }
         let cut = match self.cutter.cut(points, ends) {

@@ -35,9 +35,9 @@ impl Uncut {
     /// As a clause of what is left out.
     pub(super) fn why(self) -> &'static str {
         match self {
-            Uncut::NoArea => "they have no area",
-            Uncut::NoPoint => "a coordinate of theirs is no number",
-            Uncut::TooLarge => "they have more than 20,000 corners",
+            Uncut::NoArea => "no area",
+            Uncut::NoPoint => "a coordinate is no number",
+            Uncut::TooLarge => "more than 20,000 corners",
         }
     }
 }

@@ -43,6 +43,40 @@ impl LeftOutTally {
     }
 }
 
+/// Words of Gnomon's own for many things, and for one; a file's own terms are as the file has them.
+const ONE_OF_MANY: [(&str, &str); 20] = [
+    ("contents", "content"),
+    ("entities", "entity"),
+    ("faces", "face"),
+    ("features", "feature"),
+    ("geometries", "geometry"),
+    ("hidden faces", "hidden face"),
+    ("implicit tilings", "implicit tiling"),
+    ("instances", "instance"),
+    ("line sets", "line set"),
+    ("lines", "line"),
+    ("nodes", "node"),
+    ("outlines", "outline"),
+    ("patches", "patch"),
+    ("points", "point"),
+    ("polygons", "polygon"),
+    ("rings", "ring"),
+    ("shapes", "shape"),
+    ("surfaces", "surface"),
+    ("tiles", "tile"),
+    ("triangles", "triangle"),
+];
+
+impl LeftOut {
+    /// How many there are, and of what: `12 IfcSpace`, `1 face`.
+    pub fn counted(&self) -> String {
+        let what = &self.what;
+        let rest = |many: &str| what.strip_prefix(many).filter(|rest| rest.is_empty() || rest.starts_with(' '));
+        let one = ONE_OF_MANY.iter().find_map(|(many, one)| Some(format!("1 {one}{}", rest(many)?)));
+        one.filter(|_| self.count == 1).unwrap_or_else(|| format!("{} {what}", self.count))
+    }
+}
+
 /// How many there are of a thing: `1 footprint`, `2 footprints`.
 pub(super) fn counted(count: u64, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })

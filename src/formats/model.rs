@@ -133,7 +133,7 @@ pub struct LeftOut {
     pub what: String,
     /// How many.
     pub count: u64,
-    /// Why, as a clause: "they do not stand there".
+    /// Why, in words that fit one and many: "not built".
     pub why: String,
 }
 

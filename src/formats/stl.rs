@@ -81,7 +81,7 @@ fn of_numbers(triangles: &[[u8; TRIANGLE]], path: &Path, options: &ReadOptions) 
         if corners.iter().all(|corner| corner.is_finite()) {
             push(&mut part, &corners, &[[0, 1, 2]]);
         } else {
-            tally.add("triangles", "a coordinate of theirs is no number");
+            tally.add("triangles", "a coordinate is no number");
         }
     }
     note_floats(&mut part, options.told_step);
@@ -130,7 +130,7 @@ fn of_text(source: &[u8], path: &Path) -> Result<Model, Message> {
     let mut model = Model::default();
     for part in text.parts {
         if part.triangles.is_empty() {
-            text.left_out.add("solid", "they are empty");
+            text.left_out.add("solid", "empty");
         } else {
             model.parts.push(part);
         }

@@ -52,14 +52,14 @@ impl Mesh {
             let reach = part.positions.par_iter().map(reach).reduce(|| 0.0, f64::max);
             if origin.is_finite() { reach } else { f64::INFINITY }
         };
-        let reaches = parts.iter().map(|part| (reach(part), &part.name));
-        if let Some((reach, name)) = reaches.max_by(|one, other| one.0.total_cmp(&other.0))
+        let reaches = parts.iter().enumerate().map(|(index, part)| (reach(part), (index, &part.name)));
+        if let Some((reach, (part, name))) = reaches.max_by(|one, other| one.0.total_cmp(&other.0))
             && reach > Self::FARTHEST_M
         {
             let (name, km) = (name.clone(), reach / 1000.0);
             return Err(match given {
                 Some(_) => MeshError::FarFromOrigin { name, km },
-                None => MeshError::TooWide { name, km },
+                None => MeshError::TooWide { part, name, km },
             });
         }
 

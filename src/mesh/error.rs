@@ -1,6 +1,7 @@
 //! Why parts cannot become a mesh.
 
 use super::Mesh;
+use crate::message::kilometres;
 
 /// Why there is no mesh.
 #[derive(Debug, thiserror::Error)]
@@ -10,10 +11,13 @@ pub enum MeshError {
     TooLarge(usize),
     /// `f32` around one origin cannot hold it.
     #[error(
-        "'{name}' reaches {km:.0} km from the middle of the models, where half a metre is lost; place it nearer to them, \
-         leave it out of the file, or check its scale"
+        "'{name}' reaches {far} from the middle of the models, where half a metre is lost; place it nearer to them, \
+         leave it out of the file, or check its scale",
+        far = kilometres(*km)
     )]
     TooWide {
+        /// Which of the parts, from 0.
+        part: usize,
         /// The component that reaches farthest.
         name: String,
         /// How far.
@@ -21,7 +25,8 @@ pub enum MeshError {
     },
     /// `f32` around the origin that was given cannot hold it.
     #[error(
-        "'{name}' reaches {km:.0} km from the given origin, where half a metre is lost; give an origin near the parts"
+        "'{name}' reaches {far} from the given origin, where half a metre is lost; give an origin near the parts",
+        far = kilometres(*km)
     )]
     FarFromOrigin {
         /// The component that reaches farthest.

@@ -19,8 +19,8 @@ pub struct ModelContents {
     pub up: Up,
     /// Whether the file or its format says so.
     pub up_is_said: bool,
-    /// Storeys, layers, groups and materials: each name by which `casts` and `receives` can select several components, or one
-    /// of another name; the one that means most first.
+    /// Each name by which `casts` and `receives` may mean components: types, storeys, layers, groups, materials and their own;
+    /// the one that means most first.
     pub groups: Vec<NameGroup>,
     /// How many components are of each kind, of those kinds that there are.
     pub kinds: Vec<(PartKind, usize)>,
@@ -104,19 +104,23 @@ impl ReadContents {
     }
 }
 
-/// The names of several components, or of one that has another name of its own.
+/// All names, each with the components that it means; of those that mean as many, names of groups go before components' own.
 fn groups(components: &[ComponentNames<'_>]) -> Vec<NameGroup> {
     let mut counts: FxHashMap<&str, (usize, bool)> = FxHashMap::default();
     for (name, aliases) in components {
-        for alias in *aliases {
+        let (count, _) = counts.entry(name).or_insert((0, true));
+        *count += 1;
+        for (at, alias) in aliases.iter().enumerate() {
+            // a component is counted once, however often it has a name
+            if alias == name || aliases[..at].contains(alias) {
+                continue;
+            }
             let (count, is_own) = counts.entry(alias).or_default();
             *count += 1;
-            *is_own |= alias == name;
+            *is_own = false;
         }
     }
-    let groups = counts.into_iter().filter(|(_, (count, is_own))| *count > 1 || !is_own);
-    let mut groups: Vec<NameGroup> =
-        groups.map(|(name, (components, _))| NameGroup { name: name.to_owned(), components }).collect();
-    groups.sort_by(|one, other| (Reverse(one.components), &one.name).cmp(&(Reverse(other.components), &other.name)));
-    groups
+    let mut groups: Vec<(&str, (usize, bool))> = counts.into_iter().collect();
+    groups.sort_by_key(|&(name, (count, is_own))| (Reverse(count), is_own, name));
+    groups.into_iter().map(|(name, (components, _))| NameGroup { name: name.to_owned(), components }).collect()
 }

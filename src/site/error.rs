@@ -141,7 +141,12 @@ pub enum SiteError {
     /// A model file cannot be read.
     Model(#[from] ModelError),
     /// The parts make no mesh.
-    Mesh(#[from] MeshError),
+    Mesh {
+        /// The model whose part is at fault, as the user named it, where one is.
+        file: Option<String>,
+        /// Why.
+        error: MeshError,
+    },
 }
 
 plain_display!(SiteError);
@@ -196,7 +201,8 @@ impl Worded for SiteError {
                 message!["the mesh holds no triangles, so nothing casts a shadow"; "give it parts that do"]
             }
             SiteError::Model(error) => error.message(),
-            SiteError::Mesh(error) => error.to_string().into(),
+            SiteError::Mesh { file: Some(file), error } => format!("{file}: {error}").into(),
+            SiteError::Mesh { file: None, error } => error.to_string().into(),
         }
     }
 }

@@ -39,7 +39,7 @@ impl Models {
 fn note_left_out(name: &str, left_out: &[LeftOut]) -> Option<Message> {
     let most = left_out.iter().max_by_key(|left| left.count)?;
     let others: u64 = left_out.iter().map(|left| left.count).fold(0_u64, u64::saturating_add) - most.count;
-    let first = format!("{} {}", most.count, most.what);
+    let first = most.counted();
     let what = match others {
         0 => format!("{name}: {first} left out"),
         1 => format!("{name}: {first} and another thing left out"),

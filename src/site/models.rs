@@ -14,10 +14,10 @@ use super::overrides::refuse;
 use super::placement::Placement;
 use super::stand::{StandingModel, stand};
 use super::standing::{self, TerrainFaces};
-use super::written::WrittenSite;
+use super::written::{WrittenSite, bare_fault};
 use super::{key_notes, notes, on_terrain};
 use crate::formats::{Coordinates, Model, ModelError, PartKind, ReadOptions, SeeThrough, Up, on_disk};
-use crate::mesh::{Component, Mesh};
+use crate::mesh::{Component, Mesh, MeshError};
 use crate::message::{Message, few, message, set_to};
 use glam::DVec3;
 use rustc_hash::FxBuildHasher;
@@ -106,7 +106,7 @@ impl Models {
             see_through.push(model.see_through);
         }
         notes.extend(model_place::of_shifts(&references));
-        let mesh = Mesh::build(parts)?;
+        let mesh = Mesh::build(parts).map_err(|error| no_mesh(&models, error))?;
         let likenesses = likenesses(written, &mesh, &models, &said);
         for ((model, components), likeness) in models.iter().zip(&likenesses) {
             notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
@@ -262,6 +262,17 @@ impl Models {
     }
 }
 
+/// That the parts make no mesh, and whose the part is that is at fault.
+fn no_mesh(models: &[(String, Range<usize>)], error: MeshError) -> SiteError {
+    let whose = |model: &&(String, Range<usize>)| match (&error, models.len()) {
+        (_, 1) => true,
+        (MeshError::TooWide { part, .. }, _) => model.1.contains(part),
+        _ => false,
+    };
+    let file = models.iter().find(whose).map(|(file, _)| file.clone());
+    SiteError::Mesh { file, error }
+}
+
 /// Whether models stand at a place; a bare model stands in its own coordinates where nobody says one.
 fn stands_at_a_place(written: &WrittenSite, proposed: Option<&PlaceTable>) -> bool {
     !written.is_bare_model() || written.site.place.is_some() || proposed.is_some()
@@ -356,7 +367,9 @@ fn model(
 ) -> Result<(Placement, Model), SiteError> {
     let (file, placement) = placed(written, index)?;
     let file = on_disk(&file);
-    if !file.is_file() {
+    if written.is_bare_model() {
+        bare_fault(&file)?;
+    } else if !file.is_file() {
         return Err(refuse(written.model_key(index, "path"), no_file(name(written, index), &file)));
     }
     let read = read_model(&file, &placement.read_options()).map_err(|error| match error.fault.is_about_scene() {

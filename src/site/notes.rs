@@ -2,7 +2,7 @@
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};
-use crate::message::{Message, Piece, message, set_to, setting};
+use crate::message::{Message, Piece, kilometres, message, set_to, setting};
 use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -29,8 +29,8 @@ pub(super) enum FarFrom {
 pub(super) fn of_all(mesh: &Mesh, from: FarFrom) -> Option<Message> {
     let distance = mesh.origin.truncate().length();
     (distance > FAR_M).then(|| {
-        let km = distance / 1000.0;
-        let from_place = || format!("the models stand {km:.0} km from the place");
+        let far = kilometres(distance / 1000.0);
+        let from_place = || format!("the models stand {far} from the place");
         match from {
             FarFrom::PlaceOnEarth => message![
                 from_place();
@@ -41,7 +41,7 @@ pub(super) fn of_all(mesh: &Mesh, from: FarFrom) -> Option<Message> {
                 "if they are in map coordinates, write ", crs(), ", which turns them and moves them to the place, or ", position()
             ],
             FarFrom::OwnZero => message![
-                format!("the models stand {km:.0} km from their own zero, as those in map coordinates do");
+                format!("the models stand {far} from their own zero, as those in map coordinates do");
                 "if they are, write ", crs(), ", which turns them to true north and has them where they are"
             ],
         }
@@ -90,9 +90,9 @@ pub(super) fn on_probes(probes: &[Probe]) -> Option<Message> {
 
 fn asked_far(what: &str, key: Piece, at: DVec2) -> Option<Message> {
     (at.length() > ASKED_FAR_M).then(|| {
-        let km = at.length() / 1000.0;
+        let far = kilometres(at.length() / 1000.0);
         message![
-            format!("{what} {km:.0} km from the place, maybe in another country");
+            format!("{what} {far} from the place, maybe in another country");
             "if ", key, " is in map coordinates, write metres east and north of the place"
         ]
     })
@@ -116,11 +116,11 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message
         .collect();
     let farthest = |found: &[f64]| found.iter().copied().fold(0.0, f64::max);
     let (worst, found) = of_component.iter().max_by(|one, other| farthest(&one.1).total_cmp(&farthest(&other.1)))?;
-    let km = farthest(found) / 1000.0;
+    let far = kilometres(farthest(found) / 1000.0);
     let triangles: usize = of_component.iter().map(|(_, found)| found.len()).sum();
     if triangles == components.iter().map(|component| component.faces.len()).sum::<usize>() {
         return Some(message![
-            format!("{model} stands {km:.0} km from all else, and the default region and camera leave it out");
+            format!("{model} stands {far} from all else, and the default region and camera leave it out");
             "if it is in map coordinates, write ", crs(), ", which turns it and moves it to the place, or ", position()
         ]);
     }
@@ -131,7 +131,7 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message
     };
     let those = if triangles == 1 { "1 triangle".to_owned() } else { format!("{triangles} triangles") };
     Some(message![
-        format!("{model} has {those} of '{}'{others} as far as {km:.0} km from all else", worst.name);
+        format!("{model} has {those} of '{}'{others} as far as {far} from all else", worst.name);
         "the default region and camera leave out what lies there: delete it from the model if it is a leftover"
     ])
 }

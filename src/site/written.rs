@@ -5,9 +5,10 @@ use super::file::{ModelTable, PlaceTable, SiteFile};
 use super::keys;
 use super::overrides::{Overrides, refuse};
 use super::typed::{self, TypedError};
-use crate::formats::{self, on_disk};
+use crate::formats::{self, ModelError, on_disk};
 use crate::message::{Field, Message, Worded, message};
 use crate::sun::Place;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// A request as written, and where it was written.
@@ -169,9 +170,7 @@ impl WrittenSite {
 
     fn of_model(path: &Path) -> Result<WrittenSite, SiteError> {
         let file = path.display().to_string();
-        if let Err(error) = std::fs::metadata(path) {
-            return Err(SiteError::Unreadable { path: file, why: error.to_string() });
-        }
+        bare_fault(path)?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(WrittenSite {
             file,
@@ -238,4 +237,17 @@ impl WrittenSite {
             SiteError::sun(at, error)
         })
     }
+}
+
+/// Errs where a model that nobody but the command line names cannot be opened.
+pub(super) fn bare_fault(file: &Path) -> Result<(), ModelError> {
+    let fault = match std::fs::metadata(file) {
+        Ok(found) if found.is_file() => return Ok(()),
+        Ok(_) => message!["is no regular file"; "give a model file"],
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            message!["there is no such file"; "check its name and its folder"]
+        }
+        Err(error) => message![format!("cannot be read: {error}"); "check who may read it"],
+    };
+    Err(ModelError { file: file.to_owned(), fault: fault.into() })
 }

@@ -96,7 +96,7 @@ mod bad_readers {
         let limits = ReadLimits { memory: Some(200 << 20), ..ReadLimits::default() };
         let error = read("exec tail /dev/zero", limits, &Arc::default());
         let told = error.message().in_words(&Options);
-        assert!(told.contains("takes more memory to read than 0.2 GiB"), "{told}");
+        assert!(told.contains("takes more memory to read than 200 MiB"), "{told}");
         assert!(told.contains("--read-memory"), "{told}");
         // a face without such an option names none
         assert!(!error.to_string().contains("memory to read a model"), "{error}");
@@ -107,6 +107,20 @@ mod bad_readers {
         let told = told("echo \"thread 'main' panicked at reader.rs:7:\" >&2; echo 'no such wall' >&2; exit 101");
         assert!(told.contains("its reader broke off") && told.contains("no such wall"), "{told}");
         assert!(super::bad_readers::told("kill -ABRT $$").contains("signal: 6"));
+        let long = "x".repeat(300);
+        for (said, ends) in [
+            ("info: loaded libEGL\\nhint: libEGL, see man", "broke off (exit status: 3)"),
+            ("gnomon: no such door\\nnote: run with `RUST_BACKTRACE=1`", "(exit status: 3): gnomon: no such door"),
+            (
+                "thread '<unnamed>' (12) panicked at a.rs:1:\\nno floor\\nnote: run with it\\nlibEGL warning",
+                ": no floor",
+            ),
+            (&format!("gnomon: {long}"), &format!(": gnomon: {}", &long[..192])),
+        ] {
+            let told = super::bad_readers::told(&format!("printf \"%b\\n\" \"{}\" >&2; exit 3", said.replace('`', "")));
+            let what = told.split("; export it again").next().unwrap_or_default();
+            assert!(what.ends_with(ends), "{told}");
+        }
     }
 
     #[test]

@@ -114,8 +114,8 @@ fn what_does_not_stand_there_is_counted_by_type() {
     let model = read(&house(""));
     let told: Vec<(&str, u64)> = model.left_out.iter().map(|left| (left.what.as_str(), left.count)).collect();
     assert_eq!(told, [("IfcOpeningElement", 1), ("IfcSpace", 1), ("IfcVirtualElement", 1)]);
-    assert!(model.left_out.iter().all(|left| left.why == "they do not stand there"));
-    assert_eq!(notes(&model), "has 4 products with a shape, 0 without geometry");
+    assert!(model.left_out.iter().all(|left| left.why == "not built"));
+    assert_eq!(notes(&model), "has 4 products with a shape");
 }
 
 #[test]
@@ -132,12 +132,13 @@ fn products_whose_shape_cannot_be_built_are_told_with_it() {
 #520=IFCFUTURETHING('0000000000000000000022',$,'New',$,$,#20,#511,$);";
     let model = read(&house(lost));
     let notes = notes(&model);
-    assert!(notes.starts_with("has 6 products with a shape, 2 without geometry: IfcBeam 1, IfcColumn 1"), "{notes}");
+    let told = "has 4 products with a shape; 2 further products have no geometry (IfcBeam 1, IfcColumn 1)";
+    assert!(notes.starts_with(told), "{notes}");
     let why = |what| left_out(&model, what).map(|left| left.why.as_str());
-    let shape = "their shape (IfcExtrudedAreaSolid of IfcArbitraryOpenProfileDef) could not be built";
+    let shape = "shape that could not be built (IfcExtrudedAreaSolid of IfcArbitraryOpenProfileDef)";
     assert_eq!(why("IfcColumn"), Some(shape));
-    assert_eq!(why("IfcBeam"), Some("they have lines, boxes or points alone"));
-    assert_eq!(why("IFCFUTURETHING"), Some("the reader does not know their type"));
+    assert_eq!(why("IfcBeam"), Some("only lines, boxes or points"));
+    assert_eq!(why("IFCFUTURETHING"), Some("of a type that the reader does not know"));
 }
 
 #[test]
@@ -147,8 +148,8 @@ fn layers_that_are_off_are_left_out_and_told() {
         let model = read(&text);
         assert!(model.parts.iter().all(|part| !part.name.starts_with("IfcColumn")));
         let left = left_out(&model, "layer \"Structure\"").expect("told");
-        assert_eq!((left.count, left.why.as_str()), (1, "it is switched off or frozen in the file"));
-        assert_eq!(notes(&model), "has 3 products with a shape, 0 without geometry");
+        assert_eq!((left.count, left.why.as_str()), (1, "switched off or frozen in the file"));
+        assert_eq!(notes(&model), "has 3 products with a shape");
     }
     // a piece of a product, and what lies on a layer that is shown as well
     let off = |what: &str| house(&format!("#700=IFCPRESENTATIONLAYERWITHSTYLE('Off',$,({what}),$,.F.,.F.,.F.,());"));
@@ -216,15 +217,72 @@ fn other_steps_and_empty_files_are_refused() {
     let cad = HEAD.replace("IFC4", "AUTOMOTIVE_DESIGN");
     let error = read_as("part.step", cad.as_bytes()).expect_err("no IFC");
     assert!(error.contains("is of no format that Gnomon knows"), "{error}");
-    let error = read_as("house.ifc", HEAD.as_bytes()).expect_err("no records");
+    let empty = format!("{HEAD}ENDSEC;\nEND-ISO-10303-21;\n");
+    let error = read_as("house.ifc", empty.as_bytes()).expect_err("no records");
     assert!(error.contains("has no records that can be read"), "{error}");
     let bare = format!("{HEAD}#1=IFCPROJECT('x',$,$,$,$,$,$,(),$);\nENDSEC;\nEND-ISO-10303-21;\n");
     let error = read_as("house.ifc", bare.as_bytes()).expect_err("no shapes");
     assert!(error.contains("has no triangles"), "{error}");
     let circle = house("").replace("#20=IFCLOCALPLACEMENT($,#6);", "#20=IFCLOCALPLACEMENT(#20,#6);");
     let error = read_as("house.ifc", circle.as_bytes()).expect_err("no shape");
-    assert!(error.contains("has 4 products with a shape, 4 without geometry: "), "{error}");
+    assert!(error.contains("has no product with a shape; 4 products have no geometry ("), "{error}");
+    assert!(error.contains("cannot build these shapes"), "{error}");
     // the content decides, and a mark at its start is none of it
     let marked = format!("\u{feff}{}", house(""));
     assert_eq!(read_as("house.txt", marked.as_bytes()).expect("read").parts.len(), 5);
+}
+
+#[test]
+fn a_file_that_is_cut_off_is_refused_wherever_it_is_cut() {
+    let text = house("");
+    let whole = text.trim_end();
+    let first = whole.find("#24=").expect("a record");
+    let ends = [first, first + 9, whole.len() / 2, whole.rfind("ENDSEC").expect("an end"), whole.len() - 1];
+    for end in ends {
+        let error = read_as("house.ifc", &whole.as_bytes()[..end]).expect_err("cut off");
+        assert!(error.contains("is cut off: its end is missing; copy or export it again"), "{end}: {error}");
+    }
+    let without = whole.replace("\nENDSEC;\nEND-ISO", "\nEND-ISO");
+    assert!(read_as("house.ifc", without.as_bytes()).expect_err("no end of its data").contains("is cut off"));
+    // what stands behind the end, or between its words, takes nothing away
+    for end in ["ENDSEC; END-ISO-10303-21 ;\r\n\0\x1a", "endsec;\n/* all */\nend-iso-10303-21;/* ; */\n"] {
+        let text = whole.replace("ENDSEC;\nEND-ISO-10303-21;", end);
+        assert_eq!(read(&text).parts.len(), 5, "{end:?}");
+    }
+}
+
+#[test]
+fn records_that_cannot_be_read_are_counted_with_what_they_mean() {
+    let text = house("#99999999999999=IFCWALL('x',$,$,$,$,#20,#104,$,$);\n");
+    let notes = notes(&read(&text));
+    let told = "has 1 record that cannot be read, and what it describes is missing; export it again";
+    assert!(notes.contains(told), "{notes}");
+}
+
+#[test]
+fn shapes_whose_records_are_missing_are_told_as_that() {
+    let lost = |text: &str| read_as("house.ifc", text.as_bytes()).expect_err("nothing to see");
+    let bodies = ["105", "205", "306", "405"];
+    let record = |id: &str| format!("#{id}=IFCSHAPEREPRESENTATION");
+    let without = |text: String, id: &&str| text.replace(&record(id), &record(&format!("9{id}")));
+    let missing = lost(&bodies.iter().fold(house(""), without));
+    assert!(missing.contains("has no product with a shape; 4 products have no geometry ("), "{missing}");
+    assert!(missing.contains("the records of their shapes are missing"), "{missing}");
+    let axes = ["(#103)", "(#206,#207)", "(#307)", "(#406)"].iter().fold(house(""), |text, items| {
+        ["SweptSolid", "SurfaceModel"]
+            .iter()
+            .fold(text, |text, kind| text.replace(&format!("'Body','{kind}',{items}"), "'Axis','Curve2D',(#101)"))
+    });
+    let axes = lost(&axes);
+    assert!(axes.contains("lines, boxes or points alone"), "{axes}");
+}
+
+#[test]
+fn what_is_no_ifc_is_told_whatever_it_is_called() {
+    let wide: Vec<u8> = "\u{feff}ISO-10303-21;".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let step = HEAD.replace("IFC4", "AUTOMOTIVE_DESIGN");
+    for bytes in [b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".as_slice(), b"some text", &wide, step.as_bytes()] {
+        let error = read_as("house.ifc", bytes).expect_err("no IFC");
+        assert!(error.contains("is no IFC file"), "{error}");
+    }
 }

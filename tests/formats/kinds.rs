@@ -18,7 +18,7 @@ fn three(folder: &Path) -> Model {
         model.parts.push(part);
     }
     model.kinds = vec![PartKind::Building, PartKind::GroundCover, PartKind::Terrain];
-    let why = || "they do not stand there".to_owned();
+    let why = || "not built".to_owned();
     model.left_out = vec![
         LeftOut { what: "IfcGrid".to_owned(), count: 3, why: why() },
         LeftOut { what: "IfcSpace".to_owned(), count: 12, why: why() },
@@ -64,7 +64,7 @@ fn check_lists_groups_kinds_and_what_is_left_out() {
     let models = gnomon::site::Models::read(&written, |_, _| Ok(three(folder.path()))).unwrap();
     let contents = models.contents(&written).remove(0);
     let groups: Vec<_> = contents.groups.iter().map(|group| (group.name.as_str(), group.components)).collect();
-    assert_eq!(groups, [("surroundings", 2), ("default", 1)]);
+    assert_eq!(groups, [("surroundings", 2), ("default", 1), ("hill", 1), ("road", 1), ("tower", 1)]);
     assert_eq!(contents.kinds, PartKind::ALL.map(|kind| (kind, 1)));
     assert_eq!((contents.format, contents.left_out.len()), ("glTF", 2));
     let mesh = load_mesh(&folder.path().join("tower.glb"), &Overrides::default()).unwrap();
@@ -75,10 +75,40 @@ fn check_lists_groups_kinds_and_what_is_left_out() {
     for line in [
         "house.ifc: glTF\n",
         "  kinds: 1 building, 1 terrain, 1 ground cover\n",
-        "  groups: \"surroundings\" (2), \"default\" (1)\n",
-        "  left out: 12 IfcSpace: they do not stand there\n",
-        "  left out: 3 IfcGrid: they do not stand there\n",
+        "  groups: \"surroundings\" (2), \"default\" (1), \"hill\" (1), \"road\" (1), \"tower\" (1)\n",
+        "  left out: 12 IfcSpace: not built\n",
+        "  left out: 3 IfcGrid: not built\n",
     ] {
         assert!(table.contains(line), "{table} lacks {line}");
     }
+}
+
+#[test]
+fn a_group_counts_the_components_that_are_called_so_themselves() {
+    let folder = site();
+    let written = WrittenSite::read(&folder.path().join("site.toml"), &Overrides::default()).unwrap();
+    let mut model = three(folder.path());
+    for (part, (name, aliases)) in model.parts.iter_mut().zip([
+        ("IfcWall", &["Ground floor"][..]),
+        ("IfcWall/Brick", &["IfcWall", "Ground floor", "Brick"]),
+        ("IfcSlab", &["Ground floor"]),
+    ]) {
+        (part.name, part.aliases) = (name.to_owned(), aliases.iter().map(|alias| (*alias).to_owned()).collect());
+    }
+    let models = gnomon::site::Models::read(&written, |_, _| Ok(model.clone())).unwrap();
+    let groups = &models.contents(&written)[0].groups;
+    let groups: Vec<_> = groups.iter().map(|group| (group.name.as_str(), group.components)).collect();
+    let expected = [("Ground floor", 3), ("IfcWall", 2), ("Brick", 1), ("IfcSlab", 1), ("IfcWall/Brick", 1)];
+    assert_eq!(groups, expected);
+}
+
+#[test]
+fn what_is_left_out_is_counted_in_words_for_one_and_many() {
+    let told = |count: u64, what: &str| LeftOut { what: what.to_owned(), count, why: String::new() }.counted();
+    assert_eq!(told(1, "faces"), "1 face");
+    assert_eq!(told(2, "faces"), "2 faces");
+    assert_eq!(told(1, "entities of the layer Faces"), "1 entity of the layer Faces");
+    // a file's own terms are as they are
+    assert_eq!(told(1, "IfcStairs"), "1 IfcStairs");
+    assert_eq!(told(1, "pointsets"), "1 pointsets");
 }

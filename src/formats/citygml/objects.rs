@@ -28,10 +28,10 @@ pub(super) fn add(tables: &GmlTables, builder: &mut CityBuilder) -> Result<(), M
     for ((object, own), best) in tables.objects.iter().zip(&geometries).zip(&best) {
         let Some(best) = *best else { continue };
         let why = match object.kind.as_str() {
-            kind if is_inside(kind) => Some("they lie inside"),
-            "CityObjectGroup" => Some("they are outlines of groups"),
+            kind if is_inside(kind) => Some("inside of a building"),
+            "CityObjectGroup" => Some("outlines of groups"),
             _ if replaced.get(&object.serial).is_some_and(|parts| parts.lod >= best.lod) => {
-                Some("their parts stand instead")
+                Some("parts of it stand instead")
             }
             _ => None,
         };
@@ -93,7 +93,7 @@ fn add_geometries(
                 seen.may_repeat = is_surface;
                 add_members(tables, members, &geometry.surface, false, MOST_DEEP, &mut seen, builder)?;
             } else {
-                builder.tally.add("geometries", "another level of detail of their object stands there");
+                builder.tally.add("geometries", "another level of detail of the object stands there");
             }
         }
     }

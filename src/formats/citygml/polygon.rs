@@ -26,7 +26,7 @@ pub(super) fn add_positions(text: &str, dimension: Option<u8>, points: &mut Vec<
         return Ok(());
     }
     points.truncate(first);
-    Err("their positions are no numbers, or some are missing")
+    Err("positions that are no numbers, or are missing")
 }
 
 /// Where a polygon begins, and how far it is read.

@@ -144,7 +144,7 @@ impl GmlScan {
         if is_within_skipped || is_skipped(name) {
             if !is_within_skipped && name == "ImplicitGeometry" {
                 self.implicit += 1;
-                self.tables.tally.add("ImplicitGeometry", "they are shapes of a library, placed by a reference");
+                self.tables.tally.add("ImplicitGeometry", "shapes of a library, placed by a reference");
             }
             self.frames.push(OpenElement { role: ElementRole::Skipped, id: None, dimension: None });
             return Ok(());
@@ -195,7 +195,7 @@ impl GmlScan {
                 return ElementRole::Polygon;
             }
             "Arc" | "ArcString" | "Circle" | "ArcByCenterPoint" | "BSpline" if self.polygon.is_some() => {
-                self.tables.tally.add(name, "they bound faces, and only their points are taken");
+                self.tables.tally.add(name, "bounds of faces, of which only the points are taken");
             }
             _ => {}
         }
@@ -289,7 +289,7 @@ impl GmlScan {
                         frame.id.into_iter().for_each(|id| self.name(id, NamedGml::Polygon(polygon)));
                         self.add_member(GmlMemberKind::Polygon(polygon));
                     }
-                    None => self.tables.tally.add("faces", "they have no corners, or a position of theirs is damaged"),
+                    None => self.tables.tally.add("faces", "no corners, or a damaged position"),
                 }
             }
             ElementRole::Group { first, .. } => {
@@ -300,7 +300,7 @@ impl GmlScan {
             ElementRole::Feature(feature) => {
                 let is_inner = self.frames.iter().any(|frame| matches!(frame.role, ElementRole::Feature(_)));
                 if !is_inner && feature.before == self.told() {
-                    self.tables.tally.add(&feature.kind, "they have no surfaces");
+                    self.tables.tally.add(&feature.kind, "no surfaces");
                 }
                 if let Some(object) = feature.object.and_then(|object| self.tables.objects.get_mut(object)) {
                     object.name = feature.name;
@@ -349,7 +349,7 @@ impl GmlScan {
             _ => None,
         });
         let Some(object) = self.object() else {
-            self.tables.tally.add("geometries", "they are of no object");
+            self.tables.tally.add("geometries", "of no object");
             return;
         };
         let surface = surface.unwrap_or_default();

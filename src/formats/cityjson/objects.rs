@@ -21,7 +21,7 @@ pub(super) fn add(
     for ((id, object), shapes) in objects.iter().zip(&shapes) {
         let Some(best) = best_of(shapes) else { continue };
         if replaced.get(id.as_ref()).is_some_and(|parts| *parts >= best) {
-            builder.tally.add(kind_of(object), "their parts stand instead");
+            builder.tally.add(kind_of(object), "parts of it stand instead");
             continue;
         }
         let others = object.parents.iter().flatten().cloned();
@@ -33,7 +33,7 @@ pub(super) fn add(
             if shape.rank == best {
                 shape.build(builder)?;
             } else {
-                builder.tally.add("geometries", "another level of detail of their object stands there");
+                builder.tally.add("geometries", "another level of detail of the object stands there");
             }
         }
         builder.close();
@@ -56,8 +56,8 @@ fn shapes<'a>(
 ) -> Vec<CityShape<'a>> {
     let geometries = object.geometry.as_deref().unwrap_or_default();
     let unwanted = match kind_of(object) {
-        kind if is_inside(kind) => Some("they lie inside"),
-        "CityObjectGroup" => Some("they are outlines of groups"),
+        kind if is_inside(kind) => Some("inside of a building"),
+        "CityObjectGroup" => Some("outlines of groups"),
         _ => None,
     };
     if let Some(why) = unwanted {

@@ -37,7 +37,7 @@ pub(super) struct CityShape<'a> {
 }
 
 /// Why a geometry has no shape.
-pub(super) const NO_SURFACES: &str = "they have no surfaces";
+pub(super) const NO_SURFACES: &str = "no surfaces";
 
 impl<'a> CityShape<'a> {
     /// The shape of a geometry, or why it has none.
@@ -50,7 +50,7 @@ impl<'a> CityShape<'a> {
         let (shape, vertices, own, stands) = match geometry.kind.as_str() {
             "GeometryInstance" => {
                 let shape = geometry.template.and_then(|template| templates.shapes.get(template));
-                let shape = shape.ok_or("their template is not in the file")?;
+                let shape = shape.ok_or("the template is not in the file")?;
                 let Boundaries::Ring(at) = &geometry.boundaries else { return Err("they stand nowhere") };
                 let at = at.first().and_then(|&at| document.vertices.get(at as usize)).ok_or("they stand nowhere")?;
                 let rows =
@@ -88,7 +88,7 @@ impl<'a> CityShape<'a> {
         builder: &mut CityBuilder,
     ) -> Result<(), ModelFault> {
         let Boundaries::Lists(lists) = boundaries else {
-            builder.tally.add("geometries", "their boundaries are nested as those of another type");
+            builder.tally.add("geometries", "boundaries nested as those of another type");
             return Ok(());
         };
         if depth == 0 {
@@ -116,7 +116,7 @@ impl<'a> CityShape<'a> {
         face.ends.clear();
         for ring in rings {
             let Boundaries::Ring(ring) = ring else {
-                builder.tally.add("faces", "their rings are no lists of vertices");
+                builder.tally.add("faces", "rings that are no lists of vertices");
                 return Ok(());
             };
             for &vertex in ring {

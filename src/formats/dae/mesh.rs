@@ -180,7 +180,7 @@ impl DaeMesh {
                 Ok(())
             }
             "lines" | "linestrips" => {
-                document.left_out.add("line sets", "they have no surface");
+                document.left_out.add("line sets", "no surface");
                 xml.skip()
             }
             _ => xml.skip(),

@@ -27,8 +27,7 @@ pub(super) const ACIS: &[&[u8]] = &[
 ];
 
 /// Why those are left out.
-pub(super) const NO_ACIS: &str =
-    "CAD programs alone can read their shape: in AutoCAD, make meshes of them with MESHSMOOTH";
+pub(super) const NO_ACIS: &str = "CAD programs alone can read the shape: in AutoCAD, make a mesh with MESHSMOOTH";
 
 /// Adds an entity to a block; gives what the next one begins with.
 pub(super) fn add<'a>(
@@ -55,9 +54,9 @@ pub(super) fn add<'a>(
     }
     let name = || label(&String::from_utf8_lossy(kind));
     if fields.whole(67) == 1 {
-        drawing.left_out.add("entities of the paper space", "they lie on the sheet");
+        drawing.left_out.add("entities of the paper space", "on the sheet");
     } else if fields.whole(60) == 1 {
-        drawing.left_out.add(&name(), "they are invisible");
+        drawing.left_out.add(&name(), "invisible");
     } else if kind == b"INSERT" {
         let insert = insert(&fields, drawing);
         block.inserts.push(insert);
@@ -99,14 +98,14 @@ fn surface(
             drawing.left_out.add_many("faces of meshes", "they name vertices that are not there", missing);
         }
         _ => {
-            drawing.left_out.add(&label(&String::from_utf8_lossy(kind)), "they have no surface");
+            drawing.left_out.add(&label(&String::from_utf8_lossy(kind)), "no surface");
             return Ok(());
         }
     }
     if found.triangles.is_empty() {
         let why = match kind {
-            b"LINE" | b"CIRCLE" | b"ARC" | b"LWPOLYLINE" | b"POLYLINE" => "without thickness they have no surface",
-            _ => "they have no area",
+            b"LINE" | b"CIRCLE" | b"ARC" | b"LWPOLYLINE" | b"POLYLINE" => "without thickness, and so without a surface",
+            _ => "no area",
         };
         drawing.left_out.add(&label(&String::from_utf8_lossy(kind)), why);
         return Ok(());

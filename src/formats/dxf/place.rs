@@ -49,7 +49,7 @@ pub(super) fn model_of(mut drawing: Drawing) -> Result<Model, Message> {
 /// What was left out, and what else is to be known.
 fn tell(model: &mut Model, mut drawing: Drawing) {
     for layer in drawing.layers.iter().filter(|layer| layer.left_out > 0) {
-        let why = if layer.is_frozen { "their layer is frozen" } else { "their layer is off" };
+        let why = if layer.is_frozen { "the layer is frozen" } else { "the layer is off" };
         drawing.left_out.add_many(&format!("entities of the layer {}", layer.name), why, layer.left_out);
     }
     model.notes.extend(drawing.cutter.crossing_note());
@@ -171,11 +171,11 @@ impl<'a> Placer<'a, '_> {
             }
             let key = insert.block.to_uppercase();
             let Some(inner) = self.blocks.get(&key) else {
-                self.left_out.add_many("INSERT", "their block is not in the file", copies);
+                self.left_out.add_many("INSERT", "the block is not in the file", copies);
                 continue;
             };
             if self.triangles.get(&key).is_none_or(|&count| count == 0) {
-                self.left_out.add_many("INSERT", "their block has no surface", copies);
+                self.left_out.add_many("INSERT", "the block has no surface", copies);
                 continue;
             }
             let top = site.top.or(Some(insert.block.as_str()));

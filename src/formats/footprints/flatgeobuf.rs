@@ -81,7 +81,7 @@ fn read(bytes: &[u8], footprints: &mut Footprints) -> Result<Coordinates, Messag
         let mut polygons = Vec::new();
         match feature.table(0) {
             Some(geometry) => polygons_of(&geometry, kind, MOST_DEEP, &mut polygons, footprints),
-            None => footprints.tally.add("features", "they have no geometry"),
+            None => footprints.tally.add("features", "no geometry"),
         }
         footprints.add(polygons, tags);
     }
@@ -181,7 +181,7 @@ fn polygons_of(
         7 if deep > 0 => geometry.tables(7).for_each(|part| polygons_of(&part, 0, deep - 1, polygons, footprints)),
         1 | 4 => footprints.tally.add("Point", super::NO_AREA),
         2 | 5 => footprints.tally.add("LineString", super::NO_AREA),
-        _ => footprints.tally.add("geometries", "they are neither polygons nor made of them"),
+        _ => footprints.tally.add("geometries", "neither polygons nor made of polygons"),
     }
 }
 

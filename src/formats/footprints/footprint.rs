@@ -5,7 +5,7 @@ use crate::formats::left_out::label;
 use glam::DVec3;
 
 /// Why what is no polygon is left out.
-pub(super) const NO_AREA: &str = "they are no polygons";
+pub(super) const NO_AREA: &str = "no polygons";
 
 /// A polygon as a file has it: its rings follow each other, the outer one first.
 #[derive(Clone, Debug, Default)]

@@ -111,7 +111,7 @@ fn add(feature: GeoObject, footprints: &mut Footprints) {
     let is_feature = feature.kind.as_deref() == Some("Feature");
     match feature.geometry {
         Some(geometry) => polygons_of(*geometry, &mut polygons, footprints),
-        None if is_feature => footprints.tally.add("features", "they have no geometry"),
+        None if is_feature => footprints.tally.add("features", "no geometry"),
         None => polygons_of(
             GeoObject {
                 kind: feature.kind,
@@ -142,7 +142,7 @@ fn polygons_of(geometry: GeoObject, polygons: &mut Vec<RingPolygon>, footprints:
         "Polygon" => add_polygon(lists, polygons, footprints),
         "MultiPolygon" => lists.into_iter().for_each(|polygon| match polygon {
             Positions::Lists(rings) => add_polygon(rings, polygons, footprints),
-            Positions::Point(_) => footprints.tally.add("polygons", "their rings are no lists of positions"),
+            Positions::Point(_) => footprints.tally.add("polygons", "rings that are no lists of positions"),
         }),
         "GeometryCollection" => {
             let all = geometry.geometries.into_iter().flatten();
@@ -161,7 +161,7 @@ fn add_polygon(rings: Vec<Positions>, polygons: &mut Vec<RingPolygon>, footprint
         };
         for point in points {
             let Positions::Point(point) = point else {
-                footprints.tally.add("polygons", "their rings are no lists of positions");
+                footprints.tally.add("polygons", "rings that are no lists of positions");
                 return;
             };
             polygon.points.push(point);

@@ -73,7 +73,7 @@ impl Footprints {
         let mut cutter = FaceCutter::new();
         let mut outlines = self.outlines(buildings, &mut cutter, default_height_m)?;
         let replaced = overlap::replaced_by_parts(&outlines);
-        let why = "their parts stand instead";
+        let why = "parts of it stand instead";
         self.tally.add_many("outlines", why, replaced.whole.len() as u64);
         if replaced.partly > 0 {
             self.notes.push(message![format!(
@@ -117,11 +117,11 @@ impl Footprints {
             .filter(|feature| {
                 let tags = &feature.tags;
                 let why = if tags.is_underground() {
-                    Some("they lie underground")
+                    Some("underground")
                 } else if tags.is_no_building() {
-                    Some("they are said to be no buildings")
+                    Some("said to be no building")
                 } else if is_told && !tags.is_building() && !tags.is_part() && tags.height_m().is_none() {
-                    Some("they are no buildings and have no height")
+                    Some("no building and no height")
                 } else {
                     None
                 };
@@ -180,7 +180,7 @@ impl Footprints {
             Some(rise) if rise.bottom_m < rise.top_m => return Some(rise),
             Some(_) => self.tally.add("footprints", "they begin no lower than they end"),
             None if tags.is_part() => {
-                self.tally.add("building:part", "no height of theirs is said, and their outline stands instead");
+                self.tally.add("building:part", "no height is said, and the outline stands instead");
             }
             None => told.without += 1,
         }

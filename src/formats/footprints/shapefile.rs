@@ -107,10 +107,10 @@ fn add(
             footprints.bodies.extend((!part.triangles.is_empty()).then_some(part));
             return Ok(());
         }
-        0 => footprints.tally.add("features", "they have no geometry"),
+        0 => footprints.tally.add("features", "no geometry"),
         1 | 8 | 11 | 18 | 21 | 28 => footprints.tally.add("Point", NO_AREA),
         3 | 13 | 23 => footprints.tally.add("PolyLine", NO_AREA),
-        _ => footprints.tally.add("shapes", "they are of no type that shapefiles have"),
+        _ => footprints.tally.add("shapes", "of no type that shapefiles have"),
     }
     footprints.add(polygons, tags);
     Ok(())
@@ -168,7 +168,7 @@ impl ShapeRings {
         let mut polygons: Vec<RingPolygon> =
             outer.iter().map(|&part| RingPolygon::from_ring(self.ring(part))).collect();
         let holes: Vec<usize> = (0..areas.len()).filter(|&part| areas[part] != 0.0 && !is_outer(areas[part])).collect();
-        tally.add_many("rings", "they have no area", (areas.len() - outer.len() - holes.len()) as u64);
+        tally.add_many("rings", "no area", (areas.len() - outer.len() - holes.len()) as u64);
         let is_tried = outer.len() > 1 && outer.len().saturating_mul(holes.len()) <= MOST_PAIRS;
         for hole in holes {
             let ring = self.ring(hole);
@@ -193,7 +193,7 @@ impl ShapeRings {
             let first = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
             let triangle = |corners: [usize; 3]| corners.map(|corner| first.saturating_add(corner as u32));
             if !ring.iter().all(|point| point.is_finite()) {
-                footprints.tally.add("patches", "a coordinate of theirs is no number");
+                footprints.tally.add("patches", "a coordinate is no number");
                 continue;
             }
             match kind {
@@ -224,7 +224,7 @@ impl ShapeRings {
                         Err(uncut) => footprints.tally.add("patches", uncut.why()),
                     }
                 }
-                _ => footprints.tally.add("patches", "they are of no type that shapefiles have"),
+                _ => footprints.tally.add("patches", "of no type that shapefiles have"),
             }
         }
         part

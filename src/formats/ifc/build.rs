@@ -5,16 +5,20 @@ use super::anchors::{self, IfcFrame};
 use super::container::IfcText;
 use super::layers::IfcLayers;
 use super::lost;
+use super::marks::{is_ifc_text, is_whole};
 use super::parts::IfcParts;
 use super::relations::IfcRelations;
 use super::scan::{IfcProduct, IfcScan, renamed, scan};
-use crate::message::{Message, few, message};
+use crate::message::{Message, few, message, pieces};
 use ifc_lite_core::{EntityDecoder, IfcType};
 use ifc_lite_processing::{Batching, Features, ProcessingRequest, ProcessingResult, process, run_on_geometry_pool};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
+
+/// Why rooms and holes are left out.
+const NOT_STANDING: &str = "not built";
 
 /// How many products the reader makes at once, before they become parts and their own meshes go.
 const BATCH: usize = 400;
@@ -23,8 +27,9 @@ const BATCH: usize = 400;
 pub(super) fn model(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
     // What the reader would print is counted here by a walk of its own.
     ifc_lite_core::set_report_sink(|_| {});
+    let is_one_of_several = !file.ignored.is_empty();
     let read = || run_on_geometry_pool(|| read(file, options));
-    match catch_unwind(AssertUnwindSafe(read)) {
+    let model = match catch_unwind(AssertUnwindSafe(read)) {
         Ok(Ok(model)) => model,
         Ok(Err(error)) => Err(message![format!("cannot be read: {error}")].into()),
         Err(_) => Err(message![
@@ -32,7 +37,19 @@ pub(super) fn model(file: IfcText, options: &ReadOptions) -> Result<Model, Model
             "check it with the program that wrote it, and export it again"
         ]
         .into()),
+    };
+    model.map_err(|fault| if is_one_of_several { first_of_several(fault) } else { fault })
+}
+
+/// What is wrong with the first model of an archive: the others may be what is meant.
+fn first_of_several(fault: ModelFault) -> ModelFault {
+    let ModelFault::Unusable(Message { what, hint }) = fault else { return fault };
+    let another = if hint.is_empty() { "unpack it to open another" } else { ", or unpack it to open another" };
+    Message {
+        what: [pieces!["is an archive of several models, of which the first "], what].concat(),
+        hint: [hint, pieces![another]].concat(),
     }
+    .into()
 }
 
 fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
@@ -48,9 +65,9 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
     let made = shapes(&text, &scan, &asked, &mut parts)?;
     let lost: Vec<&IfcProduct> = asked.iter().copied().filter(|product| !parts.meshed.contains(&product.id)).collect();
     let count = count_note(asked.len(), &lost);
+    let lost = lost::left_out(&lost, &mut decoder());
     if parts.meshed.is_empty() && !asked.is_empty() {
-        let hint = "export it with shapes as solids or as meshes, or check it with the program that wrote it";
-        return Err(Message { hint: message![""; hint].hint, ..count }.into());
+        return Err(Message { hint: message![""; lost::way_out(&lost)].hint, ..count }.into());
     }
     notes.insert(0, count);
     notes.extend(loss_notes(&scan, &parts, &made));
@@ -61,7 +78,7 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
     let places = anchors::of(&scan, &frame_of(&made), &mut decoder());
     notes.extend(places.notes);
     let mut left_out = left_out(&scan, &parts);
-    left_out.extend(lost::left_out(&lost, &mut decoder()));
+    left_out.extend(lost);
     left_out.extend(unknown(&scan, &mut decoder()));
     Ok(Model {
         parts: parts.parts,
@@ -81,10 +98,17 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
 /// A file's text as the reader knows it, what is in it, and what is to be said of that.
 fn prepared(file: IfcText) -> Result<(Vec<u8>, IfcScan, Vec<Message>), ModelFault> {
     let mut text = file.bytes;
+    if !is_ifc_text(&text) {
+        return Err(message!["is no IFC file, whatever its name says"; "export it again as IFC 2x3, 4 or 4.3"].into());
+    }
+    if !is_whole(&text) {
+        return Err(message!["is cut off: its end is missing"; "copy or export it again"].into());
+    }
     let mut found = scan(&text);
     let mut notes = Vec::new();
     if !file.ignored.is_empty() {
-        notes.push(message![format!("is an archive of several models; the first is read, not {}", few(file.ignored))]);
+        let what = format!("is an archive of several models; the first is read, not {}", few(file.ignored));
+        notes.push(message![what; "unpack it to open the others"]);
     }
     if !found.old_shapes.is_empty() {
         let count = found.old_shapes.len();
@@ -145,7 +169,7 @@ fn frame_of(made: &ProcessingResult) -> IfcFrame {
     IfcFrame { unit_m: made.metadata.length_unit_scale.unwrap_or(1.0), site }
 }
 
-/// How many products have a shape, and which of them have none here. It is always said.
+/// How many products have a shape here, and which others have none. It is always said.
 fn count_note(asked: usize, lost: &[&IfcProduct]) -> Message {
     let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
     for product in lost {
@@ -153,9 +177,20 @@ fn count_note(asked: usize, lost: &[&IfcProduct]) -> Message {
     }
     let mut counts: Vec<(&str, u64)> = counts.into_iter().collect();
     counts.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
-    let types = counts.into_iter().map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>();
-    let types = if types.is_empty() { String::new() } else { format!(": {}", types.join(", ")) };
-    message![format!("has {asked} products with a shape, {} without geometry{types}", lost.len())]
+    let types = counts.into_iter().map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ");
+    let shaped = match asked - lost.len() {
+        0 => "no product with a shape".to_owned(),
+        1 => "1 product with a shape".to_owned(),
+        many => format!("{many} products with a shape"),
+    };
+    let others = match (lost.len(), asked - lost.len()) {
+        (0, _) => String::new(),
+        (1, 0) => format!("; 1 product has no geometry ({types})"),
+        (1, _) => format!("; 1 further product has no geometry ({types})"),
+        (many, 0) => format!("; {many} products have no geometry ({types})"),
+        (many, _) => format!("; {many} further products have no geometry ({types})"),
+    };
+    message![format!("has {shaped}{others}")]
 }
 
 /// What is lost of products that are there.
@@ -184,7 +219,11 @@ fn loss_notes(scan: &IfcScan, parts: &IfcParts, made: &ProcessingResult) -> Vec<
     }
     let refused = scan.malformed.max(made.stats.refused_input_elements);
     if refused > 0 {
-        notes.push(message![format!("has records that cannot be read ({refused})")]);
+        let what = match refused {
+            1 => "has 1 record that cannot be read, and what it describes is missing".to_owned(),
+            many => format!("has {many} records that cannot be read, and what they describe is missing"),
+        };
+        notes.push(message![what; "export it again"]);
     }
     if parts.cut_names > 0 {
         notes.push(message![format!("has names of more than 1000 bytes ({}), which are cut", parts.cut_names)]);
@@ -197,16 +236,16 @@ fn left_out(scan: &IfcScan, parts: &IfcParts) -> Vec<LeftOut> {
     let mut apart: Vec<LeftOut> = scan
         .apart
         .iter()
-        .map(|(what, &count)| LeftOut { what: what.clone(), count, why: "they do not stand there".to_owned() })
+        .map(|(what, &count)| LeftOut { what: what.clone(), count, why: NOT_STANDING.to_owned() })
         .collect();
     apart.sort_by(|one, other| one.what.cmp(&other.what));
     apart.extend(parts.layers.counts.iter().map(|(layer, &count)| LeftOut {
         what: format!("layer \"{layer}\""),
         count,
-        why: "it is switched off or frozen in the file".to_owned(),
+        why: "switched off or frozen in the file".to_owned(),
     }));
     if parts.broken > 0 {
-        let why = "they have corners that are no points".to_owned();
+        let why = "a corner is no point".to_owned();
         apart.push(LeftOut { what: "shape".to_owned(), count: parts.broken, why });
     }
     apart
@@ -223,6 +262,6 @@ fn unknown(scan: &IfcScan, decoder: &mut EntityDecoder) -> Vec<LeftOut> {
             *counts.entry(name).or_default() += 1;
         }
     }
-    let why = "the reader does not know their type";
+    let why = "of a type that the reader does not know";
     counts.into_iter().map(|(what, count)| LeftOut { what: what.to_owned(), count, why: why.to_owned() }).collect()
 }

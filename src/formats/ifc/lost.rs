@@ -18,30 +18,56 @@ pub(super) fn is_solid(representation: &DecodedEntity) -> bool {
     !NOT_SOLID.iter().any(|other| identifier.eq_ignore_ascii_case(other))
 }
 
+/// Why a product has no triangles whose shape is not to be found in the file.
+const MISSING: &str = "the records of the shape are missing";
+
+/// Why one has none that has no body.
+const NO_BODY: &str = "only lines, boxes or points";
+
 /// The products without triangles, by type and by what their shape is.
 pub(super) fn left_out(lost: &[&IfcProduct], decoder: &mut EntityDecoder) -> Vec<LeftOut> {
     let mut counts: BTreeMap<(String, String), u64> = BTreeMap::new();
     for product in lost {
-        let why = match shape_of(product.shape, decoder) {
-            Some(shape) => format!("their shape ({shape}) could not be built"),
-            None => "they have lines, boxes or points alone".to_owned(),
-        };
+        let why = why(product.shape, decoder);
         *counts.entry((product.kind.name().to_owned(), why)).or_default() += 1;
     }
     counts.into_iter().map(|((what, why), count)| LeftOut { what, count, why }).collect()
 }
 
-/// What the first item of a product's body is made of: `IfcExtrudedAreaSolid of IfcEllipseProfileDef`.
-fn shape_of(shape: u32, decoder: &mut EntityDecoder) -> Option<String> {
-    let shape = decoder.decode_by_id(shape).ok()?;
-    for id in shape.get_refs(2)? {
-        let Ok(representation) = decoder.decode_by_id(id) else { continue };
+/// What can be done where nothing at all has triangles, by what most products lack.
+pub(super) fn way_out(lost: &[LeftOut]) -> &'static str {
+    let of = |why: &str| lost.iter().filter(|left| left.why == why).map(|left| left.count).sum::<u64>();
+    let all: u64 = lost.iter().map(|left| left.count).sum();
+    let (missing, no_body) = (of(MISSING), of(NO_BODY));
+    if missing > 0 && missing >= all - missing {
+        "the records of their shapes are missing in the file: export it again"
+    } else if no_body >= all - no_body {
+        "it has lines, boxes or points alone: export it with shapes as solids or as meshes"
+    } else {
+        "the reader cannot build these shapes: export them as meshes, or check the file with the program that wrote it"
+    }
+}
+
+/// Why a product has no triangles: what the first item of its body is made of, `IfcExtrudedAreaSolid of
+/// IfcEllipseProfileDef`, which could not be built; or that there is none.
+fn why(shape: u32, decoder: &mut EntityDecoder) -> String {
+    let Ok(shape) = decoder.decode_by_id(shape) else { return MISSING.to_owned() };
+    let mut is_missing = false;
+    for id in shape.get_refs(2).unwrap_or_default() {
+        let Ok(representation) = decoder.decode_by_id(id) else {
+            is_missing = true;
+            continue;
+        };
         if is_solid(&representation) {
             let first = representation.get_refs(3).and_then(|items| items.first().copied());
-            return Some(first.map_or_else(|| "no item".to_owned(), |item| item_name(item, decoder)));
+            return match first {
+                Some(item) if decoder.decode_by_id(item).is_err() => MISSING.to_owned(),
+                Some(item) => format!("shape that could not be built ({})", item_name(item, decoder)),
+                None => "shape without an item".to_owned(),
+            };
         }
     }
-    None
+    if is_missing { MISSING } else { NO_BODY }.to_owned()
 }
 
 fn item_name(item: u32, decoder: &mut EntityDecoder) -> String {

@@ -78,7 +78,7 @@ impl ObjGeometry {
                 Ok(())
             }
             b"l" | b"p" => {
-                self.left_out.add(if word == b"l" { "lines" } else { "points" }, "they have no surface");
+                self.left_out.add(if word == b"l" { "lines" } else { "points" }, "no surface");
                 Ok(())
             }
             b"curv" | b"curv2" | b"surf" => {

@@ -151,8 +151,8 @@ impl LandXmlFile {
                 model.left_out.push(LeftOut { what: what.into(), count, why: why.into() });
             }
         };
-        left_out("hidden faces", self.hidden, "the file says that they are not part of the surface");
-        left_out("surfaces without triangles", self.without, "they have no TIN; let the program triangulate them");
+        left_out("hidden faces", self.hidden, "the file says: not part of the surface");
+        left_out("surfaces without triangles", self.without, "no TIN; let the program triangulate");
         Ok(model)
     }
 }

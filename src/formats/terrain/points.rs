@@ -76,7 +76,7 @@ impl Format for LasPoints {
                 continue;
             }
             if !options.point_classes.iter().any(|asked| asked == class) {
-                let why = format!("`classes = [\"{class}\"]` under [[model]] lets them stand there");
+                let why = format!("`classes = [\"{class}\"]` under [[model]] lets this class stand there");
                 left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
                 continue;
             }
@@ -85,7 +85,7 @@ impl Format for LasPoints {
         }
         let other = points.others();
         if other > 0 {
-            let why = "they are neither ground nor of a class that can be asked".to_owned();
+            let why = "neither ground nor of a class that can be asked".to_owned();
             left_out.push(LeftOut { what: "points of other classes".into(), count: other, why });
         }
         let mut model = of_sheets(sheets, keys.crs, notes);

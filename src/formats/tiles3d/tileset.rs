@@ -117,7 +117,7 @@ impl TileList {
         // what a tile does not say, it has from the one around it
         let adds = tile.refine.as_deref().map_or(adds, |refine| refine.eq_ignore_ascii_case("add"));
         if tile.implicit_tiling.is_some() || tile.extensions.get("3DTILES_implicit_tiling").is_some() {
-            self.tally.add("implicit tilings", "their tiles are not listed");
+            self.tally.add("implicit tilings", "the tiles are not listed");
             return Ok(());
         }
         for content in tile.content.iter().chain(&tile.contents) {
@@ -139,7 +139,7 @@ impl TileList {
     ) -> Result<(), Message> {
         let uri = content.uri.as_deref().and_then(|uri| percent_decode(uri.split(['?', '#']).next()?));
         let Some(path) = uri.as_deref().and_then(|uri| below(at.folder, uri)) else {
-            self.tally.add("contents", "their address does not lie in the tileset's folder");
+            self.tally.add("contents", "the address does not lie in the tileset's folder");
             return Ok(());
         };
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {

@@ -2,6 +2,7 @@
 
 use super::house::house;
 use super::{notes, read_as};
+use crate::shared::program::done;
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use std::io::Write as _;
@@ -58,8 +59,23 @@ fn a_zipped_file_is_the_file() {
         assert_eq!((&one.name, &one.positions, &one.triangles), (&other.name, &other.positions, &other.triangles));
     }
     let several = zipped(&[("readme.txt", b"text"), ("a.ifc", text.as_bytes()), ("b.ifc", text.as_bytes())]);
+    // whoever opens it is told, too
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("several.ifczip"), &several).expect("written");
+    let told = done(folder.path(), "check several.ifczip");
+    let note = "note: several.ifczip is an archive of several models; the first is read, not b.ifc; unpack it to open";
+    assert!(told.contains(note), "{told}");
     let several = read_as("house.ifczip", &several).expect("read");
     assert!(notes(&several).contains("several models; the first is read, not b.ifc"), "{}", notes(&several));
+}
+
+#[test]
+fn the_others_are_told_where_the_first_of_several_cannot_be_read() {
+    let text = house("");
+    let archive = zipped(&[("a.ifc", &text.as_bytes()[..text.len() / 2]), ("b.ifc", text.as_bytes())]);
+    let told = "is an archive of several models, of which the first is cut off: its end is missing";
+    refused(&archive, told);
+    refused(&archive, "copy or export it again, or unpack it to open another");
 }
 
 #[test]

@@ -14,13 +14,17 @@ impl Chance {
     }
 }
 
-/// The file with some of its bytes changed, a piece repeated, or its end cut off.
+/// The file with some of its bytes changed, a piece repeated, or what is before its end cut off.
 fn mutated(text: &[u8], chance: &mut Chance) -> Vec<u8> {
     let mut bytes = text.to_vec();
     for _ in 0..1 + chance.below(4) {
         let at = chance.below(bytes.len());
         match chance.below(8) {
-            0 => bytes.truncate(at.max(HEAD.len())),
+            // with an end, as one without is refused before it is read
+            0 => {
+                bytes.truncate(at.max(HEAD.len()));
+                bytes.extend(b"\nENDSEC;\nEND-ISO-10303-21;\n");
+            }
             1 => {
                 let piece = bytes[at..(at + chance.below(200)).min(bytes.len())].to_vec();
                 bytes.splice(at..at, piece);
