@@ -81,11 +81,8 @@ impl Pair {
         table.camera = before.site.camera.clone();
 
         let elevation = Cell::new(None);
-        let mut first = Site::with_models(before, asked, || {
-            let models = models_before()?;
-            elevation.set(models.elevation_m);
-            Ok(models)
-        })?;
+        let models_before = || models_before().inspect(|models| elevation.set(models.elevation_m));
+        let mut first = Site::with_models(before, asked, models_before)?;
         match table.ground.level {
             // the command line's goes before what either says
             Some(level) if asked.ground.is_none() && !first.ground.is_at(level) => {
@@ -101,8 +98,7 @@ impl Pair {
         }
         let mut second = Site::with_models(&second, asked, || models_after(&second))?;
         // one sun, where a file of the second alone says an elevation
-        second.place.clone_from(&first.place);
-        second.track.clone_from(&first.track);
+        (second.place, second.track) = (first.place.clone(), first.track.clone());
         let [(low, high), (other_low, other_high)] = [&first, &second].map(|site| {
             // a site has a triangle
             let bounds = Bounds::of(&site.mesh).unwrap_or_default();
