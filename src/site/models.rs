@@ -15,7 +15,7 @@ use super::placement::Placement;
 use super::stand::{StandingModel, stand};
 use super::standing::{self, TerrainFaces};
 use super::written::WrittenSite;
-use super::{key_notes, notes, on_terrain, place_doubts};
+use super::{key_notes, notes, on_terrain};
 use crate::formats::{Coordinates, Model, ModelError, PartKind, ReadOptions, SeeThrough, Up, on_disk};
 use crate::mesh::{Component, Mesh};
 use crate::message::{Message, few, message, set_to};
@@ -105,7 +105,7 @@ impl Models {
             models.push((name.to_owned(), first..parts.len()));
             see_through.push(model.see_through);
         }
-        notes.extend(place_doubts::of_shifts(&references));
+        notes.extend(model_place::of_shifts(&references));
         let mesh = Mesh::build(parts)?;
         let likenesses = likenesses(written, &mesh, &models, &said);
         for ((model, components), likeness) in models.iter().zip(&likenesses) {

@@ -1,7 +1,6 @@
 //! Places that a file says and nobody meant, and sources that disagree.
 
 use super::anchored::{AnchoredZero, true_north};
-use super::model_place::ModelReference;
 use crate::crs::{Crs, GeodeticPoint, LocalFrame};
 use crate::formats::{Anchor, AnchorPoint};
 use crate::message::{Message, message};
@@ -102,19 +101,6 @@ pub(super) fn turned_apart(used: &str, one: &AnchoredZero, other: &Anchor) -> Op
         );
         message![what; "`north` under [[model]] goes before both"]
     })
-}
-
-/// That models are on maps of two datums, which are matched by a few parameters alone.
-pub(super) fn of_shifts(models: &[ModelReference]) -> Option<Message> {
-    let on_maps = || models.iter().filter_map(|model| Some((model, model.shift.as_deref()?, model.crs.as_deref()?)));
-    let (one, shift, crs) = on_maps().next()?;
-    let (other, _, other_crs) = on_maps().find(|(_, other, _)| *other != shift)?;
-    let what = format!(
-        "{} is in {crs}, and {} in {other_crs}: their datums differ, and are matched by a few parameters, which hold to some \
-         metres",
-        one.name, other.name
-    );
-    Some(message![what; "export both in one system to have them meet to the centimetre"])
 }
 
 /// Between −π and π.
