@@ -1,8 +1,6 @@
 //! The middle meridian of a transverse Mercator map, far from which it is no map any more.
 
-use super::GeodeticPoint;
-
-/// As far from the middle meridian nobody maps, degrees of the equator: Norway's map in one zone of UTM reaches 5.
+/// As far from the middle meridian nobody maps, degrees of the equator: Norway's map in one zone of UTM reaches 6.
 const FAR_DEG: f64 = 10.0;
 
 /// UTM ends at this latitude, degrees.
@@ -37,10 +35,10 @@ impl MiddleMeridian {
         }
     }
 
-    /// Whether a point lies far outside of its map.
-    pub(super) fn is_far_from(self, at: GeodeticPoint) -> bool {
-        let beside = (at.longitude_deg - self.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;
-        let is_beside = (beside * at.latitude_deg.to_radians().cos()).abs() > FAR_DEG || beside.abs() > 90.0;
-        is_beside || (self.is_utm && at.latitude_deg.abs() > UTM_ENDS_DEG)
+    /// Whether a point lies far outside of its map, degrees.
+    pub(super) fn is_far_from(self, latitude_deg: f64, longitude_deg: f64) -> bool {
+        let beside = (longitude_deg - self.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;
+        let is_beside = (beside * latitude_deg.to_radians().cos()).abs() > FAR_DEG || beside.abs() > 90.0;
+        is_beside || (self.is_utm && latitude_deg.abs() > UTM_ENDS_DEG)
     }
 }

@@ -186,7 +186,8 @@ impl Crs {
             return false;
         }
         let Some(on_earth) = self.to_wgs84(at) else { return true };
-        let is_beside = self.meridian.is_some_and(|meridian| meridian.is_far_from(on_earth));
+        let is_beside =
+            self.meridian.is_some_and(|meridian| meridian.is_far_from(on_earth.latitude_deg, on_earth.longitude_deg));
         let to_m = self.proj.to_meter();
         let is_kept_away =
             self.proj.false_easting().abs() >= FALSE_ORIGIN_M || self.proj.false_northing().abs() >= FALSE_ORIGIN_M;

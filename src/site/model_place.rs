@@ -81,6 +81,19 @@ impl ModelReference {
     }
 }
 
+/// That models are on maps of two datums, which are matched by a few parameters alone.
+pub(super) fn of_shifts(models: &[ModelReference]) -> Option<Message> {
+    let on_maps = || models.iter().filter_map(|model| Some((model, model.shift.as_deref()?, model.crs.as_deref()?)));
+    let (one, shift, crs) = on_maps().next()?;
+    let (other, _, other_crs) = on_maps().find(|(_, other, _)| *other != shift)?;
+    let what = format!(
+        "{} is in {crs}, and {} in {other_crs}: their datums differ, and are matched by a few parameters, which hold to some \
+         metres",
+        one.name, other.name
+    );
+    Some(message![what; "export both in one system to have them meet to the centimetre"])
+}
+
 /// A model, as the site file names it, and what is said of it.
 pub(super) type SaidModel<'a> = (&'a str, &'a Model, &'a Placement, &'a Georeference);
 
@@ -215,17 +228,4 @@ pub fn anchor_text(at: &AnchorPoint) -> String {
             format!("{easting}, {northing} in {crs}{height}")
         }
     }
-}
-
-/// That models are on maps of two datums, which are matched by a few parameters alone.
-pub(super) fn of_shifts(models: &[ModelReference]) -> Option<Message> {
-    let on_maps = || models.iter().filter_map(|model| Some((model, model.shift.as_deref()?, model.crs.as_deref()?)));
-    let (one, shift, crs) = on_maps().next()?;
-    let (other, _, other_crs) = on_maps().find(|(_, other, _)| *other != shift)?;
-    let what = format!(
-        "{} is in {crs}, and {} in {other_crs}: their datums differ, and are matched by a few parameters, which hold to some \
-         metres",
-        one.name, other.name
-    );
-    Some(message![what; "export both in one system to have them meet to the centimetre"])
 }

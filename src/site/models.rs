@@ -111,12 +111,7 @@ impl Models {
         for ((model, components), likeness) in models.iter().zip(&likenesses) {
             notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
         }
-        let from = match stands_at_a_place(written, proposed.as_ref()) {
-            true if is_on_earth => FarFrom::PlaceOnEarth,
-            true => FarFrom::Place,
-            false => FarFrom::OwnZero,
-        };
-        notes.extend(notes::of_all(&mesh, from));
+        notes.extend(notes::of_all(&mesh, far_from(written, proposed.as_ref(), is_on_earth)));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
         let mark = mark(&mesh);
@@ -273,9 +268,13 @@ fn no_mesh(models: &[(String, Range<usize>)], error: MeshError) -> SiteError {
     SiteError::Mesh { file, error }
 }
 
-/// Whether models stand at a place; a bare model stands in its own coordinates where nobody says one.
-fn stands_at_a_place(written: &WrittenSite, proposed: Option<&PlaceTable>) -> bool {
-    !written.is_bare_model() || written.site.place.is_some() || proposed.is_some()
+/// From where models lie far away; a bare model stands in its own coordinates where nobody says a place.
+fn far_from(written: &WrittenSite, proposed: Option<&PlaceTable>, is_on_earth: bool) -> FarFrom {
+    match !written.is_bare_model() || written.site.place.is_some() || proposed.is_some() {
+        true if is_on_earth => FarFrom::PlaceOnEarth,
+        true => FarFrom::Place,
+        false => FarFrom::OwnZero,
+    }
 }
 
 /// A number of all that a mesh is, names too.

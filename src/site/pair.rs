@@ -81,11 +81,8 @@ impl Pair {
         table.camera = before.site.camera.clone();
 
         let elevation = Cell::new(None);
-        let mut first = Site::with_models(before, asked, || {
-            let models = models_before()?;
-            elevation.set(models.elevation_m);
-            Ok(models)
-        })?;
+        let models_before = || models_before().inspect(|models| elevation.set(models.elevation_m));
+        let mut first = Site::with_models(before, asked, models_before)?;
         match table.ground.level {
             // the command line's goes before what either says
             Some(level) if asked.ground.is_none() && !first.ground.is_at(level) => {
@@ -101,8 +98,7 @@ impl Pair {
         }
         let mut second = Site::with_models(&second, asked, || models_after(&second))?;
         // one sun, where a file of the second alone says an elevation
-        second.place.clone_from(&first.place);
-        second.track.clone_from(&first.track);
+        (second.place, second.track) = (first.place.clone(), first.track.clone());
         let [(low, high), (other_low, other_high)] = [&first, &second].map(|site| {
             // a site has a triangle
             let bounds = Bounds::of(&site.mesh).unwrap_or_default();
@@ -112,10 +108,10 @@ impl Pair {
         first.grid = plan::grid(before, asked, || [low.min(other_low), high.max(other_high)])?;
         second.grid = first.grid;
         // where nobody says it
-        let is_found = after.site.ground.level.is_none() && first.ground.from != GroundFrom::Site;
-        let alone = Some(Ground::found(&second.mesh, &second.receives).level)
-            .filter(|alone| is_found && !first.ground.is_at(*alone));
-        second.notes.extend(alone.map(|alone| note_ground([before, after], first.ground.level, alone)));
+        if after.site.ground.level.is_none() && first.ground.from != GroundFrom::Site {
+            let alone = Ground::found(&second.mesh, &second.receives).level;
+            second.notes.extend(note_ground([before, after], &first.ground, alone));
+        }
         let lowest = first.ground.lowest.min(second.ground.lowest);
         (first.ground.lowest, second.ground.lowest) = (lowest, lowest);
         second.ground.from = first.ground.from;
@@ -165,9 +161,12 @@ fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> R
 }
 
 /// That the second state has the ground of the first, and which it would have alone.
-fn note_ground([before, after]: [&WrittenSite; 2], level: f64, alone: f64) -> Message {
-    message![
-        format!("{} has the ground of {}, {}, since a comparison has one", after.file, before.file, metres(level));
-        format!("alone it would have {}", metres(alone))
-    ]
+fn note_ground([before, after]: [&WrittenSite; 2], ground: &Ground, alone: f64) -> Option<Message> {
+    (!ground.is_at(alone)).then(|| {
+        let level = metres(ground.level);
+        message![
+            format!("{} has the ground of {}, {level}, since a comparison has one", after.file, before.file);
+            format!("alone it would have {}", metres(alone))
+        ]
+    })
 }

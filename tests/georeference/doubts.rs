@@ -35,9 +35,9 @@ fn an_anchor_outside_of_its_map_is_told() {
     let site = one("", anchored(vec![map_anchor(0.0)])).expect("inside");
     assert!(!told(&site).contains("outside"), "{}", told(&site));
     // coordinates that the user takes for a map's
-    let site = one("crs = \"EPSG:25832\"\nposition = [0.0, 0.0, 0.0]", anchored(vec![]));
-    let outside = site.map_or_else(|error| error.to_string(), |site| told(&site));
-    assert!(outside.contains("far outside of that map") || outside.contains("from the place"), "{outside}");
+    let keys = "[[model]]\npath = \"house.glb\"\ncrs = \"EPSG:25832\"\n";
+    let site = load(keys, &[("house.glb", drawing())]).expect("off Africa");
+    assert!(told(&site).contains("far outside of that map"), "{}", told(&site));
 }
 
 #[test]

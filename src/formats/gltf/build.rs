@@ -81,10 +81,7 @@ pub(super) fn build(
             continue;
         }
         let node = document.nodes.get(place.node);
-        let instances = match node.and_then(|node| node.extensions.instancing.as_ref()) {
-            Some(asked) => Instances::open(place.node, asked, &mut accessors)?,
-            None => Instances::one(place.node),
-        };
+        let instances = Instances::of(place.node, node, &mut accessors)?;
         let (own, node) = (node.map(|node| &node.own), document.node_name(place.node));
         for group in &surfaces.groups {
             work.add_triangles(group, &instances)?;
@@ -98,7 +95,7 @@ pub(super) fn build(
             let material = document.material_name(group.material);
             part.name = if surfaces.one_material { node.clone() } else { format!("{node}/{material}") };
             part.aliases = match own.and_then(|own| own.aliases.clone()) {
-                Some(ours) => since_written(ours, group, &material),
+                Some(ours) => since_written(ours, group, &material, &node),
                 None => aliases(vec![node.clone()], document.mesh_name(place.mesh).into_iter().chain([&*material])),
             };
             kinds.push(own.map(|own| own.kind).unwrap_or_default());
@@ -119,8 +116,8 @@ pub(super) fn build(
 }
 
 /// The names that this program wrote, and the material that another program has given a part since.
-fn since_written(ours: Vec<String>, group: &MaterialGroup, material: &str) -> Vec<String> {
-    aliases(ours, group.material.map(|_| material))
+fn since_written(ours: Vec<String>, group: &MaterialGroup, material: &str, node: &str) -> Vec<String> {
+    aliases(ours, group.material.map(|_| material).filter(|given| *given != node))
 }
 
 /// The names by which a part may be meant, each once.

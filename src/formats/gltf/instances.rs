@@ -2,7 +2,7 @@
 
 use super::Fault;
 use super::accessor::Accessors;
-use super::document::Instancing;
+use super::document::{Instancing, Node};
 use super::reader::Reader;
 use super::scene::unit;
 use glam::{DAffine3, DQuat, DVec3};
@@ -19,13 +19,21 @@ pub(super) struct Instances<'a> {
 }
 
 impl<'a> Instances<'a> {
+    /// Those of a node: the copies that it asks for, else the mesh itself.
+    pub(super) fn of(number: usize, node: Option<&Node>, accessors: &mut Accessors<'a, '_>) -> Result<Self, Fault> {
+        match node.and_then(|node| node.extensions.instancing.as_ref()) {
+            Some(asked) => Self::open(number, asked, accessors),
+            None => Ok(Self::one(number)),
+        }
+    }
+
     /// The mesh itself, once.
-    pub(super) fn one(node: usize) -> Self {
+    fn one(node: usize) -> Self {
         Self { count: 1, node, translation: None, rotation: None, scale: None }
     }
 
     /// The copies that the extension asks for.
-    pub(super) fn open(node: usize, asked: &Instancing, accessors: &mut Accessors<'a, '_>) -> Result<Self, Fault> {
+    fn open(node: usize, asked: &Instancing, accessors: &mut Accessors<'a, '_>) -> Result<Self, Fault> {
         let mut instances = Self { count: 0, ..Self::one(node) };
         let mut first = None;
         for (name, &index) in &asked.attributes {
