@@ -79,7 +79,6 @@ impl Pair {
         table.study = before.site.study.clone();
         table.plan = before.site.plan.clone();
         table.camera = before.site.camera.clone();
-
         let elevation = Cell::new(None);
         let models_before = || models_before().inspect(|models| elevation.set(models.elevation_m));
         let mut first = Site::with_models(before, asked, models_before)?;
