@@ -472,3 +472,16 @@ fn references_say_unit_axis_place_and_north() {
     let [model] = models.references() else { panic!("one") };
     assert_eq!((model.crs.as_deref(), model.place, model.convergence_deg, model.north_deg), (None, None, None, 0.0));
 }
+
+/// Footprints know nothing of the sea: the elevation is that of the next model that says one, in whatever order.
+#[test]
+fn heights_above_the_ground_say_no_elevation() {
+    let footprints = Model { stands_on_ground: true, ..on_map("EPSG:31467", GAUSS, 0.0) };
+    let city = on_map("EPSG:31467", GAUSS, 110.4);
+    for files in [[("a.glb", footprints.clone()), ("b.glb", city.clone())], [("a.glb", city), ("b.glb", footprints)]] {
+        let found = load("[[model]]\npath = \"a.glb\"\n[[model]]\npath = \"b.glb\"\n", &files).expect("a place");
+        assert_eq!(found.place.elevation_m, 110.0);
+        let low = found.mesh.bounds().expect("triangles").0.z;
+        assert!(low.abs() < 0.01, "{low}: all stand on one ground");
+    }
+}

@@ -152,16 +152,20 @@ pub(super) fn frame<'a>(written: &WrittenSite, models: impl Iterator<Item = Said
     }
     let sure = proposed.iter().find(|(.., is_doubted)| !is_doubted).or(proposed.first());
     let Some((ProposedPoint { at, has_elevation }, said, _)) = sure else { return ModelsFrame::default() };
-    let height_m = if *has_elevation { at.height_m } else { 0.0 };
+    // where the first says no elevation, another may
+    let with_elevation =
+        || proposed.iter().find(|(point, ..)| point.has_elevation).map(|(point, ..)| point.at.height_m);
+    let elevation = has_elevation.then_some(at.height_m).or_else(with_elevation);
+    let height_m = elevation.unwrap_or_default();
     let table = PlaceTable {
         latitude: Some(at.latitude_deg),
         longitude: Some(at.longitude_deg),
-        elevation: has_elevation.then_some(height_m),
+        elevation,
         source: Some(PlaceSource { said: said.clone(), at: [at.latitude_deg, at.longitude_deg] }),
         ..PlaceTable::default()
     };
     let local = LocalFrame::around(GeodeticPoint { height_m, ..*at });
-    let frame = local.map(|local| SiteFrame { local, has_elevation: *has_elevation });
+    let frame = local.map(|local| SiteFrame { local, has_elevation: elevation.is_some() });
     ModelsFrame { frame, proposed: Some(table), elevation: None }
 }
 

@@ -291,7 +291,10 @@ pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoi
     let (at, has_elevation, digits) = match &said.reference {
         Reference::Placement => return None,
         Reference::Anchor(zero) => (zero.at?, zero.has_height, 8),
-        Reference::Map { crs, map_from_model, .. } => (middle(model, crs, *map_from_model)?, true, 6),
+        Reference::Map { crs, map_from_model, .. } => {
+            // heights above the ground say nothing of the sea
+            (middle(model, crs, *map_from_model)?, !model.stands_on_ground, 6)
+        }
     };
     let at = GeodeticPoint {
         latitude_deg: rounded(at.latitude_deg, digits),
