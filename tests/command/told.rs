@@ -18,7 +18,12 @@ fn a_model_that_is_not_there_is_told_without_a_site_file() {
     let said = crate::shared::program::stderr(&output);
     assert!(!said.contains("[[model]]") && !said.contains("site file"), "{said}");
     // a model beside another one, too
-    fails(folder.path(), "profile tower.glb missing.glb --place 48,2", 1, &told);
+    fails(
+        folder.path(),
+        "profile tower.glb missing.glb --place 48,2 --date 2026-03-21 --from 9:00 --to 17:00 --step 1h",
+        1,
+        &told,
+    );
     // a site file's key is named where there is one
     std::fs::write(folder.path().join("one.toml"), "[[model]]\npath = \"missing.glb\"\n").unwrap();
     fails(folder.path(), "check one.toml", 1, &["[[model]]", "path", "there is no file"]);
