@@ -1,5 +1,5 @@
 //! Reads a model in a process of its own: the same program, started again with a file, which writes what it reads in the
-//! form of [`super::encoded`].
+//! form of `super::encoded`.
 //!
 //! Readers that are others' code may hang, crash, end their process or take all memory. In a process of their own that is
 //! one clear error. The process that asks watches time and memory, and ends the other one; if it ends itself, the other

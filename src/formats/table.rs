@@ -53,11 +53,22 @@ fn head_of(path: &Path) -> std::io::Result<Vec<u8>> {
 }
 
 /// Whether a path names a model and no site file: its name ends as those of a format, or it is a file whose content is of
-/// one.
+/// one. A site file may be called anything: what is called JSON or XML and begins as neither is none of these.
 pub(crate) fn is_model(path: &Path) -> bool {
-    let is_site = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    let begins = || path.is_file() && head_of(path).is_ok_and(|head| by_content(&head).is_some());
-    !is_site && (by_ending(path).is_some() || begins())
+    let ends = |endings: &[&str]| {
+        path.extension().is_some_and(|own| endings.iter().any(|ending| own.eq_ignore_ascii_case(ending)))
+    };
+    let head = || head_of(path).ok().filter(|_| path.is_file());
+    let is_text = |head: &[u8]| {
+        let text = head.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(head).trim_ascii_start();
+        // UTF-16 begins with its mark
+        text.first().is_none_or(|first| b"{<\xFF\xFE".contains(first))
+    };
+    match by_ending(path) {
+        _ if ends(&["toml"]) => false,
+        Some(_) => !ends(&["json", "xml"]) || head().is_none_or(|head| is_text(&head)),
+        None => head().is_some_and(|head| by_content(&head).is_some()),
+    }
 }
 
 /// Which keys of a model the format of that name uses, of those that not all do; none where there is no such format.

@@ -10,7 +10,8 @@ use crate::view::{Tile, View};
 use std::cell::OnceCell;
 use std::fmt;
 
-/// A study that is prepared: with its sums tile by tile ([`Event::Tile`], [`Event::Summed`]), so that not all of them are held.
+/// A study that is prepared: with its sums tile by tile ([`Event::Tile`](super::Event::Tile),
+/// [`Event::Summed`](super::Event::Summed)), so that not all of them are held.
 pub struct TiledStudy<'a> {
     pub(super) site: &'a Site,
     pub(super) wants: Wants,
@@ -33,7 +34,7 @@ impl TiledStudy<'_> {
 
     /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
     /// instants, which may come from another process. Sums of instants that make up the track add up to the tile's own to the bit, and
-    /// [`paste`] puts tiles together. Where the device fails, so does this.
+    /// [`paste`](super::paste) puts tiles together. Where the device fails, so does this.
     ///
     /// # Errors
     /// [`StudyError::Shadow`], where drawing failed.

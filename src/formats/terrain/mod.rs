@@ -1,6 +1,6 @@
 //! Terrain: heights on a raster, measured points, and triangulated surfaces → sheets of triangles that are the ground.
 //!
-//! Rasters and points become a [`HeightGrid`], which [`thin`] turns into triangles that lie nowhere further from the heights
+//! Rasters and points become a `HeightGrid`, which `thin` turns into triangles that lie nowhere further from the heights
 //! than is asked. LandXML gives its triangles itself.
 
 mod ascii_grid;
