@@ -58,7 +58,8 @@ pub(crate) fn is_model(path: &Path) -> bool {
     let ends = |endings: &[&str]| {
         path.extension().is_some_and(|own| endings.iter().any(|ending| own.eq_ignore_ascii_case(ending)))
     };
-    let head = || head_of(path).ok().filter(|_| path.is_file());
+    // asked before opening: opening a pipe would wait for its writer
+    let head = || path.is_file().then(|| head_of(path).ok()).flatten();
     let is_text = |head: &[u8]| {
         let text = head.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(head).trim_ascii_start();
         // UTF-16 begins with its mark
