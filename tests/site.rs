@@ -193,7 +193,7 @@ fn a_site_is_a_file_a_folder_or_a_model_with_its_place() {
     let error = sun(&model, &bare).expect_err("beyond the pole");
     assert!(error.is_wrong_use() && error.in_words(&Options).contains("--place"), "{error}");
     for (path, word) in
-        [("nothing.toml", "cannot be read"), ("tower.skp", "cannot be read"), ("nothing.glb", "cannot be read")]
+        [("nothing.toml", "cannot be read"), ("tower.skp", "cannot be read"), ("nothing.glb", "no such file")]
     {
         let error = sun(&folder.path().join(path), &none).expect_err("nothing there").to_string();
         assert!(error.contains(word), "{error}");
