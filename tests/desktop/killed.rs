@@ -1,33 +1,55 @@
 //! A real window that is killed, before a real X server: the next one offers what was not saved.
 
-use super::xvfb::{Running, run, server};
+use super::xvfb::{Running, keep_screen, run, server};
 use super::{sample, small_site};
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Waits for something; which is asked for again where a busy machine lost it.
-fn until(what: &str, mut is_so: impl FnMut() -> bool) {
-    let begun = Instant::now();
-    while !is_so() {
-        assert!(begun.elapsed() < Duration::from_secs(120), "{what} does not come");
-        std::thread::sleep(Duration::from_millis(200));
+/// A window, before a display, and the file with what it says.
+struct Window<'a> {
+    process: Running,
+    display: &'a str,
+    says: PathBuf,
+}
+
+impl Window<'_> {
+    /// Waits for something; which is asked for again where a busy machine lost it.
+    fn until(&mut self, what: &str, mut is_so: impl FnMut() -> bool) {
+        let begun = Instant::now();
+        while !is_so() {
+            let ended = self.process.0.try_wait().unwrap();
+            if ended.is_some() || begun.elapsed() > Duration::from_secs(180) {
+                let kept = keep_screen(self.display, what);
+                let said = std::fs::read_to_string(&self.says).unwrap();
+                panic!("{what} does not come: {}; the window (ended: {ended:?}) said: {said}", kept.display());
+            }
+            std::thread::sleep(Duration::from_millis(200));
+        }
+    }
+
+    /// SIGKILL.
+    fn kill(mut self) {
+        self.process.0.kill().unwrap();
+        self.process.0.wait().unwrap();
     }
 }
 
-fn open(path: Option<&Path>, display: &str, home: &Path) -> Child {
+fn open<'a>(path: Option<&Path>, display: &'a str, home: &Path) -> Window<'a> {
+    let says = home.join("says");
     let mut command = Command::new(env!("CARGO_BIN_EXE_gnomon"));
     if let Some(path) = path {
         command.arg("open").arg(path);
     }
-    command
+    let process = command
         .env("DISPLAY", display)
         .env_remove("WAYLAND_DISPLAY")
         .envs(["HOME", "XDG_DATA_HOME", "XDG_RUNTIME_DIR"].map(|name| (name, home)))
         .stdout(Stdio::null())
-        .stderr(Stdio::null())
+        .stderr(std::fs::File::create(&says).unwrap())
         .spawn()
-        .unwrap()
+        .unwrap();
+    Window { process: Running(process), display, says }
 }
 
 #[test]
@@ -54,37 +76,34 @@ fn killed_window_loses_nothing() {
     };
 
     // the field for the place has the keys, and Enter opens the model there
-    let mut first = Running(open(Some(&model), &display, home.path()));
-    until("the window", || has_title("^Gnomon$"));
+    let mut window = open(Some(&model), &display, home.path());
+    window.until("the window", || has_title("^Gnomon$"));
     std::thread::sleep(Duration::from_secs(3));
-    until("the model, which is not saved", || {
+    window.until("the model, which is not saved", || {
         key(&["key", "ctrl+a"]);
         key(&["type", "48,2; 16,37"]);
         key(&["key", "Return"]);
         has_title("[^ ] works.glb .* Gnomon$")
     });
-    until("what is kept", || kept().is_some_and(|kept| kept.contains("latitude = 48.2")));
-    // SIGKILL
-    first.0.kill().unwrap();
-    first.0.wait().unwrap();
+    window.until("what is kept", || kept().is_some_and(|kept| kept.contains("latitude = 48.2")));
+    window.kill();
 
     // the next window offers it, and Enter restores it
-    let mut second = Running(open(None, &display, home.path()));
-    until("the window", || has_title("^Gnomon$"));
-    until("what was not saved", || {
+    let mut window = open(None, &display, home.path());
+    window.until("the window", || has_title("^Gnomon$"));
+    window.until("what was not saved", || {
         key(&["key", "Return"]);
         has_title("[^ ] works.glb .* Gnomon$")
     });
     assert!(kept().is_some(), "it is still not saved");
-    second.0.kill().unwrap();
-    second.0.wait().unwrap();
+    window.kill();
 
     // one that opens another site offers it all the same
-    let mut third = Running(open(Some(&sample("industry/site.toml")), &display, home.path()));
-    until("the other site", || has_title("^industry/site.toml .* Gnomon$"));
-    until("what was not saved", || {
+    let mut window = open(Some(&sample("industry/site.toml")), &display, home.path());
+    window.until("the other site", || has_title("^industry/site.toml .* Gnomon$"));
+    window.until("what was not saved", || {
         key(&["key", "Return"]);
         has_title("[^ ] works.glb .* Gnomon$")
     });
-    assert!(third.0.try_wait().unwrap().is_none(), "the window is still open");
+    assert!(window.process.0.try_wait().unwrap().is_none(), "the window is still open");
 }

@@ -1,6 +1,6 @@
 //! The real window, before a real X server, with a pointer and keys. `tests/run.sh` installs what that needs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -32,6 +32,18 @@ pub(super) fn screen(display: &str) -> (u32, u32, Vec<u8>) {
     (width, height, rgb)
 }
 
+/// Keeps the screen as a picture, for whoever reads why a test failed; returns where.
+pub(super) fn keep_screen(display: &str, what: &str) -> PathBuf {
+    let (width, height, rgb) = screen(display);
+    keep(what, &rgb, width, height)
+}
+
+fn keep(what: &str, rgb: &[u8], width: u32, height: u32) -> PathBuf {
+    let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("window-{}.png", what.replace([' ', ','], "-")));
+    image::save_buffer(&kept, rgb, width, height, image::ColorType::Rgb8).unwrap();
+    kept
+}
+
 /// Asks the hand to act, again where a busy machine lost what it did, until the screen is as it should be; and keeps that.
 fn until(display: &str, what: &str, mut hand: impl FnMut(), is_so: impl Fn(&[u8]) -> bool) -> Vec<u8> {
     let begun = Instant::now();
@@ -42,9 +54,7 @@ fn until(display: &str, what: &str, mut hand: impl FnMut(), is_so: impl Fn(&[u8]
             let (width, height, rgb) = screen(display);
             let (is_so, late) = (is_so(&rgb), begun.elapsed() > Duration::from_secs(180));
             if is_so || late {
-                let kept =
-                    Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("window-{}.png", what.replace(' ', "-")));
-                image::save_buffer(&kept, &rgb, width, height, image::ColorType::Rgb8).unwrap();
+                let kept = keep(what, &rgb, width, height);
                 assert!(is_so, "{what} does not come: {}", kept.display());
                 return rgb;
             }
