@@ -114,9 +114,9 @@ say "lints"
 # as users build it, where nothing is for tests alone: with its window, and the command without
 "$CARGO" clippy -- -D warnings
 "$CARGO" clippy --no-default-features -- -D warnings
-# tools and examples are compiled by the lints, and need not be linked
+# tools and examples are compiled by the lints, and need not be linked; src has no tests of its own
 say "tests"
-"$CARGO" test --lib --bins --test all
+"$CARGO" test --test all
 "$CARGO" test --doc
 say "documentation"
 RUSTDOCFLAGS="${RUSTDOCFLAGS:-} -D warnings" "$CARGO" doc --no-deps

@@ -75,7 +75,7 @@ impl Watched {
     fn wait(&mut self, what: &str, is_so: impl Fn(&str) -> bool) {
         let begun = Instant::now();
         loop {
-            let left = Duration::from_secs(90).saturating_sub(begun.elapsed());
+            let left = Duration::from_secs(240).saturating_sub(begun.elapsed());
             match self.lines.recv_timeout(left) {
                 Ok(said) => self.said.push(said),
                 Err(error) => panic!("'{what}' does not come ({error}): {:#?}", self.said),

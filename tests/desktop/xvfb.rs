@@ -83,7 +83,8 @@ pub(super) fn server(of_test: u32) -> (Running, String) {
     let number = 200 + (std::process::id() * 5 + of_test) % 2400;
     let display = format!(":{number}");
     let server = Command::new("Xvfb")
-        .args([&display, "-screen", "0", "1280x760x24", "-nolisten", "tcp"])
+        // without it the server begins again when its last client goes, and drops those who come meanwhile
+        .args([&display, "-screen", "0", "1280x760x24", "-nolisten", "tcp", "-noreset"])
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn();
