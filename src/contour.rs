@@ -1,10 +1,11 @@
-//! Lines in a raster that part the cells above a threshold from the others: marching squares between the cells' centres,
-//! straightened as far as every line still passes between the same cells.
+//! Contours of a raster: the lines between the cells above a threshold and the others. Marching squares walks between
+//! the cells' centres; each line is then straightened as far as it still passes between the same cells.
 //!
-//! A cell is above or it is not, so that none is ever on a line. Straight edges come out straight, at any slope: a line is
-//! free to lie anywhere between the centres that it parts. So it is first pulled straight between them, over long and then
-//! over shorter ways, and then takes the fewest corners that a walk along it finds (after Guibas and others, "Approximating
-//! polygons and subdivisions with minimum-link paths", 1991; ours keeps to points of the pulled line, and is greedy).
+//! A cell is either above or not, so that no cell lies on a line. Straight edges come out straight at any slope,
+//! because a line may lie anywhere between the centres that it separates. It is first pulled straight between them,
+//! over long and then over shorter stretches, and then gets the fewest corners that a walk along it finds (after Guibas
+//! and others, "Approximating polygons and subdivisions with minimum-link paths", 1991; ours keeps to points of the
+//! pulled line, and is greedy).
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;

@@ -1,4 +1,4 @@
-//! What went wrong, in the words of a face.
+//! An error and its causes on one line, in the words of a face.
 
 use crate::choice::Misfit;
 use crate::deliver::DeliverError;

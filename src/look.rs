@@ -1,7 +1,7 @@
 //! How sun and shadow look: colours, light, haze, relief and lines, as one value.
 //!
-//! Drawings read [`LOOK`]; to the picture's shader, which draws the same for a window, it is uploaded as a uniform. A test
-//! holds whole pictures of the two against each other.
+//! Drawings read [`LOOK`]; the picture's shader, which draws the same for a window, gets it as a uniform. A test
+//! compares whole pictures of the two.
 
 use glam::DVec3;
 

@@ -1,6 +1,6 @@
-//! Messages for people, before it is known through which face they are read: text in which the fields of a request are marked.
+//! Messages for people, before it is known which face shows them: text in which the fields of the request are marked.
 //!
-//! An error or a note names a [`Field`], and a face has [`Words`] for it: the command an option, the window a label.
+//! An error or a note names a [`Field`], and each face has [`Words`] for it: the command an option, the window a label.
 
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

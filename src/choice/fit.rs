@@ -1,4 +1,4 @@
-//! Which choices go together.
+//! Checks which choices go together.
 
 use super::table::{Method, MethodRow, Setting, Subject, TABLE};
 use super::{Engine, Finder, Settings, listed};

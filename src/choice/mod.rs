@@ -1,8 +1,8 @@
-//! What people choose: technique, finder, engine, filter and receivers, with a table that says of each technique what it can
+//! What people choose: technique, finder, engine, filter and receivers, and a table that says what each technique can
 //! do.
 //!
-//! [`TABLE`] is what the command's help, the window's menus, the documents, `verify` and the checks of what fits what
-//! ([`MethodRow::fit`], [`MethodRow::check`]) read. A new technique is a row there.
+//! The command's help, the window's menus, the documents, `verify` and the checks of what fits what
+//! ([`MethodRow::fit`], [`MethodRow::check`]) all read [`TABLE`]. A new technique is a row there.
 
 mod fit;
 mod table;

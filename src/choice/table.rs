@@ -1,4 +1,4 @@
-//! What each technique can do: one row a technique.
+//! The table of techniques: one row says what one technique can do.
 
 use super::{Engine, Filter, Finder, Settings};
 use crate::message::Field;

@@ -1,4 +1,4 @@
-//! Words ↔ choices.
+//! Converts choices to their words and back.
 
 /// A word that is none of the choices, with the way out.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -1,6 +1,8 @@
-//! The command: options in, files and answers out. A few lines a subcommand; the work is done elsewhere.
+//! The command: one face of the program. Options go in, files and answers come out. Each subcommand is a few lines; the
+//! work is done in `deliver`.
 //!
-//! Results go to stdout, progress and notes to stderr. Exit status: 0 done, 1 failed, 2 wrong use, 130 interrupted.
+//! Results go to stdout, progress and notes to stderr. The exit status is 0 when done, 1 for a failure, 2 for wrong
+//! use, and 130 when interrupted.
 
 mod animate;
 mod arguments;

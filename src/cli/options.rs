@@ -1,4 +1,4 @@
-//! What the command calls the fields of a request: its options.
+//! The command's words for the fields of a request: its options.
 
 use super::interrupt;
 use crate::formats::ModelReader;

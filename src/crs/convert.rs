@@ -1,4 +1,4 @@
-//! Many points of a map → the site's frame.
+//! Converts many points of a map into the site's frame.
 
 use super::{Crs, CrsKind, LocalFrame};
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! What a text that names a reference system means, and what is said of one that means none.
+//! What a text that names a reference system means, and the error for a text that means none.
 
 use crate::message::{Message, message};
 

@@ -1,9 +1,9 @@
 //! Coordinates of a map or of the Earth → longitude and latitude → metres around a place.
 //!
-//! The reference systems are those of the EPSG dataset as `crs-definitions` has them, the arithmetic is that of `proj4rs`.
-//! Datums are shifted by the three or seven parameters of the definition, in place of the grids that surveyors have.
-//! Heights above the sea stay what they are: a shift of the datum moves a point along the ground and leaves its height, as
-//! no one measures a height from an old ellipsoid.
+//! The definitions of the EPSG dataset come from `crs-definitions`, the arithmetic from `proj4rs`. Datums are shifted
+//! by the three or seven parameters of the definition, where surveyors would use grids. Heights above the sea stay as
+//! they are: a shift of the datum moves a point along the ground and leaves its height, since no one measures heights
+//! from an old ellipsoid.
 
 mod convert;
 mod datums;

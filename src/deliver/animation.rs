@@ -1,4 +1,5 @@
-//! The study's instants as pictures, and as a GIF. Both lie in a folder: the GIF is made of the pictures when all are there.
+//! The animation: the study's instants as pictures, and as a GIF. Both lie in one folder, and the GIF is made when all
+//! pictures are there.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::{DeliverError, Folder, Sink, WrittenFiles};

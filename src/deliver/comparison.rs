@@ -1,4 +1,4 @@
-//! What a change of a site does to its sun: as a drawing, a raster and a report.
+//! The comparison: what a change of a site does to its sun, as a drawing, a raster and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::profile::{Beside, ProfileRequest, StudyStore, find_kept};

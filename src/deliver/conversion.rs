@@ -1,4 +1,4 @@
-//! A model file as it was read, as glTF.
+//! The conversion: a model file as it was read, written as glTF.
 
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::model as encode;

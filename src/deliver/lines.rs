@@ -1,4 +1,4 @@
-//! Drawings of lines, beside the profile's other files: iso-hour lines, and outlines of shadows.
+//! Line drawings beside the profile's other files: iso-hour lines, and outlines of shadows.
 
 use super::sink::NamedFile;
 use crate::export::ExportError;

@@ -1,4 +1,4 @@
-//! What all deliverables share: the facts for a drawing, the facts for a report, and the notes on both.
+//! What all deliverables share: the context of a drawing, the context of a report, and the notes on both.
 
 use crate::choice::Receivers;
 use crate::export::figure;

@@ -1,4 +1,4 @@
-//! Hours of sun on the model itself: as a drawing, a model, a table and a report.
+//! The hours of sun on the model itself, as a drawing, a model, a table and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::shelf::{self, PatchStore};

@@ -1,4 +1,4 @@
-//! When points lie in the sun: as a drawing and a table.
+//! The intervals in which points lie in the sun, as a drawing and a table.
 
 use super::parts::note_letters;
 use super::{DeliverError, Sink, WrittenFiles};

@@ -1,4 +1,4 @@
-//! What is kept of a stopped study: the note about it, the shelf of a window, and the store of a study on patches.
+//! What is kept of stopped studies: the note about one, the shelf of a window, and the store of a study on patches.
 
 use super::disk::unfinished::{self, Checks, StoredStudy};
 use super::parts::note;

@@ -1,4 +1,4 @@
-//! Where the files of a deliverable go: into a folder, each to a place of its own, or into memory.
+//! The destination of a deliverable's files: a folder, a path for each file, or memory.
 
 use super::disk::workplace::Workplace;
 use crate::export::ExportError;

@@ -1,4 +1,4 @@
-//! Every technique against ray casting on a site: as a table and in JSON.
+//! The verification: every technique against ray casting on a site, as a table and in JSON.
 
 use super::DeliverError;
 use crate::export::verify as encode;

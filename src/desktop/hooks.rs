@@ -1,4 +1,4 @@
-//! What tests, benches and tools ask the window, and what they do to its devices.
+//! What tests, benches and tools read from the window, and what they do to its devices.
 
 use super::app::state::App;
 use super::app::study;

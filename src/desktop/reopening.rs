@@ -1,9 +1,9 @@
-//! The window on the screen, and what becomes of it where its graphics device is lost (the driver was reset, the adapter is
-//! gone): it is opened again on a new one, with all that was open and all that was under way. Where devices are lost time
-//! and again it is opened on the processor.
+//! The window on the screen, and its reopening when its graphics device is lost (the driver was reset, or the adapter
+//! is gone). It is opened again on a new device, with everything that was open and all running work. If devices are
+//! lost repeatedly, it is opened on the processor.
 //!
-//! eframe cannot change the device of a window; so the window is closed and another one opened, with the same [`App`], and
-//! with what egui remembers.
+//! eframe cannot change the device of a window. So the window is closed and another one opened, with the same [`App`],
+//! and with what egui remembers.
 
 use crate::desktop::app::device::devices;
 use crate::desktop::app::state::App;

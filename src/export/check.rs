@@ -1,5 +1,5 @@
-//! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the places
-//! that matter most.
+//! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the most
+//! important places in them.
 
 use super::model_lines::{self, ModelLines};
 use super::places::{self, DefectKind};

@@ -1,7 +1,8 @@
-//! A checksum of a file's bytes, by which is checked what a study takes over from a stopped one.
+//! A checksum of a file's bytes, by which a study checks what it takes over from a stopped one.
 //!
-//! SipHash-1-3 in 64 bits. A CRC of 32 bits would do for flipped bits, but of another study's files one in four thousand
-//! million would pass, and there are many masks; a number that withstands an attack would be slower, and nobody gains by one.
+//! It is SipHash-1-3 in 64 bits. A CRC of 32 bits would detect flipped bits, but would accept one in four thousand
+//! million of another study's files, and there are many masks. A hash that withstands an attack would be slower, and
+//! nobody would gain by an attack.
 
 use siphasher::sip::SipHasher13;
 use std::fs;

@@ -1,5 +1,5 @@
-//! What `gnomon check` says of model files beside their mesh: format, what stands there in which groups, and what
-//! was left out.
+//! What `gnomon check` says of model files beside their mesh: the format, which components and groups they have, and
+//! what was left out.
 
 use crate::formats::LeftOut;
 use crate::message::{Field, Words, message};

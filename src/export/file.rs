@@ -1,4 +1,4 @@
-//! Files are written beside their place and renamed into it: a reader sees the old file or the new one, never half.
+//! Writes files under a temporary name and renames them: a reader sees the old file or the new one, never half of one.
 
 use super::ExportError;
 use same_file::Handle;

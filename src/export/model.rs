@@ -1,9 +1,9 @@
-//! A model as it was read, as a binary glTF 2.0 file: in metres and y up, a node a component.
+//! A model as it was read, as a binary glTF 2.0 file: in metres, y up, one node per component.
 //!
-//! Corners are `f32` around one origin for all, whole metres, which is the nodes' translation; a model that is near its own
-//! zero keeps that, and one that is read from glTF its very numbers. What glTF has no word for stands in `extras`, under
-//! `gnomon`: a component's other names and its kind, and of the scene where its zero stands on Earth, which way true north
-//! is, and what else the file says of itself. `formats::gltf::own` reads it.
+//! Corners are `f32` around one origin for all, in whole metres, which is the nodes' translation. A model near its own
+//! zero keeps that zero, and one that was read from glTF keeps its exact numbers. What glTF cannot express stands in
+//! `extras`, under `gnomon`: a component's other names and its kind, and for the scene where its zero stands on Earth,
+//! which way true north is, and what else the file says of itself. `formats::gltf::own` reads it.
 
 use super::contents::{self, ContentsReport};
 use super::glb::{GlbFile, asset};

@@ -1,4 +1,4 @@
-//! Names in lines of text and of CSV.
+//! Names as they stand in lines of text and of CSV.
 
 /// A field of a line of CSV.
 pub(super) fn field(text: &str) -> String {

@@ -1,4 +1,4 @@
-//! The kinds of what can be wrong with a mesh, and where: in words that whoever drew the model can act on, and as JSON.
+//! The kinds of defects in a mesh, and their places: in words that tell whoever drew the model what to do, and as JSON.
 
 use crate::mesh::report::{ComponentReport, EdgePlace, FacePlace, OpenKind, OpenPlace, Places};
 use crate::site::CoordinateFrame;

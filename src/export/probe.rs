@@ -1,4 +1,4 @@
-//! What `gnomon probe` says: tables, `probe --json`, and a CSV file with a line an interval.
+//! What `gnomon probe` says: tables, `probe --json`, and a CSV file with one line per interval.
 
 use super::names::{field, plain};
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};

@@ -1,4 +1,4 @@
-//! Bare numbers: the hours of shadow as a GeoTIFF, a mask as an 8-bit gray PNG.
+//! The bare numbers: the hours of shadow as a GeoTIFF, a mask as an 8-bit gray PNG.
 
 use super::file::{self, TemporaryFile};
 use super::{ExportError, check_size};

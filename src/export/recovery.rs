@@ -1,7 +1,8 @@
-//! A window's unsaved settings, kept beside the app's own data until they are saved: a crash or a kill loses none of them.
+//! A window's unsaved settings, kept beside the app's own data until they are saved, so that a crash or a kill loses
+//! none of them.
 //!
-//! Each window has a slot: a file, and beside it another one that it holds locked as long as it lives, however it ends. So a
-//! window knows whether another one is still at work on what it finds.
+//! Each window has a slot: a file, and beside it a lock file that the window holds locked as long as it lives, however
+//! it ends. So a window knows whether another one is still working on what it finds.
 
 use super::{ExportError, file};
 use crate::site::WrittenSite;

@@ -1,4 +1,4 @@
-//! The shadow volumes as a model: a binary glTF 2.0 file with a node a caster, which any viewer of models opens.
+//! The shadow volumes as a model: a binary glTF 2.0 file with one node per caster, which any model viewer opens.
 
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, report};

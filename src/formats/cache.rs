@@ -1,8 +1,9 @@
 //! The cache of models that were read: a file that takes long to read opens at once the second time.
 //!
-//! An entry is a file in a folder beside the user's other caches. Its name is a number made of all that the reading depends
-//! on: the content of the file and of those that it names, the format, what was asked, and the program's version. It is
-//! written whole, checked by its checksum, and removed where it is damaged; of too many the oldest go.
+//! An entry is a file in a folder beside the user's other caches. Its name is a hash of everything that the reading
+//! depends on: the content of the file and of those that it names, the format, the request, and the program's version.
+//! Entries are written whole and have a checksum; damaged ones are removed, and when there are too many the oldest are
+//! removed.
 
 use super::{Format, Model, ReadOptions, encoded};
 use siphasher::sip128::{Hasher128, SipHasher13};

@@ -1,9 +1,9 @@
-//! Reads a model in a process of its own: the same program, started again with a file, which writes what it reads in the
+//! Reads a model in a process of its own. The same program, started again, reads the file and writes the model in the
 //! form of `super::encoded`.
 //!
-//! Readers that are others' code may hang, crash, end their process or take all memory. In a process of their own that is
-//! one clear error. The process that asks watches time and memory, and ends the other one; if it ends itself, the other
-//! one finds its standard input closed, and ends, too.
+//! Readers from other libraries may hang, crash, end their process or take all memory. In a process of their own each
+//! of these is one clear error. The parent watches time and memory, and ends the child; if the parent itself ends, the
+//! child's standard input closes, and the child ends, too.
 
 use super::encoded::{self, EncodingError};
 use super::{Model, ModelFault, ReadLimits, ReadOptions};

@@ -1,8 +1,8 @@
-//! What CityJSON and CityGML share: city objects → parts, one for each object and kind of surface.
+//! The part that CityJSON and CityGML share: city objects → parts, one for each object and kind of surface.
 //!
-//! A roof can be selected without its walls, so an object's semantic surfaces are parts of their own: three or four a
-//! building, some 20,000 in a tile of 5,000 buildings. One LoD of an object stands there, and parts of a building replace
-//! what the building says itself.
+//! A roof can be selected without its walls, so an object's semantic surfaces are parts of their own: three or four per
+//! building, some 20,000 in a tile of 5,000 buildings. One LoD of each object is taken, and parts of a building replace
+//! the building's own geometry.
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted, label};

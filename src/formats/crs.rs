@@ -1,4 +1,4 @@
-//! Names of reference systems, and which of their two coordinates comes first.
+//! Names of reference systems, and the order of their two coordinates.
 
 /// A reference system as a file names it.
 #[derive(Clone, Debug, PartialEq, Eq)]

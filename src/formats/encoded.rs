@@ -1,8 +1,9 @@
-//! A model as plain bytes: what a process that reads a file gives to the one that asked it, and what the cache keeps.
+//! A model as plain bytes: what a reading process passes to its parent, and what the cache keeps.
 //!
-//! A mark, a version and the length of the JSON behind it; in the JSON all names, what the coordinates are, what was left
-//! out and the notes; then part by part the corners as `f64` and the triangles as `u32`, little-endian; and a checksum of
-//! all of it. Neither a process nor a disk is trusted: every length is checked, and memory is taken as the bytes arrive.
+//! The bytes are: a mark, a version and the length of the JSON that follows; the JSON, with all names, the meaning of
+//! the coordinates, what was left out and the notes; then for each part the corners as `f64` and the triangles as
+//! `u32`, little-endian; and a checksum of everything. Neither a process nor a disk is trusted: every length is
+//! checked, and memory is taken only as the bytes arrive.
 
 use super::exact::{self, option as exact_option};
 use super::{Anchor, AnchorPoint, Coordinates, FORMATS, LeftOut, MAX_COMPONENTS, MAX_TRIANGLES, Model, PartKind};

@@ -1,4 +1,4 @@
-//! Faces in space → triangles, as they are wound: polygons of meshes, faces of city models, outlines of footprints.
+//! Faces in space → triangles that keep the winding: polygons of meshes, faces of city models, outlines of footprints.
 
 use super::left_out::{LeftOutTally, counted};
 use crate::message::{Message, message};

@@ -1,4 +1,4 @@
-//! What each format is: one trait.
+//! The trait that every format implements.
 
 use super::model::{Model, ModelFault, ReadOptions};
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! What a reader leaves out, counted while it reads; and names as they may be.
+//! Counts what a reader leaves out while it reads, and makes names usable.
 
 use super::{LeftOut, composed};
 use std::collections::BTreeMap;

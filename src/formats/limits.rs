@@ -1,4 +1,4 @@
-//! How large a model may be, and what reading one may take.
+//! Limits on the size of a model, and on the time and memory of reading it.
 
 use std::time::Duration;
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};

@@ -1,4 +1,4 @@
-//! What every reader gives: parts in the file's own coordinates, what these are, and what was left out.
+//! What every reader returns: parts in the file's own coordinates, what these coordinates mean, and what was left out.
 
 use super::exact::{self, option as exact_option};
 use super::{MAX_COMPONENTS, MAX_TRIANGLES, gltf};

@@ -1,4 +1,4 @@
-//! How model files are read: where, within which limits, and what is kept of it.
+//! How model files are read: in which process, within which limits, and with which cache.
 
 use super::table::{format_of, read_as};
 use super::{Model, ModelCache, ModelError, ModelFault, ReadLimits, ReadOptions, child};

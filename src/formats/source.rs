@@ -1,4 +1,4 @@
-//! A file's bytes, its text and its names: what readers of text and tables begin with.
+//! A file's bytes, its text and its names: the input of readers of text and tables.
 
 use crate::message::{Message, message};
 use std::path::{Component, Path, PathBuf};

@@ -1,4 +1,4 @@
-//! The list of all formats, and the reading of a file as the one that it is of.
+//! The list of all formats; a file is read as the one that it is.
 
 use super::format::{Format, HEAD_BYTES};
 use super::model::{Model, ModelError, ModelFault, ReadOptions};

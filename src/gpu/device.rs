@@ -1,4 +1,4 @@
-//! One adapter, opened with all that it can do.
+//! One adapter, opened with all features and limits that it has and the program uses.
 
 #[cfg(feature = "test-hooks")]
 use super::timers::Timers;

@@ -1,4 +1,4 @@
-//! The structs that shaders share with us, field for field. A test compares them with the shaders' own.
+//! The structs that shaders share with Rust, field for field. A test compares them with the shaders' own.
 
 use bytemuck::{Pod, Zeroable};
 

@@ -1,4 +1,4 @@
-//! A device that is lost when a test wants it to be.
+//! Loses a device when a test wants it to be lost.
 
 use std::cell::Cell;
 

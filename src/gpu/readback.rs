@@ -1,4 +1,4 @@
-//! From the GPU's memory to ours.
+//! Copies buffers and textures from the GPU into the processor's memory.
 
 use super::{Gpu, GpuError};
 use wgpu::{

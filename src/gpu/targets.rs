@@ -1,4 +1,4 @@
-//! Textures that are drawn to, buffers that are drawn from, and the pipeline states that repeat.
+//! Render targets, vertex and index buffers, and the pipeline states that repeat.
 
 use super::{Gpu, GpuError};
 use wgpu::*;

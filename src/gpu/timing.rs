@@ -1,4 +1,5 @@
-//! How long passes take on the adapter. Off until [`Gpu::time_passes`], and free then: a pass asks, and gets nothing.
+//! How long passes take on the adapter. Timing is off until [`Gpu::time_passes`] is called, and costs nothing while it
+//! is off.
 
 use super::timers::{MOST, Timers};
 use super::{Gpu, GpuError, readback};

@@ -1,4 +1,4 @@
-//! Passes are not timed in this build: only tests and benches time them, with the feature `test-hooks`.
+//! The build without timing of passes: only tests and benches time them, with the feature `test-hooks`.
 
 use super::Gpu;
 use wgpu::{ComputePassTimestampWrites, RenderPassTimestampWrites};

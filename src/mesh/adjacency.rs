@@ -1,6 +1,6 @@
 //! Which faces meet at which edge.
 //!
-//! Parts share no vertices, so neither an edge nor an order of edges by their vertices crosses a component.
+//! Components share no vertices, so neither an edge nor an order of edges by their vertices crosses a component.
 
 use super::{Incidence, Mesh};
 use rayon::prelude::*;

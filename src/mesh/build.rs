@@ -1,4 +1,4 @@
-//! Makes a mesh of parts: welded, around one origin; and a mesh of some parts of another.
+//! Makes a mesh from parts, welded, around one origin; and a mesh of some components of another mesh.
 
 use super::together::CornerGroups;
 use super::weld::{self, WeldedPart};

@@ -1,8 +1,8 @@
 //! The planes of faces: one common plane for all faces that lie in it.
 //!
-//! A modeller's wall is many triangles whose planes, computed each from its own rounded corners, differ in the last
-//! digits, so that some would face a low sun and some not. Neighbours that lie in the plane of a larger face
-//! therefore take over its plane to the bit; then all of the wall faces the light or none of it.
+//! A modeller's wall is many triangles whose planes, each computed from its own rounded corners, differ in the last
+//! digits, so that some would face a low sun and some not. Neighbours that lie in the plane of a larger face therefore
+//! get its plane to the bit, so that either the whole wall faces the light or none of it.
 
 use super::Mesh;
 use super::spacing::Spacing;

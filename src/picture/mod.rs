@@ -1,7 +1,7 @@
-//! What a view shows, for the eye: sun and shadow in the colours of drawings, on the GPU and into a texture. Nothing is
-//! read back, so that a window can show it at every frame.
+//! The picture of a view: sun and shadow in the colours of drawings, drawn by the GPU into a texture. Nothing is read
+//! back, so that a window can show it in every frame.
 //!
-//! [`crate::export`] draws sheets on the processor, cell by cell; a test holds the two against each other.
+//! [`crate::export`] draws sheets on the processor, cell by cell; a test compares the two.
 
 pub mod overlay;
 mod patch_textures;

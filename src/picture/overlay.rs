@@ -1,10 +1,10 @@
-//! Shadow volumes and silhouette for the eye, over a camera's picture: the figures 5 and 6 of seed 004.
+//! Shadow volumes and silhouette over a camera's picture, as in figures 5 and 6 of *Geometry of Real Time Shadows*.
 //!
-//! The volumes are those of [`crate::shadow::stencil`]: the same vertex stages, and the same stencil, in which fronts and
-//! backs both count upwards here. So the picture shows what the technique counts, in layers.
+//! The volumes are those of [`crate::shadow::stencil`]: the same vertex stages and the same stencil, in which front and
+//! back sides both count upwards here. So the picture shows what the technique counts, in layers.
 //!
-//! Deviations from what the technique counts: each wall once, whatever its multiplicity, so that clean solids are not
-//! twice as dark; and a count stays at 255 when it gets there.
+//! Two things differ from what the technique counts: each wall counts once, whatever its multiplicity, so that clean
+//! solids are not twice as dark; and a count stays at 255 when it reaches that.
 
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};

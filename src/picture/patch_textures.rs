@@ -1,4 +1,4 @@
-//! Colours of flat patches as textures, for the picture: where each face's patch lies in the atlas, and the atlas.
+//! The colours of flat patches as textures for the picture: the place of each face's patch in the atlas, and the atlas.
 
 use super::texels::{COLOURS, write};
 use crate::gpu::{Gpu, GpuError};

@@ -1,4 +1,4 @@
-//! Masks times weights, added up where the masks are, in integers.
+//! Adds up masks times weights, where the masks are, in integers.
 
 use super::Shaded;
 use crate::gpu::layout::WeightUniforms;

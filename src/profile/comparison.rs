@@ -1,8 +1,8 @@
-//! What a change of the site does to its shadow: two profiles of one study, cell by cell.
+//! What a change of the site does to its shadow: two profiles of one study, compared cell by cell.
 //!
-//! *Sun lost* is shadow that there is after and was not before; *sun gained* is the opposite. A cell that sees another
-//! surface after than before (a roof where there was ground) is *altered*: there is nothing to compare, and it is in no
-//! area.
+//! *Sun lost* is shadow that is there after the change and was not before; *sun gained* is the opposite. A cell that
+//! sees another surface after than before (a roof where there was ground) is *altered*: its hours are not compared, and
+//! it is not part of any area.
 
 use super::Profile;
 use crate::view::{Grid, Surface};

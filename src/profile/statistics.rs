@@ -1,4 +1,4 @@
-//! How much work counting shadow volumes took in a whole study.
+//! How much work counting shadow volumes took over a whole study.
 
 use crate::view::{Decider, FragmentCounts};
 

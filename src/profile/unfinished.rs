@@ -1,4 +1,4 @@
-//! A study that was stopped.
+//! The state of a study that was stopped.
 
 use super::{Shaded, Statistics};
 

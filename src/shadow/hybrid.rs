@@ -1,14 +1,16 @@
-//! The hybrid of map and volumes: exact hard shadows, counted only where the map cannot tell.
+//! The hybrid of map and volumes: exact hard shadows, counted only where the map cannot decide.
 //!
-//! Seed 000, chapter 3. A map is drawn from the sun; a cell whose four nearest texels agree takes their answer; the
-//! others, along the shadows' edges, are counted. The computation mask is the stencil's top bit, which the count's test
-//! reads and nothing writes (WebGPU has no depth-bounds test, and early stencil tests reject whole tiles as well). The
-//! count keeps the low seven bits, so batches stay at 127 or below.
+//! E. Chan, *Efficient Shadow Algorithms on Graphics Hardware*, 2004, chapter 3. A map is drawn from the sun. A cell
+//! whose four nearest texels agree takes their answer; the others, along the shadows' edges, are counted. The
+//! computation mask is the stencil's top bit, which the count's test reads and nothing writes (WebGPU has no
+//! depth-bounds test, and early stencil tests reject whole tiles as well). The count keeps the low seven bits, so
+//! batches stay at 127 or below.
 //!
 //! Deviations: the view's own z-pass or z-fail instead of z-fail alone; the comparison by the cell's own plane, so that
-//! no bias leaves light between a shadow and its caster; cells whose plane the sun all but grazes are always counted.
+//! no bias lets light through between a shadow and its caster; cells whose plane is almost edge-on to the sun are
+//! always counted.
 //!
-//! It is wrong where a caster, or a gap, is so thin that the four texels around it miss it together.
+//! It is wrong where a caster, or a gap, is so thin that all four texels around it miss it.
 
 use super::counting::{StencilBits, VolumeCounter};
 use super::light_view::Smoothies;

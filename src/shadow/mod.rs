@@ -1,7 +1,7 @@
-//! The techniques: each draws for one sun direction one mask of the same kind.
+//! The techniques. For one direction of the sun each of them draws one mask, and all masks are of the same kind.
 //!
-//! Accumulation, drawings and tests never ask who drew a mask. One technique is one file, with one shader of the
-//! same name where it draws on the GPU.
+//! Accumulation, drawings and tests never ask who drew a mask. One technique is one file, with one shader of the same
+//! name where it draws on the GPU.
 
 mod batch;
 mod counting;

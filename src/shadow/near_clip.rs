@@ -1,4 +1,5 @@
-//! Whether a camera's near plane may cut a shadow volume: the near-clip volume (seed 004, section 7).
+//! Whether a camera's near plane may cut a shadow volume: the test with the near-clip volume of *Geometry of Real Time
+//! Shadows*, section 7.
 
 use super::Scene;
 use crate::mesh::Mesh;

@@ -1,11 +1,11 @@
-//! Ray casting on the processor, in double precision: the truth that other techniques are held against, and the
+//! Ray casting on the processor, in double precision: the truth with which other techniques are compared, and the
 //! engine where there is no GPU.
 //!
-//! Plain on purpose. Intersection after Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2013):
-//! the triangle is sheared so that the ray is an axis, and the signs of three areas decide; a ray through a shared
-//! edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as hits.
-//! The tree only prunes: its boxes are padded beyond all rounding of its `f32` rays, and beyond the first tenth of a
-//! millimetre of a ray, in which it finds nothing.
+//! It is plain on purpose. Intersection follows S. Woop, C. Benthin and I. Wald, *Watertight Ray/Triangle Intersection*
+//! (JCGT, 2013): the triangle is sheared so that the ray is an axis, and the signs of three areas decide. A ray through
+//! a shared edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as
+//! hits. The tree only prunes: its boxes are padded by more than the rounding of its `f32` rays, and beyond the first
+//! tenth of a millimetre of a ray, in which it finds nothing.
 
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;

@@ -1,13 +1,13 @@
-//! Herf's registered projection: from what stands between a light and a flat receiver to the receiver's own cells.
+//! Herf's registered projection: it maps what stands between a light and a flat receiver to the receiver's own cells.
 //!
-//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138, section 3.2: the pyramid from a light's sample to
-//! a parallelogram maps to a box, the same cells for every sample, so that hard shadows of many samples line up and can
-//! simply be added. Our deviations: one formula for a lamp and for the sun, whose pyramid is an oblique prism, with the
-//! homogeneous light; in place of the paper's third row a height above the receiver, which is what is cut at; and cells in
-//! place of the unit square, such that centres are whole numbers.
+//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138, 1997, section 3.2: the pyramid from a
+//! light's sample to a parallelogram is mapped to a box, the same cells for every sample, so that hard shadows of many
+//! samples line up and can simply be added. Our deviations: one formula, with the homogeneous light, for a lamp and for
+//! the sun, whose pyramid is an oblique prism; in place of the paper's third row a height above the receiver, since
+//! faces are cut at a height; and cells in place of the unit square, with centres at whole numbers.
 //!
-//! A point v at the height h above the plane, seen from the light (l, w_l) whose own distance to the plane is f, falls onto
-//! p with p·w = v − (h/f)·l and w = 1 − w_l·h/f, all of which is linear in v.
+//! A point v at the height h above the plane, seen from the light (l, w_l) whose own distance to the plane is f, falls
+//! onto p with p·w = v − (h/f)·l and w = 1 − w_l·h/f, all of which is linear in v.
 
 use super::ray_cast::TIE;
 use crate::mesh::scan::Coverage;

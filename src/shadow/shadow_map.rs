@@ -1,8 +1,9 @@
 //! Shadow maps with percentage closer filtering: the quick look.
 //!
-//! Seed 001: unfiltered (section 2), 2×2 by four renders in four channels (3), fast 2×2 and 4×4 from one map (4).
-//! Fast filters gather their texels in the comparison itself, so that no packed copy of the map is made: that pass only
-//! served machines without loops in their shaders. The paper's 4 × 5 = 20 levels are 17: four counts of 0 to 4 add up.
+//! S. Brabec and H.-P. Seidel, *Hardware-accelerated Rendering of Antialiased Shadows with Shadow Maps*, 2001:
+//! unfiltered (section 2), 2×2 by four renders in four channels (3), fast 2×2 and 4×4 from one map (4). Fast filters
+//! gather their texels in the comparison itself, without a packed copy of the map: that pass only served machines
+//! without loops in their shaders. The paper's 4 × 5 = 20 levels are 17, as four counts of 0 to 4 are added up.
 
 use super::light_view::Smoothies;
 use super::map::{DepthMap, PackedMap, SLOPE_BIAS_TEXELS, compared_layout};

@@ -1,18 +1,20 @@
 //! Smoothies: a shadow map with the soft edge of a real sun.
 //!
-//! Seed 000, chapter 4. Silhouette edges, pushed outwards in the light's view, are drawn beside the map: how much of the
-//! light is seen past each, and how deep it lies. A cell behind the map's casters is in shadow, one behind a smoothie in
-//! part.
+//! E. Chan, *Efficient Shadow Algorithms on Graphics Hardware*, 2004, chapter 4. Silhouette edges are extended outwards
+//! in the light's view and drawn beside the map, with how much of the light is seen past each, and how deep it lies. A
+//! cell behind the map's casters is in shadow, one behind a smoothie in part.
 //!
 //! Deviations, for the sun and for clean corners:
-//! - The penumbra d metres behind an edge is 2·d·tan(θ/2) wide, θ = 0.533°; the paper's 1 − b/r is a lamp's, and is kept
-//!   for lamps (`Smoothie::draw_lamp`, a hook for tests).
+//!
+//! - The penumbra d metres behind an edge is 2·d·tan(θ/2) wide, θ = 0.533°; the thesis's 1 − b/r is a lamp's, and is
+//!   kept for lamps (`Smoothie::draw_lamp`, a hook for tests).
 //! - A smoothie is as wide as its own penumbra can become on the lowest receiver, instead of one width for all.
-//! - It is one rectangle around its edge, longer than it by its width at both ends, and alpha is the distance to the edge
-//!   (beyond its ends, to the vertex). With minimum blending that is the union of what the paper draws as edges, as
-//!   corners, and as corners of more than two edges, and has no seams.
-//! - What alone receives, and the ground, have their depth in the sun's view, but shade nothing. What lies behind such
-//!   receivers, glass say, has smoothies of its own, as wide as they are there; behind two of them, as on the last.
+//! - It is one rectangle around its edge, longer than it by its width at both ends, and alpha is the distance to the
+//!   edge (beyond its ends, to the vertex). With minimum blending that is the union of what the thesis draws as edges,
+//!   as corners, and as corners of more than two edges, and has no seams.
+//! - Parts that only receive, and the ground, have their depth in the sun's view, but shade nothing. What lies behind
+//!   such receivers, for example behind glass, has smoothies as wide as they are on that receiver; behind two of them,
+//!   as wide as on the last one.
 //!
 //! Smoothies grow outwards only: the umbra is as large as the hard shadow, all of the penumbra lies outside of it, and
 //! the line of half the light is half a penumbra too far out.

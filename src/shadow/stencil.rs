@@ -1,9 +1,10 @@
 //! Stencil shadow volumes: exact hard shadows.
 //!
-//! One render pass an instant: what faces away, then the casters' count and its trace in the mask. How volumes are
-//! counted is said in `counting.rs`.
+//! One render pass per instant draws the faces that look away from the sun, then the casters' count and its result in
+//! the mask. `counting` explains how volumes are counted.
 //!
-//! Deviation from seed 004: the general rule of [`crate::silhouette`] instead of well-wound closed meshes alone.
+//! Deviation from *Geometry of Real Time Shadows*: the general rule of [`crate::silhouette`] instead of well-wound
+//! closed meshes alone.
 
 use super::counting::{StencilBits, VolumeCounter};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};

@@ -1,4 +1,4 @@
-//! One pass over all edges: the reference that other finders are held against.
+//! One pass over all edges: the reference with which other finders are compared.
 
 use super::finder::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
 use crate::mesh::Mesh;

@@ -1,4 +1,4 @@
-//! The contract of all finders: what is found, at which cost, and how often an edge counts.
+//! The contract of all finders: what is found, at what cost, and how often an edge counts.
 
 use crate::mesh::{Incidence, Mesh};
 use glam::DVec4;

@@ -1,15 +1,16 @@
 //! The hextree's successor: classes of edges that answer together, under a bounding hierarchy.
 //!
-//! As in [`super::hextree`], an edge between two faces is a segment of the dual space, and silhouette when the light's
-//! hyperplane separates the ends. Three things are different.
+//! As in [`super::hextree`], an edge between two faces is a segment of the dual space, and part of the silhouette when
+//! the light's hyperplane separates the ends. Three things are different.
 //!
-//! - An edge between faces of one plane never enters: its two ends are one point.
-//! - Edges whose segments are equal are one **class**, which is tested once and answers with a run of edges. For the sun,
-//!   w = 0, only normals matter, and buildings repeat theirs thousands of times. For a lamp the whole planes do.
+//! - An edge between faces of one plane is left out: its two ends are one point.
+//! - Edges whose segments are equal are one **class**, which is tested once and answers with a run of edges. For the
+//!   sun, w = 0, only normals matter, and buildings repeat theirs thousands of times. For a lamp the whole planes
+//!   matter.
 //! - Each node is bounded by a box around its own segments, whichever way they lie, so that none is stuck near the root
 //!   because it crosses a border there. Classes are split at the median of the widest extent of both ends.
 //!
-//! Suns and lamps have a hierarchy each, built when first asked.
+//! Suns and lamps have a hierarchy each, built when it is first needed.
 
 use super::finder::{DirectedEdge, QueryCost, SilhouetteFinder, append};
 use super::hextree::DualFrame;

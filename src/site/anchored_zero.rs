@@ -1,4 +1,4 @@
-//! A point of the Earth where a model's zero stands.
+//! The point of the Earth at which a model's zero stands.
 
 use crate::crs::{Crs, GeodeticPoint};
 use glam::DVec3;

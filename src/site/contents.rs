@@ -1,4 +1,4 @@
-//! What a model file holds, as `gnomon check` lists it.
+//! The contents of a model file, as `gnomon check` lists them.
 
 use super::file::Names;
 use crate::formats::{LeftOut, Model, PartKind, Up};

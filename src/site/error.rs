@@ -1,4 +1,4 @@
-//! What can be wrong with a request: each names the place where it was asked, and the way out.
+//! What can be wrong with a request. Each error names the place where the request is made, and says what to do.
 
 use crate::formats::ModelError;
 use crate::mesh::MeshError;

@@ -1,7 +1,7 @@
 //! What a model's file and the site file say of where on Earth the model stands.
 //!
-//! A model stands by its coordinates, where these are of a map, else by the first of its anchors that can be used; what the
-//! user wrote goes before either.
+//! A model stands by its coordinates, if they belong to a map, and otherwise by the first of its anchors that can be
+//! used. What the user wrote has priority over both.
 
 use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
 use super::model_bounds::bounds;

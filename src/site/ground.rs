@@ -1,4 +1,4 @@
-//! The ground's height: as it is said, or as it is found from the models.
+//! The ground's height: as it is given, or as the models suggest.
 
 use super::error::{FieldLocation, SiteError};
 use super::extent::Bounds;

@@ -1,4 +1,4 @@
-//! A site without a file: what a program puts together itself.
+//! A site without a file, which a program puts together itself.
 
 use super::error::{FieldLocation, SiteError};
 use super::extent::{Bounds, with_shadows};

@@ -1,4 +1,4 @@
-//! Which files a request is read from, so that no answer is written over one of them.
+//! The files from which a request is read, so that no answer is written over one of them.
 
 use super::SiteError;
 use super::model_table::placed;

@@ -1,4 +1,5 @@
-//! What each model of a site holds: all of it for `gnomon check`, and for all others a short note on what was left out.
+//! What was left out of each model of a site: the complete list for `gnomon check`, and a short note for everything
+//! else.
 
 use super::contents::{ModelContents, ReadContents, names_of};
 use super::file::Names;

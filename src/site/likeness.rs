@@ -1,7 +1,7 @@
-//! What a model looks like: one in millimetres, centimetres or inches, or one that lies on its side.
+//! What a model looks like: in millimetres, centimetres or inches, or lying on its side.
 //!
-//! Many files do not say it: glTF is in metres and y up, STL by custom z up, and many a program exports something else. Only keys that nobody wrote
-//! are doubted; who writes `scale` or `up` has decided.
+//! Many files do not say it: glTF is in metres and y up, STL by custom z up, and many programs export something else.
+//! Only keys that nobody wrote are doubted; whoever writes `scale` or `up` has decided.
 
 use crate::formats::{Model, Up};
 use crate::mesh::{Component, Mesh};

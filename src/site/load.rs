@@ -1,4 +1,4 @@
-//! The request as written → as meant.
+//! The request as written → the request as meant.
 
 use super::contents::ModelContents;
 use super::error::{FieldLocation, SiteError};

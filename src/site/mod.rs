@@ -1,6 +1,6 @@
-//! The request: the site file and the models it names, checked once.
+//! The request: the site file and the models that it names, checked once.
 //!
-//! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unproven.
+//! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unchecked.
 
 mod anchored_zero;
 mod camera;

@@ -1,4 +1,4 @@
-//! Which components a list of names means.
+//! Finds the components that a list of names means.
 
 use super::file::Names;
 use crate::choice::nearest;

@@ -1,4 +1,4 @@
-//! Notes on where models stand, on requests far from them, and on how precisely their numbers are written.
+//! Notes on where models stand, on requests far from them, and on the precision of their numbers.
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};

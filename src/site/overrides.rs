@@ -1,4 +1,4 @@
-//! What a face requests beside the site file, and the reading of its values.
+//! What a face requests in addition to the site file, and how its values are read.
 
 use super::error::{FieldLocation, SiteError};
 use crate::choice::{Engine, Finder, Method, Receivers, Settings};

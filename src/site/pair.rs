@@ -1,4 +1,4 @@
-//! Two states of one site, to be compared: the same place, study, plan and ground, and other models.
+//! Two states of one site that are compared: with the same place, study, plan and ground, and with other models.
 
 use super::error::SiteError;
 use super::extent::{Bounds, with_shadows};

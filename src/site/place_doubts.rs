@@ -1,4 +1,4 @@
-//! Places in files that nobody has set, and sources that disagree.
+//! Doubts about where models stand: places in files that nobody has set, and sources that disagree.
 
 use super::anchored_zero::{AnchoredZero, true_north};
 use crate::crs::{Crs, GeodeticPoint, LocalFrame};

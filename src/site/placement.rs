@@ -1,4 +1,4 @@
-//! What a site file says of where a model stands, and models that stand by that alone.
+//! What a site file says of where a model stands, and the models that stand by that alone.
 
 use crate::formats::{Model, ReadOptions, SceneName, Up};
 use glam::{DAffine3, DMat3, DVec3};

@@ -1,4 +1,4 @@
-//! The plan's grid as asked, or around the models and their shadows.
+//! The plan's grid: as requested, or around the models and their shadows.
 
 use super::error::{FieldLocation, SiteError};
 use super::overrides::{Overrides, numbers, refuse};

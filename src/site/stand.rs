@@ -1,4 +1,4 @@
-//! A model with what is said of it → the model where it stands, in the one frame of the site.
+//! A model, and what is said of its place → the model where it stands, in the frame of the site.
 
 use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
 use super::georeference::{Georeference, KeyFault, Reference};

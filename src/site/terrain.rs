@@ -1,4 +1,4 @@
-//! What a ground plane hides of the models' upper side, and whether it is terrain.
+//! What a ground plane hides of the models' upper side, and whether that is terrain.
 
 use super::extent::Bounds;
 use crate::mesh::scan::{by_rows, spans, wholes};

@@ -1,4 +1,4 @@
-//! From the user's path to a site file's contents: a site file, a folder, or a model with its place.
+//! The user's path → a site file's contents: a site file, a folder, or a model with its place.
 
 use super::error::{FieldLocation, SiteError};
 use super::file::{ModelTable, PlaceTable, SiteFile};

@@ -1,4 +1,4 @@
-//! Does work again when the graphics device fails on which it runs.
+//! Does work again when the graphics device on which it runs fails.
 
 use super::{Event, OnEvent, StudyError, tell};
 use crate::choice::{Engine, Finder};

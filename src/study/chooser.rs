@@ -1,4 +1,4 @@
-//! Who draws: technique, engine and finder as asked, or the fastest of them.
+//! Chooses who draws: technique, engine and finder of the request, or the fastest of them.
 
 use super::machine::Machine;
 use super::{Event, OnEvent, StudyError, subject_of, tell};

@@ -1,4 +1,4 @@
-//! Why there is no answer.
+//! Why a study has no answer.
 
 use crate::choice::Misfit;
 use crate::gpu::GpuError;

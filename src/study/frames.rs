@@ -1,4 +1,4 @@
-//! Every instant of a study as a picture: night too.
+//! Every instant of a study as a picture, including those at night.
 
 use super::again::persist;
 use super::chooser::{choose, not_patches};

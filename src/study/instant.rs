@@ -1,4 +1,4 @@
-//! One instant's shadows, seen from above, from a side or by a camera.
+//! The shadows of one instant, seen from above, from a side or by a camera.
 
 use super::again::persist;
 use super::chooser::{choose, counting, not_patches, stencil_alone};

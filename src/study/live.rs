@@ -1,6 +1,6 @@
-//! A site that is looked at: one view after another, one sun after another, on an adapter that is open already.
+//! A site that is looked at: one view after another and one sun after another, on an adapter that stays open.
 //!
-//! The same techniques draw as in `study::instant`; what is kept between two pictures is the only difference.
+//! The same techniques draw as in `study::instant`. The only difference is what is kept between two pictures.
 
 use super::chooser::choose;
 use super::machine::Machine;

@@ -1,4 +1,4 @@
-//! The answers: of a study, and of one instant.
+//! The answers of a study, and of one instant.
 
 use crate::mesh::Mesh;
 use crate::profile::{Profile, Provenance, Statistics, Timings};

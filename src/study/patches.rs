@@ -1,4 +1,4 @@
-//! The study on patches: hours of sun on every flat patch of what receives.
+//! The study on patches: hours of sun on every flat patch of the receivers.
 
 use super::again::persist;
 use super::chooser::opened;

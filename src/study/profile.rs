@@ -1,4 +1,4 @@
-//! Every instant's shadows, summed to the time in shadow: of the plan in one go, or tile by tile.
+//! Adds up every instant's shadows to the time in shadow: of the whole plan at once, or tile by tile.
 
 use super::again::persist;
 use super::chooser::{choose, counting, not_patches};

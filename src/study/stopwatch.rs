@@ -1,4 +1,4 @@
-//! How long the stages of the work take.
+//! Measures how long the stages of the work take.
 
 use crate::profile::Timings;
 use std::time::{Duration, Instant};

@@ -1,4 +1,4 @@
-//! What a technique draws of a view of a site.
+//! The subject: what a technique draws in a view of a site.
 
 use crate::choice::{Receivers, Subject};
 use crate::site::{GroundKind, Site};

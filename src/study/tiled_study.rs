@@ -1,4 +1,4 @@
-//! A study that is prepared, before it is run.
+//! A study that is prepared but not yet run.
 
 use super::machine::Machine;
 use super::{SiteView, Stopwatch, StudyError, Wants, fingerprint};

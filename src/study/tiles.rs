@@ -1,4 +1,4 @@
-//! A plan in tiles: where it has more cells than the adapter draws at once, or than there is memory for.
+//! A plan in tiles, where it has more cells than the adapter draws at once, or than the memory holds.
 
 use super::machine::Machine;
 use super::{Budget, StudyError, Wants, subject_of};

@@ -1,7 +1,7 @@
-//! Every technique against ray casting, so that users can see on their own site how far to trust each.
+//! Compares every technique with ray casting, so that users can see on their own site how far to trust each.
 //!
-//! [`verify`] makes the techniques, [`hold`] holds them against the truth, instant by instant. Ray casting is held against
-//! itself without its trees, at some cells.
+//! [`verify`] makes the techniques, and [`hold`] compares them with the truth, instant by instant. Ray casting is
+//! compared with itself without its trees, at some cells.
 
 use super::again::persist;
 use super::chooser::{not_patches, opened};

@@ -1,4 +1,4 @@
-//! When a reading occurs at a place: the instants that the clock there, or the sun, gives it.
+//! The instant of a reading at a place: the time that the clock there, or the sun, gives it.
 
 use super::day::light;
 use super::zone::Jump;

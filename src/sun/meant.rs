@@ -1,4 +1,4 @@
-//! What is probably meant by a time zone that does not exist: an offset, a city, or a zone with a slip of the pen.
+//! What a time zone that does not exist probably means: an offset, a city, or a misspelt zone.
 
 use super::{Zone, zone_names};
 use unicode_normalization::UnicodeNormalization;

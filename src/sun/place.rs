@@ -1,4 +1,4 @@
-//! A place on earth: checked coordinates, and whose clock is read there.
+//! A place on Earth: checked coordinates, and the zone whose clock is read there.
 
 use super::{SunError, Zone, ZoneRules, meant};
 use std::sync::OnceLock;

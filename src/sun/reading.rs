@@ -1,4 +1,4 @@
-//! What people write for times, dates and durations.
+//! Reads what people write for times, dates and durations.
 
 use super::SunError;
 use chrono::{FixedOffset, NaiveDate, NaiveTime};

@@ -1,5 +1,5 @@
-//! Where the rules of clocks come from: the IANA Time Zone Database as it is bundled, or as the system keeps it where
-//! that is newer.
+//! The rules of clocks: the IANA Time Zone Database as the program contains it, or as the system has it where that is
+//! newer.
 
 use super::TzVersion;
 use super::zone::{Zone, ZoneData};

@@ -1,4 +1,4 @@
-//! The releases of the IANA Time Zone Database, and which is the later one.
+//! The releases of the IANA Time Zone Database, and which of two is later.
 
 /// A release of the database, such as 2026f; a later one is greater.
 ///

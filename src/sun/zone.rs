@@ -1,4 +1,4 @@
-//! A time zone: whose clock is read, and by which rules.
+//! A time zone: its name, and the rules of its clock.
 
 use super::TzVersion;
 use chrono::{

@@ -1,4 +1,4 @@
-//! The answer on patches: time in the sun, texel by texel on flat patches.
+//! The answer on patches: time in the sun on flat patches, texel by texel.
 
 use crate::mesh::patches::{Patch, Patches};
 

@@ -1,7 +1,7 @@
-//! How two masks differ, in the terms of the design: at shadow edges, and elsewhere.
+//! How two masks differ, in the terms of the definitions: at shadow edges, and elsewhere.
 //!
 //! An *edge cell* is one whose 3 × 3 neighbourhood in the truth is not uniform. There a rasteriser may differ a little,
-//! since it rounds corners to 1/256 of a cell; elsewhere it may not, except beside what is thinner than a cell.
+//! since it rounds corners to 1/256 of a cell. Elsewhere it may not, except beside what is thinner than a cell.
 
 use super::is_edge_cell;
 use crate::shadow::ray_cast::RayCast;

@@ -1,4 +1,4 @@
-//! Where a mask's shadow edges are.
+//! The shadow edges of a mask.
 
 use crate::view::Mask;
 

@@ -1,4 +1,4 @@
-//! A side, seen along level, parallel rays.
+//! The view of a side, along level, parallel rays.
 
 use glam::{DVec2, DVec3};
 

@@ -1,4 +1,4 @@
-//! The share of the sun that each cell sees: a byte a cell, or a bit.
+//! The share of the sun that each cell sees: a byte per cell, or a bit.
 
 use super::Tile;
 use rayon::prelude::*;

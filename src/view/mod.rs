@@ -1,7 +1,7 @@
-//! What is looked at (a plan, a camera, a side, probes), and what is found there: surfaces and masks.
+//! What is looked at (a plan, a camera, a side, probes), and what is found there (surfaces and masks).
 //!
-//! A [`View`] is the plan's [`Grid`] of cells, a [`Camera`] or an [`Elevation`]; a [`Probe`] is a single point. Of a view each cell
-//! sees a [`Surface`], and for one sun there is a [`Mask`].
+//! A [`View`] is the plan's [`Grid`] of cells, a [`Camera`] or an [`Elevation`]; a [`Probe`] is a single point. Each
+//! cell of a view sees a [`Surface`], and for one sun there is a [`Mask`].
 
 mod camera;
 mod counts;

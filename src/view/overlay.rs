@@ -1,4 +1,4 @@
-//! What is laid over a camera's picture.
+//! What is laid over a camera's picture: volumes and silhouette.
 
 /// What a drawing lays over a camera's picture at one instant, in cells finer than the picture's.
 #[derive(Clone, Debug, PartialEq, Eq)]

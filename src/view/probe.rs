@@ -1,4 +1,4 @@
-//! Single points.
+//! A probe: a single point.
 
 use glam::DVec3;
 

@@ -1,9 +1,9 @@
-//! Silhouette and caps → a closed volume, and how many volumes can lie over one point.
+//! Silhouette and caps → a closed volume, and the bound of how many volumes can lie over one point.
 //!
-//! The volume of a mesh is the sum of the prisms behind its faces, each face turned towards the light: the
-//! **light cap** is the faces themselves, the walls hang from the silhouette, and (unless they reach to infinity)
-//! a **dark cap** closes their far ends. The count at a point is the number of faces that a ray to the light
-//! crosses, for closed, open and crowded meshes alike. [`solid`] cuts volumes at the ground, for other programs.
+//! The volume of a mesh is the sum of the prisms behind its faces, each face turned towards the light: the **light
+//! cap** is the faces themselves, the walls hang from the silhouette, and (unless they reach to infinity) a **dark
+//! cap** closes their far ends. The count at a point is the number of faces that a ray to the light crosses, for
+//! closed, open and crowded meshes alike. [`solid`] cuts volumes at the ground, for other programs.
 
 pub mod solid;
 

@@ -1,12 +1,14 @@
-//! Volumes as solids that other programs can take: one for each component, cut at the ground, closed.
+//! Volumes as solids for other programs: one for each component, cut at the ground, closed.
 //!
-//! The solid is the sum of the prisms between the casting faces and their shadows on the ground: the faces, turned to
-//! the sun, are its light cap; the same faces along the sun down on the ground are its dark cap; walls hang where the
-//! directions of the faces at an edge do not cancel. It is closed in that signed sense whatever the mesh, and it may
-//! overlap itself: how often it winds around a point is how many casting faces lie between the point and the sun.
+//! The solid is the sum of the prisms between the casting faces and their shadows on the ground. The faces, turned to
+//! the sun, are its light cap; the same faces, projected along the sun onto the ground, are its dark cap; walls hang
+//! where the directions of the faces at an edge do not cancel. It is closed in that signed sense whatever the mesh, and
+//! it may overlap itself: how often it winds around a point is how many casting faces lie between the point and the
+//! sun.
 //!
-//! A closed, well-wound component needs only the half of its faces through which rays from inside leave to the sun;
-//! then most points are covered once, not twice, and the building itself is in the solid. Of all others every face casts.
+//! A closed, well-wound component needs only the half of its faces through which rays from inside leave to the sun.
+//! Then most points are covered once, not twice, and the building itself is in the solid. In all other components every
+//! face casts.
 
 use super::Volume;
 use crate::mesh::{Component, Mesh};

@@ -1,17 +1,18 @@
-//! `shadow.bits`: one bit a cell for every instant with a sun, so that questions that come later (the longest run of sun,
-//! any threshold) need no new computation.
+//! `shadow.bits`: one bit per cell for every instant with a sun, so that later questions (the longest run of sun, any
+//! threshold) need no new computation.
 //!
-//! The layout, numbers from the lowest byte up:
+//! The layout, with all numbers little-endian:
 //!
 //! - 8 bytes: `GNOMBITS`;
-//! - 8 bytes: a number, where the rasters begin;
-//! - JSON in UTF-8 up to there, filled up with blanks: `region`, `cell`, `width`, `height`, `receivers`, `bytes_a_row` and
-//!   `instants` as `profile.json` has them, those at night left out;
-//! - for each of these instants a raster: rows from north to south, each of `bytes_a_row` = ⌈`width` / 8⌉ bytes; the lowest
-//!   bit of a row's first byte is its westmost cell; 1 is shadow, where at most half of the sun is seen. Bits beyond the
-//!   row's end are 0.
+//! - 8 bytes: the offset at which the rasters begin;
+//! - JSON in UTF-8 up to there, padded with blanks: `region`, `cell`, `width`, `height`, `receivers`, `bytes_a_row` and
+//!   `instants` as in `profile.json`, without those at night;
+//! - for each of these instants a raster: rows from north to south, each of `bytes_a_row` = ⌈`width` / 8⌉ bytes. The
+//!   lowest bit of a row's first byte is its westernmost cell; 1 is shadow, where at most half of the sun is seen. Bits
+//!   beyond the row's end are 0.
 //!
-//! It is written instant by instant, for each tile of the plan, beside its place, and renamed when it is whole.
+//! The study writes the file instant by instant, for each tile of the plan, under a temporary name beside its final
+//! place, and renames it when it is complete.
 
 use super::unfinished::bits_path;
 use crate::choice::Receivers;

@@ -1,8 +1,9 @@
-//! `profile.sums.NUMBER.unfinished`: the sums of a study in tiles, which are kept there while it goes on, and not in memory.
+//! `profile.sums.NUMBER.unfinished`: the sums of a study in tiles, which are kept in this file and not in memory while
+//! the study runs.
 //!
-//! The layout: the plan's cells from the north-west, row after row, each its shaded time in 1/255 s from the lowest byte up,
-//! in 4 bytes, or in 8 where the study has more daylight than 32 bits hold. A tile is in it once all of its instants are
-//! done; what a stopped study had of the next one is in `profile.NUMBER.unfinished`.
+//! The layout: the plan's cells from the north-west, row after row, each its shaded time in 1/255 s, little-endian, in
+//! 4 bytes, or in 8 where the study has more daylight than 32 bits hold. The file contains a tile once all of the
+//! tile's instants are done; what a stopped study had of the next tile is in `profile.NUMBER.unfinished`.
 
 use super::unfinished::sums_path;
 use crate::export::checksum::Checksum;

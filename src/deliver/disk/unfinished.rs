@@ -1,14 +1,14 @@
-//! What a stopped study leaves in its folder, so that it can go on another time.
+//! What a stopped study leaves in its folder, so that it can continue later.
 //!
-//! Its files carry the study's number in their names, so that several stopped studies lie side by side, and each goes on
-//! when the same is asked again: `profile.NUMBER.unfinished`, and where it has them `shadow.bits.NUMBER.unfinished` and
-//! `profile.sums.NUMBER.unfinished`.
+//! The names of its files contain the study's number. So several stopped studies can lie side by side, and each
+//! continues when the same request is made again: `profile.NUMBER.unfinished`, and where they exist
+//! `shadow.bits.NUMBER.unfinished` and `profile.sums.NUMBER.unfinished`.
 //!
-//! The layout of the first, all numbers from the lowest byte up: the line `gnomon unfinished 3`; in 64 bits each the
-//! study's number, how many tiles it has, how many instants are done, how many cells there are, and the bytes of a cell, 4
-//! or 8; a byte that says what counting took follows: 0 nothing, 1 without and 2 with cells that a map left to the
-//! volumes; then in 64 bits each the four numbers of that, the checksums of bits and sums, how many masks are written, and
-//! the checksum of each; the cells; last the checksum of all before it.
+//! The layout of the first, with all numbers little-endian: the line `gnomon unfinished 3`; in 64 bits each the study's
+//! number, how many tiles it has, how many instants are done, how many cells there are, and the bytes of a cell, 4 or
+//! 8; a byte that says which statistics of counting follow: 0 none, 1 without and 2 with cells that a map left to the
+//! volumes; then in 64 bits each those four numbers, the checksums of bits and sums, how many masks are written, and
+//! the checksum of each; the cells; last the checksum of everything before it.
 
 use crate::export::checksum::checksum;
 use crate::export::{ExportError, bytes, file};

@@ -1,11 +1,14 @@
-//! The folders in which a study works. They are locked meanwhile, so that no two write their files there side by side.
+//! The folders in which a study works. They are locked meanwhile, so that no two studies write their files there at
+//! once.
 //!
-//! The lock is the system's own, on the open file `.gnomon.lock`: it goes with the process, however that ends, and what a
-//! crash leaves of the file bars nobody. Where a disk knows no locks the study goes on, and that is told.
+//! The lock is the system's own, on the open file `.gnomon.lock`. The system drops it when the process ends, however
+//! that happens, so a file that a crash left behind locks nobody out. Where a disk does not support locks the study
+//! continues, and a note says so.
 //!
 //! A process that is done removes the file while it still holds the lock. Another process may have opened the file just
-//! before, and then gets the lock of a file that has no name any more, while a third one creates a new file. So a lock
-//! counts only if its path still leads to the locked file; otherwise the process tries again. Two never hold one folder.
+//! before; it then gets the lock of a file that no longer has a name, while a third process creates a new file. So a
+//! lock counts only if its path still leads to the locked file; otherwise the process tries again. Two processes never
+//! hold the same folder.
 
 use crate::export::{ExportError, file};
 use chrono::{DateTime, Local};

@@ -1,4 +1,4 @@
-//! Hours that were found → their files.
+//! Writes the hours that were found into their files.
 
 use super::hours::{Hours, Range};
 use super::request::{DRAWING, ProfileRequest, RASTER, REPORT};

@@ -1,4 +1,4 @@
-//! The hours of shadow on a plan, as a study finds them.
+//! Finds the hours of shadow on a plan.
 
 use super::ProfileRequest;
 use super::keeping::{Beside, StudyStore};

@@ -1,7 +1,7 @@
 //! The shadow profile of a study: hours of shadow on the plan, as a drawing, a raster, a report, lines, masks and bits.
 //!
-//! A study that was stopped in a folder goes on there. Whoever shows hours first and writes them later finds them with
-//! [`find_hours`], and writes them with [`write_hours`].
+//! A study that was stopped in a folder continues there. A caller that shows hours first and writes them later finds
+//! them with [`find_hours`], and writes them with [`write_hours`].
 
 mod files;
 mod hours;

@@ -1,4 +1,4 @@
-//! The sums of a study: in memory, or in a file where the plan is done in tiles.
+//! The sums of a study: in memory, or in a file where the plan is worked on in tiles.
 
 use crate::deliver::disk::sums::SumsFile;
 use crate::export::ExportError;

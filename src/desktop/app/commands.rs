@@ -1,4 +1,4 @@
-//! The commands of the window: open, write, copy, show all.
+//! The commands of the window: open, write, copy, show everything.
 
 use crate::desktop::app::state::App;
 use crate::desktop::parts::path_dialog::{PathDialog, Purpose};

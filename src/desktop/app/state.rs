@@ -1,4 +1,4 @@
-//! The window's state: what is open, what is set, what is under way.
+//! The window's state: what is open, what is set, and which work is running.
 
 use crate::desktop::app::device::devices;
 use crate::desktop::parts::fields::TypedText;

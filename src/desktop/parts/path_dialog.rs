@@ -1,4 +1,5 @@
-//! Asks for paths: with the system's dialogs, or with one in the window where the system has none; and offers samples.
+//! Asks for paths with the system's dialogs, or with a dialog in the window where the system has none. It also offers
+//! the samples.
 
 use crate::deliver::lines::Lines;
 use crate::desktop::parts::question::Question;

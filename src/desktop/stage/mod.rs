@@ -1,8 +1,8 @@
-//! The picture is drawn by a thread of its own, on a device of its own: it takes the newest wish, drops what was wished
-//! before, and hands over a texture of the window's device, which the window shows as it is.
+//! The stage draws the picture on its own thread and its own device. It takes the newest wish, drops older ones, and
+//! hands over a texture of the window's device, which the window shows unchanged.
 //!
-//! Were both on one device, the window could not be resized while a picture is drawn: wgpu refuses to configure a surface
-//! where another thread hands in work meanwhile, and waits for all work that was handed in before.
+//! With one device for both, the window could not be resized while a picture is drawn: wgpu refuses to configure a
+//! surface while another thread submits work, and waits for all work that was submitted before.
 
 pub(in crate::desktop) mod easel;
 pub(in crate::desktop) mod plain;

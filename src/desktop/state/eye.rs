@@ -1,4 +1,4 @@
-//! Where the eye is: around a point, above it, or far before a façade.
+//! The position of the eye: around a point, above it, or far in front of a façade.
 
 use crate::site::Site;
 use crate::site::file::CameraTable;

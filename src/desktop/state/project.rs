@@ -1,4 +1,4 @@
-//! The open site: as it is written, as it is meant, and what the window needs of it.
+//! The open site: as written, as meant, and what else the window needs to know of it.
 
 use crate::desktop::state::settings::{Hidden, WindowSettings};
 use crate::formats::ModelReader;

@@ -1,4 +1,5 @@
-//! Studies of the open site, computed in threads of their own; and when a single point lies in the sun.
+//! Studies of the open site, computed in threads of their own, and the intervals in which a single point lies in the
+//! sun.
 
 use crate::choice::{Method, Receivers};
 use crate::deliver::comparison::find_comparison;

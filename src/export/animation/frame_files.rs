@@ -1,4 +1,4 @@
-//! The files of an animation: what they are called, and a frame read back.
+//! The files of an animation: their names, and reading a frame back.
 
 use crate::export::ExportError;
 use crate::export::figure::Screen;

@@ -1,7 +1,7 @@
-//! A study as pictures that follow each other: `frame-0000.png` …, and `day.gif` of the same.
+//! A study as pictures that follow each other: `frame-0000.png` …, and `day.gif` of the same pictures.
 //!
-//! Frames are written as they come. The GIF is made of them when all are there, as its colours are: one frame is held at
-//! a time. It is written beside its place, and renamed when it is whole.
+//! Frames are written as they are drawn. The GIF is made when all of them are there, since its colours depend on all,
+//! and then one frame at a time is in memory. It is written under a temporary name and renamed when it is complete.
 
 mod frame_files;
 mod palette;

@@ -1,9 +1,9 @@
 //! The colours of a GIF: at most 256 for all of its frames, so that nothing flickers.
 //!
-//! Median cut (Heckbert, Color Image Quantization for Frame Buffer Display, 1982), with two changes. The box that is cut
-//! next is the one whose colours lie farthest from their mean, and it is cut there; and a box stands for its most frequent
-//! colour, not for its mean: a drawing's flat colours stay what they are to the bit. Nothing is dithered, as grain would
-//! be taken for cells, and would crawl from frame to frame.
+//! The method is median cut (Heckbert, *Color Image Quantization for Frame Buffer Display*, 1982), with two changes.
+//! The box to cut next is the one whose colours lie farthest from their mean, and it is cut at the mean; and a box is
+//! represented by its most frequent colour, not by its mean, so that a drawing's flat colours stay the same to the bit.
+//! Nothing is dithered, as the grain would look like cells, and would crawl from frame to frame.
 
 use crate::export::figure::{Screen, scale::Rgb};
 use rustc_hash::FxHashMap;

@@ -1,6 +1,6 @@
-//! What an older, longer animation left in the folder of a new one. Its frames beyond the new one's would be taken for that
-//! one's, and so they are removed; but only those that are known to be of it: they show what the GIF beside them shows, pixel
-//! for pixel, in its colours. A picture that somebody put there, or drew on, does not.
+//! Removes what an older, longer animation left in the folder of a new one. Its further frames would be taken for
+//! frames of the new one. Only frames that are known to belong to it are removed: those that show, pixel for pixel,
+//! what the GIF beside them shows in its colours. A picture that somebody put there, or drew on, is kept.
 
 use super::frame_files::{GIF, frame_path, read};
 use super::palette::nearest;

@@ -1,4 +1,4 @@
-//! What drawings are made from, besides the answer itself.
+//! The context of a drawing: everything that it is made from except the answer itself.
 
 use crate::choice::Receivers;
 use crate::mesh::Mesh;

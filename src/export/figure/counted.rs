@@ -1,4 +1,5 @@
-//! How much work counting took, as colours of cells: seed 000, figures 3-5 and 3-9.
+//! How much work counting took, as colours of cells, after figures 3-5 and 3-9 of E. Chan's thesis (*Efficient Shadow
+//! Algorithms on Graphics Hardware*, 2004).
 
 use super::scale::{Rgb, mix};
 use crate::view::{Decider, FragmentCounts};

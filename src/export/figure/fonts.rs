@@ -1,9 +1,9 @@
-//! Faces: Noto Sans for every letter that it has, so that a drawing looks the same on every machine, and the system's for
-//! all others.
+//! Fonts. Noto Sans has priority for every letter that it has, so that a drawing looks the same on every machine; for
+//! all other letters the system's fonts are used.
 //!
-//! A line that needs several faces is set run by run, each in a face that has all of its letters: a renderer that takes
-//! the next face for the whole line gives up where a face makes another number of glyphs of it, as one of emoji does, and
-//! then letters that other faces have are boxes, too.
+//! A line that needs several fonts is set run by run, each run in a font that has all of its letters. A renderer that
+//! replaces the font of a whole line gives up where the other font makes a different number of glyphs, as an emoji font
+//! does, and then letters that other fonts have become boxes, too.
 
 use super::text::{escape, unescape};
 use resvg::usvg::fontdb::{Database, FaceInfo, ID, Source, Style};

@@ -1,6 +1,6 @@
-//! The drawing: a picture of the answer on a sheet that says what it shows, ready for print and for a slide.
+//! Drawings: a picture of the answer on a sheet that says what it shows, ready for print and for a slide.
 //!
-//! The picture is made cell by cell in Rust; everything that is lines and letters is one SVG, drawn by resvg over it.
+//! The picture is made cell by cell in Rust; all lines and text are one SVG, which resvg draws over it.
 
 mod components;
 mod context;

@@ -1,4 +1,4 @@
-//! Volumes and silhouette over a finished picture: translucent yellow, and black lines above it.
+//! Lays volumes and silhouette over a finished picture: translucent yellow, and black lines above it.
 
 use super::picture::{CellBorder, CellSpan, PagePicture, spans};
 use super::scale::{Rgb, mix};

@@ -1,4 +1,4 @@
-//! The sheet: A3 landscape, the picture as large as it can be, the panel beside or below it.
+//! The layout of a sheet: A3 landscape, the picture as large as it can be, the panel beside or below it.
 
 use super::panel::{self, COLUMN, Panel};
 use super::paper::{HEIGHT, PAPER_METRES_A_PIXEL, WIDTH};

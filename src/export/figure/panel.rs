@@ -1,4 +1,4 @@
-//! What stands beside the picture: title, facts, the sun's table, legend, scale and north.
+//! The panel beside the picture: title, facts, the sun's table, legend, scale and north.
 
 use super::scale::Rgb;
 use super::svg::{ACCENT, Block, GRAY, HAIR, INK, LetterStyle, TextAnchor};

@@ -1,4 +1,5 @@
-//! The camera's colours and lines: a quiet model photograph, warm in the sun and cool in the shade.
+//! The colours and lines of a camera's picture: like a photograph of a plain model, warm in the sun and cool in the
+//! shade.
 
 use super::FigureContext;
 use super::components::Components;

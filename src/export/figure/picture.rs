@@ -1,4 +1,4 @@
-//! From cells to the page's pixels: colours averaged by area, lines drawn where neighbouring cells part.
+//! Cells → the page's pixels: colours are averaged by area, and lines drawn where neighbouring cells differ.
 
 use super::scale::Rgb;
 use crate::look::LOOK;

@@ -1,4 +1,4 @@
-//! The plan's colours and lines: ground and roofs seen from above.
+//! The colours and lines of a plan: ground and roofs seen from above.
 
 use super::FigureContext;
 use super::picture::{CellBorder, Cells, Fit, LazyRaster, PagePicture, Pen, Pixels, compose};

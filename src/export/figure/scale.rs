@@ -1,4 +1,4 @@
-//! Which colour an hour of shadow has: bands of whole steps on an even, colour-blind-safe scale.
+//! The colour of an hour of shadow: bands of whole steps on an even scale that colour-blind people can read.
 
 /// An sRGB colour.
 pub type Rgb = [u8; 3];

@@ -1,4 +1,4 @@
-//! A drawing for a screen: the sheet as it is for paper, in fewer pixels.
+//! A drawing for a screen: the sheet as on paper, in fewer pixels.
 
 use super::components::Components;
 use super::page::Sheet;

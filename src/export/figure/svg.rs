@@ -1,4 +1,4 @@
-//! A block of the page: SVG in its own coordinates, and how tall it is.
+//! A block of the page: SVG in its own coordinates, and its height.
 
 use super::scale::Rgb;
 use super::text::{self, FontWeight};

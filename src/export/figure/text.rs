@@ -1,4 +1,4 @@
-//! Lines of letters: how wide they are, and how they are cut.
+//! Lines of text: how wide they are, and how they are shortened.
 
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};

@@ -1,4 +1,4 @@
-//! How a drawing says things: places, times, durations, techniques.
+//! How a drawing words things: places, times, durations, techniques.
 
 use crate::choice::{Finder, Receivers, Settings};
 use crate::profile::Provenance;

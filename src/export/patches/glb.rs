@@ -1,8 +1,8 @@
-//! `surfaces.glb`: the model with its hours of sun as textures, a binary glTF 2.0 file that any viewer of models opens.
+//! `surfaces.glb`: the model with its hours of sun as textures, a binary glTF 2.0 file that any model viewer opens.
 //!
-//! A node a component, a primitive a page of the atlas; what does not receive is plain. The colours are the drawing's, without light and shade of the
-//! viewer's own (KHR_materials_unlit). Beside each page's colours lies a texture of the numbers: 16-bit gray, `extras` of
-//! the scene say how many seconds a unit is.
+//! It has one node per component and one primitive per page of the atlas; what does not receive is plain. The colours
+//! are those of the drawing, without the viewer's own light and shade (KHR_materials_unlit). Beside each page's colours
+//! lies a texture of the numbers in 16-bit gray; `extras` of the scene say how many seconds a unit is.
 
 use super::{Exposure, PatchContext, pages};
 use crate::export::ExportError;

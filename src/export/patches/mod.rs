@@ -1,5 +1,5 @@
-//! Hours of sun on the model's patches as files: `surfaces.csv` for numbers, `surfaces.glb` for the eye. The drawing is
-//! [`figure::patches`](super::figure::patches).
+//! The hours of sun on the model's patches as files: `surfaces.csv` for numbers, `surfaces.glb` for the eye. The
+//! drawing is [`figure::patches`](super::figure::patches).
 
 mod glb;
 pub(super) mod pages;

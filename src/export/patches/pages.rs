@@ -1,5 +1,5 @@
-//! The atlas as rasters: what texels came to, and between and around them what their neighbours did, so that no picture
-//! shows an edge where a texel's centre lies just beside its faces.
+//! The atlas as rasters. The texels have their own values, and the space between and around them has those of their
+//! neighbours, so that no picture shows an edge where a texel's centre lies just beside its faces.
 
 use super::PatchContext;
 use crate::export::figure::scale::{Bands, NO_SUN, Rgb};

@@ -1,4 +1,5 @@
-//! Events of XML → tables. Elements are known by their local names, which versions 2 and 3 share but for a few.
+//! XML events → tables. Elements are known by their local names, which are the same in versions 2 and 3 with few
+//! exceptions.
 
 use super::polygon::{OpenPolygon, add_positions};
 use super::tables::{GmlGeometry, GmlMember, GmlMemberKind, GmlObject, GmlTables, NamedGml};

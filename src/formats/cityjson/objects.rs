@@ -1,4 +1,4 @@
-//! Which objects of a document stand there, and with which of their geometries.
+//! Which objects of a document are taken, and with which of their geometries.
 
 use super::document::{CityDocument, CityObject, VertexTransform};
 use super::surfaces::{CityShape, NO_SURFACES, Templates};

@@ -1,4 +1,4 @@
-//! What a Collada file says, by its ids.
+//! The contents of a Collada file, by their ids.
 
 use super::effect::DaeEffect;
 use crate::formats::face_cutter::FaceCutter;

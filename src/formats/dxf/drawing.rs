@@ -1,4 +1,4 @@
-//! What a DXF file says: its layers, its blocks, and what stands in the model space.
+//! The contents of a DXF file: its layers, its blocks, and what stands in the model space.
 
 use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::LeftOutTally;

@@ -1,4 +1,4 @@
-//! Where the faces of an entity go.
+//! Collects the faces of an entity in its layer.
 
 use super::drawing::LayerTriangles;
 use crate::formats::face_cutter::{FaceCutter, Uncut};

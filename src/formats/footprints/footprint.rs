@@ -1,4 +1,4 @@
-//! One footprint as a file has it, and what it is called.
+//! One footprint as its file has it, and its names.
 
 use super::tags::FootprintTags;
 use crate::formats::left_out::label;

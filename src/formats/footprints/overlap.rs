@@ -1,7 +1,7 @@
-//! Which outlines of buildings their parts replace.
+//! Finds the outlines of buildings that are replaced by their parts.
 //!
-//! OpenStreetMap has a building as an outline and, where somebody drew it more closely, as parts within it, each with its own
-//! height. Both at once would give the building its greatest height everywhere.
+//! OpenStreetMap has a building as an outline and, where somebody drew it in more detail, as parts within it, each with
+//! its own height. Both together would give the building its greatest height everywhere.
 
 use super::extrude::{FlatPolygon, FootprintOutline};
 use glam::DVec2;

@@ -1,4 +1,4 @@
-//! The attributes of a footprint, by OpenStreetMap's keys; and lengths as people write them.
+//! The attributes of a footprint, by OpenStreetMap's keys, and lengths as people write them.
 
 /// Metres that a storey is guessed to be high.
 pub(super) const STOREY_M: f64 = 3.0;

@@ -1,4 +1,4 @@
-//! Placed nodes and their meshes → parts in the world, and which of their materials light passes.
+//! Placed nodes and their meshes → parts in the world, and which of their materials are see-through.
 
 use super::accessor::Accessors;
 use super::buffers::Buffers;

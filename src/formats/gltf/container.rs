@@ -1,4 +1,5 @@
-//! The file's bytes → its JSON and, in a `.glb`, its binary chunk. The content decides, not the file's name.
+//! The file's bytes → its JSON and, in a `.glb`, its binary chunk. The content decides which it is, not the file's
+//! name.
 
 use super::Fault;
 use std::fs::File;

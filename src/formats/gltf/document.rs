@@ -1,8 +1,8 @@
-//! The JSON → the structure of what casts. Textures, images, cameras and animations are not even parsed.
+//! The JSON → the structure of what casts. Textures, images, cameras and animations are not parsed.
 //!
-//! `gltf::json` reads meshes, accessors, views and buffers. Nodes are our own, since it keeps transforms in `f32`, which
-//! far from the origin, at map coordinates, is steps of 25 cm; scenes and materials are, since it refuses scenes
-//! without nodes and broken textures.
+//! `gltf::json` reads meshes, accessors, views and buffers. Nodes are our own, since it keeps transforms in `f32`,
+//! whose steps are 25 cm at map coordinates far from the origin. Scenes and materials are our own, since it refuses
+//! scenes without nodes and broken textures.
 
 use super::Fault;
 use super::material::Material;

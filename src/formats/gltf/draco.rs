@@ -1,6 +1,6 @@
 //! KHR_draco_mesh_compression: a primitive's compressed bytes → the elements of its accessors.
 //!
-//! The decoder is `draco-core`, in Rust alone. What it is given is anybody's bytes, so that it is caught where it panics.
+//! The decoder is `draco-core`, which is Rust alone. Its input may be anybody's bytes, so a panic in it is caught.
 
 use super::document::Document;
 use super::{Fault, MAX_TRIANGLES};

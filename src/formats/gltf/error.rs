@@ -1,4 +1,4 @@
-//! What can be wrong with a glTF file: each fault names the thing and the way out.
+//! What can be wrong with a glTF file. Each fault names the thing and says what to do.
 
 use super::{MAX_COMPONENTS, MAX_TRIANGLES};
 

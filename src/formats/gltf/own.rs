@@ -1,4 +1,4 @@
-//! What this program itself writes, where glTF has no word for it: under `gnomon` in the `extras` of a node and of a scene.
+//! What this program itself writes where glTF cannot express it: `gnomon` in the `extras` of a node and of a scene.
 
 use crate::formats::{Anchor, AnchorPoint, PartKind, composed};
 use serde::{Deserialize, Deserializer};

@@ -1,4 +1,4 @@
-//! A mesh's primitives → which vertices make which triangles, grouped by material.
+//! A mesh's primitives → triangles as indices of vertices, grouped by material.
 
 use super::Fault;
 use super::accessor::Accessors;

@@ -1,7 +1,7 @@
 //! The numbers of a checked accessor: strided, normalised, sparse, or zero.
 //!
-//! [`super::accessor`] has checked that all elements lie where they are said to; the reads here still go through `get`,
-//! so that a mistake there would read zeros and not crash.
+//! [`super::accessor`] has checked that all elements lie within their buffers. The reads here still go through `get`,
+//! so that a mistake there would give zeros and not a crash.
 
 use super::Fault;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Which nodes stand in a scene, and where. Trees may be as deep as the file likes: nothing here recurses.
+//! Which nodes stand in a scene, and where. Trees may have any depth, so nothing here recurses.
 
 use super::Fault;
 use super::document::{Document, Node};

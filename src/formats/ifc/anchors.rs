@@ -1,9 +1,9 @@
 //! Where the file says that the zero of its coordinates lies, and which way north is.
 //!
-//! All angles of [`Anchor::north_rad`] are clockwise, seen from above, from the file's +y to the north that is meant. Of
-//! `TrueNorth` (x, y), a direction in the file's own axes, it is atan2(x, y). Of `IfcMapConversion` it is
-//! atan2(XAxisOrdinate, XAxisAbscissa): the file's +x is turned so far anticlockwise from the map's east, so the map's north
-//! is turned so far clockwise from the file's +y.
+//! The angle [`Anchor::north_rad`] is clockwise, seen from above, from the file's +y to the north that is meant. For
+//! `TrueNorth` (x, y), a direction in the file's own axes, it is atan2(x, y). For `IfcMapConversion` it is
+//! atan2(XAxisOrdinate, XAxisAbscissa): the file's +x is turned by that angle anticlockwise from the map's east, so the
+//! map's north is turned by the same angle clockwise from the file's +y.
 
 use super::super::{Anchor, AnchorPoint};
 use super::scan::IfcScan;

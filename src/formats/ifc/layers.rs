@@ -1,5 +1,5 @@
-//! Layers: those that the file has switched off or frozen, since what lies on them alone is not seen by whoever drew it; and
-//! the names of those with a style, which the reader does not tell.
+//! Layers that the file has switched off or frozen: whoever drew the model does not see what lies on them alone. Also
+//! the names of layers with a style, which the reader does not report.
 
 use super::lost::is_solid;
 use super::scan::{IfcProduct, IfcScan};

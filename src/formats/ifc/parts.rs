@@ -1,4 +1,5 @@
-//! Meshes as the reader gives them → parts in the file's own coordinates. A part is a product's share of one material.
+//! Meshes from the reader → parts in the file's own coordinates. A part is everything of one product that has one
+//! material.
 
 use super::super::{MAX_COMPONENTS, MAX_TRIANGLES, PartKind, SeeThrough, composed};
 use super::layers::IfcLayers;

@@ -1,4 +1,4 @@
-//! The file's text → which of its records matter here, and where each record lies: one walk, before shapes are made.
+//! The file's text → which of its records matter here, and where each record lies: one pass, before shapes are built.
 
 use ifc_lite_core::{EntityDecoder, EntityIndex, EntityScanner, IfcType};
 use rustc_hash::FxHashMap;

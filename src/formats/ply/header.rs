@@ -1,4 +1,4 @@
-//! A PLY file's header: which tables there are, and of what numbers.
+//! A PLY file's header: its tables, and the types of their numbers.
 
 use crate::formats::left_out::label;
 use crate::formats::source::{TextLines, text, words};

@@ -1,4 +1,4 @@
-//! Esri's ASCII grid: a head of names and numbers, then heights, the northernmost row first.
+//! Esri's ASCII grid: a header of names and numbers, then heights, the northernmost row first.
 
 use super::grid::HeightGrid;
 use super::model_of;

@@ -1,7 +1,7 @@
-//! The keys of a GeoTIFF or of LAS: of which map the coordinates are, and in which unit the heights.
+//! The keys of a GeoTIFF or of LAS: the map to which the coordinates belong, and the unit of the heights.
 //!
-//! OGC GeoTIFF 1.1 (19-008r4): the directory is numbers of 16 bits, four a key: its number, where its value lies, how
-//! many, and the value or where it begins.
+//! OGC GeoTIFF 1.1 (19-008r4): the directory is 16-bit numbers, four for each key: its number, the tag that has its
+//! value, the count, and the value or its index in that tag.
 
 /// The values of the keys that say where and how high.
 #[derive(Clone, Debug, Default, PartialEq)]

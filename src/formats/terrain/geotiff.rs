@@ -1,4 +1,4 @@
-//! GeoTIFF elevation: striped, tiled or planar, of any type of number.
+//! GeoTIFF elevation: striped, tiled or planar, of any number type.
 
 use super::geokeys::MapKeys;
 use super::grid::HeightGrid;

@@ -1,4 +1,4 @@
-//! LandXML: the surfaces that surveyors triangulate.
+//! LandXML: the triangulated surfaces of surveyors.
 
 use super::{NamedSheet, of_sheets};
 use crate::formats::source::stem;

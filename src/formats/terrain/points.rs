@@ -1,5 +1,4 @@
-//! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on
-//! request.
+//! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on request.
 
 use super::geokeys::MapKeys;
 use super::point_cells::{CellBlocks, PointCells};

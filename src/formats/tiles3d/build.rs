@@ -1,4 +1,4 @@
-//! Contents of tiles → parts of one model.
+//! The contents of tiles → parts of one model.
 
 use super::b3dm::{MAGIC, TileGltf, cesium_center, opened};
 use crate::formats::left_out::{LeftOutTally, label};

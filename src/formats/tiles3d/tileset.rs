@@ -1,4 +1,4 @@
-//! The JSON of a tileset, and of those that it names → which contents stand where.
+//! The JSON of a tileset, and of the tilesets that it names → which contents stand where.
 
 use crate::formats::ModelFault;
 use crate::formats::gltf::percent_decode;

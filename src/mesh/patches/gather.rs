@@ -1,4 +1,4 @@
-//! Faces that hang together in one plane.
+//! Gathers connected faces that lie in one plane.
 
 use super::{FLAT_ANGLE_DEG, FLAT_M, seen_side};
 use crate::mesh::planes::{self, area_vector};

@@ -1,4 +1,4 @@
-//! A patch, and the atlas in which the patches of a mesh lie.
+//! A patch, and the atlas that has the patches of a mesh.
 
 use glam::{DVec3, DVec4};
 use std::ops::Range;

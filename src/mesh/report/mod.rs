@@ -1,6 +1,6 @@
 //! What is wrong with a mesh, in numbers, names and places.
 //!
-//! Nothing here stops a study: shadows of dirty parts are right too. But an open solid is often a modelling slip,
+//! None of it stops a study: shadows of defective parts are right, too. But an open solid is often a modelling mistake,
 //! and a part that is missing from the file casts no shadow.
 
 mod open;

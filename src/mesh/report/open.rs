@@ -1,4 +1,4 @@
-//! Open edges: what they are the border of, and which vertices stand within them.
+//! Open edges: what they border, and which vertices lie within them.
 
 use super::places::{OpenKind, OpenPlace, edge, longest, world};
 use crate::mesh::spacing::Spacing;

@@ -1,4 +1,4 @@
-//! Where a mesh is not clean: points and edges in metres of the world frame, the longest first.
+//! The places where a mesh is not clean: points and edges in metres of the world frame, the longest first.
 
 use crate::mesh::Mesh;
 use glam::DVec3;

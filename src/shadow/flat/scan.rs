@@ -1,4 +1,4 @@
-//! Silhouettes → rows of bits: each edge marks where it crosses the rows, and sums run along them.
+//! Silhouettes → rows of bits: each edge marks where it crosses the rows, and sums run along the rows.
 
 use super::casters::{Casters, FaceSide, FallingEdge};
 use crate::view::Bits;

@@ -1,14 +1,15 @@
-//! Hard shadows of one sample on one patch, on the processor, in double precision.
+//! Fills the hard shadows of one sample on one patch, on the processor, in double precision.
 //!
-//! - [`Fill::Faces`]: every face is filled, a bit a cell: the plain twin.
-//! - [`Fill::Silhouettes`]: the paper's edge-flag fill (section 4.3.1, after Ackland and Weste, 1981) of silhouettes
-//!   (4.3.3). Each edge marks in every row the cell from which on its faces' layers begin or end; a running sum over the row
-//!   is then the number of layers before each cell. An edge counts as often as the directions of its faces do not cancel:
-//!   ±2 between two faces of one side, ±1 at a border, 0 inside. The paper lists events by light in each cell; we add a
-//!   sample's at once, so that an event is a number and there is nothing to allocate.
+//! - [`Fill::Faces`] fills every face, one bit per cell: the plain twin.
+//! - [`Fill::Silhouettes`] is the edge-flag fill (section 4.3.1 of M. Herf's paper, after Ackland and Weste, 1981) of
+//!   silhouettes (4.3.3). In every row each edge marks the cell at which the layers of its faces begin or end; a
+//!   running sum over the row is then the number of layers before each cell. An edge counts as often as the directions
+//!   of its faces do not cancel: ±2 between two faces of one side, ±1 at a border, 0 inside. The paper lists events by
+//!   light in each cell; we add one sample's events at once, so that an event is a number and nothing has to be
+//!   allocated.
 //!
-//! Both cut at the judged plane alike. A face that is cut marks its own border, the section included; where it meets a face
-//! that is not, their marks fall into the same cells and cancel in the sum.
+//! Both cut faces at the judged plane in the same way. A face that is cut marks its own border, the section included;
+//! where it meets a face that is not cut, their marks fall into the same cells and cancel in the sum.
 
 use super::occluders::Occluders;
 use crate::mesh::Mesh;

@@ -1,15 +1,17 @@
 //! Registered soft shadow textures: which part of a light's samples every texel of a flat patch sees.
 //!
-//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138. For each patch and each sample the faces between
-//! them are projected onto the patch's own texels ([`crate::shadow::registered`]) and filled; as all samples' hard shadows
-//! register, they are simply added. Samples are points of the sun's disc, a soft shadow at an instant; or the instants of
-//! a study, hours of sun on a facade; or points of a lamp. It is the same code.
+//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138, 1997. For each patch and each sample the
+//! faces between them are projected onto the patch's own texels ([`crate::shadow::registered`]) and filled. All
+//! samples' hard shadows register, so they are simply added. Samples are points of the sun's disc, which give a soft
+//! shadow at an instant; or the instants of a study, which give hours of sun on a façade; or points of a lamp. The code
+//! is the same.
 //!
-//! What we changed: sums are integers with a weight for each sample; faces are culled for each patch by a tree of boxes; a
-//! patch is judged a millimetre above itself, so that it never shades itself and takes no light through a wall that stands
-//! on it; the paper's factor of an unoccluded light (`unoccluded`, a hook for tests) is apart from all that, and hours do without it.
+//! What we changed: sums are integers with a weight for each sample; faces are culled for each patch by a tree of
+//! boxes; a patch is judged a millimetre above itself, so that it never shades itself and gets no light through a wall
+//! that stands on it; the paper's factor of an unoccluded light (`unoccluded`, a hook for tests) is computed
+//! separately, and hours do not need it.
 //!
-//! Where it fails: a texel's value is that of its centre; and where patches are many and tiny, rays cost less
+//! Where it fails: a texel has the value of its centre; and where patches are many and tiny, rays cost less
 //! ([`Choice::Auto`]).
 
 #[cfg(feature = "test-hooks")]

@@ -1,4 +1,4 @@
-//! The request for a patch: its samples, how it is judged, and what stands before it.
+//! The request for one patch: its samples, how it is judged, and what stands in front of it.
 
 use super::occluders::Occluders;
 use crate::mesh::patches::{Patch, Patches};

@@ -1,8 +1,8 @@
-//! Which walls the view cannot show.
+//! Leaves out the walls that the view cannot show.
 //!
-//! Seed 004, section 9, saves fill by bounds around casters. Here walls are left out one by one, which saves at least as
-//! much, needs no bounds, and cannot change a mask: what lies beyond a border is cut away anyway. A wall that ends at the
-//! lowest receiver fills nothing that a scissor around its caster's shadow would spare.
+//! *Geometry of Real Time Shadows*, section 9, saves fill rate by bounds around casters. Here walls are left out one by
+//! one, which saves at least as much, needs no bounds, and cannot change a mask: what lies beyond a border is cut away
+//! anyway. A wall that ends at the lowest receiver fills nothing that a scissor around its caster's shadow would save.
 
 use crate::silhouette::DirectedEdge;
 use glam::{DMat4, DVec3, DVec4, Vec3};

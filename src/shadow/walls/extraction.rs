@@ -1,10 +1,11 @@
-//! Silhouettes found on the GPU: one pass over all edges writes the list of walls and the arguments with which it is
-//! drawn, and nothing comes back.
+//! Silhouettes found on the GPU: one pass over all edges writes the list of walls and the arguments of the indirect
+//! draw, and nothing is read back.
 //!
-//! The twin of [`crate::silhouette::brute_force`]. (Seed 003 extracts in the vertex shader, for want of compute passes:
-//! `Silhouettes::InVertexShader`, which tests and benches compare with. Here only silhouette edges become vertices.) Facing is a bit of
-//! `super::faces`. Edges come in runs, each so short that its buffers fit the adapter's bindings however many of its
-//! edges are silhouette.
+//! The twin of [`crate::silhouette::brute_force`]. (Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd
+//! edition, 2008, section 9.1, extract in the vertex shader, since there were no compute passes:
+//! `Silhouettes::InVertexShader`, with which tests and benches compare. Here only silhouette edges become vertices.)
+//! Facing is a bit of `super::faces`. Edges come in runs, each so short that its buffers fit the adapter's bindings
+//! however many of its edges are part of the silhouette.
 
 use super::faces::{self, Faces, GROUP};
 use super::query::{NO_FACE, WallQuery, Walls, along, packed};

@@ -1,4 +1,4 @@
-//! The request for walls, and what all ways to make them have in common.
+//! The request for walls, and what all ways to make them share.
 
 use super::borders::Borders;
 use crate::gpu::{GpuError, layout};

@@ -1,4 +1,4 @@
-//! Latitude and longitude.
+//! Latitude or longitude, one at a time.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Latitude and longitude, one of them or both.
+//! Latitude and longitude as they are typed, one of them or both.
 
 use super::number::number;
 use super::{Axis, TypedError};

@@ -1,4 +1,4 @@
-//! Why what was typed is not taken.
+//! Why a typed value is not accepted.
 
 use super::Axis;
 use crate::message::{Message, Worded, message, plain_display};

@@ -1,4 +1,4 @@
-//! What is drawn under the lines: the ground, the buildings, and those borders between cells that the sun does not make.
+//! What is drawn under the lines: the ground, the buildings, and the borders between cells that the sun does not cause.
 
 use super::{Line, LineGroup, Scale, fill, group, line, paths, stroke};
 use crate::contour::{Contour, ScalarField, contours};

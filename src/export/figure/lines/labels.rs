@@ -1,4 +1,4 @@
-//! Labels on lines, placed where they can be read and, if possible, cover nothing else.
+//! Labels on lines, placed so that they can be read and, if possible, cover nothing else.
 
 use super::{distance, length};
 use crate::export::figure::scale::Rgb;

@@ -1,6 +1,7 @@
-//! Line drawings: a plan of lines, flat colours and letters, as one SVG; its PNG is that SVG, drawn.
+//! Line drawings: a plan of lines, flat colours and text, as one SVG. Its PNG is rendered from that SVG.
 //!
-//! Coordinates are page pixels from the picture's north-west corner, but for those of contours, which are cells.
+//! Coordinates are pixels of the page from the picture's north-west corner, except for those of contours, which are
+//! cells.
 
 mod base;
 mod hours;

@@ -1,4 +1,4 @@
-//! The chart's axes: whole hours of the local clock across, and which days have a line and a label.
+//! The chart's axes: whole hours of the local clock across, and the days that have a line and a label.
 
 use crate::sun::Zone;
 use crate::sunlight::SunDay;

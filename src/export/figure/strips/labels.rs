@@ -1,4 +1,4 @@
-//! What stands beside the strips.
+//! The text beside the strips.
 
 use super::colours::{NIGHT, OUTSIDE, SHADE, SUN};
 use crate::export::figure::panel::Panel;

@@ -1,4 +1,4 @@
-//! The strip chart: when probes lie in the sun. The local clock's time of day across, days down.
+//! The strip chart: when probes lie in the sun. The local clock's time of day runs across, the days run down.
 
 mod axes;
 mod colours;
