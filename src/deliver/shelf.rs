@@ -58,7 +58,7 @@ pub(super) fn find<'a, T>(
     if let (Err(DeliverError::Export(error)), Some(_)) = (&found, folder) {
         // the shelf is for the case that the work is stopped; that it is full must not stop the work
         note(Some(format!("{error}; the work is done again, and what is done is not kept")), on_event)?;
-        tell(on_event, Event::Anew)?;
+        tell(on_event, Event::StartsOver)?;
         found = work(None, on_event);
     }
     if let Some(folder) = folder {

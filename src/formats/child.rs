@@ -42,7 +42,7 @@ pub fn answer(path: &Path, request: &str, out: &mut impl Write) -> io::Result<()
 }
 
 /// Why a process was ended.
-enum Ended {
+enum EndCause {
     Wish,
     Time,
     Memory(u64),
@@ -84,9 +84,9 @@ pub(super) fn read(
         let _ = tell.send(last_words(told));
     });
     match watched(&mut process, limits, is_given_up, &outcome) {
-        Err(Ended::Wish) => Err(ModelFault::GivenUp),
-        Err(Ended::Time) => Err(too_long(limits.time).into()),
-        Err(Ended::Memory(bytes)) => Err(too_large(bytes).into()),
+        Err(EndCause::Wish) => Err(ModelFault::GivenUp),
+        Err(EndCause::Time) => Err(too_long(limits.time).into()),
+        Err(EndCause::Memory(bytes)) => Err(too_large(bytes).into()),
         Ok(Ok(read)) => Ok(read?),
         Ok(Err(error)) => {
             let words = words.recv_timeout(Duration::from_secs(1)).unwrap_or_default();
@@ -117,7 +117,7 @@ fn watched(
     limits: ReadLimits,
     is_given_up: &AtomicBool,
     outcome: &mpsc::Receiver<Result<Result<Model, Message>, EncodingError>>,
-) -> Result<Result<Result<Model, Message>, EncodingError>, Ended> {
+) -> Result<Result<Result<Model, Message>, EncodingError>, EndCause> {
     let (begun, most) = (Instant::now(), limits.memory_bytes());
     let mut memory = MemoryWatch { system: System::new().ok(), process: Pid::from_u32(process.0.id()) };
     loop {
@@ -129,13 +129,13 @@ fn watched(
             Err(RecvTimeoutError::Timeout) => {}
         }
         if is_given_up.load(Ordering::Relaxed) {
-            return Err(Ended::Wish);
+            return Err(EndCause::Wish);
         }
         if begun.elapsed() > limits.time {
-            return Err(Ended::Time);
+            return Err(EndCause::Time);
         }
         if memory.bytes() > most {
-            return Err(Ended::Memory(most));
+            return Err(EndCause::Memory(most));
         }
     }
 }

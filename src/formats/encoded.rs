@@ -106,7 +106,7 @@ pub(super) fn write(outcome: Result<&Model, &Message>, out: &mut impl Write) -> 
         Err(message) => (&absent, Some(message.clone())),
     };
     let json = serde_json::to_vec(&header(model, fault))?;
-    let mut out = Summed { inner: out, sum: SipHasher13::new() };
+    let mut out = ChecksumStream { inner: out, sum: SipHasher13::new() };
     out.write(&MARK)?;
     out.write(&VERSION.to_le_bytes())?;
     out.write(&(json.len() as u64).to_le_bytes())?;
@@ -169,7 +169,7 @@ fn header(model: &Model, fault: Option<Message>) -> EncodedHeader {
 /// # Errors
 /// [`EncodingError`]: bytes that nobody has written so.
 pub(super) fn read(input: &mut impl Read) -> Result<Result<Model, Message>, EncodingError> {
-    let mut input = Summed { inner: input, sum: SipHasher13::new() };
+    let mut input = ChecksumStream { inner: input, sum: SipHasher13::new() };
     let (mut mark, mut version, mut length) = ([0; 8], [0; 4], [0; 8]);
     input.read(&mut mark)?;
     input.read(&mut version)?;
@@ -261,19 +261,19 @@ fn lasting(text: String) -> Option<&'static str> {
 }
 
 /// A stream, and the checksum of what went through it.
-struct Summed<'a, T> {
+struct ChecksumStream<'a, T> {
     inner: &'a mut T,
     sum: SipHasher13,
 }
 
-impl<T: Write> Summed<'_, T> {
+impl<T: Write> ChecksumStream<'_, T> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.sum.write(bytes);
         self.inner.write_all(bytes)
     }
 }
 
-impl<T: Read> Summed<'_, T> {
+impl<T: Read> ChecksumStream<'_, T> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<()> {
         self.inner.read_exact(bytes)?;
         self.sum.write(bytes);

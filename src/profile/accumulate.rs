@@ -1,6 +1,6 @@
 //! Adds up masks times weights, where the masks are, in integers.
 
-use super::Shaded;
+use super::ShadedTime;
 use crate::gpu::layout::WeightUniforms;
 use crate::gpu::targets::{NUMBER, whole};
 use crate::gpu::{Gpu, readback, shaders};
@@ -120,7 +120,7 @@ impl Sum {
     }
 
     /// Goes on from a sum over so many seconds.
-    pub fn begin_with(&mut self, shaded: &Shaded, secs: u32) {
+    pub fn begin_with(&mut self, shaded: &ShadedTime, secs: u32) {
         match (&mut self.running, shaded.in_one_word()) {
             (RunningSum::Memory(running), Some(cells)) if secs <= MOST_SECS => {
                 running.copy_from_slice(cells);
@@ -201,7 +201,7 @@ impl Sum {
     }
 
     /// The sum so far. Slow where it is on the GPU: it is read back.
-    pub fn so_far(&mut self) -> Result<Shaded, ShadowError> {
+    pub fn so_far(&mut self) -> Result<ShadedTime, ShadowError> {
         self.settle();
         match (&self.running, &self.poured) {
             (RunningSum::Memory(sum), None) => Ok(sum.clone().into()),
@@ -211,7 +211,7 @@ impl Sum {
     }
 
     /// The sum.
-    pub fn finish(mut self) -> Result<Shaded, ShadowError> {
+    pub fn finish(mut self) -> Result<ShadedTime, ShadowError> {
         self.settle();
         match self {
             Sum { running: RunningSum::Memory(sum), poured: None, .. } => Ok(sum.into()),

@@ -10,7 +10,7 @@ mod statistics;
 mod unfinished;
 
 pub use provenance::{Provenance, Timings};
-pub use shaded::Shaded;
+pub use shaded::ShadedTime;
 #[doc(hidden)]
 pub use shaded::{ShadedCells, ShadedPart};
 pub use statistics::Statistics;
@@ -22,7 +22,7 @@ use crate::view::Grid;
 ///
 /// Sums are exact integers, the same on every machine: seconds times the covered share of the sun in 1/255.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Profile<S = Shaded> {
+pub struct Profile<S = ShadedTime> {
     /// Where the raster lies.
     pub grid: Grid,
     /// Per cell the shaded time; night is not in it.

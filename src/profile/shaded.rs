@@ -6,7 +6,7 @@ use std::ops::Range;
 /// Per cell the shaded time in 1/255 s, row 0 (north) first: one word of 32 bits, as a year of daylight just fits, or two
 /// where a longer study needs them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Shaded(ShadedPart<'static>);
+pub struct ShadedTime(ShadedPart<'static>);
 
 /// Some cells' shaded time, as it lies in memory or was read for the purpose.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,7 +55,7 @@ pub trait ShadedCells: Sync {
     fn part(&self, cells: Range<usize>) -> ShadedPart<'_>;
 }
 
-impl ShadedCells for Shaded {
+impl ShadedCells for ShadedTime {
     fn cells(&self) -> usize {
         self.len()
     }
@@ -68,7 +68,7 @@ impl ShadedCells for Shaded {
     }
 }
 
-impl Shaded {
+impl ShadedTime {
     /// How many cells there are.
     pub fn len(&self) -> usize {
         self.0.len()
@@ -89,7 +89,7 @@ impl Shaded {
         (0..self.len()).map(|cell| self.of(cell))
     }
 
-    /// The cells, where one word is enough for each; else [`Shaded::in_two_words`] has them.
+    /// The cells, where one word is enough for each; else [`ShadedTime::in_two_words`] has them.
     pub fn in_one_word(&self) -> Option<&[u32]> {
         match &self.0 {
             ShadedPart::One(cells) => Some(cells),
@@ -106,18 +106,18 @@ impl Shaded {
     }
 }
 
-impl From<Vec<u32>> for Shaded {
-    fn from(cells: Vec<u32>) -> Shaded {
-        Shaded(ShadedPart::One(cells.into()))
+impl From<Vec<u32>> for ShadedTime {
+    fn from(cells: Vec<u32>) -> ShadedTime {
+        ShadedTime(ShadedPart::One(cells.into()))
     }
 }
 
-impl From<Vec<u64>> for Shaded {
+impl From<Vec<u64>> for ShadedTime {
     /// One word where that is enough for all cells, so that equal sums are equal.
-    fn from(cells: Vec<u64>) -> Shaded {
+    fn from(cells: Vec<u64>) -> ShadedTime {
         match cells.iter().map(|&cell| u32::try_from(cell)).collect::<Result<Vec<u32>, _>>() {
             Ok(cells) => cells.into(),
-            Err(_) => Shaded(ShadedPart::Two(cells.into())),
+            Err(_) => ShadedTime(ShadedPart::Two(cells.into())),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The state of a study that was stopped.
 
-use super::{Shaded, Statistics};
+use super::{ShadedTime, Statistics};
 
 /// A study that was stopped, as far as it came. Tiles before the one that was worked on last are whole, and not in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,7 +12,7 @@ pub struct Unfinished {
     /// How many of its instants are done, those of each tile counted.
     pub done: usize,
     /// The sum of those of the last tile.
-    pub shaded: Shaded,
+    pub shaded: ShadedTime,
     /// What counting them took, where that was asked.
     pub statistics: Option<Statistics>,
 }

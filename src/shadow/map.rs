@@ -144,7 +144,7 @@ impl DepthMap {
 }
 
 /// Four maps, a quarter of a texel from its centre each, in the channels of one (Brabec and Seidel,
-    /// section 3).
+/// section 3).
 pub(super) struct PackedMap {
     pub(super) packed: Texture,
     /// One pipeline a channel.

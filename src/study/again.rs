@@ -42,7 +42,7 @@ pub fn persist<T>(
 /// Says that a device failed, and on what the work is done again.
 fn begin_again(why: &str, on: &str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     tell(on_event, Event::Note(format!("{why}: the work is done again {on}").into()))?;
-    tell(on_event, Event::Anew)
+    tell(on_event, Event::StartsOver)
 }
 
 /// Why no device did it, where that is what went wrong: it was lost, or none was left after a loss.

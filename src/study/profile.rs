@@ -10,7 +10,7 @@ use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::message::{Field, aside, message};
 use crate::profile::accumulate::Sum;
-use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
+use crate::profile::{Profile, Provenance, ShadedTime, Statistics, Timings, Unfinished};
 use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
 use crate::sun;
@@ -45,7 +45,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     let (mut tile, mut whole) = (Tile::from(site.grid), Arc::default());
     let worked = in_tiles(TiledStudy::new(site, wants, on_event)?, None, &mut |event| {
         match &event {
-            Event::Anew => whole = Arc::default(),
+            Event::StartsOver => whole = Arc::default(),
             // of what is gone on from only the rest would be told
             Event::Resumes { .. } => return ControlFlow::Continue(()),
             Event::Tile(next) => tile = *next,
@@ -61,7 +61,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
 }
 
 /// The whole of a plan's sums, with a tile's in their place; an empty whole has none yet.
-pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
+pub fn paste(whole: &Arc<ShadedTime>, tile: &Tile, shaded: &Arc<ShadedTime>) -> Arc<ShadedTime> {
     if tile.is_whole() {
         return Arc::clone(shaded);
     }
@@ -106,7 +106,7 @@ impl<'a> TiledStudy<'a> {
 
 /// Sums every instant's shadows. A study that was stopped, given as `begun`, continues where it was; its sums are the same to
 /// the bit. Tiles before the one that was worked on are not reported again. What another study left is not used. After
-/// [`Event::Anew`] everything is reported from the first instant on, or from what was put into [`Event::Resumes`].
+/// [`Event::StartsOver`] everything is reported from the first instant on, or from what was put into [`Event::Resumes`].
 ///
 /// # Errors
 /// [`StudyError`]
@@ -212,9 +212,9 @@ impl TileWork<'_> {
         &mut self,
         (number, tile): (usize, &Tile),
         technique: &mut dyn Technique,
-        begun: Option<Shaded>,
+        begun: Option<ShadedTime>,
         on_event: &mut OnEvent<'_>,
-    ) -> Result<Shaded, StudyError> {
+    ) -> Result<ShadedTime, StudyError> {
         let instants = &self.look.site.track.instants;
         let count = self.tiles * instants.len();
         let mut sum = Sum::new(self.look.machine.gpu(), tile.size[0], tile.size[1]);
@@ -263,7 +263,7 @@ impl TileWork<'_> {
     }
 
     /// Tells what is to be kept after so many instants.
-    fn keep(&mut self, done: usize, shaded: Shaded, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    fn keep(&mut self, done: usize, shaded: ShadedTime, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
         let TileWork { study, tiles, statistics, .. } = *self;
         tell(on_event, Event::Kept(&Unfinished { study, tiles, done, shaded, statistics }))?;
         self.kept = (Instant::now(), true);

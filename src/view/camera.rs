@@ -61,8 +61,8 @@ impl Camera {
 
     /// The perspective, from the near plane (depth 1) to infinity (depth 0).
     ///
-    /// Seed 004, section 6, with depth reversed: a point at infinity has depth 0 exactly, so that no volume is cut
-    /// at a far plane on any adapter, and `f32` depth keeps its precision far away.
+    /// *Geometry of Real Time Shadows*, section 6, with depth reversed: a point at infinity has depth 0 exactly, so that
+    /// no volume is cut at a far plane on any adapter, and `f32` depth keeps its precision far away.
     pub fn clip_from_world(&self) -> DMat4 {
         let [right, up, forward] = self.axes();
         let row = |axis: DVec3, scale: f64| (axis * scale).extend(-axis.dot(self.eye) * scale);

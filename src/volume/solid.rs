@@ -185,7 +185,7 @@ impl<'a> CutFaces<'a> {
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &point| (low.min(point), high.max(point)));
         // of the near end, which is looked at closely; a number that `f32` holds, as files keep it
         let origin = ((low + high) / 2.0).with_z(self.ground).round().as_vec3().as_dvec3();
-        let mut rounded = Rounded::default();
+        let mut rounded = RoundedPoints::default();
         let near: Vec<u32> = self.points.iter().map(|&point| rounded.vertex(point - origin)).collect();
         let far = |point: &DVec3| (*point + along * (point.z - self.ground)).with_z(self.ground);
         let far: Vec<u32> = self.points.iter().map(|point| rounded.vertex(far(point) - origin)).collect();
@@ -252,12 +252,12 @@ fn summed<K: Ord>(signed: impl Iterator<Item = (K, i32)>) -> Vec<(K, i32)> {
 
 /// Points as `f32`; those that become equal are one vertex.
 #[derive(Default)]
-struct Rounded {
+struct RoundedPoints {
     vertices: Vec<Vec3>,
     of_bits: FxHashMap<[u32; 3], u32>,
 }
 
-impl Rounded {
+impl RoundedPoints {
     fn vertex(&mut self, point: DVec3) -> u32 {
         let vertex = point.as_vec3() + Vec3::ZERO; // + 0 makes −0 and 0 one
         *self.of_bits.entry(vertex.to_array().map(f32::to_bits)).or_insert_with(|| {
@@ -285,7 +285,7 @@ impl Rounded {
 impl Solid {
     /// Whether it is closed: at every edge between two positions the directions of the triangles cancel.
     pub fn closed(&self) -> bool {
-        let mut rounded = Rounded::default();
+        let mut rounded = RoundedPoints::default();
         let welded: Vec<u32> = self.vertices.iter().map(|vertex| rounded.vertex(vertex.as_dvec3())).collect();
         let triangles: Vec<_> = self.triangles.iter().map(|face| face.map(|corner| welded[corner as usize])).collect();
         // an edge from a vertex to itself runs both ways

@@ -242,7 +242,7 @@ impl StudyStore<'_> {
 
     fn write(&mut self, event: &Event<'_>, site: &Site) -> Result<(), ExportError> {
         match event {
-            Event::Anew => {
+            Event::StartsOver => {
                 // Windows removes no open file
                 (self.is_new, self.is_first, self.is_kept) = (true, true, false);
                 (self.sums, self.begun_sums) = (Sums::Memory(Arc::default()), None);

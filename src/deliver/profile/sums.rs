@@ -2,14 +2,14 @@
 
 use crate::deliver::disk::sums::SumsFile;
 use crate::export::ExportError;
-use crate::profile::{Shaded, ShadedCells, ShadedPart};
+use crate::profile::{ShadedCells, ShadedPart, ShadedTime};
 use std::ops::Range;
 use std::sync::Arc;
 
 /// Shaded time per cell.
 pub enum Sums {
     /// All of it is in memory.
-    Memory(Arc<Shaded>),
+    Memory(Arc<ShadedTime>),
     /// It is read from a file, some cells at a time.
     File(SumsFile),
 }
@@ -24,14 +24,14 @@ impl Sums {
     }
 
     /// All of it in memory.
-    pub(super) fn in_memory(self) -> Result<Arc<Shaded>, ExportError> {
+    pub(super) fn in_memory(self) -> Result<Arc<ShadedTime>, ExportError> {
         let file = match self {
             Sums::Memory(shaded) => return Ok(shaded),
             Sums::File(file) => file,
         };
         let shaded = match file.part(0..file.cells()) {
-            ShadedPart::One(cells) => Shaded::from(cells.into_owned()),
-            ShadedPart::Two(cells) => Shaded::from(cells.into_owned()),
+            ShadedPart::One(cells) => ShadedTime::from(cells.into_owned()),
+            ShadedPart::Two(cells) => ShadedTime::from(cells.into_owned()),
         };
         file.check()?;
         Ok(Arc::new(shaded))

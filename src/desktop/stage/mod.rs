@@ -47,10 +47,10 @@ pub(in crate::desktop) struct StagePicture {
 
 /// The thread that draws, as the window knows it.
 pub(in crate::desktop) struct Stage {
-    shared: Arc<Shared>,
+    shared: Arc<StageWorker>,
 }
 
-struct Shared {
+struct StageWorker {
     easel: Easel,
     render: RenderState,
     context: egui::Context,
@@ -64,7 +64,7 @@ struct Shared {
 impl Stage {
     /// Starts the thread.
     pub(in crate::desktop) fn new(render: RenderState, context: egui::Context) -> Stage {
-        let shared = Arc::new(Shared {
+        let shared = Arc::new(StageWorker {
             easel: Easel::new(render.adapter.clone()),
             render,
             context,
@@ -141,7 +141,7 @@ struct StageCache {
     plain: Option<PlainDrawer>,
 }
 
-impl Shared {
+impl StageWorker {
     fn work(&self) {
         let mut kept = [StageCache::default(), StageCache::default()];
         while let Some(wish) = self.wait() {

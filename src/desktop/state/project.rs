@@ -34,24 +34,24 @@ pub(in crate::desktop) struct Project {
 /// What an open site is made of.
 pub(in crate::desktop) struct LoadedSite {
     pub(in crate::desktop) path: Option<PathBuf>,
-    /// None where they are to be read again.
+    /// None if they are to be read again.
     pub(in crate::desktop) models: Option<Models>,
     pub(in crate::desktop) visible: Arc<Site>,
     pub(in crate::desktop) seen: Arc<(Mesh, RayCaster)>,
 }
 
 impl Project {
-    /// What of it may do for the site as it is written now; `anew` its models may not.
-    pub(in crate::desktop) fn before(&self, anew: bool) -> LoadedSite {
+    /// What of it can be used for the site as it is written now; its models cannot where they are to be read again.
+    pub(in crate::desktop) fn loaded(&self, reads_models: bool) -> LoadedSite {
         LoadedSite {
             path: self.path.clone(),
-            models: (!anew).then(|| self.models.clone()),
+            models: (!reads_models).then(|| self.models.clone()),
             visible: Arc::clone(&self.visible),
             seen: Arc::clone(&self.seen),
         }
     }
 
-    /// Its models, for a site as it is written, where they are those of that.
+    /// Its models, if they are those of a site as it is written.
     pub(in crate::desktop) fn models_of(&self, written: &WrittenSite) -> Option<Models> {
         self.models.are_those_of(written).then(|| self.models.clone())
     }

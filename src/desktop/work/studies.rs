@@ -166,7 +166,7 @@ fn compare(
         event => {
             match event {
                 Event::Started { .. } if !std::mem::take(&mut is_again) => begun += 1,
-                Event::Anew => is_again = true,
+                Event::StartsOver => is_again = true,
                 _ => {}
             }
             on_event(event)

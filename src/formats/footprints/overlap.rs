@@ -17,7 +17,7 @@ const SAMPLES: usize = 24;
 const MOST_ABOVE: usize = 64;
 
 /// What parts do to outlines.
-pub(super) struct Replaced {
+pub(super) struct Replacements {
     /// Numbers of the outlines that do not stand there.
     pub whole: FxHashSet<usize>,
     /// How many are covered in part, and stand.
@@ -25,8 +25,8 @@ pub(super) struct Replaced {
 }
 
 /// Which outlines are covered by parts.
-pub(super) fn replaced_by_parts(outlines: &[FootprintOutline]) -> Replaced {
-    let mut replaced = Replaced { whole: FxHashSet::default(), partly: 0 };
+pub(super) fn replaced_by_parts(outlines: &[FootprintOutline]) -> Replacements {
+    let mut replaced = Replacements { whole: FxHashSet::default(), partly: 0 };
     if !outlines.iter().any(|outline| outline.tags.is_part()) {
         return replaced;
     }

@@ -66,7 +66,7 @@ impl FootprintTags {
 
     /// What GDAL puts the other keys of OpenStreetMap into: `"key"=>"value","key"=>"value"`.
     fn set_others(&mut self, text: &str) {
-        let mut strings = Quoted(text);
+        let mut strings = QuotedStrings(text);
         while let (Some(key), Some(value)) = (strings.next(), strings.next()) {
             if normal(&key) != "other_tags" {
                 self.set(&key, &value);
@@ -198,9 +198,9 @@ fn number(text: &str) -> Option<f64> {
 }
 
 /// The strings in quotes of a text; a backslash takes the next letter as it is.
-struct Quoted<'a>(&'a str);
+struct QuotedStrings<'a>(&'a str);
 
-impl Iterator for Quoted<'_> {
+impl Iterator for QuotedStrings<'_> {
     type Item = String;
 
     fn next(&mut self) -> Option<String> {
