@@ -42,15 +42,15 @@ use wrong_use::WrongUse;
 
 pub use options::Options;
 
-/// What opens the window, with a site or a model in it where one is named.
+/// Opens the window, with a site or a model in it if one is named.
 pub type WindowOpener = fn(Option<&Path>) -> anyhow::Result<()>;
 
-/// Every subcommand and option, as the command line is read; `docs/command.md` is written from it.
+/// Every subcommand and option, as they are parsed. `docs/command.md` is written from it.
 pub fn definition() -> clap::Command {
     Arguments::command()
 }
 
-/// Reads the command line and does what it asks; without a subcommand it opens the window, where there is one.
+/// Reads the command line and does what it says. Without a subcommand it opens the window, if the program has one.
 pub fn main(window: Option<WindowOpener>) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,

@@ -11,7 +11,7 @@ pub(super) fn nothing_asked() -> Overrides {
     Overrides { words: &Options, reading, ..Overrides::default() }
 }
 
-/// The command's words.
+/// The command's words for fields.
 #[derive(Clone, Copy, Debug)]
 pub struct Options;
 

@@ -6,7 +6,7 @@ use crate::message::{Message, message};
 #[derive(Debug)]
 pub(super) struct Definition {
     pub name: String,
-    /// PROJ's text.
+    /// The definition as text for PROJ.
     pub proj: String,
     pub height_unit_m: Option<f64>,
     pub doubt: Option<&'static str>,

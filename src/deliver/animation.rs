@@ -12,9 +12,9 @@ use crate::study::{self, Event, Frame, OnEvent, Stopwatch, tell};
 use crate::view::View;
 use std::path::{Path, PathBuf};
 
-/// How wide a picture is where nobody says, pixels.
+/// The default width of a picture, pixels.
 pub const WIDTH: u32 = 1280;
-/// Pictures a second where nobody says.
+/// The default number of pictures per second.
 pub const FPS: u16 = 4;
 
 /// The request for an animation.
@@ -37,14 +37,14 @@ pub struct AnimationAnswer {
     pub gif: PathBuf,
     /// The frames, in their order.
     pub frames: WrittenFiles,
-    /// All in JSON.
+    /// The report in JSON.
     pub report: String,
-    /// What drew.
+    /// What drew the pictures.
     pub drawn: Provenance,
 }
 
-/// Draws every instant of the site's study into a folder. Beside the study's events the stage `gif` is told as each of the
-/// frames goes into that.
+/// Draws every instant of the site's study into a folder. Besides the study's events it reports the stage `gif` for
+/// each frame that is added to the GIF.
 ///
 /// # Errors
 /// [`DeliverError`]; too many instants, and what cannot be written, before anything is drawn.

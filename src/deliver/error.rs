@@ -8,12 +8,12 @@ use crate::sun::Zone;
 use crate::volume::solid::SolidError;
 use chrono::DateTime;
 
-/// Why there is no deliverable. One line each.
+/// Why a deliverable could not be made, in one line.
 #[derive(Debug, thiserror::Error)]
 pub enum DeliverError {
     /// The study has no answer.
     Study(#[from] StudyError),
-    /// The answer did not become files.
+    /// The answer could not be written.
     Export(#[from] ExportError),
     /// Lines cannot be drawn of such a study.
     Lines(#[from] LinesError),
@@ -60,7 +60,7 @@ impl Worded for DeliverError {
 }
 
 impl DeliverError {
-    /// Whether what was asked does not go together, or not with the site.
+    /// Whether parts of the request do not fit each other or the site.
     pub fn is_wrong_use(&self) -> bool {
         match self {
             DeliverError::Study(error) => error.is_wrong_use(),
@@ -70,7 +70,7 @@ impl DeliverError {
         }
     }
 
-    /// Whether somebody ended the work.
+    /// Whether somebody stopped the work.
     pub fn is_interrupted(&self) -> bool {
         matches!(self, DeliverError::Study(StudyError::Interrupted))
     }

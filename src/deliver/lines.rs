@@ -9,7 +9,7 @@ use crate::sun::{Instant, SunTrack};
 use crate::view::SurfaceRows;
 use chrono::NaiveDate;
 
-/// A drawing of lines, which becomes a PNG and an SVG.
+/// A line drawing, which becomes a PNG and an SVG.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lines {
     /// A labelled line for each whole hour of shadow.
@@ -18,12 +18,12 @@ pub enum Lines {
     Outlines,
 }
 
-/// Why lines cannot be drawn of a study: they would show nothing, or more than can be told apart.
+/// Why a study has no line drawing: it would show nothing, or too much to be readable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinesError {
     /// All instants are at night.
     NoSun,
-    /// Outlines are distinguished by their times.
+    /// Outlines are labelled with times, which do not distinguish days.
     SeveralDays {
         /// The first of them.
         date: NaiveDate,
@@ -65,7 +65,7 @@ pub(super) fn by_clock() -> Piece {
 }
 
 impl Lines {
-    /// Errs where a drawing of such a study would show nothing, or more than can be told apart.
+    /// Returns an error if a drawing of such a study would show nothing, or too much to be readable.
     ///
     /// # Errors
     /// [`LinesError`].
@@ -89,7 +89,7 @@ impl Lines {
         Ok(())
     }
 
-    /// What the files are called.
+    /// The names of the files.
     pub fn names(self) -> [&'static str; 2] {
         match self {
             Lines::Hours => ["hours.png", "hours.svg"],

@@ -9,20 +9,20 @@ use crate::profile::{Provenance, Statistics, Timings};
 use crate::site::Site;
 use crate::study::{Event, OnEvent, StudyError, tell};
 
-/// What of a site was drawn, and by what.
+/// What was drawn of a site, and what drew it.
 #[derive(Clone, Copy)]
 pub struct DrawnView<'a, S> {
     /// What was judged.
     pub receivers: Receivers,
     /// What each cell sees.
     pub surface: &'a S,
-    /// Whose faces those are.
+    /// The mesh whose faces those are.
     pub mesh: &'a Mesh,
-    /// What drew.
+    /// What drew the answer.
     pub drawn: &'a Provenance,
 }
 
-/// What a drawing of a site needs beside the answer.
+/// The context of a drawing of a site.
 pub fn figure_context<'a, S>(site: &'a Site, seen: DrawnView<'a, S>) -> figure::FigureContext<'a, S> {
     let DrawnView { receivers, surface, mesh, drawn } = seen;
     figure::FigureContext {

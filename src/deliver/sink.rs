@@ -5,40 +5,40 @@ use crate::export::ExportError;
 use crate::export::file::{self, TemporaryFile};
 use std::path::{Path, PathBuf};
 
-/// A file's name, and what is in it.
+/// A file's name and its content.
 pub type NamedFile = (PathBuf, Vec<u8>);
 
-/// Where files go.
+/// The destination of files.
 #[derive(Clone, Copy, Debug)]
 pub enum Sink<'a> {
-    /// Into a folder, which is locked while the work goes on.
+    /// A folder, which is locked while the work runs.
     Folder(Folder<'a>),
-    /// Each to where its name leads, without a lock.
+    /// A path for each file, without a lock.
     Paths {
         /// The files that the site is read from, none of which is written over.
         inputs: &'a [PathBuf],
     },
-    /// Into memory: the files come back with the answer.
+    /// Memory: the files are returned with the answer.
     Memory,
 }
 
 /// A folder in which a deliverable is made.
 #[derive(Clone, Copy, Debug)]
 pub struct Folder<'a> {
-    /// Where it is; it is made where it is missing.
+    /// Its path; it is created if it is missing.
     pub path: &'a Path,
-    /// Who works there, for others who want to: a command line, or a window.
+    /// Who works there, which others who want to work there can read: a command, or a window.
     pub who: &'a str,
-    /// The files that the site is read from, none of which is written over.
+    /// The files from which the site is read; none of them is overwritten.
     pub inputs: &'a [PathBuf],
 }
 
-/// What was written, in the order in which it is told.
+/// The files that were written, in the order in which they are reported.
 #[derive(Clone, Debug, Default)]
 pub struct WrittenFiles {
-    /// Where each file lies; its name alone where it is in memory.
+    /// The path of each file; for files in memory, its name.
     pub paths: Vec<PathBuf>,
-    /// The files themselves, where they go into memory.
+    /// The files themselves, if they are in memory.
     pub files: Vec<NamedFile>,
 }
 

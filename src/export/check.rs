@@ -44,7 +44,7 @@ struct ComponentLine<'a> {
     places: Value,
 }
 
-/// `check --json`: triangles as the files have them, vertices as welded, and where what is wrong.
+/// `check --json`: triangles as in the files, vertices as welded, and what is wrong at which places.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -84,8 +84,8 @@ fn is_turned(references: &[ModelReference]) -> bool {
     references.iter().any(|model| model.up == Up::Y)
 }
 
-/// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
-/// break. How the models were read stands below the totals.
+/// The totals with how the models were read below them, then a line for each part that is not clean, then what the
+/// words mean and where the worst is; ends with a line break.
 pub fn table(
     mesh: &Mesh,
     components: &[ComponentReport],

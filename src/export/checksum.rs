@@ -9,28 +9,28 @@ use std::fs;
 use std::hash::Hasher;
 use std::path::Path;
 
-/// The number of what was added so far, however it was cut into pieces.
+/// The checksum of what was added so far, in whatever pieces.
 #[derive(Clone, Default)]
 pub struct Checksum(SipHasher13);
 
 impl Checksum {
-    /// Adds what comes next.
+    /// Adds the next bytes.
     pub fn add(&mut self, bytes: &[u8]) {
         self.0.write(bytes);
     }
 
-    /// The number so far.
+    /// The checksum so far.
     pub fn number(&self) -> u64 {
         self.0.finish()
     }
 }
 
-/// Of a whole file; none where it cannot be read.
+/// The checksum of a whole file; `None` if it cannot be read.
 pub fn of_file(path: &Path) -> Option<u64> {
     fs::read(path).ok().map(|bytes| checksum(&bytes))
 }
 
-/// Of bytes that are there at once.
+/// The checksum of bytes in memory.
 pub fn checksum(bytes: &[u8]) -> u64 {
     let mut checksum = Checksum::default();
     checksum.add(bytes);

@@ -74,7 +74,8 @@ fn change(comparison: &Comparison, change: Change, thresholds: &[u32]) -> Change
     }
 }
 
-/// `compare.json`: the areas, then what `profile.json` says of the study; `names` are those before and after.
+/// `compare.json`: the areas, then what `profile.json` says of the study. `names` are those of the states before and
+/// after.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -103,7 +104,7 @@ pub fn json(
     })
 }
 
-/// What is told for people: what it is, and two of it. Heads of columns have an empty first.
+/// The rows for people: a label and two values each. In the rows of column heads the label is empty.
 pub fn rows(comparison: &Comparison, track: &SunTrack) -> Vec<[String; 3]> {
     let mut rows = Vec::new();
     let mut row = |what: &str, [first, second]: [String; 2]| rows.push([what.to_owned(), first, second]);
@@ -126,7 +127,7 @@ pub fn rows(comparison: &Comparison, track: &SunTrack) -> Vec<[String; 3]> {
     rows
 }
 
-/// How much of the plan was compared, in a sentence without its stop.
+/// How much of the plan was compared, as a sentence without its full stop.
 pub fn extent(comparison: &Comparison) -> String {
     let [built, cleared] = [Alteration::Built, Alteration::Cleared].map(|altered| comparison.altered_m2(altered));
     format!(
@@ -135,7 +136,7 @@ pub fn extent(comparison: &Comparison) -> String {
     )
 }
 
-/// The areas for people.
+/// The table of areas for people.
 pub fn table(comparison: &Comparison, track: &SunTrack) -> String {
     let mut table = String::new();
     for [what, first, second] in rows(comparison, track) {

@@ -4,7 +4,7 @@ use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plai
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why an answer did not become a file.
+/// Why an answer could not be written to a file.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The file system refused.
@@ -51,19 +51,19 @@ pub enum ExportError {
         /// How many frames there are to be.
         count: usize,
     },
-    /// What is to be written is what was read.
+    /// An output is one of the files that were read.
     IsInput {
         /// The file that was to be written.
         path: PathBuf,
         /// The same file, as the site names it.
         input: PathBuf,
     },
-    /// The path names no file: it ends in none, or a folder or a device stands there.
+    /// The path is not that of a file: it ends in no name, or a folder or a device has that path.
     NoFileName {
         /// The path as given.
         path: PathBuf,
     },
-    /// The model with the hours on its surfaces is larger than GLB can be.
+    /// The model with the hours on its surfaces is larger than a GLB can be.
     LargeGlb {
         /// What it would take, bytes.
         size: u64,
@@ -75,7 +75,8 @@ pub enum ExportError {
         /// What the encoder said.
         why: String,
     },
-    /// Two rasters that belong together differ in size: a bug upstream, told rather than drawn askew.
+    /// Two rasters that belong together differ in size. This is a bug elsewhere; it is reported, since the drawing
+    /// would be wrong.
     Size {
         /// Which raster.
         what: &'static str,
@@ -163,7 +164,7 @@ impl ExportError {
     }
 }
 
-/// `577 MB`: bytes for people.
+/// A number of bytes for people: `577 MB`.
 pub fn bytes(count: u64) -> String {
     let mut size = count as f64;
     let mut unit = "bytes";

@@ -21,7 +21,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
 /// What is done while bytes go out.
 pub(super) const WRITING: &str = "writing a temporary file in its folder";
 
-/// A file that is written beside its place. It is gone again unless it is put there.
+/// A file that is written under a temporary name. It is removed unless it is put in place.
 pub struct TemporaryFile {
     pub(super) file: File,
     beside: Cleanup,
@@ -51,7 +51,7 @@ impl TemporaryFile {
         Ok(TemporaryFile { file, beside: Cleanup(beside), target, asked: asked.to_owned() })
     }
 
-    /// Some bytes, which are on the disk.
+    /// A temporary file with these bytes, which are on the disk.
     ///
     /// # Errors
     /// As [`write()`].
@@ -63,7 +63,7 @@ impl TemporaryFile {
         Ok(beside)
     }
 
-    /// Sees that what was written is on the disk.
+    /// Makes sure that everything written is on the disk.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -71,12 +71,13 @@ impl TemporaryFile {
         self.file.sync_all().map_err(|error| failed(&self.asked, WRITING, error))
     }
 
-    /// Where it is to be, as asked.
+    /// Its final path, as requested.
     pub fn path(&self) -> &Path {
         &self.asked
     }
 
-    /// It is whole: it replaces what was there, once it is on the disk. A power cut leaves the old file or the new one.
+    /// Puts the complete file in place: it replaces an older one once it is on the disk. After a power cut the old file
+    /// or the new one is there.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -90,7 +91,7 @@ impl TemporaryFile {
     }
 }
 
-/// Makes a folder, and sees that files can be written to it: before long work, not after it.
+/// Creates a folder, and makes sure that files can be written to it before long work begins.
 ///
 /// # Errors
 /// [`ExportError::Write`] where the file system refuses.
@@ -134,7 +135,7 @@ pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Whether two names of files that need not be there are of one, by whichever way they go.
+/// Whether two paths of files, which need not exist, lead to the same place.
 pub fn is_same_place(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| {
         let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
@@ -143,8 +144,8 @@ pub fn is_same_place(a: &Path, b: &Path) -> bool {
     place(a) == place(b)
 }
 
-/// Errs where a file that is to be written is one of those that were read: by file, not by name, so that links, and disks
-/// that do not tell large letters from small ones, are seen through.
+/// Returns an error if an output is one of the files that were read. Files are compared, not names, so that links, and
+/// disks that do not distinguish upper and lower case, are recognised.
 ///
 /// # Errors
 /// [`ExportError::IsInput`]; [`ExportError::NoFileName`] where a folder stands at the name of one.

@@ -23,7 +23,7 @@ const WHAT: &str = "model";
 /// A model whose corners are nearer to its zero than this keeps that, metres: `f32` has 0.06 mm there.
 const NEAR_M: f64 = 1000.0;
 
-/// The file.
+/// The content of the file.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where it would be 4 GiB or larger: before memory is taken.

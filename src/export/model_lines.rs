@@ -10,9 +10,9 @@ use std::fmt::Write;
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(super) enum ModelLines<'a> {
-    /// Of one.
+    /// The line of a single model.
     One { model: Box<ModelLine<'a>> },
-    /// Of a site that has several.
+    /// The lines of a site that has several.
     Several { models: Vec<ModelLine<'a>> },
 }
 

@@ -118,8 +118,8 @@ fn interval_report(sunlight: &Sunlight, interval: &Interval) -> IntervalReport {
     }
 }
 
-/// A line an interval, in the order of probes and of time, as RFC 4180 has it: lines end in CR LF, and fields that hold a
-/// comma, a quote or a line break are quoted.
+/// A table with one line per interval, in the order of probes and of time, after RFC 4180: lines end in CR LF, and
+/// fields that contain a comma, a quote or a line break are quoted.
 pub fn csv(sunlight: &Sunlight) -> String {
     let mut text = "probe,start,end,seconds,blocked_before,blocked_after\r\n".to_owned();
     for probed in &sunlight.probes {
@@ -134,8 +134,8 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
-/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and what
-/// cannot have been missed. Ends with a line break.
+/// For each probe a table of its intervals, on a single day or on several, and a summary; then the ground, and which
+/// intervals cannot have been missed. Ends with a line break.
 pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> String {
     let mut table = String::new();
     for probed in &sunlight.probes {

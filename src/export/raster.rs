@@ -30,7 +30,7 @@ pub fn geotiff<S: ShadedCells>(profile: &Profile<S>, place: &Place) -> Result<Ve
     Ok(bytes.into_inner())
 }
 
-/// The same beside its place, strip by strip: nothing of it is held.
+/// The same, written into a temporary file strip by strip, so that it is never in memory as a whole.
 ///
 /// # Errors
 /// As [`geotiff`]; [`ExportError::Write`] where the file system refuses.

@@ -11,12 +11,12 @@ use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions};
 use std::path::{Path, PathBuf};
 
-/// A site that is not saved as it is set.
+/// A site with unsaved settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnsavedSite {
     /// Its site file; a bare model has none yet.
     pub path: Option<PathBuf>,
-    /// As it is set; its text is that of the site file when it was read.
+    /// The site with its settings. Its text is that of the site file when it was read.
     pub written: WrittenSite,
 }
 
@@ -31,7 +31,7 @@ struct Record {
     site: String,
 }
 
-/// Where one window keeps what it has not saved; nobody else does while it lives.
+/// The place where one window keeps its unsaved settings. It belongs to that window as long as the window lives.
 #[derive(Debug)]
 pub struct Slot {
     file: PathBuf,
@@ -41,7 +41,7 @@ pub struct Slot {
 }
 
 impl Slot {
-    /// A slot of its own in a folder, which is made where it is missing.
+    /// A new slot in a folder, which is created if it is missing.
     ///
     /// # Errors
     /// What the system says.
@@ -76,7 +76,7 @@ impl Slot {
         None
     }
 
-    /// Keeps what is not saved, instead of what was kept; a reader sees the one or the other, whole.
+    /// Keeps unsaved settings in place of older ones. A reader sees one or the other, complete.
     ///
     /// # Errors
     /// As [`file::write`]; what TOML and JSON cannot hold.
@@ -104,7 +104,7 @@ impl Slot {
         Some(UnsavedSite { path, written: WrittenSite { file, folder, site, text } })
     }
 
-    /// All is saved, or nobody wants it: nothing is kept any more.
+    /// Removes what is kept, when everything is saved or discarded.
     pub fn empty(self) {
         // what stays behind is offered once more, and loses nothing
         let _ = fs::remove_file(&self.file);
@@ -126,7 +126,8 @@ fn clear(folder: &Path) {
     }
 }
 
-/// What windows that have ended had not saved, the newest first; their slots are this window's until it drops them.
+/// The unsaved settings of windows that have ended, the newest first. Their slots belong to this window until it drops
+/// them.
 pub fn left_behind(folder: &Path) -> Vec<(Slot, UnsavedSite)> {
     clear(folder);
     let Ok(entries) = folder.read_dir() else { return Vec::new() };

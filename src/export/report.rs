@@ -159,26 +159,26 @@ struct DayReport {
     sunset: Option<String>,
 }
 
-/// What a report tells beside the instants.
+/// The context of a report: what it says besides the instants.
 #[derive(Clone, Copy, Debug)]
 pub struct ReportContext<'a> {
     /// What was judged.
     pub receivers: Receivers,
     /// The ground plane.
     pub ground: Ground,
-    /// What drew.
+    /// What drew the answer.
     pub drawn: &'a Provenance,
     /// How long that took.
     pub timings: &'a Timings,
-    /// What counting took, where that was asked.
+    /// The statistics of counting, if they were requested.
     pub statistics: Option<&'a Statistics>,
     /// What the user should know of how the models were read.
     pub notes: &'a [Message],
-    /// In whose words.
+    /// The face's words.
     pub words: &'a dyn Words,
 }
 
-/// `profile.json`, as the design's contract has it, with how refraction and ΔT were found beside them.
+/// `profile.json`, whose keys are a contract, with how refraction and ΔT were found beside them.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -191,7 +191,7 @@ pub fn profile_json<S>(
     shadow_json(&View::Plan(profile.grid), place, track, told)
 }
 
-/// `shadow --json`: as [`profile_json`]; a camera stands as the site file writes it where a plan has region and cell.
+/// `shadow --json`: as [`profile_json`]. Where a plan has region and cell, a camera stands as the site file writes it.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -204,7 +204,8 @@ pub fn shadow_json(
     drawn_json(view_report(view), place, track, told)
 }
 
-/// `profile.json` of patches: as [`profile_json`]; cell, texels and components stand where a plan has region and cell.
+/// `profile.json` of patches: as [`profile_json`]. Where a plan has region and cell, it has cell, texels and
+/// components.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -344,7 +345,7 @@ pub fn sun_json(place: &Place, track: &SunTrack) -> Result<String, ExportError> 
     })
 }
 
-/// The table of `gnomon sun`: a line an instant, then a line a day; ends with a line break.
+/// The table of `gnomon sun`: one line per instant, then one line per day; ends with a line break.
 ///
 /// A day without sunrise and sunset says which kind it is: the sun stays up, or down.
 pub fn sun_table(place: &Place, track: &SunTrack) -> String {

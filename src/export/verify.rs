@@ -152,7 +152,8 @@ fn maps(rows: &[Row]) -> Option<String> {
     Some(format!("maps of {size} × {size} texels{}{}", pcf.unwrap_or_default(), width.unwrap_or_default()))
 }
 
-/// Where, when and with what, then a line a technique, then what the columns mean; ends with a line break.
+/// The place, the time and the machine, then one line per technique, then what the columns mean; ends with a line
+/// break.
 pub fn table(verification: &Verification, site: &Site) -> String {
     let mut table = String::new();
     head(&mut table, verification, site);
@@ -298,7 +299,7 @@ fn is_on_gpu_too(row: &Row) -> bool {
     row.drawn.engine == Engine::Gpu && !row.drawn.technique.row().on_cpu.is_empty()
 }
 
-/// Which techniques do not hold, in one line; none where all do.
+/// The techniques that do not hold, in one line; `None` if all do.
 pub fn failure(verification: &Verification) -> Option<String> {
     let told = |row: &Row| {
         let most = match row.promise {

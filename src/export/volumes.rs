@@ -14,26 +14,26 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::path::Path;
 
-/// The volumes of one instant, and whose they are.
+/// The volumes of one instant, and their casters.
 #[derive(Clone, Copy, Debug)]
 pub struct Volumes<'a> {
-    /// Where on earth.
+    /// The place on Earth.
     pub place: &'a Place,
-    /// When, and where the sun is.
+    /// The instant, with the direction of the sun.
     pub instant: &'a Instant,
-    /// Whether the air's refraction is in the sun's direction.
+    /// Whether the sun's direction includes refraction.
     pub refraction: bool,
     /// The ground plane.
     pub ground: Ground,
-    /// Whose components cast.
+    /// The mesh whose components cast.
     pub mesh: &'a Mesh,
-    /// One a component, at most.
+    /// At most one solid per component.
     pub solids: &'a [Solid],
-    /// How many components that cast have none.
+    /// The number of casting components without a solid.
     pub left_out: usize,
     /// What the user should know of how the models were read.
     pub notes: &'a [Message],
-    /// In whose words.
+    /// The face's words.
     pub words: &'a dyn Words,
 }
 
@@ -57,7 +57,7 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// The file: one scene, and in it for each solid a node with the caster's name, whose `extras` say when it was shaded.
+/// The file: one scene, with a node for each solid, which has the caster's name and `extras` that say the time.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where there is no solid, or where the file would be 4 GiB or larger: before memory is taken.
@@ -223,7 +223,7 @@ pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
     })
 }
 
-/// What was written, and down to which ground: two lines, the last without its end.
+/// What was written, and down to which ground: two lines, the last without its line break.
 pub fn summary(volumes: &Volumes<'_>) -> String {
     let triangles: usize = volumes.solids.iter().map(|solid| solid.triangles.len()).sum();
     format!(

@@ -17,7 +17,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 use sysinfo::{Pid, ProcessRefreshKind, ProcessesToUpdate, System};
 
-/// The subcommand of the program that reads a model and writes it to standard output; it stands in no help.
+/// The subcommand of the program that reads a model and writes it to standard output. It is hidden in the help.
 pub const SUBCOMMAND: &str = "read-model";
 
 /// How often time, memory and the wish to end are looked at.

@@ -21,9 +21,9 @@ const CLOSURE: &str = "ClosureSurface";
 pub(super) struct CityObjectName {
     /// `Building`.
     pub kind: String,
-    /// The file's own name of it; empty where it has none.
+    /// The file's id of the object; empty if it has none.
     pub id: String,
-    /// By which else it may be meant: the object that it is a part of, and the name that people call it by.
+    /// Other names by which it can be selected: the object that it is a part of, and its name for people.
     pub others: Vec<String>,
 }
 
@@ -47,7 +47,7 @@ impl Rank {
 pub(super) struct CityBuilder {
     parts: Vec<Part>,
     kinds: Vec<PartKind>,
-    /// What is left out.
+    /// What was left out.
     pub tally: LeftOutTally,
     cutter: FaceCutter,
     triangles: u64,

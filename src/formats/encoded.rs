@@ -37,10 +37,10 @@ const AT_ONCE: usize = 1 << 14;
 /// Why bytes are no model.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum EncodingError {
-    /// They end too early, or cannot be read.
+    /// The bytes end too early, or cannot be read.
     #[error("they end early ({0})")]
     Cut(#[from] io::Error),
-    /// They contradict themselves.
+    /// The bytes contradict themselves.
     #[error("{0}")]
     Damaged(&'static str),
 }

@@ -23,9 +23,9 @@ pub(super) struct FaceCutter {
 /// Why a face has no triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CutFault {
-    /// Fewer than three corners, or all in a line.
+    /// Fewer than three corners, or all of them on a line.
     NoArea,
-    /// A coordinate is infinite or no number.
+    /// A coordinate is infinite or NaN.
     NoPoint,
     /// More corners than a face may have.
     TooLarge,
@@ -44,9 +44,9 @@ impl CutFault {
 
 /// A face in triangles.
 pub(super) struct CutFace<'a> {
-    /// Numbers of its corners, through all rings; they turn as the outer ring does.
+    /// The indices of its corners, through all rings. They have the winding of the outer ring.
     pub triangles: &'a [[u32; 3]],
-    /// Whether the triangles cover what the rings enclose; they do not where rings cross.
+    /// Whether the triangles cover what the rings enclose. They do not where rings cross.
     pub is_exact: bool,
 }
 

@@ -68,7 +68,7 @@ const ONE_OF_MANY: [(&str, &str); 20] = [
 ];
 
 impl LeftOut {
-    /// How many there are, and of what: `12 IfcSpace`, `1 face`.
+    /// The number and the thing: `12 IfcSpace`, `1 face`.
     pub fn counted(&self) -> String {
         let what = &self.what;
         let rest = |many: &str| what.strip_prefix(many).filter(|rest| rest.is_empty() || rest.starts_with(' '));

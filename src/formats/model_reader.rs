@@ -13,11 +13,11 @@ use std::sync::atomic::AtomicBool;
 /// it is another program, and does not answer `gnomon read-model`. One that ships the command beside itself can name that.
 #[derive(Clone, Debug, Default)]
 pub struct ModelReader {
-    /// The program that is started again for readers that are others' code ([`super::Format::is_foreign`]).
+    /// The program that is started again for readers from other libraries ([`super::Format::is_foreign`]).
     pub program: Option<PathBuf>,
-    /// What such a process may take.
+    /// Limits on such a process.
     pub limits: ReadLimits,
-    /// Where models are kept that take long to read.
+    /// The cache for models that take long to read.
     pub cache: Option<ModelCache>,
     /// Set by whoever wants no model any more: such a process is ended, and the reading is [`ModelFault::GivenUp`].
     pub given_up: Arc<AtomicBool>,

@@ -26,7 +26,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// What it is called.
+/// The name of the file.
 pub const NAME: &str = "shadow.bits";
 const MAGIC: &[u8; 8] = b"GNOMBITS";
 /// Rasters begin at a multiple of this.
@@ -43,7 +43,7 @@ struct Header {
     instants: Vec<InstantReport>,
 }
 
-/// The whole file, of the shadows at all instants with a sun.
+/// The whole file, with the shadows at all instants with a sun.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -76,7 +76,7 @@ fn header(grid: Grid, receivers: Receivers, track: &SunTrack) -> Result<Vec<u8>,
     Ok(header)
 }
 
-/// The file as it comes to be.
+/// The file while it is being written.
 pub struct BitsFile {
     path: PathBuf,
     unfinished: PathBuf,
@@ -92,7 +92,7 @@ pub struct BitsFile {
 }
 
 impl BitsFile {
-    /// What is to be written to a folder, of which study; nothing is yet.
+    /// The file of a study in a folder; nothing is written yet.
     ///
     /// # Errors
     /// [`ExportError::Encode`] where the encoder refuses.
@@ -109,22 +109,22 @@ impl BitsFile {
         Ok(BitsFile { path, unfinished, header, grid, count, file: None, checksum: Checksum::default(), at: 0 })
     }
 
-    /// Its place.
+    /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Its place until it is whole.
+    /// Its path until it is complete.
     pub fn unfinished(&self) -> &Path {
         &self.unfinished
     }
 
-    /// How large it will be, bytes.
+    /// Its final size, bytes.
     pub fn size(&self) -> u64 {
         self.size_after(self.count)
     }
 
-    /// Errs where the disk has less room than it will take.
+    /// Returns an error if the disk has less room than the file needs.
     ///
     /// # Errors
     /// [`ExportError::NoRoom`]; [`ExportError::Write`] where the file system does not say.
@@ -141,8 +141,8 @@ impl BitsFile {
         self.grid.width.div_ceil(8)
     }
 
-    /// Looks for what a stopped study left, and goes on with it: with these tiles' cells at these of the instants with a sun,
-    /// in the order of the work. Whether it is what was written then, by its checksum.
+    /// Looks for what a stopped study left, and continues with it: with these tiles' cells at these of the instants
+    /// with a sun, in the order of the work. Returns whether its checksum shows that it is what was written.
     pub fn go_on(&mut self, drawn: impl Iterator<Item = (usize, Tile)>, checksum: u64) -> bool {
         let mut drawn = drawn.peekable();
         // nights alone made no file
@@ -177,7 +177,7 @@ impl BitsFile {
         Ok(checksum)
     }
 
-    /// Begins, or goes on with what a stopped study left.
+    /// Begins, or continues with what a stopped study left.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -194,7 +194,7 @@ impl BitsFile {
         Ok(())
     }
 
-    /// The checksum of all that was added so far.
+    /// The checksum of everything added so far.
     pub fn checksum(&self) -> u64 {
         self.checksum.number()
     }
@@ -205,7 +205,7 @@ impl BitsFile {
         self.size_after(instant) + u64::from(tile.first[1]) * row_bytes + u64::from(tile.first[0] / 8)
     }
 
-    /// Adds a tile's cells at an instant: at which of those with a sun.
+    /// Adds a tile's cells at an instant, which is given by its index among those with a sun.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -237,7 +237,7 @@ impl BitsFile {
         write().map_err(|error| file::failed(&self.path, "writing the file beside it", error))
     }
 
-    /// Sees that what was added is on the disk.
+    /// Makes sure that everything added is on the disk.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -247,7 +247,7 @@ impl BitsFile {
         synced.map_err(|error| file::failed(&self.path, "writing the file beside it", error))
     }
 
-    /// Puts the whole file in place.
+    /// Moves the complete file to its final path.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.

@@ -17,7 +17,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The file as it comes to be, and as it is read.
+/// The file while it is being written, and as it is read.
 pub struct SumsFile {
     path: PathBuf,
     grid: Grid,
@@ -29,7 +29,7 @@ pub struct SumsFile {
     fault: Mutex<Option<io::Error>>,
 }
 
-/// How large it is, bytes.
+/// Its size, bytes.
 pub fn size(grid: &Grid, day_secs: u32) -> u64 {
     grid.cells() as u64 * cell_bytes(day_secs)
 }
@@ -39,7 +39,7 @@ fn cell_bytes(day_secs: u32) -> u64 {
 }
 
 impl SumsFile {
-    /// Begins, of a study.
+    /// Begins the file of a study.
     ///
     /// # Errors
     /// [`ExportError::NoRoom`] where the disk has less room than it takes; [`ExportError::Write`] where the file system
@@ -55,8 +55,8 @@ impl SumsFile {
         Ok(SumsFile::new(path, file, grid, day_secs))
     }
 
-    /// Looks for what a stopped study left with these tiles, and goes on with it, where it is what was written then: by its
-    /// checksum.
+    /// Looks for what a stopped study left with these tiles, and continues with it if its checksum shows that it is
+    /// what was written.
     pub fn go_on(
         folder: &Path,
         study: u64,
@@ -94,7 +94,7 @@ impl SumsFile {
         Ok(checksum)
     }
 
-    /// The checksum of all that was put so far.
+    /// The checksum of everything put so far.
     pub fn checksum(&self) -> u64 {
         self.checksum.number()
     }
@@ -105,7 +105,7 @@ impl SumsFile {
         ((top + u64::from(row)) * u64::from(self.grid.width) + left) * self.cell_bytes
     }
 
-    /// Puts a tile's sums in their place.
+    /// Puts a tile's sums into their place in the file.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -127,7 +127,7 @@ impl SumsFile {
         Ok(())
     }
 
-    /// Sees that what was put is on the disk.
+    /// Makes sure that everything put is on the disk.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -136,7 +136,7 @@ impl SumsFile {
         file.sync_data().map_err(|error| file::failed(&self.path, "writing to it", error))
     }
 
-    /// Errs where something could not be read since it was opened: it was taken for nothing.
+    /// Returns an error if something could not be read since the file was opened; such cells were taken as 0.
     ///
     /// # Errors
     /// [`ExportError::Read`]

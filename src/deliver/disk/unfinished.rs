@@ -24,28 +24,28 @@ const FIRST_LINE: &[u8] = b"gnomon unfinished 3\n";
 /// What the names of its files begin with; the first is there as soon as there is something to go on from.
 const FIRST_WORDS: [&str; 3] = ["profile", "shadow.bits", "profile.sums"];
 
-/// The checksums of what lies in other files, as far as the study is done.
+/// The checksums of a study's other files, as far as the study is done.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Checks {
-    /// Of its bits.
+    /// The checksum of its bits.
     pub bits: u64,
-    /// Of the sums of finished tiles.
+    /// The checksum of the sums of finished tiles.
     pub sums: u64,
-    /// Of each mask.
+    /// The checksum of each mask.
     pub masks: Vec<u64>,
 }
 
-/// What was found of a study.
+/// What was found of a stopped study.
 pub enum StoredStudy {
     /// Nothing.
     Nothing,
-    /// A file that is not what was written: a byte of it is another.
+    /// A file with at least one byte that is not what was written.
     Damaged,
-    /// All of it.
+    /// The complete state.
     Whole(Box<(Unfinished, Checks)>),
 }
 
-/// The file of a study, in its folder.
+/// The path of a study's file in its folder.
 pub fn path(folder: &Path, study: u64) -> PathBuf {
     file_of(folder, FIRST_WORDS[0], study)
 }
@@ -54,7 +54,7 @@ pub(super) fn bits_path(folder: &Path, study: u64) -> PathBuf {
     file_of(folder, FIRST_WORDS[1], study)
 }
 
-/// The file with the sums of finished tiles.
+/// The path of the file with the sums of finished tiles.
 pub fn sums_path(folder: &Path, study: u64) -> PathBuf {
     file_of(folder, FIRST_WORDS[2], study)
 }
@@ -63,7 +63,7 @@ fn file_of(folder: &Path, first_words: &str, study: u64) -> PathBuf {
     folder.join(format!("{first_words}.{study:016x}.unfinished"))
 }
 
-/// Keeps it; an older one is replaced when the new one is whole.
+/// Keeps the state. An older file is replaced when the new one is complete.
 ///
 /// # Errors
 /// As [`file::write`].
@@ -71,7 +71,7 @@ pub fn keep(folder: &Path, unfinished: &Unfinished, checks: &Checks) -> Result<(
     file::write(&path(folder, unfinished.study), &encode(unfinished, checks))
 }
 
-/// What was kept of a study.
+/// The state that was kept of a study.
 ///
 /// # Errors
 /// [`ExportError::Read`] where there is a file that cannot be read.
@@ -87,7 +87,7 @@ pub fn kept(folder: &Path, study: u64) -> Result<StoredStudy, ExportError> {
     }
 }
 
-/// Removes all that is kept of a study, when it is done or has to start over.
+/// Removes everything that is kept of a study, when it is done or has to start over.
 ///
 /// # Errors
 /// [`ExportError::Write`] where the file system refuses.
@@ -96,8 +96,8 @@ pub fn remove(folder: &Path, study: u64) -> Result<(), ExportError> {
     FIRST_WORDS.iter().try_for_each(|words| file::remove(&file_of(folder, words, study)))
 }
 
-/// Says which studies beside these were stopped in the folder and keep files there. Bits and sums that no study can go on with,
-/// as it was killed before it kept anything, are removed. Whoever calls it has locked the folder.
+/// Says which other studies were stopped in the folder and keep files there. Bits and sums that no study can continue
+/// with, because it was killed before it kept anything, are removed. The caller has locked the folder.
 pub fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
     file::remove_leftovers(&studies.iter().map(|study| path(folder, *study)).collect::<Vec<_>>());
     let others = studies_in(folder).into_iter().filter(|other| !studies.contains(other));
@@ -121,7 +121,7 @@ pub fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
     ))
 }
 
-/// Removes the files of all stopped studies in a folder but the newest ones. Whoever calls it has locked the folder.
+/// Removes the files of all stopped studies in a folder except the newest ones. The caller has locked the folder.
 pub fn keep_newest(folder: &Path, most: usize) {
     let mut studies: Vec<u64> = studies_in(folder).into_iter().collect();
     // what is dead has no time, and is the oldest

@@ -37,8 +37,8 @@ struct FolderLock {
 }
 
 impl Workplace {
-    /// Makes the folders, sees that files can be written there, and locks them; removes what dead processes left of the
-    /// outputs there, half written. Others are told that `who` works there: a command, or a window.
+    /// Creates the folders, makes sure that files can be written there, and locks them; removes half-written outputs of
+    /// dead processes. Other processes can read that `who` works there: a command, or a window.
     ///
     /// # Errors
     /// [`ExportError::Busy`] where another study works in one of them; [`ExportError::Write`] where the file system refuses.
@@ -67,7 +67,7 @@ impl Workplace {
         Ok(place)
     }
 
-    /// What the user should know: that a folder could not be locked.
+    /// A note for the user if a folder could not be locked.
     pub fn note(&self) -> Option<String> {
         let (folder, error) = self.unlocked.first()?;
         Some(format!(
@@ -76,7 +76,7 @@ impl Workplace {
         ))
     }
 
-    /// Errs where a folder is no longer the one that was locked.
+    /// Returns an error if a folder is no longer the one that was locked.
     ///
     /// # Errors
     /// [`ExportError::Lost`]

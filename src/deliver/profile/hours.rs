@@ -18,24 +18,24 @@ use std::sync::Arc;
 pub struct Hours {
     /// Shaded time.
     pub profile: Profile<Sums>,
-    /// What drew.
+    /// What drew the shadows.
     pub drawn: Provenance,
-    /// Whose faces the plan's cells see.
+    /// The mesh whose faces the plan's cells see.
     pub surface_mesh: Mesh,
-    /// What counting took, where that was asked.
+    /// The statistics of counting, if they were requested.
     pub statistics: Option<Statistics>,
     /// How long the stages took.
     pub timings: Timings,
-    /// The shadow at each instant with a sun, where that was asked and is in memory.
+    /// The shadow at each instant with a sun, if that was requested and is in memory.
     pub outlines: Vec<Outline>,
 }
 
 /// The least and the most hours of shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// In the cell that has the least.
+    /// The hours in the cell that has the least.
     pub least: f64,
-    /// In the cell that has the most.
+    /// The hours in the cell that has the most.
     pub most: f64,
     /// Hours of the window with the sun above the horizon.
     pub day: f64,
@@ -66,7 +66,7 @@ pub(in crate::deliver) fn find<'a>(
 }
 
 impl Hours {
-    /// The sums, where they are in memory.
+    /// The sums, if they are in memory.
     pub fn shaded(&self) -> Option<&Arc<ShadedTime>> {
         match &self.profile.shaded {
             Sums::Memory(shaded) => Some(shaded),
@@ -74,7 +74,7 @@ impl Hours {
         }
     }
 
-    /// As a study of the plan answers that is not kept.
+    /// The same as the outcome of a study of the plan that is not kept.
     ///
     /// # Errors
     /// Where the sums lie in a file that cannot be read.
@@ -93,7 +93,7 @@ impl Hours {
         Ok(self)
     }
 
-    /// The least and the most.
+    /// The least and the most hours.
     pub fn range(&self) -> Range {
         let Profile { grid, shaded, day_secs, .. } = &self.profile;
         let width = grid.width as usize;

@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 /// Shaded time per cell.
 pub enum Sums {
-    /// All of it is in memory.
+    /// The sums are in memory.
     Memory(Arc<ShadedTime>),
-    /// It is read from a file, some cells at a time.
+    /// The sums are read from a file, some cells at a time.
     File(SumsFile),
 }
 

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 /// From where one looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::desktop) enum Stand {
-    /// From anywhere around.
+    /// A perspective from any direction.
     Perspective,
     /// Straight down, north up, without perspective.
     Plan,

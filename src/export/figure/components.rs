@@ -29,7 +29,7 @@ const WHITE: Rgb = [255, 252, 246];
 pub(super) struct Components {
     /// Where each component's faces end, and its colour.
     colours: Vec<(u32, Rgb)>,
-    /// The largest ones that are seen, and how many more are.
+    /// The largest components that are seen, and how many more there are.
     pub legend: Vec<(Rgb, String)>,
 }
 
@@ -72,7 +72,7 @@ impl Components {
     }
 }
 
-/// The colour of each component, by area among all of them; `casts` says which cast.
+/// The colour of each component, chosen by its area among all of them; `casts` says which cast.
 pub fn of_all(mesh: &Mesh, casts: &[bool]) -> Vec<Rgb> {
     let mut by_size: Vec<(usize, f64)> = (0..mesh.components.len()).map(|at| (at, area(mesh, at))).collect();
     by_size.sort_by(|a, b| b.1.total_cmp(&a.1));

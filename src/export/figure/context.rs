@@ -10,19 +10,19 @@ use crate::view::Surface;
 /// What every drawing needs besides the answer itself.
 #[derive(Clone, Copy, Debug)]
 pub struct FigureContext<'a, S = Surface> {
-    /// Where on earth.
+    /// The place on Earth.
     pub place: &'a Place,
-    /// The instants studied; the first one is drawn where there is one.
+    /// The instants of the study. A drawing of one instant shows the first.
     pub track: &'a SunTrack,
-    /// What stands there.
+    /// The mesh of the site.
     pub mesh: &'a Mesh,
-    /// What each cell of the view sees; of a plan's also some rows at a time.
+    /// What each cell of the view sees; of a plan it can also be read some rows at a time.
     pub surface: &'a S,
     /// What was judged.
     pub receivers: Receivers,
     /// The ground.
     pub ground: Ground,
-    /// What drew.
+    /// What drew the answer.
     pub drawn: &'a Provenance,
 }
 

@@ -4,12 +4,12 @@
 use super::scale::{Rgb, mix};
 use crate::view::{Decider, FragmentCounts};
 
-/// Which picture of it.
+/// The diagrams of counting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Diagram {
-    /// Who decided each cell, and how.
+    /// Which method decided each cell, and how.
     Mask,
-    /// How many fragments reached the count, as brightness.
+    /// The number of fragments that reached the count, as brightness.
     Overdraw,
 }
 
@@ -23,14 +23,14 @@ const VOLUME_LIGHT: Rgb = [70, 190, 80];
 const NO_FRAGMENT: Rgb = [18, 18, 22];
 const MOST_FRAGMENTS: Rgb = [255, 255, 255];
 
-/// Colours of cells, and what they mean.
+/// Colours of cells, and their meaning.
 #[derive(Clone, Debug)]
 pub struct Colours {
-    /// Row 0 first.
+    /// The colour of each cell, row 0 first.
     pub of_cells: Vec<Rgb>,
     /// What they measure.
     pub legend_head: String,
-    /// What each means.
+    /// Each colour, and what it means.
     pub legend: Vec<(Rgb, String)>,
 }
 
@@ -45,7 +45,7 @@ impl Diagram {
 }
 
 impl Colours {
-    /// None where a mask is to be shown and there was none.
+    /// `None` if a mask is requested and there was none.
     pub fn of(counted: &FragmentCounts, diagram: Diagram) -> Option<Colours> {
         match diagram {
             Diagram::Mask => Some(of_mask(counted.decided.as_ref()?)),

@@ -113,8 +113,8 @@ fn width(line: &str) -> f64 {
     tree.map_or(0.0, |tree| tree.root().children().iter().map(of).fold(0.0, f64::max))
 }
 
-/// A line's runs from left to right, each with the face that has its letters: none for Noto Sans, of whose weights this is
-/// one. What no face has stays with Noto Sans, which draws a box.
+/// A line's runs from left to right, each with the font that has its letters: `None` for Noto Sans, of whose weights
+/// `weight` is one. What no font has stays with Noto Sans, which draws a box.
 pub fn runs(line: &str, weight: u16, faces: &Database) -> Vec<(Option<ID>, String)> {
     let bidi = BidiInfo::new(line, Some(Level::ltr()));
     let mut runs = Vec::new();
@@ -171,7 +171,7 @@ fn split(part: &str, weight: u16, faces: &Database, last: &mut Option<ID>) -> Ve
     joined
 }
 
-/// The letters of a text that no face has, each once: they are drawn as boxes.
+/// The letters of a text that no font has, each once: they are drawn as boxes.
 pub fn without_face(text: &str) -> String {
     let mut missing = String::new();
     for letter in text.chars().filter(|letter| is_foreign(*letter)) {

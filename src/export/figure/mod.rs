@@ -53,9 +53,9 @@ use scale::{Bands, NO_SHADOW, mix};
 pub struct PictureExtras<'a> {
     /// Shadow volumes and silhouette, over the picture.
     pub overlay: Option<&'a Overlay>,
-    /// Each component of [`FigureContext::mesh`] in its own colour; here is said which of them cast.
+    /// Each component of [`FigureContext::mesh`] in its own colour; the slice says which of them cast.
     pub casts: Option<&'a [bool]>,
-    /// What counting took, instead of sun and shadow; in the plan's picture, too.
+    /// How much work counting took, instead of sun and shadow; also in the plan's picture.
     pub counted: Option<(&'a FragmentCounts, Diagram)>,
 }
 
@@ -95,14 +95,15 @@ fn profile_panel<S, C>(scene: &FigureContext<S>, profile: &Profile<C>, kicker: &
     panel
 }
 
-/// What [`profile`] takes at the most of what grows with the plan, bytes.
+/// The greatest memory that [`profile`] takes of what grows with the plan, bytes.
 pub fn profile_bytes(grid: &Grid) -> u64 {
     // the sheet may be higher or wider than its picture, never the other way round
     let fit = picture::Fit::within((grid.width, grid.height), (f64::from(WIDTH) / 2.0, f64::from(HEIGHT) / 2.0));
     picture::task_bytes(&fit) * page::tasks() as u64
 }
 
-/// One instant, the first of the track, on the plan or in the camera's picture; what is `shown` over it is for the latter.
+/// One instant, the first of the track, on the plan or in the camera's picture. `shown` is laid over the camera's
+/// picture.
 ///
 /// # Errors
 /// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay; [`ExportError::Encode`] from the encoder, or
@@ -237,7 +238,7 @@ fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::PixelRays, Optio
     }
 }
 
-/// The colours of level ground in the sun and in the shade, before a camera.
+/// The colours of level ground in the sun and in the shade, as a camera sees them.
 #[cfg(feature = "test-hooks")]
 pub fn ground_tones(to_sun: glam::DVec3) -> [scale::Rgb; 2] {
     perspective::ground_tones(to_sun)

@@ -9,25 +9,25 @@ pub(super) const COLUMN: f64 = 790.0;
 
 /// What a panel says.
 pub(super) struct Panel {
-    /// What kind of drawing it is.
+    /// The kind of drawing.
     pub kicker: String,
     /// The place's name.
     pub title: String,
-    /// When: date, window.
+    /// Date and window.
     pub lead: Vec<String>,
     /// Label and value.
     pub facts: Vec<(&'static str, String)>,
-    /// Per instant shown: what it is, time, azimuth, altitude.
+    /// For each instant shown: its name, time, azimuth and altitude.
     pub sun: Vec<[String; 4]>,
     /// What the colours measure.
     pub legend_head: String,
     /// From the lightest to the darkest.
     pub legend: Vec<(Rgb, String)>,
-    /// What lines mean, below that.
+    /// The meaning of lines, below the legend.
     pub keys: Vec<(Rgb, String)>,
-    /// The tz version by which the clock goes.
+    /// The tz version of the clock's rules.
     pub tz: String,
-    /// Whether what is up in the picture is north.
+    /// Whether north is up in the picture.
     pub north_up: bool,
 }
 
@@ -204,7 +204,7 @@ pub(super) fn thousands(value: f64) -> String {
     said
 }
 
-/// A length of 1, 2 or 5 times a power of ten metres, and how long it is on the page.
+/// A length of 1, 2 or 5 times a power of ten metres, and its length on the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaleBar {
     /// Metres.

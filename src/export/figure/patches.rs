@@ -14,8 +14,8 @@ use rayon::prelude::*;
 /// The ground, which is not judged either; it needs no word in the legend.
 const GROUND: Rgb = [236, 234, 229];
 
-/// `surfaces.png`: the hours of sun on the patches that a camera or a side sees. `scene`'s mesh is that of what
-/// receives alone.
+/// `surfaces.png`: the hours of sun on the patches that a camera or a side sees. The mesh of `scene` contains only
+/// receivers.
 ///
 /// # Errors
 /// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder, and for a plan.
@@ -43,7 +43,7 @@ fn labelled(scene: &FigureContext, found: &PatchContext) -> Panel {
     panel
 }
 
-/// What the colours mean: a head, and each of them, the most sun first.
+/// The meaning of the colours: a heading, and each of them, the most sun first.
 pub fn legend(found: &PatchContext) -> (String, Vec<(Rgb, String)>) {
     let bands = found.bands();
     let head = match found.hours.day_secs {

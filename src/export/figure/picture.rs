@@ -82,9 +82,9 @@ impl Fit {
 /// What lies between cells that are larger than pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CellBorder {
-    /// A border: a cell is one judgement, and the legend's colours stay exact.
+    /// A sharp border: each cell is one judgement, and the legend's colours stay exact.
     Sharp,
-    /// A blend, as between a photograph's pixels.
+    /// A blend, as between the pixels of a photograph.
     Smooth,
 }
 

@@ -101,7 +101,7 @@ pub(super) fn told_apart(names: &[String; 2], fits: impl Fn(&str) -> bool) -> [S
     [one, other].map(|name| format!("…{}", &name[differs..]))
 }
 
-/// The name if it fits, else as much of its beginning and its end as does.
+/// The name if it fits, otherwise as much of its beginning and its end as fits.
 pub fn without_middle(name: &str, fits: impl Fn(&str) -> bool) -> String {
     if fits(name) {
         return name.to_owned();

@@ -29,7 +29,7 @@ const WHAT: &str = "surfaces";
 /// In a texture of numbers, what belongs to no patch.
 const NO_NUMBER: u16 = u16::MAX;
 
-/// The file.
+/// The content of the file.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where nothing receives, or where the file would be 4 GiB or larger.

@@ -16,25 +16,25 @@ use crate::sun::{Place, SunTrack};
 use crate::sunlight::{Exposure, PatchHours};
 use std::fmt::Write;
 
-/// The answer on patches, and what it is about.
+/// The answer on patches, and its context.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchContext<'a> {
-    /// Where on earth.
+    /// The place on Earth.
     pub place: &'a Place,
     /// The instants studied.
     pub track: &'a SunTrack,
-    /// Whose faces the patches hold.
+    /// The mesh to which the patches belong.
     pub mesh: &'a Mesh,
-    /// Per component of it whether it receives.
+    /// For each of its components, whether it receives.
     pub receives: &'a [bool],
-    /// The flat parts of what receives.
+    /// The patches of the receivers.
     pub patches: &'a Patches,
     /// Their time in the sun.
     pub hours: &'a PatchHours,
 }
 
 impl PatchContext<'_> {
-    /// The drawing's colours.
+    /// The bands of the drawing's colours.
     pub fn bands(&self) -> Bands {
         Bands::new(self.track.step_secs, self.hours.day_secs)
     }
@@ -87,7 +87,7 @@ fn azimuth_text(azimuth_deg: f64) -> String {
     format!("{:.2}", hundredths / 100.0 + 0.0)
 }
 
-/// What it comes to, a line a component, the largest areas first; ends with a line break.
+/// The result, one line per component, the largest areas first; ends with a line break.
 pub fn summary(found: &PatchContext) -> String {
     let patches = found.patches;
     let mut text = format!(

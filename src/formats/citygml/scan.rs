@@ -16,7 +16,7 @@ const MOST_NAME_BYTES: usize = 1000;
 
 /// What an element is for the elements in it.
 enum ElementRole {
-    /// An object, or what may be one: it is one where a geometry is in it.
+    /// An object, or what may be one: it is one if it contains a geometry.
     Feature(GmlFeature),
     /// A property with the geometry of a feature.
     Property(GmlProperty),
@@ -28,9 +28,9 @@ enum ElementRole {
     /// A polygon, a patch or a triangle.
     Polygon,
     Ring,
-    /// Numbers or letters that are wanted.
+    /// Text that is wanted, numbers or letters.
     Text,
-    /// What is not looked into.
+    /// An element whose content is skipped.
     Skipped,
     /// Anything else.
     Other,

@@ -9,11 +9,11 @@ use glam::{DVec2, DVec3};
 
 /// A building or a part of one, cut into triangles.
 pub(super) struct FootprintOutline {
-    /// What is said of it.
+    /// Its attributes.
     pub tags: FootprintTags,
     number: u64,
     rise: Rise,
-    /// Its polygons with an area, all turned counter-clockwise, holes clockwise.
+    /// Its polygons with an area: outer rings counter-clockwise, holes clockwise.
     pub polygons: Vec<FlatPolygon>,
     /// Whether one of them crosses itself.
     pub crosses: bool,
@@ -21,9 +21,9 @@ pub(super) struct FootprintOutline {
 
 /// One polygon of an outline.
 pub(super) struct FlatPolygon {
-    /// Of all rings.
+    /// The corners of all rings.
     pub corners: Vec<DVec2>,
-    /// Where each ring ends.
+    /// The end of each ring.
     pub ends: Vec<usize>,
     /// Counter-clockwise.
     triangles: Vec<[u32; 3]>,

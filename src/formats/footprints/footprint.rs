@@ -18,7 +18,7 @@ pub(super) struct RingPolygon {
 pub(super) struct Footprint {
     pub polygons: Vec<RingPolygon>,
     pub tags: FootprintTags,
-    /// From 1, in the file.
+    /// Its number in the file, from 1.
     pub number: u64,
 }
 

@@ -18,9 +18,9 @@ const MOST_ABOVE: usize = 64;
 
 /// What parts do to outlines.
 pub(super) struct Replacements {
-    /// Numbers of the outlines that do not stand there.
+    /// The numbers of the outlines that are replaced completely.
     pub whole: FxHashSet<usize>,
-    /// How many are covered in part, and stand.
+    /// The number of outlines that are covered in part, and kept.
     pub partly: usize,
 }
 

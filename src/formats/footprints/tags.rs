@@ -19,7 +19,7 @@ pub(super) struct FootprintTags {
     location: Option<String>,
     street: Option<String>,
     house: Option<String>,
-    /// What people call it.
+    /// Its name for people.
     pub name: Option<String>,
     /// The file's own number of it.
     pub id: Option<String>,
@@ -31,18 +31,18 @@ pub(super) struct Rise {
     pub bottom_m: f64,
     pub top_m: f64,
     pub from: HeightSource,
-    /// Whether the bottom is guessed from levels.
+    /// Whether the bottom is derived from levels.
     pub bottom_is_guessed: bool,
 }
 
 /// What says how high a block is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum HeightSource {
-    /// The file.
+    /// The height is in the file.
     Said,
-    /// Guessed from its storeys.
+    /// The height is derived from the storeys.
     Levels,
-    /// The user, for all footprints without a height.
+    /// The height is the user's, for all footprints without one.
     Default,
 }
 

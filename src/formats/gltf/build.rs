@@ -26,9 +26,9 @@ const ABSENT: u32 = u32::MAX;
 pub(super) struct BuiltScene {
     /// One part per node and material, in the order of the scene.
     pub parts: Vec<Part>,
-    /// What each part is, where one is not a building.
+    /// The kind of each part, if one of them is not a building.
     pub kinds: Vec<PartKind>,
-    /// Each name once.
+    /// The see-through materials, each name once.
     pub see_through: Vec<SeeThrough>,
 }
 

@@ -16,9 +16,9 @@ const CHUNK_HEADER: usize = 8;
 
 /// The two halves of a model file.
 pub(super) struct Container<'a> {
-    /// The structure.
+    /// The JSON.
     pub json: &'a [u8],
-    /// What buffer 0 holds in a `.glb`.
+    /// The content of buffer 0 in a `.glb`.
     pub binary: Option<&'a [u8]>,
 }
 

@@ -110,7 +110,7 @@ pub(super) struct DocumentScene {
 pub(super) struct Skin {
     #[serde(default)]
     pub joints: Vec<usize>,
-    /// An accessor.
+    /// The index of an accessor.
     pub inverse_bind_matrices: Option<usize>,
 }
 
@@ -122,10 +122,10 @@ pub(super) struct Node {
     weights: Option<Vec<f32>>,
     #[serde(default)]
     pub children: Vec<usize>,
-    /// Column by column.
+    /// The matrix, column by column.
     pub matrix: Option<Box<[f64; 16]>>,
     pub translation: Option<[f64; 3]>,
-    /// x, y, z, w.
+    /// The rotation as a quaternion x, y, z, w.
     pub rotation: Option<[f64; 4]>,
     pub scale: Option<[f64; 3]>,
     #[serde(default)]
@@ -158,7 +158,7 @@ impl Node {
 /// Where copies of a node's mesh stand.
 #[derive(Deserialize)]
 pub(super) struct Instancing {
-    /// Accessors by name.
+    /// The accessors, by the names of their attributes.
     pub attributes: BTreeMap<String, usize>,
 }
 

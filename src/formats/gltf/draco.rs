@@ -18,7 +18,7 @@ const DRACO: &str = "KHR_draco_mesh_compression";
 /// The elements of an accessor, one behind the other.
 pub(super) struct UnpackedElements {
     pub bytes: Vec<u8>,
-    /// From one number to the next, where they were rounded before they were packed.
+    /// The step from one number to the next, if they were rounded before they were packed.
     pub step: Option<f64>,
 }
 

@@ -10,7 +10,7 @@ use gltf::json::accessor::{ComponentType, Type};
 
 /// The copies of a node's mesh; without the extension, the one that stands where the node does.
 pub(super) struct Instances<'a> {
-    /// How many.
+    /// The number of instances.
     pub count: usize,
     node: usize,
     translation: Option<Reader<'a>>,

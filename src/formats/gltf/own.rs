@@ -19,7 +19,7 @@ pub(super) struct OwnExtras {
 #[derive(Clone, Debug, Default)]
 pub(super) struct OwnScene {
     pub anchor: Option<Anchor>,
-    /// Metres a unit, where somebody had said the unit.
+    /// The length of a unit in metres, if somebody had said it.
     pub unit_m: Option<f64>,
     /// Whether somebody had said the axis.
     pub up_is_said: bool,

@@ -35,9 +35,9 @@ pub(super) struct IfcPlaces {
 
 /// What the reader found of units and of the first site's placement.
 pub(super) struct IfcFrame {
-    /// Metres a unit of the file.
+    /// The length of a unit of the file, metres.
     pub unit_m: f64,
-    /// Where the site's own zero lies in the file's coordinates, in metres.
+    /// The position of the site's own zero in the file's coordinates, metres.
     pub site: Option<[f64; 3]>,
 }
 

@@ -15,9 +15,9 @@ pub(super) struct IfcLayers {
     on: FxHashMap<u32, Rc<str>>,
     /// The same of layers with a style that are shown.
     styled: FxHashMap<u32, Rc<str>>,
-    /// Products whose whole shape lies there.
+    /// The products whose whole shape lies on hidden layers.
     pub products: FxHashSet<u32>,
-    /// How many of them each hidden layer has; pieces of others too.
+    /// The number of them on each hidden layer, including pieces of others.
     pub counts: BTreeMap<Rc<str>, u64>,
 }
 

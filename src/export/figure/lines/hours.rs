@@ -27,8 +27,8 @@ const PART: f64 = 1300.0;
 const SHORT: f64 = 130.0;
 const APART: f64 = 240.0;
 
-/// `hours`: the profile's bands, and a labelled line for each whole hour of shadow; for as many hours as a band has where
-/// those are more, and for each band where the window has no whole hour.
+/// `hours`: the profile's bands, and a labelled line for each whole hour of shadow. Where a band is wider than an hour
+/// the lines are those of the bands, and also where the window has no whole hour.
 ///
 /// A line parts cells with more shadow than it says from those with no more; along walls there is none.
 ///

@@ -29,12 +29,12 @@ impl LineDrawing {
         LineDrawing(page::whole(panel, cells, cell_m, draw))
     }
 
-    /// As SVG, of the sheet's size on paper; text stays text.
+    /// The drawing as SVG, of the sheet's size on paper. Text stays text.
     pub fn svg(&self) -> String {
         page::svg(&self.0)
     }
 
-    /// As PNG, of the size that all drawings have.
+    /// The drawing as PNG, of the size that all drawings have.
     ///
     /// # Errors
     /// [`ExportError::Encode`] where the sheet cannot be drawn or encoded.

@@ -14,13 +14,13 @@ use crate::export::{ExportError, check_size};
 use crate::sun::Instant;
 use crate::view::{Bits, Grid, SurfaceRows};
 
-/// More are hard to tell apart.
+/// The greatest number of outlines; more are hard to tell apart.
 pub const MOST_OUTLINES: usize = 24;
 
 /// One instant's shadow.
 #[derive(Clone, Debug)]
 pub struct Outline {
-    /// Which instant of the track, from 0.
+    /// The index of its instant in the track, from 0.
     pub index: usize,
     /// Which cells are in shadow.
     pub shadow: Bits,
