@@ -54,7 +54,7 @@ pub(super) fn number(word: &[u8]) -> Option<f64> {
 #[derive(Clone)]
 pub(super) struct TextLines<'a> {
     rest: Option<&'a [u8]>,
-    /// Of the line that was given last, from 1.
+    /// The number of the line that was returned last, from 1.
     pub number: usize,
 }
 

@@ -15,7 +15,7 @@ pub(crate) const SUMMED: TextureFormat = TextureFormat::R32Float;
 pub(crate) const SHARE: TextureFormat = TextureFormat::R8Unorm;
 
 impl Gpu {
-    /// A texture for one use a cell.
+    /// A texture with one texel per cell.
     #[doc(hidden)]
     pub fn texture(
         &self,

@@ -5,7 +5,7 @@ use wgpu::{ComputePassTimestampWrites, RenderPassTimestampWrites};
 
 #[doc(hidden)]
 impl Gpu {
-    /// What a render pass that begins now must write: nothing.
+    /// The timestamps that a render pass must write: none in this build.
     pub fn timed(&self, _label: &str) -> Option<RenderPassTimestampWrites<'_>> {
         None
     }

@@ -11,14 +11,14 @@ use wgpu::*;
 /// A face without a patch (`NO_PATCH` of `shaders/picture.wgsl`).
 const NO_PATCH: u32 = u32::MAX;
 
-/// Colours of flat patches, to be laid over what is seen.
+/// Colours of flat patches, to be laid over the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchColours<'a> {
     /// The patches.
     pub patches: &'a Patches,
-    /// Of each face of the receivers its patch.
+    /// The patch of each face of the receivers.
     pub patch_of: &'a [Option<u32>],
-    /// Per page its texels' colours, row by row.
+    /// The colours of each page's texels, row by row.
     pub pages: &'a [Vec<[u8; 3]>],
 }
 

@@ -23,13 +23,13 @@ use crate::view::Grid;
 /// Sums are exact integers, the same on every machine: seconds times the covered share of the sun in 1/255.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile<S = ShadedTime> {
-    /// Where the raster lies.
+    /// The grid of the raster.
     pub grid: Grid,
-    /// Per cell the shaded time; night is not in it.
+    /// The shaded time of each cell, without night.
     pub shaded: S,
     /// Seconds of the window with the sun above the horizon.
     pub day_secs: u32,
-    /// Seconds of the window without.
+    /// Seconds of the window with the sun below the horizon.
     pub night_secs: u32,
 }
 
@@ -40,7 +40,7 @@ impl Profile {
     }
 }
 
-/// Hours of a shaded time.
+/// Converts a shaded time to hours.
 pub fn hours(shaded: u64) -> f32 {
     (shaded as f64 / (255.0 * 3600.0)) as f32
 }

@@ -36,7 +36,7 @@ pub struct Hybrid {
 const ALL_COUNT: LoadOp<u32> = LoadOp::Clear(StencilBits::MASK);
 
 impl Hybrid {
-    /// Draws what is seen, uploads the casters, builds the pipelines; the map has `map_size` texels a side.
+    /// Draws what is seen, uploads the casters, and builds the pipelines. The map has `map_size` texels per side.
     pub fn new(
         gpu: Arc<Gpu>,
         scene: Scene,
@@ -70,7 +70,7 @@ impl Hybrid {
         Ok(Hybrid { counting, map, compared, decided, mask })
     }
 
-    /// As for the stencil: z-fail (`true`) or z-pass (`false`), right or wrong.
+    /// As for the stencil: takes z-fail (`true`) or z-pass (`false`), whether it is right or not.
     #[cfg(feature = "test-hooks")]
     pub fn force_z_fail(&mut self, z_fail: bool) {
         self.counting.force_z_fail(z_fail);

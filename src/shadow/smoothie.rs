@@ -97,8 +97,8 @@ impl Layer {
 }
 
 impl Smoothie {
-    /// Draws what is seen, uploads casters and receivers, builds the pipelines. Smoothies are `width_m` metres wide, or as
-    /// wide as the sun's disc makes them.
+    /// Draws what is seen, uploads casters and receivers, and builds the pipelines. Smoothies are `width_m` metres
+    /// wide, or as wide as the sun's disc makes them.
     pub fn new(
         gpu: Arc<Gpu>,
         scene: Scene,
@@ -153,16 +153,16 @@ impl Smoothie {
         })
     }
 
-    /// Leaves alpha as it is drawn (`true`): every penumbra as wide as its smoothie, wherever it falls. To compare with, as in
-    /// the paper's figures 4-4 and 4-10.
+    /// Leaves alpha as it is drawn (`true`), so that every penumbra is as wide as its smoothie, wherever it falls. This
+    /// is for comparison, as in the thesis's figures 4-4 and 4-10.
     #[cfg(feature = "test-hooks")]
     pub fn force_linear(&mut self, linear: bool) {
         self.asked.linear = linear;
     }
 
-    /// Draws the mask for a lamp in the world frame, with alpha remapped by the paper's α / (1 − b/r): `width` is the paper's t,
-    /// metres in a plane a metre before the lamp. The lamp sees 63° to each side of the middle of what is seen, and what
-    /// lies beyond that in its light.
+    /// Draws the mask for a lamp in the world frame, with alpha remapped by the thesis's α / (1 − b/r). `width` is the
+    /// thesis's t, metres in a plane at a distance of one metre from the lamp. The lamp sees 63° to each side of the
+    /// middle of what is seen; everything beyond that counts as lit.
     ///
     /// # Errors
     /// As [`Technique::draw`].

@@ -38,11 +38,11 @@ pub struct SoftPicture {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum PixelTarget {
     Sky,
-    /// What has no texture.
+    /// A pixel whose surface has no texture.
     Bare,
-    /// The ground, metres east and north of the scene's origin.
+    /// A point of the ground, metres east and north of the scene's origin.
     Ground(DVec2),
-    /// A patch, in texels from its corner.
+    /// A point of a patch, in texels from its corner.
     Patch(u32, DVec2),
 }
 

@@ -54,7 +54,7 @@ impl PlyNumber {
 /// What each row of a table has.
 pub(super) struct PlyProperty {
     pub name: Vec<u8>,
-    /// Of a list, the type of its length.
+    /// For a list, the type of its length.
     pub length: Option<PlyNumber>,
     pub number: PlyNumber,
 }

@@ -9,7 +9,7 @@ use crate::message::message;
 use glam::DVec2;
 use std::path::Path;
 
-/// `.asc` and `.grd` of Esri's form.
+/// Esri's ASCII grid, `.asc` and `.grd`.
 pub struct AsciiGrid;
 
 impl Format for AsciiGrid {

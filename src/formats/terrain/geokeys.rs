@@ -6,13 +6,13 @@
 /// The values of the keys that say where and how high.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct MapKeys {
-    /// As `EPSG:25832`, or the name of one that has no number.
+    /// The reference system, as `EPSG:25832`, or the name of one that has no number.
     pub crs: Option<String>,
-    /// Metres a unit of height, where it is said.
+    /// The length of a unit of height in metres, if the keys say it.
     pub height_unit_m: Option<f64>,
-    /// Metres a unit of the map, where it is said.
+    /// The length of a unit of the map in metres, if the keys say it.
     pub map_unit_m: Option<f64>,
-    /// Whether a sample stands for a point, and not for a cell around it.
+    /// Whether a sample is the height of a point, and not of a cell around it.
     pub is_point: bool,
 }
 

@@ -23,7 +23,7 @@ const KEY_DIRECTORY: Tag = Tag::Unknown(34735);
 const KEY_TEXTS: Tag = Tag::Unknown(34737);
 const NO_DATA: Tag = Tag::Unknown(42113);
 
-/// `.tif` of heights.
+/// GeoTIFF elevation, `.tif`.
 pub struct GeoTiff;
 
 type Tiff = Decoder<BufReader<File>>;

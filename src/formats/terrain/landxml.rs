@@ -11,7 +11,7 @@ use quick_xml::events::{BytesStart, Event};
 use rustc_hash::FxHashMap;
 use std::path::Path;
 
-/// `.xml` of LandXML.
+/// LandXML, `.xml`.
 pub struct LandXml;
 
 impl Format for LandXml {

@@ -23,9 +23,9 @@ const ABSENT: u32 = u32::MAX;
 
 /// What comes of a raster.
 pub(super) struct ThinnedSheet {
-    /// In the file's coordinates.
+    /// The vertices, in the file's coordinates.
     pub positions: Vec<DVec3>,
-    /// Counter-clockwise seen from above.
+    /// The triangles, counter-clockwise seen from above.
     pub triangles: Vec<[u32; 3]>,
 }
 

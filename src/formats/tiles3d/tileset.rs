@@ -60,7 +60,7 @@ pub(super) struct TileContent {
     /// Its address, without the ending.
     pub name: String,
     pub world: DMat4,
-    /// Whether its glTF has y up, as all but the oldest tilesets have it.
+    /// Whether its glTF has y up, as in all but the oldest tilesets.
     pub is_y_up: bool,
 }
 

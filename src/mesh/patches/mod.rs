@@ -21,8 +21,8 @@ pub use patch::{
 use super::Mesh;
 
 impl Patches {
-    /// Gathers the faces of the components that receive, with texels of `cell` metres; larger ones where the atlas would
-    /// have more than `most_texels`, or a patch be longer than a page.
+    /// Gathers the faces of the components that receive, with texels of `cell` metres. The texels are larger if the
+    /// atlas would otherwise have more than `most_texels`, or a patch be longer than a page.
     pub fn of(mesh: &Mesh, receives: &[bool], cell: f64, most_texels: usize) -> Patches {
         let flats = gather::gather(mesh, receives);
         let frames: Vec<_> = frame::of_all(mesh, &flats, cell);

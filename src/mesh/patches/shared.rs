@@ -58,7 +58,7 @@ struct CountedArea {
 }
 
 impl Patches {
-    /// Leaves out of all sums what is no surface of its own.
+    /// Leaves out of all sums what is not a surface of its own.
     pub fn leave_out_shared(&mut self, mesh: &Mesh, casts: &[bool], receives: &[bool]) {
         let only_cast: Vec<bool> = casts.iter().zip(receives).map(|(casts, receives)| *casts && !receives).collect();
         let beside = gather::gather(mesh, &only_cast);

@@ -29,7 +29,7 @@ pub struct Projected {
 }
 
 impl Projected {
-    /// Cuts the casters at the height at which the ground is judged, and looks down on the receivers.
+    /// Cuts the casters at the height at which the ground is judged, and finds what the plan sees of the receivers.
     pub fn new(scene: &Scene, tile: impl Into<Tile>) -> Projected {
         let tile: Tile = tile.into();
         let raster_from_local = raster_from_local(scene, &tile.plan);

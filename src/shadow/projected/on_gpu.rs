@@ -35,8 +35,8 @@ pub struct ProjectedOnGpu {
 }
 
 impl ProjectedOnGpu {
-    /// Cuts the casters at the height at which the ground is judged, and uploads them. What the scene receives on must be
-    /// the ground alone.
+    /// Cuts the casters at the height at which the ground is judged, and uploads them. The scene may receive on the
+    /// ground alone.
     ///
     /// # Errors
     /// [`ShadowError`] where raster or casters do not fit the adapter.
