@@ -30,8 +30,8 @@ const MOST_BYTES: usize = 64 * 1024;
 /// A point that does not come back by so much is not of the map, metres.
 const COMES_BACK_M: f64 = 1.0;
 
-/// So near to a map's zero are a drawing's own numbers and no map's, where the map keeps its zero away by a false easting or
-/// northing of at least so much, metres.
+/// So near to a map's zero are a drawing's own numbers and no map's, where the map keeps its zero away by a false
+/// easting or northing of at least so much, metres.
 const NEAR_ZERO_M: f64 = 5_000.0;
 const FALSE_ORIGIN_M: f64 = 100_000.0;
 
@@ -93,7 +93,7 @@ impl Crs {
     /// PROJ's text.
     ///
     /// # Errors
-    /// What is wrong with it, and the way out; the subject is the text.
+    /// What is wrong with it, and a hint; the subject is the text.
     pub fn read(text: &str) -> Result<Crs, Message> {
         let text = text.trim();
         if text.is_empty() || text.len() > MOST_BYTES {

@@ -76,7 +76,7 @@ pub fn find_comparison(
     })
 }
 
-/// Finds it. What the study of either state left in the folder when it was stopped is gone on with.
+/// Finds it. What the study of either state left in the folder when it was stopped is continued.
 fn find<'a>(
     pair: &Pair,
     before: Option<Outcome>,

@@ -91,7 +91,7 @@ pub fn find_patches(
     })
 }
 
-/// Finds them. What the study left in the folder when it was stopped is gone on with.
+/// Finds them. What the study left in the folder when it was stopped is continued.
 fn find<'a>(
     site: &Site,
     folder: Option<&'a Path>,

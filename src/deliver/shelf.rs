@@ -33,14 +33,14 @@ pub(super) fn note_end(kept: Option<Option<PathBuf>>, on_event: &mut OnEvent<'_>
     note_kept(kept.flatten(), on_event);
 }
 
-/// Tells that what a study left cannot be gone on with.
+/// Tells that what a study left cannot be continued.
 pub(super) fn note_refused(path: &Path, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let what = "is not what the study left there when it was stopped: it starts over";
     note(Some(format!("{} {what}", path.display())), on_event)
 }
 
-/// Finds what is to be shown. What is stopped is kept on the shelf, of the newest studies, unless another one works there;
-/// and where it cannot be kept it is found all the same.
+/// Finds what is to be shown. What is stopped is kept on the shelf, of the newest studies, unless another one works
+/// there; and where it cannot be kept it is found all the same.
 pub(super) fn find<'a, T>(
     shelf: Option<Folder<'a>>,
     on_event: &mut OnEvent<'_>,

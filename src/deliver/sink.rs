@@ -57,8 +57,8 @@ impl<'a> Sink<'a> {
         }
     }
 
-    /// Sees that files of these names can be written, and that none of them is an input; locks the folders. Called before
-    /// long work, not after it.
+    /// Makes sure that files of these names can be written, and that none of them is an input; locks the folders.
+    /// Called before long work, not after it.
     ///
     /// # Errors
     /// [`ExportError`]: what the file system refuses; where the folder is another study's, or a file an input.
@@ -144,7 +144,7 @@ impl OpenSink<'_> {
         self.put(ready)
     }
 
-    /// Errs where the folder is no longer the one that was locked.
+    /// Returns an error if the folder is no longer the one that was locked.
     pub(super) fn check(&self) -> Result<(), ExportError> {
         self.workplace.as_ref().map_or(Ok(()), Workplace::check)
     }

@@ -179,7 +179,7 @@ pub fn bytes(count: u64) -> String {
     format!("{size:.decimals$} {unit}")
 }
 
-/// Errs unless `have` cells fill `width` × `height`.
+/// Returns an error unless `have` cells fill `width` × `height`.
 pub(super) fn check_size(what: &'static str, have: usize, width: u32, height: u32) -> Result<(), ExportError> {
     if have == width as usize * height as usize && have > 0 {
         return Ok(());

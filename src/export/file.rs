@@ -168,7 +168,7 @@ pub fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Expor
     Ok(())
 }
 
-/// Errs where the disk has less room than a file takes; what lies at `there` already is a part of it.
+/// Returns an error if the disk has less room than a file takes; what lies at `there` already is a part of it.
 pub(crate) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), ExportError> {
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let room = fs4::available_space(folder).map_err(|error| failed(folder, "asking for its room", error))?;
@@ -189,7 +189,7 @@ pub(crate) fn remove(path: &Path) -> Result<(), ExportError> {
     }
 }
 
-/// What the file system refused, with the way out.
+/// What the file system refused, with a hint.
 pub(crate) fn failed(path: &Path, doing: &'static str, source: io::Error) -> ExportError {
     ExportError::Write { path: path.to_owned(), doing, source }
 }

@@ -89,7 +89,7 @@ struct EncodedAnchor {
     north_rad: Option<f64>,
 }
 
-/// Bytes that a model takes, but for its JSON.
+/// Bytes that a model takes, except for its JSON.
 pub(super) fn raw_bytes(model: &Model) -> u64 {
     let of_part = |part: &Part| (part.positions.len() * CORNER + part.triangles.len() * TRIANGLE) as u64;
     model.parts.iter().map(of_part).sum()
@@ -201,7 +201,7 @@ pub(super) fn read(input: &mut impl Read) -> Result<Result<Model, Message>, Enco
 }
 
 impl EncodedHeader {
-    /// Errs where it says what no model says; before memory is taken for it.
+    /// Returns an error if it says what no model says; before memory is taken for it.
     fn check(&self) -> Result<(), EncodingError> {
         let sum = |count: fn(&EncodedPart) -> u64| {
             self.parts.iter().map(count).try_fold(0_u64, u64::checked_add).unwrap_or(u64::MAX)

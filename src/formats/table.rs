@@ -52,8 +52,8 @@ fn head_of(path: &Path) -> std::io::Result<Vec<u8>> {
     Ok(head)
 }
 
-/// Whether a path names a model and no site file: its name ends as those of a format, or it is a file whose content is of
-/// one. A site file may be called anything: what is called JSON or XML and begins as neither is none of these.
+/// Whether a path names a model and no site file: its name ends as those of a format, or it is a file whose content is
+/// of one. A site file may be called anything: what is called JSON or XML and begins as neither is none of these.
 pub(crate) fn is_model(path: &Path) -> bool {
     let ends = |endings: &[&str]| {
         path.extension().is_some_and(|own| endings.iter().any(|ending| own.eq_ignore_ascii_case(ending)))
@@ -112,7 +112,7 @@ pub(super) fn read_as(format: &dyn Format, path: &Path, options: &ReadOptions) -
 /// [`super::ModelReader`] has limits and a cache.
 ///
 /// # Errors
-/// What is wrong with the file, with the way out.
+/// What is wrong with the file, with a hint.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
     let read = || read_as(format_of(path)?, path, options);
     read().map_err(|fault| ModelError { file: path.to_owned(), fault })

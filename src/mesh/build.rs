@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
 impl Part {
-    /// Errs where a corner is no point, or a triangle has one that is not there.
+    /// Returns an error if a corner is no point, or a triangle has one that is not there.
     fn check(&self) -> Result<(), MeshError> {
         if !self.positions.par_iter().all(|corner| corner.is_finite()) {
             return Err(MeshError::NoPoint(self.name.clone()));

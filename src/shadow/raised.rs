@@ -85,8 +85,8 @@ impl RaisedCells {
         raised
     }
 
-    /// Sets the bits of the raised cells. The casters' vertices fall on `places` from `tops`, which are columns, rows and
-    /// heights; `throw` as they fall.
+    /// Sets the bits of the raised cells. The casters' vertices fall on `places` from `tops`, which are columns, rows
+    /// and heights; `throw` as they fall.
     pub(super) fn draw(&self, to_sun: DVec3, throw: DVec2, places: &[DVec2], tops: &[DVec3], bits: &mut Bits) {
         if self.points.is_empty() {
             return;
@@ -365,7 +365,8 @@ impl FallingFace {
             return None;
         }
         let side = |from: usize, to: usize| {
-            // from the lower vertex to the higher, whichever face asks, so that neighbours find the same but for its sign
+            // from the lower vertex to the higher, whichever face asks, so that neighbours find the same except for its
+            // sign
             let is_turned = vertices[from] > vertices[to];
             let [start, end] = if is_turned { [corners[to], corners[from]] } else { [corners[from], corners[to]] };
             let across = DVec2::new(start.y - end.y, end.x - start.x);

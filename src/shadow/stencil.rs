@@ -23,7 +23,7 @@ pub struct Stencil {
 }
 
 impl Stencil {
-    /// Draws what is seen, uploads the casters, builds the pipelines.
+    /// Draws what is seen, uploads the casters, and builds the pipelines.
     pub fn new(
         gpu: Arc<Gpu>,
         scene: Scene,
@@ -52,8 +52,8 @@ impl Stencil {
         Ok(Stencil { counting, facing, mask })
     }
 
-    /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong: z-fail always is right, and z-pass must be
-    /// seen to fail where it is not chosen.
+    /// Counts camera views by z-fail (`true`) or z-pass (`false`), whether it is right or not. z-fail always is; a test
+    /// shows z-pass failing where it is not chosen.
     #[cfg(feature = "test-hooks")]
     pub fn force_z_fail(&mut self, z_fail: bool) {
         self.counting.force_z_fail(z_fail);

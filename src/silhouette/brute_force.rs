@@ -5,7 +5,7 @@ use crate::mesh::Mesh;
 use glam::DVec4;
 use rayon::prelude::*;
 
-/// Asks every edge.
+/// Tests every edge.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BruteForce;
 

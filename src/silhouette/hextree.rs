@@ -18,7 +18,7 @@ use crate::mesh::{Mesh, plane_faces};
 use glam::{DVec3, DVec4};
 use std::ops::Range;
 
-/// The deepest tree: 16⁸ cells are more than there are edges.
+/// The greatest depth: 16⁸ cells are more than there are edges.
 pub const DEEPEST: u32 = 8;
 /// The paper's depth.
 #[cfg(feature = "test-hooks")]
@@ -55,7 +55,7 @@ struct DualEdge {
 const MARGIN: f64 = 1e-9;
 
 impl Hextree {
-    /// Builds the tree, at most `depth` levels below its root ([`DEEPEST`] at the most).
+    /// Builds the tree, with at most `depth` levels below its root (and at most [`DEEPEST`]).
     pub fn new(mesh: &Mesh, depth: u32) -> Hextree {
         let frame = DualFrame::around(mesh);
         let mut always = Vec::new();
@@ -120,7 +120,7 @@ impl Hextree {
         }
     }
 
-    /// Bytes that the tree takes.
+    /// The size of the tree in memory, bytes.
     #[cfg(feature = "test-hooks")]
     pub fn bytes(&self) -> usize {
         self.nodes.len() * size_of::<HextreeNode>() + (self.edges.len() + self.always.len()) * size_of::<u32>()

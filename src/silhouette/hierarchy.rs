@@ -29,7 +29,7 @@ pub struct Hierarchy {
 }
 
 impl Hierarchy {
-    /// The classes that answer for a light, built when first asked.
+    /// The classes that answer for a light, built on first use.
     pub fn classes(&mut self, mesh: &Mesh, local_light: DVec4) -> &Classes {
         let of_suns = local_light.w == 0.0;
         let classes = if of_suns { &mut self.suns } else { &mut self.lamps };
@@ -73,10 +73,10 @@ pub struct Classes {
     edges: Vec<DirectedEdge>,
 }
 
-/// The answer of a class: its edges, and how often each stands in the silhouette, negative against its direction.
+/// The answer of a class: its edges, and how often the silhouette contains each; negative if against its direction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassEdges {
-    /// Of the edges of [`Classes`], grouped by class.
+    /// A range of the edges of [`Classes`], grouped by class.
     pub edges: Range<u32>,
     /// As [`super::multiplicity`].
     pub multiplicity: i32,
@@ -186,7 +186,7 @@ impl Classes {
         self.segments = segments.iter().map(|segment| segment.ends).collect();
     }
 
-    /// The classes that are silhouette for a light around the mesh's origin.
+    /// The classes that are part of the silhouette for a light around the mesh's origin.
     pub fn ask(&self, local_light: DVec4, runs: &mut Vec<ClassEdges>) -> QueryCost {
         let before = runs.len();
         for sum in &self.sums {
@@ -266,13 +266,13 @@ impl Classes {
         if plane_faces(self.planes[plane as usize], local_light) { 1 } else { -1 }
     }
 
-    /// How many classes there are.
+    /// The number of classes.
     #[cfg(feature = "test-hooks")]
     pub fn count(&self) -> usize {
         self.pairs.len() + self.sums.len()
     }
 
-    /// Bytes that hierarchy, classes and edges take.
+    /// The size of hierarchy, classes and edges in memory, bytes.
     #[cfg(feature = "test-hooks")]
     pub fn bytes(&self) -> usize {
         let terms: usize = self.sums.iter().map(|sum| sum.terms.len()).sum();

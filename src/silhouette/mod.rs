@@ -28,7 +28,7 @@ use hierarchy::Hierarchy;
 pub enum ProcessorFinder {
     /// One pass over all edges.
     BruteForce,
-    /// The paper's tree.
+    /// The tree of the paper.
     Hextree {
         /// Levels below the root.
         depth: u32,

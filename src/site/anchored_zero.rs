@@ -17,9 +17,9 @@ pub(super) struct AnchoredZero {
 /// Radians clockwise from the file's north.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum AnchoredNorth {
-    /// To the north of the anchor's map.
+    /// The north of the anchor's map.
     Map(f64),
-    /// To true north.
+    /// True north.
     True(f64),
 }
 

@@ -20,20 +20,20 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What a study in tiles tells beside the sums, which [`Event::Summed`] tells.
+/// The answer to a study in tiles, without the sums, which [`Event::Summed`] reports.
 #[derive(Clone, Debug)]
 pub struct TiledOutcome {
-    /// What drew.
+    /// What drew the masks.
     pub drawn: Provenance,
-    /// Seconds of the window with the sun above the horizon, and without.
+    /// Seconds of the window with the sun above the horizon, and below it.
     pub day_and_night_secs: (u32, u32),
-    /// What the cells see, where wanted.
+    /// What the cells see, if wanted.
     pub surface: Option<Surface>,
-    /// Whose faces [`Surface::face`] counts.
+    /// The mesh whose faces are in [`Surface::face`].
     pub surface_mesh: Mesh,
-    /// What counting took, where wanted.
+    /// The statistics of counting, if wanted.
     pub statistics: Option<Statistics>,
-    /// `prepare` and `shadows`.
+    /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }
 
@@ -60,7 +60,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, timings })
 }
 
-/// The whole of a plan's sums, with a tile's in their place; an empty whole has none yet.
+/// The sums of a whole plan, with a tile's put in their place. An empty whole has no sums yet.
 pub fn paste(whole: &Arc<ShadedTime>, tile: &Tile, shaded: &Arc<ShadedTime>) -> Arc<ShadedTime> {
     if tile.is_whole() {
         return Arc::clone(shaded);
@@ -75,7 +75,7 @@ pub fn paste(whole: &Arc<ShadedTime>, tile: &Tile, shaded: &Arc<ShadedTime>) -> 
 }
 
 impl<'a> TiledStudy<'a> {
-    /// Chooses what draws, and the tiles.
+    /// Prepares a study: chooses what draws, and the tiles.
     ///
     /// # Errors
     /// [`StudyError`]; choices that exclude each other; [`StudyError::LittleMemory`].
@@ -104,9 +104,10 @@ impl<'a> TiledStudy<'a> {
     }
 }
 
-/// Sums every instant's shadows. A study that was stopped, given as `begun`, continues where it was; its sums are the same to
-/// the bit. Tiles before the one that was worked on are not reported again. What another study left is not used. After
-/// [`Event::StartsOver`] everything is reported from the first instant on, or from what was put into [`Event::Resumes`].
+/// Sums every instant's shadows. A study that was stopped, given as `begun`, continues where it was; its sums are the
+/// same to the bit. Tiles before the one that was worked on are not reported again. What another study left is not
+/// used. After [`Event::StartsOver`] everything is reported from the first instant on, or from what was put into
+/// [`Event::Resumes`].
 ///
 /// # Errors
 /// [`StudyError`]
@@ -129,7 +130,7 @@ pub fn in_tiles(
         if number.is_some_and(|number| number == tiled.number()) {
             tell(on_event, Event::Resumes { study: &tiled, begun: &begun })?;
         } else {
-            // what another machine takes over is no more the study that was begun, and must not be gone on with as that
+            // what another machine takes over is no more the study that was begun, and must not be continued as that
             tiled.wants.keep_every = None;
         }
         once(tiled, begun.into_inner(), on_event)
@@ -271,7 +272,7 @@ impl TileWork<'_> {
     }
 }
 
-/// Errs where what is wanted is made of the whole plan, and that is done in tiles.
+/// Returns an error if what is wanted is made of the whole plan, and that is done in tiles.
 fn check_tiles(tiles: &[Tile], wants: &Wants) -> Result<(), StudyError> {
     if tiles.len() < 2 {
         return Ok(());

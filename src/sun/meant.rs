@@ -3,7 +3,7 @@
 use super::{Zone, zone_names};
 use unicode_normalization::UnicodeNormalization;
 
-/// The way out, to follow a semicolon. `here` is the zone at the place's coordinates.
+/// The hint, to follow a semicolon. `here` is the zone at the place's coordinates.
 pub(super) fn way_out(name: &str, here: Option<Zone>) -> String {
     let or_none = match here {
         Some(here) => format!("leave time_zone out, and it is \"{here}\" by the coordinates"),

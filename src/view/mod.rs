@@ -32,11 +32,11 @@ use glam::DVec4;
 /// What a mask is drawn for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum View {
-    /// Straight down on the grid's cells.
+    /// The plan: straight down on the grid's cells.
     Plan(Grid),
     /// A perspective picture.
     Camera(Camera),
-    /// A side, as drawings have it.
+    /// A side, along parallel rays.
     Elevation(Elevation),
 }
 
@@ -50,7 +50,7 @@ impl View {
         }
     }
 
-    /// The point from which everything is seen, homogeneous: the eye, or the direction straight up, or level towards the
+    /// The viewer as a homogeneous point: the eye, the direction straight up, or the level direction towards the
     /// viewer.
     pub fn viewer(&self) -> DVec4 {
         match self {

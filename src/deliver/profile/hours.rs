@@ -41,7 +41,7 @@ pub struct Range {
     pub day: f64,
 }
 
-/// Finds them. What the study left in the folder when it was stopped is gone on with; what is left there now goes when
+/// Finds them. What the study left in the folder when it was stopped is continued; what is left there now goes when
 /// [`StudyStore`] finishes.
 pub(in crate::deliver) fn find<'a>(
     site: &Site,

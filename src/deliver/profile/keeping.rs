@@ -38,7 +38,7 @@ pub(in crate::deliver) struct StudyStore<'a> {
     /// How many instants before each have a sun; one more than there are.
     with_sun: Vec<usize>,
     pub(super) sums: Sums,
-    /// The sums that are gone on with.
+    /// The sums that are continued.
     begun_sums: Option<SumsFile>,
     /// The tile that is worked on, of how many, and whether this run begins with the first instant.
     tile: (Tile, usize),
@@ -221,8 +221,8 @@ impl StudyStore<'_> {
         Ok(())
     }
 
-    /// Writes what an event brings, and tells it on. Once an instant is drawn, what is done can be kept: until then nobody
-    /// ends the work.
+    /// Writes what an event brings, and tells it on. Once an instant is drawn, what is done can be kept: until then
+    /// nobody ends the work.
     pub(super) fn hear(&mut self, event: Event<'_>, site: &Site, on_event: &mut OnEvent<'_>) -> ControlFlow<()> {
         let done = match &event {
             // the study is done again on another device, and asks where it was

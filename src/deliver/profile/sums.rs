@@ -15,7 +15,7 @@ pub enum Sums {
 }
 
 impl Sums {
-    /// Errs where something could not be read since the file was opened: it was taken for nothing.
+    /// Returns an error if something could not be read since the file was opened: it was taken for nothing.
     pub(super) fn check(&self) -> Result<(), ExportError> {
         match self {
             Sums::Memory(_) => Ok(()),

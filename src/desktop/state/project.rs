@@ -91,7 +91,7 @@ impl Project {
         WindowSettings { site: self.written.site.clone(), shown, hidden: Arc::clone(&self.hidden), before: None }
     }
 
-    /// What the site is called: its place, else its file.
+    /// What the site is called: its place, otherwise its file.
     pub(in crate::desktop) fn name(&self) -> String {
         let named = self.written.site.place.as_ref().and_then(|place: &PlaceTable| place.name.clone());
         named.filter(|name| !name.trim().is_empty()).unwrap_or_else(|| name_of(Path::new(&self.written.file)))

@@ -106,8 +106,8 @@ pub fn profile_bytes(grid: &Grid) -> u64 {
 /// picture.
 ///
 /// # Errors
-/// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay; [`ExportError::Encode`] from the encoder, or
-/// where the track has no instant.
+/// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay;
+/// [`ExportError::Encode`] from the encoder, or where the track has no instant.
 pub fn instant(scene: &FigureContext, view: &View, mask: &Mask, shown: &PictureExtras) -> Result<Vec<u8>, ExportError> {
     instant_as(scene, view, mask, shown, page::png)
 }
@@ -165,7 +165,7 @@ fn instant_as<T>(
     }
 }
 
-/// Errs where what belongs to one picture differs in size.
+/// Returns an error if what belongs to one picture differs in size.
 fn check_instant(surface: &Surface, size: (u32, u32), mask: &Mask, shown: &PictureExtras) -> Result<(), ExportError> {
     check_size("mask", mask.share.len(), size.0, size.1)?;
     check_surface(surface, size)?;
@@ -225,7 +225,8 @@ fn instant_legend(
     legend
 }
 
-/// Through what a picture is seen, and where it is true to scale its pixel's side, metres; the sheet says of a side which.
+/// Through what a picture is seen, and where it is true to scale its pixel's side, metres; the sheet says of a side
+/// which.
 fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::PixelRays, Option<f64>), ExportError> {
     match view {
         View::Plan(_) => Err(ExportError::encode("drawing", "a plan has no lens")),

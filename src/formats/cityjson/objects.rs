@@ -75,7 +75,7 @@ fn shapes<'a>(
     shapes
 }
 
-/// Of several, the highest that is solid, else the highest with surfaces.
+/// Of several, the highest that is solid, otherwise the highest with surfaces.
 fn best_of(shapes: &[CityShape<'_>]) -> Option<Rank> {
     shapes.iter().map(|shape| shape.rank).reduce(|best, next| if next > best { next } else { best })
 }

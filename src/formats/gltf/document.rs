@@ -17,8 +17,8 @@ use std::collections::BTreeMap;
 /// Bytes in a name; every component carries the names of its node, mesh and material.
 const MAX_NAME_BYTES: usize = 1000;
 
-/// Extensions about how surfaces look, sound, are described or answer a hand, by how their names begin: whatever they say,
-/// the triangles stay the same.
+/// Extensions about how surfaces look, sound, are described or answer a hand, by how their names begin: whatever they
+/// say, the triangles stay the same.
 const HARMLESS: [&str; 25] = [
     "KHR_materials_",
     "EXT_materials_",
@@ -192,7 +192,7 @@ impl Document {
         self.extensions_required.iter().map(String::as_str).filter(|name| is_harmless(name))
     }
 
-    /// The default weights of a node's morph targets: its own, else its mesh's.
+    /// The default weights of a node's morph targets: its own, otherwise its mesh's.
     pub(super) fn weights(&self, node: usize, mesh: usize) -> &[f32] {
         let own = self.nodes.get(node).and_then(|node| node.weights.as_deref());
         own.or_else(|| self.meshes.get(mesh)?.weights.as_deref()).unwrap_or_default()
@@ -226,7 +226,7 @@ impl Document {
         given(&self.scenes.get(scene)?.name)
     }
 
-    /// A node's name, else its mesh's, else its number.
+    /// A node's name, otherwise its mesh's, otherwise its number.
     pub(super) fn node_name(&self, node: usize) -> String {
         let of_mesh = || self.mesh_name(self.nodes.get(node)?.mesh?);
         let own = self.nodes.get(node).and_then(|node| given(&node.name));
@@ -243,7 +243,7 @@ impl Document {
         self.materials.get(material).is_some_and(|material| material.is_see_through(has_faded_vertices))
     }
 
-    /// A material's name, else its number; `default` where a primitive names none.
+    /// A material's name, otherwise its number; `default` where a primitive names none.
     pub(super) fn material_name(&self, material: Option<usize>) -> String {
         let Some(index) = material else {
             return "default".into();

@@ -87,7 +87,7 @@ pub enum Fault {
     Buffer {
         /// Its number.
         buffer: usize,
-        /// Verb, object and way out.
+        /// Verb, object and hint.
         problem: String,
     },
     /// A node that has no place in the world.

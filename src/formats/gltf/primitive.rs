@@ -10,7 +10,7 @@ use gltf::json::validation::Checked;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The triangles of a mesh, checked but for the values of its indices and positions.
+/// The triangles of a mesh, checked except for the values of its indices and positions.
 pub(super) struct MeshTriangles<'a> {
     /// The groups in the order in which their materials appear; those without triangles are left out.
     pub groups: Vec<MaterialGroup<'a>>,

@@ -31,7 +31,7 @@ pub(super) struct SceneContents {
     pub scene: Option<usize>,
 }
 
-/// The nodes of the scene that is asked for, else of the file's default one.
+/// The nodes of the scene that is asked for, otherwise of the file's default one.
 pub(super) fn place(document: &Document, asked: Option<&SceneName>) -> Result<SceneContents, Fault> {
     let parents = parents(document)?;
     check_cycles(&parents)?;
@@ -159,7 +159,7 @@ fn check_cycles(parents: &[Option<usize>]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The scene that is asked for, else the file's default one, else its first; none where it has none.
+/// The scene that is asked for, otherwise the file's default one, otherwise its first; none where it has none.
 fn number(document: &Document, asked: Option<&SceneName>) -> Result<Option<usize>, Fault> {
     let count = document.scenes.len();
     let Some(asked) = asked else {

@@ -104,8 +104,8 @@ impl IfcPlaces {
         }
     }
 
-    /// Metres of a map's unit that is not said: the project's, as IFC has it; but metres, where the numbers are those of a map
-    /// in metres and would lie beside its zero in the project's unit. Many programs write them so.
+    /// Metres of a map's unit that is not said: the project's, as IFC has it; but metres, where the numbers are those
+    /// of a map in metres and would lie beside its zero in the project's unit. Many programs write them so.
     fn unsaid_map_unit_m(&mut self, map: &GeoReference, said_by: &str, unit_m: f64) -> f64 {
         let is_named = map.crs_name.as_deref().is_some_and(|name| !name.trim().is_empty());
         let as_metres = map.eastings.hypot(map.northings);
@@ -147,7 +147,7 @@ impl IfcPlaces {
         scale
     }
 
-    /// The direction of true north, by the context of the model, else by that of a plan.
+    /// The direction of true north, by the context of the model, otherwise by that of a plan.
     fn true_north(&mut self, scan: &IfcScan, decoder: &mut EntityDecoder) -> Option<f64> {
         let mut said: Vec<(bool, f64)> = Vec::new();
         for &id in &scan.contexts {

@@ -154,7 +154,7 @@ fn numbers(read: DecodingResult) -> Vec<f32> {
     all!(U8, U16, U32, U64, F64, I8, I16, I32, I64)
 }
 
-/// The number that stands for no height: what the file says, else the most usual where it stands there.
+/// The number that stands for no height: what the file says, otherwise the most usual where it stands there.
 fn no_data(tiff: &mut Tiff, heights: &[f32], notes: &mut Vec<Message>) -> Option<f32> {
     if let Ok(text) = tiff.get_tag_ascii_string(NO_DATA) {
         return text.trim_end_matches('\0').trim().parse::<f64>().ok().map(|number| number as f32);

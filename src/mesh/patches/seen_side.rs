@@ -39,7 +39,7 @@ const NO_VOLUME: f64 = 1e-9;
 /// By which part of that area more must look one way than the other.
 const CLEARLY: f64 = 0.5;
 
-/// Faces that hang together by edges of two faces.
+/// Faces that are connected by edges of two faces.
 #[derive(Default)]
 struct FacePiece {
     faces: Vec<u32>,
@@ -177,8 +177,8 @@ fn measure(mesh: &Mesh, piece: &mut FacePiece, first: u32, seen: &mut [SeenSide]
     piece.volume = piece.faces.iter().map(volume).sum();
 }
 
-/// Whether an open piece looks up as it is turned, or down; nothing where that is not clear, or where walls stand higher than
-/// what looks up.
+/// Whether an open piece looks up as it is turned, or down; nothing where that is not clear, or where walls stand
+/// higher than what looks up.
 fn upwards(mesh: &Mesh, piece: &FacePiece, first: u32, seen: &[SeenSide]) -> Option<bool> {
     let (mut roofs, mut up) = (0.0, 0.0);
     // area, and area times height, of what is level and of what is steep

@@ -28,9 +28,9 @@ pub(super) struct FlatShadow {
 }
 
 impl FlatShadow {
-    /// `raster_from_local` takes metres around the mesh's origin to columns, rows and the height above the plane. Centres of
-    /// cells are whole numbers; what is not above the plane casts nothing on it. So many columns and rows are drawn, from
-    /// the first ones on.
+    /// `raster_from_local` takes metres around the mesh's origin to columns, rows and the height above the plane.
+    /// Centres of cells are whole numbers; what is not above the plane casts nothing on it. So many columns and rows
+    /// are drawn, from the first ones on.
     pub(super) fn new(mesh: &Mesh, raster_from_local: DAffine3, first: [u32; 2], size: [u32; 2]) -> FlatShadow {
         let casters = Casters::cut(mesh, &raster_from_local);
         let scan = Scan::new(&casters, first, size);
@@ -65,7 +65,7 @@ impl FlatShadow {
 
 /// How many columns and rows away from the sun a shadow falls, a metre of height.
 pub(super) fn throw(raster_from_local: &DAffine3, to_sun: DVec3) -> DVec2 {
-    // the sun may be in the plane but for rounding
+    // the sun may be in the plane except for rounding
     let along = raster_from_local.transform_vector3(to_sun);
     along.truncate() / along.z.max(1e-9 * along.length())
 }

@@ -64,7 +64,7 @@ impl Scratch {
 /// Which cells something lies before.
 pub(super) enum CoveredCells<'a> {
     Bits(Coverage),
-    /// Layers, row by row of one cell more than the patch is wide.
+    /// The layers, row by row; a row has one number more than the patch has columns.
     Layers(&'a [i32], usize),
 }
 
@@ -177,8 +177,8 @@ impl Events<'_> {
         }
     }
 
-    /// Marks the rows that an edge crosses, whose faces run along it so often, with their insides at its left hand as rows
-    /// go down. What lies left of the raster is marked at its left border (section 4.3.1, clipping).
+    /// Marks the rows that an edge crosses, whose faces run along it so often, with their insides at its left hand as
+    /// rows go down. What lies left of the raster is marked at its left border (section 4.3.1, clipping).
     fn mark(&mut self, from: DVec2, to: DVec2, times: i32) {
         let (top, bottom, times) = if from.y < to.y { (from, to, -times) } else { (to, from, times) };
         // a row belongs to the edge whose upper end it meets

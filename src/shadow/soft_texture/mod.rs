@@ -41,7 +41,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What fills hard shadows.
+/// The machine that fills hard shadows.
 #[derive(Clone)]
 pub enum Painter {
     /// The processor.
@@ -68,7 +68,7 @@ pub struct SoftTexture {
 }
 
 impl SoftTexture {
-    /// For the faces that cast; they share their origin with the patches.
+    /// For the casting faces of a mesh, whose origin is that of the patches.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]
@@ -102,14 +102,14 @@ impl SoftTexture {
         })
     }
 
-    /// Fills every face for every patch, as the paper does: for measurements.
+    /// Fills every face for every patch, as the paper does, for measurements.
     #[cfg(feature = "test-hooks")]
     pub fn without_culling(mut self) -> SoftTexture {
         self.culling = false;
         self
     }
 
-    /// Adds samples' weights to the texels that see them.
+    /// Adds the weight of each sample to the texels that see it.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]
@@ -154,23 +154,23 @@ impl SoftTexture {
         Ok(())
     }
 
-    /// Goes on from sums that were added before: per texel, as [`SoftTexture::so_far`] has them.
+    /// Continues from sums that were added before, per texel, as [`SoftTexture::so_far`] returns them.
     pub fn begin_with(&mut self, sums: &[u32]) {
         self.sums.copy_from_slice(sums);
     }
 
-    /// How patches were judged so far.
+    /// How the patches were judged so far.
     pub fn judged(&self) -> PatchJudgements {
         let [textures, texture_texels, faces, rays] = [0, 1, 2, 3].map(|at| self.counts[at].load(Ordering::Relaxed));
         PatchJudgements { textures, texture_texels, faces, rays }
     }
 
-    /// Bytes of the graphics adapter's memory that are taken; 0 without one.
+    /// The graphics adapter's memory that is used, bytes; 0 without an adapter.
     pub fn gpu_bytes(&self) -> u64 {
         self.drawer.as_ref().map_or(0, AdapterDrawer::bytes)
     }
 
-    /// Per texel of [`Patches::texels`] the weights of the samples so far that it sees.
+    /// For each texel of [`Patches::texels`], the sum of the weights of the samples so far that it sees.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]
@@ -178,7 +178,7 @@ impl SoftTexture {
         self.added_to(self.sums.clone())
     }
 
-    /// Per texel of [`Patches::texels`] the weights of the samples that it sees.
+    /// For each texel of [`Patches::texels`], the sum of the weights of the samples that it sees.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]

@@ -12,9 +12,9 @@ use glam::{DMat4, DVec3, DVec4, Vec3};
 pub struct Borders {
     /// Metres around the mesh's origin → clip space, depth 1 near and 0 far.
     pub clip_from_local: DMat4,
-    /// Where walls end, metres above the origin; none where they end at infinity.
+    /// The height at which walls end, metres above the origin; `None` if they end at infinity.
     pub lowest_z: Option<f64>,
-    /// Unit vector to the sun.
+    /// The unit vector to the sun.
     pub to_sun: DVec3,
 }
 

@@ -23,7 +23,7 @@ const CROWDED: u32 = 1 << 31;
 const NOTHING_DRAWN: layout::DrawArguments =
     layout::DrawArguments { index_count: 0, instance_count: 1, first_index: 0, base_vertex: 0, first_instance: 0 };
 
-/// What all meshes share.
+/// The pipelines, which all meshes share.
 pub struct ExtractionProgram {
     pub(super) faces: Arc<faces::FacingProgram>,
     extract: ComputePipeline,
@@ -136,13 +136,14 @@ impl Extraction {
         Ok(Extraction { gpu, extract: program.extract.clone(), most, faces, runs })
     }
 
-    /// In how many runs the edges are asked.
+    /// The number of runs of edges.
     #[cfg(feature = "test-hooks")]
     pub fn runs(&self) -> usize {
         self.runs.len()
     }
 
-    /// The lists that were written last, walls and cap. What is drawn stays on the GPU.
+    /// Reads back the lists that were written last, walls and cap. Drawing does not need this: it reads them on the
+    /// GPU.
     #[cfg(feature = "test-hooks")]
     pub fn read(&self) -> Result<[Vec<u32>; 2], GpuError> {
         let mut walls = Vec::new();

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use uploaded::UploadedWalls;
 use wgpu::{BindGroupLayout, ShaderModule};
 
-/// Who finds the silhouettes.
+/// The ways to find silhouettes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Silhouettes {
     /// A finder on the processor; its walls are uploaded.

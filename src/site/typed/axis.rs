@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-/// What an angle on the globe says.
+/// The two angles of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
-    /// North positive.
+    /// Latitude, north positive.
     Latitude,
-    /// East positive.
+    /// Longitude, east positive.
     Longitude,
 }
 
