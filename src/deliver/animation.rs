@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// The default width of a picture, pixels.
 pub const WIDTH: u32 = 1280;
 /// The default number of pictures per second.
-pub const FPS: u16 = 4;
+pub(crate) const FPS: u16 = 4;
 
 /// The request for an animation.
 #[derive(Clone, Debug)]

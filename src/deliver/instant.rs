@@ -113,7 +113,7 @@ fn draw(
 }
 
 /// For each component of a drawing's mesh, which contains only those that are seen, whether it casts.
-pub fn seen_casts(site: &Site) -> Vec<bool> {
+pub(crate) fn seen_casts(site: &Site) -> Vec<bool> {
     site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect()
 }
 

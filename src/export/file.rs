@@ -81,7 +81,7 @@ impl TemporaryFile {
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
-    pub fn put_in_place(self) -> Result<(), ExportError> {
+    pub(crate) fn put_in_place(self) -> Result<(), ExportError> {
         self.sync()?;
         // Windows renames no open file.
         drop(self.file);
@@ -95,7 +95,7 @@ impl TemporaryFile {
 ///
 /// # Errors
 /// [`ExportError::Write`] where the file system refuses.
-pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
+pub(crate) fn check_folder(folder: &Path) -> Result<(), ExportError> {
     let failed = |doing, source| failed(folder, doing, source);
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     fs::create_dir_all(here).map_err(|error| failed("creating the folder", error))?;
@@ -136,7 +136,7 @@ pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
 }
 
 /// Whether two paths of files, which need not exist, lead to the same place.
-pub fn is_same_place(a: &Path, b: &Path) -> bool {
+pub(crate) fn is_same_place(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| {
         let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
         (folder.canonicalize().unwrap_or_else(|_| folder.to_owned()), path.file_name().map(ToOwned::to_owned))
@@ -149,7 +149,7 @@ pub fn is_same_place(a: &Path, b: &Path) -> bool {
 ///
 /// # Errors
 /// [`ExportError::IsInput`]; [`ExportError::NoFileName`] where a folder stands at the name of one.
-pub fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), ExportError> {
+pub(crate) fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), ExportError> {
     if let Some(path) = outputs.iter().find(|path| path.is_dir()) {
         return Err(ExportError::NoFileName { path: path.clone() });
     }

@@ -185,7 +185,7 @@ pub fn json(placed: &PlacedModel, file: &Path) -> Result<String, ExportError> {
 }
 
 /// What was written, and what of the file was not, in lines for people.
-pub fn summary(placed: &PlacedModel, words: &dyn Words) -> String {
+pub(crate) fn summary(placed: &PlacedModel, words: &dyn Words) -> String {
     let (parts, triangles) = (placed.model.parts.len(), placed.model.triangles());
     let components = if parts == 1 { "component" } else { "components" };
     let faces = if triangles == 1 { "triangle" } else { "triangles" };

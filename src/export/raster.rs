@@ -34,7 +34,7 @@ pub fn geotiff<S: ShadedCells>(profile: &Profile<S>, place: &Place) -> Result<Ve
 ///
 /// # Errors
 /// As [`geotiff`]; [`ExportError::Write`] where the file system refuses.
-pub fn geotiff_file<S: ShadedCells>(
+pub(crate) fn geotiff_file<S: ShadedCells>(
     profile: &Profile<S>,
     place: &Place,
     path: &Path,
@@ -73,7 +73,7 @@ fn write_geotiff<S: ShadedCells>(
 ///
 /// # Errors
 /// As [`geotiff`].
-pub fn difference_geotiff(comparison: &Comparison, place: &Place) -> Result<Vec<u8>, ExportError> {
+pub(crate) fn difference_geotiff(comparison: &Comparison, place: &Place) -> Result<Vec<u8>, ExportError> {
     let grid = comparison.grid();
     check_size("comparison", comparison.cells(), grid.width, grid.height)?;
     let hours = |cells: Range<usize>| cells.map(|cell| comparison.hours(cell)).collect();

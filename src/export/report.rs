@@ -195,7 +195,7 @@ pub fn profile_json<S>(
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn shadow_json(
+pub(crate) fn shadow_json(
     view: &View,
     place: &Place,
     track: &SunTrack,
@@ -209,7 +209,7 @@ pub fn shadow_json(
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn patches_json(found: &PatchContext<'_>, told: &ReportContext<'_>) -> Result<String, ExportError> {
+pub(crate) fn patches_json(found: &PatchContext<'_>, told: &ReportContext<'_>) -> Result<String, ExportError> {
     let component = |(component, patches, exposure): (_, &[_], Exposure)| {
         let [share_1h, share_2h, share_3h, share_4h] = exposure.shares;
         let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;

@@ -224,7 +224,7 @@ pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
 }
 
 /// What was written, and down to which ground: two lines, the last without its line break.
-pub fn summary(volumes: &Volumes<'_>) -> String {
+pub(crate) fn summary(volumes: &Volumes<'_>) -> String {
     let triangles: usize = volumes.solids.iter().map(|solid| solid.triangles.len()).sum();
     format!(
         "{} of {triangles} triangles; the sun at azimuth {:.2}°, altitude {:.2}°\nground at {}",

@@ -113,7 +113,7 @@ impl Ground {
     }
 
     /// How far the models reach below it, metres; 0 if they do not.
-    pub fn models_below_m(&self) -> f64 {
+    pub(crate) fn models_below_m(&self) -> f64 {
         Some(self.level - self.lowest).filter(|below| *below > ON_GROUND_M).unwrap_or(0.0)
     }
 

@@ -81,7 +81,7 @@ impl WrittenSite {
     ///
     /// # Errors
     /// As [`WrittenSite::read`].
-    pub fn read_beside(path: &Path, first: &WrittenSite, asked: &Overrides) -> Result<WrittenSite, SiteError> {
+    pub(crate) fn read_beside(path: &Path, first: &WrittenSite, asked: &Overrides) -> Result<WrittenSite, SiteError> {
         let mut written = Self::read_as_it_is(path)?;
         written.set_models(asked);
         if written.site.place.is_none() {

@@ -128,7 +128,7 @@ impl BitsFile {
     ///
     /// # Errors
     /// [`ExportError::NoRoom`]; [`ExportError::Write`] where the file system does not say.
-    pub fn check_room(&self) -> Result<(), ExportError> {
+    pub(crate) fn check_room(&self) -> Result<(), ExportError> {
         file::check_room(&self.path, &self.unfinished, self.size())
     }
 
@@ -143,7 +143,7 @@ impl BitsFile {
 
     /// Looks for what a stopped study left, and continues with it: with these tiles' cells at these of the instants
     /// with a sun, in the order of the work. Returns whether its checksum shows that it is what was written.
-    pub fn go_on(&mut self, drawn: impl Iterator<Item = (usize, Tile)>, checksum: u64) -> bool {
+    pub(crate) fn go_on(&mut self, drawn: impl Iterator<Item = (usize, Tile)>, checksum: u64) -> bool {
         let mut drawn = drawn.peekable();
         // nights alone made no file
         if drawn.peek().is_none() {

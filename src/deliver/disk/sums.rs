@@ -57,7 +57,7 @@ impl SumsFile {
 
     /// Looks for what a stopped study left with these tiles, and continues with it if its checksum shows that it is
     /// what was written.
-    pub fn go_on(
+    pub(crate) fn go_on(
         folder: &Path,
         study: u64,
         grid: Grid,

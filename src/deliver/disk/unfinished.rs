@@ -55,7 +55,7 @@ pub(super) fn bits_path(folder: &Path, study: u64) -> PathBuf {
 }
 
 /// The path of the file with the sums of finished tiles.
-pub fn sums_path(folder: &Path, study: u64) -> PathBuf {
+pub(crate) fn sums_path(folder: &Path, study: u64) -> PathBuf {
     file_of(folder, FIRST_WORDS[2], study)
 }
 
@@ -98,7 +98,7 @@ pub fn remove(folder: &Path, study: u64) -> Result<(), ExportError> {
 
 /// Says which other studies were stopped in the folder and keep files there. Bits and sums that no study can continue
 /// with, because it was killed before it kept anything, are removed. The caller has locked the folder.
-pub fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
+pub(crate) fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
     file::remove_leftovers(&studies.iter().map(|study| path(folder, *study)).collect::<Vec<_>>());
     let others = studies_in(folder).into_iter().filter(|other| !studies.contains(other));
     let (stopped, dead): (Vec<u64>, Vec<u64>) = others.partition(|other| path(folder, *other).is_file());
@@ -122,7 +122,7 @@ pub fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
 }
 
 /// Removes the files of all stopped studies in a folder except the newest ones. The caller has locked the folder.
-pub fn keep_newest(folder: &Path, most: usize) {
+pub(crate) fn keep_newest(folder: &Path, most: usize) {
     let mut studies: Vec<u64> = studies_in(folder).into_iter().collect();
     // what is dead has no time, and is the oldest
     let changed = |study: &u64| path(folder, *study).metadata().and_then(|found| found.modified()).ok();

@@ -78,7 +78,7 @@ impl Hours {
     ///
     /// # Errors
     /// Where the sums lie in a file that cannot be read.
-    pub fn into_outcome(self) -> Result<Outcome, ExportError> {
+    pub(crate) fn into_outcome(self) -> Result<Outcome, ExportError> {
         let Hours { profile, drawn, surface_mesh, statistics, timings, .. } = self;
         let Profile { grid, shaded, day_secs, night_secs } = profile;
         let shaded = Arc::unwrap_or_clone(shaded.in_memory()?);

@@ -19,7 +19,7 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// The greatest number of frames.
-pub const MOST_FRAMES: usize = 2000;
+pub(crate) const MOST_FRAMES: usize = 2000;
 
 /// The GIF's colours are taken from about so many of the frames, evenly spread.
 const SAMPLED: usize = 64;
@@ -55,7 +55,7 @@ impl Frames {
     }
 
     /// Everything that an animation of `count` frames writes into a folder.
-    pub fn outputs(folder: &Path, count: usize) -> Vec<PathBuf> {
+    pub(crate) fn outputs(folder: &Path, count: usize) -> Vec<PathBuf> {
         (0..count).map(|index| Frames::path(folder, index)).chain([folder.join(GIF)]).collect()
     }
 

@@ -96,7 +96,7 @@ fn profile_panel<S, C>(scene: &FigureContext<S>, profile: &Profile<C>, kicker: &
 }
 
 /// The greatest memory that [`profile`] takes of what grows with the plan, bytes.
-pub fn profile_bytes(grid: &Grid) -> u64 {
+pub(crate) fn profile_bytes(grid: &Grid) -> u64 {
     // the sheet may be higher or wider than its picture, never the other way round
     let fit = picture::Fit::within((grid.width, grid.height), (f64::from(WIDTH) / 2.0, f64::from(HEIGHT) / 2.0));
     picture::task_bytes(&fit) * page::tasks() as u64

@@ -29,10 +29,10 @@ const DARKEST: f64 = 0.88;
 pub const NO_SHADOW: Rgb = [254, 253, 249];
 
 /// No sun at all: a colour off the scale, so that it is not taken for a little sun.
-pub const NO_SUN: Rgb = [70, 66, 74];
+pub(crate) const NO_SUN: Rgb = [70, 66, 74];
 
 /// The greatest number of bands; more are hard to tell apart.
-pub const MOST_BANDS: u32 = 16;
+pub(crate) const MOST_BANDS: u32 = 16;
 
 /// Round durations for bands wider than a step, seconds: from a second to a hundred days of daylight.
 const ROUND_SECS: [u32; 27] = [

@@ -88,7 +88,7 @@ fn azimuth_text(azimuth_deg: f64) -> String {
 }
 
 /// The result, one line per component, the largest areas first; ends with a line break.
-pub fn summary(found: &PatchContext) -> String {
+pub(crate) fn summary(found: &PatchContext) -> String {
     let patches = found.patches;
     let mut text = format!(
         "{} patches, {} texels of {:.3} m; {} of daylight\n",
