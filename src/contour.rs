@@ -160,7 +160,7 @@ impl Walk<'_> {
         steps
     }
 
-    /// Whether the two of four cells that are above hang together: where the mean is above, too.
+    /// Whether the two of four cells that are above are connected: they are if the mean is above, too.
     fn joined(&self, column: u64, row: u64) -> bool {
         let cells = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(east, south)| self.cell(column + east, row + south));
         let sum: u128 = cells.into_iter().flatten().map(|cell| u128::from((self.field.value)(cell))).sum();

@@ -1,9 +1,24 @@
-//! The documents for people: links that lead somewhere, and a README that one reads.
+//! The documents for people: links that lead somewhere, plain words, and a README that one reads.
 
+use crate::architecture::files;
 use std::path::{Path, PathBuf};
 
 /// So long may the README be.
 const README_LINES: usize = 100;
+
+/// Words over which readers stumble, with what follows them, and each with a plainer one.
+const STUMBLES: &[(&str, &str)] = &[
+    ("anew ", "again"),
+    ("whence ", "from where"),
+    ("told of ", "reported"),
+    ("gone on with ", "continued"),
+    ("held against ", "compared with"),
+    ("hang together ", "are connected"),
+    ("hangs together ", "is connected"),
+    ("exact but for ", "exact except for"),
+    ("the way out ", "the hint"),
+    ("seed 0", "the paper's author, title and section"),
+];
 
 /// README, CONTRIBUTING and all of `docs`.
 fn documents() -> Vec<PathBuf> {
@@ -13,6 +28,17 @@ fn documents() -> Vec<PathBuf> {
         entries.filter(|path| path.extension().is_some_and(|it| it == "md")).collect::<Vec<_>>()
     };
     [root.to_owned(), root.join("docs"), root.join("docs/benchmarks")].iter().flat_map(|it| in_folder(it)).collect()
+}
+
+/// The words of a text over which readers stumble, in whatever case.
+fn stumbles(name: &str, text: &str) -> Vec<String> {
+    let lines = text.lines().enumerate();
+    let found = lines.flat_map(|(at, line)| {
+        let line = format!(" {} ", line.to_lowercase().replace(|c: char| !c.is_alphanumeric(), " "));
+        let has = move |word: &str| line.contains(&format!(" {word}"));
+        STUMBLES.iter().filter(move |(word, _)| has(word)).map(move |(word, plain)| (at, word.trim_end(), plain))
+    });
+    found.map(|(at, word, plain)| format!("{name}:{}: \"{word}\"; write \"{plain}\"", at + 1)).collect()
 }
 
 /// Its lines that are no code.
@@ -82,6 +108,25 @@ fn a_broken_link_is_seen() {
     for broken in ["[a](nothing.md)", "[b](#nothing)", "[c](words.md#nothing)", "![d](pictures/nothing.png)"] {
         assert_eq!(faults(&path, broken).len(), 1, "{broken}");
     }
+}
+
+#[test]
+fn source_and_documents_have_plain_words() {
+    let mut found = Vec::new();
+    for (folder, extension) in [("src", "rs"), ("shaders", "wgsl"), ("sites", "md")] {
+        let texts = files(folder, extension);
+        assert!(texts.len() > 3, "too few files were found in {folder}");
+        found.extend(texts.iter().flat_map(|(path, text)| stumbles(&format!("{folder}/{}", path.display()), text)));
+    }
+    // the changelog speaks of what was
+    for path in documents().iter().filter(|path| !path.ends_with("changelog.md")) {
+        found.extend(stumbles(&path.display().to_string(), &std::fs::read_to_string(path).expect("a document")));
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    for (word, _) in STUMBLES {
+        assert_eq!(stumbles("", &format!("// It is {word}4.")).len(), 1, "{word}");
+    }
+    assert!(stumbles("", "a manewver, Whencefrom").is_empty());
 }
 
 #[test]

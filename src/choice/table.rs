@@ -244,7 +244,7 @@ techniques! {
     /// A depth map, and volumes where it cannot tell.
     Hybrid: "hybrid", {
         name: "shadow map and volumes",
-        good_for: "exact but for thin parts; quick where many of them throw volumes over each other",
+        good_for: "exact except for thin parts; quick where many of them cast volumes over each other",
         wrong: "misses what is thinner than a texel of its map",
         on_cpu: &[],
         on_gpu: SEEN,

@@ -139,7 +139,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
         _ => {
             let text = error.to_string();
             let told = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
-            // that an option could be a value is no way out
+            // that an option could be a value is no help
             let idle = |line: &str| ["For more", "tip: to pass"].iter().any(|idle| line.starts_with(idle));
             let told: Vec<_> = told.filter(|line| !line.is_empty() && !idle(line)).collect();
             let told = told.join("; ").replace("error: ", "").replace(":; ", ": ").replace("tip: ", "");

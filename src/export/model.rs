@@ -94,7 +94,7 @@ fn translucent(name: &str) -> Value {
     })
 }
 
-/// What is told of a component.
+/// The extras of a component.
 fn component(model: &Model, index: usize) -> Value {
     let mut told = json!({"aliases": model.parts[index].aliases});
     let kind = model.kind(index);
