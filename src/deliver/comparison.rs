@@ -76,7 +76,7 @@ pub fn find_comparison(
     })
 }
 
-/// Finds it. What the study of either state left in the folder when it was stopped is continued.
+/// Finds the comparison, and continues what the study of either state left in the folder when it was stopped.
 fn find<'a>(
     pair: &Pair,
     before: Option<Outcome>,

@@ -19,14 +19,14 @@ pub enum DeliverError {
     Lines(#[from] LinesError),
     /// There are more pictures than an animation has.
     TooManyFrames {
-        /// How many instants there are.
+        /// The number of instants.
         count: usize,
-        /// How many frames there can be.
+        /// The greatest number of frames.
         most: usize,
     },
     /// Nothing casts a shadow at night.
     Night {
-        /// When.
+        /// The time.
         time: DateTime<Zone>,
         /// How far below the horizon the sun is, degrees.
         below_deg: f64,

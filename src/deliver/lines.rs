@@ -30,9 +30,9 @@ pub enum LinesError {
     },
     /// There are too many outlines.
     TooMany {
-        /// How many instants have a sun.
+        /// The number of instants with a sun.
         count: usize,
-        /// A step with which they are few enough, minutes.
+        /// A step with which there are few enough, minutes.
         step_min: i64,
     },
 }
@@ -97,7 +97,7 @@ impl Lines {
         }
     }
 
-    /// The files; `outlines` are those of all instants with a sun.
+    /// The drawings' files; `outlines` are those of all instants with a sun.
     pub(super) fn files<S: SurfaceRows>(
         self,
         scene: &FigureContext<S>,

@@ -36,7 +36,7 @@ pub fn figure_context<'a, S>(site: &'a Site, seen: DrawnView<'a, S>) -> figure::
     }
 }
 
-/// What a report of a site tells beside the instants.
+/// The context of a report of a site.
 pub(super) fn report_context<'a>(
     site: &'a Site,
     receivers: Receivers,
@@ -47,7 +47,7 @@ pub(super) fn report_context<'a>(
     ReportContext { receivers, ground: site.ground, drawn, timings, statistics, notes: &site.notes, words: site.words }
 }
 
-/// Notes letters that no font has, of texts that are drawn.
+/// Notes the letters in drawn texts that no font has.
 pub(super) fn note_letters<'a>(
     texts: impl IntoIterator<Item = &'a str>,
     on_event: &mut OnEvent<'_>,
@@ -65,7 +65,7 @@ pub(super) fn note_letters<'a>(
     }
 }
 
-/// Notes what there is.
+/// Passes on a note if there is one.
 pub(super) fn note(note: Option<impl Into<Message>>, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     note.map_or(Ok(()), |note| tell(on_event, Event::Note(note.into())))
 }

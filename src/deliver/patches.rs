@@ -91,7 +91,7 @@ pub fn find_patches(
     })
 }
 
-/// Finds them. What the study left in the folder when it was stopped is continued.
+/// Finds the hours, and continues what the study left in the folder when it was stopped.
 fn find<'a>(
     site: &Site,
     folder: Option<&'a Path>,

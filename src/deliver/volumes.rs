@@ -9,7 +9,7 @@ use crate::sun::Instant;
 use crate::volume::solid::{Solids, solids};
 use std::path::Path;
 
-/// Longer volumes are noted, metres.
+/// The length from which volumes are noted, metres.
 const LONG_M: f64 = 10_000.0;
 
 /// The result of making volumes.

@@ -8,7 +8,7 @@ use crate::sun::{Place, SunTrack};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Sun before and after is told for at most so many hours of it.
+/// The greatest number of rows with the sun before and after.
 const MOST_ROWS: u32 = 16;
 
 #[derive(Serialize)]
@@ -50,13 +50,13 @@ fn hours(secs: u32) -> f64 {
     f64::from(secs) / 3600.0
 }
 
-/// The hours by which the drawing's bands begin, seconds: 0 first.
+/// The hours at which the drawing's bands begin, in seconds, starting with 0.
 fn thresholds(comparison: &Comparison, track: &SunTrack) -> Vec<u32> {
     let bands = ChangeBands::of(comparison, track.step_secs);
     (0..bands.count.max(1)).map(|band| band * bands.band_secs).collect()
 }
 
-/// Whole hours of sun up to the daylight, or of so many that rows are few; seconds.
+/// Whole hours of sun up to the daylight, or multiples that leave few rows; seconds.
 fn sun_rows(comparison: &Comparison) -> Vec<u32> {
     let day_secs = comparison.after().day_secs;
     let each = day_secs.div_ceil(MOST_ROWS * 3600).max(1) * 3600;

@@ -13,30 +13,30 @@ pub enum ExportError {
         path: PathBuf,
         /// The step that failed.
         doing: &'static str,
-        /// What the system said.
+        /// The system's message.
         source: std::io::Error,
     },
     /// What a stopped study left cannot be read.
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: std::io::Error,
     },
     /// The disk is too full.
     NoRoom {
         /// The file that was to be written.
         path: PathBuf,
-        /// What it takes, bytes.
+        /// The size of the file, bytes.
         size: u64,
-        /// What there is, bytes.
+        /// The room on the disk, bytes.
         room: u64,
     },
     /// Another study works in the folder.
     Busy {
         /// The folder.
         folder: PathBuf,
-        /// Since when, which process on which host, and what it was asked.
+        /// Since when, by which process on which host, and for which request.
         who: String,
     },
     /// The folder was removed, or replaced by another one.
@@ -48,7 +48,7 @@ pub enum ExportError {
     OtherFrame {
         /// The file.
         path: PathBuf,
-        /// How many frames there are to be.
+        /// The number of frames.
         count: usize,
     },
     /// An output is one of the files that were read.
@@ -65,14 +65,14 @@ pub enum ExportError {
     },
     /// The model with the hours on its surfaces is larger than a GLB can be.
     LargeGlb {
-        /// What it would take, bytes.
+        /// The size that it would have, bytes.
         size: u64,
     },
     /// The answer does not fit the format.
     Encode {
         /// What was being made.
         what: &'static str,
-        /// What the encoder said.
+        /// The encoder's message.
         why: String,
     },
     /// Two rasters that belong together differ in size. This is a bug elsewhere; it is reported, since the drawing
@@ -80,7 +80,7 @@ pub enum ExportError {
     Size {
         /// Which raster.
         what: &'static str,
-        /// How many cells it has.
+        /// The number of its cells.
         have: usize,
         /// Columns expected.
         width: u32,
@@ -187,7 +187,7 @@ pub(super) fn check_size(what: &'static str, have: usize, width: u32, height: u3
     Err(ExportError::Size { what, have, width, height })
 }
 
-/// What is said of a file for which a disk has no room.
+/// The message for a file for which a disk has no room.
 fn no_room(path: &Path, size: u64, room: u64) -> Message {
     message![
         format!("{} takes {}, and its disk has room for {}", path.display(), bytes(size), bytes(room));
@@ -202,7 +202,7 @@ fn no_room(path: &Path, size: u64, room: u64) -> Message {
     ]
 }
 
-/// What can be done where the file system refuses.
+/// What can be done if the file system refuses.
 fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
     let way_out = match kind {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",

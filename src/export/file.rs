@@ -18,7 +18,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     TemporaryFile::of(path, bytes)?.put_in_place()
 }
 
-/// What is done while bytes go out.
+/// The step that is reported while bytes are written.
 pub(super) const WRITING: &str = "writing a temporary file in its folder";
 
 /// A file that is written under a temporary name. It is removed unless it is put in place.
@@ -30,7 +30,7 @@ pub struct TemporaryFile {
 }
 
 impl TemporaryFile {
-    /// Missing parent folders are created.
+    /// Opens it; missing parent folders are created.
     pub(super) fn open(asked: &Path) -> Result<TemporaryFile, ExportError> {
         let failed = |doing, source| failed(asked, doing, source);
         // through a link to what it leads to; a device, a pipe or a folder is nothing to be replaced by a drawing
@@ -106,8 +106,8 @@ pub(crate) fn check_folder(folder: &Path) -> Result<(), ExportError> {
     Ok(())
 }
 
-/// Removes what was written beside the places of some files by processes that died. Whoever calls it has locked their
-/// folders, so that nobody else is writing these.
+/// Removes temporary files that dead processes left beside some outputs. The caller has locked their folders, so that
+/// nobody else is writing these.
 pub(crate) fn remove_leftovers(outputs: &[PathBuf]) {
     let mut folders: BTreeMap<&Path, BTreeSet<&OsStr>> = BTreeMap::new();
     for path in outputs {
@@ -126,7 +126,7 @@ pub(crate) fn remove_leftovers(outputs: &[PathBuf]) {
     }
 }
 
-/// Renames a file that is on the disk, and sees that its new name is, too, where the system allows that.
+/// Renames a file that is on the disk, and makes sure that its new name is on the disk, too, if the system allows that.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)?;
     let folder = to.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
@@ -181,7 +181,7 @@ pub(crate) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), Exp
     Ok(())
 }
 
-/// Removes a file; that there is none is no error.
+/// Removes a file. A missing file is no error.
 pub(crate) fn remove(path: &Path) -> Result<(), ExportError> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(failed(path, "removing it", error)),
@@ -212,7 +212,7 @@ impl Drop for Cleanup {
     }
 }
 
-/// A new file for what is to have a name in a folder.
+/// A new file under a temporary name in a folder.
 fn open_new(folder: &Path, name: &OsStr) -> io::Result<(File, PathBuf)> {
     loop {
         let beside = folder.join(temporary_name(name));
@@ -224,7 +224,8 @@ fn open_new(folder: &Path, name: &OsStr) -> io::Result<(File, PathBuf)> {
     }
 }
 
-/// Unique among this machine's processes and this process's threads, hidden, and seen to be ours.
+/// A temporary name: unique among this machine's processes and this process's threads, hidden, and recognisable as
+/// ours.
 fn temporary_name(name: &OsStr) -> OsString {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -234,7 +235,7 @@ fn temporary_name(name: &OsStr) -> OsString {
     beside
 }
 
-/// What a temporary name is beside.
+/// The name that a temporary name belongs to.
 fn written_beside(name: &OsStr) -> Option<&str> {
     let (name, of_process) = name.to_str()?.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.')?;
     let (process, count) = of_process.split_once('-')?;

@@ -17,10 +17,10 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// What this is, where it is refused.
+/// The name of this file in an error.
 const WHAT: &str = "model";
 
-/// A model whose corners are nearer to its zero than this keeps that, metres: `f32` has 0.06 mm there.
+/// A model whose corners are nearer to its zero than this keeps its zero, metres. `f32` has steps of 0.06 mm there.
 const NEAR_M: f64 = 1000.0;
 
 /// The content of the file.
@@ -73,7 +73,7 @@ pub fn glb(placed: &PlacedModel) -> Result<Vec<u8>, ExportError> {
     })
 }
 
-/// Per part which of the materials that light passes it has.
+/// For each part, which of the see-through materials it has.
 fn materials(model: &Model) -> Vec<Option<usize>> {
     let mut of_part = vec![None; model.parts.len()];
     for (index, material) in model.see_through.iter().enumerate() {
@@ -84,7 +84,7 @@ fn materials(model: &Model) -> Vec<Option<usize>> {
     of_part
 }
 
-/// A material that light passes: how much of it, nobody has kept.
+/// A see-through material; its degree of transparency is not known.
 fn translucent(name: &str) -> Value {
     json!({
         "name": name,
@@ -109,7 +109,7 @@ fn too_large(size: u64) -> ExportError {
     ExportError::encode(WHAT, format!("it would be {gib:.1} GiB, and GLB ends at 4; export the model in parts"))
 }
 
-/// Around which all corners are.
+/// The point around which all corners are.
 fn origin(placed: &PlacedModel) -> DVec3 {
     let corners = placed.model.parts.par_iter().flat_map(|part| &part.positions);
     let none = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -152,7 +152,7 @@ fn scene(placed: &PlacedModel) -> Value {
     told
 }
 
-/// Where a zero lies. Directions are clockwise from the model's north, −z, in degrees.
+/// An anchor. Directions are clockwise from the model's north, −z, in degrees.
 fn anchor(anchor: &Anchor, scale_m: f64) -> Value {
     let mut told = match &anchor.at {
         AnchorPoint::Map { crs, easting, northing, height, scale } => json!({

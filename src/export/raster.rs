@@ -83,11 +83,11 @@ pub(crate) fn difference_geotiff(comparison: &Comparison, place: &Place) -> Resu
     Ok(bytes.into_inner())
 }
 
-/// GDAL's own tag for what a band means.
+/// GDAL's own tag for the meaning of a band.
 const GDAL_METADATA: u16 = 42112;
-/// Bytes of a strip before it is deflated.
+/// The size of a strip before it is deflated, bytes.
 const STRIP_BYTES: usize = 1_000_000;
-/// Beyond this a raster's offsets may not fit 32 bits.
+/// The size from which a raster's offsets may not fit 32 bits.
 const MOST_CLASSIC: u64 = 4_000_000_000;
 
 fn encode(
@@ -173,7 +173,7 @@ fn deflate(hours: &[f32]) -> io::Result<Vec<u8>> {
     zlib.finish()
 }
 
-/// The three tags of OGC GeoTIFF 1.1 that say which map the raster lies on.
+/// The three tags of OGC GeoTIFF 1.1 that define the map of the raster.
 struct GeoKeys {
     directory: Vec<u16>,
     doubles: Vec<f64>,
@@ -240,7 +240,7 @@ pub(super) fn png_rows(
     dots_per_metre: Option<u32>,
     pieces: impl FnOnce(&mut (dyn FnMut(&[u8]) -> io::Result<()> + Send)) -> Result<(), png::EncodingError>,
 ) -> Result<Vec<u8>, png::EncodingError> {
-    /// Bytes that are compressed before they go out.
+    /// The bytes that are compressed before they are written.
     const AT_ONCE: usize = 1 << 16;
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);

@@ -20,7 +20,7 @@ pub struct UnsavedSite {
     pub written: WrittenSite,
 }
 
-/// The same in a file.
+/// The same, as it is stored in a file.
 #[derive(Serialize, Deserialize)]
 struct Record {
     gnomon: String,
@@ -62,7 +62,7 @@ impl Slot {
         }
     }
 
-    /// The slot of a file that a window has left behind; none while that lives.
+    /// The slot of a file that a window has left behind; `None` while that window lives.
     fn left(file: PathBuf) -> Option<Slot> {
         let lock = file.with_extension("lock");
         let held = OpenOptions::new().write(true).create(true).truncate(false).open(&lock).ok()?;
@@ -96,7 +96,7 @@ impl Slot {
         file::write(&self.file, &bytes)
     }
 
-    /// What is kept; none where it cannot be read, as by an older Gnomon.
+    /// What is kept; `None` if it cannot be read, for example because an older Gnomon wrote it.
     fn kept(&self) -> Option<UnsavedSite> {
         let record: Record = serde_json::from_slice(&fs::read(&self.file).ok()?).ok()?;
         let Record { path, file, folder, text, site, .. } = record;
@@ -112,7 +112,7 @@ impl Slot {
     }
 }
 
-/// Removes the locks of windows that were ended before they kept anything, or after all was saved.
+/// Removes the locks of windows that ended before they kept anything, or after everything was saved.
 fn clear(folder: &Path) {
     let Ok(entries) = folder.read_dir() else { return };
     for lock in entries.flatten().map(|entry| entry.path()) {

@@ -47,7 +47,7 @@ pub(super) struct DrawnReport<'a> {
     statistics: Option<StatisticsReport>,
 }
 
-/// The settings of what drew, by the command's names for them.
+/// The settings that drew the answer, under the command's names.
 #[derive(Serialize)]
 pub(super) struct SettingsReport {
     map_size: Option<u32>,
@@ -247,7 +247,7 @@ fn drawn_json(
     json(&drawn_report(view, place, track, told))
 }
 
-/// What `profile.json` says, to stand in another report.
+/// The part of `profile.json` that another report contains.
 pub(super) fn plan_report<'a>(
     grid: &Grid,
     place: &'a Place,
@@ -326,7 +326,7 @@ fn view_report(view: &View) -> ViewReport<'static> {
     }
 }
 
-/// Notes as a report has them.
+/// Notes, as they stand in a report.
 pub(super) fn said(notes: &[Message], words: &dyn Words) -> Vec<String> {
     notes.iter().map(|note| note.in_words(words)).collect()
 }
@@ -394,7 +394,7 @@ pub(super) fn place_report(place: &Place) -> PlaceReport<'_> {
     }
 }
 
-/// Whose rules the clock goes by: `2026f`.
+/// The tz version of the clock's rules: `2026f`.
 pub(super) fn tz_version(place: &Place) -> String {
     place.time_zone.version().to_string()
 }
@@ -423,7 +423,8 @@ fn day_report(day: &Day) -> DayReport {
     }
 }
 
-/// RFC 3339 with the place's offset, whole seconds; those of an offset too, which clocks had before there were zones.
+/// RFC 3339 with the place's offset, in whole seconds; also for offsets with seconds, which clocks had before there
+/// were zones.
 pub(super) fn stamp(time: &DateTime<Zone>) -> String {
     let offset = time.offset().fix();
     if offset.local_minus_utc() % 60 != 0 {

@@ -130,7 +130,7 @@ struct SolidLists {
     meshes: Vec<Value>,
     accessors: Vec<Value>,
     views: Vec<Value>,
-    /// How long the buffer is so far.
+    /// The length of the buffer so far.
     bytes: usize,
 }
 
@@ -161,7 +161,7 @@ impl SolidLists {
         }));
     }
 
-    /// The next part of the buffer; its number.
+    /// Adds the next part of the buffer. Returns its index.
     fn view(&mut self, length: usize, target: u32) -> usize {
         self.views.push(json!({"buffer": 0, "byteOffset": self.bytes, "byteLength": length, "target": target}));
         self.bytes += length;
@@ -169,7 +169,7 @@ impl SolidLists {
     }
 }
 
-/// East, north, up in glTF's axes, which are x east, y up, z south.
+/// East, north and up in glTF's axes: x east, y up, z south.
 pub(super) fn in_gltf(point: Vec3) -> [f32; 3] {
     // + 0 makes −0 and 0 one
     [point.x, point.z, 0.0 - point.y].map(|metres| metres + 0.0)

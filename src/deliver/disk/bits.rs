@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 /// The name of the file.
 pub const NAME: &str = "shadow.bits";
 const MAGIC: &[u8; 8] = b"GNOMBITS";
-/// Rasters begin at a multiple of this.
+/// Rasters begin at a multiple of this many bytes.
 const ALIGNED: usize = 64;
 
 #[derive(Serialize)]
@@ -63,7 +63,7 @@ pub fn encode<'a>(
     Ok(bytes)
 }
 
-/// All before the first raster.
+/// Everything before the first raster.
 fn header(grid: Grid, receivers: Receivers, track: &SunTrack) -> Result<Vec<u8>, ExportError> {
     let instants: Vec<_> = track.instants.iter().filter(|instant| !instant.night).map(instant_report).collect();
     let bytes_a_row = grid.width.div_ceil(8) as usize;
@@ -82,12 +82,12 @@ pub struct BitsFile {
     unfinished: PathBuf,
     header: Vec<u8>,
     grid: Grid,
-    /// Instants with a sun.
+    /// The number of instants with a sun.
     count: usize,
     file: Option<BufWriter<File>>,
-    /// Of the header, and of all that was added, in the order of the work.
+    /// The checksum of the header and of everything added, in the order of the work.
     checksum: Checksum,
-    /// Where the next byte goes.
+    /// The offset of the next byte.
     at: u64,
 }
 
@@ -199,7 +199,7 @@ impl BitsFile {
         self.checksum.number()
     }
 
-    /// Where a tile's first row lies at an instant.
+    /// The offset of a tile's first row at an instant.
     fn first_byte(&self, instant: usize, tile: &Tile) -> u64 {
         let row_bytes = u64::from(self.bytes_a_row());
         self.size_after(instant) + u64::from(tile.first[1]) * row_bytes + u64::from(tile.first[0] / 8)

@@ -23,7 +23,7 @@ pub struct SumsFile {
     grid: Grid,
     cell_bytes: u64,
     file: Mutex<File>,
-    /// Of all that was put, in the order of the work.
+    /// The checksum of everything put, in the order of the work.
     checksum: Checksum,
     /// What could not be read.
     fault: Mutex<Option<io::Error>>,
@@ -99,7 +99,7 @@ impl SumsFile {
         self.checksum.number()
     }
 
-    /// Where a row of a tile begins.
+    /// The offset of a tile's row.
     fn first_byte(&self, tile: &Tile, row: u32) -> u64 {
         let [left, top] = tile.first.map(u64::from);
         ((top + u64::from(row)) * u64::from(self.grid.width) + left) * self.cell_bytes

@@ -21,7 +21,8 @@ use std::path::{Path, PathBuf};
 
 const FIRST_LINE: &[u8] = b"gnomon unfinished 3\n";
 
-/// What the names of its files begin with; the first is there as soon as there is something to go on from.
+/// The beginnings of the names of its files. The first file exists as soon as there is something from which the study
+/// can continue.
 const FIRST_WORDS: [&str; 3] = ["profile", "shadow.bits", "profile.sums"];
 
 /// The checksums of a study's other files, as far as the study is done.
@@ -133,7 +134,7 @@ pub(crate) fn keep_newest(folder: &Path, most: usize) {
     }
 }
 
-/// The studies that have files in a folder; what cannot be listed is not touched.
+/// The studies that have files in a folder. Folders that cannot be listed are not touched.
 fn studies_in(folder: &Path) -> BTreeSet<u64> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Ok(entries) = fs::read_dir(here) else { return BTreeSet::new() };
@@ -141,7 +142,7 @@ fn studies_in(folder: &Path) -> BTreeSet<u64> {
     names.filter_map(|name| study_of(&name)).collect()
 }
 
-/// Whose a file is, by its name.
+/// The study to which a file belongs, by its name.
 fn study_of(name: &str) -> Option<u64> {
     let (words, number) = name.strip_suffix(".unfinished")?.rsplit_once('.')?;
     let is_ours = FIRST_WORDS.contains(&words) && number.len() == 16 && !number.starts_with('+');
@@ -206,7 +207,7 @@ fn decode(bytes: &[u8]) -> Option<(Unfinished, Checks)> {
     Some((Unfinished { study, tiles, done, shaded, statistics }, Checks { bits, sums, masks }))
 }
 
-/// The first numbers, which are taken away.
+/// Takes the first numbers off the bytes.
 fn numbers<const N: usize>(rest: &mut &[u8]) -> Option<[u64; N]> {
     let mut numbers = [0; N];
     for number in &mut numbers {

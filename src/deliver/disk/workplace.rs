@@ -18,19 +18,19 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 const NAME: &str = ".gnomon.lock";
-/// So often a folder may become free and be taken again while it is looked at.
+/// How often a folder may become free and be taken again while a process tries to lock it.
 const ATTEMPTS: usize = 100;
-/// Who works in a folder says it in no more bytes.
+/// The greatest length of the text that says who works in a folder, bytes.
 const MOST_BYTES: u64 = 500;
 
 /// Folders that are locked until this is dropped.
 pub struct Workplace {
     held: Vec<FolderLock>,
-    /// Those on disks that know no locks, and what the system said.
+    /// The folders on disks without locks, and the system's message for each.
     unlocked: Vec<(PathBuf, io::Error)>,
 }
 
-/// A lock. It ends with the file.
+/// A lock. It ends when the file is closed.
 struct FolderLock {
     folder: PathBuf,
     file: File,
@@ -41,7 +41,8 @@ impl Workplace {
     /// dead processes. Other processes can read that `who` works there: a command, or a window.
     ///
     /// # Errors
-    /// [`ExportError::Busy`] where another study works in one of them; [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Busy`] where another study works in one of them; [`ExportError::Write`] where the file system
+    /// refuses.
     pub fn take<'a>(
         folders: impl IntoIterator<Item = &'a Path>,
         outputs: &[PathBuf],
@@ -99,7 +100,7 @@ impl Drop for FolderLock {
     }
 }
 
-/// The locked file; or what the system said where it knows no locks there.
+/// The locked file; or the system's message if the disk has no locks.
 fn lock(folder: &Path, asked: &Path, who: &str) -> Result<io::Result<File>, ExportError> {
     let path = folder.join(NAME);
     let failed = |error| file::failed(asked, "locking the folder", error);
@@ -151,7 +152,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     handle.is_ok_and(|handle| Handle::from_path(path).is_ok_and(|found| found == handle))
 }
 
-/// Who works there, as far as that can be read: Windows lets nobody read a locked file.
+/// The error that says who works there, as far as that can be read: on Windows nobody can read a locked file.
 fn busy(folder: &Path, path: &Path) -> ExportError {
     let mut text = Vec::new();
     let file = OpenOptions::new().read(true).open(path);

@@ -15,7 +15,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 use std::time::Instant;
 
-/// All files, whole and not yet in their places.
+/// All files, complete but not yet in place.
 pub(super) struct Pieces {
     pub(super) ready: Vec<WholeFile>,
     /// `profile.json`
@@ -23,7 +23,7 @@ pub(super) struct Pieces {
     pub(super) range: Range,
 }
 
-/// Makes what is asked; bits are those of the outlines. `stage` hears of each stage, and may end the work.
+/// Makes the requested files; bits are those of the outlines. `stage` is called for each stage, and may end the work.
 pub(super) fn make(
     site: &Site,
     hours: &Hours,
@@ -83,7 +83,7 @@ pub(super) fn make(
     Ok(Pieces { ready, report, range })
 }
 
-/// The raster is written beside its place as it is made.
+/// Writes the raster under a temporary name while it is made.
 fn raster_of(site: &Site, hours: &Hours, open: &OpenSink<'_>) -> Result<WholeFile, ExportError> {
     match open.path(Path::new(RASTER)) {
         Some(path) => {
@@ -95,7 +95,7 @@ fn raster_of(site: &Site, hours: &Hours, open: &OpenSink<'_>) -> Result<WholeFil
     }
 }
 
-/// Work as a stage of its own, that is done beside others.
+/// Work that is a stage of its own and runs beside other work.
 fn timed<T>(stage: &'static str, work: impl FnOnce() -> T) -> (T, Timings) {
     let started = Instant::now();
     let result = work();

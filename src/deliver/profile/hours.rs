@@ -41,8 +41,8 @@ pub struct Range {
     pub day: f64,
 }
 
-/// Finds them. What the study left in the folder when it was stopped is continued; what is left there now goes when
-/// [`StudyStore`] finishes.
+/// Finds the hours, and continues what the study left in the folder when it was stopped. [`StudyStore`] removes what is
+/// left there when it finishes.
 pub(in crate::deliver) fn find<'a>(
     site: &Site,
     asked: &ProfileRequest<'a>,

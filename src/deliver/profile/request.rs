@@ -65,7 +65,7 @@ impl<'a> ProfileRequest<'a> {
         Some(SecondFolder { folder, files })
     }
 
-    /// Whether each instant's shadow is needed when all is done.
+    /// Whether each instant's shadow is needed at the end.
     pub(super) fn holds_outlines(&self) -> bool {
         self.lines.contains(&Lines::Outlines)
     }
@@ -89,7 +89,7 @@ impl<'a> ProfileRequest<'a> {
     }
 }
 
-/// Where an instant's mask goes.
+/// The path of an instant's mask.
 pub(super) fn mask_path(folder: &Path, index: usize) -> PathBuf {
     folder.join(format!("mask-{index:04}.png"))
 }

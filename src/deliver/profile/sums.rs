@@ -15,7 +15,7 @@ pub enum Sums {
 }
 
 impl Sums {
-    /// Returns an error if something could not be read since the file was opened: it was taken for nothing.
+    /// Returns an error if something could not be read since the file was opened; such cells were taken as 0.
     pub(super) fn check(&self) -> Result<(), ExportError> {
         match self {
             Sums::Memory(_) => Ok(()),
@@ -23,7 +23,7 @@ impl Sums {
         }
     }
 
-    /// All of it in memory.
+    /// All sums, in memory.
     pub(super) fn in_memory(self) -> Result<Arc<ShadedTime>, ExportError> {
         let file = match self {
             Sums::Memory(shaded) => return Ok(shaded),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 pub(super) const GIF: &str = "day.gif";
 
-/// Where a frame is.
+/// The path of a frame.
 pub(super) fn frame_path(folder: &Path, index: usize) -> PathBuf {
     folder.join(format!("frame-{index:04}.png"))
 }

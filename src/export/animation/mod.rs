@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// The greatest number of frames.
 pub(crate) const MOST_FRAMES: usize = 2000;
 
-/// The GIF's colours are taken from about so many of the frames, evenly spread.
+/// The GIF's colours come from about this many of the frames, evenly spread.
 const SAMPLED: usize = 64;
 
 /// The pictures in a folder, and the colours seen so far.
@@ -81,7 +81,8 @@ impl Frames {
     /// Begins the GIF, when all frames are written. Each is shown for that many hundredths of a second.
     ///
     /// # Errors
-    /// [`ExportError::Read`] and [`ExportError::Encode`] where the first frame is not what was written; as [`file::write`].
+    /// [`ExportError::Read`] and [`ExportError::Encode`] where the first frame is not what was written; as
+    /// [`file::write`].
     pub fn gif(self, delay: u16) -> Result<Gif, ExportError> {
         let path = self.folder.join(GIF);
         let palette = self.counts.palette();

@@ -27,12 +27,12 @@ pub struct FigureContext<'a, S = Surface> {
 }
 
 impl<S> FigureContext<'_, S> {
-    /// Whether the ground alone was judged, and so no building.
+    /// Whether the ground alone was judged, and no building.
     pub(super) fn is_ground_alone(&self) -> bool {
         self.receivers == Receivers::Ground
     }
 
-    /// Whether what a plan's cell sees is drawn as ground: the plane, or terrain.
+    /// Whether a cell of the plan is drawn as ground: the plane, or terrain.
     pub(super) fn is_ground(&self, face: u32) -> bool {
         face == Surface::GROUND || self.mesh.is_terrain(face)
     }

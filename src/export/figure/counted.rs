@@ -13,13 +13,13 @@ pub enum Diagram {
     Overdraw,
 }
 
-/// The paper's colours, a little quieter.
+/// The thesis's colours, a little quieter.
 const MAP_SHADOW: Rgb = [196, 60, 48];
 const MAP_LIGHT: Rgb = [122, 164, 220];
 const VOLUME_SHADOW: Rgb = [12, 12, 14];
 const VOLUME_LIGHT: Rgb = [70, 190, 80];
 
-/// No fragment, and the most of the picture.
+/// The colours of no fragment, and of the most in the picture.
 const NO_FRAGMENT: Rgb = [18, 18, 22];
 const MOST_FRAGMENTS: Rgb = [255, 255, 255];
 
@@ -35,7 +35,7 @@ pub struct Colours {
 }
 
 impl Diagram {
-    /// What a drawing of it is called.
+    /// The title of a drawing of it.
     pub(super) fn title(self) -> &'static str {
         match self {
             Diagram::Mask => "Computation mask",
@@ -75,7 +75,7 @@ fn of_mask(decided: &[Decider]) -> Colours {
     }
 }
 
-/// Brightness grows with the root of the fragments: else a few dense cells would leave all others black.
+/// Brightness grows with the square root of the fragments; otherwise a few dense cells would leave all others black.
 fn of_overdraw(counted: &FragmentCounts) -> Colours {
     let most = counted.reached.iter().copied().max().unwrap_or(0).max(1);
     let colour = |fragments: u32| mix(NO_FRAGMENT, MOST_FRAGMENTS, (f64::from(fragments) / f64::from(most)).sqrt());

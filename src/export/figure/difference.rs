@@ -8,15 +8,16 @@ use crate::mesh::Mesh;
 use crate::profile::comparison::{Alteration, Change, Comparison};
 use crate::view::Surface;
 
-/// More shadow, from a little to the most; darker in print without colours, too.
+/// More shadow, from a little to the most; darker than the same amount of less shadow, so that prints without colour
+/// can be read.
 const LOST: [Rgb; 3] = [[208, 224, 240], [84, 125, 176], [10, 30, 88]];
-/// Less shadow: lighter than the same amount the other way.
+/// Less shadow, lighter than the same amount of more shadow.
 const GAINED: [Rgb; 3] = [[253, 232, 188], [243, 174, 82], [204, 98, 14]];
-/// What is new, and what is gone.
+/// The colours of what is new, and of what is gone.
 const BUILT: Rgb = [112, 110, 106];
 const CLEARED: Rgb = [201, 199, 194];
 
-/// More bands than this on either side are hard to tell apart.
+/// The greatest number of bands on either side; more are hard to tell apart.
 const MOST_BANDS: u32 = 7;
 
 /// The bands of a change: none, then (0, band], (band, 2 band], … on either side, up to the larger change.
@@ -81,7 +82,7 @@ pub struct ChangeColours {
     pub legend_head: String,
     /// Each colour and its meaning; the most sun gained comes first.
     pub legend: Vec<(Rgb, String)>,
-    /// How what each cell sees is drawn as altered.
+    /// How each cell is drawn as altered.
     altered: Vec<Alteration>,
 }
 
@@ -133,7 +134,8 @@ impl ChangeColours {
 /// the sheet.
 ///
 /// # Errors
-/// [`ExportError::Size`] where a surface or the comparison does not fill the grid; [`ExportError::Encode`] from the encoder.
+/// [`ExportError::Size`] where a surface or the comparison does not fill the grid; [`ExportError::Encode`] from the
+/// encoder.
 pub fn difference(
     scenes: &[FigureContext; 2],
     names: &[String; 2],

@@ -21,7 +21,8 @@ const DAVOS_REVERSED: [Rgb; 11] = [
     [0, 5, 74],
 ];
 
-/// The part of the map in use: its light end is kept for no shadow at all, its dark end for lines drawn over it.
+/// The part of the map that is used: its light end is reserved for no shadow at all, its dark end for lines drawn over
+/// it.
 const LIGHTEST: f64 = 0.16;
 const DARKEST: f64 = 0.88;
 
@@ -97,7 +98,7 @@ impl Bands {
     }
 }
 
-/// The width of bands that are at most so many, seconds.
+/// The width of bands of which there are at most that many, seconds.
 pub(super) fn band_secs(step_secs: u32, all_secs: u32, most_bands: u32) -> u32 {
     let step = step_secs.max(1);
     let few = |secs: &u32| all_secs.div_ceil(*secs) <= most_bands;
@@ -116,7 +117,7 @@ fn colour(band: u32, count: u32) -> Rgb {
     mix(DAVOS_REVERSED[low], DAVOS_REVERSED[low + 1], at - low as f64)
 }
 
-/// From `a` (share 0) to `b` (share 1), in sRGB.
+/// A mixture of `a` (share 0) and `b` (share 1), in sRGB.
 pub(super) fn mix(a: Rgb, b: Rgb, share: f64) -> Rgb {
     std::array::from_fn(|i| (f64::from(a[i]) + (f64::from(b[i]) - f64::from(a[i])) * share).round() as u8)
 }

@@ -49,8 +49,8 @@ impl PatchContext<'_> {
     }
 }
 
-/// `surfaces.csv`: for each component a line, whose patch is `all`, and after it a line for each of its patches, numbered
-/// from 1, the largest first. Lines end in CR LF (RFC 4180).
+/// `surfaces.csv`: for each component a line, whose patch is `all`, and after it a line for each of its patches,
+/// numbered from 1, the largest first. Lines end in CR LF (RFC 4180).
 ///
 /// Areas are square metres, hours those of sun; azimuths clockwise from true north, absent where a patch is level or
 /// where there are many; tilts 0 for what looks up, 90 for walls, 180 for what looks down; shares, 0 to 1, are the part
@@ -80,7 +80,7 @@ pub fn csv(found: &PatchContext) -> String {
     text
 }
 
-/// Degrees from 0 to below 360, so that north is written in one way.
+/// Degrees from 0 to below 360, so that north has one spelling.
 fn azimuth_text(azimuth_deg: f64) -> String {
     let hundredths = (azimuth_deg * 100.0).round().rem_euclid(36_000.0);
     // + 0 makes −0 and 0 one
@@ -114,5 +114,5 @@ pub(crate) fn summary(found: &PatchContext) -> String {
     text
 }
 
-/// Components that are told on the terminal.
+/// The greatest number of components that the terminal lists.
 const MOST_LINES: usize = 12;

@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 pub struct Atlas {
     /// The patch of each face of the components that receive.
     pub patch_of: Vec<Option<u32>>,
-    /// Per page, row by row, seconds in the sun times samples, as [`PatchHours::lit`], or [`EMPTY`].
+    /// For each page, row by row, seconds in the sun times samples, as in [`PatchHours::lit`], or [`EMPTY`].
     pub(crate) pages: Vec<Vec<u32>>,
 }
 
@@ -58,7 +58,7 @@ impl Atlas {
 /// A texel of a page that belongs to no patch.
 pub(crate) const EMPTY: u32 = u32::MAX;
 
-/// Per page, row by row, seconds in the sun times samples, as [`PatchHours::lit`], or [`EMPTY`].
+/// For each page, row by row, seconds in the sun times samples, as in [`PatchHours::lit`], or [`EMPTY`].
 pub(crate) fn pages(patches: &Patches, hours: &PatchHours) -> Vec<Vec<u32>> {
     let side = patches.page_size as usize;
     let mut pages = vec![vec![EMPTY; side * side]; patches.pages as usize];
@@ -76,7 +76,8 @@ pub(crate) fn pages(patches: &Patches, hours: &PatchHours) -> Vec<Vec<u32>> {
     pages
 }
 
-/// Gives what is empty within a patch's rectangle and its gutter the value of the texel that is the fewest steps away.
+/// Gives each empty texel within a patch's rectangle and its gutter the value of the texel that is the fewest steps
+/// away.
 fn spread(patch: &Patch, page: &mut [u32], side: usize, mut spreading: VecDeque<usize>) {
     let (left, right) = ((patch.x - GUTTER) as usize, (patch.x + patch.width + GUTTER) as usize);
     let (top, bottom) = ((patch.y - GUTTER) as usize, (patch.y + patch.height + GUTTER) as usize);
