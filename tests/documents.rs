@@ -1,24 +1,9 @@
-//! The documents for people: links that lead somewhere, plain words, and a README that one reads.
+//! The documents for people: links that lead somewhere, and a README that one reads.
 
-use crate::architecture::files;
 use std::path::{Path, PathBuf};
 
 /// So long may the README be.
 const README_LINES: usize = 100;
-
-/// Words over which readers stumble, with what follows them, and each with a plainer one.
-const STUMBLES: &[(&str, &str)] = &[
-    ("anew ", "again"),
-    ("whence ", "from where"),
-    ("told of ", "reported"),
-    ("gone on with ", "continued"),
-    ("held against ", "compared with"),
-    ("hang together ", "are connected"),
-    ("hangs together ", "is connected"),
-    ("exact but for ", "exact except for"),
-    ("the way out ", "the hint"),
-    ("seed 0", "the paper's author, title and section"),
-];
 
 /// README, CONTRIBUTING and all of `docs`.
 fn documents() -> Vec<PathBuf> {
@@ -28,17 +13,6 @@ fn documents() -> Vec<PathBuf> {
         entries.filter(|path| path.extension().is_some_and(|it| it == "md")).collect::<Vec<_>>()
     };
     [root.to_owned(), root.join("docs"), root.join("docs/benchmarks")].iter().flat_map(|it| in_folder(it)).collect()
-}
-
-/// The words of a text over which readers stumble, in whatever case.
-fn stumbles(name: &str, text: &str) -> Vec<String> {
-    let lines = text.lines().enumerate();
-    let found = lines.flat_map(|(at, line)| {
-        let line = format!(" {} ", line.to_lowercase().replace(|c: char| !c.is_alphanumeric(), " "));
-        let has = move |word: &str| line.contains(&format!(" {word}"));
-        STUMBLES.iter().filter(move |(word, _)| has(word)).map(move |(word, plain)| (at, word.trim_end(), plain))
-    });
-    found.map(|(at, word, plain)| format!("{name}:{}: \"{word}\"; write \"{plain}\"", at + 1)).collect()
 }
 
 /// Its lines that are no code.
@@ -111,10 +85,44 @@ fn a_broken_link_is_seen() {
 }
 
 #[test]
+fn the_readme_is_short_and_has_the_two_commands() {
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("a README");
+    assert!(text.lines().count() <= README_LINES, "{} lines", text.lines().count());
+    let commands = ["cargo run --release -- profile sites/headquarters --out out ", "tests/run.sh "];
+    for command in commands {
+        assert!(text.lines().any(|line| line.starts_with(command)), "the README does not have {command}");
+    }
+}
+
+/// Words over which readers stumble, with what follows them, and each with a plainer one.
+const STUMBLES: &[(&str, &str)] = &[
+    ("anew ", "again"),
+    ("whence ", "from where"),
+    ("told of ", "reported"),
+    ("gone on with ", "continued"),
+    ("hang together ", "are connected"),
+    ("hangs together ", "is connected"),
+    ("exact but for ", "exact except for"),
+    ("the way out ", "the hint"),
+    ("seed 0", "the paper's author, title and section"),
+];
+
+/// The words of a text over which readers stumble, in whatever case.
+fn stumbles(name: &str, text: &str) -> Vec<String> {
+    let lines = text.lines().enumerate();
+    let found = lines.flat_map(|(at, line)| {
+        let line = format!(" {} ", line.to_lowercase().replace(|c: char| !c.is_alphanumeric(), " "));
+        let has = move |word: &str| line.contains(&format!(" {word}"));
+        STUMBLES.iter().filter(move |(word, _)| has(word)).map(move |(word, plain)| (at, word.trim_end(), plain))
+    });
+    found.map(|(at, word, plain)| format!("{name}:{}: \"{word}\"; write \"{plain}\"", at + 1)).collect()
+}
+
+#[test]
 fn source_and_documents_have_plain_words() {
     let mut found = Vec::new();
     for (folder, extension) in [("src", "rs"), ("shaders", "wgsl"), ("sites", "md")] {
-        let texts = files(folder, extension);
+        let texts = crate::architecture::files(folder, extension);
         assert!(texts.len() > 3, "too few files were found in {folder}");
         found.extend(texts.iter().flat_map(|(path, text)| stumbles(&format!("{folder}/{}", path.display()), text)));
     }
@@ -127,14 +135,4 @@ fn source_and_documents_have_plain_words() {
         assert_eq!(stumbles("", &format!("// It is {word}4.")).len(), 1, "{word}");
     }
     assert!(stumbles("", "a manewver, Whencefrom").is_empty());
-}
-
-#[test]
-fn the_readme_is_short_and_has_the_two_commands() {
-    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("a README");
-    assert!(text.lines().count() <= README_LINES, "{} lines", text.lines().count());
-    let commands = ["cargo run --release -- profile sites/headquarters --out out ", "tests/run.sh "];
-    for command in commands {
-        assert!(text.lines().any(|line| line.starts_with(command)), "the README does not have {command}");
-    }
 }

@@ -1,11 +1,11 @@
-//! Shadows on everything that a plan sees above the ground, exactly. The cells are sorted into buckets as the sun sees
-//! them, and every caster's face is tested against the cells in the buckets below it.
+//! Shadows on all that a plan sees above the ground, exactly: the cells are sorted into buckets as the sun sees them, and
+//! every caster's face is held against those in the buckets below it.
 //!
-//! T. Aila and S. Laine, *Alias-Free Shadow Maps*, and G. Johnson and others, *The Irregular Z-Buffer* (both 2004): a
-//! shadow map whose samples are the very points to be judged. Seen along the sun, on the raster on which the ground's
-//! shadow is drawn, a point is a column, a row and a height, and a face is a triangle over which height is linear. The
-//! face shades the point where it covers it and is higher there. All of it is in double precision, and neighbouring
-//! faces compute with the same numbers at the edge that they share, so no point falls between them.
+//! T. Aila and S. Laine, *Alias-Free Shadow Maps*, and G. Johnson and others, *The Irregular Z-Buffer* (both 2004): a shadow
+//! map whose samples are the very points that ask. Seen along the sun, on the raster that the ground's shadow is drawn on, a
+//! point is a column, a row and a height, and a face is a triangle over which height is linear; the face shades the point
+//! where it covers it and is higher there. All is in double precision, and neighbouring faces ask with the same numbers at
+//! the edge that they share, so no point falls between them.
 
 use super::plan_surface::highest;
 use super::{JUDGED_ABOVE_M, Scene, seen_normal};
@@ -85,8 +85,8 @@ impl RaisedCells {
         raised
     }
 
-    /// Sets the bits of the raised cells. The casters' vertices fall on `places` from `tops`, which are columns, rows
-    /// and heights; `throw` as they fall.
+    /// Sets the bits of the raised cells. The casters' vertices fall on `places` from `tops`, which are columns, rows and
+    /// heights; `throw` as they fall.
     pub(super) fn draw(&self, to_sun: DVec3, throw: DVec2, places: &[DVec2], tops: &[DVec3], bits: &mut Bits) {
         if self.points.is_empty() {
             return;
@@ -365,8 +365,7 @@ impl FallingFace {
             return None;
         }
         let side = |from: usize, to: usize| {
-            // from the lower vertex to the higher, whichever face asks, so that neighbours find the same except for its
-            // sign
+            // from the lower vertex to the higher, whichever face asks, so that neighbours find the same but for its sign
             let is_turned = vertices[from] > vertices[to];
             let [start, end] = if is_turned { [corners[to], corners[from]] } else { [corners[from], corners[to]] };
             let across = DVec2::new(start.y - end.y, end.x - start.x);

@@ -23,13 +23,13 @@ const BIND_SLACK: f64 = 1e-4;
 pub(super) struct Pose<'a> {
     /// Displacements, each with its weight.
     targets: Vec<(f64, Reader<'a>)>,
-    skin: Option<SkinnedMesh<'a>>,
+    skin: Option<Skinned<'a>>,
 }
 
 /// The joints of a skin: per joint, the world from the mesh's own units.
 type Joints = Arc<[DAffine3]>;
 
-struct SkinnedMesh<'a> {
+struct Skinned<'a> {
     joints: Joints,
     /// Four joints a vertex, and four weights; one set or more.
     sets: Vec<(Reader<'a>, Reader<'a>)>,
@@ -55,7 +55,7 @@ impl<'a> Pose<'a> {
         let skin = match skin {
             Some(skin) => {
                 let joints = skins.get(place.node, skin, accessors)?;
-                Some(SkinnedMesh { joints, sets: sets(accessors, surface, primitive)? })
+                Some(Skinned { joints, sets: sets(accessors, surface, primitive)? })
             }
             None => None,
         };
@@ -97,7 +97,7 @@ impl<'a> Pose<'a> {
     }
 }
 
-impl SkinnedMesh<'_> {
+impl Skinned<'_> {
     /// The vertex as its joints have it, each as much as its weight says. Weights are divided by their sum, which is 1 but
     /// for rounding; a vertex without any goes with its first joint, as viewers have it.
     fn point(&self, at: DVec3, vertex: usize) -> DVec3 {

@@ -21,9 +21,9 @@ pub(super) struct Scan {
 /// Where an edge crosses some rows of a band.
 struct EdgeCrossing {
     /// In the first of them, counted from the bits' first column.
-    at: FixedColumn,
+    at: Fixed,
     /// Columns a row.
-    slope: FixedColumn,
+    slope: Fixed,
     /// The first of them, counted in the band.
     first: u16,
     count: u16,
@@ -34,28 +34,28 @@ struct EdgeCrossing {
 /// Columns in steps of 2⁻³⁰: whole steps from row to row lead to the same place wherever they begin. After a million
 /// rows that is off by less than half a thousandth of a column.
 #[derive(Clone, Copy)]
-struct FixedColumn(i64);
+struct Fixed(i64);
 
-impl FixedColumn {
+impl Fixed {
     const ONE_LOG: u32 = 30;
     /// Columns that are farther away need not be told apart: no plan has so many.
     const FARTHEST: f64 = (1_u64 << 32) as f64;
 
-    fn new(columns: f64) -> FixedColumn {
+    fn new(columns: f64) -> Fixed {
         let steps = columns * (1_u64 << Self::ONE_LOG) as f64;
         // to the nearest one, without the library call that rounding is on some processors
-        FixedColumn((steps + 0.5_f64.copysign(steps)) as i64)
+        Fixed((steps + 0.5_f64.copysign(steps)) as i64)
     }
 
     /// Counted from another column.
-    fn from(self, column: u32) -> FixedColumn {
-        FixedColumn(self.0 - (i64::from(column) << Self::ONE_LOG))
+    fn from(self, column: u32) -> Fixed {
+        Fixed(self.0 - (i64::from(column) << Self::ONE_LOG))
     }
 
     /// So many rows further.
-    fn after(self, rows: u32, slope: FixedColumn) -> FixedColumn {
+    fn after(self, rows: u32, slope: Fixed) -> Fixed {
         // beyond an edge's end it may be anywhere
-        FixedColumn(self.0.wrapping_add(slope.0.wrapping_mul(i64::from(rows))))
+        Fixed(self.0.wrapping_add(slope.0.wrapping_mul(i64::from(rows))))
     }
 
     /// The first whole column that is not before it, 0 for those before the first.
@@ -151,25 +151,20 @@ impl FallingEdge {
         }
         let slope = (lower.x - upper.x) / (lower.y - upper.y);
         let column = |row: u32| upper.x + (f64::from(row) - upper.y) * slope;
-        let mut tell_rows = |row: u32, count: u32, at: FixedColumn, slope: FixedColumn| {
+        let mut tell_rows = |row: u32, count: u32, at: Fixed, slope: Fixed| {
             let row = row - top;
             let (band, first) = (row >> rows_log, row & ((1 << rows_log) - 1));
             tell(band as usize, EdgeCrossing { at, slope, first: first as u16, count: count as u16, change });
         };
-        if upper.x.abs().max(lower.x.abs()) > FixedColumn::FARTHEST {
+        if upper.x.abs().max(lower.x.abs()) > Fixed::FARTHEST {
             for row in start..end {
-                tell_rows(
-                    row,
-                    1,
-                    FixedColumn::new(column(row).clamp(-1.0, FixedColumn::FARTHEST)).from(left),
-                    FixedColumn(0),
-                );
+                tell_rows(row, 1, Fixed::new(column(row).clamp(-1.0, Fixed::FARTHEST)).from(left), Fixed(0));
             }
             return;
         }
         let mut row = start;
-        let slope = FixedColumn::new(slope);
-        let mut at = FixedColumn::new(column(begin)).from(left).after(start - begin, slope);
+        let slope = Fixed::new(slope);
+        let mut at = Fixed::new(column(begin)).from(left).after(start - begin, slope);
         while row < end {
             let next = ((((row - top) >> rows_log) + 1) << rows_log) + top;
             let count = next.min(end) - row;
