@@ -102,8 +102,6 @@ const STUMBLES: &[(&str, &str)] = &[
     ("gone on with ", "continued"),
     ("hang together ", "are connected"),
     ("hangs together ", "is connected"),
-    ("exact but for ", "exact except for"),
-    ("the way out ", "the hint"),
     ("seed 0", "the paper's author, title and section"),
 ];
 
