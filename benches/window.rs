@@ -130,13 +130,13 @@ struct Followed {
 fn follow(real: &mut Real, next: &mut impl FnMut() -> Event, time: Duration) -> Followed {
     let mut followed = Followed::default();
     let mut asked: VecDeque<((View, DVec3), Instant)> = VecDeque::new();
-    let mut before = real.app().shown();
+    let mut before = real.app().picture_view();
     let (began, took) = (Instant::now(), processor_secs());
     while began.elapsed() < time {
         let taken = Instant::now();
         followed.frames.push(real.frame(Some(next())));
-        asked.push_back((real.app().asked().expect("a wish"), taken));
-        let shown = real.app().shown();
+        asked.push_back((real.app().wanted_view().expect("a wish"), taken));
+        let shown = real.app().picture_view();
         if shown == before {
             continue;
         }
@@ -184,7 +184,7 @@ fn line(name: &str, on: &str) {
     // until the size of the picture is found, and on a cold start all shaders are compiled
     while follow(&mut real, &mut next, Duration::from_secs(2)).latencies.len() < 3 {}
     let Followed { frames, latencies, secs, processor_secs } = follow(&mut real, &mut next, MOVING);
-    let (width, height) = real.app().shown().expect("a picture").0.size();
+    let (width, height) = real.app().picture_view().expect("a picture").0.size();
     let a_second = latencies.len() as f64 / secs;
     let a_picture = processor_secs * 1e3 / latencies.len() as f64;
     // the hand rests: the whole picture comes

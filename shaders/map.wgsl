@@ -1,6 +1,7 @@
 // Depth as the light sees it.
 
-// The last one is no shift; the others put four maps a quarter of a texel from the texel's centre (seed 001, figure 3).
+// The last one is no shift; the others put four maps a quarter of a texel from the texel's centre (Brabec and
+// Seidel, figure 3).
 var<private> jitter: array<vec2f, 5> =
     array(vec2f(-0.25, -0.25), vec2f(0.25, -0.25), vec2f(-0.25, 0.25), vec2f(0.25, 0.25), vec2f(0.0));
 

@@ -70,7 +70,7 @@ fn falloff(alpha: f32) -> f32 {
 }
 
 // How wide the penumbra of an edge is on a receiver, in the map's plane: alpha is divided by it. The sun's by its disc; a
-// lamp's t · (1 − b/r) (seed 000, equation 4.1).
+// lamp's t · (1 − b/r) (E. Chan's thesis, equation 4.1).
 fn penumbra(edge: f32, receiver: f32) -> f32 {
     if map.near > 0.0 {
         return map.width * (1.0 - edge / receiver);

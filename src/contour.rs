@@ -1,41 +1,42 @@
-//! Lines in a raster that part the cells above a threshold from the others: marching squares between the cells' centres,
-//! straightened as far as every line still passes between the same cells.
+//! Contours of a raster: the lines between the cells above a threshold and the others. Marching squares walks between
+//! the cells' centres; each line is then straightened as far as it still passes between the same cells.
 //!
-//! A cell is above or it is not, so that none is ever on a line. Straight edges come out straight, at any slope: a line is
-//! free to lie anywhere between the centres that it parts. So it is first pulled straight between them, over long and then
-//! over shorter ways, and then takes the fewest corners that a walk along it finds (after Guibas and others, "Approximating
-//! polygons and subdivisions with minimum-link paths", 1991; ours keeps to points of the pulled line, and is greedy).
+//! A cell is either above or not, so that no cell lies on a line. Straight edges come out straight at any slope,
+//! because a line may lie anywhere between the centres that it separates. It is first pulled straight between them,
+//! over long and then over shorter stretches, and then gets the fewest corners that a walk along it finds (after Guibas
+//! and others, "Approximating polygons and subdivisions with minimum-link paths", 1991; ours keeps to points of the
+//! pulled line, and is greedy).
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-/// Numbers of which the contours are asked.
+/// The numbers whose contours are found.
 #[derive(Clone, Copy)]
 pub struct ScalarField<'a> {
     /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// A cell's number; row 0 first, below 2⁶².
+    /// The number of a cell; row 0 comes first. Numbers are below 2⁶².
     pub value: &'a (dyn Fn(usize) -> u64 + Sync),
-    /// Whether a line may be drawn between two neighbours (west, east or north, south), where their numbers part. Where it
-    /// may not something else parts them, as a wall does, and lines end there.
+    /// Whether a line may be drawn between two neighbours (west and east, or north and south) on different sides of the
+    /// threshold. If not, something else separates them, such as a wall, and lines end there.
     pub open: &'a (dyn Fn(usize, usize) -> bool + Sync),
 }
 
-/// The line around one patch of cells above the threshold, or around a hole in it: closed, and clockwise around what is
-/// above as it is seen with row 0 on top.
+/// The line around one group of cells above the threshold, or around a hole in it. It is closed, and clockwise around
+/// the cells above, seen with row 0 on top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
     /// Columns and rows from the raster's north-west corner, in cells: a cell's centre is half a cell from its corners.
     pub points: Vec<[f64; 2]>,
-    /// Of the segment from each point to the next whether it is drawn: not along the raster's own border, and not where
-    /// [`ScalarField::open`] says no on both of its ends.
+    /// For the segment from each point to the next, whether it is drawn: segments along the raster's border are not,
+    /// and those for which [`ScalarField::open`] is false at both ends.
     pub drawn: Vec<bool>,
 }
 
 impl Contour {
-    /// What is drawn of it: lines, of which a closed one ends with the point that it begins with.
+    /// The lines that are drawn. A closed one ends with its first point.
     pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
         let count = self.points.len();
         let Some(gap) = self.drawn.iter().position(|drawn| !drawn) else {
@@ -55,7 +56,7 @@ impl Contour {
         lines
     }
 
-    /// How many cells it encloses, by its corners; negative for a hole.
+    /// The number of cells that it encloses, by its corners; negative for a hole.
     pub fn area(&self) -> f64 {
         let next = self.points.iter().cycle().skip(1);
         self.points.iter().zip(next).map(|(from, to)| cross(*from, *to)).sum::<f64>() / 2.0
@@ -93,11 +94,11 @@ const PAD: u64 = 2;
 /// Why a line passes between two cells.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum LineCause {
-    /// Their numbers part.
+    /// The numbers lie on different sides of the threshold.
     Open,
-    /// Something else parts them.
+    /// Something else separates the cells.
     Wall,
-    /// One of them lies outside.
+    /// One of the cells lies outside.
     Border,
 }
 
@@ -159,7 +160,7 @@ impl Walk<'_> {
         steps
     }
 
-    /// Whether the two of four cells that are above hang together: where the mean is above, too.
+    /// Whether the two of four cells that are above are connected: they are if the mean is above, too.
     fn joined(&self, column: u64, row: u64) -> bool {
         let cells = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(east, south)| self.cell(column + east, row + south));
         let sum: u128 = cells.into_iter().flatten().map(|cell| u128::from((self.field.value)(cell))).sum();

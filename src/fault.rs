@@ -1,4 +1,4 @@
-//! What went wrong, in the words of a face.
+//! An error and its causes on one line, in the words of a face.
 
 use crate::choice::Misfit;
 use crate::deliver::DeliverError;
@@ -34,7 +34,7 @@ fn worded<'a, E: Worded + Error + 'static>(error: &'a (dyn Error + 'static)) -> 
     error.downcast_ref::<E>().map(|error| error as &dyn Worded)
 }
 
-/// An error and its causes on one line; causes that the message already tells are not told again.
+/// An error and its causes on one line. A cause that the message already contains is not repeated.
 pub fn line(error: &(dyn Error + 'static), words: &dyn Words) -> String {
     let mut line = String::new();
     let mut next = Some(error);

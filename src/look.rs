@@ -1,7 +1,7 @@
 //! How sun and shadow look: colours, light, haze, relief and lines, as one value.
 //!
-//! Drawings read [`LOOK`]; to the picture's shader, which draws the same for a window, it is uploaded as a uniform. A test
-//! holds whole pictures of the two against each other.
+//! Drawings read [`LOOK`]; the picture's shader, which draws the same for a window, gets it as a uniform. A test
+//! compares whole pictures of the two.
 
 use glam::DVec3;
 
@@ -9,29 +9,30 @@ use glam::DVec3;
 /// three bytes are sRGB.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
-    /// Matt card before a camera: reflectance in display values.
+    /// The building's material, like matt card: its reflectance in display values.
     pub building: DVec3,
     /// The ground that it stands on.
     pub ground: DVec3,
-    /// Earth that a side cuts, against the ground.
+    /// The earth that an elevation cuts, as a factor of the ground.
     pub cut_earth: f64,
-    /// The tint of the sky's light, and of the sun's.
+    /// The tint of the sky's light.
     pub sky_light: DVec3,
-    /// See [`Look::sky_light`].
+    /// The tint of the sun's light.
     pub sun_light: DVec3,
     /// How much of the sky a wall sees.
     pub sky: f64,
-    /// How much more of it what looks upwards sees, and how much less what looks downwards.
+    /// How much more of the sky a face that looks upwards sees, and how much less one that looks downwards.
     pub sky_slope: f64,
-    /// What level ground in the sun comes to: nearly the paper's white.
+    /// The value of level ground in the sun, nearly the paper's white.
     pub exposure: f64,
-    /// Below this sine of its altitude the sun's light is not made up for.
+    /// The sine of the sun's altitude below which the exposure no longer makes up for the weak light.
     pub least_height: f64,
-    /// What the sun grazes is still told from shade: the drawing says where it shines, not how warm it is there.
+    /// The least light of a face on which the sun shines, so that a face that the sun grazes still differs from shade:
+    /// the drawing says where the sun shines, not how warm it is there.
     pub least_sun: f64,
-    /// Values above this are pressed together instead of cut off, into so much room.
+    /// Values above this are compressed instead of cut off.
     pub pressed_above: f64,
-    /// See [`Look::pressed_above`].
+    /// The range into which they are compressed.
     pub pressed_room: f64,
     /// The sky at the horizon, which is also the haze.
     pub horizon: DVec3,
@@ -39,15 +40,15 @@ pub struct Look {
     pub zenith: DVec3,
     /// How fast the sky changes from one to the other, and how far.
     pub sky_rise: f64,
-    /// See [`Look::sky_rise`].
+    /// How far the sky changes at most.
     pub sky_most: f64,
-    /// So many times as far away as the subject haze begins.
+    /// The distance at which haze begins, in distances of the subject.
     pub haze_begins: f64,
-    /// So many times that distance further it hides all but a part in e.
+    /// The further distance over which haze hides all but 1/e, in distances of the subject.
     pub haze_length: f64,
-    /// Without a sun all is dimmer and bluer.
+    /// The factor for night: everything is dimmer and bluer.
     pub night: DVec3,
-    /// What is not judged, among surfaces in the colours of hours.
+    /// The colour of what is not judged, among surfaces in the colours of hours.
     pub not_judged: [u8; 3],
 
     /// The plan's ground in the sun.
@@ -58,47 +59,48 @@ pub struct Look {
     pub plan_roof_sun: [u8; 3],
     /// Roofs in the shade.
     pub plan_roof_shade: [u8; 3],
-    /// How strongly slopes are told from level roofs.
+    /// How strongly slopes differ from level roofs.
     pub relief: f64,
-    /// The same where colours are a measure: too little to be taken for another band.
+    /// The same where colours are a measure: weak enough not to be taken for another band.
     pub relief_of_hours: f64,
-    /// The darkest and the lightest that a slope becomes.
+    /// The darkest factor of a slope.
     pub relief_darkest: f64,
-    /// See [`Look::relief_darkest`].
+    /// The lightest factor of a slope.
     pub relief_lightest: f64,
 
     /// The colour of the lines; nearly black, so that it also reads on a scale's dark end.
     pub line: [u8; 3],
-    /// How strong lines are, 0 to 1: in the plan against the ground.
+    /// The strength of lines, 0 to 1: of outlines in the plan, against the ground.
     pub outline: f32,
-    /// Where heights or depths jump, and against the sky.
+    /// The strength where heights or depths jump, and against the sky.
     pub step: f32,
-    /// Before a camera where buildings meet the ground.
+    /// The strength where buildings meet the ground, in a camera's picture.
     pub foot: f32,
-    /// Where two faces meet at an angle.
+    /// The strength where two faces meet at an angle.
     pub crease: f32,
-    /// Before a camera faces that meet at less than this are one surface: a cosine.
+    /// The cosine of the angle below which two faces are one surface in a camera's picture.
     pub crease_cos: f64,
-    /// The same in the plan.
+    /// The same cosine in the plan.
     pub plan_crease_cos: f64,
-    /// A gap in depth of so much of the distance is a step.
+    /// The share of the distance from which a gap in depth is a step.
     pub step_share: f64,
-    /// The same in a side's picture, in pixels.
+    /// The gap that is a step in a side's picture, in pixels.
     pub side_step_pixels: f64,
-    /// Where colours tell components from each other lines are so much weaker.
+    /// The factor for lines where colours distinguish components.
     pub tinted_lines: f32,
 
-    /// Shadow volumes.
+    /// The colour of shadow volumes.
     pub volume: [u8; 3],
-    /// Silhouettes.
+    /// The colour of silhouettes.
     pub silhouette: [u8; 3],
     /// How much of what lies behind it one layer of volumes hides.
     pub layer: f64,
-    /// How much all of them hide at most: shadows stay legible below.
+    /// How much all layers hide at most, so that shadows stay legible below them.
     pub most_layers: f64,
 }
 
-/// A quiet model photograph, warm in the sun and cool in the shade; from above a plan in the same tones.
+/// The look of the program: like a photograph of a plain model, warm in the sun and cool in the shade; the plan has the
+/// same tones.
 pub const LOOK: Look = Look {
     building: DVec3::new(0.995, 0.975, 0.935),
     ground: DVec3::new(0.965, 0.945, 0.895),

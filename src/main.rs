@@ -1,4 +1,4 @@
-//! The program: with a subcommand it is the command, without one the window.
+//! The program. With a subcommand it is the command, without one it opens the window.
 
 use std::process::ExitCode;
 

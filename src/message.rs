@@ -1,6 +1,6 @@
-//! Messages for people, before it is known through which face they are read: text in which the fields of a request are marked.
+//! Messages for people, before it is known which face shows them: text in which the fields of the request are marked.
 //!
-//! An error or a note names a [`Field`], and a face has [`Words`] for it: the command an option, the window a label.
+//! An error or a note names a [`Field`], and each face has [`Words`] for it: the command an option, the window a label.
 
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -9,15 +9,15 @@ use std::fmt;
 /// The fields of a request, each with the name that it has where no face words it.
 macro_rules! fields {
     ($($(#[$doc:meta])* $field:ident => $name:literal,)+) => {
-        /// What can be asked.
+        /// The fields of a request.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
         pub enum Field { $($(#[$doc])* $field,)+ }
 
         impl Field {
-            /// All of them.
+            /// All fields.
             pub const ALL: &'static [Field] = &[$(Field::$field,)+];
 
-            /// Its name where no face words it.
+            /// Its name, where no face has a word for it.
             pub fn name(self) -> &'static str {
                 match self { $(Field::$field => $name,)+ }
             }
@@ -30,15 +30,15 @@ fields! {
     Place => "place",
     /// Several model files at once.
     Models => "models",
-    /// The axis of all models that is up.
+    /// The upward axis of all models.
     Up => "up",
-    /// From the ground to the roof of a footprint whose file says no height.
+    /// The height from the ground to the roof of a footprint whose file says none.
     DefaultHeight => "default height",
-    /// How long a reader of models may take.
+    /// The longest time of reading a model.
     ReadTime => "time to read a model",
-    /// How much memory a reader of models may take.
+    /// The most memory of reading a model.
     ReadMemory => "memory to read a model",
-    /// The list of what a model holds, and of what was left out.
+    /// The list of what a model contains, and of what was left out.
     Check => "check",
     /// The height of the ground.
     Ground => "ground",
@@ -64,49 +64,49 @@ fields! {
     Region => "region",
     /// The side of a cell.
     Cell => "cell",
-    /// Cells along the longer side.
+    /// The number of cells along the longer side.
     Size => "size",
     /// What is judged.
     Receivers => "receivers",
-    /// From where one looks.
+    /// The view from which the shadows are seen.
     View => "view",
     /// The side of a texel on patches.
     PatchCell => "cell on surfaces",
     /// How shadows are found.
     Technique => "technique",
-    /// Who finds silhouettes.
+    /// The finder of silhouettes.
     Silhouette => "silhouette",
     /// The depth of the paper's hextree.
     HextreeDepth => "hextree depth",
-    /// On which machine.
+    /// The machine that draws.
     Engine => "engine",
-    /// Texels along a shadow map's side.
+    /// The number of texels along a shadow map's side.
     MapSize => "map size",
-    /// How a shadow map's comparisons are filtered.
+    /// The filter of a shadow map's comparisons.
     Pcf => "filter",
-    /// How wide smoothies are.
+    /// The width of smoothies.
     SmoothieWidth => "smoothie width",
-    /// Points of the sun's disc.
+    /// The number of points of the sun's disc.
     SunSamples => "points of the sun's disc",
     /// Volumes and silhouette over the picture.
     Volumes => "volumes and silhouette",
-    /// A picture of who decides a cell.
+    /// A picture of whether map or volumes decide each cell.
     MaskDiagram => "picture of the mask",
     /// A picture of how many volumes are counted.
     OverdrawDiagram => "picture of the overdraw",
-    /// What counting took.
+    /// The statistics of counting.
     Statistics => "statistics",
-    /// Drawings of lines.
+    /// Line drawings.
     Lines => "drawings of lines",
     /// A drawing of each instant's outlines.
     Outlines => "a drawing of outlines",
     /// Every instant's mask.
     Masks => "masks",
-    /// Every instant's mask, a bit a cell.
+    /// Every instant's mask, one bit per cell.
     Bits => "bits",
-    /// How much memory there is.
+    /// The memory budget.
     Memory => "memory",
-    /// Where the answer is written.
+    /// The path of the answer.
     Out => "output",
     /// The answer as CSV.
     Csv => "CSV",
@@ -114,7 +114,7 @@ fields! {
     Json => "JSON",
 }
 
-/// What a face calls the fields of a request.
+/// The words of a face for the fields of a request.
 pub trait Words: fmt::Debug + Send + Sync {
     /// A field; none where the face has no such field.
     fn name(&self, _field: Field) -> Option<&'static str> {
@@ -139,7 +139,7 @@ pub trait Words: fmt::Debug + Send + Sync {
     }
 }
 
-/// The words of nobody's face: fields have their own names.
+/// The words outside of a face: every field has its own name.
 #[derive(Clone, Copy, Debug)]
 pub struct PlainWords;
 
@@ -151,10 +151,10 @@ impl Default for &dyn Words {
     }
 }
 
-/// A piece of what is said.
+/// A piece of a message.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Piece {
-    /// As it is.
+    /// Text as it is.
     Text(Cow<'static, str>),
     /// A field.
     Field(Field),
@@ -171,7 +171,7 @@ pub enum Piece {
         /// Empty for the table itself.
         key: String,
     },
-    /// A key that a person may set in whatever site, where a face has a word for it.
+    /// A key that a person may set in any site, where a face has a word for it.
     Setting {
         /// With its brackets.
         table: Cow<'static, str>,
@@ -182,7 +182,7 @@ pub enum Piece {
         /// How a site file has it, in a sentence.
         written: Cow<'static, str>,
     },
-    /// What is said by faces alone that have a field.
+    /// Pieces for those faces alone that have a field.
     Where(Field, Vec<Piece>),
 }
 
@@ -216,12 +216,12 @@ impl From<(Field, String)> for Piece {
     }
 }
 
-/// What is wrong, or what is to be known; and apart from it what can be done.
+/// A message: what is wrong, or what the user should know; and, apart from it, what can be done.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Message {
-    /// What is wrong.
+    /// What is wrong, or what the user should know.
     pub what: Vec<Piece>,
-    /// What can be done; empty where nothing can, or where that is said already.
+    /// What can be done; empty if nothing can, or if the message already says it.
     pub hint: Vec<Piece>,
 }
 
@@ -287,7 +287,7 @@ impl Message {
         self
     }
 
-    /// In the words of a face, on one line: what is wrong, then what can be done.
+    /// The message in the words of a face, on one line: what is wrong, then what can be done.
     pub fn in_words(&self, words: &dyn Words) -> String {
         let (mut text, mut hint) = (String::new(), String::new());
         write(&mut text, &self.what, words);
@@ -324,7 +324,7 @@ impl fmt::Display for Message {
     }
 }
 
-/// An error that speaks of fields. Its `Display` says it in [`PlainWords`].
+/// An error whose message names fields. Its `Display` is in [`PlainWords`].
 pub trait Worded {
     /// What is wrong, and what can be done.
     fn message(&self) -> Message;

@@ -93,3 +93,44 @@ fn the_readme_is_short_and_has_the_two_commands() {
         assert!(text.lines().any(|line| line.starts_with(command)), "the README does not have {command}");
     }
 }
+
+/// Words over which readers stumble, with what follows them, and each with a plainer one.
+const STUMBLES: &[(&str, &str)] = &[
+    ("anew ", "again"),
+    ("whence ", "from where"),
+    ("told of ", "reported"),
+    ("gone on with ", "continued"),
+    ("hang together ", "are connected"),
+    ("hangs together ", "is connected"),
+    ("seed 0", "the paper's author, title and section"),
+];
+
+/// The words of a text over which readers stumble, in whatever case.
+fn stumbles(name: &str, text: &str) -> Vec<String> {
+    let lines = text.lines().enumerate();
+    let found = lines.flat_map(|(at, line)| {
+        let line = format!(" {} ", line.to_lowercase().replace(|c: char| !c.is_alphanumeric(), " "));
+        let has = move |word: &str| line.contains(&format!(" {word}"));
+        STUMBLES.iter().filter(move |(word, _)| has(word)).map(move |(word, plain)| (at, word.trim_end(), plain))
+    });
+    found.map(|(at, word, plain)| format!("{name}:{}: \"{word}\"; write \"{plain}\"", at + 1)).collect()
+}
+
+#[test]
+fn source_and_documents_have_plain_words() {
+    let mut found = Vec::new();
+    for (folder, extension) in [("src", "rs"), ("shaders", "wgsl"), ("sites", "md")] {
+        let texts = crate::architecture::files(folder, extension);
+        assert!(texts.len() > 3, "too few files were found in {folder}");
+        found.extend(texts.iter().flat_map(|(path, text)| stumbles(&format!("{folder}/{}", path.display()), text)));
+    }
+    // the changelog speaks of what was
+    for path in documents().iter().filter(|path| !path.ends_with("changelog.md")) {
+        found.extend(stumbles(&path.display().to_string(), &std::fs::read_to_string(path).expect("a document")));
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    for (word, _) in STUMBLES {
+        assert_eq!(stumbles("", &format!("// It is {word}4.")).len(), 1, "{word}");
+    }
+    assert!(stumbles("", "a manewver, Whencefrom").is_empty());
+}

@@ -33,7 +33,7 @@ impl Told {
     fn hear(&mut self, event: &Event<'_>) -> ControlFlow<()> {
         match event {
             Event::Note(note) => self.notes.push(note.to_string()),
-            Event::Anew => self.anew += 1,
+            Event::StartsOver => self.anew += 1,
             Event::Drawn { index, .. } => self.drawn.push(*index),
             _ => {}
         }
@@ -60,7 +60,7 @@ impl Told {
     fn losing<'a>(&'a mut self, mut more: usize, checks: u32) -> impl FnMut(Event<'_>) -> ControlFlow<()> + 'a {
         lose_after(checks);
         move |event| {
-            if matches!(event, Event::Anew) && more > 0 {
+            if matches!(event, Event::StartsOver) && more > 0 {
                 more -= 1;
                 lose_after(checks);
             }

@@ -48,7 +48,7 @@ fn shaded(cell: Cell, texel: vec2i) -> bool {
     return !is_outside(texel) && shades(textureLoad(map_depth, texel, 0), vec2f(texel) + 0.5, cell);
 }
 
-// The first of the four texels whose centres lie around the cell: half a texel aside (seed 001, figure 6).
+// The first of the four texels whose centres lie around the cell: half a texel aside (Brabec and Seidel, figure 6).
 fn first_of_four(cell: Cell) -> vec2i {
     return vec2i(floor(cell.at.xy - 0.5));
 }

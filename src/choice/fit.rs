@@ -1,4 +1,4 @@
-//! Which choices go together.
+//! Checks which choices go together.
 
 use super::table::{Method, MethodRow, Setting, Subject, TABLE};
 use super::{Engine, Finder, Settings, listed};
@@ -7,14 +7,14 @@ use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
 /// Two choices that do not go together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Misfit {
-    /// A technique that does not draw that on any machine.
+    /// The technique does not draw that subject on any machine.
     Technique {
         /// Which one.
         method: Method,
         /// What it was to draw.
         subject: Subject,
     },
-    /// A technique that draws that on the other machine.
+    /// The technique draws that subject only on the other machine.
     Engine {
         /// Which one.
         method: Method,
@@ -23,14 +23,14 @@ pub enum Misfit {
         /// What it was to draw.
         subject: Subject,
     },
-    /// An option that the technique does not use.
+    /// The technique does not use the option.
     Setting {
         /// Which one.
         setting: Setting,
         /// What is drawn.
         subject: Subject,
     },
-    /// A finder that the technique cannot use.
+    /// The technique cannot use the finder.
     Finder {
         /// Which one.
         method: Method,
@@ -38,7 +38,7 @@ pub enum Misfit {
 }
 
 impl Misfit {
-    /// The choice that does not fit.
+    /// The field of the choice that does not fit.
     pub fn field(&self) -> Field {
         match self {
             Misfit::Technique { .. } => Field::Technique,
@@ -131,7 +131,7 @@ impl Worded for Misfit {
 impl std::error::Error for Misfit {}
 
 impl MethodRow {
-    /// The machine that draws, where nothing but technique and machine are asked: the processor where it can.
+    /// The machine that draws, if only technique and machine are chosen: the processor where the technique can use it.
     ///
     /// # Errors
     /// [`Misfit`] where the technique does not draw that, or not there.
@@ -146,7 +146,7 @@ impl MethodRow {
         }
     }
 
-    /// Errs where an option is given that the technique does not use.
+    /// Returns an error if an option is given that the technique does not use.
     ///
     /// # Errors
     /// [`Misfit::Setting`], [`Misfit::Finder`].

@@ -1,8 +1,8 @@
-//! What people choose: technique, finder, engine, filter and receivers, with a table that says of each technique what it can
+//! What people choose: technique, finder, engine, filter and receivers, and a table that says what each technique can
 //! do.
 //!
-//! [`TABLE`] is what the command's help, the window's menus, the documents, `verify` and the checks of what fits what
-//! ([`MethodRow::fit`], [`MethodRow::check`]) read. A new technique is a row there.
+//! The command's help, the window's menus, the documents, `verify` and the checks of what fits what
+//! ([`MethodRow::fit`], [`MethodRow::check`]) all read [`TABLE`]. A new technique is a row there.
 
 mod fit;
 mod table;
@@ -31,12 +31,12 @@ pub enum Receivers {
 /// Which silhouette finder bounds the volumes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Finder {
-    /// The fastest that exists.
+    /// The fastest one for the work.
     #[default]
     Auto,
     /// One pass over all edges, on the processor.
     Brute,
-    /// A search in dual space: classes of edges under a hierarchy, or with a depth the paper's tree.
+    /// A search in dual space: classes of edges under a hierarchy, or, with a depth, the paper's tree.
     Hextree,
     /// One pass over all edges, on the graphics adapter.
     Gpu,
@@ -45,9 +45,9 @@ pub enum Finder {
 /// How a shadow map's comparisons are filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
-    /// The nearest texel alone: 2 levels.
+    /// No filter, the nearest texel alone: 2 levels.
     None,
-    /// Four maps, each a quarter of a texel aside, in four channels: 5 levels.
+    /// Four maps, each offset by a quarter of a texel, in four channels: 5 levels.
     TwoByTwo,
     /// The four nearest texels of one map: 5 levels.
     FastTwoByTwo,
@@ -58,7 +58,7 @@ pub enum Filter {
 /// Which machine draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Engine {
-    /// The graphics adapter where there is one, else the processor.
+    /// The graphics adapter if there is one, otherwise the processor.
     #[default]
     Auto,
     /// The graphics adapter, or an error.
@@ -67,21 +67,21 @@ pub enum Engine {
     Cpu,
 }
 
-/// How single techniques are set; what is absent has the default of [`MethodRow::defaults`].
+/// The settings of single techniques. Settings that are absent have their default from [`MethodRow::defaults`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Settings {
-    /// Texels along a shadow map's side.
+    /// The number of texels along a shadow map's side.
     pub map_size: Option<u32>,
-    /// How its comparisons are filtered.
+    /// How the map's comparisons are filtered.
     pub filter: Option<Filter>,
-    /// How wide smoothies are at most, metres across the sun's rays.
+    /// The greatest width of smoothies, metres across the sun's rays.
     pub smoothie_width_m: Option<f64>,
-    /// Points of the sun's disc to which rays are cast.
+    /// The number of points of the sun's disc to which rays are cast.
     pub sun_samples: Option<u32>,
 }
 
 impl Settings {
-    /// Nothing is set.
+    /// No setting has a value.
     pub const NONE: Settings = Settings { map_size: None, filter: None, smoothie_width_m: None, sun_samples: None };
 }
 

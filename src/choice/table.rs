@@ -1,4 +1,4 @@
-//! What each technique can do: one row a technique.
+//! The table of techniques: one row says what one technique can do.
 
 use super::{Engine, Filter, Finder, Settings};
 use crate::message::Field;
@@ -21,11 +21,11 @@ pub enum Subject {
 }
 
 impl Subject {
-    /// All of them.
+    /// All subjects.
     pub const ALL: [Subject; 6] =
         [Subject::Top, Subject::Ground, Subject::Terrain, Subject::Camera, Subject::Side, Subject::Patches];
 
-    /// As the object of a sentence.
+    /// The subject as the object of a sentence.
     pub fn name(self) -> &'static str {
         match self {
             Subject::Top => "the plan's highest surfaces",
@@ -48,17 +48,17 @@ impl Subject {
         }
     }
 
-    /// The words of the techniques that draw it on a machine, but for the program's own choice.
+    /// The words of the techniques that draw the subject on a machine, without `auto`.
     pub fn drawn_by(self, engine: Engine) -> Vec<&'static str> {
         let rows = TABLE.iter().filter(|row| row.method != Method::Auto && row.draws(engine, self));
         rows.map(|row| row.word).collect()
     }
 }
 
-/// An option that some techniques use, and others not.
+/// An option that only some techniques use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
-    /// Which finder; see [`MethodRow::finders`].
+    /// The finder; see [`MethodRow::finders`].
     Finder,
     /// [`Settings::map_size`]
     MapSize,
@@ -71,11 +71,11 @@ pub enum Setting {
 }
 
 impl Setting {
-    /// All of them.
+    /// All settings.
     pub const ALL: [Setting; 5] =
         [Setting::Finder, Setting::MapSize, Setting::Filter, Setting::SmoothieWidth, Setting::SunSamples];
 
-    /// Where it is asked.
+    /// The field that sets it.
     pub fn field(self) -> Field {
         match self {
             Setting::Finder => Field::Silhouette,
@@ -92,60 +92,60 @@ impl Setting {
     }
 }
 
-/// What a technique is held against.
+/// The truth with which a technique is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Truth {
     /// Ray casting to the sun's centre.
     Centre,
     /// Ray casting to points of the sun's disc.
     Disc,
-    /// Rays to the sun's centre for which every face is asked, without the trees.
+    /// Rays to the sun's centre that test every face, without the trees.
     EveryFace,
 }
 
-/// What a technique promises, the strictest first but for the truth itself.
+/// What a technique promises, from the strictest on; the truth itself comes last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Promise {
-    /// The truth, but for the rounding of corners at a shadow's edge. It decides whether the verification holds.
+    /// The truth, except for the rounding of corners at a shadow's edge. It decides whether the verification holds.
     Exact,
-    /// As exact, but where its map missed a caster or a gap; those cells are counted apart.
+    /// As exact, except where its map missed a caster or a gap. Those cells are counted separately.
     ExactButForMap,
     /// Something near the truth.
     Near,
-    /// The truth itself. It decides, too.
+    /// The truth itself. It also decides whether the verification holds.
     Same,
 }
 
 /// What a technique is and can do.
 #[derive(Debug)]
 pub struct MethodRow {
-    /// Which one.
+    /// The technique.
     pub method: Method,
     /// The word by which people choose it.
     pub word: &'static str,
-    /// What it is called in a drawing.
+    /// Its name in a drawing.
     pub name: &'static str,
     /// What it is good for, in half a line.
     pub good_for: &'static str,
     /// How wrong it can be.
     pub wrong: &'static str,
-    /// What it draws on the processor.
+    /// The subjects that it draws on the processor.
     pub on_cpu: &'static [Subject],
-    /// What it draws on the graphics adapter.
+    /// The subjects that it draws on the graphics adapter.
     pub on_gpu: &'static [Subject],
-    /// The finders that it can use, beside [`Finder::Auto`].
+    /// The finders that it can use, besides [`Finder::Auto`].
     pub finders: &'static [Finder],
     /// The other options that it uses.
     pub settings: &'static [Setting],
-    /// What of these it takes where nobody says.
+    /// The defaults of these options.
     pub defaults: Settings,
-    /// Whether it counts shadow volumes, so that what that takes can be told.
+    /// Whether it counts shadow volumes, so that statistics of counting exist.
     pub counts: bool,
-    /// Whether its map decides some cells and volumes the others, which a mask of its own shows.
+    /// Whether its map decides some cells and volumes the others, so that a mask of who decided can be shown.
     pub shows_mask: bool,
-    /// Whether it blends 32-bit floats, which not every adapter can.
+    /// Whether it blends 32-bit floats, which not every adapter supports.
     pub blends_float32: bool,
-    /// What `verify` holds it against.
+    /// The truth with which `verify` compares it.
     pub against: Truth,
     /// What `verify` demands of it.
     pub promise: Promise,
@@ -159,11 +159,11 @@ macro_rules! techniques {
         pub enum Method { $($(#[$of])+ $name),+ }
 
         impl Method {
-            /// The words that choose, with what they choose.
+            /// The words of the choices, each with its choice.
             pub const WORDS: &'static [(&'static str, Method)] = &[$(($word, Method::$name)),+];
         }
 
-        /// All techniques, in the order in which people are shown them; the first is the choice of the program.
+        /// All techniques, in the order in which people see them; the first is `auto`.
         pub static TABLE: &[MethodRow] = &[$(MethodRow { method: Method::$name, word: $word, $($field: $value),+ }),+];
     };
 }
@@ -172,7 +172,7 @@ macro_rules! techniques {
 const SEEN: &[Subject] = &[Subject::Top, Subject::Ground, Subject::Terrain, Subject::Camera];
 /// All finders.
 const FINDERS: &[Finder] = &[Finder::Brute, Finder::Hextree, Finder::Gpu];
-/// Texels along a map's side where nobody says.
+/// The default number of texels along a map's side.
 pub const MAP_SIZE: u32 = 2048;
 
 techniques! {
@@ -244,7 +244,7 @@ techniques! {
     /// A depth map, and volumes where it cannot tell.
     Hybrid: "hybrid", {
         name: "shadow map and volumes",
-        good_for: "exact but for thin parts; quick where many of them throw volumes over each other",
+        good_for: "exact except for thin parts; quick where many of them cast volumes over each other",
         wrong: "misses what is thinner than a texel of its map",
         on_cpu: &[],
         on_gpu: SEEN,
@@ -308,14 +308,14 @@ techniques! {
 }
 
 impl Method {
-    /// Its row.
+    /// The row of the technique.
     #[doc(hidden)]
     pub fn row(self) -> &'static MethodRow {
         // the table and the enum are made of the same list
         &TABLE[self as usize]
     }
 
-    /// The word that chooses this.
+    /// The word of the technique.
     pub fn word(self) -> &'static str {
         self.row().word
     }
@@ -324,7 +324,7 @@ impl Method {
 super::read!(Method);
 
 impl MethodRow {
-    /// What it draws on a machine; on [`Engine::Auto`] on either.
+    /// The subjects that it draws on a machine; for [`Engine::Auto`], on either.
     pub fn draws(&self, engine: Engine, subject: Subject) -> bool {
         let (on_cpu, on_gpu) = (self.on_cpu.contains(&subject), self.on_gpu.contains(&subject));
         match engine {
@@ -342,7 +342,7 @@ impl MethodRow {
         }
     }
 
-    /// How it is set: as asked, else by its defaults; what it does not use is absent.
+    /// The settings that it uses: as requested, otherwise its defaults. Settings that it does not use are absent.
     pub fn set(&self, asked: &Settings) -> Settings {
         let Settings { map_size, filter, smoothie_width_m, sun_samples } = *asked;
         let uses = |setting| self.uses(setting);

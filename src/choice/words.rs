@@ -1,14 +1,14 @@
-//! Words ↔ choices.
+//! Converts choices to their words and back.
 
-/// A word that is none of the choices, with the way out.
+/// A word that is not one of the choices, with a hint.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("\"{word}\" is not one of {known}; the nearest is \"{nearest}\"")]
 pub struct ChoiceError {
-    /// As written.
+    /// The word as written.
     pub word: String,
-    /// All words.
+    /// All known words.
     pub known: String,
-    /// The nearest of them.
+    /// The nearest known word.
     pub nearest: &'static str,
 }
 
@@ -50,10 +50,10 @@ pub fn listed(words: &[&str], and: &str) -> String {
 macro_rules! words {
     ($choice:ty, [$($word:literal => $value:path),+ $(,)?]) => {
         impl $choice {
-            /// The words that choose, with what they choose.
+            /// The words of the choices, each with its choice.
             pub const WORDS: &'static [(&'static str, $choice)] = &[$(($word, $value)),+];
 
-            /// The word that chooses this.
+            /// The word of the choice.
             pub fn word(self) -> &'static str {
                 match self {
                     $($value => $word),+

@@ -1,4 +1,4 @@
-//! The options, as the user writes them. Each stands with the subcommands that use it, and nowhere else.
+//! The options as the user writes them. Each one stands only with the subcommands that use it.
 
 use super::draw::LinesArgs;
 use super::eye::Viewpoint;

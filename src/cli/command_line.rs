@@ -1,4 +1,4 @@
-//! The command line: its subcommands.
+//! The command line and its subcommands.
 
 use super::animate::AnimateArgs;
 use super::arguments::{CheckArgs, Common, ProfileArgs, ShadowArgs, SunArgs, VerifyArgs, VolumesArgs};

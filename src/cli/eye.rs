@@ -1,4 +1,4 @@
-//! `--view`: from where the shadows are seen.
+//! `--view`: the point from which the shadows are seen.
 
 use super::wrong_use::WrongUse;
 use crate::site::Site;

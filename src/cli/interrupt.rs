@@ -1,4 +1,4 @@
-//! Ctrl-C: the first one ends the work at the next instant or stage, the second one at once.
+//! Ctrl-C: the first one ends the work at the next instant or stage, and the second one ends the program at once.
 
 use crate::study::StudyError;
 use std::ops::ControlFlow;

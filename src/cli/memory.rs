@@ -1,4 +1,4 @@
-//! `--memory`: a number of bytes, as people write it.
+//! `--memory`: reads a number of bytes as people write it.
 
 /// The units, and how many bytes each is.
 const UNITS: [(&str, u64); 6] =

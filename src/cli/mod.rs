@@ -1,6 +1,8 @@
-//! The command: options in, files and answers out. A few lines a subcommand; the work is done elsewhere.
+//! The command: one face of the program. Options go in, files and answers come out. Each subcommand is a few lines; the
+//! work is done in `deliver`.
 //!
-//! Results go to stdout, progress and notes to stderr. Exit status: 0 done, 1 failed, 2 wrong use, 130 interrupted.
+//! Results go to stdout, progress and notes to stderr. The exit status is 0 when done, 1 for a failure, 2 for wrong
+//! use, and 130 when interrupted.
 
 mod animate;
 mod arguments;
@@ -40,15 +42,15 @@ use wrong_use::WrongUse;
 
 pub use options::Options;
 
-/// What opens the window, with a site or a model in it where one is named.
+/// Opens the window, with a site or a model in it if one is named.
 pub type WindowOpener = fn(Option<&Path>) -> anyhow::Result<()>;
 
-/// Every subcommand and option, as the command line is read; `docs/command.md` is written from it.
+/// Every subcommand and option, as they are parsed. `docs/command.md` is written from it.
 pub fn definition() -> clap::Command {
     Arguments::command()
 }
 
-/// Reads the command line and does what it asks; without a subcommand it opens the window, where there is one.
+/// Reads the command line and does what it says. Without a subcommand it opens the window, if the program has one.
 pub fn main(window: Option<WindowOpener>) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -137,7 +139,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
         _ => {
             let text = error.to_string();
             let told = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
-            // that an option could be a value is no way out
+            // that an option could be a value is no help
             let idle = |line: &str| ["For more", "tip: to pass"].iter().any(|idle| line.starts_with(idle));
             let told: Vec<_> = told.filter(|line| !line.is_empty() && !idle(line)).collect();
             let told = told.join("; ").replace("error: ", "").replace(":; ", ": ").replace("tip: ", "");

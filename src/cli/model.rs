@@ -1,4 +1,4 @@
-//! How models are read, and where the ground lies below them.
+//! The options for how models are read, and for the height of the ground below them.
 
 use super::memory;
 use crate::formats::{ModelReader, ReadLimits, Up};

@@ -1,4 +1,4 @@
-//! What the command calls the fields of a request: its options.
+//! The command's words for the fields of a request: its options.
 
 use super::interrupt;
 use crate::formats::ModelReader;
@@ -11,7 +11,7 @@ pub(super) fn nothing_asked() -> Overrides {
     Overrides { words: &Options, reading, ..Overrides::default() }
 }
 
-/// The command's words.
+/// The command's words for fields.
 #[derive(Clone, Copy, Debug)]
 pub struct Options;
 

@@ -1,4 +1,4 @@
-//! What the command prints on standard output, and what it says about itself.
+//! What the command prints on standard output, and how it names itself in the lock of a folder.
 
 use std::io::{self, Write};
 

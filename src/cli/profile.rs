@@ -1,4 +1,4 @@
-//! `gnomon profile`: the hours of shadow on the plan, and of sun on patches.
+//! `gnomon profile`: the hours of shadow on the plan, or the hours of sun on patches.
 
 use super::arguments::{ProfileArgs, ProfileFile};
 use super::commands::{drawn_by, lines, took};

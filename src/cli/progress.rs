@@ -64,7 +64,7 @@ impl Progress {
                     bar.reset_eta();
                 }
             }
-            Event::Anew => {
+            Event::StartsOver => {
                 if let Some(bar) = self.bar.take() {
                     bar.finish_and_clear();
                 }

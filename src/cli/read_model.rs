@@ -1,5 +1,6 @@
-//! `gnomon read-model`, which the program calls itself: it reads a model file and writes it to standard output. The parent
-//! process holds standard input open; once that is closed, nobody wants the model.
+//! `gnomon read-model`: reads a model file and writes the model to standard output. The program starts this subcommand
+//! itself, in a process of its own. The parent process holds standard input open; when it closes, nobody needs the
+//! model any more.
 
 use crate::formats::child;
 use clap::Args;

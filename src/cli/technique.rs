@@ -1,4 +1,4 @@
-//! The options that say how shadows are found; what each is for is read from the table of techniques.
+//! The options that choose how shadows are found. Their help is read from the table of techniques.
 
 use crate::choice::{Engine, Filter, Finder, MAP_SIZE, Method, MethodRow, Setting, Settings, TABLE, listed};
 use crate::silhouette::hextree::DEEPEST;

@@ -1,4 +1,4 @@
-//! Wrong use of the command that can be seen from the command line alone.
+//! Wrong use of the command that the command line alone reveals.
 
 /// A mistake on the command line that only the command can see.
 #[derive(Debug, thiserror::Error)]

@@ -1,4 +1,4 @@
-//! Many points of a map → the site's frame.
+//! Converts many points of a map into the site's frame.
 
 use super::{Crs, CrsKind, LocalFrame};
 use glam::DVec3;
@@ -18,7 +18,7 @@ const CELL_DEG: f64 = 0.004;
 pub struct MapToLocal<'a> {
     /// The map's system.
     pub crs: &'a Crs,
-    /// The place's.
+    /// The place's frame.
     pub frame: &'a LocalFrame,
 }
 
@@ -28,10 +28,10 @@ impl MapToLocal<'_> {
         self.frame.point(self.crs.to_wgs84(at)?)
     }
 
-    /// Many points, in place; the index of one that the map does not reach, if there is one, or that lies too far away.
+    /// Converts many points, in place.
     ///
     /// # Errors
-    /// That index; the points are then of no use.
+    /// The index of a point that the map does not reach or that lies too far away. The points are then of no use.
     pub fn convert(&self, points: &mut [DVec3]) -> Result<(), usize> {
         if points.len() > MOST_EXACT
             && self.crs.kind() != CrsKind::EarthCentred

@@ -1,4 +1,4 @@
-//! How a system's datum is shifted to WGS 84: by parameters alone, as there are no grids here.
+//! Shifts of a reference system's datum to WGS 84. They use parameters alone, since the program has no grids.
 
 /// A definition that `proj4rs` can take, and what is to be known of its datum.
 pub(super) struct UsableText {

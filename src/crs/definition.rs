@@ -1,4 +1,4 @@
-//! What a text that names a reference system means, and what is said of one that means none.
+//! What a text that names a reference system means, and the error for a text that means none.
 
 use crate::message::{Message, message};
 
@@ -6,7 +6,7 @@ use crate::message::{Message, message};
 #[derive(Debug)]
 pub(super) struct Definition {
     pub name: String,
-    /// PROJ's text.
+    /// The definition as text for PROJ.
     pub proj: String,
     pub height_unit_m: Option<f64>,
     pub doubt: Option<&'static str>,

@@ -5,14 +5,14 @@ use glam::{DVec2, DVec3};
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 
-/// Beyond this distance the flat frame says nothing of a model any more, metres.
+/// Beyond this distance, in metres, a model cannot be described in the flat frame.
 pub const TOO_FAR_M: f64 = 2.0e6;
 
 /// Metres to either side of a point between which directions are measured.
 const STEP_M: f64 = 50.0;
 
-/// Metres east and north of a place along the ellipsoid of WGS 84, true in distance and direction from it; heights above
-/// its elevation. It is the frame of the GeoTIFF of hours.
+/// Metres east and north of a place on the ellipsoid of WGS 84, with true distances and directions from it, and heights
+/// above its elevation. It is the frame of the GeoTIFF of hours.
 #[derive(Clone)]
 pub struct LocalFrame {
     proj: Proj,
@@ -27,7 +27,7 @@ impl std::fmt::Debug for LocalFrame {
 }
 
 impl LocalFrame {
-    /// Around a point; none where that is no point of the Earth.
+    /// The frame around a point; `None` if that is not a point of the Earth.
     pub fn around(place: GeodeticPoint) -> Option<LocalFrame> {
         let GeodeticPoint { latitude_deg, longitude_deg, height_m } = place;
         if !(latitude_deg.abs() <= 90.0 && longitude_deg.abs() <= 360.0 && height_m.is_finite()) {
@@ -38,12 +38,12 @@ impl LocalFrame {
         Some(LocalFrame { proj: Proj::from_proj_string(&text).ok()?, longlat, elevation_m: height_m })
     }
 
-    /// Metres above the sea of its zero.
+    /// The height of its zero above the sea, metres.
     pub fn elevation_m(&self) -> f64 {
         self.elevation_m
     }
 
-    /// A point of the Earth in this frame; none where it lies so far away that the frame says nothing of it.
+    /// A point of the Earth in this frame; `None` if it is too far away.
     pub fn point(&self, at: GeodeticPoint) -> Option<DVec3> {
         let mut point = (at.longitude_deg.to_radians(), at.latitude_deg.to_radians(), 0.0);
         transform(&self.longlat, &self.proj, &mut point).ok()?;

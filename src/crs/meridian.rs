@@ -1,4 +1,4 @@
-//! The middle meridian of a transverse Mercator map, far from which it is no map any more.
+//! The central meridian of a transverse Mercator map. Far from it the map is not valid.
 
 /// As far from the middle meridian nobody maps, degrees of the equator: Norway's map in one zone of UTM reaches 6.
 const FAR_DEG: f64 = 10.0;

@@ -1,9 +1,9 @@
 //! Coordinates of a map or of the Earth → longitude and latitude → metres around a place.
 //!
-//! The reference systems are those of the EPSG dataset as `crs-definitions` has them, the arithmetic is that of `proj4rs`.
-//! Datums are shifted by the three or seven parameters of the definition, in place of the grids that surveyors have.
-//! Heights above the sea stay what they are: a shift of the datum moves a point along the ground and leaves its height, as
-//! no one measures a height from an old ellipsoid.
+//! The definitions of the EPSG dataset come from `crs-definitions`, the arithmetic from `proj4rs`. Datums are shifted
+//! by the three or seven parameters of the definition, where surveyors would use grids. Heights above the sea stay as
+//! they are: a shift of the datum moves a point along the ground and leaves its height, since no one measures heights
+//! from an old ellipsoid.
 
 mod convert;
 mod datums;
@@ -30,8 +30,8 @@ const MOST_BYTES: usize = 64 * 1024;
 /// A point that does not come back by so much is not of the map, metres.
 const COMES_BACK_M: f64 = 1.0;
 
-/// So near to a map's zero are a drawing's own numbers and no map's, where the map keeps its zero away by a false easting or
-/// northing of at least so much, metres.
+/// So near to a map's zero are a drawing's own numbers and no map's, where the map keeps its zero away by a false
+/// easting or northing of at least so much, metres.
 const NEAR_ZERO_M: f64 = 5_000.0;
 const FALSE_ORIGIN_M: f64 = 100_000.0;
 
@@ -53,7 +53,7 @@ pub struct GeodeticPoint {
     pub latitude_deg: f64,
     /// Degrees, east positive.
     pub longitude_deg: f64,
-    /// Metres.
+    /// Metres above the sea.
     pub height_m: f64,
 }
 
@@ -71,7 +71,7 @@ pub struct Crs {
     meridian: Option<MiddleMeridian>,
 }
 
-/// What a system's coordinates are.
+/// The kinds of coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CrsKind {
     /// Eastings and northings on a map.
@@ -89,11 +89,11 @@ impl std::fmt::Debug for Crs {
 }
 
 impl Crs {
-    /// Reads what a file or a person writes: `EPSG:25832`, its forms as URN or URL, a compound system, a name, WKT, or PROJ's
-    /// text.
+    /// Reads what a file or a person writes: `EPSG:25832`, its forms as URN or URL, a compound system, a name, WKT, or
+    /// PROJ's text.
     ///
     /// # Errors
-    /// What is wrong with it, and the way out; the subject is the text.
+    /// What is wrong with it, and a hint; the subject is the text.
     pub fn read(text: &str) -> Result<Crs, Message> {
         let text = text.trim();
         if text.is_empty() || text.len() > MOST_BYTES {
@@ -127,37 +127,37 @@ impl Crs {
         Ok(Crs { proj, name, kind, height_unit_m, shift: usable.shift, doubt: doubt.or(usable.doubt), meridian })
     }
 
-    /// What people call it: `EPSG:25832 (ETRS89 / UTM zone 32N)`.
+    /// Its name for people: `EPSG:25832 (ETRS89 / UTM zone 32N)`.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What its coordinates are.
+    /// The kind of its coordinates.
     pub fn kind(&self) -> CrsKind {
         self.kind
     }
 
-    /// Metres of a unit of its eastings and northings; 1 where these are degrees.
+    /// The length of a unit of its eastings and northings in metres; 1 where these are degrees.
     pub fn unit_m(&self) -> f64 {
         if self.kind == CrsKind::Geographic { 1.0 } else { self.proj.to_meter() }
     }
 
-    /// Metres of a unit of its heights, where it has one of its own.
+    /// The length of a unit of its heights in metres, if it has its own.
     pub fn height_unit_m(&self) -> Option<f64> {
         self.height_unit_m
     }
 
-    /// By which parameters its datum is shifted to WGS 84; empty where both are the same to a metre.
+    /// The parameters by which its datum is shifted to WGS 84; empty if the two agree to a metre.
     pub fn shift(&self) -> &str {
         &self.shift
     }
 
-    /// Why places in it may be wrong by more than a few metres, as a clause.
+    /// A clause that says why places in it may be wrong by more than a few metres.
     pub fn doubt(&self) -> Option<&'static str> {
         self.doubt
     }
 
-    /// A point of the map as one of the Earth; none where the map does not reach.
+    /// A point of the map as a point of the Earth; `None` where the map does not reach.
     ///
     /// x and y are in the system's units, or degrees; z is in metres and stays what it is, but where the system is
     /// Earth-centred: then all three are in its unit, and the height is above the ellipsoid.
@@ -179,8 +179,8 @@ impl Crs {
         is_point.then_some(found)
     }
 
-    /// Whether a point of the map lies far outside of what the map is for, so that its numbers are rather another map's, or
-    /// of another unit or order. Definitions say no area of use: this is what arithmetic can tell.
+    /// Whether a point lies far outside of the map, so that its numbers probably belong to another map, unit or order
+    /// of axes. Definitions name no area of use; this is what arithmetic can tell.
     pub fn is_far_outside(&self, at: DVec3) -> bool {
         if self.kind != CrsKind::Projected {
             return false;
@@ -203,8 +203,8 @@ impl Crs {
         found.is_some() && apart_m <= COMES_BACK_M
     }
 
-    /// The meridian convergence at a point of the map: radians clockwise from true north to the map's. None where the map
-    /// does not reach, and for Earth-centred coordinates, which have no north.
+    /// The meridian convergence at a point of the map: radians clockwise from true north to the map's north. `None`
+    /// where the map does not reach, and for Earth-centred coordinates, which have no north.
     pub fn convergence_rad(&self, easting: f64, northing: f64) -> Option<f64> {
         let step = match self.kind {
             CrsKind::EarthCentred => return None,

@@ -1,5 +1,5 @@
-//! Reference systems in WKT, of either version: by the number in the EPSG dataset that they name, by their name, or by their
-//! parameters, as the `.prj` files of some programs have no number.
+//! Reference systems in WKT, of either version. A system is recognised by the number in the EPSG dataset that the text
+//! names, by its name, or by its parameters, since the `.prj` files of some programs have no number.
 
 use super::definition::{Definition, shortened, unknown};
 use super::names::{by_code, by_name};

@@ -1,4 +1,5 @@
-//! The study's instants as pictures, and as a GIF. Both lie in a folder: the GIF is made of the pictures when all are there.
+//! The animation: the study's instants as pictures, and as a GIF. Both lie in one folder, and the GIF is made when all
+//! pictures are there.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::{DeliverError, Folder, Sink, WrittenFiles};
@@ -11,10 +12,10 @@ use crate::study::{self, Event, Frame, OnEvent, Stopwatch, tell};
 use crate::view::View;
 use std::path::{Path, PathBuf};
 
-/// How wide a picture is where nobody says, pixels.
+/// The default width of a picture, pixels.
 pub const WIDTH: u32 = 1280;
-/// Pictures a second where nobody says.
-pub const FPS: u16 = 4;
+/// The default number of pictures per second.
+pub(crate) const FPS: u16 = 4;
 
 /// The request for an animation.
 #[derive(Clone, Debug)]
@@ -36,14 +37,14 @@ pub struct AnimationAnswer {
     pub gif: PathBuf,
     /// The frames, in their order.
     pub frames: WrittenFiles,
-    /// All in JSON.
+    /// The report in JSON.
     pub report: String,
-    /// What drew.
+    /// What drew the pictures.
     pub drawn: Provenance,
 }
 
-/// Draws every instant of the site's study into a folder. Beside the study's events the stage `gif` is told as each of the
-/// frames goes into that.
+/// Draws every instant of the site's study into a folder. Besides the study's events it reports the stage `gif` for
+/// each frame that is added to the GIF.
 ///
 /// # Errors
 /// [`DeliverError`]; too many instants, and what cannot be written, before anything is drawn.

@@ -1,4 +1,4 @@
-//! What a change of a site does to its sun: as a drawing, a raster and a report.
+//! The comparison: what a change of a site does to its sun, as a drawing, a raster and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::profile::{Beside, ProfileRequest, StudyStore, find_kept};
@@ -16,10 +16,10 @@ const DRAWING: &str = "compare.png";
 const RASTER: &str = "shadow-hours-difference.tif";
 const REPORT: &str = "compare.json";
 
-/// What came of a comparison.
+/// The result of a comparison.
 #[derive(Clone, Debug)]
 pub struct ComparisonAnswer {
-    /// The files.
+    /// The files that were written.
     pub written: WrittenFiles,
     /// `compare.json`
     pub report: String,
@@ -29,7 +29,7 @@ pub struct ComparisonAnswer {
     pub table: String,
 }
 
-/// Compares two states of a site. The stopwatch runs since before they were read.
+/// Compares two states of a site. The stopwatch has been running since before they were read.
 ///
 /// # Errors
 /// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
@@ -54,8 +54,9 @@ pub fn comparison(
     Ok(answer)
 }
 
-/// Finds a comparison that is to be shown; the state before may be at hand. A study of one state that is stopped is kept in
-/// `shelf`, of the newest ones, and goes on when the same is asked again; none is kept while another one works there.
+/// Finds a comparison that is to be shown; the state before may already be known. If a study of one state is stopped,
+/// it is kept in `shelf` (which keeps the newest ones), and continues when the same request is made again. Nothing is
+/// kept while another study works there.
 ///
 /// # Errors
 /// As [`comparison()`].
@@ -75,7 +76,7 @@ pub fn find_comparison(
     })
 }
 
-/// Finds it. What the study of either state left in the folder when it was stopped is gone on with.
+/// Finds the comparison, and continues what the study of either state left in the folder when it was stopped.
 fn find<'a>(
     pair: &Pair,
     before: Option<Outcome>,
@@ -106,7 +107,7 @@ fn find<'a>(
     Ok((CompareOutcome::new(pair, before, after), stores))
 }
 
-/// Writes a comparison that was found. The stopwatch runs on from that.
+/// Writes a comparison that was found. The stopwatch runs on from there.
 ///
 /// # Errors
 /// As [`comparison()`].
@@ -122,7 +123,7 @@ pub fn write_comparison(
     write(pair, outcome, watch, &open, &mut |stage| tell(on_event, Event::Stage(stage)))
 }
 
-/// What the files are called.
+/// The names of the files.
 pub fn names() -> [PathBuf; 3] {
     [DRAWING, RASTER, REPORT].map(PathBuf::from)
 }

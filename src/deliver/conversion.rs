@@ -1,4 +1,4 @@
-//! A model file as it was read, as glTF.
+//! The conversion: a model file as it was read, written as glTF.
 
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::model as encode;
@@ -7,18 +7,18 @@ use crate::site::PlacedModel;
 use crate::study::{self, Event, OnEvent, tell};
 use std::path::Path;
 
-/// What came of it.
+/// The result of a conversion.
 #[derive(Clone, Debug)]
 pub struct ConversionAnswer {
-    /// The model.
+    /// The model that was written.
     pub written: WrittenFiles,
-    /// All in JSON.
+    /// The report in JSON.
     pub report: String,
-    /// What is in it, in a line.
+    /// A line on what the model contains.
     pub summary: String,
 }
 
-/// Writes a model into a file of that name; the summary is in the words of a face.
+/// Writes a model into a file of that name. The summary is in the words of a face.
 ///
 /// # Errors
 /// [`DeliverError`]; what cannot be written, before anything is made.

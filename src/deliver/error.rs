@@ -8,25 +8,25 @@ use crate::sun::Zone;
 use crate::volume::solid::SolidError;
 use chrono::DateTime;
 
-/// Why there is no deliverable. One line each.
+/// Why a deliverable could not be made, in one line.
 #[derive(Debug, thiserror::Error)]
 pub enum DeliverError {
     /// The study has no answer.
     Study(#[from] StudyError),
-    /// The answer did not become files.
+    /// The answer could not be written.
     Export(#[from] ExportError),
     /// Lines cannot be drawn of such a study.
     Lines(#[from] LinesError),
     /// There are more pictures than an animation has.
     TooManyFrames {
-        /// How many instants there are.
+        /// The number of instants.
         count: usize,
-        /// How many frames there can be.
+        /// The greatest number of frames.
         most: usize,
     },
     /// Nothing casts a shadow at night.
     Night {
-        /// When.
+        /// The time.
         time: DateTime<Zone>,
         /// How far below the horizon the sun is, degrees.
         below_deg: f64,
@@ -60,7 +60,7 @@ impl Worded for DeliverError {
 }
 
 impl DeliverError {
-    /// Whether what was asked does not go together, or not with the site.
+    /// Whether parts of the request do not fit each other or the site.
     pub fn is_wrong_use(&self) -> bool {
         match self {
             DeliverError::Study(error) => error.is_wrong_use(),
@@ -70,7 +70,7 @@ impl DeliverError {
         }
     }
 
-    /// Whether somebody ended the work.
+    /// Whether somebody stopped the work.
     pub fn is_interrupted(&self) -> bool {
         matches!(self, DeliverError::Study(StudyError::Interrupted))
     }

@@ -13,17 +13,17 @@ use std::path::PathBuf;
 /// The request for the first instant of a site's study.
 #[derive(Clone, Debug)]
 pub struct InstantRequest {
-    /// From where it is seen.
+    /// The view from which the shadows are seen.
     pub view: View,
-    /// What the drawing is called; without a name there is none.
+    /// The name of the drawing; without one there is no drawing.
     pub drawing: Option<PathBuf>,
-    /// What the mask is called.
+    /// The name of the mask; without one there is no mask.
     pub mask: Option<PathBuf>,
     /// What the drawing shows besides sun and shadow.
     pub show: Show,
-    /// What counting shadow volumes took.
+    /// Whether statistics of counting shadow volumes are wanted.
     pub statistics: bool,
-    /// Runs since before the site was read.
+    /// Has been running since before the site was read.
     pub watch: Stopwatch,
 }
 
@@ -36,20 +36,20 @@ pub struct Show {
     pub silhouette: bool,
     /// Components in their own colours.
     pub components: bool,
-    /// What counting took, instead of sun and shadow.
+    /// How much work counting took, instead of sun and shadow.
     pub diagram: Option<Diagram>,
 }
 
-/// What came of it.
+/// The result of an instant.
 #[derive(Clone, Debug)]
 pub struct InstantAnswer {
-    /// The files.
+    /// The files that were written.
     pub written: WrittenFiles,
-    /// All in JSON.
+    /// The report in JSON.
     pub report: String,
-    /// What drew.
+    /// What drew the shadows.
     pub drawn: Provenance,
-    /// What counting took, where that was asked and there is a sun.
+    /// The statistics of counting, if they were requested and there is a sun.
     pub statistics: Option<Statistics>,
 }
 
@@ -112,8 +112,8 @@ fn draw(
     Ok(figure::instant(&scene, &asked.view, mask, &shown)?)
 }
 
-/// Of the components that are seen, which a drawing's mesh holds, whether each casts.
-pub fn seen_casts(site: &Site) -> Vec<bool> {
+/// For each component of a drawing's mesh, which contains only those that are seen, whether it casts.
+pub(crate) fn seen_casts(site: &Site) -> Vec<bool> {
     site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect()
 }
 

@@ -1,4 +1,4 @@
-//! Drawings of lines, beside the profile's other files: iso-hour lines, and outlines of shadows.
+//! Line drawings beside the profile's other files: iso-hour lines, and outlines of shadows.
 
 use super::sink::NamedFile;
 use crate::export::ExportError;
@@ -9,7 +9,7 @@ use crate::sun::{Instant, SunTrack};
 use crate::view::SurfaceRows;
 use chrono::NaiveDate;
 
-/// A drawing of lines, which becomes a PNG and an SVG.
+/// A line drawing, which becomes a PNG and an SVG.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lines {
     /// A labelled line for each whole hour of shadow.
@@ -18,21 +18,21 @@ pub enum Lines {
     Outlines,
 }
 
-/// Why lines cannot be drawn of a study: they would show nothing, or more than can be told apart.
+/// Why a study has no line drawing: it would show nothing, or too much to be readable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinesError {
     /// All instants are at night.
     NoSun,
-    /// Outlines are distinguished by their times.
+    /// Outlines are labelled with times, which do not distinguish days.
     SeveralDays {
         /// The first of them.
         date: NaiveDate,
     },
     /// There are too many outlines.
     TooMany {
-        /// How many instants have a sun.
+        /// The number of instants with a sun.
         count: usize,
-        /// A step with which they are few enough, minutes.
+        /// A step with which there are few enough, minutes.
         step_min: i64,
     },
 }
@@ -65,7 +65,7 @@ pub(super) fn by_clock() -> Piece {
 }
 
 impl Lines {
-    /// Errs where a drawing of such a study would show nothing, or more than can be told apart.
+    /// Returns an error if a drawing of such a study would show nothing, or too much to be readable.
     ///
     /// # Errors
     /// [`LinesError`].
@@ -89,7 +89,7 @@ impl Lines {
         Ok(())
     }
 
-    /// What the files are called.
+    /// The names of the files.
     pub fn names(self) -> [&'static str; 2] {
         match self {
             Lines::Hours => ["hours.png", "hours.svg"],
@@ -97,7 +97,7 @@ impl Lines {
         }
     }
 
-    /// The files; `outlines` are those of all instants with a sun.
+    /// The drawings' files; `outlines` are those of all instants with a sun.
     pub(super) fn files<S: SurfaceRows>(
         self,
         scene: &FigureContext<S>,

@@ -1,7 +1,9 @@
-//! Deliverables: a request in, files out. What both faces make of a site is made here, once.
+//! Deliverables: a request goes in, files come out. Both faces use these functions, so that everything that is made
+//! from a site is made in one place.
 //!
-//! Each deliverable is one function: from a checked [`Site`](crate::site::Site) and a small request, through events, into a
-//! [`Sink`], with a typed answer that a face prints or shows. What lies on the disk while a study goes on lies beside it.
+//! Each deliverable is one function. It takes a checked [`Site`](crate::site::Site) and a small request, reports
+//! events, writes into a [`Sink`], and returns a typed answer that a face prints or shows. `disk` has what lies on the
+//! disk while a study runs.
 
 pub mod animation;
 pub mod comparison;

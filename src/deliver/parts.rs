@@ -1,4 +1,4 @@
-//! What all deliverables share: the facts for a drawing, the facts for a report, and the notes on both.
+//! What all deliverables share: the context of a drawing, the context of a report, and the notes on both.
 
 use crate::choice::Receivers;
 use crate::export::figure;
@@ -9,20 +9,20 @@ use crate::profile::{Provenance, Statistics, Timings};
 use crate::site::Site;
 use crate::study::{Event, OnEvent, StudyError, tell};
 
-/// What of a site was drawn, and by what.
+/// What was drawn of a site, and what drew it.
 #[derive(Clone, Copy)]
 pub struct DrawnView<'a, S> {
     /// What was judged.
     pub receivers: Receivers,
     /// What each cell sees.
     pub surface: &'a S,
-    /// Whose faces those are.
+    /// The mesh whose faces those are.
     pub mesh: &'a Mesh,
-    /// What drew.
+    /// What drew the answer.
     pub drawn: &'a Provenance,
 }
 
-/// What a drawing of a site needs beside the answer.
+/// The context of a drawing of a site.
 pub fn figure_context<'a, S>(site: &'a Site, seen: DrawnView<'a, S>) -> figure::FigureContext<'a, S> {
     let DrawnView { receivers, surface, mesh, drawn } = seen;
     figure::FigureContext {
@@ -36,7 +36,7 @@ pub fn figure_context<'a, S>(site: &'a Site, seen: DrawnView<'a, S>) -> figure::
     }
 }
 
-/// What a report of a site tells beside the instants.
+/// The context of a report of a site.
 pub(super) fn report_context<'a>(
     site: &'a Site,
     receivers: Receivers,
@@ -47,7 +47,7 @@ pub(super) fn report_context<'a>(
     ReportContext { receivers, ground: site.ground, drawn, timings, statistics, notes: &site.notes, words: site.words }
 }
 
-/// Notes letters that no font has, of texts that are drawn.
+/// Notes the letters in drawn texts that no font has.
 pub(super) fn note_letters<'a>(
     texts: impl IntoIterator<Item = &'a str>,
     on_event: &mut OnEvent<'_>,
@@ -65,7 +65,7 @@ pub(super) fn note_letters<'a>(
     }
 }
 
-/// Notes what there is.
+/// Passes on a note if there is one.
 pub(super) fn note(note: Option<impl Into<Message>>, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     note.map_or(Ok(()), |note| tell(on_event, Event::Note(note.into())))
 }

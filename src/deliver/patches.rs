@@ -1,4 +1,4 @@
-//! Hours of sun on the model itself: as a drawing, a model, a table and a report.
+//! The hours of sun on the model itself, as a drawing, a model, a table and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::shelf::{self, PatchStore};
@@ -28,24 +28,24 @@ pub struct PatchesRequest {
     pub table: bool,
     /// `profile.json`
     pub report: bool,
-    /// Runs since before the site was read.
+    /// Has been running since before the site was read.
     pub watch: Stopwatch,
 }
 
-/// What came of it.
+/// The result of a study on patches.
 #[derive(Clone, Debug)]
 pub struct PatchesAnswer {
-    /// The files.
+    /// The files that were written.
     pub written: WrittenFiles,
-    /// `profile.json`, whether it is one of the files or not.
+    /// The content of `profile.json`, whether it was written or not.
     pub report: String,
-    /// What drew.
+    /// What drew the answer.
     pub drawn: Provenance,
     /// The hours of each component, in lines for people.
     pub summary: String,
 }
 
-/// Finds the hours of sun on the patches of a site, and writes what is asked.
+/// Finds the hours of sun on the patches of a site, and writes the requested files.
 ///
 /// # Errors
 /// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
@@ -72,8 +72,9 @@ pub fn patches(
     Ok(answer)
 }
 
-/// Finds hours of sun on the site's patches that are to be shown. A study that is stopped is kept in `shelf`, of the newest
-/// ones, and goes on when the same is asked again; none is kept while another one works there.
+/// Finds the hours of sun on the site's patches that are to be shown. If a study is stopped, it is kept in `shelf`
+/// (which keeps the newest ones), and continues when the same request is made again. Nothing is kept while another
+/// study works there.
 ///
 /// # Errors
 /// As [`patches()`].
@@ -90,7 +91,7 @@ pub fn find_patches(
     })
 }
 
-/// Finds them. What the study left in the folder when it was stopped is gone on with.
+/// Finds the hours, and continues what the study left in the folder when it was stopped.
 fn find<'a>(
     site: &Site,
     folder: Option<&'a Path>,
@@ -104,7 +105,7 @@ fn find<'a>(
     Ok((outcome, store))
 }
 
-/// Writes hours that were found on the patches of a site, as far as is asked. The request's stopwatch runs on from
+/// Writes the requested files of hours that were found on the patches of a site. The request's stopwatch runs on from
 /// [`PatchOutcome::timings`].
 ///
 /// # Errors
@@ -121,7 +122,7 @@ pub fn write_patches(
     write(site, outcome, asked, &open, &mut |stage| tell(on_event, Event::Stage(stage)))
 }
 
-/// What is found of a site's patches, as drawings and tables take it.
+/// The hours of a site's patches, in the form that drawings and tables take.
 pub fn answer<'a>(site: &'a Site, outcome: &'a PatchOutcome) -> PatchContext<'a> {
     let Site { place, track, mesh, receives, .. } = site;
     PatchContext { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours }
@@ -164,12 +165,12 @@ fn write(
 }
 
 impl PatchesRequest {
-    /// All files.
+    /// A request for all files.
     pub fn all(watch: Stopwatch) -> PatchesRequest {
         PatchesRequest { drawing: true, model: true, table: true, report: true, watch }
     }
 
-    /// What its files are called.
+    /// The names of its files.
     pub fn names(&self) -> Vec<PathBuf> {
         let kinds = [(self.drawing, DRAWING), (self.model, MODEL), (self.table, TABLE), (self.report, REPORT)];
         kinds.into_iter().filter(|(asked, _)| *asked).map(|(_, name)| PathBuf::from(name)).collect()

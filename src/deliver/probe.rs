@@ -1,4 +1,4 @@
-//! When points lie in the sun: as a drawing and a table.
+//! The intervals in which points lie in the sun, as a drawing and a table.
 
 use super::parts::note_letters;
 use super::{DeliverError, Sink, WrittenFiles};
@@ -9,23 +9,23 @@ use crate::study::{self, Event, OnEvent, tell};
 use crate::sunlight::Sunlight;
 use std::path::PathBuf;
 
-/// What is asked beside the answer itself.
+/// What is requested besides the answer itself.
 #[derive(Clone, Debug, Default)]
 pub struct ProbeRequest {
-    /// What the drawing is called: time of day across, days down. Without a name there is none.
+    /// The name of the drawing: time of day across, days down. Without a name there is no drawing.
     pub drawing: Option<PathBuf>,
-    /// What the table is called, with a line an interval.
+    /// The name of the table, with one line per interval. Without a name there is no table.
     pub table: Option<PathBuf>,
-    /// In whose words the drawing speaks of fields.
+    /// The face's words, for the fields that the drawing mentions.
     pub words: &'static dyn Words,
 }
 
-/// What came of it.
+/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct ProbeAnswer {
     /// When each point lies in the sun.
     pub sunlight: Sunlight,
-    /// The files.
+    /// The files that were written.
     pub written: WrittenFiles,
 }
 

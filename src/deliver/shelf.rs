@@ -1,4 +1,4 @@
-//! What is kept of a stopped study: the note about it, the shelf of a window, and the store of a study on patches.
+//! What is kept of stopped studies: the note about one, the shelf of a window, and the store of a study on patches.
 
 use super::disk::unfinished::{self, Checks, StoredStudy};
 use super::parts::note;
@@ -9,13 +9,13 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// How long work may be lost where a machine fails.
+/// How much work may be lost if a machine fails.
 pub(super) const KEEP_EVERY: Duration = Duration::from_secs(60);
 
-/// So many stopped studies are kept of what is to be shown.
+/// The number of stopped studies that are kept on a shelf.
 const MOST_KEPT: usize = 4;
 
-/// Tells who ended the work where it goes on.
+/// Notes where a stopped study will continue, for whoever stopped it.
 pub(super) fn note_kept(kept: Option<PathBuf>, on_event: &mut OnEvent<'_>) {
     if let Some(path) = kept {
         let note = format!("{} keeps what is done; the same command goes on from there", path.display());
@@ -23,7 +23,7 @@ pub(super) fn note_kept(kept: Option<PathBuf>, on_event: &mut OnEvent<'_>) {
     }
 }
 
-/// The work was ended while files were made of it: tells what is kept of it, where it works in a folder.
+/// Notes what is kept when the work was ended while files were made, if there is a folder.
 pub(super) fn note_end(kept: Option<Option<PathBuf>>, on_event: &mut OnEvent<'_>) {
     if let Some(None) = kept {
         let note = "what is done took little time and is not kept; the same command starts over";
@@ -33,14 +33,14 @@ pub(super) fn note_end(kept: Option<Option<PathBuf>>, on_event: &mut OnEvent<'_>
     note_kept(kept.flatten(), on_event);
 }
 
-/// Tells that what a study left cannot be gone on with.
+/// Notes that a study cannot continue from what was left.
 pub(super) fn note_refused(path: &Path, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let what = "is not what the study left there when it was stopped: it starts over";
     note(Some(format!("{} {what}", path.display())), on_event)
 }
 
-/// Finds what is to be shown. What is stopped is kept on the shelf, of the newest studies, unless another one works there;
-/// and where it cannot be kept it is found all the same.
+/// Finds what is to be shown. A study that is stopped is kept on the shelf, among the newest studies, unless another
+/// study works there. If it cannot be kept, it is found all the same.
 pub(super) fn find<'a, T>(
     shelf: Option<Folder<'a>>,
     on_event: &mut OnEvent<'_>,
@@ -58,7 +58,7 @@ pub(super) fn find<'a, T>(
     if let (Err(DeliverError::Export(error)), Some(_)) = (&found, folder) {
         // the shelf is for the case that the work is stopped; that it is full must not stop the work
         note(Some(format!("{error}; the work is done again, and what is done is not kept")), on_event)?;
-        tell(on_event, Event::Anew)?;
+        tell(on_event, Event::StartsOver)?;
         found = work(None, on_event);
     }
     if let Some(folder) = folder {
@@ -67,13 +67,13 @@ pub(super) fn find<'a, T>(
     found
 }
 
-/// What a study on patches keeps in a folder while it goes on.
+/// What a study on patches keeps in a folder while it runs.
 pub(super) struct PatchStore<'a> {
     folder: Option<&'a Path>,
-    /// The study's number, once it is prepared.
+    /// The study's fingerprint, once the study is prepared.
     study: Option<u64>,
     is_kept: bool,
-    /// What could not be written.
+    /// The fault, if something could not be written.
     fault: Option<DeliverError>,
 }
 
@@ -82,12 +82,12 @@ impl<'a> PatchStore<'a> {
         PatchStore { folder, study: None, is_kept: false, fault: None }
     }
 
-    /// How often what is done is kept; never without a folder.
+    /// How often the state is kept; never without a folder.
     pub(super) fn keep_every(&self) -> Option<Duration> {
         self.folder.map(|_| KEEP_EVERY)
     }
 
-    /// Keeps what an event brings, and tells it on.
+    /// Keeps what an event brings, and passes it on.
     pub(super) fn hear(&mut self, event: Event<'_>, on_event: &mut OnEvent<'_>) -> ControlFlow<()> {
         let done = match (&event, self.folder) {
             (Event::Prepared { number, begun }, Some(folder)) => {
@@ -135,18 +135,18 @@ impl<'a> PatchStore<'a> {
         }
     }
 
-    /// The file that keeps what is done, where there is something to go on from; none without a folder.
+    /// The file that keeps the state, if the study can continue from it; `None` without a folder.
     pub(super) fn kept(&self) -> Option<Option<PathBuf>> {
         let kept = |folder| self.study.filter(|_| self.is_kept).map(|study| unfinished::path(folder, study));
         self.folder.map(kept)
     }
 
-    /// What could not be written, where that ended the work.
+    /// The fault that ended the work, if something could not be written.
     pub(super) fn take_fault(&mut self) -> Option<DeliverError> {
         self.fault.take()
     }
 
-    /// All is in its place: nothing is kept any more.
+    /// Called when everything is in place: removes the state.
     pub(super) fn finish(&self) -> Result<(), DeliverError> {
         match self.folder.zip(self.study) {
             Some((folder, study)) => Ok(unfinished::remove(folder, study)?),

@@ -1,55 +1,55 @@
-//! Where the files of a deliverable go: into a folder, each to a place of its own, or into memory.
+//! The destination of a deliverable's files: a folder, a path for each file, or memory.
 
 use super::disk::workplace::Workplace;
 use crate::export::ExportError;
 use crate::export::file::{self, TemporaryFile};
 use std::path::{Path, PathBuf};
 
-/// A file's name, and what is in it.
+/// A file's name and its content.
 pub type NamedFile = (PathBuf, Vec<u8>);
 
-/// Where files go.
+/// The destination of files.
 #[derive(Clone, Copy, Debug)]
 pub enum Sink<'a> {
-    /// Into a folder, which is locked while the work goes on.
+    /// A folder, which is locked while the work runs.
     Folder(Folder<'a>),
-    /// Each to where its name leads, without a lock.
+    /// A path for each file, without a lock.
     Paths {
-        /// The files that the site is read from, none of which is written over.
+        /// The files from which the site is read; none of them is overwritten.
         inputs: &'a [PathBuf],
     },
-    /// Into memory: the files come back with the answer.
+    /// Memory: the files are returned with the answer.
     Memory,
 }
 
 /// A folder in which a deliverable is made.
 #[derive(Clone, Copy, Debug)]
 pub struct Folder<'a> {
-    /// Where it is; it is made where it is missing.
+    /// Its path; it is created if it is missing.
     pub path: &'a Path,
-    /// Who works there, for others who want to: a command line, or a window.
+    /// Who works there, which others who want to work there can read: a command, or a window.
     pub who: &'a str,
-    /// The files that the site is read from, none of which is written over.
+    /// The files from which the site is read; none of them is overwritten.
     pub inputs: &'a [PathBuf],
 }
 
-/// What was written, in the order in which it is told.
+/// The files that were written, in the order in which they are reported.
 #[derive(Clone, Debug, Default)]
 pub struct WrittenFiles {
-    /// Where each file lies; its name alone where it is in memory.
+    /// The path of each file; for files in memory, its name.
     pub paths: Vec<PathBuf>,
-    /// The files themselves, where they go into memory.
+    /// The files themselves, if they are in memory.
     pub files: Vec<NamedFile>,
 }
 
-/// A second folder, and the files that are written into it while the work goes on.
+/// A second folder, and the files that are written into it while the work runs.
 pub(super) struct SecondFolder<'a> {
     pub(super) folder: &'a Path,
     pub(super) files: Vec<PathBuf>,
 }
 
 impl<'a> Sink<'a> {
-    /// The folder, where it is one.
+    /// The folder, if the sink is one.
     pub(super) fn folder(self) -> Option<&'a Path> {
         match self {
             Sink::Folder(Folder { path, .. }) => Some(path),
@@ -57,8 +57,8 @@ impl<'a> Sink<'a> {
         }
     }
 
-    /// Sees that files of these names can be written, and that none of them is an input; locks the folders. Called before
-    /// long work, not after it.
+    /// Makes sure that files of these names can be written, and that none of them is an input; locks the folders. It is
+    /// called before long work begins.
     ///
     /// # Errors
     /// [`ExportError`]: what the file system refuses; where the folder is another study's, or a file an input.
@@ -84,25 +84,25 @@ impl<'a> Sink<'a> {
     }
 }
 
-/// A sink that takes files.
+/// A sink that is ready to take files.
 pub(super) struct OpenSink<'a> {
     sink: Sink<'a>,
     workplace: Option<Workplace>,
 }
 
-/// A file that is whole, and not in its place yet.
+/// A file that is complete, but not yet in place.
 pub(super) enum WholeFile {
     Disk(TemporaryFile),
     Memory(NamedFile),
 }
 
 impl OpenSink<'_> {
-    /// What the user should know of the folder.
+    /// A note for the user on the folder.
     pub(super) fn note(&self) -> Option<String> {
         self.workplace.as_ref().and_then(Workplace::note)
     }
 
-    /// Where a file of that name goes on the disk.
+    /// The path of a file on the disk.
     pub(super) fn path(&self, name: &Path) -> Option<PathBuf> {
         match self.sink {
             Sink::Folder(Folder { path, .. }) => Some(path.join(name)),
@@ -111,7 +111,7 @@ impl OpenSink<'_> {
         }
     }
 
-    /// Writes a file beside its place.
+    /// Writes a file under a temporary name.
     pub(super) fn ready(&self, (name, bytes): NamedFile) -> Result<WholeFile, ExportError> {
         match self.path(&name) {
             Some(path) => Ok(WholeFile::Disk(TemporaryFile::of(&path, &bytes)?)),
@@ -119,7 +119,7 @@ impl OpenSink<'_> {
         }
     }
 
-    /// Puts files in their places once all of them are whole, so that files of two studies do not lie side by side.
+    /// Puts files in place once all of them are complete, so that files of two studies are never mixed.
     pub(super) fn put(&self, files: Vec<WholeFile>) -> Result<WrittenFiles, ExportError> {
         self.check()?;
         let mut written = WrittenFiles::default();
@@ -138,13 +138,13 @@ impl OpenSink<'_> {
         Ok(written)
     }
 
-    /// As [`OpenSink::put`], of files that are in memory.
+    /// As [`OpenSink::put`], for files in memory.
     pub(super) fn write(&self, files: Vec<NamedFile>) -> Result<WrittenFiles, ExportError> {
         let ready = files.into_iter().map(|file| self.ready(file)).collect::<Result<Vec<_>, _>>()?;
         self.put(ready)
     }
 
-    /// Errs where the folder is no longer the one that was locked.
+    /// Returns an error if the folder is no longer the one that was locked.
     pub(super) fn check(&self) -> Result<(), ExportError> {
         self.workplace.as_ref().map_or(Ok(()), Workplace::check)
     }

@@ -1,22 +1,22 @@
-//! Every technique against ray casting on a site: as a table and in JSON.
+//! The verification: every technique against ray casting on a site, as a table and in JSON.
 
 use super::DeliverError;
 use crate::export::verify as encode;
 use crate::site::Site;
 use crate::study::{self, OnEvent};
 
-/// What came of a verification. It has no files.
+/// The result of a verification. It has no files.
 #[derive(Clone, Debug)]
 pub struct VerificationAnswer {
-    /// A line a technique, for people.
+    /// A table with one line per technique, for people.
     pub table: String,
-    /// All in JSON.
+    /// The report in JSON.
     pub report: String,
-    /// Which technique does not keep its promise, where one does not.
+    /// The techniques that do not keep their promise, if there are any.
     pub failure: Option<String>,
 }
 
-/// Holds every technique against ray casting, at the site's instants.
+/// Compares every technique with ray casting, at the site's instants.
 ///
 /// # Errors
 /// [`DeliverError`]; where there is no graphics adapter, or no sun, before anything is drawn.

@@ -9,17 +9,17 @@ use crate::sun::Instant;
 use crate::volume::solid::{Solids, solids};
 use std::path::Path;
 
-/// Longer volumes are noted, metres.
+/// The length from which volumes are noted, metres.
 const LONG_M: f64 = 10_000.0;
 
-/// What came of it.
+/// The result of making volumes.
 #[derive(Clone, Debug)]
 pub struct VolumesAnswer {
-    /// The model.
+    /// The model that was written.
     pub written: WrittenFiles,
-    /// All in JSON.
+    /// The report in JSON.
     pub report: String,
-    /// How many solids there are, and where the sun is, in lines for people.
+    /// The number of solids and the position of the sun, in lines for people.
     pub summary: String,
 }
 

@@ -1,8 +1,8 @@
-//! The system's event loop, and one window after another in it.
+//! Runs the system's event loop, with one window after another in it.
 //!
-//! egui's renderer panics where the device is lost, or its memory is full, while it paints. A panic that leaves winit's loop
-//! makes the loop useless, and a process can have no other one. So it is caught here, around each event: the window ends,
-//! and the loop can show the next one.
+//! egui's renderer panics when it paints on a lost device, or when the device's memory is full. A panic that leaves
+//! winit's loop makes the loop useless, and a process can have only one. So the panic is caught here, around each
+//! event: the window ends, and the loop can show the next one.
 
 use eframe::{EframeWinitApplication, NativeOptions, UserEvent};
 use std::any::Any;

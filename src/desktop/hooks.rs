@@ -1,4 +1,4 @@
-//! What tests, benches and tools ask the window, and what they do to its devices.
+//! What tests, benches and tools read from the window, and what they do to its devices.
 
 use super::app::state::App;
 use super::app::study;
@@ -10,7 +10,7 @@ use glam::DVec3;
 use std::sync::Arc;
 
 impl App {
-    /// Whether nothing is on its way: no site, no picture, no hours.
+    /// Whether no work is running: no site is loading, no picture being drawn, no hours being found.
     pub fn is_settled(&self) -> bool {
         let open = self.open.as_ref();
         self.loading.is_none()
@@ -24,53 +24,53 @@ impl App {
         self.open.as_ref().is_some_and(|open| open.adding.is_some())
     }
 
-    /// What went wrong, and what else is told.
-    pub fn told(&self) -> [Option<&str>; 2] {
+    /// The message of what went wrong, and the notice of what else the user should know.
+    pub fn fault_and_notice(&self) -> [Option<&str>; 2] {
         let of_picture = self.open.as_ref().and_then(|open| open.viewer.fault.as_deref());
         [self.fault.as_deref().or(of_picture), self.notice.as_deref()]
     }
 
     /// What the picture shows: the view, and the unit vector to the sun.
-    pub fn shown(&self) -> Option<(View, DVec3)> {
+    pub fn picture_view(&self) -> Option<(View, DVec3)> {
         let wish = &self.open.as_ref()?.viewer.shown()?.wish;
         Some((wish.view, wish.to_sun))
     }
 
-    /// What was asked for at the last frame: the view at its full size, and the unit vector to the sun.
-    pub fn asked(&self) -> Option<(View, DVec3)> {
+    /// What the window wanted to see at the last frame: the view at its full size, and the unit vector to the sun.
+    pub fn wanted_view(&self) -> Option<(View, DVec3)> {
         let wish = self.open.as_ref()?.viewer.best()?;
         Some((wish.view, wish.to_sun))
     }
 
     /// What drew the picture.
-    pub fn drawn(&self) -> Option<&Provenance> {
+    pub fn picture_provenance(&self) -> Option<&Provenance> {
         Some(&self.open.as_ref()?.viewer.shown()?.provenance)
     }
 
-    /// The site as it is set, as a site file would say it.
+    /// The site with the window's settings, as a site file would have it.
     pub fn site_file(&self) -> &SiteFile {
         &self.settings.site
     }
 
-    /// Begins to find the hours of the open site, as its button does.
+    /// Starts finding the hours of the open site, as the button does.
     pub fn find_hours(&mut self, context: &egui::Context) {
         if let Some(open) = &mut self.open {
             study::find(open, &self.settings, self.studies.clone(), context);
         }
     }
 
-    /// Takes the window's device away, as a driver that is reset would.
+    /// Loses the window's device, as if the driver was reset.
     pub fn lose_window(&self) {
         self.gpu.device.destroy();
     }
 
-    /// Takes it away while this frame is painted.
+    /// Loses it while this frame is painted.
     pub fn lose_window_in_painting(&self, context: &egui::Context) {
         let device = self.gpu.device.clone();
         context.on_end_pass("lose", Arc::new(move |_: &mut egui::Ui| device.destroy()));
     }
 
-    /// Takes the device away that pictures are drawn on, and further ones as soon as they are opened.
+    /// Loses the device on which pictures are drawn, and that many further ones as soon as they are opened.
     pub fn lose_pictures(&self, further: u32) {
         self.stage.lose_devices(further);
     }

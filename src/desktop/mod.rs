@@ -1,11 +1,13 @@
-//! The window: a site, its sun and its shadows at the speed of the hand. The library computes everything that it shows.
+//! The window: a site, its sun and its shadows, drawn as fast as the hand moves. The library computes everything that
+//! the window shows.
 //!
-//! One thread draws the window and never waits. A second one (`stage`) draws the picture and takes the newest wish, on a
+//! One thread draws the window and never waits. A second one (`stage`) takes the newest wish and draws the picture on a
 //! device of its own; others load sites and add up hours (`work`).
 //!
-//! The folders are layers, from the lowest: `state`, what is open and what a person sets; `results`, what a study came to;
-//! `work`, the threads beside the window; `stage`, the thread that draws the picture; `parts`, what the window is drawn of;
-//! `app`, the window that owns all of these. Arrows point from a layer to those before it, and within a layer one way.
+//! The folders are layers, from the lowest: `state`, what is open and what a person sets; `results`, the results of
+//! studies; `work`, the threads beside the window; `stage`, the thread that draws the picture; `parts`, the parts of
+//! which the window is drawn; `app`, the window that owns all of these. A layer uses only those before it, and within a
+//! layer files use each other in one direction.
 
 mod app;
 mod event_loop;

@@ -1,9 +1,9 @@
-//! The window on the screen, and what becomes of it where its graphics device is lost (the driver was reset, the adapter is
-//! gone): it is opened again on a new one, with all that was open and all that was under way. Where devices are lost time
-//! and again it is opened on the processor.
+//! The window on the screen, and its reopening when its graphics device is lost (the driver was reset, or the adapter
+//! is gone). It is opened again on a new device, with everything that was open and all running work. If devices are
+//! lost repeatedly, it is opened on the processor.
 //!
-//! eframe cannot change the device of a window; so the window is closed and another one opened, with the same [`App`], and
-//! with what egui remembers.
+//! eframe cannot change the device of a window. So the window is closed and another one opened, with the same [`App`],
+//! and with what egui remembers.
 
 use crate::desktop::app::device::devices;
 use crate::desktop::app::state::App;
@@ -26,7 +26,7 @@ use wgpu::{Adapter, CurrentSurfaceTexture, DeviceType, PollType};
 const MOST_LOSSES: usize = 3;
 const MOMENT: Duration = Duration::from_secs(60);
 
-/// Opens the window, with a site or a model in it where one is named; comes back when it is closed.
+/// Opens the window, with a site or a model in it if one is named, and returns when it is closed.
 ///
 /// # Errors
 /// No display, or no graphics adapter.
@@ -34,7 +34,8 @@ pub fn open(path: Option<&Path>) -> anyhow::Result<()> {
     open_reading(path, &ModelReader::of_this_program(), &|_| (), &mut |_, _| ())
 }
 
-/// The same with further options for eframe, and an eye on each frame: for tests. Models are read in this process.
+/// The same with further options for eframe and a function that sees each frame, for tests. Models are read in this
+/// process.
 ///
 /// # Errors
 /// As [`open`].
@@ -174,7 +175,7 @@ fn options(software: bool) -> NativeOptions {
     }
 }
 
-/// How the window's own device is to be asked for.
+/// How eframe requests the window's own device.
 #[cfg(feature = "test-hooks")]
 pub fn setup() -> WgpuSetup {
     WgpuSetup::CreateNew(create_new())

@@ -1,5 +1,5 @@
-//! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the places
-//! that matter most.
+//! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the most
+//! important places in them.
 
 use super::model_lines::{self, ModelLines};
 use super::places::{self, DefectKind};
@@ -13,9 +13,9 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A table is cut to about so many rows, a screen; `--json` has all.
+/// A table is cut to about this many rows, a screen; `--json` has all.
 const MOST_ROWS: usize = 40;
-/// Rows that are always there, and those that a kind takes with its worst places.
+/// The number of rows that are always there, and of those that a kind takes with its worst places.
 const FIXED_ROWS: usize = 11;
 const PLACES_A_KIND: usize = 3;
 
@@ -44,7 +44,7 @@ struct ComponentLine<'a> {
     places: Value,
 }
 
-/// `check --json`: triangles as the files have them, vertices as welded, and where what is wrong.
+/// `check --json`: triangles as in the files, vertices as welded, and what is wrong at which places.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -84,8 +84,8 @@ fn is_turned(references: &[ModelReference]) -> bool {
     references.iter().any(|model| model.up == Up::Y)
 }
 
-/// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
-/// break. How the models were read stands below the totals.
+/// The totals with how the models were read below them, then a line for each part that is not clean, then what the
+/// words mean and where the worst is; ends with a line break.
 pub fn table(
     mesh: &Mesh,
     components: &[ComponentReport],
@@ -139,7 +139,7 @@ pub fn table(
     table
 }
 
-/// Whether shadows suffer from all that: they do not, unless the triangles are no more what was modelled.
+/// What the defects mean for shadows: nothing, unless welding has changed the triangles.
 fn shadows(mesh: &Mesh) -> String {
     let flattened: usize = mesh.components.iter().map(|component| component.flattened).sum();
     let is_coarse = mesh.components.iter().any(|component| component.coarse.is_some());
@@ -153,7 +153,7 @@ fn shadows(mesh: &Mesh) -> String {
     }
 }
 
-/// A line a component, the worst first.
+/// One row per component, the worst first.
 fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&DefectKind], words: &dyn Words) {
     let most = MOST_ROWS.saturating_sub(FIXED_ROWS + kinds.len() * (1 + PLACES_A_KIND));
     let shown = &dirty[..dirty.len().min(most)];
@@ -177,7 +177,7 @@ fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&DefectKind], w
     }
 }
 
-/// How many metres of edges are at fault: by this the worst part stands first.
+/// The metres of defective edges, by which the worst part comes first.
 fn faulty_m(component: &ComponentReport) -> f64 {
     let places = &component.places;
     let edges = places.crowded.iter().chain(&places.flipped).map(|edge| edge.length_m);

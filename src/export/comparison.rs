@@ -8,7 +8,7 @@ use crate::sun::{Place, SunTrack};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Sun before and after is told for at most so many hours of it.
+/// The greatest number of rows with the sun before and after.
 const MOST_ROWS: u32 = 16;
 
 #[derive(Serialize)]
@@ -50,13 +50,13 @@ fn hours(secs: u32) -> f64 {
     f64::from(secs) / 3600.0
 }
 
-/// The hours by which the drawing's bands begin, seconds: 0 first.
+/// The hours at which the drawing's bands begin, in seconds, starting with 0.
 fn thresholds(comparison: &Comparison, track: &SunTrack) -> Vec<u32> {
     let bands = ChangeBands::of(comparison, track.step_secs);
     (0..bands.count.max(1)).map(|band| band * bands.band_secs).collect()
 }
 
-/// Whole hours of sun up to the daylight, or of so many that rows are few; seconds.
+/// Whole hours of sun up to the daylight, or multiples that leave few rows; seconds.
 fn sun_rows(comparison: &Comparison) -> Vec<u32> {
     let day_secs = comparison.after().day_secs;
     let each = day_secs.div_ceil(MOST_ROWS * 3600).max(1) * 3600;
@@ -74,7 +74,8 @@ fn change(comparison: &Comparison, change: Change, thresholds: &[u32]) -> Change
     }
 }
 
-/// `compare.json`: the areas, then what `profile.json` says of the study; `names` are those before and after.
+/// `compare.json`: the areas, then what `profile.json` says of the study. `names` are those of the states before and
+/// after.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -103,7 +104,7 @@ pub fn json(
     })
 }
 
-/// What is told for people: what it is, and two of it. Heads of columns have an empty first.
+/// The rows for people: a label and two values each. In the rows of column heads the label is empty.
 pub fn rows(comparison: &Comparison, track: &SunTrack) -> Vec<[String; 3]> {
     let mut rows = Vec::new();
     let mut row = |what: &str, [first, second]: [String; 2]| rows.push([what.to_owned(), first, second]);
@@ -126,7 +127,7 @@ pub fn rows(comparison: &Comparison, track: &SunTrack) -> Vec<[String; 3]> {
     rows
 }
 
-/// How much of the plan was compared, in a sentence without its stop.
+/// How much of the plan was compared, as a sentence without its full stop.
 pub fn extent(comparison: &Comparison) -> String {
     let [built, cleared] = [Alteration::Built, Alteration::Cleared].map(|altered| comparison.altered_m2(altered));
     format!(
@@ -135,7 +136,7 @@ pub fn extent(comparison: &Comparison) -> String {
     )
 }
 
-/// The areas for people.
+/// The table of areas for people.
 pub fn table(comparison: &Comparison, track: &SunTrack) -> String {
     let mut table = String::new();
     for [what, first, second] in rows(comparison, track) {

@@ -1,5 +1,5 @@
-//! What `gnomon check` says of model files beside their mesh: format, what stands there in which groups, and what
-//! was left out.
+//! What `gnomon check` says of model files beside their mesh: the format, which components and groups they have, and
+//! what was left out.
 
 use crate::formats::LeftOut;
 use crate::message::{Field, Words, message};
@@ -8,10 +8,10 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// Groups and kinds of things left out that a table has a line for; JSON has all.
+/// The greatest number of groups and of kinds left out that the table lists; JSON has all.
 const MOST: usize = 12;
 
-/// What a file holds.
+/// The contents of a file.
 #[derive(Serialize)]
 pub(super) struct ContentsReport<'a> {
     file: &'a str,
@@ -76,7 +76,7 @@ pub(super) fn table(models: &[ModelContents], words: &dyn Words) -> String {
     table
 }
 
-/// That there is more than is shown.
+/// Says how many more there are than those listed.
 fn more(count: usize, words: &dyn Words) -> String {
     match count.checked_sub(MOST) {
         None | Some(0) => String::new(),

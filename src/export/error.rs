@@ -4,7 +4,7 @@ use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plai
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why an answer did not become a file.
+/// Why an answer could not be written to a file.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The file system refused.
@@ -13,30 +13,30 @@ pub enum ExportError {
         path: PathBuf,
         /// The step that failed.
         doing: &'static str,
-        /// What the system said.
+        /// The system's message.
         source: std::io::Error,
     },
     /// What a stopped study left cannot be read.
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: std::io::Error,
     },
     /// The disk is too full.
     NoRoom {
         /// The file that was to be written.
         path: PathBuf,
-        /// What it takes, bytes.
+        /// The size of the file, bytes.
         size: u64,
-        /// What there is, bytes.
+        /// The room on the disk, bytes.
         room: u64,
     },
     /// Another study works in the folder.
     Busy {
         /// The folder.
         folder: PathBuf,
-        /// Since when, which process on which host, and what it was asked.
+        /// Since when, by which process on which host, and for which request.
         who: String,
     },
     /// The folder was removed, or replaced by another one.
@@ -48,38 +48,39 @@ pub enum ExportError {
     OtherFrame {
         /// The file.
         path: PathBuf,
-        /// How many frames there are to be.
+        /// The number of frames.
         count: usize,
     },
-    /// What is to be written is what was read.
+    /// An output is one of the files that were read.
     IsInput {
         /// The file that was to be written.
         path: PathBuf,
         /// The same file, as the site names it.
         input: PathBuf,
     },
-    /// The path names no file: it ends in none, or a folder or a device stands there.
+    /// The path is not that of a file: it ends in no name, or a folder or a device has that path.
     NoFileName {
         /// The path as given.
         path: PathBuf,
     },
-    /// The model with the hours on its surfaces is larger than GLB can be.
+    /// The model with the hours on its surfaces is larger than a GLB can be.
     LargeGlb {
-        /// What it would take, bytes.
+        /// The size that it would have, bytes.
         size: u64,
     },
     /// The answer does not fit the format.
     Encode {
         /// What was being made.
         what: &'static str,
-        /// What the encoder said.
+        /// The encoder's message.
         why: String,
     },
-    /// Two rasters that belong together differ in size: a bug upstream, told rather than drawn askew.
+    /// Two rasters that belong together differ in size. This is a bug elsewhere; it is reported, since the drawing
+    /// would be wrong.
     Size {
         /// Which raster.
         what: &'static str,
-        /// How many cells it has.
+        /// The number of its cells.
         have: usize,
         /// Columns expected.
         width: u32,
@@ -163,7 +164,7 @@ impl ExportError {
     }
 }
 
-/// `577 MB`: bytes for people.
+/// A number of bytes for people: `577 MB`.
 pub fn bytes(count: u64) -> String {
     let mut size = count as f64;
     let mut unit = "bytes";
@@ -178,7 +179,7 @@ pub fn bytes(count: u64) -> String {
     format!("{size:.decimals$} {unit}")
 }
 
-/// Errs unless `have` cells fill `width` × `height`.
+/// Returns an error unless `have` cells fill `width` × `height`.
 pub(super) fn check_size(what: &'static str, have: usize, width: u32, height: u32) -> Result<(), ExportError> {
     if have == width as usize * height as usize && have > 0 {
         return Ok(());
@@ -186,7 +187,7 @@ pub(super) fn check_size(what: &'static str, have: usize, width: u32, height: u3
     Err(ExportError::Size { what, have, width, height })
 }
 
-/// What is said of a file for which a disk has no room.
+/// The message for a file for which a disk has no room.
 fn no_room(path: &Path, size: u64, room: u64) -> Message {
     message![
         format!("{} takes {}, and its disk has room for {}", path.display(), bytes(size), bytes(room));
@@ -201,7 +202,7 @@ fn no_room(path: &Path, size: u64, room: u64) -> Message {
     ]
 }
 
-/// What can be done where the file system refuses.
+/// What can be done if the file system refuses.
 fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
     let way_out = match kind {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",

@@ -1,4 +1,4 @@
-//! Files are written beside their place and renamed into it: a reader sees the old file or the new one, never half.
+//! Writes files under a temporary name and renames them: a reader sees the old file or the new one, never half of one.
 
 use super::ExportError;
 use same_file::Handle;
@@ -18,10 +18,10 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     TemporaryFile::of(path, bytes)?.put_in_place()
 }
 
-/// What is done while bytes go out.
+/// The step that is reported while bytes are written.
 pub(super) const WRITING: &str = "writing a temporary file in its folder";
 
-/// A file that is written beside its place. It is gone again unless it is put there.
+/// A file that is written under a temporary name. It is removed unless it is put in place.
 pub struct TemporaryFile {
     pub(super) file: File,
     beside: Cleanup,
@@ -30,7 +30,7 @@ pub struct TemporaryFile {
 }
 
 impl TemporaryFile {
-    /// Missing parent folders are created.
+    /// Opens it; missing parent folders are created.
     pub(super) fn open(asked: &Path) -> Result<TemporaryFile, ExportError> {
         let failed = |doing, source| failed(asked, doing, source);
         // through a link to what it leads to; a device, a pipe or a folder is nothing to be replaced by a drawing
@@ -51,7 +51,7 @@ impl TemporaryFile {
         Ok(TemporaryFile { file, beside: Cleanup(beside), target, asked: asked.to_owned() })
     }
 
-    /// Some bytes, which are on the disk.
+    /// A temporary file with these bytes, which are on the disk.
     ///
     /// # Errors
     /// As [`write()`].
@@ -63,7 +63,7 @@ impl TemporaryFile {
         Ok(beside)
     }
 
-    /// Sees that what was written is on the disk.
+    /// Makes sure that everything written is on the disk.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -71,16 +71,17 @@ impl TemporaryFile {
         self.file.sync_all().map_err(|error| failed(&self.asked, WRITING, error))
     }
 
-    /// Where it is to be, as asked.
+    /// Its final path, as requested.
     pub fn path(&self) -> &Path {
         &self.asked
     }
 
-    /// It is whole: it replaces what was there, once it is on the disk. A power cut leaves the old file or the new one.
+    /// Puts the complete file in place: it replaces an older one once it is on the disk. After a power cut the old file
+    /// or the new one is there.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
-    pub fn put_in_place(self) -> Result<(), ExportError> {
+    pub(crate) fn put_in_place(self) -> Result<(), ExportError> {
         self.sync()?;
         // Windows renames no open file.
         drop(self.file);
@@ -90,11 +91,11 @@ impl TemporaryFile {
     }
 }
 
-/// Makes a folder, and sees that files can be written to it: before long work, not after it.
+/// Creates a folder, and makes sure that files can be written to it before long work begins.
 ///
 /// # Errors
 /// [`ExportError::Write`] where the file system refuses.
-pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
+pub(crate) fn check_folder(folder: &Path) -> Result<(), ExportError> {
     let failed = |doing, source| failed(folder, doing, source);
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     fs::create_dir_all(here).map_err(|error| failed("creating the folder", error))?;
@@ -105,8 +106,8 @@ pub fn check_folder(folder: &Path) -> Result<(), ExportError> {
     Ok(())
 }
 
-/// Removes what was written beside the places of some files by processes that died. Whoever calls it has locked their
-/// folders, so that nobody else is writing these.
+/// Removes temporary files that dead processes left beside some outputs. The caller has locked their folders, so that
+/// nobody else is writing these.
 pub(crate) fn remove_leftovers(outputs: &[PathBuf]) {
     let mut folders: BTreeMap<&Path, BTreeSet<&OsStr>> = BTreeMap::new();
     for path in outputs {
@@ -125,7 +126,7 @@ pub(crate) fn remove_leftovers(outputs: &[PathBuf]) {
     }
 }
 
-/// Renames a file that is on the disk, and sees that its new name is, too, where the system allows that.
+/// Renames a file that is on the disk, and makes sure that its new name is on the disk, too, if the system allows that.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)?;
     let folder = to.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
@@ -134,8 +135,8 @@ pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Whether two names of files that need not be there are of one, by whichever way they go.
-pub fn is_same_place(a: &Path, b: &Path) -> bool {
+/// Whether two paths of files, which need not exist, lead to the same place.
+pub(crate) fn is_same_place(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| {
         let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
         (folder.canonicalize().unwrap_or_else(|_| folder.to_owned()), path.file_name().map(ToOwned::to_owned))
@@ -143,12 +144,12 @@ pub fn is_same_place(a: &Path, b: &Path) -> bool {
     place(a) == place(b)
 }
 
-/// Errs where a file that is to be written is one of those that were read: by file, not by name, so that links, and disks
-/// that do not tell large letters from small ones, are seen through.
+/// Returns an error if an output is one of the files that were read. Files are compared, not names, so that links, and
+/// disks that do not distinguish upper and lower case, are recognised.
 ///
 /// # Errors
 /// [`ExportError::IsInput`]; [`ExportError::NoFileName`] where a folder stands at the name of one.
-pub fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), ExportError> {
+pub(crate) fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), ExportError> {
     if let Some(path) = outputs.iter().find(|path| path.is_dir()) {
         return Err(ExportError::NoFileName { path: path.clone() });
     }
@@ -167,7 +168,7 @@ pub fn check_inputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Expor
     Ok(())
 }
 
-/// Errs where the disk has less room than a file takes; what lies at `there` already is a part of it.
+/// Returns an error if the disk has less room than a file takes; what lies at `there` already is a part of it.
 pub(crate) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), ExportError> {
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let room = fs4::available_space(folder).map_err(|error| failed(folder, "asking for its room", error))?;
@@ -180,7 +181,7 @@ pub(crate) fn check_room(path: &Path, there: &Path, size: u64) -> Result<(), Exp
     Ok(())
 }
 
-/// Removes a file; that there is none is no error.
+/// Removes a file. A missing file is no error.
 pub(crate) fn remove(path: &Path) -> Result<(), ExportError> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(failed(path, "removing it", error)),
@@ -188,7 +189,7 @@ pub(crate) fn remove(path: &Path) -> Result<(), ExportError> {
     }
 }
 
-/// What the file system refused, with the way out.
+/// What the file system refused, with a hint.
 pub(crate) fn failed(path: &Path, doing: &'static str, source: io::Error) -> ExportError {
     ExportError::Write { path: path.to_owned(), doing, source }
 }
@@ -211,7 +212,7 @@ impl Drop for Cleanup {
     }
 }
 
-/// A new file for what is to have a name in a folder.
+/// A new file under a temporary name in a folder.
 fn open_new(folder: &Path, name: &OsStr) -> io::Result<(File, PathBuf)> {
     loop {
         let beside = folder.join(temporary_name(name));
@@ -223,7 +224,8 @@ fn open_new(folder: &Path, name: &OsStr) -> io::Result<(File, PathBuf)> {
     }
 }
 
-/// Unique among this machine's processes and this process's threads, hidden, and seen to be ours.
+/// A temporary name: unique among this machine's processes and this process's threads, hidden, and recognisable as
+/// ours.
 fn temporary_name(name: &OsStr) -> OsString {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -233,7 +235,7 @@ fn temporary_name(name: &OsStr) -> OsString {
     beside
 }
 
-/// What a temporary name is beside.
+/// The name that a temporary name belongs to.
 fn written_beside(name: &OsStr) -> Option<&str> {
     let (name, of_process) = name.to_str()?.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.')?;
     let (process, count) = of_process.split_once('-')?;

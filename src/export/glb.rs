@@ -12,7 +12,7 @@ const UNSIGNED_INT: u32 = 5125;
 pub(super) const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// Who writes it.
+/// The asset, with the program that wrote it.
 pub(super) fn asset() -> Value {
     json!({"version": "2.0", "generator": concat!("gnomon ", env!("CARGO_PKG_VERSION"))})
 }
@@ -26,7 +26,7 @@ pub(super) struct GlbFile {
 }
 
 impl GlbFile {
-    /// Adds data; the number of its view.
+    /// Adds data. Returns the index of its view.
     pub(super) fn view(&mut self, bytes: impl IntoIterator<Item = u8>, target: Option<u32>) -> usize {
         let offset = self.data.len();
         self.data.extend(bytes);
@@ -40,14 +40,14 @@ impl GlbFile {
         self.views.len() - 1
     }
 
-    /// Adds an accessor and its data; its number.
+    /// Adds an accessor and its data. Returns its index.
     pub(super) fn accessor(&mut self, mut accessor: Value, bytes: impl IntoIterator<Item = u8>, target: u32) -> usize {
         accessor["bufferView"] = self.view(bytes, Some(target)).into();
         self.accessors.push(accessor);
         self.accessors.len() - 1
     }
 
-    /// The accessors of positions and indices.
+    /// Adds the accessors of positions and indices.
     pub(super) fn triangles(&mut self, positions: &[Vec3], corners: &[u32]) -> [usize; 2] {
         let low = positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
         let high = positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);

@@ -1,6 +1,6 @@
 //! One answer in, one file out: drawings, rasters, solids, reports.
 //!
-//! Every encoder returns bytes and touches no disk; [`file::write`] puts them there, whole or not at all.
+//! Every encoder returns bytes and does not touch the disk. [`file::write`] writes them, completely or not at all.
 
 pub mod animation;
 pub mod check;

@@ -1,9 +1,9 @@
-//! A model as it was read, as a binary glTF 2.0 file: in metres and y up, a node a component.
+//! A model as it was read, as a binary glTF 2.0 file: in metres, y up, one node per component.
 //!
-//! Corners are `f32` around one origin for all, whole metres, which is the nodes' translation; a model that is near its own
-//! zero keeps that, and one that is read from glTF its very numbers. What glTF has no word for stands in `extras`, under
-//! `gnomon`: a component's other names and its kind, and of the scene where its zero stands on Earth, which way true north
-//! is, and what else the file says of itself. `formats::gltf::own` reads it.
+//! Corners are `f32` around one origin for all, in whole metres, which is the nodes' translation. A model near its own
+//! zero keeps that zero, and one that was read from glTF keeps its exact numbers. What glTF cannot express stands in
+//! `extras`, under `gnomon`: a component's other names and its kind, and for the scene where its zero stands on Earth,
+//! which way true north is, and what else the file says of itself. `formats::gltf::own` reads it.
 
 use super::contents::{self, ContentsReport};
 use super::glb::{GlbFile, asset};
@@ -17,13 +17,13 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// What this is, where it is refused.
+/// The name of this file in an error.
 const WHAT: &str = "model";
 
-/// A model whose corners are nearer to its zero than this keeps that, metres: `f32` has 0.06 mm there.
+/// A model whose corners are nearer to its zero than this keeps its zero, metres. `f32` has steps of 0.06 mm there.
 const NEAR_M: f64 = 1000.0;
 
-/// The file.
+/// The content of the file.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where it would be 4 GiB or larger: before memory is taken.
@@ -73,7 +73,7 @@ pub fn glb(placed: &PlacedModel) -> Result<Vec<u8>, ExportError> {
     })
 }
 
-/// Per part which of the materials that light passes it has.
+/// For each part, which of the see-through materials it has.
 fn materials(model: &Model) -> Vec<Option<usize>> {
     let mut of_part = vec![None; model.parts.len()];
     for (index, material) in model.see_through.iter().enumerate() {
@@ -84,7 +84,7 @@ fn materials(model: &Model) -> Vec<Option<usize>> {
     of_part
 }
 
-/// A material that light passes: how much of it, nobody has kept.
+/// A see-through material; its degree of transparency is not known.
 fn translucent(name: &str) -> Value {
     json!({
         "name": name,
@@ -94,7 +94,7 @@ fn translucent(name: &str) -> Value {
     })
 }
 
-/// What is told of a component.
+/// The extras of a component.
 fn component(model: &Model, index: usize) -> Value {
     let mut told = json!({"aliases": model.parts[index].aliases});
     let kind = model.kind(index);
@@ -109,7 +109,7 @@ fn too_large(size: u64) -> ExportError {
     ExportError::encode(WHAT, format!("it would be {gib:.1} GiB, and GLB ends at 4; export the model in parts"))
 }
 
-/// Around which all corners are.
+/// The point around which all corners are.
 fn origin(placed: &PlacedModel) -> DVec3 {
     let corners = placed.model.parts.par_iter().flat_map(|part| &part.positions);
     let none = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -152,7 +152,7 @@ fn scene(placed: &PlacedModel) -> Value {
     told
 }
 
-/// Where a zero lies. Directions are clockwise from the model's north, −z, in degrees.
+/// An anchor. Directions are clockwise from the model's north, −z, in degrees.
 fn anchor(anchor: &Anchor, scale_m: f64) -> Value {
     let mut told = match &anchor.at {
         AnchorPoint::Map { crs, easting, northing, height, scale } => json!({
@@ -185,7 +185,7 @@ pub fn json(placed: &PlacedModel, file: &Path) -> Result<String, ExportError> {
 }
 
 /// What was written, and what of the file was not, in lines for people.
-pub fn summary(placed: &PlacedModel, words: &dyn Words) -> String {
+pub(crate) fn summary(placed: &PlacedModel, words: &dyn Words) -> String {
     let (parts, triangles) = (placed.model.parts.len(), placed.model.triangles());
     let components = if parts == 1 { "component" } else { "components" };
     let faces = if triangles == 1 { "triangle" } else { "triangles" };

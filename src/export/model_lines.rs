@@ -6,17 +6,17 @@ use crate::site::{ModelContents, ModelReference, anchor_text, metres};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Of one model an object, of several a list of them.
+/// For one model an object, for several a list.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(super) enum ModelLines<'a> {
-    /// Of one.
+    /// The line of a single model.
     One { model: Box<ModelLine<'a>> },
-    /// Of a site that has several.
+    /// The lines of a site that has several.
     Several { models: Vec<ModelLine<'a>> },
 }
 
-/// What is said of a model's coordinates.
+/// The coordinates of a model, for `check`.
 #[derive(Serialize)]
 pub(super) struct ModelLine<'a> {
     name: &'a str,
@@ -49,7 +49,7 @@ struct AnchorLine<'a> {
     north_deg: Option<f64>,
 }
 
-/// A point of a map or of the Earth; of neither where only a north is said.
+/// A point of a map or of the Earth, or neither if only a north is given.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum AnchorNumbers<'a> {
@@ -109,7 +109,7 @@ impl<'a> AnchorLine<'a> {
     }
 }
 
-/// A line or two a model.
+/// One or two lines per model.
 pub(super) fn table(models: &[ModelReference]) -> String {
     let mut table = String::new();
     for model in models {
@@ -152,17 +152,17 @@ pub(super) fn table(models: &[ModelReference]) -> String {
     table
 }
 
-/// A number with six digits that count, without zeros at its end: an inch is 0.0254 m, whatever its last bits are.
+/// A number to six significant digits, without trailing zeros: an inch is 0.0254 m, whatever its last bits are.
 fn six_digits(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }
 
-/// A number to its hundredth; + 0 makes −0 into 0.
+/// A number to its hundredth; adding 0 turns −0 into 0.
 fn hundredths(number: f64) -> f64 {
     (number * 100.0).round() / 100.0 + 0.0
 }
 
-/// A text without what would break the line.
+/// A text without characters that would break the line.
 fn plain(text: &str) -> String {
     text.replace(char::is_control, " ")
 }

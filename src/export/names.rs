@@ -1,11 +1,11 @@
-//! Names in lines of text and of CSV.
+//! Names as they stand in lines of text and of CSV.
 
-/// A field of a line of CSV.
+/// A field of a CSV line.
 pub(super) fn field(text: &str) -> String {
     if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// A name without what would break the line.
+/// A name without characters that would break the line.
 pub(super) fn plain(name: &str) -> String {
     name.replace(char::is_control, " ")
 }

@@ -1,19 +1,19 @@
-//! The kinds of what can be wrong with a mesh, and where: in words that whoever drew the model can act on, and as JSON.
+//! The kinds of defects in a mesh, and their places: in words that tell whoever drew the model what to do, and as JSON.
 
 use crate::mesh::report::{ComponentReport, EdgePlace, FacePlace, OpenKind, OpenPlace, Places};
 use crate::site::CoordinateFrame;
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 
-/// One thing that can be wrong.
+/// One kind of defect.
 pub(super) struct DefectKind {
     /// Its word.
     pub(super) head: &'static str,
-    /// How often a component has it.
+    /// The number of these defects in a component.
     pub(super) count: fn(&ComponentReport) -> usize,
     /// What it means.
     pub(super) meaning: &'static str,
-    /// The longest places, at most so many: metres, and words.
+    /// The longest places, at most that many: metres, and words.
     pub(super) places: fn(&Places, usize) -> Vec<(f64, String)>,
 }
 
@@ -66,7 +66,7 @@ pub(super) const KINDS: [DefectKind; 6] = [
     },
 ];
 
-/// Whose coordinates places have; `is_turned` where a file has y up.
+/// The coordinates of places; `is_turned` if the file has y up.
 pub(super) fn frame(frame: CoordinateFrame, is_turned: bool) -> &'static str {
     match frame {
         CoordinateFrame::Place => "metres east, north, up from the place",
@@ -100,7 +100,7 @@ fn triangle(FacePlace { near, length_m }: &FacePlace) -> (f64, String) {
     (*length_m, format!("triangle {} long near {}", length(*length_m), point(*near)))
 }
 
-/// Metres, or millimetres where it is short.
+/// A length in metres, or in millimetres if it is short.
 fn length(metres: f64) -> String {
     if metres < 0.1 { format!("{:.1} mm", metres * 1000.0) } else { format!("{metres:.2} m") }
 }
@@ -112,7 +112,7 @@ fn point(at: DVec3) -> String {
     format!("({x:.3}, {y:.3}, {z:.3})")
 }
 
-/// The places of a component in JSON: a list a kind that it has.
+/// The places of a component in JSON: one list for each kind that it has.
 pub(super) fn json(places: &Places) -> Value {
     let edge = |edge: &EdgePlace| json!({"from": at(edge.from), "to": at(edge.to), "length_m": edge.length_m});
     let triangle = |place: &FacePlace| json!({"near": at(place.near), "length_m": place.length_m});
@@ -155,7 +155,7 @@ fn word(kind: OpenKind) -> &'static str {
     }
 }
 
-/// Metres, to the micrometre.
+/// A point in metres, to the micrometre.
 fn at(point: DVec3) -> Value {
     json!(point.to_array().map(|metres| (metres * 1e6).round() / 1e6 + 0.0))
 }

@@ -1,4 +1,4 @@
-//! What `gnomon probe` says: tables, `probe --json`, and a CSV file with a line an interval.
+//! What `gnomon probe` says: tables, `probe --json`, and a CSV file with one line per interval.
 
 use super::names::{field, plain};
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
@@ -60,7 +60,8 @@ struct IntervalReport {
 ///
 /// - `probes`, each with its `name`, its `point` in metres, its `normal` (of length 1, or null),
 ///   how far it lies below the ground (`below_ground_m`, null where it does not) and its `days`; these with
-///   `date`, `sunrise` and `sunset` (null where there is none), and `intervals`: the first second in sunlight (`start`),
+///   `date`, `sunrise` and `sunset` (null where there is none), and `intervals`: the first second in sunlight
+/// (`start`),
 ///   the first no longer in it (`end`), the `seconds` between them, and what blocks one second before the start and at
 ///   the end (`blocked_before`, `blocked_after`): the nearest component, `horizon` (the sun is down), `behind` (it is
 ///   behind the probe's own plane) or `window` (what is asked begins or ends there);
@@ -118,8 +119,8 @@ fn interval_report(sunlight: &Sunlight, interval: &Interval) -> IntervalReport {
     }
 }
 
-/// A line an interval, in the order of probes and of time, as RFC 4180 has it: lines end in CR LF, and fields that hold a
-/// comma, a quote or a line break are quoted.
+/// A table with one line per interval, in the order of probes and of time, after RFC 4180: lines end in CR LF, and
+/// fields that contain a comma, a quote or a line break are quoted.
 pub fn csv(sunlight: &Sunlight) -> String {
     let mut text = "probe,start,end,seconds,blocked_before,blocked_after\r\n".to_owned();
     for probed in &sunlight.probes {
@@ -134,8 +135,8 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
-/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and what
-/// cannot have been missed. Ends with a line break.
+/// For each probe a table of its intervals, on a single day or on several, and a summary; then the ground, and which
+/// intervals cannot have been missed. Ends with a line break.
 pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> String {
     let mut table = String::new();
     for probed in &sunlight.probes {
@@ -253,7 +254,7 @@ fn range_table(table: &mut String, sunlight: &Sunlight, probed: &ProbeIntervals)
     table.push('\n');
 }
 
-/// Where a probe lies, and which way it looks.
+/// The position of a probe, and the direction in which it faces.
 pub(super) fn lies(probe: &Probe) -> String {
     match probe.normal {
         Some(normal) => format!("at {}, facing {}", triple(probe.point), facing(normal)),
@@ -261,7 +262,7 @@ pub(super) fn lies(probe: &Probe) -> String {
     }
 }
 
-/// A direction by the compass and its tilt, and in numbers: `south (180.0°), upright`.
+/// A direction by compass and tilt, and in numbers: `south (180.0°), upright`.
 pub(super) fn facing(normal: DVec3) -> String {
     const WINDS: [&str; 8] = ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
     let tilt = normal.z.clamp(-1.0, 1.0).asin().to_degrees();
@@ -277,7 +278,7 @@ pub(super) fn facing(normal: DVec3) -> String {
     format!("{wind} ({azimuth:.1}°{tilted})")
 }
 
-/// Metres east, north, up, to the millimetre and no digit in vain.
+/// Metres east, north and up, to the millimetre, without trailing zeros.
 pub(super) fn triple(point: DVec3) -> String {
     let number = |value: f64| ((value * 1000.0).round() / 1000.0 + 0.0).to_string();
     format!("({}, {}, {})", number(point.x), number(point.y), number(point.z))

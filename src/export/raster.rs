@@ -1,4 +1,4 @@
-//! Bare numbers: the hours of shadow as a GeoTIFF, a mask as an 8-bit gray PNG.
+//! The bare numbers: the hours of shadow as a GeoTIFF, a mask as an 8-bit gray PNG.
 
 use super::file::{self, TemporaryFile};
 use super::{ExportError, check_size};
@@ -30,11 +30,11 @@ pub fn geotiff<S: ShadedCells>(profile: &Profile<S>, place: &Place) -> Result<Ve
     Ok(bytes.into_inner())
 }
 
-/// The same beside its place, strip by strip: nothing of it is held.
+/// The same, written into a temporary file strip by strip, so that it is never in memory as a whole.
 ///
 /// # Errors
 /// As [`geotiff`]; [`ExportError::Write`] where the file system refuses.
-pub fn geotiff_file<S: ShadedCells>(
+pub(crate) fn geotiff_file<S: ShadedCells>(
     profile: &Profile<S>,
     place: &Place,
     path: &Path,
@@ -73,7 +73,7 @@ fn write_geotiff<S: ShadedCells>(
 ///
 /// # Errors
 /// As [`geotiff`].
-pub fn difference_geotiff(comparison: &Comparison, place: &Place) -> Result<Vec<u8>, ExportError> {
+pub(crate) fn difference_geotiff(comparison: &Comparison, place: &Place) -> Result<Vec<u8>, ExportError> {
     let grid = comparison.grid();
     check_size("comparison", comparison.cells(), grid.width, grid.height)?;
     let hours = |cells: Range<usize>| cells.map(|cell| comparison.hours(cell)).collect();
@@ -83,11 +83,11 @@ pub fn difference_geotiff(comparison: &Comparison, place: &Place) -> Result<Vec<
     Ok(bytes.into_inner())
 }
 
-/// GDAL's own tag for what a band means.
+/// GDAL's own tag for the meaning of a band.
 const GDAL_METADATA: u16 = 42112;
-/// Bytes of a strip before it is deflated.
+/// The size of a strip before it is deflated, bytes.
 const STRIP_BYTES: usize = 1_000_000;
-/// Beyond this a raster's offsets may not fit 32 bits.
+/// The size from which a raster's offsets may not fit 32 bits.
 const MOST_CLASSIC: u64 = 4_000_000_000;
 
 fn encode(
@@ -173,7 +173,7 @@ fn deflate(hours: &[f32]) -> io::Result<Vec<u8>> {
     zlib.finish()
 }
 
-/// The three tags of OGC GeoTIFF 1.1 that say which map the raster lies on.
+/// The three tags of OGC GeoTIFF 1.1 that define the map of the raster.
 struct GeoKeys {
     directory: Vec<u16>,
     doubles: Vec<f64>,
@@ -240,7 +240,7 @@ pub(super) fn png_rows(
     dots_per_metre: Option<u32>,
     pieces: impl FnOnce(&mut (dyn FnMut(&[u8]) -> io::Result<()> + Send)) -> Result<(), png::EncodingError>,
 ) -> Result<Vec<u8>, png::EncodingError> {
-    /// Bytes that are compressed before they go out.
+    /// The bytes that are compressed before they are written.
     const AT_ONCE: usize = 1 << 16;
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);

@@ -1,7 +1,8 @@
-//! A window's unsaved settings, kept beside the app's own data until they are saved: a crash or a kill loses none of them.
+//! A window's unsaved settings, kept beside the app's own data until they are saved, so that a crash or a kill loses
+//! none of them.
 //!
-//! Each window has a slot: a file, and beside it another one that it holds locked as long as it lives, however it ends. So a
-//! window knows whether another one is still at work on what it finds.
+//! Each window has a slot: a file, and beside it a lock file that the window holds locked as long as it lives, however
+//! it ends. So a window knows whether another one is still working on what it finds.
 
 use super::{ExportError, file};
 use crate::site::WrittenSite;
@@ -10,16 +11,16 @@ use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions};
 use std::path::{Path, PathBuf};
 
-/// A site that is not saved as it is set.
+/// A site with unsaved settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnsavedSite {
     /// Its site file; a bare model has none yet.
     pub path: Option<PathBuf>,
-    /// As it is set; its text is that of the site file when it was read.
+    /// The site with its settings. Its text is that of the site file when it was read.
     pub written: WrittenSite,
 }
 
-/// The same in a file.
+/// The same, as it is stored in a file.
 #[derive(Serialize, Deserialize)]
 struct Record {
     gnomon: String,
@@ -30,7 +31,7 @@ struct Record {
     site: String,
 }
 
-/// Where one window keeps what it has not saved; nobody else does while it lives.
+/// The place where one window keeps its unsaved settings. It belongs to that window as long as the window lives.
 #[derive(Debug)]
 pub struct Slot {
     file: PathBuf,
@@ -40,7 +41,7 @@ pub struct Slot {
 }
 
 impl Slot {
-    /// A slot of its own in a folder, which is made where it is missing.
+    /// A new slot in a folder, which is created if it is missing.
     ///
     /// # Errors
     /// What the system says.
@@ -61,7 +62,7 @@ impl Slot {
         }
     }
 
-    /// The slot of a file that a window has left behind; none while that lives.
+    /// The slot of a file that a window has left behind; `None` while that window lives.
     fn left(file: PathBuf) -> Option<Slot> {
         let lock = file.with_extension("lock");
         let held = OpenOptions::new().write(true).create(true).truncate(false).open(&lock).ok()?;
@@ -75,7 +76,7 @@ impl Slot {
         None
     }
 
-    /// Keeps what is not saved, instead of what was kept; a reader sees the one or the other, whole.
+    /// Keeps unsaved settings in place of older ones. A reader sees one or the other, complete.
     ///
     /// # Errors
     /// As [`file::write`]; what TOML and JSON cannot hold.
@@ -95,7 +96,7 @@ impl Slot {
         file::write(&self.file, &bytes)
     }
 
-    /// What is kept; none where it cannot be read, as by an older Gnomon.
+    /// What is kept; `None` if it cannot be read, for example because an older Gnomon wrote it.
     fn kept(&self) -> Option<UnsavedSite> {
         let record: Record = serde_json::from_slice(&fs::read(&self.file).ok()?).ok()?;
         let Record { path, file, folder, text, site, .. } = record;
@@ -103,7 +104,7 @@ impl Slot {
         Some(UnsavedSite { path, written: WrittenSite { file, folder, site, text } })
     }
 
-    /// All is saved, or nobody wants it: nothing is kept any more.
+    /// Removes what is kept, when everything is saved or discarded.
     pub fn empty(self) {
         // what stays behind is offered once more, and loses nothing
         let _ = fs::remove_file(&self.file);
@@ -111,7 +112,7 @@ impl Slot {
     }
 }
 
-/// Removes the locks of windows that were ended before they kept anything, or after all was saved.
+/// Removes the locks of windows that ended before they kept anything, or after everything was saved.
 fn clear(folder: &Path) {
     let Ok(entries) = folder.read_dir() else { return };
     for lock in entries.flatten().map(|entry| entry.path()) {
@@ -125,7 +126,8 @@ fn clear(folder: &Path) {
     }
 }
 
-/// What windows that have ended had not saved, the newest first; their slots are this window's until it drops them.
+/// The unsaved settings of windows that have ended, the newest first. Their slots belong to this window until it drops
+/// them.
 pub fn left_behind(folder: &Path) -> Vec<(Slot, UnsavedSite)> {
     clear(folder);
     let Ok(entries) = folder.read_dir() else { return Vec::new() };

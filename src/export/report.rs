@@ -47,7 +47,7 @@ pub(super) struct DrawnReport<'a> {
     statistics: Option<StatisticsReport>,
 }
 
-/// The settings of what drew, by the command's names for them.
+/// The settings that drew the answer, under the command's names.
 #[derive(Serialize)]
 pub(super) struct SettingsReport {
     map_size: Option<u32>,
@@ -159,26 +159,26 @@ struct DayReport {
     sunset: Option<String>,
 }
 
-/// What a report tells beside the instants.
+/// The context of a report: what it says besides the instants.
 #[derive(Clone, Copy, Debug)]
 pub struct ReportContext<'a> {
     /// What was judged.
     pub receivers: Receivers,
     /// The ground plane.
     pub ground: Ground,
-    /// What drew.
+    /// What drew the answer.
     pub drawn: &'a Provenance,
     /// How long that took.
     pub timings: &'a Timings,
-    /// What counting took, where that was asked.
+    /// The statistics of counting, if they were requested.
     pub statistics: Option<&'a Statistics>,
     /// What the user should know of how the models were read.
     pub notes: &'a [Message],
-    /// In whose words.
+    /// The face's words.
     pub words: &'a dyn Words,
 }
 
-/// `profile.json`, as the design's contract has it, with how refraction and ΔT were found beside them.
+/// `profile.json`, whose keys are a contract, with how refraction and ΔT were found beside them.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -191,11 +191,11 @@ pub fn profile_json<S>(
     shadow_json(&View::Plan(profile.grid), place, track, told)
 }
 
-/// `shadow --json`: as [`profile_json`]; a camera stands as the site file writes it where a plan has region and cell.
+/// `shadow --json`: as [`profile_json`]. Where a plan has region and cell, a camera stands as the site file writes it.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn shadow_json(
+pub(crate) fn shadow_json(
     view: &View,
     place: &Place,
     track: &SunTrack,
@@ -204,11 +204,12 @@ pub fn shadow_json(
     drawn_json(view_report(view), place, track, told)
 }
 
-/// `profile.json` of patches: as [`profile_json`]; cell, texels and components stand where a plan has region and cell.
+/// `profile.json` of patches: as [`profile_json`]. Where a plan has region and cell, it has cell, texels and
+/// components.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn patches_json(found: &PatchContext<'_>, told: &ReportContext<'_>) -> Result<String, ExportError> {
+pub(crate) fn patches_json(found: &PatchContext<'_>, told: &ReportContext<'_>) -> Result<String, ExportError> {
     let component = |(component, patches, exposure): (_, &[_], Exposure)| {
         let [share_1h, share_2h, share_3h, share_4h] = exposure.shares;
         let Exposure { area_m2, hours_mean, hours_min, hours_max, .. } = exposure;
@@ -246,7 +247,7 @@ fn drawn_json(
     json(&drawn_report(view, place, track, told))
 }
 
-/// What `profile.json` says, to stand in another report.
+/// The part of `profile.json` that another report contains.
 pub(super) fn plan_report<'a>(
     grid: &Grid,
     place: &'a Place,
@@ -325,7 +326,7 @@ fn view_report(view: &View) -> ViewReport<'static> {
     }
 }
 
-/// Notes as a report has them.
+/// Notes, as they stand in a report.
 pub(super) fn said(notes: &[Message], words: &dyn Words) -> Vec<String> {
     notes.iter().map(|note| note.in_words(words)).collect()
 }
@@ -344,7 +345,7 @@ pub fn sun_json(place: &Place, track: &SunTrack) -> Result<String, ExportError> 
     })
 }
 
-/// The table of `gnomon sun`: a line an instant, then a line a day; ends with a line break.
+/// The table of `gnomon sun`: one line per instant, then one line per day; ends with a line break.
 ///
 /// A day without sunrise and sunset says which kind it is: the sun stays up, or down.
 pub fn sun_table(place: &Place, track: &SunTrack) -> String {
@@ -393,7 +394,7 @@ pub(super) fn place_report(place: &Place) -> PlaceReport<'_> {
     }
 }
 
-/// Whose rules the clock goes by: `2026f`.
+/// The tz version of the clock's rules: `2026f`.
 pub(super) fn tz_version(place: &Place) -> String {
     place.time_zone.version().to_string()
 }
@@ -422,7 +423,8 @@ fn day_report(day: &Day) -> DayReport {
     }
 }
 
-/// RFC 3339 with the place's offset, whole seconds; those of an offset too, which clocks had before there were zones.
+/// RFC 3339 with the place's offset, in whole seconds; also for offsets with seconds, which clocks had before there
+/// were zones.
 pub(super) fn stamp(time: &DateTime<Zone>) -> String {
     let offset = time.offset().fix();
     if offset.local_minus_utc() % 60 != 0 {

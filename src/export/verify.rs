@@ -8,7 +8,7 @@ use crate::verification::{HoursDifference, Row, Verification};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Of the cells that are not edge cells, one in so many may differ.
+/// Of the cells that are not edge cells, one in this many may differ.
 const OTHERS: u32 = 100_000;
 
 #[derive(Serialize)]
@@ -62,16 +62,19 @@ struct RowReport<'a> {
 ///
 /// - `instants_compared`: those with a sun;
 /// - `sun_samples`, `sun_samples_secs_per_instant`: the points of the sun's disc, and how long an instant took to them;
-/// - `clean`: every part that casts is closed and well wound; `edge_share_bound`: the part of the edge cells of an exact
+/// - `clean`: every part that casts is closed and well wound; `edge_share_bound`: the part of the edge cells of an
+/// exact
 ///   technique that may therefore differ (of other cells, one in 100,000);
 /// - `holds`: whether every technique that decides does;
-/// - `techniques`, each with what drew it and `against` (`centre`: ray casting to the sun's centre, `disc`: to the points
+/// - `techniques`, each with what drew it and `against` (`centre`: ray casting to the sun's centre, `disc`: to the
+/// points
 ///   of its disc, `every-face`: rays without the trees, at some cells), the `cells` compared, how many of them are
 ///   `edge_cells`; how many of these and of the others differ by more than half the sun (`edge_differ`,
 ///   `other_differ`), counted apart where they lie beside what is thinner than a cell (`thin_differ`) and where the
 ///   hybrid's map missed something (`map_missed`); how far the furthest of those that differ lies from a shadow edge
 ///   (`furthest_cells`); by how much the share of the sun, 0 to 1, and the hours of the profile are off
-///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the technique
+///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the
+/// technique
 ///   decides nothing;
 /// - `notes` as in `profile.json`.
 ///
@@ -130,7 +133,7 @@ fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
     }
 }
 
-/// The finder that drew, and the techniques for which it was another.
+/// The finder that was used, and the techniques that used another one.
 fn silhouettes(rows: &[Row]) -> String {
     let mut found = rows.iter().filter_map(|row| Some((row.drawn.finder?, row.drawn.technique)));
     let Some((first, _)) = found.next() else { return "none".to_owned() };
@@ -139,7 +142,7 @@ fn silhouettes(rows: &[Row]) -> String {
     format!("{first}{}", others.concat())
 }
 
-/// How large maps were, how the shadow map was filtered, and how wide smoothies were where that was set by hand.
+/// The size of maps, the filter of the shadow map, and the width of smoothies if it was set by hand.
 fn maps(rows: &[Row]) -> Option<String> {
     let size = rows.iter().find_map(|row| row.drawn.settings.map_size)?;
     let filtered = |row: &Row| {
@@ -152,7 +155,8 @@ fn maps(rows: &[Row]) -> Option<String> {
     Some(format!("maps of {size} × {size} texels{}{}", pcf.unwrap_or_default(), width.unwrap_or_default()))
 }
 
-/// Where, when and with what, then a line a technique, then what the columns mean; ends with a line break.
+/// The place, the time and the machine, then one line per technique, then what the columns mean; ends with a line
+/// break.
 pub fn table(verification: &Verification, site: &Site) -> String {
     let mut table = String::new();
     head(&mut table, verification, site);
@@ -210,7 +214,7 @@ const HEADINGS: [[&str; 13]; 2] = [
     ],
 ];
 
-/// How wide the columns are; the first two begin at the left.
+/// The widths of the columns; the first two are aligned left.
 const WIDTHS: [usize; 13] = [10, 7, 9, 9, 7, 8, 6, 6, 8, 7, 6, 7, 9];
 
 fn columns(table: &mut String, names: [&str; 13]) {
@@ -280,7 +284,7 @@ fn legend(table: &mut String, verification: &Verification) {
     );
 }
 
-/// What has to hold, and why so much.
+/// The bound that has to hold, and the reason for it.
 fn bound(verification: &Verification) -> String {
     let why = if verification.clean {
         ""
@@ -293,12 +297,12 @@ fn bound(verification: &Verification) -> String {
     )
 }
 
-/// Whether it is a technique that draws on both machines, of which the processor's row stands before.
+/// Whether a row is of a technique that draws on both machines, and follows the processor's row.
 fn is_on_gpu_too(row: &Row) -> bool {
     row.drawn.engine == Engine::Gpu && !row.drawn.technique.row().on_cpu.is_empty()
 }
 
-/// Which techniques do not hold, in one line; none where all do.
+/// The techniques that do not hold, in one line; `None` if all do.
 pub fn failure(verification: &Verification) -> Option<String> {
     let told = |row: &Row| {
         let most = match row.promise {
@@ -312,7 +316,7 @@ pub fn failure(verification: &Verification) -> Option<String> {
     (!failed.is_empty()).then(|| failed.join("; "))
 }
 
-/// The place's name, or where it is.
+/// The place's name, or its coordinates.
 fn words(place: &Place) -> String {
     match place.name.as_str() {
         "" => format!("{}°, {}°", place.latitude_deg, place.longitude_deg),

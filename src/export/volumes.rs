@@ -1,4 +1,4 @@
-//! The shadow volumes as a model: a binary glTF 2.0 file with a node a caster, which any viewer of models opens.
+//! The shadow volumes as a model: a binary glTF 2.0 file with one node per caster, which any model viewer opens.
 
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, report};
@@ -14,26 +14,26 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::path::Path;
 
-/// The volumes of one instant, and whose they are.
+/// The volumes of one instant, and their casters.
 #[derive(Clone, Copy, Debug)]
 pub struct Volumes<'a> {
-    /// Where on earth.
+    /// The place on Earth.
     pub place: &'a Place,
-    /// When, and where the sun is.
+    /// The instant, with the direction of the sun.
     pub instant: &'a Instant,
-    /// Whether the air's refraction is in the sun's direction.
+    /// Whether the sun's direction includes refraction.
     pub refraction: bool,
     /// The ground plane.
     pub ground: Ground,
-    /// Whose components cast.
+    /// The mesh whose components cast.
     pub mesh: &'a Mesh,
-    /// One a component, at most.
+    /// At most one solid per component.
     pub solids: &'a [Solid],
-    /// How many components that cast have none.
+    /// The number of casting components without a solid.
     pub left_out: usize,
     /// What the user should know of how the models were read.
     pub notes: &'a [Message],
-    /// In whose words.
+    /// The face's words.
     pub words: &'a dyn Words,
 }
 
@@ -57,7 +57,7 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// The file: one scene, and in it for each solid a node with the caster's name, whose `extras` say when it was shaded.
+/// The file: one scene, with a node for each solid, which has the caster's name and `extras` that say the time.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where there is no solid, or where the file would be 4 GiB or larger: before memory is taken.
@@ -130,7 +130,7 @@ struct SolidLists {
     meshes: Vec<Value>,
     accessors: Vec<Value>,
     views: Vec<Value>,
-    /// How long the buffer is so far.
+    /// The length of the buffer so far.
     bytes: usize,
 }
 
@@ -161,7 +161,7 @@ impl SolidLists {
         }));
     }
 
-    /// The next part of the buffer; its number.
+    /// Adds the next part of the buffer. Returns its index.
     fn view(&mut self, length: usize, target: u32) -> usize {
         self.views.push(json!({"buffer": 0, "byteOffset": self.bytes, "byteLength": length, "target": target}));
         self.bytes += length;
@@ -169,7 +169,7 @@ impl SolidLists {
     }
 }
 
-/// East, north, up in glTF's axes, which are x east, y up, z south.
+/// East, north and up in glTF's axes: x east, y up, z south.
 pub(super) fn in_gltf(point: Vec3) -> [f32; 3] {
     // + 0 makes −0 and 0 one
     [point.x, point.z, 0.0 - point.y].map(|metres| metres + 0.0)
@@ -223,8 +223,8 @@ pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
     })
 }
 
-/// What was written, and down to which ground: two lines, the last without its end.
-pub fn summary(volumes: &Volumes<'_>) -> String {
+/// What was written, and down to which ground: two lines, the last without its line break.
+pub(crate) fn summary(volumes: &Volumes<'_>) -> String {
     let triangles: usize = volumes.solids.iter().map(|solid| solid.triangles.len()).sum();
     format!(
         "{} of {triangles} triangles; the sun at azimuth {:.2}°, altitude {:.2}°\nground at {}",

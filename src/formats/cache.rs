@@ -1,8 +1,9 @@
 //! The cache of models that were read: a file that takes long to read opens at once the second time.
 //!
-//! An entry is a file in a folder beside the user's other caches. Its name is a number made of all that the reading depends
-//! on: the content of the file and of those that it names, the format, what was asked, and the program's version. It is
-//! written whole, checked by its checksum, and removed where it is damaged; of too many the oldest go.
+//! An entry is a file in a folder beside the user's other caches. Its name is a hash of everything that the reading
+//! depends on: the content of the file and of those that it names, the format, the request, and the program's version.
+//! Entries are written whole and have a checksum; damaged ones are removed, and when there are too many the oldest are
+//! removed.
 
 use super::{Format, Model, ReadOptions, encoded};
 use siphasher::sip128::{Hasher128, SipHasher13};
@@ -18,23 +19,23 @@ const PARTIAL: &str = "part";
 /// A folder in which models are kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelCache {
-    /// Where it is; it is made where it is missing.
+    /// Its path; it is created if it is missing.
     pub folder: PathBuf,
-    /// Bytes of all entries together.
+    /// The greatest size of all entries together, bytes.
     pub most_bytes: u64,
 }
 
 impl ModelCache {
-    /// Bytes of all entries, where nobody says another number: 2 GiB.
+    /// The default size of all entries, bytes: 2 GiB.
     pub const MOST_BYTES: u64 = 2 << 30;
 
-    /// The user's own, where the system says where caches lie.
+    /// The user's cache, if the system says where caches lie.
     pub fn of_user() -> Option<ModelCache> {
         let folder = dirs::cache_dir()?.join("gnomon").join("models");
         Some(ModelCache { folder, most_bytes: Self::MOST_BYTES })
     }
 
-    /// The entry of a file as it is now.
+    /// The entry of a file in its present state.
     ///
     /// # Errors
     /// Where the file cannot be read.
@@ -98,7 +99,7 @@ fn add_file(number: &mut SipHasher13, path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// What is kept of one file, or may be.
+/// The entry of one file, which may not exist yet.
 #[derive(Debug)]
 pub struct CacheEntry<'a> {
     cache: &'a ModelCache,
@@ -110,7 +111,7 @@ impl CacheEntry<'_> {
         self.cache.folder.join(&self.name).with_extension(WHOLE)
     }
 
-    /// The model, where it is kept; an entry that is damaged is removed.
+    /// The model, if it is in the cache. A damaged entry is removed.
     pub fn read(&self) -> Option<Model> {
         let path = self.path();
         let file = File::open(&path).ok()?;
@@ -123,7 +124,7 @@ impl CacheEntry<'_> {
         }
     }
 
-    /// Keeps a model. One that is larger than all entries may be is not kept.
+    /// Writes a model into the cache. A model that is larger than all entries may be together is not written.
     ///
     /// # Errors
     /// What the file system refuses.

@@ -1,9 +1,9 @@
-//! Reads a model in a process of its own: the same program, started again with a file, which writes what it reads in the
+//! Reads a model in a process of its own. The same program, started again, reads the file and writes the model in the
 //! form of `super::encoded`.
 //!
-//! Readers that are others' code may hang, crash, end their process or take all memory. In a process of their own that is
-//! one clear error. The process that asks watches time and memory, and ends the other one; if it ends itself, the other
-//! one finds its standard input closed, and ends, too.
+//! Readers from other libraries may hang, crash, end their process or take all memory. In a process of their own each
+//! of these is one clear error. The parent watches time and memory, and ends the child; if the parent itself ends, the
+//! child's standard input closes, and the child ends, too.
 
 use super::encoded::{self, EncodingError};
 use super::{Model, ModelFault, ReadLimits, ReadOptions};
@@ -17,7 +17,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 use sysinfo::{Pid, ProcessRefreshKind, ProcessesToUpdate, System};
 
-/// The subcommand of the program that reads a model and writes it to standard output; it stands in no help.
+/// The subcommand of the program that reads a model and writes it to standard output. It is hidden in the help.
 pub const SUBCOMMAND: &str = "read-model";
 
 /// How often time, memory and the wish to end are looked at.
@@ -42,7 +42,7 @@ pub fn answer(path: &Path, request: &str, out: &mut impl Write) -> io::Result<()
 }
 
 /// Why a process was ended.
-enum Ended {
+enum EndCause {
     Wish,
     Time,
     Memory(u64),
@@ -84,9 +84,9 @@ pub(super) fn read(
         let _ = tell.send(last_words(told));
     });
     match watched(&mut process, limits, is_given_up, &outcome) {
-        Err(Ended::Wish) => Err(ModelFault::GivenUp),
-        Err(Ended::Time) => Err(too_long(limits.time).into()),
-        Err(Ended::Memory(bytes)) => Err(too_large(bytes).into()),
+        Err(EndCause::Wish) => Err(ModelFault::GivenUp),
+        Err(EndCause::Time) => Err(too_long(limits.time).into()),
+        Err(EndCause::Memory(bytes)) => Err(too_large(bytes).into()),
         Ok(Ok(read)) => Ok(read?),
         Ok(Err(error)) => {
             let words = words.recv_timeout(Duration::from_secs(1)).unwrap_or_default();
@@ -117,7 +117,7 @@ fn watched(
     limits: ReadLimits,
     is_given_up: &AtomicBool,
     outcome: &mpsc::Receiver<Result<Result<Model, Message>, EncodingError>>,
-) -> Result<Result<Result<Model, Message>, EncodingError>, Ended> {
+) -> Result<Result<Result<Model, Message>, EncodingError>, EndCause> {
     let (begun, most) = (Instant::now(), limits.memory_bytes());
     let mut memory = MemoryWatch { system: System::new().ok(), process: Pid::from_u32(process.0.id()) };
     loop {
@@ -129,13 +129,13 @@ fn watched(
             Err(RecvTimeoutError::Timeout) => {}
         }
         if is_given_up.load(Ordering::Relaxed) {
-            return Err(Ended::Wish);
+            return Err(EndCause::Wish);
         }
         if begun.elapsed() > limits.time {
-            return Err(Ended::Time);
+            return Err(EndCause::Time);
         }
         if memory.bytes() > most {
-            return Err(Ended::Memory(most));
+            return Err(EndCause::Memory(most));
         }
     }
 }

@@ -1,8 +1,8 @@
-//! What CityJSON and CityGML share: city objects → parts, one for each object and kind of surface.
+//! The part that CityJSON and CityGML share: city objects → parts, one for each object and kind of surface.
 //!
-//! A roof can be selected without its walls, so an object's semantic surfaces are parts of their own: three or four a
-//! building, some 20,000 in a tile of 5,000 buildings. One LoD of an object stands there, and parts of a building replace
-//! what the building says itself.
+//! A roof can be selected without its walls, so an object's semantic surfaces are parts of their own: three or four per
+//! building, some 20,000 in a tile of 5,000 buildings. One LoD of each object is taken, and parts of a building replace
+//! the building's own geometry.
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted, label};
@@ -21,9 +21,9 @@ const CLOSURE: &str = "ClosureSurface";
 pub(super) struct CityObjectName {
     /// `Building`.
     pub kind: String,
-    /// The file's own name of it; empty where it has none.
+    /// The file's id of the object; empty if it has none.
     pub id: String,
-    /// By which else it may be meant: the object that it is a part of, and the name that people call it by.
+    /// Other names by which it can be selected: the object that it is a part of, and its name for people.
     pub others: Vec<String>,
 }
 
@@ -47,7 +47,7 @@ impl Rank {
 pub(super) struct CityBuilder {
     parts: Vec<Part>,
     kinds: Vec<PartKind>,
-    /// What is left out.
+    /// What was left out.
     pub tally: LeftOutTally,
     cutter: FaceCutter,
     triangles: u64,

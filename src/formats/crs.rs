@@ -1,11 +1,11 @@
-//! Names of reference systems, and which of their two coordinates comes first.
+//! Names of reference systems, and the order of their two coordinates.
 
 /// A reference system as a file names it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct NamedSystem {
-    /// `EPSG:25832`, or the file's own text where no code is in it.
+    /// `EPSG:25832`, or the file's own text if it contains no code.
     pub crs: String,
-    /// Whether the name asks for the order of axes that the system's authority has set, as URNs and URLs of the OGC do.
+    /// Whether the name asks for the order of axes that the system's authority defines, as the OGC's URNs and URLs do.
     pub is_official: bool,
 }
 

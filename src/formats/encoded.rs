@@ -1,8 +1,9 @@
-//! A model as plain bytes: what a process that reads a file gives to the one that asked it, and what the cache keeps.
+//! A model as plain bytes: what a reading process passes to its parent, and what the cache keeps.
 //!
-//! A mark, a version and the length of the JSON behind it; in the JSON all names, what the coordinates are, what was left
-//! out and the notes; then part by part the corners as `f64` and the triangles as `u32`, little-endian; and a checksum of
-//! all of it. Neither a process nor a disk is trusted: every length is checked, and memory is taken as the bytes arrive.
+//! The bytes are: a mark, a version and the length of the JSON that follows; the JSON, with all names, the meaning of
+//! the coordinates, what was left out and the notes; then for each part the corners as `f64` and the triangles as
+//! `u32`, little-endian; and a checksum of everything. Neither a process nor a disk is trusted: every length is
+//! checked, and memory is taken only as the bytes arrive.
 
 use super::exact::{self, option as exact_option};
 use super::{Anchor, AnchorPoint, Coordinates, FORMATS, LeftOut, MAX_COMPONENTS, MAX_TRIANGLES, Model, PartKind};
@@ -36,10 +37,10 @@ const AT_ONCE: usize = 1 << 14;
 /// Why bytes are no model.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum EncodingError {
-    /// They end too early, or cannot be read.
+    /// The bytes end too early, or cannot be read.
     #[error("they end early ({0})")]
     Cut(#[from] io::Error),
-    /// They contradict themselves.
+    /// The bytes contradict themselves.
     #[error("{0}")]
     Damaged(&'static str),
 }
@@ -88,7 +89,7 @@ struct EncodedAnchor {
     north_rad: Option<f64>,
 }
 
-/// Bytes that a model takes, but for its JSON.
+/// Bytes that a model takes, except for its JSON.
 pub(super) fn raw_bytes(model: &Model) -> u64 {
     let of_part = |part: &Part| (part.positions.len() * CORNER + part.triangles.len() * TRIANGLE) as u64;
     model.parts.iter().map(of_part).sum()
@@ -105,7 +106,7 @@ pub(super) fn write(outcome: Result<&Model, &Message>, out: &mut impl Write) -> 
         Err(message) => (&absent, Some(message.clone())),
     };
     let json = serde_json::to_vec(&header(model, fault))?;
-    let mut out = Summed { inner: out, sum: SipHasher13::new() };
+    let mut out = ChecksumStream { inner: out, sum: SipHasher13::new() };
     out.write(&MARK)?;
     out.write(&VERSION.to_le_bytes())?;
     out.write(&(json.len() as u64).to_le_bytes())?;
@@ -168,7 +169,7 @@ fn header(model: &Model, fault: Option<Message>) -> EncodedHeader {
 /// # Errors
 /// [`EncodingError`]: bytes that nobody has written so.
 pub(super) fn read(input: &mut impl Read) -> Result<Result<Model, Message>, EncodingError> {
-    let mut input = Summed { inner: input, sum: SipHasher13::new() };
+    let mut input = ChecksumStream { inner: input, sum: SipHasher13::new() };
     let (mut mark, mut version, mut length) = ([0; 8], [0; 4], [0; 8]);
     input.read(&mut mark)?;
     input.read(&mut version)?;
@@ -200,7 +201,7 @@ pub(super) fn read(input: &mut impl Read) -> Result<Result<Model, Message>, Enco
 }
 
 impl EncodedHeader {
-    /// Errs where it says what no model says; before memory is taken for it.
+    /// Returns an error if it says what no model says; before memory is taken for it.
     fn check(&self) -> Result<(), EncodingError> {
         let sum = |count: fn(&EncodedPart) -> u64| {
             self.parts.iter().map(count).try_fold(0_u64, u64::checked_add).unwrap_or(u64::MAX)
@@ -260,19 +261,19 @@ fn lasting(text: String) -> Option<&'static str> {
 }
 
 /// A stream, and the checksum of what went through it.
-struct Summed<'a, T> {
+struct ChecksumStream<'a, T> {
     inner: &'a mut T,
     sum: SipHasher13,
 }
 
-impl<T: Write> Summed<'_, T> {
+impl<T: Write> ChecksumStream<'_, T> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.sum.write(bytes);
         self.inner.write_all(bytes)
     }
 }
 
-impl<T: Read> Summed<'_, T> {
+impl<T: Read> ChecksumStream<'_, T> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<()> {
         self.inner.read_exact(bytes)?;
         self.sum.write(bytes);

@@ -1,4 +1,5 @@
-//! Numbers in JSON, exactly: each as its shortest text, as JSON has no infinity, and a reader of it may round the last digit.
+//! Exact numbers in JSON, each written as its shortest text: JSON has no infinity, and JSON readers may round the last
+//! digit.
 
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
 

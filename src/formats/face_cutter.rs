@@ -1,4 +1,4 @@
-//! Faces in space → triangles, as they are wound: polygons of meshes, faces of city models, outlines of footprints.
+//! Faces in space → triangles that keep the winding: polygons of meshes, faces of city models, outlines of footprints.
 
 use super::left_out::{LeftOutTally, counted};
 use crate::message::{Message, message};
@@ -22,31 +22,31 @@ pub(super) struct FaceCutter {
 
 /// Why a face has no triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Uncut {
-    /// Fewer than three corners, or all in a line.
+pub(super) enum CutFault {
+    /// Fewer than three corners, or all of them on a line.
     NoArea,
-    /// A coordinate is infinite or no number.
+    /// A coordinate is infinite or NaN.
     NoPoint,
     /// More corners than a face may have.
     TooLarge,
 }
 
-impl Uncut {
+impl CutFault {
     /// As a clause of what is left out.
     pub(super) fn why(self) -> &'static str {
         match self {
-            Uncut::NoArea => "no area",
-            Uncut::NoPoint => "a coordinate is no number",
-            Uncut::TooLarge => "more than 20,000 corners",
+            CutFault::NoArea => "no area",
+            CutFault::NoPoint => "a coordinate is no number",
+            CutFault::TooLarge => "more than 20,000 corners",
         }
     }
 }
 
 /// A face in triangles.
 pub(super) struct CutFace<'a> {
-    /// Numbers of its corners, through all rings; they turn as the outer ring does.
+    /// The indices of its corners, through all rings. They have the winding of the outer ring.
     pub triangles: &'a [[u32; 3]],
-    /// Whether the triangles cover what the rings enclose; they do not where rings cross.
+    /// Whether the triangles cover what the rings enclose. They do not where rings cross.
     pub is_exact: bool,
 }
 
@@ -64,17 +64,17 @@ impl FaceCutter {
 
     /// The triangles of a face whose rings follow each other in `points` and end before `ends`; the first is the outer one.
     /// A ring may repeat its first point at its end.
-    pub(super) fn cut(&mut self, points: &[DVec3], ends: &[usize]) -> Result<CutFace<'_>, Uncut> {
+    pub(super) fn cut(&mut self, points: &[DVec3], ends: &[usize]) -> Result<CutFace<'_>, CutFault> {
         let outer = points.get(..ends.first().copied().unwrap_or(0)).unwrap_or_default();
         if points.len() > MOST_CORNERS {
-            return Err(Uncut::TooLarge);
+            return Err(CutFault::TooLarge);
         }
         if !points.iter().all(|point| point.is_finite()) {
-            return Err(Uncut::NoPoint);
+            return Err(CutFault::NoPoint);
         }
         let normal = normal(outer);
         if outer.len() < 3 || !(normal.is_finite() && normal.length_squared() > 0.0) {
-            return Err(Uncut::NoArea);
+            return Err(CutFault::NoArea);
         }
         self.triangles.clear();
         let is_exact = match *points {
@@ -122,8 +122,8 @@ impl FaceCutter {
     }
 
     /// Clips a face, seen from the side to which it is turned; gives whether its triangles cover what it encloses.
-    fn clip(&mut self, points: &[DVec3], ends: &[usize], normal: DVec3) -> Result<bool, Uncut> {
-        let [first, ..] = *points else { return Err(Uncut::NoArea) };
+    fn clip(&mut self, points: &[DVec3], ends: &[usize], normal: DVec3) -> Result<bool, CutFault> {
+        let [first, ..] = *points else { return Err(CutFault::NoArea) };
         let axes = seen_along(normal);
         self.flat.clear();
         self.flat.extend(points.iter().map(|&point| axes.map(|axis| (point - first)[axis])));
@@ -145,7 +145,7 @@ impl FaceCutter {
             self.triangles.push(if area < 0.0 { [a, c, b] } else { [a, b, c] });
         }
         if self.triangles.is_empty() || !covered.is_finite() {
-            return Err(Uncut::NoArea);
+            return Err(CutFault::NoArea);
         }
         let enclosed = self.enclosed(ends);
         Ok((covered - enclosed).abs() <= 1e-3 * enclosed)

@@ -1,4 +1,4 @@
-//! What each format is: one trait.
+//! The trait that every format implements.
 
 use super::model::{Model, ModelFault, ReadOptions};
 use std::path::{Path, PathBuf};
@@ -14,14 +14,14 @@ pub trait Format: Sync {
     /// How its files' names end: lower-case, without the dot, the commonest first.
     fn endings(&self) -> &'static [&'static str];
 
-    /// Whether a file that begins with these bytes (as many as there are, at most 16 KiB) is of this format. Only what other
-    /// formats cannot begin with is a yes.
+    /// Whether a file that begins with these bytes (as many as there are, at most 16 KiB) is of this format. Only what
+    /// other formats cannot begin with is a yes.
     fn begins(&self, head: &[u8]) -> bool;
 
     /// Reads a file; there may be no part in it.
     ///
     /// # Errors
-    /// What is wrong with the file, with the way out.
+    /// What is wrong with the file, with a hint.
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault>;
 
     /// Whether the reader is others' code, which runs in a process of its own with limits.

@@ -1,4 +1,4 @@
-//! What a JSON file says at its beginning, as far as its first bytes tell.
+//! The beginning of a JSON file, as far as its first bytes show it.
 
 /// Whether a head is JSON's and has a member of this name, at any depth.
 pub(super) fn has_key(head: &[u8], key: &str) -> bool {

@@ -1,4 +1,4 @@
-//! What a reader leaves out, counted while it reads; and names as they may be.
+//! Counts what a reader leaves out while it reads, and makes names usable.
 
 use super::{LeftOut, composed};
 use std::collections::BTreeMap;
@@ -68,7 +68,7 @@ const ONE_OF_MANY: [(&str, &str); 20] = [
 ];
 
 impl LeftOut {
-    /// How many there are, and of what: `12 IfcSpace`, `1 face`.
+    /// The number and the thing: `12 IfcSpace`, `1 face`.
     pub fn counted(&self) -> String {
         let what = &self.what;
         let rest = |many: &str| what.strip_prefix(many).filter(|rest| rest.is_empty() || rest.starts_with(' '));

@@ -1,20 +1,21 @@
-//! How large a model may be, and what reading one may take.
+//! Limits on the size of a model, and on the time and memory of reading it.
 
 use std::time::Duration;
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
-/// The most triangles a model may have, instances counted. Their vertices take at most 7.2 GB, their indices 1.2 GB.
+/// The greatest number of triangles of a model, with instances counted. Their vertices take at most 7.2 GB, their
+/// indices 1.2 GB.
 pub const MAX_TRIANGLES: u64 = 100_000_000;
 
-/// The most components a model may have: each costs names and adjacency of its own, whatever its size.
+/// The greatest number of components of a model. Each has names and adjacency of its own, whatever its size.
 pub const MAX_COMPONENTS: usize = 1_000_000;
 
-/// What the reading of one file may take.
+/// Limits on the reading of one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadLimits {
-    /// How long.
+    /// The longest time.
     pub time: Duration,
-    /// Bytes; three quarters of the machine's where nobody says it.
+    /// The most memory, bytes; by default three quarters of the machine's.
     pub memory: Option<u64>,
 }
 

@@ -1,4 +1,4 @@
-//! What every reader gives: parts in the file's own coordinates, what these are, and what was left out.
+//! What every reader returns: parts in the file's own coordinates, what these coordinates mean, and what was left out.
 
 use super::exact::{self, option as exact_option};
 use super::{MAX_COMPONENTS, MAX_TRIANGLES, gltf};
@@ -8,54 +8,55 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::PathBuf;
 
-/// What a model file gives.
+/// The content of a model file.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
-    /// What people call the file's format; [`super::read`] says it.
+    /// The name of the file's format, which [`super::read`] sets.
     pub format: &'static str,
-    /// In the file's order. Positions are in the file's own units, axes and coordinates; so are the steps of what is
-    /// written coarsely.
+    /// The parts in the file's order. Positions are in the file's own units, axes and coordinates, and so are the steps
+    /// of coarse numbers.
     pub parts: Vec<Part>,
-    /// What each part is; as many as there are parts, or none where all are [`PartKind::Building`].
+    /// The kind of each part, as many as there are parts; empty if all are [`PartKind::Building`].
     pub kinds: Vec<PartKind>,
-    /// Which axis is up, as the format has it.
+    /// The upward axis, as the format has it.
     pub up: Up,
-    /// Whether the file or its format says so; else it is a custom that may be wrong.
+    /// Whether the file or its format says so; otherwise it is a custom, which may be wrong.
     pub up_is_said: bool,
-    /// Metres a unit, where the file or its format says it.
+    /// The length of a unit in metres, if the file or its format says it.
     pub unit_m: Option<f64>,
-    /// What the coordinates are.
+    /// The meaning of the coordinates.
     pub coordinates: Coordinates,
-    /// Whether heights are measured from the ground, which the file does not know: its parts stand on the terrain below
-    /// them, where there is any.
+    /// Whether heights are measured from the ground, which the file does not know. Its parts then stand on the terrain
+    /// below them, if there is any.
     pub stands_on_ground: bool,
-    /// Where the file says that its own zero lies, the most exact first. Where several disagree, all are shown.
+    /// Where the file says that its own zero lies, the most exact anchor first. If several disagree, all are shown.
     pub anchors: Vec<Anchor>,
-    /// What was in the file and could not be taken, or does not stand there.
+    /// What the file contains but the model does not.
     pub left_out: Vec<LeftOut>,
-    /// What else the user should know of how it was read: sentences without their stop, whose subject is the file.
+    /// What else the user should know of how the file was read: sentences without their full stop, whose subject is the
+    /// file.
     pub notes: Vec<Message>,
-    /// Materials that light passes, each name once. They cast as solid.
+    /// See-through materials, each name once. They cast as if they were solid.
     pub see_through: Vec<SeeThrough>,
 }
 
-/// What a part is, and so what it does where nobody says it.
+/// The kind of a part, which decides its defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PartKind {
     /// It casts and receives.
     #[default]
     Building,
-    /// The ground as measured: it casts and receives, and "the ground" means it.
+    /// The ground as measured. It casts and receives, and it is "the ground".
     Terrain,
-    /// A sheet on the ground, as a site, a road or water: it receives and does not cast.
+    /// A sheet on the ground, such as a site, a road or water. It receives and does not cast.
     GroundCover,
 }
 
 impl PartKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [PartKind; 3] = [PartKind::Building, PartKind::Terrain, PartKind::GroundCover];
 
-    /// What people call it.
+    /// Its word.
     pub fn word(self) -> &'static str {
         match self {
             PartKind::Building => "building",
@@ -65,35 +66,36 @@ impl PartKind {
     }
 }
 
-/// What a file's coordinates are.
+/// The meaning of a file's coordinates.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Coordinates {
-    /// The drawing's own.
+    /// Coordinates of the drawing alone.
     #[default]
     Local,
-    /// Of a map, or of the Earth: x is the easting or longitude, y the northing or latitude, z the height; Earth-centred ones
-    /// are x, y, z. The text is the reference system as the file says it: `EPSG:25832`, a name, WKT or PROJ's text. Eastings
-    /// and northings are in the system's unit, longitudes and latitudes in degrees. Heights are in the unit that `unit_m`
-    /// says; where it says none, in that which the system has for heights (a compound one), else in metres.
+    /// Coordinates of a map, or of the Earth: x is the easting or longitude, y the northing or latitude, z the height;
+    /// Earth-centred ones are x, y, z. The text is the reference system as the file says it: `EPSG:25832`, a name, WKT
+    /// or PROJ's text. Eastings and northings are in the system's unit, longitudes and latitudes in degrees. Heights are
+    /// in the unit that `unit_m` says; without one in the unit that the system has for heights (a compound one),
+    /// otherwise in metres.
     Map(String),
 }
 
-/// Where a file says that the zero of its own coordinates lies.
+/// Says where the zero of a file's own coordinates lies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Anchor {
-    /// What says it, in the file's own term: `IfcMapConversion`.
+    /// The file's own term for what says it: `IfcMapConversion`.
     pub said_by: &'static str,
-    /// Where it lies.
+    /// The point at which it lies.
     pub at: AnchorPoint,
-    /// Radians clockwise from the file's own north (its +y where z is up) to the north of the anchor: to the map's where it
-    /// is a point of a map, else to true north. None where the file does not say it.
+    /// Radians clockwise from the file's own north (its +y where z is up) to the anchor's north: the map's for a point
+    /// of a map, otherwise true north. `None` if the file does not say it.
     pub north_rad: Option<f64>,
 }
 
 /// A point of a map, or of the Earth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum AnchorPoint {
-    /// Of a map.
+    /// A point of a map.
     Map {
         /// As in [`Coordinates::Map`]; empty where the file does not name it.
         crs: String,
@@ -110,7 +112,7 @@ pub enum AnchorPoint {
         #[serde(with = "exact")]
         scale: f64,
     },
-    /// Of the Earth, in WGS 84.
+    /// A point of the Earth, in WGS 84.
     Geographic {
         /// Degrees, north positive.
         #[serde(with = "exact")]
@@ -129,11 +131,11 @@ pub enum AnchorPoint {
 /// Things of a kind that were left out.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeftOut {
-    /// In the file's own terms: `IfcSpace`, `3DSOLID`.
+    /// The thing, in the file's own terms: `IfcSpace`, `3DSOLID`.
     pub what: String,
-    /// How many.
+    /// Their number.
     pub count: u64,
-    /// Why, in words that fit one and many: "not built".
+    /// The reason, in words that fit one and many: "not built".
     pub why: String,
 }
 
@@ -142,27 +144,27 @@ pub struct LeftOut {
 pub struct SeeThrough {
     /// Its name, by which `casts` can select it.
     pub material: String,
-    /// The parts that have it, from 0; one or more.
+    /// The indices of the parts that have it, at least one.
     pub parts: Vec<usize>,
 }
 
-/// Which of a model's axes is up.
+/// The upward axis of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Up {
-    /// As glTF has it: x is east, and −z north.
+    /// y is up, as in glTF: x is east, and −z north.
     #[default]
     Y,
-    /// As drawings and maps have it: x is east, and y north.
+    /// z is up, as in drawings and maps: x is east, and y north.
     Z,
 }
 
-/// How a scene of a model is called.
+/// A scene of a model.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(untagged)]
 pub enum SceneName {
-    /// By its name.
+    /// The scene with this name.
     Name(String),
-    /// By its number in the file, from 0.
+    /// The scene with this index in the file, from 0.
     Number(u64),
 }
 
@@ -175,21 +177,21 @@ impl fmt::Display for SceneName {
     }
 }
 
-/// How a file is to be read.
+/// Options for reading a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReadOptions {
-    /// Which of several scenes; the file's default one where none is said.
+    /// The scene; by default the file's default scene.
     pub scene: Option<SceneName>,
-    /// Numbers that are written in coarser steps than this get a note, in the file's units.
+    /// Numbers with a coarser step than this get a note, in the file's units.
     #[serde(with = "exact")]
     pub told_step: f64,
     /// Metres from the ground to the roof of a footprint whose file says no height.
     #[serde(with = "exact_option")]
     pub default_height_m: Option<f64>,
-    /// How far a thinned terrain may lie from its heights, metres.
+    /// The greatest distance of a thinned terrain from its heights, metres.
     #[serde(with = "exact")]
     pub terrain_error_m: f64,
-    /// The classes of measured points that stand there beside the ground: `building`, `vegetation`.
+    /// The classes of measured points that are read besides the ground: `building`, `vegetation`.
     pub point_classes: Vec<String>,
 }
 
@@ -206,9 +208,9 @@ impl Default for ReadOptions {
 }
 
 impl ReadOptions {
-    /// Finer steps are not told, metres: a receiver is judged so far above itself.
+    /// Finer steps get no note, metres. A receiver is judged at this height.
     pub const TOLD_M: f64 = 0.001;
-    /// How far a thinned terrain may lie from its heights where nobody says it, metres.
+    /// The default of the greatest distance of a thinned terrain from its heights, metres.
     pub const TERRAIN_ERROR_M: f64 = 0.1;
 }
 
@@ -216,7 +218,7 @@ impl ReadOptions {
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {fault}", file.display())]
 pub struct ModelError {
-    /// The file, as asked for.
+    /// The file, as requested.
     pub file: PathBuf,
     /// What is wrong with it.
     pub fault: ModelFault,
@@ -225,11 +227,11 @@ pub struct ModelError {
 /// What is wrong with a model file.
 #[derive(Debug)]
 pub enum ModelFault {
-    /// With a glTF file.
+    /// The fault of a glTF file.
     Gltf(gltf::Fault),
-    /// With one of another format: what, whose subject is the file, and the way out.
+    /// The fault of a file of another format, with a hint; the file is the subject.
     Unusable(Message),
-    /// Nobody wants it any more.
+    /// The reading was cancelled.
     GivenUp,
 }
 
@@ -243,7 +245,7 @@ impl ModelError {
         }
     }
 
-    /// Whether nothing is wrong, and somebody ended the reading.
+    /// Whether the reading was cancelled, and nothing is wrong.
     pub fn is_given_up(&self) -> bool {
         matches!(self.fault, ModelFault::GivenUp)
     }
@@ -286,12 +288,12 @@ impl ModelFault {
 }
 
 impl Model {
-    /// What a part is.
+    /// The kind of a part.
     pub fn kind(&self, part: usize) -> PartKind {
         self.kinds.get(part).copied().unwrap_or_default()
     }
 
-    /// How many triangles it has.
+    /// The number of its triangles.
     pub fn triangles(&self) -> u64 {
         self.parts.iter().map(|part| part.triangles.len() as u64).sum()
     }

@@ -1,4 +1,4 @@
-//! How model files are read: where, within which limits, and what is kept of it.
+//! How model files are read: in which process, within which limits, and with which cache.
 
 use super::table::{format_of, read_as};
 use super::{Model, ModelCache, ModelError, ModelFault, ReadLimits, ReadOptions, child};
@@ -9,35 +9,38 @@ use std::sync::atomic::AtomicBool;
 
 /// How model files are read.
 ///
-/// The default reads in this process, without limits and without a cache, as a program does that uses Gnomon as a library:
-/// it is another program, and does not answer `gnomon read-model`. One that ships the command beside itself can name that.
+/// The default reads in this process, without limits and without a cache, as a program does that uses Gnomon as a
+/// library: it is another program, and does not answer `gnomon read-model`. One that ships the command beside itself
+/// can name that.
 #[derive(Clone, Debug, Default)]
 pub struct ModelReader {
-    /// The program that is started again for readers that are others' code ([`super::Format::is_foreign`]).
+    /// The program that is started again for readers from other libraries ([`super::Format::is_foreign`]).
     pub program: Option<PathBuf>,
-    /// What such a process may take.
+    /// Limits on such a process.
     pub limits: ReadLimits,
-    /// Where models are kept that take long to read.
+    /// The cache for models that take long to read.
     pub cache: Option<ModelCache>,
-    /// Set by whoever wants no model any more: such a process is ended, and the reading is [`ModelFault::GivenUp`].
+    /// Is set when nobody needs the model any more: the process is then ended, and reading fails with
+    /// [`ModelFault::GivenUp`].
     pub given_up: Arc<AtomicBool>,
 }
 
 impl ModelReader {
-    /// As the program itself reads: readers of others' code in processes of this very program, and with the user's cache.
+    /// As the program itself reads: readers from other libraries in processes of this program, and with the user's
+    /// cache.
     pub fn of_this_program() -> ModelReader {
         ModelReader { program: std::env::current_exe().ok(), cache: ModelCache::of_user(), ..ModelReader::default() }
     }
 
-    /// The same, to be ended by another wish.
+    /// The same, with another flag that ends the reading.
     pub fn until(&self, given_up: &Arc<AtomicBool>) -> ModelReader {
         ModelReader { given_up: Arc::clone(given_up), ..self.clone() }
     }
 
-    /// Reads a model file of any format; every part has triangles, and there is at least one.
+    /// Reads a model file of any format. Every part has triangles, and there is at least one part.
     ///
     /// # Errors
-    /// What is wrong with the file, with the way out.
+    /// What is wrong with the file, with a hint.
     pub fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
         self.read_within(path, options).map_err(|fault| ModelError { file: path.to_owned(), fault })
     }
@@ -61,7 +64,7 @@ impl ModelReader {
         Ok(model)
     }
 
-    /// As [`ModelReader::read`] in a process of the program's, whoever has written the reader, and without the cache.
+    /// As [`ModelReader::read`], without the cache, in a process of the program whatever the reader.
     ///
     /// # Errors
     /// As [`ModelReader::read`]; where no program is named.

@@ -1,6 +1,6 @@
-//! Names, of components and of files: é is one character or an e with an accent behind it, and means the same.
+//! Names of components and of files. An é may be one character, or an e followed by an accent; both mean the same.
 //!
-//! Names are compared in Unicode's normal form C, in which letters are composed as far as they can be.
+//! Names are compared in Unicode's normalization form C (NFC), in which letters are composed as far as they can be.
 
 use std::borrow::Cow;
 use std::path::{Component as Step, Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Files of known programs that are not read, and how to export from each program what can be read.
+//! Files of known programs that are not read, and how to export a file that is read from each program.
 
 use crate::message::{Message, message};
 use std::fs::File;

@@ -1,4 +1,4 @@
-//! A file's bytes, its text and its names: what readers of text and tables begin with.
+//! A file's bytes, its text and its names: the input of readers of text and tables.
 
 use crate::message::{Message, message};
 use std::path::{Component, Path, PathBuf};
@@ -54,7 +54,7 @@ pub(super) fn number(word: &[u8]) -> Option<f64> {
 #[derive(Clone)]
 pub(super) struct TextLines<'a> {
     rest: Option<&'a [u8]>,
-    /// Of the line that was given last, from 1.
+    /// The number of the line that was returned last, from 1.
     pub number: usize,
 }
 

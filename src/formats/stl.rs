@@ -1,4 +1,4 @@
-//! STL, ASCII or binary → a part for each solid.
+//! STL, ASCII or binary → one part per solid.
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, label};

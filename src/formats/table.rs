@@ -1,4 +1,4 @@
-//! The list of all formats, and the reading of a file as the one that it is of.
+//! The list of all formats; a file is read as the one that it is.
 
 use super::format::{Format, HEAD_BYTES};
 use super::model::{Model, ModelError, ModelFault, ReadOptions};
@@ -8,9 +8,9 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-/// All formats, in the order in which they are asked whether a file is theirs. Those that begin with a mark of their own come
-/// first: what they take is theirs, whatever stands behind the mark. A format that is told by words near its beginning could
-/// find them in another's file as well, so the loose ones (JSON, XML, ASCII grid, OBJ) come last.
+/// All formats, in the order in which they are tried. Formats with a mark at their beginning come first: a file with
+/// that mark is theirs, whatever follows. A format that is recognised by words near its beginning could find them in
+/// another format's file as well, so the loose ones (JSON, XML, ASCII grid, OBJ) come last.
 pub const FORMATS: &[&dyn Format] = &[
     &gltf::Gltf,
     &ifc::Ifc,
@@ -35,7 +35,7 @@ pub const FORMATS: &[&dyn Format] = &[
     &obj::Obj,
 ];
 
-/// The format whose files end as this one's name does.
+/// The format to which the ending of a file's name belongs.
 pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {
     let ending = path.extension()?.to_string_lossy().to_lowercase();
     FORMATS.iter().copied().find(|format| format.endings().contains(&ending.as_str()))
@@ -52,8 +52,8 @@ fn head_of(path: &Path) -> std::io::Result<Vec<u8>> {
     Ok(head)
 }
 
-/// Whether a path names a model and no site file: its name ends as those of a format, or it is a file whose content is of
-/// one. A site file may be called anything: what is called JSON or XML and begins as neither is none of these.
+/// Whether a path names a model and no site file: its name ends as those of a format, or it is a file whose content is
+/// of one. A site file may be called anything: what is called JSON or XML and begins as neither is none of these.
 pub(crate) fn is_model(path: &Path) -> bool {
     let ends = |endings: &[&str]| {
         path.extension().is_some_and(|own| endings.iter().any(|ending| own.eq_ignore_ascii_case(ending)))
@@ -108,11 +108,11 @@ pub(super) fn read_as(format: &dyn Format, path: &Path, options: &ReadOptions) -
     Model { format: format.name(), ..format.read(path, options)? }.checked()
 }
 
-/// Reads a model file of any format, in this process; every part has triangles, and there is at least one. [`super::ModelReader`] has
-/// limits and a cache.
+/// Reads a model file of any format, in this process. Every part has triangles, and there is at least one part.
+/// [`super::ModelReader`] has limits and a cache.
 ///
 /// # Errors
-/// What is wrong with the file, with the way out.
+/// What is wrong with the file, with a hint.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
     let read = || read_as(format_of(path)?, path, options);
     read().map_err(|fault| ModelError { file: path.to_owned(), fault })

@@ -1,4 +1,4 @@
-//! A file's bytes at once, and files beside it.
+//! Reads a file's bytes at once, and files beside it.
 
 use super::{ModelFault, on_disk};
 use crate::message::message;

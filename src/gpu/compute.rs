@@ -1,4 +1,4 @@
-//! Work that draws nothing: one invocation for each of many things.
+//! Compute passes: one invocation for each of many items.
 
 use super::{Gpu, GpuError};
 use wgpu::*;

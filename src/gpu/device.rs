@@ -1,4 +1,4 @@
-//! One adapter, opened with all that it can do.
+//! One adapter, opened with all features and limits that it has and the program uses.
 
 #[cfg(feature = "test-hooks")]
 use super::timers::Timers;
@@ -11,11 +11,11 @@ use wgpu::{
 
 /// An open graphics adapter.
 pub struct Gpu {
-    /// Where resources are made.
+    /// The device, which makes resources.
     pub device: wgpu::Device,
-    /// Where work goes in.
+    /// The queue to which work is submitted.
     pub queue: wgpu::Queue,
-    /// What the adapter allows.
+    /// The adapter's limits.
     pub limits: wgpu::Limits,
     name: String,
     software: bool,
@@ -28,23 +28,23 @@ pub struct Gpu {
 /// Why the graphics adapter could not do its work.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum GpuError {
-    /// There is no adapter.
+    /// The system has no adapter.
     NoAdapter,
-    /// There is one, but it lacks something or its driver refuses it.
+    /// There is an adapter, but it lacks something, or its driver refuses it.
     Unusable {
         /// The adapter's name.
         adapter: String,
         /// What is missing, or what the driver said.
         reason: String,
     },
-    /// It could not do the work.
+    /// The adapter could not do the work.
     Failed {
         /// The adapter's name.
         adapter: String,
         /// What failed.
         reason: String,
     },
-    /// It failed while working, so that nothing more can be done on the device; on a new one it may.
+    /// The device failed while it worked and cannot be used any more; a new one may work.
     Lost {
         /// The adapter's name.
         adapter: String,
@@ -82,7 +82,7 @@ impl Worded for GpuError {
 }
 
 impl GpuError {
-    /// What went wrong, without a hint, for callers that have a hint of their own.
+    /// What went wrong, without a hint, for callers that have their own hint.
     pub fn why(&self) -> String {
         match self {
             GpuError::NoAdapter => "no graphics adapter was found".to_owned(),
@@ -121,7 +121,7 @@ const NEEDED: Features = Features::DEPTH32FLOAT_STENCIL8;
 const WANTED: Features = Features::FLOAT32_BLENDABLE.union(Features::TIMESTAMP_QUERY);
 
 impl Gpu {
-    /// What may drive an adapter: OpenGL lacks too much of what is needed.
+    /// The backends that are used. OpenGL lacks too much of what is needed.
     pub const BACKENDS: Backends = Backends::PRIMARY;
 
     /// Opens the fastest adapter of the system. The usual environment variables of wgpu choose another one.
@@ -132,7 +132,7 @@ impl Gpu {
         Self::open_as(false)
     }
 
-    /// Opens an adapter that is a program on the processor, where the system has one.
+    /// Opens a software adapter, if the system has one.
     ///
     /// # Errors
     /// As [`Gpu::open`].
@@ -173,7 +173,7 @@ impl Gpu {
         }
     }
 
-    /// A device that is open already: from now on what it reports is heard.
+    /// Uses a device that is already open, and listens to what it reports from now on.
     #[doc(hidden)]
     pub fn opened(adapter: &Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Gpu {
         let fault = Arc::new(Mutex::new(None::<DeviceFault>));
@@ -208,12 +208,12 @@ impl Gpu {
         }
     }
 
-    /// The adapter's name, as its driver says it.
+    /// The adapter's name, from its driver.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Whether the adapter is a program on the processor.
+    /// Whether the adapter is a software adapter.
     pub fn software(&self) -> bool {
         self.software
     }
@@ -229,8 +229,8 @@ impl Gpu {
         }
     }
 
-    /// Says what went wrong since the device was opened. wgpu reports faults (memory above all) beside the calls that
-    /// cause them; whoever hands on a result asks here first.
+    /// Returns an error if something went wrong since the device was opened. wgpu reports faults (memory above all)
+    /// separately from the calls that cause them, so whoever passes on a result calls this first.
     ///
     /// # Errors
     /// [`GpuError::Lost`]
@@ -249,25 +249,25 @@ impl Gpu {
         fault().map_or(Ok(()), |fault| Err(self.lost(fault.reason)))
     }
 
-    /// What was reported since the last time it was asked for: for whoever goes on after a fault.
+    /// The fault that was reported since the last call, for callers that continue after a fault.
     #[doc(hidden)]
     pub fn heard(&self) -> Option<GpuError> {
         let fault = self.fault.lock().ok()?.take()?;
         Some(self.lost(fault.reason))
     }
 
-    /// Whether the device itself is gone, and not just some work on it.
+    /// Whether the device itself is lost, and not just some work on it.
     pub fn is_lost(&self) -> bool {
         self.fault.lock().map_or(true, |fault| fault.as_ref().is_some_and(|fault| fault.lost))
     }
 
-    /// The error with the adapter's name, where something went wrong on the device.
+    /// The error with the adapter's name, for a fault on the device.
     #[doc(hidden)]
     pub fn lost(&self, reason: impl ToString) -> GpuError {
         GpuError::Lost { adapter: self.name.clone(), reason: reason.to_string() }
     }
 
-    /// The error with the adapter's name, where something is asked that the adapter cannot.
+    /// The error with the adapter's name, for work that the adapter cannot do.
     #[doc(hidden)]
     pub fn failed(&self, reason: impl ToString) -> GpuError {
         GpuError::Failed { adapter: self.name.clone(), reason: reason.to_string() }

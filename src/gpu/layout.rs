@@ -1,4 +1,4 @@
-//! The structs that shaders share with us, field for field. A test compares them with the shaders' own.
+//! The structs that shaders share with Rust, field for field. A test compares them with the shaders' own.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -8,11 +8,11 @@ use bytemuck::{Pod, Zeroable};
 pub struct ViewUniforms {
     /// Metres around the scene's origin → clip space, depth 1 near and 0 far.
     pub clip_from_local: [[f32; 4]; 4],
-    /// Homogeneous: the eye, or for the plan the direction straight up.
+    /// The viewer as a homogeneous point: the eye, or for the plan the direction straight up.
     pub viewer: [f32; 4],
-    /// The camera's right, as long as the picture's border is far at distance 1.
+    /// The camera's right, as long as half the picture's width at distance 1.
     pub right: [f32; 4],
-    /// The camera's up, likewise.
+    /// The camera's up, as long as half the picture's height at distance 1.
     pub up: [f32; 4],
     /// The camera's forward, a unit vector.
     pub forward: [f32; 4],
@@ -20,9 +20,9 @@ pub struct ViewUniforms {
     pub ground_z: f32,
     /// Height of the lowest point that is judged, metres.
     pub lowest_z: f32,
-    /// How far above itself a receiver is judged, metres.
+    /// The height above itself at which a receiver is judged, metres.
     pub judged_above: f32,
-    /// Plan: depth a metre of height. Camera: distance of the near plane, metres.
+    /// For the plan, depth per metre of height; for a camera, the distance of the near plane in metres.
     pub depth_scale: f32,
     /// Columns and rows.
     pub size: [f32; 2],
@@ -34,7 +34,8 @@ pub struct ViewUniforms {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct LightUniforms {
-    /// Homogeneous: a unit vector towards a light at infinity (w = 0), or a lamp's place (w = 1).
+    /// The light as a homogeneous point: a unit vector towards a light at infinity (w = 0), or a lamp's position (w =
+    /// 1).
     pub towards: [f32; 4],
 }
 
@@ -48,10 +49,10 @@ pub struct MapUniforms {
     pub across: [f32; 4],
     /// One texel downwards, likewise.
     pub along: [f32; 4],
-    /// The ground's depth: metres a column, metres a row, metres at the map's corner, and 0; or, where the last is not
-    /// 0, what that is divided by the same sum.
+    /// The ground's depth: metres per column, metres per row, metres at the map's corner, and 0. If the last number is
+    /// not 0, the depth is divided by that number plus the same sum.
     pub ground: [f32; 4],
-    /// A texel's width and height, metres (a lamp's: a metre before it).
+    /// A texel's width and height, metres; for a lamp, at a distance of one metre.
     pub texel: [f32; 2],
     /// Texels a side.
     pub size: f32,
@@ -59,11 +60,11 @@ pub struct MapUniforms {
     pub range: f32,
     /// Depth at its near side, metres: 0 for the sun, more for a lamp.
     pub near: f32,
-    /// What rounding does to a depth, metres.
+    /// The bias against rounding of depths, metres.
     pub bias: f32,
-    /// How many texels of its slope deeper a face is drawn.
+    /// The slope-scaled bias: how many texels of its slope deeper a face is drawn.
     pub slope_bias: f32,
-    /// Width of the penumbra a metre behind an edge.
+    /// The width of the penumbra per metre behind an edge.
     pub spread: f32,
     /// Width of smoothies, metres; 0 where the light's disc decides.
     pub width: f32,
@@ -79,13 +80,13 @@ pub struct MapUniforms {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct PictureUniforms {
-    /// Where the hours' raster begins (west, north), metres around the scene's origin.
+    /// The north-west corner of the hours' raster, metres around the scene's origin.
     pub hours_corner: [f32; 2],
-    /// Its cell, metres.
+    /// The side of its cells, metres.
     pub hours_cell: f32,
-    /// Instead of sun and shadow: 1 hours on the plan's cells, 2 on patches.
+    /// What is shown instead of sun and shadow: 1 hours on the plan's cells, 2 hours on patches.
     pub hours: f32,
-    /// From the eye to what it looks at, metres.
+    /// The distance from the eye to what it looks at, metres.
     pub focus: f32,
     /// 1 where the sun is below the horizon.
     pub night: f32,
@@ -103,7 +104,7 @@ pub struct PictureUniforms {
     pub unused: f32,
 }
 
-/// `LookUniforms` of `shaders/picture.wgsl`: what `crate::look::Look` says of each, colours as display values from 0 to 1.
+/// `LookUniforms` of `shaders/picture.wgsl`: the values of `crate::look::Look`, colours as display values from 0 to 1.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[expect(missing_docs, reason = "each field is documented where the look is")]
@@ -156,7 +157,7 @@ pub struct LookUniforms {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct WeightUniforms {
-    /// Seconds that a mask stands for.
+    /// The seconds for which a mask counts.
     pub secs: u32,
 }
 
@@ -164,11 +165,11 @@ pub struct WeightUniforms {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct SearchUniforms {
-    /// Homogeneous, around the mesh's origin.
+    /// The light as a homogeneous point around the mesh's origin.
     pub light: [f32; 4],
-    /// 6, or 3 where all walls end in one point.
+    /// The number of indices per wall: 6, or 3 if all walls end in one point.
     pub indices_per_wall: u32,
-    /// 1 where walls stand half as often.
+    /// 1 if walls are drawn half as often.
     pub halved: u32,
     /// WGSL rounds a struct up to its alignment.
     pub unused: [u32; 2],
@@ -178,9 +179,9 @@ pub struct SearchUniforms {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct FaceRecord {
-    /// Vertices of the mesh.
+    /// The indices of its vertices in the mesh.
     pub corners: [u32; 3],
-    /// The face's number, that of its bit.
+    /// The index of the face, which is that of its bit.
     pub number: u32,
 }
 
@@ -188,13 +189,13 @@ pub struct FaceRecord {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct EdgeRecord {
-    /// One vertex.
+    /// The edge's first vertex.
     pub first: u32,
-    /// The other.
+    /// The edge's second vertex.
     pub second: u32,
-    /// A face at it, or where many begin.
+    /// A face at it, or, if it has more than two, the beginning of their list.
     pub a: u32,
-    /// Another face at it, or none, or how many they are.
+    /// Another face at it, or none, or the length of that list.
     pub b: u32,
     /// Metres east and north from the first vertex to the second.
     pub along: [f32; 2],
@@ -204,15 +205,15 @@ pub struct EdgeRecord {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct DrawArguments {
-    /// How much of the list is drawn.
+    /// The number of indices to draw.
     pub index_count: u32,
-    /// How often.
+    /// The number of instances.
     pub instance_count: u32,
-    /// From where.
+    /// The first index.
     pub first_index: u32,
-    /// Added to each index.
+    /// The number that is added to each index.
     pub base_vertex: i32,
-    /// From which instance.
+    /// The first instance.
     pub first_instance: u32,
 }
 
@@ -221,11 +222,11 @@ pub struct DrawArguments {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[cfg(feature = "test-hooks")]
 pub struct Quadrilateral {
-    /// One vertex, metres around the mesh's origin.
+    /// The first vertex, metres around the mesh's origin.
     pub first: [f32; 3],
     /// A face at it.
     pub a: u32,
-    /// The other vertex, likewise.
+    /// The second vertex, metres around the mesh's origin.
     pub second: [f32; 3],
     /// Another face at it, or none.
     pub b: u32,
@@ -235,7 +236,7 @@ pub struct Quadrilateral {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct FallUniforms {
-    /// Columns and rows that a shadow falls away from the sun, a metre of height.
+    /// The columns and rows by which a shadow falls away from the sun, per metre of height.
     pub a_metre: [f32; 2],
     /// Columns and rows of the raster.
     pub size: [f32; 2],
@@ -247,7 +248,7 @@ pub struct FallUniforms {
 pub struct TexelRunUniforms {
     /// The first texel of a page.
     pub first: u32,
-    /// How many it has.
+    /// The number of texels in the run.
     pub count: u32,
 }
 
@@ -256,7 +257,7 @@ pub struct TexelRunUniforms {
 pub struct StructLayout {
     /// Its name, in Rust and in WGSL.
     pub name: &'static str,
-    /// Bytes.
+    /// Its size, bytes.
     pub size: usize,
     /// Names and byte offsets, in order.
     pub fields: &'static [(&'static str, usize)],
@@ -273,7 +274,7 @@ macro_rules! layout {
     };
 }
 
-/// All structs that shaders share with us.
+/// All structs that Rust and the shaders share.
 #[cfg(feature = "test-hooks")]
 pub const ALL: &[StructLayout] = &[
     layout!(ViewUniforms: clip_from_local, viewer, right, up, forward, ground_z, lowest_z, judged_above, depth_scale, size, unused),

@@ -1,4 +1,4 @@
-//! A device that is lost when a test wants it to be.
+//! Loses a device when a test wants it to be lost.
 
 use std::cell::Cell;
 
@@ -7,8 +7,7 @@ thread_local! {
     static TO_BE_LOST: Cell<Option<u32>> = const { Cell::new(None) };
 }
 
-/// Takes away the device that is checked on this thread after so many other checks, as a
-/// driver that is reset would.
+/// Loses the device that is checked on this thread after that many other checks, as if its driver was reset.
 pub fn lose_after(checks: u32) {
     TO_BE_LOST.set(Some(checks));
 }

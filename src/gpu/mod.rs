@@ -1,4 +1,4 @@
-//! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, computing, readback, timers.
+//! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, compute passes, readback, timers.
 
 mod compute;
 mod device;

@@ -1,4 +1,4 @@
-//! From the GPU's memory to ours.
+//! Copies buffers and textures from the GPU into the processor's memory.
 
 use super::{Gpu, GpuError};
 use wgpu::{
@@ -42,8 +42,8 @@ pub fn texels<T: bytemuck::Pod>(gpu: &Gpu, texture: &Texture, aspect: TextureAsp
     Ok(values)
 }
 
-/// Copies a texture of four bytes a texel into one as large on another device, whose queue it is: there it is seen by
-/// whatever that device is given next.
+/// Copies a texture of four bytes per texel into one of the same size on another device, to whose queue it is
+/// submitted, so that later work on that device sees it.
 ///
 /// # Errors
 /// [`GpuError::Lost`] where the first device fails; the other one hears of its own faults.

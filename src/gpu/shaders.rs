@@ -1,4 +1,5 @@
-//! The shaders' text: each stage joined with the common parts that it uses. WGSL has no includes, and needs none here.
+//! The shaders' text: each stage is joined with the common parts that it uses. WGSL has no includes, and needs none
+//! here.
 
 use super::Gpu;
 use wgpu::{ShaderModule, ShaderModuleDescriptor, ShaderSource};
@@ -16,13 +17,13 @@ macro_rules! shaders {
 }
 
 shaders! {
-    /// What a view sees.
+    /// What a view sees: the G-buffer.
     SURFACE "surface": "common/view", "surface";
-    /// Where it is judged.
+    /// The depth at which each cell is judged.
     JUDGED "judged": "common/view", "common/seen", "judged";
     /// Stencil shadow volumes.
     STENCIL "stencil": "common/view", "common/seen", "stencil";
-    /// Faces that fall onto a plan's raster.
+    /// Faces that are projected onto a plan's raster.
     PROJECTED "projected": "projected";
     /// Depth as a light sees it.
     MAP "map": "common/map", "map";

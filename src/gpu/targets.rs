@@ -1,4 +1,4 @@
-//! Textures that are drawn to, buffers that are drawn from, and the pipeline states that repeat.
+//! Render targets, vertex and index buffers, and the pipeline states that repeat.
 
 use super::{Gpu, GpuError};
 use wgpu::*;
@@ -15,7 +15,7 @@ pub(crate) const SUMMED: TextureFormat = TextureFormat::R32Float;
 pub(crate) const SHARE: TextureFormat = TextureFormat::R8Unorm;
 
 impl Gpu {
-    /// A texture for one use a cell.
+    /// A texture with one texel per cell.
     #[doc(hidden)]
     pub fn texture(
         &self,

@@ -1,4 +1,4 @@
-//! The times that passes write on the adapter, two a pass.
+//! The timestamps that passes write on the adapter, two per pass.
 
 use std::sync::Mutex;
 use wgpu::{Buffer, QuerySet};

@@ -1,4 +1,5 @@
-//! How long passes take on the adapter. Off until [`Gpu::time_passes`], and free then: a pass asks, and gets nothing.
+//! How long passes take on the adapter. Timing is off until [`Gpu::time_passes`] is called, and costs nothing while it
+//! is off.
 
 use super::timers::{MOST, Timers};
 use super::{Gpu, GpuError, readback};
@@ -6,7 +7,7 @@ use std::sync::Mutex;
 use wgpu::*;
 
 impl Gpu {
-    /// From now on passes are timed.
+    /// Starts timing passes.
     ///
     /// # Errors
     /// [`GpuError::Failed`] where the adapter keeps no times.
@@ -29,7 +30,7 @@ impl Gpu {
         self.check()
     }
 
-    /// What a render pass that begins now must write, if anything.
+    /// The timestamps that a render pass which begins now must write, if any.
     pub fn timed(&self, label: &str) -> Option<RenderPassTimestampWrites<'_>> {
         let (query_set, at) = self.timers.get()?.place(label)?;
         Some(RenderPassTimestampWrites {
@@ -49,8 +50,8 @@ impl Gpu {
         })
     }
 
-    /// The passes since the last reading, in order, all of them submitted: label and milliseconds. None where passes are
-    /// not timed.
+    /// The passes since the last reading, in order, each with label and milliseconds; all of them are submitted. `None`
+    /// if passes are not timed.
     ///
     /// # Errors
     /// [`GpuError::Failed`]

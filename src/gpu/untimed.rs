@@ -1,11 +1,11 @@
-//! Passes are not timed in this build: only tests and benches time them, with the feature `test-hooks`.
+//! The build without timing of passes: only tests and benches time them, with the feature `test-hooks`.
 
 use super::Gpu;
 use wgpu::{ComputePassTimestampWrites, RenderPassTimestampWrites};
 
 #[doc(hidden)]
 impl Gpu {
-    /// What a render pass that begins now must write: nothing.
+    /// The timestamps that a render pass must write: none in this build.
     pub fn timed(&self, _label: &str) -> Option<RenderPassTimestampWrites<'_>> {
         None
     }

@@ -1,6 +1,6 @@
 //! Which faces meet at which edge.
 //!
-//! Parts share no vertices, so neither an edge nor an order of edges by their vertices crosses a component.
+//! Components share no vertices, so neither an edge nor an order of edges by their vertices crosses a component.
 
 use super::{Incidence, Mesh};
 use rayon::prelude::*;
@@ -107,8 +107,8 @@ pub(crate) fn lowest(above: &mut [u32], mut element: u32) -> u32 {
 }
 
 impl Mesh {
-    /// One bit a face: whether its shell, the faces that hang together by edges, has an even number of faces at each of
-    /// them, as closed surfaces have whichever way they are wound.
+    /// One bit per face: whether its shell (the faces that are connected by edges) has an even number of faces at each
+    /// edge, as closed surfaces have whatever their winding.
     pub fn in_even_shells(&self) -> Vec<bool> {
         // union by the lower face, so that every face leads downwards to its shell's first
         let mut above: Vec<u32> = (0..self.faces.len() as u32).collect();

@@ -1,4 +1,4 @@
-//! Makes a mesh of parts: welded, around one origin; and a mesh of some parts of another.
+//! Makes a mesh from parts, welded, around one origin; and a mesh of some components of another mesh.
 
 use super::together::CornerGroups;
 use super::weld::{self, WeldedPart};
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
 impl Part {
-    /// Errs where a corner is no point, or a triangle has one that is not there.
+    /// Returns an error if a corner is no point, or a triangle has one that is not there.
     fn check(&self) -> Result<(), MeshError> {
         if !self.positions.par_iter().all(|corner| corner.is_finite()) {
             return Err(MeshError::NoPoint(self.name.clone()));
@@ -20,7 +20,8 @@ impl Part {
 }
 
 impl Mesh {
-    /// Welds the parts, each for itself, and finds planes and adjacency. The origin is the middle of what stands together.
+    /// Welds the parts, each by itself, and finds planes and adjacency. The origin is the middle of what stands
+    /// together.
     ///
     /// # Errors
     /// [`MeshError`]
@@ -28,8 +29,8 @@ impl Mesh {
         Self::built(parts, None)
     }
 
-    /// As [`Mesh::build`], around an origin that is given, such as another mesh's. Positions keep what `f32` holds of their
-    /// distance from it: 1 km away that is 0.06 mm. Whole metres lose nothing themselves.
+    /// As [`Mesh::build`], around a given origin, such as another mesh's. Positions have the precision of `f32` at
+    /// their distance from it: 0.06 mm at 1 km. An origin in whole metres costs no precision itself.
     ///
     /// # Errors
     /// [`MeshError`]; [`MeshError::FarFromOrigin`] beyond [`Mesh::FARTHEST_M`].
@@ -111,13 +112,13 @@ impl Mesh {
         mesh
     }
 
-    /// The mesh of some components only. Planes stay those of the whole.
+    /// The mesh of some components only. Planes stay those of the whole mesh.
     pub fn of_components(&self, keep: &[bool]) -> Mesh {
         let kept = self.components.iter().zip(keep).filter(|(_, keep)| **keep).map(|(component, _)| component.clone());
         self.taken(kept.collect(), |_| true)
     }
 
-    /// The mesh of some faces only. Planes stay those of the whole; components without a face are left out.
+    /// The mesh of some faces only. Planes stay those of the whole mesh; components without a face are left out.
     pub fn of_faces(&self, keep: impl Fn(u32) -> bool) -> Mesh {
         let mut mesh = self.taken(self.components.clone(), keep);
         mesh.components.retain(|component| !component.faces.is_empty());

@@ -34,7 +34,7 @@ pub enum MeshError {
         /// How far; infinite where the origin is no point.
         km: f64,
     },
-    /// A coordinate is infinite or no number.
+    /// A coordinate is infinite or NaN.
     #[error("'{0}' has a corner that is no point; give finite coordinates in metres")]
     NoPoint(String),
     /// A triangle names a corner that its part does not have.

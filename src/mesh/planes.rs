@@ -1,8 +1,8 @@
 //! The planes of faces: one common plane for all faces that lie in it.
 //!
-//! A modeller's wall is many triangles whose planes, computed each from its own rounded corners, differ in the last
-//! digits, so that some would face a low sun and some not. Neighbours that lie in the plane of a larger face
-//! therefore take over its plane to the bit; then all of the wall faces the light or none of it.
+//! A modeller's wall is many triangles whose planes, each computed from its own rounded corners, differ in the last
+//! digits, so that some would face a low sun and some not. Neighbours that lie in the plane of a larger face therefore
+//! get its plane to the bit, so that either the whole wall faces the light or none of it.
 
 use super::Mesh;
 use super::spacing::Spacing;
@@ -10,13 +10,13 @@ use glam::{DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 
 impl Mesh {
-    /// Per face the unit plane (n, −n·p) around `origin`, equal for coplanar neighbours; zero where the face has no area.
-    /// They are found when they are first asked for.
+    /// The unit plane (n, −n·p) of each face around `origin`, equal for coplanar neighbours; zero for a face without
+    /// area. Planes are computed on first use.
     pub fn planes(&self) -> &[DVec4] {
         self.planes.get_or_init(|| unified(self))
     }
 
-    /// One bit a face: whether the light is on its front side or in its plane.
+    /// One bit per face: whether the light is on its front side or in its plane.
     ///
     /// Silhouettes, caps and shaders all read this bit, so that volumes are closed whatever the rounding. A face
     /// edge-on to the light, or without area, counts as facing it: its shadow is empty either way.
@@ -25,7 +25,7 @@ impl Mesh {
     }
 }
 
-/// Whether a light is on the front side of a plane or in it: the one place where that is decided.
+/// Whether a light is on the front side of a plane or in it. This is the one place where that is decided.
 pub fn plane_faces(plane: DVec4, local_light: DVec4) -> bool {
     plane.dot(local_light) >= 0.0
 }

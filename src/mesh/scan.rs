@@ -1,8 +1,8 @@
-//! Which cells of a raster a triangle covers: scan conversion in double precision, a bit a cell.
+//! Which cells of a raster a triangle covers: scan conversion in double precision, one bit per cell.
 //!
-//! Places are in cells, such that centres are whole numbers. A cell is covered where its centre lies in a triangle or on
-//! its edge. Two triangles that share an edge find the same columns along it, as an edge's are computed from its upper to
-//! its lower end whichever way it is run.
+//! Coordinates are in cells, and centres are whole numbers. A cell is covered if its centre lies in a triangle or on
+//! its edge. Two triangles that share an edge find the same columns along it, since an edge's columns are computed from
+//! its upper to its lower end in whichever direction the triangle runs along it.
 
 use glam::DVec2;
 use std::cmp::Ordering;

@@ -1,4 +1,4 @@
-//! How exact coordinates are.
+//! The precision of coordinates.
 
 use super::Mesh;
 use glam::Vec3;

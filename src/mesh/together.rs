@@ -1,9 +1,9 @@
-//! What stands together. Drawings have leftovers, often a thousand kilometres from what was meant: how exact the models
-//! are must not depend on them.
+//! What stands together. Drawings contain leftovers, often a thousand kilometres from the model, and these must not
+//! reduce the precision of the model.
 //!
-//! Corners stand together where they lie in neighbouring cells of a grid. One grid is fine: what a cell or more parts in
-//! it is welded each for itself. The other is coarse: what two cells, 20 km, or more part in it from all else has another
-//! sun, and does not belong to the study.
+//! Corners stand together if they lie in neighbouring cells of a grid. There are two grids. In the fine one, groups
+//! that are a cell or more apart are welded separately. In the coarse one, whatever lies two cells, 20 km, or more from
+//! everything else has another sun, and does not belong to the study.
 
 use super::Part;
 use super::adjacency::lowest;

@@ -8,17 +8,17 @@ use std::sync::{Arc, OnceLock};
 /// A named part of the mesh, a run of its faces. Adjacency never crosses it, and no vertex is shared across it.
 #[derive(Clone, Debug)]
 pub struct Component {
-    /// Such as `node/material` of glTF, or `IfcWindow/Glass` of IFC.
+    /// The name, such as `node/material` of glTF, or `IfcWindow/Glass` of IFC.
     pub name: String,
-    /// Further names by which `casts` and `receives` can select it: of its node, mesh, material, storey or layer.
+    /// Further names by which `casts` and `receives` can select it: those of its node, mesh, material, storey or layer.
     pub aliases: Vec<String>,
-    /// Its faces.
+    /// The range of its faces.
     pub faces: Range<u32>,
-    /// Its edges.
+    /// The range of its edges.
     pub edges: Range<u32>,
-    /// Triangles of the file that became lines because welding joined two of their corners: these lines.
+    /// Lines that were triangles in the file, until welding joined two of their corners.
     pub collapsed: Arc<[[u32; 2]]>,
-    /// How many of those have three corners apart in the file: welding has changed what the file says.
+    /// The number of those whose three corners are apart in the file: welding has changed what the file says.
     pub flattened: usize,
     /// The coarsest precision of its corners, strays left out; `None` if the file writes all of them finely.
     pub coarse: Option<CornerPrecision>,
@@ -26,7 +26,8 @@ pub struct Component {
     pub is_terrain: bool,
 }
 
-/// A face at an edge: which one, and whether it runs along the edge (from its first vertex to its second) or against it.
+/// A face at an edge: its index, and whether it runs along the edge (from its first vertex to its second) or against
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Incidence(pub(super) u32);
 
@@ -40,27 +41,27 @@ impl Incidence {
         self.0 >> 1
     }
 
-    /// +1 where the face runs along the edge, −1 where it runs against it.
+    /// +1 if the face runs along the edge, −1 if it runs against it.
     pub fn direction(self) -> i32 {
         1 - 2 * (self.0 & 1) as i32
     }
 }
 
-/// Welded triangles with planes and adjacency, `f32` around `origin`. A copy shares all that is large.
+/// Welded triangles with planes and adjacency, `f32` around `origin`. A copy shares all large data.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    /// World position of the local origin; whole metres, unless it was given.
+    /// The world position of the local origin, in whole metres unless it was given.
     pub origin: DVec3,
-    /// Metres around `origin`; shared by the meshes that were taken from this one.
+    /// The vertices, metres around `origin`, shared with meshes that were made from this one.
     pub vertices: Arc<Vec<Vec3>>,
-    /// Three vertices a face, counter-clockwise seen from outside; grouped by component.
+    /// Three vertices per face, counter-clockwise seen from outside; grouped by component.
     pub faces: Arc<Vec<[u32; 3]>>,
     pub(super) planes: Arc<OnceLock<Vec<DVec4>>>,
     /// The lowest and highest corner of a box around what stands together, around `origin`; what lies outside is far off.
     pub(super) home: [Vec3; 2],
-    /// The parts.
+    /// The components.
     pub components: Vec<Component>,
-    /// Two vertices an edge, the lower first; grouped by component.
+    /// Two vertices per edge, the lower index first; grouped by component.
     pub edges: Arc<Vec<[u32; 2]>>,
     /// Where each edge's faces begin in `incidences`; one longer than `edges`.
     pub(super) edge_first: Arc<Vec<u32>>,
@@ -68,10 +69,10 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The most faces a mesh can have.
+    /// The greatest number of faces of a mesh.
     pub const MOST_FACES: usize = 1 << 30;
-    /// The farthest a vertex may lie from the origin, metres: there `f32` still tells half a metre apart, which is
-    /// coarse, but a model so large has that in its file already.
+    /// The greatest distance of a vertex from the origin, metres. There `f32` still has steps of half a metre, which is
+    /// coarse, but a model so large has the same steps in its file.
     pub const FARTHEST_M: f64 = 8.0e6;
 
     /// The faces at an edge.
@@ -84,7 +85,7 @@ impl Mesh {
         self.faces[face].map(|vertex| self.vertices[vertex as usize])
     }
 
-    /// The lowest and highest corner of a box around the faces, in metres of the world frame; none without faces.
+    /// The lowest and highest corner of a box around the faces, metres of the world frame; `None` without faces.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         self.bounds_of(0..self.faces.len() as u32)
     }
@@ -104,7 +105,7 @@ impl Mesh {
         (low.x <= high.x).then(|| (low.as_dvec3() + self.origin, high.as_dvec3() + self.origin))
     }
 
-    /// As [`Mesh::bounds`], of what stands together: strays that lie far off are left out.
+    /// As [`Mesh::bounds`], for what stands together: strays are left out.
     pub fn bounds_at_home(&self) -> Option<(DVec3, DVec3)> {
         self.bounds_where(0..self.faces.len() as u32, |vertex| self.is_at_home(vertex)).or_else(|| self.bounds())
     }
@@ -114,25 +115,25 @@ impl Mesh {
         self.home
     }
 
-    /// Whether a vertex is one of those that stand together, and no stray that lies far off.
+    /// Whether a vertex is part of what stands together, and not a stray.
     pub fn is_at_home(&self, vertex: u32) -> bool {
         let [low, high] = self.home;
         let at = self.vertices[vertex as usize];
         at.cmpge(low).all() && at.cmple(high).all()
     }
 
-    /// The height of the highest vertex that a face has, metres of the world frame; −∞ without faces.
+    /// The height of the highest vertex of a face, metres of the world frame; −∞ without faces.
     pub fn top(&self) -> f64 {
         self.bounds().map_or(f64::NEG_INFINITY, |(_, high)| high.z)
     }
 
-    /// Whether a face is one of terrain; what is no face of the mesh is not.
+    /// Whether a face is terrain; `false` for an index without a face.
     pub fn is_terrain(&self, face: u32) -> bool {
         let at = self.components.partition_point(|component| component.faces.end <= face);
         self.components.get(at).is_some_and(|component| component.is_terrain)
     }
 
-    /// The homogeneous light (sun: w = 0, lamp: w = 1) of the world frame, as the planes around `origin` see it.
+    /// The homogeneous light (sun: w = 0, lamp: w = 1) of the world frame, in the frame of the planes around `origin`.
     pub fn local_light(&self, light: DVec4) -> DVec4 {
         light - DVec4::from((self.origin, 0.0)) * light.w
     }

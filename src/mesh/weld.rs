@@ -1,4 +1,4 @@
-//! Corners that lie on each other become one vertex.
+//! Welds corners that lie on each other into one vertex.
 
 use super::Part;
 use super::together::{CornerGroup, CornerGroups};

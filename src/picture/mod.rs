@@ -1,7 +1,7 @@
-//! What a view shows, for the eye: sun and shadow in the colours of drawings, on the GPU and into a texture. Nothing is
-//! read back, so that a window can show it at every frame.
+//! The picture of a view: sun and shadow in the colours of drawings, drawn by the GPU into a texture. Nothing is read
+//! back, so that a window can show it in every frame.
 //!
-//! [`crate::export`] draws sheets on the processor, cell by cell; a test holds the two against each other.
+//! [`crate::export`] draws sheets on the processor, cell by cell; a test compares the two.
 
 pub mod overlay;
 mod patch_textures;
@@ -24,7 +24,7 @@ use std::sync::Arc;
 use texels::write;
 use wgpu::*;
 
-/// The hours of shadow of a profile, to be laid over what is seen.
+/// The hours of shadow of a profile, to be laid over the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct HoursRaster<'a> {
     /// West and north edge, metres of the world frame.
@@ -33,24 +33,25 @@ pub struct HoursRaster<'a> {
     pub cell: f64,
     /// Columns and rows.
     pub size: (u32, u32),
-    /// A cell's colour, row 0 north.
+    /// The colour of each cell, row 0 north.
     pub colours: &'a [[u8; 3]],
-    /// How high the surface lies that it was counted on, metres of the world frame.
+    /// The height of the surface on which each cell was counted, metres of the world frame.
     pub height_m: &'a [f32],
 }
 
-/// How a picture is drawn, beside what it shows.
+/// How a picture is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
-    /// From the eye to what it looks at, metres; what lies far behind that is hazy.
+    /// The distance from the eye to what it looks at, metres; what lies far behind that is hazy.
     pub focus_m: f64,
-    /// How strong lines are, 0 to 1.
+    /// The strength of the lines, 0 to 1.
     pub lines: f32,
-    /// Lines twice as wide, where the picture is shown at half its size.
+    /// Whether lines are twice as wide, because the picture is shown at half its size.
     pub wide_lines: bool,
-    /// Components in their own colours, as [`Picture::tint`] says.
+    /// Whether components have their own colours, as [`Picture::tint`] sets them.
     pub tinted: bool,
-    /// Hours instead of sun and shadow, as [`Picture::lay_hours`] or [`Picture::lay_patches`] says.
+    /// Whether hours are shown instead of sun and shadow, as [`Picture::lay_hours`] or [`Picture::lay_patches`] sets
+    /// them.
     pub hours: bool,
 }
 
@@ -75,14 +76,14 @@ pub struct Picture {
 
 /// What lies over the scene.
 enum HoursTextures {
-    /// The plan's cells (corner and cell): their colours, and how high they lie.
+    /// The plan's cells (corner and cell): their colours and heights.
     Plan([f32; 3], [Texture; 2]),
     /// Flat patches.
     Patches([Texture; 3]),
 }
 
 impl Picture {
-    /// Draws what is seen, builds the pipeline.
+    /// Draws what is seen, and builds the pipeline.
     ///
     /// # Errors
     /// [`ShadowError`], where the view does not fit the adapter.
@@ -130,7 +131,7 @@ impl Picture {
         })
     }
 
-    /// Turns to another view of the same scene; where the face that each cell sees is known, nothing is drawn for it.
+    /// Turns to another view of the same scene. If the face that each cell sees is known, nothing is drawn for it.
     ///
     /// # Errors
     /// As [`Picture::new`].
@@ -160,7 +161,7 @@ impl Picture {
         self.tints = Some(self.upload("picture.tints", size, COLOURS, bytemuck::cast_slice(&texels)));
     }
 
-    /// Lays hours over the scene, or takes them away.
+    /// Lays hours over the scene, or removes them.
     pub fn lay_hours(&mut self, hours: Option<HoursRaster<'_>>) {
         self.hours = hours.map(|hours| {
             let texels: Vec<[u8; 4]> = hours.colours.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
@@ -175,7 +176,7 @@ impl Picture {
         });
     }
 
-    /// Lays patches over the scene. What has none is plain.
+    /// Lays patches over the scene. Faces without a patch stay plain.
     ///
     /// # Errors
     /// Where the adapter cannot hold them.
@@ -185,7 +186,8 @@ impl Picture {
         Ok(())
     }
 
-    /// Lays shadow volumes (layers) and silhouette (ink) over the view, rasters as fine or a whole number of times finer.
+    /// Lays shadow volumes (layers) and silhouette (ink) over the view, in rasters of the view's size or a whole number
+    /// of times finer.
     pub fn lay_overlay(&mut self, size: (u32, u32), layers: Option<&[u8]>, ink: Option<&[u8]>) {
         self.overlay = [("picture.volumes", layers), ("picture.silhouette", ink)]
             .map(|(label, values)| values.map(|values| self.upload(label, size, SHARE, values)));
@@ -197,12 +199,12 @@ impl Picture {
         self.cells = Some(self.upload("picture.cells", size, COLOURS, bytemuck::cast_slice(&texels)));
     }
 
-    /// Takes away what was laid over one view alone.
+    /// Removes what was laid over a single view.
     pub fn clear(&mut self) {
         (self.overlay, self.cells) = ([None, None], None);
     }
 
-    /// Draws what is seen into the target. A sun that is not above the horizon makes it night, whatever the mask.
+    /// Draws the picture into the target. If the sun is not above the horizon it is night, whatever the mask.
     ///
     /// # Errors
     /// Where the adapter fails.

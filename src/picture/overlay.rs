@@ -1,10 +1,10 @@
-//! Shadow volumes and silhouette for the eye, over a camera's picture: the figures 5 and 6 of seed 004.
+//! Shadow volumes and silhouette over a camera's picture, as in figures 5 and 6 of *Geometry of Real Time Shadows*.
 //!
-//! The volumes are those of [`crate::shadow::stencil`]: the same vertex stages, and the same stencil, in which fronts and
-//! backs both count upwards here. So the picture shows what the technique counts, in layers.
+//! The volumes are those of [`crate::shadow::stencil`]: the same vertex stages and the same stencil, in which front and
+//! back sides both count upwards here. So the picture shows what the technique counts, in layers.
 //!
-//! Deviations from what the technique counts: each wall once, whatever its multiplicity, so that clean solids are not
-//! twice as dark; and a count stays at 255 when it gets there.
+//! Two things differ from what the technique counts: each wall counts once, whatever its multiplicity, so that clean
+//! solids are not twice as dark; and a count stays at 255 when it reaches that.
 
 use crate::gpu::targets::{COUNTED, SHARE, Stages, whole};
 use crate::gpu::{Gpu, readback, shaders};
@@ -16,7 +16,7 @@ use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use wgpu::*;
 
-/// Volumes and silhouette of one scene, before one camera and under one sun at a time.
+/// Volumes and silhouette of one scene, for one camera and one sun at a time.
 pub struct VolumePicture {
     scene: Scene,
     camera: Camera,
@@ -31,7 +31,7 @@ pub struct VolumePicture {
 }
 
 impl VolumePicture {
-    /// Draws what the camera sees, finds the volumes, builds the pipelines.
+    /// Draws what the camera sees, finds the volumes, and builds the pipelines.
     pub fn new(gpu: Arc<Gpu>, scene: &Scene, camera: Camera, to_sun: DVec3) -> Result<VolumePicture, ShadowError> {
         let surface = GpuSurface::draw(Arc::clone(&gpu), scene, View::Camera(camera))?;
         let twice = scene.casters.vertices.iter().flat_map(|v| [v.extend(1.0).to_array(), v.extend(0.0).to_array()]);
@@ -51,7 +51,7 @@ impl VolumePicture {
         })
     }
 
-    /// Turns to another camera and sun; pipelines and casters stay.
+    /// Turns to another camera and sun; pipelines and casters are kept.
     ///
     /// # Errors
     /// As [`VolumePicture::new`].
@@ -62,8 +62,8 @@ impl VolumePicture {
         Ok(())
     }
 
-    /// Per pixel how many walls and caps lie before what is seen, at most 255. Walls end at the lowest receiver; caps
-    /// only show where the casters are not what is seen there.
+    /// For each pixel, how many walls and caps lie in front of what is seen, at most 255. Walls end at the lowest
+    /// receiver; caps are drawn only where the view does not show the casters themselves.
     pub fn layers(&self) -> Result<Vec<u8>, ShadowError> {
         let gpu = &self.surface.gpu;
         let walls = self.volume.walls.iter().flat_map(|&wall| Volume::wall(wall));
@@ -92,7 +92,7 @@ impl VolumePicture {
         Ok(readback::texels(gpu, &judged, TextureAspect::StencilOnly)?)
     }
 
-    /// Per pixel how much of it the silhouette's lines cover, in 1/255; what is hidden is not drawn.
+    /// For each pixel, how much of it the silhouette's lines cover, in 1/255. Hidden lines are not drawn.
     pub fn silhouette(&self) -> Result<Vec<u8>, ShadowError> {
         let gpu = &self.surface.gpu;
         let place = |vertex: u32| self.scene.casters.vertices[vertex as usize];

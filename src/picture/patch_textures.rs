@@ -1,4 +1,4 @@
-//! Colours of flat patches as textures, for the picture: where each face's patch lies in the atlas, and the atlas.
+//! The colours of flat patches as textures for the picture: the place of each face's patch in the atlas, and the atlas.
 
 use super::texels::{COLOURS, write};
 use crate::gpu::{Gpu, GpuError};
@@ -11,14 +11,14 @@ use wgpu::*;
 /// A face without a patch (`NO_PATCH` of `shaders/picture.wgsl`).
 const NO_PATCH: u32 = u32::MAX;
 
-/// Colours of flat patches, to be laid over what is seen.
+/// Colours of flat patches, to be laid over the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchColours<'a> {
     /// The patches.
     pub patches: &'a Patches,
-    /// Of each face of the receivers its patch.
+    /// The patch of each face of the receivers.
     pub patch_of: &'a [Option<u32>],
-    /// Per page its texels' colours, row by row.
+    /// The colours of each page's texels, row by row.
     pub pages: &'a [Vec<[u8; 3]>],
 }
 

@@ -1,6 +1,6 @@
-//! Masks times weights, added up where the masks are, in integers.
+//! Adds up masks times weights, where the masks are, in integers.
 
-use super::Shaded;
+use super::ShadedTime;
 use crate::gpu::layout::WeightUniforms;
 use crate::gpu::targets::{NUMBER, whole};
 use crate::gpu::{Gpu, readback, shaders};
@@ -110,7 +110,7 @@ struct GpuSum {
 }
 
 impl Sum {
-    /// All zero; on the GPU where masks are drawn there.
+    /// A sum of zero, on the GPU if masks are drawn there.
     pub fn new(gpu: Option<Arc<Gpu>>, width: u32, height: u32) -> Sum {
         let running = match gpu {
             None => RunningSum::Memory(vec![0; width as usize * height as usize]),
@@ -119,8 +119,8 @@ impl Sum {
         Sum { running, counted: BitCounts::default(), secs: 0, poured: None }
     }
 
-    /// Goes on from a sum over so many seconds.
-    pub fn begin_with(&mut self, shaded: &Shaded, secs: u32) {
+    /// Continues from a sum over that many seconds.
+    pub fn begin_with(&mut self, shaded: &ShadedTime, secs: u32) {
         match (&mut self.running, shaded.in_one_word()) {
             (RunningSum::Memory(running), Some(cells)) if secs <= MOST_SECS => {
                 running.copy_from_slice(cells);
@@ -130,7 +130,7 @@ impl Sum {
         }
     }
 
-    /// Adds one mask for so many seconds. A mask that lies elsewhere than the sum is fetched or brought there.
+    /// Adds one mask for that many seconds. If mask and sum are on different machines, the mask is copied.
     pub fn add(&mut self, mask: &DrawnMask<'_>, weight_secs: u32) -> Result<(), ShadowError> {
         let mut left = weight_secs;
         loop {
@@ -200,8 +200,8 @@ impl Sum {
         })
     }
 
-    /// The sum so far. Slow where it is on the GPU: it is read back.
-    pub fn so_far(&mut self) -> Result<Shaded, ShadowError> {
+    /// The sum so far. On the GPU this is slow, as the sum is read back.
+    pub fn so_far(&mut self) -> Result<ShadedTime, ShadowError> {
         self.settle();
         match (&self.running, &self.poured) {
             (RunningSum::Memory(sum), None) => Ok(sum.clone().into()),
@@ -210,8 +210,8 @@ impl Sum {
         }
     }
 
-    /// The sum.
-    pub fn finish(mut self) -> Result<Shaded, ShadowError> {
+    /// The final sum.
+    pub fn finish(mut self) -> Result<ShadedTime, ShadowError> {
         self.settle();
         match self {
             Sum { running: RunningSum::Memory(sum), poured: None, .. } => Ok(sum.into()),

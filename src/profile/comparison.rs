@@ -1,8 +1,8 @@
-//! What a change of the site does to its shadow: two profiles of one study, cell by cell.
+//! What a change of the site does to its shadow: two profiles of one study, compared cell by cell.
 //!
-//! *Sun lost* is shadow that there is after and was not before; *sun gained* is the opposite. A cell that sees another
-//! surface after than before (a roof where there was ground) is *altered*: there is nothing to compare, and it is in no
-//! area.
+//! *Sun lost* is shadow that is there after the change and was not before; *sun gained* is the opposite. A cell that
+//! sees another surface after than before (a roof where there was ground) is *altered*: its hours are not compared, and
+//! it is not part of any area.
 
 use super::Profile;
 use crate::view::{Grid, Surface};
@@ -10,19 +10,19 @@ use crate::view::{Grid, Surface};
 /// Surfaces nearer to each other than this are one, metres: below it lies what rounding makes of a slope's height.
 const ONE_SURFACE_M: f32 = 0.05;
 
-/// How what a cell sees has altered.
+/// How the surface that a cell sees has altered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Alteration {
-    /// It has not.
+    /// It is the same surface.
     No,
-    /// It sees something new above what was there.
+    /// The cell sees something new above what was there.
     Built,
-    /// What it saw is gone.
+    /// What the cell saw is gone.
     Cleared,
 }
 
 impl Alteration {
-    /// Per cell, of two surfaces on one grid.
+    /// The alteration of each cell between two surfaces on one grid.
     pub fn between(before: &Surface, after: &Surface) -> Vec<Alteration> {
         let heights = before.height_m.iter().zip(&after.height_m);
         let altered = |(before, after): (&f32, &f32)| match after - before {
@@ -47,7 +47,7 @@ pub struct Comparison {
 pub enum Change {
     /// More shadow after than before.
     SunLost,
-    /// Less.
+    /// Less shadow after than before.
     SunGained,
 }
 
@@ -63,7 +63,7 @@ pub struct GreatestChange {
 }
 
 impl Comparison {
-    /// Of two profiles of one study.
+    /// The comparison of two profiles of one study.
     ///
     /// # Panics
     /// Where they do not lie on one grid with one daylight, or a raster has other cells.
@@ -73,12 +73,12 @@ impl Comparison {
         Comparison { before, after, altered }
     }
 
-    /// Where the rasters lie.
+    /// The grid of both profiles.
     pub fn grid(&self) -> &Grid {
         &self.before.grid
     }
 
-    /// How many cells there are.
+    /// The number of cells.
     pub fn cells(&self) -> usize {
         self.altered.len()
     }
@@ -98,24 +98,24 @@ impl Comparison {
         self.altered[cell]
     }
 
-    /// The shaded time after minus that before, in 1/255 s; none where the cell is altered.
+    /// The shaded time after minus the one before, in 1/255 s; `None` if the cell is altered.
     pub fn change(&self, cell: usize) -> Option<i64> {
         // sums of ten years are below 2^37
         let change = || self.after.shaded.of(cell) as i64 - self.before.shaded.of(cell) as i64;
         (self.altered[cell] == Alteration::No).then(change)
     }
 
-    /// The same in hours; NaN where the cell is altered.
+    /// The same in hours; NaN if the cell is altered.
     pub fn hours(&self, cell: usize) -> f32 {
         self.change(cell).map_or(f32::NAN, |change| hours(change) as f32)
     }
 
-    /// Square metres that are so.
+    /// The area with that alteration, square metres.
     pub fn altered_m2(&self, altered: Alteration) -> f64 {
         self.area(self.altered.iter().filter(|it| **it == altered).count())
     }
 
-    /// Square metres that change by more than some seconds.
+    /// The area that changes by more than that many seconds, square metres.
     pub fn more_than_m2(&self, change: Change, secs: u32) -> f64 {
         let least = i64::from(secs) * 255;
         self.area(self.changes(change).filter(|(_, change)| *change > least).count())
@@ -137,7 +137,7 @@ impl Comparison {
         sum as f64 / (255.0 * 3600.0) * self.area(1)
     }
 
-    /// Where it changes most; none where it nowhere does.
+    /// The cell that changes most; `None` if none changes.
     pub fn most(&self, change: Change) -> Option<GreatestChange> {
         let first = self.changes(change).fold(None, |most: Option<(usize, i64)>, (cell, change)| match most {
             Some((_, largest)) if largest >= change => most,

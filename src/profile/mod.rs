@@ -1,4 +1,4 @@
-//! The answer on the plan: shaded time per cell, and where it lies on the ground.
+//! The answer on the plan: shaded time per cell, and where the raster lies on the ground.
 
 #[doc(hidden)]
 pub mod accumulate;
@@ -10,7 +10,7 @@ mod statistics;
 mod unfinished;
 
 pub use provenance::{Provenance, Timings};
-pub use shaded::Shaded;
+pub use shaded::ShadedTime;
 #[doc(hidden)]
 pub use shaded::{ShadedCells, ShadedPart};
 pub use statistics::Statistics;
@@ -22,14 +22,14 @@ use crate::view::Grid;
 ///
 /// Sums are exact integers, the same on every machine: seconds times the covered share of the sun in 1/255.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Profile<S = Shaded> {
-    /// Where the raster lies.
+pub struct Profile<S = ShadedTime> {
+    /// The grid of the raster.
     pub grid: Grid,
-    /// Per cell the shaded time; night is not in it.
+    /// The shaded time of each cell, without night.
     pub shaded: S,
     /// Seconds of the window with the sun above the horizon.
     pub day_secs: u32,
-    /// Seconds of the window without.
+    /// Seconds of the window with the sun below the horizon.
     pub night_secs: u32,
 }
 
@@ -40,7 +40,7 @@ impl Profile {
     }
 }
 
-/// Hours of a shaded time.
+/// Converts a shaded time to hours.
 pub fn hours(shaded: u64) -> f32 {
     (shaded as f64 / (255.0 * 3600.0)) as f32
 }

@@ -7,14 +7,14 @@ use crate::choice::{Engine, Finder, Method, Settings};
 pub struct Provenance {
     /// The technique.
     pub technique: Method,
-    /// Who found silhouettes; absent where nobody did.
+    /// The finder of silhouettes; absent if none was used.
     pub finder: Option<Finder>,
     /// The machine.
     pub engine: Engine,
-    /// The graphics adapter's own name; absent where none was used.
+    /// The graphics adapter's own name; absent if none was used.
     pub adapter: Option<String>,
-    /// How it was set, each absent where the technique does not use it. Without [`Settings::sun_samples`] the sun was its
-    /// centre; [`Settings::smoothie_width_m`] is there where it was set by hand.
+    /// The settings of the technique; those that it does not use are absent. Without [`Settings::sun_samples`] the sun
+    /// was its centre; [`Settings::smoothie_width_m`] is present only if it was set by hand.
     pub settings: Settings,
 }
 

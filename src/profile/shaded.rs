@@ -3,17 +3,17 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Per cell the shaded time in 1/255 s, row 0 (north) first: one word of 32 bits, as a year of daylight just fits, or two
-/// where a longer study needs them.
+/// The shaded time of each cell in 1/255 s, row 0 (north) first: in one 32-bit word per cell, which just holds a year
+/// of daylight, or in two for longer studies.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Shaded(ShadedPart<'static>);
+pub struct ShadedTime(ShadedPart<'static>);
 
-/// Some cells' shaded time, as it lies in memory or was read for the purpose.
+/// The shaded time of some cells, in memory or read from a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ShadedPart<'a> {
-    /// In one word each.
+    /// One word per cell.
     One(Cow<'a, [u32]>),
-    /// In two.
+    /// Two words per cell.
     Two(Cow<'a, [u64]>),
 }
 
@@ -24,7 +24,7 @@ impl Default for ShadedPart<'_> {
 }
 
 impl ShadedPart<'_> {
-    /// How many cells there are.
+    /// The number of cells.
     pub fn len(&self) -> usize {
         match self {
             ShadedPart::One(cells) => cells.len(),
@@ -32,12 +32,12 @@ impl ShadedPart<'_> {
         }
     }
 
-    /// Whether there is none.
+    /// Whether there are no cells.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// A cell's, in 1/255 s.
+    /// The shaded time of a cell, in 1/255 s.
     pub fn of(&self, cell: usize) -> u64 {
         match self {
             ShadedPart::One(cells) => cells[cell].into(),
@@ -46,7 +46,7 @@ impl ShadedPart<'_> {
     }
 }
 
-/// Shaded time of all cells of a plan, some at a time: not all of it has to be held in memory.
+/// The shaded time of all cells of a plan, which can be read in parts, so that not everything has to be in memory.
 pub trait ShadedCells: Sync {
     /// How many cells there are.
     fn cells(&self) -> usize;
@@ -55,7 +55,7 @@ pub trait ShadedCells: Sync {
     fn part(&self, cells: Range<usize>) -> ShadedPart<'_>;
 }
 
-impl ShadedCells for Shaded {
+impl ShadedCells for ShadedTime {
     fn cells(&self) -> usize {
         self.len()
     }
@@ -68,28 +68,28 @@ impl ShadedCells for Shaded {
     }
 }
 
-impl Shaded {
-    /// How many cells there are.
+impl ShadedTime {
+    /// The number of cells.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether there is none.
+    /// Whether there are no cells.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// A cell's, in 1/255 s.
+    /// The shaded time of a cell, in 1/255 s.
     pub fn of(&self, cell: usize) -> u64 {
         self.0.of(cell)
     }
 
-    /// All cells', in 1/255 s.
+    /// The shaded time of all cells, in 1/255 s.
     pub fn iter(&self) -> impl Iterator<Item = u64> {
         (0..self.len()).map(|cell| self.of(cell))
     }
 
-    /// The cells, where one word is enough for each; else [`Shaded::in_two_words`] has them.
+    /// The cells, if one word per cell is enough; otherwise [`ShadedTime::in_two_words`] has them.
     pub fn in_one_word(&self) -> Option<&[u32]> {
         match &self.0 {
             ShadedPart::One(cells) => Some(cells),
@@ -97,7 +97,7 @@ impl Shaded {
         }
     }
 
-    /// The cells, where one word is not enough for some.
+    /// The cells, if one word is not enough for some of them.
     pub fn in_two_words(&self) -> Option<&[u64]> {
         match &self.0 {
             ShadedPart::One(_) => None,
@@ -106,18 +106,18 @@ impl Shaded {
     }
 }
 
-impl From<Vec<u32>> for Shaded {
-    fn from(cells: Vec<u32>) -> Shaded {
-        Shaded(ShadedPart::One(cells.into()))
+impl From<Vec<u32>> for ShadedTime {
+    fn from(cells: Vec<u32>) -> ShadedTime {
+        ShadedTime(ShadedPart::One(cells.into()))
     }
 }
 
-impl From<Vec<u64>> for Shaded {
+impl From<Vec<u64>> for ShadedTime {
     /// One word where that is enough for all cells, so that equal sums are equal.
-    fn from(cells: Vec<u64>) -> Shaded {
+    fn from(cells: Vec<u64>) -> ShadedTime {
         match cells.iter().map(|&cell| u32::try_from(cell)).collect::<Result<Vec<u32>, _>>() {
             Ok(cells) => cells.into(),
-            Err(_) => Shaded(ShadedPart::Two(cells.into())),
+            Err(_) => ShadedTime(ShadedPart::Two(cells.into())),
         }
     }
 }

@@ -1,17 +1,17 @@
-//! How much work counting shadow volumes took in a whole study.
+//! How much work counting shadow volumes took over a whole study.
 
 use crate::view::{Decider, FragmentCounts};
 
-/// What counting shadow volumes took, over all cells and instants.
+/// How much work counting shadow volumes took, over all cells and instants.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
-    /// Cells of all instants.
+    /// The number of cells, over all instants.
     pub cells: u64,
-    /// Those of them that a map left to the volumes, where there was one.
+    /// The number of those that a map left to the volumes, if there was a map.
     pub silhouette_cells: Option<u64>,
-    /// Fragments of walls and caps that reached the count.
+    /// The number of fragments of walls and caps that reached the count.
     pub fragments: u64,
-    /// Fragments that would have, if no mask kept any away.
+    /// The number of fragments that would have reached the count without the mask.
     pub fragments_without_mask: u64,
 }
 
@@ -27,14 +27,14 @@ impl Statistics {
         }
     }
 
-    /// An instant's own.
+    /// The statistics of one instant.
     pub fn of(counted: &FragmentCounts) -> Statistics {
         let mut statistics = Statistics::default();
         statistics.add(counted);
         statistics
     }
 
-    /// Fragments a cell, with the mask and without.
+    /// The fragments per cell, with the mask and without.
     pub fn overdraw(&self) -> [f64; 2] {
         [self.fragments, self.fragments_without_mask].map(|fragments| fragments as f64 / self.cells.max(1) as f64)
     }

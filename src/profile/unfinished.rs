@@ -1,18 +1,18 @@
-//! A study that was stopped.
+//! The state of a study that was stopped.
 
-use super::{Shaded, Statistics};
+use super::{ShadedTime, Statistics};
 
-/// A study that was stopped, as far as it came. Tiles before the one that was worked on last are whole, and not in it.
+/// The state of a study that was stopped. It does not contain the finished tiles before the last one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unfinished {
-    /// Which study: a number of all that its result depends on.
+    /// The fingerprint of the study.
     pub study: u64,
-    /// How many tiles it has.
+    /// The number of its tiles.
     pub tiles: usize,
-    /// How many of its instants are done, those of each tile counted.
+    /// The number of instants that are done, added up over the tiles.
     pub done: usize,
-    /// The sum of those of the last tile.
-    pub shaded: Shaded,
-    /// What counting them took, where that was asked.
+    /// The sum of those in the last tile.
+    pub shaded: ShadedTime,
+    /// The statistics of counting them, if they were requested.
     pub statistics: Option<Statistics>,
 }

@@ -1,8 +1,8 @@
-//! Casters that are counted together, so few over each other that the stencil holds their count.
+//! Batches: casters that are counted together, so few above each other that the stencil can hold their count.
 //!
-//! The stencil holds 8 bits (7 beside a computation mask), and a count of exactly 256 (128) would read as light. Casters
-//! are halved until a bound shows that no count of a half can reach that ([`layers_bound`]). What is found tells its
-//! bound, so that as much as fits is counted together before the mask takes the trace.
+//! The stencil has 8 bits (7 beside a computation mask), and a count of exactly 256 (128) would read as light. Casters
+//! are split in halves until a bound shows that no count of a half can reach that ([`layers_bound`]). Each batch keeps
+//! its bound, so that as many batches as fit are counted together before the mask is drawn from the count.
 
 use super::walls::{WallMaker, WallQuery, Walls};
 use crate::gpu::GpuError;

@@ -1,4 +1,4 @@
-//! Where a view looks from, as shaders take it.
+//! The transform of a view, in the form that shaders read.
 
 use super::{JUDGED_ABOVE_M, Scene};
 use crate::gpu::layout;

@@ -1,14 +1,16 @@
-//! The hybrid of map and volumes: exact hard shadows, counted only where the map cannot tell.
+//! The hybrid of map and volumes: exact hard shadows, counted only where the map cannot decide.
 //!
-//! Seed 000, chapter 3. A map is drawn from the sun; a cell whose four nearest texels agree takes their answer; the
-//! others, along the shadows' edges, are counted. The computation mask is the stencil's top bit, which the count's test
-//! reads and nothing writes (WebGPU has no depth-bounds test, and early stencil tests reject whole tiles as well). The
-//! count keeps the low seven bits, so batches stay at 127 or below.
+//! E. Chan, *Efficient Shadow Algorithms on Graphics Hardware*, 2004, chapter 3. A map is drawn from the sun. A cell
+//! whose four nearest texels agree takes their answer; the others, along the shadows' edges, are counted. The
+//! computation mask is the stencil's top bit, which the count's test reads and nothing writes (WebGPU has no
+//! depth-bounds test, and early stencil tests reject whole tiles as well). The count keeps the low seven bits, so
+//! batches stay at 127 or below.
 //!
 //! Deviations: the view's own z-pass or z-fail instead of z-fail alone; the comparison by the cell's own plane, so that
-//! no bias leaves light between a shadow and its caster; cells whose plane the sun all but grazes are always counted.
+//! no bias lets light through between a shadow and its caster; cells whose plane is almost edge-on to the sun are
+//! always counted.
 //!
-//! It is wrong where a caster, or a gap, is so thin that the four texels around it miss it together.
+//! It is wrong where a caster, or a gap, is so thin that all four texels around it miss it.
 
 use super::counting::{StencilBits, VolumeCounter};
 use super::light_view::Smoothies;
@@ -34,7 +36,7 @@ pub struct Hybrid {
 const ALL_COUNT: LoadOp<u32> = LoadOp::Clear(StencilBits::MASK);
 
 impl Hybrid {
-    /// Draws what is seen, uploads the casters, builds the pipelines; the map has `map_size` texels a side.
+    /// Draws what is seen, uploads the casters, and builds the pipelines. The map has `map_size` texels per side.
     pub fn new(
         gpu: Arc<Gpu>,
         scene: Scene,
@@ -68,7 +70,7 @@ impl Hybrid {
         Ok(Hybrid { counting, map, compared, decided, mask })
     }
 
-    /// As for the stencil: z-fail (`true`) or z-pass (`false`), right or wrong.
+    /// As for the stencil: takes z-fail (`true`) or z-pass (`false`), whether it is right or not.
     #[cfg(feature = "test-hooks")]
     pub fn force_z_fail(&mut self, z_fail: bool) {
         self.counting.force_z_fail(z_fail);

@@ -1,10 +1,10 @@
-//! A light's view of a scene: the sun's is parallel, and no larger than what can be in shadow needs.
+//! A light's view of a scene. The sun's view is parallel, and no larger than what can be in shadow.
 //!
-//! Only what a view sees is judged, and only what lies behind casters, seen from the sun, can be in shadow. So the map's
-//! rectangle is what of two rectangles overlaps, around what is seen and around the casters, turned about the sun's rays
-//! to where it is smallest. A caster outside of the view that shades something in it lies in that rectangle, however far
-//! away it is; along the rays the map reaches over all casters. A lamp's view is in perspective; it is for smoothies, whose
-//! paper has lamps.
+//! Only what a view sees is judged, and only what lies behind casters, seen from the sun, can be in shadow. So the map
+//! covers the overlap of two rectangles, one around what is seen and one around the casters, turned about the sun's
+//! rays to where the overlap is smallest. A caster outside of the view that shades something in it lies in that
+//! rectangle, however far away it is; along the rays the map reaches over all casters. A lamp's view is in perspective;
+//! it is for smoothies, whose paper has lamps.
 
 use super::{GpuSurface, Scene, ShadowError};
 use crate::gpu::layout;

@@ -1,10 +1,12 @@
 //! The map: depth as the sun sees it, for [`super::shadow_map`], [`super::hybrid`] and [`super::smoothie`].
 //!
-//! Williams 1978, after seeds 000, 001 and 003. The light is parallel, so depth is linear: metres along the rays.
+//! L. Williams, *Casting Curved Shadows on Curved Surfaces*, 1978. The light is parallel, so depth is linear: metres
+//! along the rays.
 //!
-//! A texel shades a cell only where it lies nearer to the light than the cell, and than the cell's own plane at the texel's
-//! sample, which the view knows: so no plane shades itself, and no lit wall the ground at its foot. What is left for the
-//! slope-scaled bias of seed 003 is curvature, and half a texel of it is enough for all filters.
+//! A texel shades a cell only if it lies nearer to the light than the cell, and nearer than the cell's own plane at the
+//! texel's sample (the view knows the plane). So no plane shades itself, and no lit wall shades the ground at its foot.
+//! The slope-scaled bias (Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd edition, 2008, section 9.1) is
+//! left with curved surfaces alone, and half a texel of it is enough for all filters.
 
 use super::light_view::{Extents, Smoothies};
 use super::surface::{UNIFORM, bind_group_layout, texture_binding};
@@ -141,7 +143,8 @@ impl DepthMap {
     }
 }
 
-/// Four maps, a quarter of a texel from its centre each, in the channels of one (seed 001, section 3).
+/// Four maps, a quarter of a texel from its centre each, in the channels of one (Brabec and Seidel,
+/// section 3).
 pub(super) struct PackedMap {
     pub(super) packed: Texture,
     /// One pipeline a channel.

@@ -1,7 +1,7 @@
-//! The techniques: each draws for one sun direction one mask of the same kind.
+//! The techniques. For one direction of the sun each of them draws one mask, and all masks are of the same kind.
 //!
-//! Accumulation, drawings and tests never ask who drew a mask. One technique is one file, with one shader of the
-//! same name where it draws on the GPU.
+//! Accumulation, drawings and tests never ask who drew a mask. One technique is one file, with one shader of the same
+//! name where it draws on the GPU.
 
 mod batch;
 mod counting;
@@ -41,33 +41,33 @@ pub use plan_surface::{PlanSurface, plan_surface};
 pub use surface::GpuSurface;
 pub use walls::Silhouettes;
 
-/// What lies this near above a receiver does not shade it, metres: a receiver is judged so far above itself, along the
-/// normal of its seen side. A slab in the ground plane leaves the ground lit.
+/// The height above itself at which a receiver is judged, along the normal of its visible side, metres. What lies
+/// within it does not shade the receiver, so that a slab in the ground plane leaves the ground lit.
 pub const JUDGED_ABOVE_M: f64 = 0.001;
 
-/// What casts and what receives, around one origin.
+/// The casters and receivers, around one origin.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The faces that cast.
     pub casters: Mesh,
-    /// The faces that are judged, beside the ground; what is in neither mesh is looked through.
+    /// The faces that are judged, besides the ground. What is in neither mesh is looked through.
     pub receivers: Mesh,
-    /// Height of the ground plane in the world frame, metres. It reaches to the horizon.
+    /// The height of the ground plane in the world frame, metres. The plane reaches to the horizon.
     pub ground: f64,
 }
 
-/// The last mask of a technique, where it was drawn.
+/// The last mask of a technique, in the memory where it was drawn.
 pub enum DrawnMask<'a> {
-    /// In the processor's memory.
+    /// A mask in the processor's memory.
     Memory(&'a Mask),
-    /// There, too, one bit a cell: the sun is a point.
+    /// The same as one bit per cell, for a point-like sun.
     Bits(&'a Bits),
     /// An R8Unorm texture: the share of the sun that is seen.
     Texture(&'a Gpu, &'a wgpu::Texture),
 }
 
 impl DrawnMask<'_> {
-    /// The mask's pixels.
+    /// Reads the mask's pixels.
     pub fn read(&self) -> Result<Mask, ShadowError> {
         match self {
             DrawnMask::Memory(mask) => Ok((*mask).clone()),
@@ -80,7 +80,7 @@ impl DrawnMask<'_> {
         }
     }
 
-    /// Which cells are in shadow: where at most half of the sun is seen.
+    /// The cells that are in shadow: those that see at most half of the sun.
     pub fn bits(&self) -> Result<Bits, ShadowError> {
         match self {
             DrawnMask::Bits(bits) => Ok((*bits).clone()),
@@ -177,7 +177,7 @@ impl Worded for ShadowError {
     }
 }
 
-/// The unit normal of the side that is seen, zero where a face has no area; `plane` and `viewer` around one origin.
+/// The unit normal of the visible side; zero if a face has no area. `plane` and `viewer` are around one origin.
 ///
 /// A surface whose seen side faces away from the sun, or is edge-on to it, is in shadow, whatever its winding.
 #[doc(hidden)]

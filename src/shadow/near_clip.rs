@@ -1,4 +1,5 @@
-//! Whether a camera's near plane may cut a shadow volume: the near-clip volume (seed 004, section 7).
+//! Whether a camera's near plane may cut a shadow volume: the test with the near-clip volume of *Geometry of Real Time
+//! Shadows*, section 7.
 
 use super::Scene;
 use crate::mesh::Mesh;
@@ -21,7 +22,7 @@ fn near_rectangle(camera: &Camera) -> [DVec3; 4] {
 }
 
 /// Whether a caster may reach into the near-clip volume, the near rectangle swept towards the sun. Boxes around
-/// components stand for them, so the answer may be yes too often, never no.
+/// components stand for the casters, so the answer may be `true` too often, but never `false` too often.
 pub fn near_clip_volume_touched(camera: &Camera, to_sun: DVec3, casters: &Mesh) -> bool {
     let forward = camera.axes()[2];
     let middle = camera.eye + forward * Camera::NEAR_M;

@@ -1,7 +1,7 @@
-//! What the cells of a plan see first, on the processor: every face is scan-converted, and the highest stays.
+//! What each cell of a plan sees first, on the processor: every face is scan-converted, and the highest one stays.
 //!
-//! The same as one ray a cell straight down, in double precision as well, and many times faster, since a face is looked at
-//! once and not a cell. `RayCast::surface` is its slow plain twin.
+//! The result is that of one ray per cell straight down, in double precision like that, but many times faster, since
+//! each face is visited once and not each cell. `RayCast::surface` is its slow plain twin.
 
 use super::ray_cast::TIE;
 use crate::mesh::{Mesh, scan};

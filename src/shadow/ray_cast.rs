@@ -1,11 +1,11 @@
-//! Ray casting on the processor, in double precision: the truth that other techniques are held against, and the
+//! Ray casting on the processor, in double precision: the truth with which other techniques are compared, and the
 //! engine where there is no GPU.
 //!
-//! Plain on purpose. Intersection after Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2013):
-//! the triangle is sheared so that the ray is an axis, and the signs of three areas decide; a ray through a shared
-//! edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as hits.
-//! The tree only prunes: its boxes are padded beyond all rounding of its `f32` rays, and beyond the first tenth of a
-//! millimetre of a ray, in which it finds nothing.
+//! It is plain on purpose. Intersection follows S. Woop, C. Benthin and I. Wald, *Watertight Ray/Triangle Intersection*
+//! (JCGT, 2013): the triangle is sheared so that the ray is an axis, and the signs of three areas decide. A ray through
+//! a shared edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as
+//! hits. The tree only prunes: its boxes are padded by more than the rounding of its `f32` rays, and beyond the first
+//! tenth of a millimetre of a ray, in which it finds nothing.
 
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
@@ -31,7 +31,7 @@ pub struct RayCaster {
 const LOOKED_PAST: f64 = 1e-4;
 
 impl RayCaster {
-    /// Builds the tree; `reach` is the farthest that a ray's origin lies from the mesh's origin, metres.
+    /// Builds the tree. `reach` is the greatest distance of a ray's origin from the mesh's origin, metres.
     pub fn new(mesh: &Mesh, reach: f64) -> RayCaster {
         let size = mesh.vertices.iter().fold(0.0f32, |size, vertex| size.max(vertex.abs().max_element()));
         let rounding = (f64::from(size) + reach) * f64::from(f32::EPSILON) * 8.0;
@@ -48,7 +48,7 @@ impl RayCaster {
         RayCaster { tree, corners: faces.iter().map(|&face| mesh.corners(face as usize)).collect(), faces }
     }
 
-    /// The nearest face along a ray, and how many lengths of `direction` away.
+    /// The nearest face along a ray, and its distance in lengths of `direction`.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
         let shear = Shear::along(direction);
         let length = direction.length();
@@ -76,7 +76,7 @@ impl RayCaster {
         self.tree.as_ref().is_some_and(|tree| !tree.ray_traverse_miss(ray(origin, shear.direction), hit))
     }
 
-    /// How many faces lie along a ray: the count that a shadow volume must have at its origin.
+    /// The number of faces along a ray: the count that a shadow volume must have at its origin.
     #[cfg(feature = "test-hooks")]
     pub fn crossings(&self, origin: DVec3, direction: DVec3) -> usize {
         let shear = Shear::along(direction);
@@ -89,7 +89,7 @@ fn ray(origin: DVec3, direction: DVec3) -> Ray {
     Ray::new_inf(origin.as_vec3a(), direction.normalize().as_vec3a() + Vec3A::ZERO)
 }
 
-/// The frame in which a direction is an axis, the same for all parallel rays.
+/// A frame in which a direction is an axis, the same for all parallel rays.
 #[doc(hidden)]
 pub struct Shear {
     direction: DVec3,
@@ -98,7 +98,7 @@ pub struct Shear {
 }
 
 impl Shear {
-    /// For rays along a direction that is not zero.
+    /// The frame for rays along a direction that is not zero.
     pub fn along(direction: DVec3) -> Shear {
         let forward = direction.abs().max_position();
         let (mut right, mut up) = ((forward + 1) % 3, (forward + 2) % 3);
@@ -139,7 +139,7 @@ pub(super) struct RayEnd {
     pub(super) distance: f64,
 }
 
-/// The technique: one ray a cell to what is seen, once, and one ray a cell towards the sun at every instant.
+/// The technique: one ray per cell to what is seen, once, and one ray per cell towards the sun at every instant.
 pub struct RayCast {
     scene: Scene,
     rays: Rays,
@@ -151,13 +151,13 @@ pub struct RayCast {
 }
 
 impl RayCast {
-    /// Builds the trees and finds what the cells see. Rays go to so many points of the sun's disc, or to its centre.
+    /// Builds the trees and finds what the cells see. Rays go to that many points of the sun's disc, or to its centre.
     pub fn new(scene: Scene, view: View, sun_samples: Option<u32>) -> RayCast {
         let size = view.size();
         Self::of_part(scene, view, ([0, 0], size.into()), sun_samples)
     }
 
-    /// The same for a tile of a plan alone.
+    /// The same for a single tile of a plan.
     pub fn of_tile(scene: Scene, tile: Tile, sun_samples: Option<u32>) -> RayCast {
         Self::of_part(scene, View::Plan(tile.plan), (tile.first, tile.size), sun_samples)
     }
@@ -179,12 +179,12 @@ impl RayCast {
         self.seen.par_iter().map(|seen| seen.face).collect()
     }
 
-    /// What is looked at.
+    /// The view.
     pub fn view(&self) -> View {
         self.rays.view
     }
 
-    /// Turns to another view, whose rays begin no farther away than those of the first.
+    /// Turns to another view, whose rays begin no farther away than those of the first view.
     pub fn look_at(&mut self, view: View) {
         let size = view.size();
         self.look_at_part(view, ([0, 0], size.into()));
@@ -246,7 +246,7 @@ impl RayCast {
         seen_normal(plane, viewer)
     }
 
-    /// How many rays a mask takes: one for each point of the sun and each cell whose seen side it shines on.
+    /// The number of rays of a mask: one for each point of the sun and each cell whose visible side faces it.
     #[cfg(feature = "test-hooks")]
     pub fn rays(&self, to_sun: DVec3) -> usize {
         let suns = self.suns(to_sun);
@@ -260,8 +260,8 @@ impl RayCast {
         self.seen.par_iter().map(of_cell).sum()
     }
 
-    /// Which share of the sun's centre a cell sees, found without the trees: every face is asked. Slow; by this the trees
-    /// themselves are proven.
+    /// The share of the sun's centre that a cell sees, found without the trees by testing every face. It is slow; it
+    /// proves the trees themselves.
     #[doc(hidden)]
     pub fn share_without_trees(&self, column: u32, row: u32, to_sun: DVec3) -> u8 {
         let RayCast { scene, rays, .. } = self;
@@ -300,11 +300,11 @@ struct Rays {
 
 /// Where rays begin.
 enum RayStart {
-    /// A height above everything, in the world frame: the plan looks down from there.
+    /// A height above everything, in the world frame, from which the plan looks down.
     Above(Grid, f64),
     /// A camera's eye; its rays begin at the near plane.
     Eye(DVec3, Lens),
-    /// So far before a side's own plane that everything lies behind it.
+    /// The distance in front of a side's own plane from which everything lies behind it.
     Before(Elevation, f64),
 }
 

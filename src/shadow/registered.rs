@@ -1,13 +1,13 @@
-//! Herf's registered projection: from what stands between a light and a flat receiver to the receiver's own cells.
+//! Herf's registered projection: it maps what stands between a light and a flat receiver to the receiver's own cells.
 //!
-//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138, section 3.2: the pyramid from a light's sample to
-//! a parallelogram maps to a box, the same cells for every sample, so that hard shadows of many samples line up and can
-//! simply be added. Our deviations: one formula for a lamp and for the sun, whose pyramid is an oblique prism, with the
-//! homogeneous light; in place of the paper's third row a height above the receiver, which is what is cut at; and cells in
-//! place of the unit square, such that centres are whole numbers.
+//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138, 1997, section 3.2: the pyramid from a
+//! light's sample to a parallelogram is mapped to a box, the same cells for every sample, so that hard shadows of many
+//! samples line up and can simply be added. Our deviations: one formula, with the homogeneous light, for a lamp and for
+//! the sun, whose pyramid is an oblique prism; in place of the paper's third row a height above the receiver, since
+//! faces are cut at a height; and cells in place of the unit square, with centres at whole numbers.
 //!
-//! A point v at the height h above the plane, seen from the light (l, w_l) whose own distance to the plane is f, falls onto
-//! p with p·w = v − (h/f)·l and w = 1 − w_l·h/f, all of which is linear in v.
+//! A point v at the height h above the plane, seen from the light (l, w_l) whose own distance to the plane is f, falls
+//! onto p with p·w = v − (h/f)·l and w = 1 − w_l·h/f, all of which is linear in v.
 
 use super::ray_cast::TIE;
 use crate::mesh::scan::Coverage;
@@ -16,7 +16,7 @@ use glam::{DVec2, DVec3, DVec4};
 /// A flat receiver's raster, around any origin.
 #[derive(Clone, Copy, Debug)]
 pub struct Raster {
-    /// Where its first cell begins; its height above the plane does not matter.
+    /// The corner where its first cell begins. Its height above the plane does not matter.
     pub corner: DVec3,
     /// A unit vector along rows.
     pub right: DVec3,
@@ -24,38 +24,39 @@ pub struct Raster {
     pub down: DVec3,
     /// A cell's side, metres.
     pub cell: f64,
-    /// The plane that is judged: its unit normal to the judged side, and minus its height along that.
+    /// The plane that is judged: its unit normal towards the judged side, and minus its height along that.
     pub plane: DVec4,
 }
 
 /// The projection onto a raster, for one light.
 #[derive(Clone, Copy, Debug)]
 pub struct RasterProjection {
-    /// Homogeneous column of a vertex (v, 1), such that centres are whole numbers.
+    /// The homogeneous column of a vertex (v, 1), with centres at whole numbers.
     pub column: DVec4,
     /// Homogeneous row.
     pub row: DVec4,
-    /// By which both are divided: 1 for the sun; for a lamp 1 in the plane, and 0 at the lamp's height.
+    /// The divisor of both: 1 for the sun; for a lamp 1 in the plane, and 0 at the lamp's height.
     pub w: DVec4,
-    /// Metres above the plane.
+    /// The height above the plane, metres.
     pub height: DVec4,
 }
 
 /// A vertex seen from the light.
 #[derive(Clone, Copy, Debug)]
 pub struct ProjectedVertex {
-    /// Homogeneous column and row, and what divides them.
+    /// The homogeneous column and row, and their divisor.
     pub at: DVec3,
-    /// How high above the judged plane it stands, metres.
+    /// Its height above the judged plane, metres.
     pub height: f64,
 }
 
-/// A lamp's own height is cut off where w comes so near to 0: what lies there falls nowhere that can be told.
+/// A face is cut below a lamp's own height, where w comes this near to 0: what lies above falls too far away to be
+/// placed.
 pub const LEAST_W: f64 = 1e-6;
 
 impl RasterProjection {
-    /// For the homogeneous light (sun: w = 0, lamp: w = 1) around the raster's origin; none where it is not in front of the
-    /// plane.
+    /// The projection for a homogeneous light (sun: w = 0, lamp: w = 1) around the raster's origin; `None` if the light
+    /// is not in front of the plane.
     pub fn new(raster: &Raster, light: DVec4) -> Option<RasterProjection> {
         let front = raster.plane.dot(light);
         if front.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
@@ -71,7 +72,7 @@ impl RasterProjection {
         Some(RasterProjection { column: along(raster.right, TIE.x), row: along(raster.down, -TIE.y), w, height })
     }
 
-    /// Where a vertex is.
+    /// Projects a vertex.
     pub fn place(&self, vertex: DVec3) -> ProjectedVertex {
         let vertex = vertex.extend(1.0);
         ProjectedVertex {
@@ -81,7 +82,7 @@ impl RasterProjection {
     }
 }
 
-/// What of a face lies between the plane and the light: a convex polygon in cells.
+/// The part of a face between the plane and the light: a convex polygon in cells.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ClippedFace {
     points: [DVec2; 5],
@@ -102,7 +103,7 @@ impl ClippedFace {
     }
 }
 
-/// Whether a face's place needs no cutting.
+/// Whether a face needs no cutting.
 pub fn is_whole(face: &[ProjectedVertex; 3]) -> bool {
     face.iter().all(|place| place.height > 0.0 && place.at.z > LEAST_W)
 }

@@ -1,8 +1,9 @@
 //! Shadow maps with percentage closer filtering: the quick look.
 //!
-//! Seed 001: unfiltered (section 2), 2×2 by four renders in four channels (3), fast 2×2 and 4×4 from one map (4).
-//! Fast filters gather their texels in the comparison itself, so that no packed copy of the map is made: that pass only
-//! served machines without loops in their shaders. The paper's 4 × 5 = 20 levels are 17: four counts of 0 to 4 add up.
+//! S. Brabec and H.-P. Seidel, *Hardware-accelerated Rendering of Antialiased Shadows with Shadow Maps*, 2001:
+//! unfiltered (section 2), 2×2 by four renders in four channels (3), fast 2×2 and 4×4 from one map (4). Fast filters
+//! gather their texels in the comparison itself, without a packed copy of the map: that pass only served machines
+//! without loops in their shaders. The paper's 4 × 5 = 20 levels are 17, as four counts of 0 to 4 are added up.
 
 use super::light_view::Smoothies;
 use super::map::{DepthMap, PackedMap, SLOPE_BIAS_TEXELS, compared_layout};
@@ -28,13 +29,13 @@ pub struct ShadowMap {
 }
 
 impl ShadowMap {
-    /// Draws what is seen, uploads the casters, builds the pipelines.
+    /// Draws what is seen, uploads the casters, and builds the pipelines.
     pub fn new(gpu: Arc<Gpu>, scene: &Scene, view: View, size: u32, filter: Filter) -> Result<ShadowMap, ShadowError> {
         Self::with_bias(gpu, scene, view, size, filter, SLOPE_BIAS_TEXELS)
     }
 
-    /// The same with another slope-scaled bias, in texels: too small a one leaves surfaces that shade themselves, too large
-    /// a one leaves light between a shadow and its caster.
+    /// The same with another slope-scaled bias, in texels. If it is too small, surfaces shade themselves; if it is too
+    /// large, light falls between a shadow and its caster.
     pub fn with_bias(
         gpu: Arc<Gpu>,
         scene: &Scene,
@@ -70,7 +71,7 @@ impl ShadowMap {
         Ok(ShadowMap { scene: scene.clone(), surface, map, packed, compared, pipeline, mask })
     }
 
-    /// How large a texel is across the rays of that sun, metres along the map's axes.
+    /// The size of a texel across the rays of that sun, metres along the map's axes.
     #[cfg(feature = "test-hooks")]
     pub fn texel_m(&self, to_sun: DVec3) -> [f32; 2] {
         self.map.texel_m(to_sun)

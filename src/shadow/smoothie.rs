@@ -1,18 +1,20 @@
 //! Smoothies: a shadow map with the soft edge of a real sun.
 //!
-//! Seed 000, chapter 4. Silhouette edges, pushed outwards in the light's view, are drawn beside the map: how much of the
-//! light is seen past each, and how deep it lies. A cell behind the map's casters is in shadow, one behind a smoothie in
-//! part.
+//! E. Chan, *Efficient Shadow Algorithms on Graphics Hardware*, 2004, chapter 4. Silhouette edges are extended outwards
+//! in the light's view and drawn beside the map, with how much of the light is seen past each, and how deep it lies. A
+//! cell behind the map's casters is in shadow, one behind a smoothie in part.
 //!
 //! Deviations, for the sun and for clean corners:
-//! - The penumbra d metres behind an edge is 2·d·tan(θ/2) wide, θ = 0.533°; the paper's 1 − b/r is a lamp's, and is kept
-//!   for lamps (`Smoothie::draw_lamp`, a hook for tests).
+//!
+//! - The penumbra d metres behind an edge is 2·d·tan(θ/2) wide, θ = 0.533°; the thesis's 1 − b/r is a lamp's, and is
+//!   kept for lamps (`Smoothie::draw_lamp`, a hook for tests).
 //! - A smoothie is as wide as its own penumbra can become on the lowest receiver, instead of one width for all.
-//! - It is one rectangle around its edge, longer than it by its width at both ends, and alpha is the distance to the edge
-//!   (beyond its ends, to the vertex). With minimum blending that is the union of what the paper draws as edges, as
-//!   corners, and as corners of more than two edges, and has no seams.
-//! - What alone receives, and the ground, have their depth in the sun's view, but shade nothing. What lies behind such
-//!   receivers, glass say, has smoothies of its own, as wide as they are there; behind two of them, as on the last.
+//! - It is one rectangle around its edge, longer than it by its width at both ends, and alpha is the distance to the
+//!   edge (beyond its ends, to the vertex). With minimum blending that is the union of what the thesis draws as edges,
+//!   as corners, and as corners of more than two edges, and has no seams.
+//! - Parts that only receive, and the ground, have their depth in the sun's view, but shade nothing. What lies behind
+//!   such receivers, for example behind glass, has smoothies as wide as they are on that receiver; behind two of them,
+//!   as wide as on the last one.
 //!
 //! Smoothies grow outwards only: the umbra is as large as the hard shadow, all of the penumbra lies outside of it, and
 //! the line of half the light is half a penumbra too far out.
@@ -95,8 +97,8 @@ impl Layer {
 }
 
 impl Smoothie {
-    /// Draws what is seen, uploads casters and receivers, builds the pipelines. Smoothies are `width_m` metres wide, or as
-    /// wide as the sun's disc makes them.
+    /// Draws what is seen, uploads casters and receivers, and builds the pipelines. Smoothies are `width_m` metres
+    /// wide, or as wide as the sun's disc makes them.
     pub fn new(
         gpu: Arc<Gpu>,
         scene: Scene,
@@ -151,16 +153,16 @@ impl Smoothie {
         })
     }
 
-    /// Leaves alpha as it is drawn (`true`): every penumbra as wide as its smoothie, wherever it falls. To compare with, as in
-    /// the paper's figures 4-4 and 4-10.
+    /// Leaves alpha as it is drawn (`true`), so that every penumbra is as wide as its smoothie, wherever it falls. This
+    /// is for comparison, as in the thesis's figures 4-4 and 4-10.
     #[cfg(feature = "test-hooks")]
     pub fn force_linear(&mut self, linear: bool) {
         self.asked.linear = linear;
     }
 
-    /// Draws the mask for a lamp in the world frame, with alpha remapped by the paper's α / (1 − b/r): `width` is the paper's t,
-    /// metres in a plane a metre before the lamp. The lamp sees 63° to each side of the middle of what is seen, and what
-    /// lies beyond that in its light.
+    /// Draws the mask for a lamp in the world frame, with alpha remapped by the thesis's α / (1 − b/r). `width` is the
+    /// thesis's t, metres in a plane at a distance of one metre from the lamp. The lamp sees 63° to each side of the
+    /// middle of what is seen; everything beyond that counts as lit.
     ///
     /// # Errors
     /// As [`Technique::draw`].

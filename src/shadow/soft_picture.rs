@@ -1,14 +1,14 @@
 //! A camera's picture by soft shadow textures: the sun as a disc, on every flat patch that is seen and on the ground.
 //!
-//! The patches that the picture sees get their textures ([`crate::shadow::soft_texture`]) with points of the sun's disc as
-//! samples, in texels about as large as a pixel in the middle of the depth. A pixel takes the mean of the four texels
-//! around what it sees, each as near as it is; where these differ by more than half of the sun, an edge is harder than
-//! texels can show (the foot of a wall), and rays decide. The ground is one more patch, as far as shadows fall in the
-//! picture.
+//! The patches that the picture sees get their textures ([`crate::shadow::soft_texture`]) with points of the sun's disc
+//! as samples, in texels about as large as a pixel at the scene's middle depth. A pixel takes the mean of the four
+//! texels around the point that it sees, each weighted by its nearness. Where these differ by more than half of the
+//! sun, the edge is harder than texels can show (the foot of a wall), and rays decide. The ground is one more patch, as
+//! large as the ground on which shadows fall in the picture.
 //!
-//! Where it does not apply rays are cast to the same points of the disc, and [`Technique::note`] says how much of the
-//! picture that is: patches too thin for a texel (curved bodies), what is not seen from its outer side, and a ground on
-//! which shadows are too long.
+//! Where textures do not apply, rays are cast to the same points of the disc, and [`Technique::note`] says how much of
+//! the picture that is: patches too thin for a texel (curved bodies), surfaces not seen from their outer side, and a
+//! ground on which shadows are too long.
 
 use super::ray_cast::{RayCast, RayEnd};
 use super::soft_texture::{Choice, Fill, Painter, Sample, SoftTexture};
@@ -38,11 +38,11 @@ pub struct SoftPicture {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum PixelTarget {
     Sky,
-    /// What has no texture.
+    /// A pixel whose surface has no texture.
     Bare,
-    /// The ground, metres east and north of the scene's origin.
+    /// A point of the ground, metres east and north of the scene's origin.
     Ground(DVec2),
-    /// A patch, in texels from its corner.
+    /// A point of a patch, in texels from its corner.
     Patch(u32, DVec2),
 }
 

@@ -1,9 +1,10 @@
 //! Stencil shadow volumes: exact hard shadows.
 //!
-//! One render pass an instant: what faces away, then the casters' count and its trace in the mask. How volumes are
-//! counted is said in `counting.rs`.
+//! One render pass per instant draws the faces that look away from the sun, then the casters' count and its result in
+//! the mask. `counting` explains how volumes are counted.
 //!
-//! Deviation from seed 004: the general rule of [`crate::silhouette`] instead of well-wound closed meshes alone.
+//! Deviation from *Geometry of Real Time Shadows*: the general rule of [`crate::silhouette`] instead of well-wound
+//! closed meshes alone.
 
 use super::counting::{StencilBits, VolumeCounter};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
@@ -22,7 +23,7 @@ pub struct Stencil {
 }
 
 impl Stencil {
-    /// Draws what is seen, uploads the casters, builds the pipelines.
+    /// Draws what is seen, uploads the casters, and builds the pipelines.
     pub fn new(
         gpu: Arc<Gpu>,
         scene: Scene,
@@ -51,8 +52,8 @@ impl Stencil {
         Ok(Stencil { counting, facing, mask })
     }
 
-    /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong: z-fail always is right, and z-pass must be
-    /// seen to fail where it is not chosen.
+    /// Counts camera views by z-fail (`true`) or z-pass (`false`), whether it is right or not. z-fail always is; a test
+    /// shows z-pass failing where it is not chosen.
     #[cfg(feature = "test-hooks")]
     pub fn force_z_fail(&mut self, z_fail: bool) {
         self.counting.force_z_fail(z_fail);

@@ -1,5 +1,5 @@
-//! What each cell of a view sees, on the GPU: drawn once for a scene and a view, and the ground that the stencil
-//! technique stands on.
+//! What each cell of a view sees, on the GPU: a G-buffer that is drawn once for a scene and a view, with the ground
+//! that the stencil technique uses.
 
 use super::frame::{clip_from_local, uniform};
 use super::{Scene, ShadowError};

@@ -1,11 +1,11 @@
-//! One pass over all edges: the reference that other finders are held against.
+//! One pass over all edges: the reference with which other finders are compared.
 
 use super::finder::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
 use crate::mesh::Mesh;
 use glam::DVec4;
 use rayon::prelude::*;
 
-/// Asks every edge.
+/// Tests every edge.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BruteForce;
 

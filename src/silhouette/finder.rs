@@ -1,10 +1,10 @@
-//! The contract of all finders: what is found, at which cost, and how often an edge counts.
+//! The contract of all finders: what is found, at what cost, and how often an edge counts.
 
 use crate::mesh::{Incidence, Mesh};
 use glam::DVec4;
 
-/// A silhouette edge, from vertex to vertex: the face it bounds lies on its left, seen from the light.
-/// An edge of multiplicity ±n stands n times in a row in a silhouette.
+/// A silhouette edge from vertex to vertex. The face that it bounds lies on its left, seen from the light. A silhouette
+/// contains an edge of multiplicity ±n n times in a row.
 pub type DirectedEdge = [u32; 2];
 
 /// Finds silhouettes of the mesh for which it was made. All finders give the same edges, in any order.
@@ -13,12 +13,12 @@ pub trait SilhouetteFinder: Send {
     fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> QueryCost;
 }
 
-/// How much a query looked at for what it found.
+/// How much a query tested for what it found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct QueryCost {
-    /// Nodes of a tree and edges (or classes of edges) that were tested.
+    /// The number of nodes of a tree and of edges (or classes of edges) that were tested.
     pub at: usize,
-    /// Edges (or classes) of them that are silhouette.
+    /// The number of edges (or classes) that are part of the silhouette.
     pub found: usize,
 }
 

@@ -1,24 +1,24 @@
-//! The hextree of seed 004, section 4: silhouettes as a search in the dual space of the faces.
+//! The hextree of *Geometry of Real Time Shadows*, section 4: silhouettes as a search in the dual space of the faces.
 //!
 //! A face's plane π, as a point of the 4D dual space, is in front of a light L when π·L ≥ 0: the light is a hyperplane
-//! through the dual space's origin. An edge between two faces joins their two points there, and is silhouette when the
-//! hyperplane separates them. Edges lie in a tree of 16 children a node, each in the smallest cell that holds both its
-//! ends; a query looks into the cells that the hyperplane crosses. The tree only prunes: what decides is the sum of
-//! directions, as everywhere.
+//! through the dual space's origin. An edge between two faces joins their two points there, and is part of the
+//! silhouette when the hyperplane separates them. Edges lie in a tree of 16 children per node, each in the smallest
+//! cell that contains both its ends; a query visits the cells that the hyperplane crosses. The tree only prunes: the
+//! sum of directions decides, as everywhere.
 //!
-//! Deviations from the paper: duals of faces, not of vertices with their normals, so that the answer is the polyhedron's
-//! own silhouette; two faces wound the same way join d₁π₁ and −d₂π₂; edges with one face or more than two stand in a
-//! list that every query tests.
+//! Deviations from the paper: duals of faces, not of vertices with their normals, so that the answer is the
+//! polyhedron's own silhouette; two faces wound the same way join d₁π₁ and −d₂π₂; edges with one face or more than two
+//! are in a list that every query tests.
 //!
 //! Where it fails: an edge whose ends lie on two sides of a cell border near the root is tested by almost every query.
-//! Buildings, with their right angles, are made of such edges; [`super::hierarchy`] does better.
+//! Buildings, with their right angles, have many such edges; [`super::hierarchy`] does better.
 
 use super::finder::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
 use crate::mesh::{Mesh, plane_faces};
 use glam::{DVec3, DVec4};
 use std::ops::Range;
 
-/// The deepest tree: 16⁸ cells are more than there are edges.
+/// The greatest depth: 16⁸ cells are more than there are edges.
 pub const DEEPEST: u32 = 8;
 /// The paper's depth.
 #[cfg(feature = "test-hooks")]
@@ -55,7 +55,7 @@ struct DualEdge {
 const MARGIN: f64 = 1e-9;
 
 impl Hextree {
-    /// Builds the tree, at most `depth` levels below its root ([`DEEPEST`] at the most).
+    /// Builds the tree, with at most `depth` levels below its root (and at most [`DEEPEST`]).
     pub fn new(mesh: &Mesh, depth: u32) -> Hextree {
         let frame = DualFrame::around(mesh);
         let mut always = Vec::new();
@@ -120,7 +120,7 @@ impl Hextree {
         }
     }
 
-    /// Bytes that the tree takes.
+    /// The size of the tree in memory, bytes.
     #[cfg(feature = "test-hooks")]
     pub fn bytes(&self) -> usize {
         self.nodes.len() * size_of::<HextreeNode>() + (self.edges.len() + self.always.len()) * size_of::<u32>()

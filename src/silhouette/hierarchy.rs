@@ -1,15 +1,16 @@
 //! The hextree's successor: classes of edges that answer together, under a bounding hierarchy.
 //!
-//! As in [`super::hextree`], an edge between two faces is a segment of the dual space, and silhouette when the light's
-//! hyperplane separates the ends. Three things are different.
+//! As in [`super::hextree`], an edge between two faces is a segment of the dual space, and part of the silhouette when
+//! the light's hyperplane separates the ends. Three things are different.
 //!
-//! - An edge between faces of one plane never enters: its two ends are one point.
-//! - Edges whose segments are equal are one **class**, which is tested once and answers with a run of edges. For the sun,
-//!   w = 0, only normals matter, and buildings repeat theirs thousands of times. For a lamp the whole planes do.
+//! - An edge between faces of one plane is left out: its two ends are one point.
+//! - Edges whose segments are equal are one **class**, which is tested once and answers with a run of edges. For the
+//!   sun, w = 0, only normals matter, and buildings repeat theirs thousands of times. For a lamp the whole planes
+//!   matter.
 //! - Each node is bounded by a box around its own segments, whichever way they lie, so that none is stuck near the root
 //!   because it crosses a border there. Classes are split at the median of the widest extent of both ends.
 //!
-//! Suns and lamps have a hierarchy each, built when first asked.
+//! Suns and lamps have a hierarchy each, built when it is first needed.
 
 use super::finder::{DirectedEdge, QueryCost, SilhouetteFinder, append};
 use super::hextree::DualFrame;
@@ -28,7 +29,7 @@ pub struct Hierarchy {
 }
 
 impl Hierarchy {
-    /// The classes that answer for a light, built when first asked.
+    /// The classes that answer for a light, built on first use.
     pub fn classes(&mut self, mesh: &Mesh, local_light: DVec4) -> &Classes {
         let of_suns = local_light.w == 0.0;
         let classes = if of_suns { &mut self.suns } else { &mut self.lamps };
@@ -72,10 +73,10 @@ pub struct Classes {
     edges: Vec<DirectedEdge>,
 }
 
-/// The answer of a class: its edges, and how often each stands in the silhouette, negative against its direction.
+/// The answer of a class: its edges, and how often the silhouette contains each; negative if against its direction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassEdges {
-    /// Of the edges of [`Classes`], grouped by class.
+    /// A range of the edges of [`Classes`], grouped by class.
     pub edges: Range<u32>,
     /// As [`super::multiplicity`].
     pub multiplicity: i32,
@@ -185,7 +186,7 @@ impl Classes {
         self.segments = segments.iter().map(|segment| segment.ends).collect();
     }
 
-    /// The classes that are silhouette for a light around the mesh's origin.
+    /// The classes that are part of the silhouette for a light around the mesh's origin.
     pub fn ask(&self, local_light: DVec4, runs: &mut Vec<ClassEdges>) -> QueryCost {
         let before = runs.len();
         for sum in &self.sums {
@@ -265,13 +266,13 @@ impl Classes {
         if plane_faces(self.planes[plane as usize], local_light) { 1 } else { -1 }
     }
 
-    /// How many classes there are.
+    /// The number of classes.
     #[cfg(feature = "test-hooks")]
     pub fn count(&self) -> usize {
         self.pairs.len() + self.sums.len()
     }
 
-    /// Bytes that hierarchy, classes and edges take.
+    /// The size of hierarchy, classes and edges in memory, bytes.
     #[cfg(feature = "test-hooks")]
     pub fn bytes(&self) -> usize {
         let terms: usize = self.sums.iter().map(|sum| sum.terms.len()).sum();

@@ -1,4 +1,4 @@
-//! A point of the Earth where a model's zero stands.
+//! The point of the Earth at which a model's zero stands.
 
 use crate::crs::{Crs, GeodeticPoint};
 use glam::DVec3;
@@ -17,9 +17,9 @@ pub(super) struct AnchoredZero {
 /// Radians clockwise from the file's north.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum AnchoredNorth {
-    /// To the north of the anchor's map.
+    /// The north of the anchor's map.
     Map(f64),
-    /// To true north.
+    /// True north.
     True(f64),
 }
 

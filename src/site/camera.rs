@@ -1,5 +1,5 @@
-//! The camera as asked, or a good one: from the sunlit side, three-quarter, models and shadows in view; or before a
-//! side, with the models in view.
+//! The camera of the request, or a good one: from the sunlit side, three-quarter, with models and shadows in view; or
+//! in front of a side, with the models in view.
 
 use super::error::SiteError;
 use super::extent::Bounds;

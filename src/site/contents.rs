@@ -1,4 +1,4 @@
-//! What a model file holds, as `gnomon check` lists it.
+//! The contents of a model file, as `gnomon check` lists them.
 
 use super::file::Names;
 use crate::formats::{LeftOut, Model, PartKind, Up};
@@ -6,32 +6,32 @@ use crate::mesh::Component;
 use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
 
-/// What a model file holds.
+/// The contents of a model file.
 #[derive(Clone, Debug)]
 pub struct ModelContents {
     /// The file, as the user named it.
     pub file: String,
-    /// What people call its format.
+    /// The name of its format.
     pub format: &'static str,
-    /// Metres a unit, where the file or its format says it.
+    /// The length of a unit in metres, if the file or its format says it.
     pub unit_m: Option<f64>,
-    /// Which of its axes is up.
+    /// Its upward axis.
     pub up: Up,
     /// Whether the file or its format says so.
     pub up_is_said: bool,
-    /// Each name by which `casts` and `receives` may mean components: types, storeys, layers, groups, materials and their own;
-    /// the one that means most first.
+    /// The names by which `casts` and `receives` may select components: types, storeys, layers, groups, materials and
+    /// their own names. The name that selects most comes first.
     pub groups: Vec<NameGroup>,
-    /// How many components are of each kind, of those kinds that there are.
+    /// The number of components of each kind that exists.
     pub kinds: Vec<(PartKind, usize)>,
-    /// What was in the file and could not be taken, or does not stand there.
+    /// What the file contains but the model does not.
     pub left_out: Vec<LeftOut>,
 }
 
-/// A name, and how many components it means.
+/// A name, and the number of components that it selects.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NameGroup {
-    /// As in `casts`.
+    /// The name, as `casts` takes it.
     pub name: String,
     /// At least one.
     pub components: usize,
@@ -104,7 +104,8 @@ impl ReadContents {
     }
 }
 
-/// All names, each with the components that it means; of those that mean as many, names of groups go before components' own.
+/// All names, each with the components that it means; of those that mean as many, names of groups go before components'
+/// own.
 fn groups(components: &[ComponentNames<'_>]) -> Vec<NameGroup> {
     let mut counts: FxHashMap<&str, (usize, bool)> = FxHashMap::default();
     for (name, aliases) in components {

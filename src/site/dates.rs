@@ -1,4 +1,4 @@
-//! Several days, as asked: of the command line, or of the study.
+//! The several days of a request: those of the face, or those of the study.
 
 use super::error::{FieldLocation, SiteError};
 use super::overrides::{Overrides, refuse};

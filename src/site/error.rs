@@ -1,11 +1,11 @@
-//! What can be wrong with a request: each names the place where it was asked, and the way out.
+//! What can be wrong with a request. Each error names the place where the request is made, and says what to do.
 
 use crate::formats::ModelError;
 use crate::mesh::MeshError;
 use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
 use crate::sun::SunError;
 
-/// Where something was asked.
+/// The place where something was requested.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FieldLocation {
     /// In a site file.
@@ -17,7 +17,7 @@ pub enum FieldLocation {
         /// The key in it; empty for the table itself.
         key: String,
     },
-    /// Beside it: a field of what a face asks.
+    /// A field that a face sets beside the site file.
     Field(Field),
 }
 
@@ -38,26 +38,26 @@ impl FieldLocation {
     }
 }
 
-/// Why there is no site. One line each.
+/// Why there is no site, in one line.
 #[derive(Debug, thiserror::Error)]
 pub enum SiteError {
-    /// The path is nothing that can be read.
+    /// The path cannot be read as a file.
     Unreadable {
         /// As the user named it.
         path: String,
         /// What the system says.
         why: String,
     },
-    /// A model file, and nobody says where it stands.
+    /// The path is a model file, and nothing says where it stands.
     NoPlaceForModel {
         /// As the user named it.
         path: String,
         /// What its file says of a place that is none.
         said: Option<Box<Message>>,
     },
-    /// A model in a format that is not read: which, with the way out.
+    /// The model's format is not read; with a hint.
     UnknownFormat(Message),
-    /// Text, but not as site files have it.
+    /// The text is not in an encoding of site files.
     Encoding {
         /// As the user named it.
         file: String,
@@ -75,7 +75,7 @@ pub enum SiteError {
         /// What the parser says.
         what: String,
     },
-    /// Nothing that TOML can hold.
+    /// The value cannot be written as TOML.
     Unwritable {
         /// What the writer says.
         what: String,
@@ -87,7 +87,7 @@ pub enum SiteError {
         /// The nearest one, with its table.
         nearest: String,
     },
-    /// A table or key that must be there.
+    /// A required table or key is missing.
     Missing {
         /// As the user named it.
         file: String,
@@ -96,14 +96,14 @@ pub enum SiteError {
         /// What to write.
         example: String,
     },
-    /// A value that cannot be taken.
+    /// A value that cannot be used.
     Value {
         /// Where it was asked.
         at: FieldLocation,
-        /// What is wrong, and the way out.
+        /// What is wrong, and a hint.
         message: Box<Message>,
     },
-    /// A place, reading or window that cannot be taken.
+    /// A place, reading or window that cannot be used.
     Sun {
         /// Where it was asked.
         at: FieldLocation,
@@ -131,16 +131,16 @@ pub enum SiteError {
         /// The nearest name in that model.
         nearest: String,
     },
-    /// The models hold nothing.
+    /// The models contain no triangles.
     NoTriangles {
         /// As the user named it.
         file: String,
     },
-    /// A mesh in memory holds nothing.
+    /// A mesh in memory has no triangles.
     EmptyMesh,
     /// A model file cannot be read.
     Model(#[from] ModelError),
-    /// The parts make no mesh.
+    /// The parts cannot become a mesh.
     Mesh {
         /// The model whose part is at fault, as the user named it, where one is.
         file: Option<String>,
@@ -228,7 +228,7 @@ impl SiteError {
         SiteError::Sun { at, error: Box::new(error) }
     }
 
-    /// Whether nothing is wrong, and somebody ended the reading of a model.
+    /// Whether the reading of a model was cancelled, and nothing is wrong.
     pub fn is_given_up(&self) -> bool {
         matches!(self, SiteError::Model(error) if error.is_given_up())
     }

@@ -31,8 +31,8 @@ impl Bounds {
     }
 }
 
-/// The plan's rectangle around the models and the casters' shadows on the ground at the day instants, but for strays that lie
-/// far off; each shadow cut at `cut` times the height above the ground. South-west and north-east corner, metres.
+/// The plan's rectangle around the models and the casters' shadows on the ground at the day instants, without strays; each
+/// shadow is cut at `cut` times the height above the ground. South-west and north-east corner, metres.
 pub(super) fn with_shadows(
     mesh: &Mesh,
     bounds: Bounds,

@@ -1,4 +1,4 @@
-//! The site file as written: TOML → [`SiteFile`]. What it means is found in [`crate::site::Site::load`].
+//! The site file as written: TOML → [`SiteFile`]. [`crate::site::Site::load`] finds out what it means.
 
 use super::error::{FieldLocation, SiteError};
 use super::keys;

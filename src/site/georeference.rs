@@ -1,7 +1,7 @@
 //! What a model's file and the site file say of where on Earth the model stands.
 //!
-//! A model stands by its coordinates, where these are of a map, else by the first of its anchors that can be used; what the
-//! user wrote goes before either.
+//! A model stands by its coordinates, if they belong to a map, and otherwise by the first of its anchors that can be
+//! used. What the user wrote has priority over both.
 
 use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
 use super::model_bounds::bounds;
@@ -12,8 +12,8 @@ use crate::formats::{Anchor, AnchorPoint, Coordinates, Model};
 use crate::message::{Message, message, setting};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-/// A model that lies farther from its zero than this is brought into the site's frame corner by corner, metres: the map's
-/// scale, some parts in 10,000, would have moved it by metres.
+/// A model that lies farther from its zero than this is brought into the site's frame corner by corner, metres: the
+/// map's scale, some parts in 10,000, would have moved it by metres.
 const FAR_FROM_ZERO_M: f64 = 5_000.0;
 
 /// Units that differ by less are one: files say "foot" of either foot.
@@ -159,9 +159,9 @@ fn outside_of_map(model: &Model, reference: &Reference, said_by: Option<&str>) -
 
 /// By how much a file's numbers are multiplied, along the ground and upwards, to be of a system's units and of metres.
 ///
-/// Where the file itself says that they are of a map, those along the ground are in its units, and heights in the unit that
-/// the file says, else in that which the system has for heights, else in metres. Coordinates of a drawing are in its unit,
-/// else in the system's, heights as well.
+/// Where the file itself says that they are of a map, those along the ground are in its units, and heights in the unit
+/// that the file says, otherwise in that which the system has for heights, otherwise in metres. Coordinates of a
+/// drawing are in its unit, else in the system's, heights as well.
 fn map_units(model: &Model, placement: &Placement, crs: &Crs) -> [f64; 2] {
     let of_file = matches!(model.coordinates, Coordinates::Map(_)) && placement.scale.is_none();
     let said = placement.scale.or(model.unit_m);
@@ -279,7 +279,7 @@ fn zero(anchor: &Anchor, asked: Option<&Crs>, farthest_m: f64) -> Result<Anchore
     }
 }
 
-/// The system of an anchor on a map: the user's word, else the file's.
+/// The system of an anchor on a map: the user's word, otherwise the file's.
 fn crs_of_anchor(text: &str, asked: Option<&Crs>, said_by: &str) -> Result<Crs, Message> {
     match asked {
         Some(asked) => Ok(asked.clone()),
@@ -350,8 +350,8 @@ fn map_north<'a>(model: &'a Model, notes: &mut Vec<Message>) -> Option<(&'a Anch
     Some((anchor, AnchoredZero { at: None, has_height: false, on_map: None, north }))
 }
 
-/// A model far from its zero, by an anchor on a map: its coordinates become the map's, by the file's own scale. None where
-/// the user says how it stands.
+/// A model far from its zero, by an anchor on a map: its coordinates become the map's, by the file's own scale. None
+/// where the user says how it stands.
 fn beyond(model: &Model, placement: &Placement, anchor: &Anchor, zero: &AnchoredZero) -> Option<Reference> {
     let (AnchorPoint::Map { scale, .. }, Some((crs, at))) = (&anchor.at, &zero.on_map) else { return None };
     let Some(AnchoredNorth::Map(north)) = zero.north else { return None };

@@ -1,4 +1,4 @@
-//! The ground's height: as it is said, or as it is found from the models.
+//! The ground's height: as it is given, or as the models suggest.
 
 use super::error::{FieldLocation, SiteError};
 use super::extent::Bounds;
@@ -12,14 +12,14 @@ use crate::message::{Field, Message, few, message, setting};
 /// Nobody asks for a ground farther from the place's point than this, metres.
 const FARTHEST_M: f64 = 1e5;
 
-/// The ground: what it is, how high its plane lies, who says so, and what of the models lies below that.
+/// The ground: what it is, the height of its plane, the source of that height, and how far the models reach below it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
-    /// What is judged where the ground alone is.
+    /// What is judged where the ground alone is judged.
     pub kind: GroundKind,
     /// The plane's height, metres.
     pub level: f64,
-    /// Who says how high the plane lies.
+    /// The source of the plane's height.
     pub from: GroundFrom,
     /// The models' lowest point, metres.
     pub lowest: f64,
@@ -27,7 +27,7 @@ pub struct Ground {
     buried: Option<BuriedShare>,
 }
 
-/// What the ground is. It is found once, with the models; all that depends on it reads it here.
+/// The kind of ground. It is found once, with the models, and everything that depends on it reads it here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GroundKind {
     /// The plane alone.
@@ -47,19 +47,19 @@ impl GroundKind {
     }
 }
 
-/// Who says how high the ground's plane lies.
+/// The source of the height of the ground's plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GroundFrom {
     /// The site file or the command line.
     Site,
-    /// The models, which reach through 0: their own zero.
+    /// The models' own zero, since they reach through it.
     Zero,
-    /// The models, whose lowest point it is.
+    /// The models' lowest point.
     Lowest,
 }
 
 impl GroundFrom {
-    /// As reports have it.
+    /// Its word in reports.
     pub fn word(self) -> &'static str {
         match self {
             GroundFrom::Site => "site",
@@ -88,7 +88,7 @@ impl Ground {
         }
     }
 
-    /// One that is said, and on which all stands.
+    /// A ground at a given height.
     pub fn asked(level: f64) -> Ground {
         Ground { kind: GroundKind::Plane, level, from: GroundFrom::Site, lowest: level, buried: None }
     }
@@ -99,7 +99,7 @@ impl Ground {
         Self::of(mesh, Bounds::of(mesh).unwrap_or_default(), receives, None)
     }
 
-    /// Where the ground comes from, as reports have it.
+    /// The source of the ground in words, as in reports.
     pub fn word(&self) -> &'static str {
         match self.kind {
             GroundKind::Terrain => "terrain",
@@ -107,18 +107,18 @@ impl Ground {
         }
     }
 
-    /// Whether it lies at a height, metres.
+    /// Whether its plane lies at a height, metres.
     pub fn is_at(&self, level: f64) -> bool {
         (self.level - level).abs() <= ON_GROUND_M
     }
 
-    /// How far the models reach below it, metres; 0 where they stand on it or above.
-    pub fn models_below_m(&self) -> f64 {
+    /// How far the models reach below it, metres; 0 if they do not.
+    pub(crate) fn models_below_m(&self) -> f64 {
         Some(self.level - self.lowest).filter(|below| *below > ON_GROUND_M).unwrap_or(0.0)
     }
 
-    /// In words, after "ground at": `0.00 m, the models' own zero; they reach 12.00 m below it`. Of a comparison it is that of
-    /// the state before.
+    /// In words, to follow "ground at": `0.00 m, the models' own zero; they reach 12.00 m below it`. In a comparison it
+    /// describes the state before.
     pub fn said(&self) -> String {
         match self.kind {
             GroundKind::Terrain => format!("the terrain's height; beyond the terrain at {}", self.plane_said()),
@@ -143,8 +143,8 @@ impl Ground {
         }
     }
 
-    /// What a person has to know of it beside its height: that it was found where it could lie elsewhere, and what of the
-    /// components of a mesh it hides from what is judged.
+    /// What the user should know of it besides its height: that it was found where another height would be possible,
+    /// and which parts of a mesh it hides from being judged.
     pub fn notes(&self, mesh: &Mesh, receives: &[bool], receivers: Receivers) -> Vec<Message> {
         let name = |buried: BuriedShare| mesh.components.get(buried.component).map_or("", |component| &component.name);
         let level = || setting("[ground]", "level", "`level` in [ground]");
@@ -209,7 +209,7 @@ impl Ground {
     }
 }
 
-/// Metres with two decimals, or a third one where there is one.
+/// Metres with two decimals, or with three if the third is not 0.
 pub fn metres(value: f64) -> String {
     let millimetres = (value * 1000.0).round() + 0.0;
     let decimals = if millimetres % 10.0 == 0.0 { 2 } else { 3 };

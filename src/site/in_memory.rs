@@ -1,4 +1,4 @@
-//! A site without a file: what a program puts together itself.
+//! A site without a file, which a program puts together itself.
 
 use super::error::{FieldLocation, SiteError};
 use super::extent::{Bounds, with_shadows};
@@ -13,11 +13,11 @@ use crate::sun::{Place, SunTrack};
 use crate::view::Grid;
 
 impl Site {
-    /// A site of a mesh in the world frame, as a file would describe it that says no more. Everything casts and receives,
-    /// technique and engine are chosen for the machine, and the camera sees all of it: set the fields to have it otherwise.
+    /// A site with a mesh in the world frame, as from a file that says nothing else. Everything casts and receives,
+    /// technique and engine are chosen for the machine, and the camera sees everything. To change that, set the fields.
     ///
-    /// Without a height the ground is found as for a file: at the mesh's own zero, or at its lowest point. Components that say
-    /// that they are terrain ([`crate::mesh::Component::is_terrain`]) are the ground.
+    /// Without a height the ground is found as for a file: at the mesh's own zero, or at its lowest point. Components
+    /// that say that they are terrain ([`crate::mesh::Component::is_terrain`]) are the ground.
     ///
     /// # Errors
     /// A mesh without a triangle, a height that is none, a track without an instant, a grid that is no plan.

@@ -1,4 +1,4 @@
-//! Which files a request is read from, so that no answer is written over one of them.
+//! The files from which a request is read, so that no answer is written over one of them.
 
 use super::SiteError;
 use super::model_table::placed;
@@ -8,8 +8,8 @@ use crate::formats::on_disk;
 use std::iter;
 use std::path::{Path, PathBuf};
 
-/// The files that a request is read from: the site file, its models, and what those name beside them. `path` is a site
-/// file, a folder that holds a `site.toml`, or a model.
+/// The files from which a request is read: the site file, its models, and the files that those name. `path` is a site
+/// file, a folder that contains a `site.toml`, or a model.
 ///
 /// # Errors
 /// What cannot be read, and what is wrong with a site file's form.
@@ -21,7 +21,7 @@ pub fn inputs(path: &Path) -> Result<Vec<PathBuf>, SiteError> {
 }
 
 impl WrittenSite {
-    /// Its models, and what those name beside them: buffers, and pictures, too, though they are not read.
+    /// Its models, and the files that those name: buffers, and also pictures, which are not read.
     pub fn model_files(&self) -> Vec<PathBuf> {
         let models = (0..self.site.model.len()).filter_map(|index| Some(on_disk(&placed(self, index).ok()?.0)));
         models.flat_map(|file| formats::named_by(&file).into_iter().chain([file])).collect()

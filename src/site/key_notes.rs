@@ -1,4 +1,4 @@
-//! Keys of a model that its format has no use for, or that go before what its file says.
+//! Notes on keys of a model: those that its format does not use, and those that have priority over what its file says.
 
 use super::file::ModelTable;
 use super::placement::Placement;

@@ -7,34 +7,34 @@ use crate::view::Side;
 /// One key of the site file.
 #[derive(Clone, Copy, Debug)]
 pub struct SiteKey {
-    /// The table that it stands in.
+    /// The table to which it belongs.
     pub table: &'static str,
     /// Its name.
     pub key: &'static str,
-    /// What is written behind it.
+    /// The type of its value.
     pub value: ValueType,
-    /// What its number counts; empty where it is no number with a unit.
+    /// The unit of its number; empty if it is not a number with a unit.
     pub unit: &'static str,
-    /// What holds where the key is not written.
+    /// What applies if the key is absent.
     pub default: &'static str,
-    /// What it says.
+    /// What it means.
     pub meaning: &'static str,
     /// The key as it is written.
     pub example: &'static str,
 }
 
-/// What a key's value may be.
+/// The types of values.
 #[derive(Clone, Copy, Debug)]
 pub enum ValueType {
     /// Text in quotes.
     Text,
     /// Text in quotes, or one of TOML's dates or times.
     Moment,
-    /// Two of these in a list.
+    /// Two moments in a list.
     TwoMoments,
     /// A number.
     Number,
-    /// So many numbers in a list.
+    /// That many numbers in a list.
     Numbers(usize),
     /// Text in quotes, or a whole number.
     TextOrNumber,
@@ -46,7 +46,8 @@ pub enum ValueType {
     Word(fn() -> Vec<&'static str>),
 }
 
-/// The tables, in the order in which they are explained; whether there may be several of one; and what each is about.
+/// The tables in the order in which they are explained: the name, whether there may be several, and what the table is
+/// about.
 pub const SITE_TABLES: &[(&str, bool, &str)] = &[
     ("place", false, "Where on earth the models stand."),
     ("model", true, "A model file of any [format](formats.md). There is one table for each model, and at least one."),

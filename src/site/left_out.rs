@@ -1,4 +1,5 @@
-//! What each model of a site holds: all of it for `gnomon check`, and for all others a short note on what was left out.
+//! What was left out of each model of a site: the complete list for `gnomon check`, and a short note for everything
+//! else.
 
 use super::contents::{ModelContents, ReadContents, names_of};
 use super::file::Names;
@@ -9,7 +10,7 @@ use crate::mesh::Component;
 use crate::message::{Field, Message, Piece, few, message, pieces};
 
 impl Models {
-    /// What each model holds, in their order.
+    /// The contents of each model, in the models' order.
     pub fn contents(&self, written: &WrittenSite) -> Vec<ModelContents> {
         let told = |(index, (read, components)): (usize, (&ReadContents, &[Component]))| {
             read.told(name(written, index), &names_of(components))
@@ -17,7 +18,7 @@ impl Models {
         self.by_model().enumerate().map(told).collect()
     }
 
-    /// Per component of one of the models whether it casts, where `casts` says so much.
+    /// For each component of one of the models, whether it casts, if `casts` says so.
     pub fn casts_of(&self, model: usize, names: &Names) -> Vec<bool> {
         self.by_model().nth(model).map_or_else(Vec::new, |(read, components)| read.casts(names, components))
     }

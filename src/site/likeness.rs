@@ -1,7 +1,7 @@
-//! What a model looks like: one in millimetres, centimetres or inches, or one that lies on its side.
+//! What a model looks like: in millimetres, centimetres or inches, or lying on its side.
 //!
-//! Many files do not say it: glTF is in metres and y up, STL by custom z up, and many a program exports something else. Only keys that nobody wrote
-//! are doubted; who writes `scale` or `up` has decided.
+//! Many files do not say it: glTF is in metres and y up, STL by custom z up, and many programs export something else.
+//! Only keys that nobody wrote are doubted; whoever writes `scale` or `up` has decided.
 
 use crate::formats::{Model, Up};
 use crate::mesh::{Component, Mesh};
@@ -9,12 +9,12 @@ use crate::message::{Field, Message, Piece, message, pieces, set_to};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-/// What a model looks like, and what would mend it.
+/// What a model looks like, and which keys would correct it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Likeness {
-    /// Which of the site's models, from 0.
+    /// The index of the model in the site, from 0.
     pub model: usize,
-    /// The keys of which one would mend it.
+    /// Keys, of which one would correct it.
     pub mends: Vec<Mend>,
 }
 
@@ -47,12 +47,12 @@ const WALLED: f64 = 0.15;
 /// No house is lower or narrower, metres.
 const LEAST_M: f64 = 2.4;
 
-/// By which part of the area roofs and terrain must look up more than down for that to tell what is up, and how many times
-/// as clearly as the other way.
+/// By which part of the area roofs and terrain must look up more than down for that to tell what is up, and how many
+/// times as clearly as the other way.
 const ROOFED: f64 = 0.05;
 const CLEARLY: f64 = 4.0;
-/// How near to 0 a model that stands on the ground begins, as a part of its height; and how near to it the middle of one is
-/// that is drawn around its axis, as a part of its depth.
+/// How near to 0 a model that stands on the ground begins, as a part of its height; and how near to it the middle of
+/// one is that is drawn around its axis, as a part of its depth.
 const ON_THE_GROUND: f64 = 0.02;
 const AROUND_ITS_AXIS: f64 = 0.05;
 
@@ -143,8 +143,8 @@ impl ModelMeasures {
         Some(if in_millimetres >= LEAST_M { &[0.001] } else { &[0.01, 0.0254] })
     }
 
-    /// Whether it lies on its side: the axis that would be up looks level, and the other one looks like up. A file that is taken
-    /// for y up has its z to the south, one that is taken for z up its y to the north.
+    /// Whether it lies on its side: the axis that would be up looks level, and the other one looks like up. A file that
+    /// is taken for y up has its z to the south, one that is taken for z up its y to the north.
     fn lies(&self, taken: Up) -> bool {
         let (other_up, foot) = match taken {
             Up::Y => (1, self.high.y),

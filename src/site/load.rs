@@ -1,4 +1,4 @@
-//! The request as written → as meant.
+//! The request as written → the request as meant.
 
 use super::contents::ModelContents;
 use super::error::{FieldLocation, SiteError};
@@ -72,8 +72,8 @@ pub struct LoadedMesh {
     pub references: Vec<ModelReference>,
 }
 
-/// The models alone: of a model file as it is, or of a site's models where they stand; [`Overrides::up`] goes before what a
-/// site says. Place and study may be absent.
+/// The models alone: of a model file as it is, or of a site's models where they stand; [`Overrides::up`] goes before
+/// what a site says. Place and study may be absent.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
@@ -97,7 +97,7 @@ impl Site {
     /// or a model file, which says its place, or together with `asked.place`.
     ///
     /// # Errors
-    /// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
+    /// Everything that can be wrong with it, each naming the file, the key or option, and a hint.
     pub fn load(path: &Path, asked: &Overrides) -> Result<Site, SiteError> {
         Self::load_with(path, asked, |path, options| asked.reading.read(path, options))
     }
@@ -189,7 +189,7 @@ impl Site {
     }
 }
 
-/// Errs where an option has no use, or no value that can be taken.
+/// Returns an error if an option has no use, or no value that can be taken.
 fn check_settings(asked: &Overrides) -> Result<(), SiteError> {
     if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
         let message = message![

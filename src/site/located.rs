@@ -1,4 +1,4 @@
-//! A request with a place, where a model's file may be who proposes it.
+//! A request with a place, which a model's file may propose.
 
 use super::Models;
 use super::error::SiteError;

@@ -1,6 +1,6 @@
-//! The request: the site file and the models it names, checked once.
+//! The request: the site file and the models that it names, checked once.
 //!
-//! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unproven.
+//! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unchecked.
 
 mod anchored_zero;
 mod camera;
@@ -83,20 +83,20 @@ use crate::view::{Camera, Grid, Side, View};
 /// The checked request: place, models, receivers, study.
 #[derive(Clone, Debug)]
 pub struct Site {
-    /// The place on earth where the models stand.
+    /// The place on Earth where the models stand.
     pub place: Place,
     /// All models, welded, in the world frame.
     pub mesh: Mesh,
-    /// What the user should know of how the models were read, each a sentence without its stop that names the model; and
-    /// of the clock.
+    /// What the user should know of how the models were read, and of the clock: sentences without their full stop, of
+    /// which those on models name the model.
     pub notes: Vec<Message>,
     /// The face's words for the fields of a request, for notes that go into files.
     pub words: &'static dyn Words,
-    /// Models that look as if their unit or upward axis were another one, with the keys that would mend them.
+    /// Models that look as if they had another unit or upward axis, with the keys that would correct them.
     pub likenesses: Vec<Likeness>,
-    /// Per component: whether it casts.
+    /// For each component, whether it casts.
     pub casts: Vec<bool>,
-    /// Per component: whether it receives. A component that does not is looked through.
+    /// For each component, whether it receives. A component that does not is looked through.
     pub receives: Vec<bool>,
     /// The ground.
     pub ground: Ground,
@@ -106,26 +106,27 @@ pub struct Site {
     pub grid: Grid,
     /// The perspective view.
     pub camera: Camera,
-    /// The side that is seen instead, with as much of it as the perspective shows at its target.
+    /// The side that is shown instead of the perspective, with as much of it as the perspective shows at its target.
     pub side: Option<Side>,
-    /// Which surfaces are judged.
+    /// The receivers of the study.
     pub receivers: Receivers,
-    /// Side of a texel of [`Receivers::Patches`], metres.
+    /// The side of a texel of [`Receivers::Patches`], metres.
     pub patch_cell: f64,
-    /// The technique that is chosen.
+    /// The requested technique.
     pub method: Method,
-    /// The finder of silhouettes that is chosen.
+    /// The requested finder of silhouettes.
     pub finder: Finder,
     /// The depth of the paper's hextree, if the request gives one.
     pub hextree_depth: Option<u32>,
-    /// The machine that is chosen.
+    /// The requested machine.
     pub engine: Engine,
     /// The settings of single techniques.
     pub settings: Settings,
 }
 
 impl Site {
-    /// Per component whether it is judged, beside the ground's plane: under [`Receivers::Ground`] the terrain alone.
+    /// For each component, whether it is judged, besides the ground's plane; under [`Receivers::Ground`] that is
+    /// terrain alone.
     pub fn judges(&self, receivers: Receivers) -> Vec<bool> {
         match (receivers, self.ground.kind) {
             (Receivers::Top | Receivers::Patches, _) => self.receives.clone(),
@@ -137,7 +138,7 @@ impl Site {
         }
     }
 
-    /// What the camera's picture shows: a side, where one is asked, else the perspective.
+    /// The view of the camera's picture: a side if one is requested, otherwise the perspective.
     pub fn picture(&self) -> View {
         match self.side {
             Some(side) => View::Elevation(self.camera.side(side)),

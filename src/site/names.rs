@@ -1,4 +1,4 @@
-//! Which components a list of names means.
+//! Finds the components that a list of names means.
 
 use super::file::Names;
 use crate::choice::nearest;
@@ -20,11 +20,12 @@ struct NameList<'a> {
 }
 
 impl Names {
-    /// Per component whether it is chosen: all, none, or those of a list. A component also has the names of its groups.
+    /// For each component, whether it is chosen: all, none, or those of a list. A component also has the names of its
+    /// groups.
     ///
-    /// A name in a list chooses the components that have it. `!glass` leaves out those that are named glass, even if other
-    /// names choose them, and a list of such names alone chooses all others. If something is itself named `!glass`, the name
-    /// chooses that. A name that no component has chooses nothing.
+    /// A name in a list chooses the components that have it. `!glass` leaves out those that are named glass, even if
+    /// other names choose them, and a list of such names alone chooses all others. If something is itself named
+    /// `!glass`, the name chooses that. A name that no component has chooses nothing.
     pub fn chosen(&self, components: &[Component]) -> Vec<bool> {
         let names = match self {
             Names::All(all) => return vec![*all; components.len()],

@@ -1,4 +1,4 @@
-//! Notes on where models stand, on requests far from them, and on how precisely their numbers are written.
+//! Notes on where models stand, on requests far from them, and on the precision of their numbers.
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};
@@ -10,18 +10,18 @@ use std::ops::Range;
 /// Beyond this distance a place's sun and its flat frame no longer hold to what the drawing says, metres.
 const FAR_M: f64 = 20_000.0;
 
-/// A plan, an eye or a probe farther from the place than this gets a note, metres: a town's models reach less far, and map
-/// coordinates always more.
+/// A plan, an eye or a probe farther from the place than this gets a note, metres: a town's models reach less far, and
+/// map coordinates always more.
 const ASKED_FAR_M: f64 = 50_000.0;
 
 /// From where the note on all models counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FarFrom {
-    /// The place, on an Earth of which a file says where the models stand.
+    /// The place; a file says where on Earth the models stand.
     PlaceOnEarth,
     /// The place.
     Place,
-    /// A file's own zero, as nobody says a place.
+    /// A file's own zero, as there is no place.
     OwnZero,
 }
 
@@ -67,8 +67,8 @@ pub(super) fn of_model(mesh: &Mesh, model: &str, components: Range<usize>, mends
     notes
 }
 
-/// Whether the plan that is asked, or the eye that is written, is in map coordinates; where the models stand so far away, too,
-/// the note on them says it.
+/// Whether the plan that is asked, or the eye that is written, is in map coordinates; where the models stand so far
+/// away, too, the note on them says it.
 pub(super) fn on_view(mesh: &Mesh, grid: &Grid, eye: Option<DVec3>) -> impl Iterator<Item = Message> {
     let [west, south, east, north] = grid.region();
     let middle = DVec2::new(west + east, south + north) / 2.0;

@@ -1,4 +1,4 @@
-//! Models whose heights are measured from the ground stand on the terrain of the others.
+//! Puts models whose heights are measured from the ground onto the terrain of the others.
 
 use super::stand::StandingModel;
 use crate::formats::PartKind;

@@ -1,4 +1,4 @@
-//! What a face requests beside the site file, and the reading of its values.
+//! What a face requests in addition to the site file, and how its values are read.
 
 use super::error::{FieldLocation, SiteError};
 use crate::choice::{Engine, Finder, Method, Receivers, Settings};
@@ -9,73 +9,73 @@ use crate::view::Side;
 use chrono::DateTime;
 use std::path::PathBuf;
 
-/// Options of the command line; each, where given, goes before the site file.
+/// Fields of a request that a face sets; each that is set has priority over the site file.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    /// `--place LAT,LON`, for a model file or a site file without `[place]`.
+    /// Latitude and longitude, in degrees with a comma between them, for a model file or a site file without `[place]`.
     pub place: Option<String>,
-    /// `--up y|z`: of all models, whatever their files say.
+    /// The upward axis of all models, whatever their files say.
     pub up: Option<Up>,
-    /// `--default-height M`: of all models' footprints without a height, whatever the site file says.
+    /// Metres: the height of all footprints that have none, whatever the site file says.
     pub default_height: Option<f64>,
-    /// Further model files, for the same site as the first one.
+    /// Further model files of the same site.
     pub beside: Vec<PathBuf>,
     /// How model files are read.
     pub reading: ModelReader,
-    /// `--ground METRES`
+    /// The height of the ground, metres above the place's point.
     pub ground: Option<f64>,
-    /// `--date 2026-09-18`
+    /// The date of the study, such as `2026-09-18`.
     pub date: Option<String>,
-    /// `--from 10:00`
+    /// The beginning of the study's window, such as `10:00` or `sunrise+1h`.
     pub from: Option<String>,
-    /// `--to 14:00`
+    /// The end of the study's window.
     pub to: Option<String>,
-    /// `--step 30min`
+    /// The time between two instants, such as `30min`.
     pub step: Option<String>,
-    /// `--from-date 2026-02-19`, the first of several days.
+    /// The first date of a study of several days.
     pub from_date: Option<String>,
-    /// `--to-date 2026-10-21`, the last of them.
+    /// The last date of a study of several days.
     pub to_date: Option<String>,
-    /// `--at 2026-09-18T15:00`: this instant alone, instead of the study.
+    /// A single instant instead of the study, such as `2026-09-18T15:00`.
     pub at: Option<String>,
-    /// The same as a time that need not be read; it goes before all other fields that say when.
+    /// The same as a parsed time; it has priority over all other fields of time.
     pub instant: Option<DateTime<Zone>>,
-    /// `--point X,Y,Z`, metres: this probe alone, instead of the file's.
+    /// A single probe instead of the site file's: `X,Y,Z` in metres.
     pub point: Option<String>,
-    /// `--normal X,Y,Z`, with `--point`.
+    /// The normal of that probe: `X,Y,Z`.
     pub normal: Option<String>,
-    /// `--region W,S,E,N`, metres.
+    /// The plan's region: `W,S,E,N` in metres.
     pub region: Option<String>,
-    /// `--cell M`, metres.
+    /// The side of a cell, metres.
     pub cell: Option<f64>,
-    /// `--size PIXELS`: cells along the longer side.
+    /// The number of cells along the longer side of the plan.
     pub size: Option<u32>,
-    /// `--receivers top|ground|surfaces`
+    /// What receives in the study: the plan's highest surfaces, its ground, or the models' surfaces.
     pub receivers: Option<Receivers>,
-    /// `--view north|east|south|west`: the side that the camera's picture shows.
+    /// The side from which the camera's picture is seen.
     pub side: Option<Side>,
-    /// `--patch-cell M`, metres, with `--receivers surfaces`.
+    /// The side of a patch's texel, metres, where the models' surfaces receive.
     pub patch_cell: Option<f64>,
-    /// `--technique auto|…`
+    /// The technique.
     pub technique: Option<Method>,
-    /// `--silhouette auto|…`
+    /// The finder of silhouettes.
     pub silhouette: Option<Finder>,
-    /// `--hextree-depth N`, with `--silhouette hextree`
+    /// The depth of the paper's hextree; without it the finder is its successor.
     pub hextree_depth: Option<u32>,
-    /// `--engine auto|gpu|cpu`
+    /// The engine: the graphics adapter, or the processor.
     pub engine: Option<Engine>,
-    /// `--map-size`, `--pcf`, `--smoothie-width`, `--sun-samples`
+    /// The settings of techniques: the map's size, the filter, the width of smoothies, the number of samples of the sun.
     pub settings: Settings,
-    /// `--no-refraction`
+    /// Whether the sun's directions leave out atmospheric refraction.
     pub no_refraction: bool,
-    /// The face's words for these fields, for the notes on the site, which go into files as well as to people.
+    /// The face's words for these fields, for the notes on the site, which are written into files as well as shown.
     pub words: &'static dyn Words,
 }
 
-/// Reads `N` finite numbers with commas between them.
+/// Reads `N` finite numbers, separated by commas.
 ///
 /// # Errors
-/// [`SiteError::Value`] with the example.
+/// [`SiteError::Value`], with the example as its hint.
 pub(super) fn numbers<const N: usize>(field: Field, text: &str, example: &'static str) -> Result<[f64; N], SiteError> {
     let read: Option<Vec<f64>> =
         text.split(',').map(|number| number.trim().parse().ok().filter(|number: &f64| number.is_finite())).collect();
@@ -85,7 +85,7 @@ pub(super) fn numbers<const N: usize>(field: Field, text: &str, example: &'stati
     })
 }
 
-/// A value that cannot be taken.
+/// The error for a value that cannot be used.
 pub(super) fn refuse(at: FieldLocation, message: impl Into<Message>) -> SiteError {
     SiteError::Value { at, message: Box::new(message.into()) }
 }

@@ -1,4 +1,4 @@
-//! Two states of one site, to be compared: the same place, study, plan and ground, and other models.
+//! Two states of one site that are compared: with the same place, study, plan and ground, and with other models.
 
 use super::error::SiteError;
 use super::extent::{Bounds, with_shadows};
@@ -25,13 +25,13 @@ pub struct Pair {
     pub before: Site,
     /// What stands there after.
     pub after: Site,
-    /// What people call them: their places' names where those differ, else their files.
+    /// What people call them: their places' names where those differ, otherwise their files.
     pub names: [String; 2],
 }
 
 impl Pair {
-    /// Reads and checks both. Study, plan, camera and, where `after` says none, place and ground are those of `before`; a
-    /// region that nobody names holds the models and shadows of both.
+    /// Reads and checks both. Study, plan, camera and, where `after` says none, place and ground are those of `before`;
+    /// a region that nobody names holds the models and shadows of both.
     ///
     /// # Errors
     /// As [`Site::load`]; and where `after` says another place, time zone or ground.
@@ -128,7 +128,7 @@ impl Pair {
     }
 }
 
-/// What people call two states: their places' names where those differ, else their files.
+/// What people call two states: their places' names where those differ, otherwise their files.
 fn told_apart(places: [&str; 2], files: [&WrittenSite; 2]) -> [String; 2] {
     let names = places.map(str::trim);
     let told_apart = composed(names[0]) != composed(names[1]) && names.iter().all(|name| !name.is_empty());

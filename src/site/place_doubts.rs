@@ -1,4 +1,4 @@
-//! Places in files that nobody has set, and sources that disagree.
+//! Doubts about where models stand: places in files that nobody has set, and sources that disagree.
 
 use super::anchored_zero::{AnchoredZero, true_north};
 use crate::crs::{Crs, GeodeticPoint, LocalFrame};
@@ -6,17 +6,18 @@ use crate::formats::{Anchor, AnchorPoint};
 use crate::message::{Message, message, setting};
 use glam::DVec3;
 
-/// Two sources that agree to this are one: metres along the ground and in height, and radians of north (0.1°).
+/// Two places that are nearer than this are one: metres, along the ground and in height.
 pub(super) const ONE_PLACE_M: f64 = 10.0;
-pub(super) const ONE_NORTH_RAD: f64 = 0.1 * std::f64::consts::PI / 180.0;
+/// Two norths that differ by less than this are one: 0.1°, radians.
+const ONE_NORTH_RAD: f64 = 0.1 * std::f64::consts::PI / 180.0;
 
-/// A map's north is not farther from true north where people build with it: 5°, radians.
+/// Where people build by a map, its north is nearer than this to true north: 5°, radians.
 const LARGEST_CONVERGENCE_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// How near to a default a place is it, degrees: some 150 m.
+/// A place that is nearer than this to a default is that default: degrees, some 150 m.
 const NEAR_DEG: f64 = 0.0015;
 
-/// Places that programs write where nobody has set one, as they were found in their files: latitude and longitude.
+/// Places that programs write where nobody has set one, as found in their files: latitude, longitude, and what it is.
 const DEFAULTS: &[(f64, f64, &str)] = &[
     (42.3584, -71.0598, "the middle of Boston, which Revit writes"),
     (42.3587, -71.0567, "the middle of Boston, which Revit writes"),
@@ -24,7 +25,7 @@ const DEFAULTS: &[(f64, f64, &str)] = &[
     (24.466_67, 54.416_67, "a point of Abu Dhabi, which templates for IFC write"),
 ];
 
-/// What is to be said of a place that is a program's own.
+/// A note if a place is a program's default.
 pub(super) fn of(at: Option<GeodeticPoint>, said_by: &str) -> Option<Message> {
     let at = at?;
     let is_near = |(latitude, longitude, _): &&(f64, f64, &str)| {
@@ -43,7 +44,7 @@ pub(super) fn of(at: Option<GeodeticPoint>, said_by: &str) -> Option<Message> {
     ])
 }
 
-/// Where latitude and longitude, or easting and northing, are 0.
+/// A note on a place whose latitude and longitude, or easting and northing, are 0.
 pub(super) fn zero(said_by: &str) -> Message {
     message![
         format!("says by its {said_by} that it stands at 0, 0, which is what is written where nobody has set a place");
@@ -51,7 +52,7 @@ pub(super) fn zero(said_by: &str) -> Message {
     ]
 }
 
-/// That a point lies far outside of its map, where it does; who says it, where that is an anchor.
+/// A note if a point lies far outside of its map; `said_by` names the anchor that says the point, if one does.
 pub(super) fn outside(crs: &Crs, at: DVec3, said_by: Option<&str>) -> Option<Message> {
     if !crs.is_far_outside(at) {
         return None;
@@ -66,7 +67,7 @@ pub(super) fn outside(crs: &Crs, at: DVec3, said_by: Option<&str>) -> Option<Mes
     ])
 }
 
-/// What another source says that differs from the one that is used; nothing where it says less.
+/// A note if another source contradicts the one that is used. What only one of them says is no contradiction.
 pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &AnchoredZero) -> Option<Message> {
     let away = one.at.zip(other.at).and_then(|(one, other)| {
         let there = LocalFrame::around(one)?.point(other);
@@ -74,7 +75,7 @@ pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &Anch
         Some([ground, other.height_m - one.height_m])
     });
     let heights = one.has_height && other.has_height;
-    let turned = true_north(one).zip(true_north(other)).map(|(one, other)| half_turn(other - one));
+    let turned = true_north(one).zip(true_north(other)).and_then(|(one, other)| norths_apart(one, other));
     let mut differs = Vec::new();
     if let Some([ground, up]) = away {
         if ground > ONE_PLACE_M {
@@ -84,7 +85,7 @@ pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &Anch
             differs.push(format!("{} {}", length(up.abs()), if up > 0.0 { "higher" } else { "lower" }));
         }
     }
-    if let Some(turned) = turned.filter(|turned| turned.abs() > ONE_NORTH_RAD) {
+    if let Some(turned) = turned {
         differs.push(format!("turned by {}", angle(turned)));
     }
     if differs.is_empty() {
@@ -96,8 +97,8 @@ pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &Anch
     )
 }
 
-/// That an anchor on a map that cannot be used says another north than the one that is used, by more than a map's
-/// convergence can be.
+/// A note if an anchor on a map that cannot be used contradicts the north that is used, by more than a map's convergence
+/// can be.
 pub(super) fn turned_apart(used: &str, one: &AnchoredZero, other: &Anchor) -> Option<Message> {
     let turned = half_turn(other.north_rad? - true_north(one)?);
     let is_map = matches!(other.at, AnchorPoint::Map { .. });
@@ -111,8 +112,13 @@ pub(super) fn turned_apart(used: &str, one: &AnchoredZero, other: &Anchor) -> Op
     })
 }
 
-/// Between −π and π.
-pub(super) fn half_turn(angle: f64) -> f64 {
+/// The angle from one north to another, if it is too large for them to be one: radians, clockwise.
+pub(super) fn norths_apart(one: f64, other: f64) -> Option<f64> {
+    Some(half_turn(other - one)).filter(|turned| turned.abs() > ONE_NORTH_RAD)
+}
+
+/// An angle, brought between −π and π.
+fn half_turn(angle: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     (angle + turn / 2.0).rem_euclid(turn) - turn / 2.0
 }

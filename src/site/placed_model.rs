@@ -1,4 +1,4 @@
-//! One model file as it was read, upright and in metres, to be written as another file.
+//! One model file as it was read, upright and in metres, so that it can be written as another file.
 
 use super::anchored_zero::true_north;
 use super::contents::{ModelContents, ReadContents};

@@ -1,4 +1,4 @@
-//! What a site file says of where a model stands, and models that stand by that alone.
+//! What a site file says of where a model stands, and the models that stand by that alone.
 
 use crate::formats::{Model, ReadOptions, SceneName, Up};
 use glam::{DAffine3, DMat3, DVec3};
@@ -7,29 +7,29 @@ use rayon::prelude::*;
 /// How a model is read, and where it stands: it is scaled, turned, then moved.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placement {
-    /// The scene; the file's default one where none is said.
+    /// The scene; by default the file's default scene.
     pub scene: Option<SceneName>,
     /// Metres from the ground to the roof of a footprint whose file says no height.
     pub default_height_m: Option<f64>,
-    /// How far a thinned terrain may lie from its heights, metres.
+    /// The greatest distance of a thinned terrain from its heights, metres.
     pub terrain_error_m: Option<f64>,
-    /// The classes of measured points that stand there beside the ground.
+    /// The classes of measured points that are read besides the ground.
     pub point_classes: Vec<String>,
-    /// Which of the model's axes is up; as its file or format says where none is said.
+    /// The upward axis; by default that of the file or its format.
     pub up: Option<Up>,
-    /// Radians clockwise from the model's north (−Z where its y is up, +Y where its z is) to true north; the model is turned
-    /// by as much the other way. As its file says, else 0, where none is said.
+    /// Radians clockwise from the model's north (−Z if its y is up, +Y if its z is) to true north; the model is turned
+    /// by that angle the other way. By default the file's, otherwise 0.
     pub north_rad: Option<f64>,
-    /// Metres east, north and up. Where its file says, else at the place, where none is said.
+    /// Metres east, north and up. By default where the file says, otherwise at the place.
     pub position: Option<DVec3>,
-    /// Metres per model unit, above zero; as its file says, else 1, where none is said.
+    /// Metres per model unit, above zero; by default the file's, otherwise 1.
     pub scale: Option<f64>,
-    /// The reference system of its coordinates; as its file says where none is said.
+    /// The reference system of its coordinates; by default the file's.
     pub crs: Option<String>,
 }
 
 impl Placement {
-    /// What the reader is asked.
+    /// The options for the reader.
     pub fn read_options(&self) -> ReadOptions {
         let told_step = ReadOptions::TOLD_M / self.scale.unwrap_or(1.0);
         ReadOptions {
@@ -41,7 +41,7 @@ impl Placement {
         }
     }
 
-    /// Puts a model where it stands by this alone, whatever its file says of the Earth: positions and steps become metres in
+    /// Places a model by these values alone, whatever its file says of the Earth: positions and steps become metres in
     /// the world frame.
     pub fn place(&self, model: Model) -> Model {
         self.place_at(model, self.north_rad.unwrap_or_default(), self.position.unwrap_or_default())
@@ -65,7 +65,8 @@ impl Placement {
         self.scale.or(model.unit_m).unwrap_or(1.0)
     }
 
-    /// A model that is y up has its north at −z: (x, y, z) becomes (x, −z, y). A model that is z up has the world's axes.
+    /// A model that is y up has its north at −z: (x, y, z) becomes (x, −z, y). A model that is z up has the world's
+    /// axes.
     pub(super) fn upright(&self, model: &Model) -> DMat3 {
         match self.up.unwrap_or(model.up) {
             Up::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),

@@ -1,4 +1,4 @@
-//! The plan's grid as asked, or around the models and their shadows.
+//! The plan's grid: as requested, or around the models and their shadows.
 
 use super::error::{FieldLocation, SiteError};
 use super::overrides::{Overrides, numbers, refuse};
@@ -70,7 +70,7 @@ fn counts(cell: f64, sides: [f64; 2]) -> [f64; 2] {
     sides.map(|side: f64| (side / cell).round().max(1.0))
 }
 
-/// Errs where cells of such a side are none, too many for a region of such sides, or too small.
+/// Returns an error if cells of such a side are none, too many for a region of such sides, or too small.
 fn check_cell(cell: f64, sides: [f64; 2]) -> Result<(), Message> {
     // A NaN is not above zero either.
     if !(cell.is_finite() && cell > 0.0) {
@@ -95,7 +95,7 @@ fn check_cell(cell: f64, sides: [f64; 2]) -> Result<(), Message> {
     Ok(())
 }
 
-/// Errs where a grid that is given cannot be a plan.
+/// Returns an error if a grid that is given cannot be a plan.
 pub(super) fn check(grid: &Grid) -> Result<(), SiteError> {
     let Grid { west, north, cell, width, height } = *grid;
     let cells = f64::from(width) * f64::from(height);

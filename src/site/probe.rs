@@ -25,7 +25,7 @@ const STEP: &str = "1min";
 /// The checked request of `gnomon probe`: place, models, points, days.
 #[derive(Clone, Debug)]
 pub struct ProbeSite {
-    /// Where on earth.
+    /// The place on Earth.
     pub place: Place,
     /// All models, welded, in the world frame.
     pub mesh: Mesh,
@@ -33,25 +33,24 @@ pub struct ProbeSite {
     pub notes: Vec<Message>,
     /// As [`super::Site::words`].
     pub words: &'static dyn Words,
-    /// Per component: whether it casts.
+    /// For each component, whether it casts.
     pub casts: Vec<bool>,
     /// The ground.
     pub ground: Ground,
     /// The points, at least one, each with its own name.
     pub probes: Vec<Probe>,
-    /// The days in their order, at least one, and what is asked of each.
+    /// The days in their order, at least one, each with the requested part of it.
     pub days: Vec<DayWindow>,
-    /// Seconds between the instants at which is looked first.
+    /// The seconds between the instants that are tested first.
     pub step_secs: u32,
     /// Whether directions include atmospheric refraction.
     pub refraction: bool,
 }
 
-/// Reads and checks a request for probes; of the study only the date is asked, and only where the command line names
-/// none.
+/// Reads and checks a request for probes. Of the study only the date is used, and only if the face sets none.
 ///
 /// # Errors
-/// Everything that can be wrong with it, each naming the file, the key or option, and the way out.
+/// Everything that can be wrong with it, each naming the file, the key or option, and a hint.
 pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteError> {
     let as_written = WrittenSite::read(path, asked)?;
     let (written, models) =

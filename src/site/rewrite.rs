@@ -1,4 +1,4 @@
-//! Rewrites a site file's text: replaces what has changed, and leaves all else as a person wrote it.
+//! Rewrites a site file's text: replaces what has changed, and leaves everything else as a person wrote it.
 
 use super::error::SiteError;
 use super::file::SiteFile;

@@ -1,9 +1,9 @@
-//! A model with what is said of it → the model where it stands, in the one frame of the site.
+//! A model, and what is said of its place → the model where it stands, in the frame of the site.
 
 use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
 use super::georeference::{Georeference, KeyFault, Reference};
 use super::model_bounds::bounds;
-use super::place_doubts::{ONE_NORTH_RAD, ONE_PLACE_M, angle, degrees, half_turn, length};
+use super::place_doubts::{ONE_PLACE_M, angle, degrees, length, norths_apart};
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
 use crate::formats::{Model, PartKind};
@@ -165,7 +165,7 @@ fn anchored(
     let position = placement.position.unwrap_or(there);
     let mut said = vec![stands_where(zero, said_by, placement.position, (at, there, away), is_elsewhere)];
     match (placement.north_rad, by_anchor) {
-        (Some(north), Some(by_anchor)) if half_turn(north - by_anchor).abs() > ONE_NORTH_RAD => {
+        (Some(north), Some(by_anchor)) if norths_apart(by_anchor, north).is_some() => {
             said.push(said_north(said_by, by_anchor, north));
         }
         (None, Some(by_anchor)) => {
@@ -173,9 +173,7 @@ fn anchored(
         }
         _ => {}
     }
-    if placement.position.is_none() && !frame.has_elevation && there.z.abs() > ONE_PLACE_M {
-        said.push(no_elevation(there.z, place_height));
-    }
+    said.extend(no_elevation(there.z, placement, frame));
     said.retain(|text| !text.is_empty());
     let note = (!said.is_empty()).then(|| {
         message![
@@ -235,10 +233,9 @@ fn own_north(zero: &AnchoredZero, by_anchor: f64) -> String {
 fn turned_alone(zero: &AnchoredZero, said_by: &str, placement: &Placement) -> (f64, Option<Message>) {
     let by_anchor = true_north(zero).unwrap_or_default();
     let north = placement.north_rad.unwrap_or(by_anchor);
-    let differs = half_turn(north - by_anchor).abs() > ONE_NORTH_RAD;
     let note = match placement.north_rad {
-        Some(_) if differs => Some(message![said_north(said_by, by_anchor, north)]),
-        None if by_anchor.abs() > ONE_NORTH_RAD => {
+        Some(_) if norths_apart(by_anchor, north).is_some() => Some(message![said_north(said_by, by_anchor, north)]),
+        None if norths_apart(0.0, by_anchor).is_some() => {
             let what = format!("is turned as its {said_by} says: north is {}", angle(by_anchor));
             Some(message![what; setting("[[model]]", "north", "`north` under [[model]]"), " changes it"])
         }
@@ -251,14 +248,17 @@ fn said_north(said_by: &str, by_anchor: f64, north: f64) -> String {
     format!("north is {} by `north`, and {} by its {said_by}", angle(north), angle(by_anchor))
 }
 
-/// That a model lies far above or below a place whose elevation nobody wrote.
-fn no_elevation(above_m: f64, place_m: f64) -> String {
-    let side = if above_m > 0.0 { "above" } else { "below" };
-    format!(
-        "it lies {} {side} the place, as [place] says no elevation; `elevation = {:.0}` there would have it at 0",
-        length(above_m.abs()),
-        place_m + above_m
-    )
+/// A clause if a model whose position nobody wrote lies far above or below a place whose elevation nobody wrote.
+fn no_elevation(above_m: f64, placement: &Placement, frame: &SiteFrame) -> Option<String> {
+    let is_written = placement.position.is_some() || frame.has_elevation;
+    (!is_written && above_m.abs() > ONE_PLACE_M).then(|| {
+        let side = if above_m > 0.0 { "above" } else { "below" };
+        format!(
+            "it lies {} {side} the place, as [place] says no elevation; `elevation = {:.0}` there would have it at 0",
+            length(above_m.abs()),
+            frame.local.elevation_m() + above_m
+        )
+    })
 }
 
 /// Where a model of a map stands.
@@ -270,9 +270,8 @@ fn note_map(model: &Model, crs: &Crs, said_by: &str, placement: &Placement, fram
     if away > FAR_M {
         said.push_str(&format!("; its middle is {} from the place", length(away)));
     }
-    if !frame.has_elevation && low.z.abs() > ONE_PLACE_M && placement.position.is_none() {
-        said.push_str("; ");
-        said.push_str(&no_elevation(low.z, frame.local.elevation_m()));
+    if let Some(clause) = no_elevation(low.z, placement, frame) {
+        said.push_str(&format!("; {clause}"));
     }
     Some(message![said; setting("[[model]]", "crs", "`crs` under [[model]]"), " changes it"])
 }

@@ -1,8 +1,8 @@
 //! How buildings stand on terrain: which of them float above it, and which reach below it.
 //!
-//! Models and terrain come from different hands, with different zeros, and nobody sees on a plan that a house hangs in the
-//! air. A *building* is here what hangs together in plan, on a raster: its cells hold the corners and edges of faces, and
-//! the centres that faces cover.
+//! Models and terrain come from different sources, with different zeros, and a plan does not show that a house hangs in
+//! the air. A *building* here is whatever is connected in plan and is not terrain, on a raster: its cells are those with
+//! corners or edges of faces, and those whose centres faces cover.
 
 use super::ground::metres;
 use super::terrain::FIRST;

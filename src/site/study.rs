@@ -1,4 +1,4 @@
-//! The study as asked → its instants.
+//! The study of the request → its instants.
 
 use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};

@@ -1,4 +1,4 @@
-//! What a ground plane hides of the models' upper side, and whether it is terrain.
+//! What a ground plane hides of the models' upper side, and whether that is terrain.
 
 use super::extent::Bounds;
 use crate::mesh::scan::{by_rows, spans, wholes};
@@ -14,10 +14,10 @@ const POINTS: f64 = 256.0;
 pub(super) const FIRST: f64 = 0.381_966;
 /// Where less of the plan than this is hidden, there is no note.
 const LEAST_SHARE: f64 = 0.005;
-/// Terrain is what is seen of the models from above on at least so much of their plan.
+/// Terrain covers at least this share of the models' plan, seen from above.
 const TERRAIN_SHARE: f64 = 0.25;
-/// And nowhere lie two of its faces above each other (three, where it is a block and a part of its top is above the plane),
-/// but for so much of it.
+/// At most this share of it may have two faces above each other (three, where it is a block and a part of its top is above
+/// the plane).
 const OVERLAP_SHARE: f64 = 0.1;
 
 /// What of the models' upper side lies below a plane.

@@ -1,4 +1,4 @@
-//! From the user's path to a site file's contents: a site file, a folder, or a model with its place.
+//! The user's path → a site file's contents: a site file, a folder, or a model with its place.
 
 use super::error::{FieldLocation, SiteError};
 use super::file::{ModelTable, PlaceTable, SiteFile};
@@ -81,7 +81,7 @@ impl WrittenSite {
     ///
     /// # Errors
     /// As [`WrittenSite::read`].
-    pub fn read_beside(path: &Path, first: &WrittenSite, asked: &Overrides) -> Result<WrittenSite, SiteError> {
+    pub(crate) fn read_beside(path: &Path, first: &WrittenSite, asked: &Overrides) -> Result<WrittenSite, SiteError> {
         let mut written = Self::read_as_it_is(path)?;
         written.set_models(asked);
         if written.site.place.is_none() {
@@ -154,7 +154,8 @@ impl WrittenSite {
         WrittenSite::name_in(&self.folder, file)
     }
 
-    /// A file as a site file in a folder names it: what lies beside or below is relative, so that both can move together.
+    /// A file as a site file in a folder names it: what lies beside or below is relative, so that both can move
+    /// together.
     pub fn name_in(folder: &Path, file: &Path) -> String {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -163,7 +164,8 @@ impl WrittenSite {
         if cfg!(windows) { path.replace('\\', "/") } else { path }
     }
 
-    /// Whether the site file at a path says something else by now. Where it cannot be read, the next reader reports that.
+    /// Whether the site file at a path says something else by now. Where it cannot be read, the next reader reports
+    /// that.
     pub fn has_changed_at(&self, path: &Path) -> bool {
         std::fs::read(path).is_ok_and(|bytes| bytes != self.text.as_bytes())
     }
@@ -239,7 +241,7 @@ impl WrittenSite {
     }
 }
 
-/// Errs where a model that nobody but the command line names cannot be opened.
+/// Returns an error if a model that nobody but the command line names cannot be opened.
 pub(super) fn bare_fault(file: &Path) -> Result<(), ModelError> {
     let fault = match std::fs::metadata(file) {
         Ok(found) if found.is_file() => return Ok(()),

@@ -1,4 +1,4 @@
-//! Does work again when the graphics device fails on which it runs.
+//! Does work again when the graphics device on which it runs fails.
 
 use super::{Event, OnEvent, StudyError, tell};
 use crate::choice::{Engine, Finder};
@@ -7,13 +7,12 @@ use crate::shadow::ShadowError;
 use crate::site::Site;
 use std::sync::Arc;
 
-/// Work on a site, on this adapter where there is one, else on whatever adapter it opens.
+/// Work on a site, on this adapter if one is given, otherwise on one that it opens itself.
 pub type Attempt<'a, T> = dyn FnMut(&Site, Option<&Arc<Gpu>>, &mut OnEvent<'_>) -> Result<T, StudyError> + 'a;
 
-/// Does work on a site. If the device fails on the way, the work is done once more on a new one. If that fails, too, the
-/// processor takes over, if it `can` do the work and the request does not name something that only an adapter draws;
-/// otherwise an adapter that is a program on the processor takes over, so that the technique stays the requested one. Notes
-/// say so.
+/// Does work on a site. If the device fails during the work, it is done once more on a new one. If that fails, too, the
+/// processor takes over, if it `can` do the work and the request names nothing that only an adapter draws; otherwise a
+/// software adapter takes over, so that the technique stays the requested one. Notes say so.
 ///
 /// # Errors
 /// What the work says; [`StudyError::NoDevice`] where every device fails.
@@ -42,7 +41,7 @@ pub fn persist<T>(
 /// Says that a device failed, and on what the work is done again.
 fn begin_again(why: &str, on: &str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     tell(on_event, Event::Note(format!("{why}: the work is done again {on}").into()))?;
-    tell(on_event, Event::Anew)
+    tell(on_event, Event::StartsOver)
 }
 
 /// Why no device did it, where that is what went wrong: it was lost, or none was left after a loss.

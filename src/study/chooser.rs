@@ -1,4 +1,4 @@
-//! Who draws: technique, engine and finder as asked, or the fastest of them.
+//! Chooses who draws: technique, engine and finder of the request, or the fastest of them.
 
 use super::machine::Machine;
 use super::{Event, OnEvent, StudyError, subject_of, tell};
@@ -14,8 +14,8 @@ pub(super) fn opened(gpu: Option<&Arc<Gpu>>) -> Result<Arc<Gpu>, GpuError> {
     gpu.map_or_else(|| Gpu::open().map(Arc::new), |gpu| Ok(Arc::clone(gpu)))
 }
 
-/// Technique and engine as asked; else projection on the plan, and ray casting for a camera, but on a real graphics adapter
-/// the stencil, unless it is the ground's plane alone that is judged.
+/// Technique and engine as asked; else projection on the plan, and ray casting for a camera, but on a real graphics
+/// adapter the stencil, unless it is the ground's plane alone that is judged.
 ///
 /// A projected instant on the plane takes less time than opening an adapter does, so none is opened for it
 /// (docs/benchmarks/peers.md). What draws on an adapter does so on the one that is open already, where there is one.
@@ -71,7 +71,7 @@ fn is_plain(site: &Site) -> bool {
     site.settings == Settings::NONE && site.finder == Finder::Auto
 }
 
-/// A technique that counts, as something asks what that took: as asked, else the stencil.
+/// A technique that counts, as something asks what that took: as asked, otherwise the stencil.
 pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: Field) -> Result<Machine, StudyError> {
     not_side(view, field)?;
     let method = match site.method {

@@ -18,11 +18,11 @@ use crate::view::Surface;
 pub struct CompareOutcome {
     /// Both profiles, cell by cell.
     pub comparison: Comparison,
-    /// What drew them, before and after.
+    /// What drew the states before and after.
     pub drawn: [Provenance; 2],
     /// What the cells see before and after: under [`Receivers::Ground`] with the models.
     pub surfaces: [Surface; 2],
-    /// Whose faces those count.
+    /// The meshes whose faces the surfaces contain.
     pub meshes: [Mesh; 2],
 }
 
@@ -46,11 +46,11 @@ fn study(when: &str, site: &Site, name: &str, on_event: &mut OnEvent<'_>) -> Res
 }
 
 impl CompareOutcome {
-    /// What a change does, where both states were found.
+    /// Compares two states that were found.
     ///
-    /// Under [`Receivers::Top`] a cell that sees another surface after than before is altered. Under [`Receivers::Ground`]
-    /// only one whose terrain lies higher or lower after than before is: the ground is judged everywhere, under buildings
-    /// too.
+    /// Under [`Receivers::Top`] a cell that sees another surface after than before is altered. Under
+    /// [`Receivers::Ground`] only one whose terrain lies higher or lower after than before is: the ground is judged
+    /// everywhere, under buildings too.
     pub fn new(pair: &Pair, before: Outcome, after: Outcome) -> CompareOutcome {
         // by the processor in both, so that no adapter's rounding passes for a change
         let [seen_before, seen_after] = [(&before, &pair.before), (&after, &pair.after)]

@@ -1,4 +1,4 @@
-//! How much of a study's window is day.
+//! How much of a study's window is daylight.
 
 use crate::sun::SunTrack;
 

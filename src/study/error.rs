@@ -1,4 +1,4 @@
-//! Why there is no answer.
+//! Why a study has no answer.
 
 use crate::choice::Misfit;
 use crate::gpu::GpuError;
@@ -6,19 +6,19 @@ use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plai
 use crate::shadow::ShadowError;
 use crate::sun::SunError;
 
-/// Why there is no answer. One line each.
+/// Why a study has no answer, in one line.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// Two choices that exclude each other.
     Conflict {
         /// What does not fit.
         field: Field,
-        /// Why, and the way out.
+        /// Why, and a hint.
         message: Message,
     },
-    /// Technique, engine and settings that do not go together, or not with what is drawn.
+    /// Technique, engine and settings that do not fit each other or the subject.
     Misfit(#[from] Misfit),
-    /// The plan needs more memory than it may take.
+    /// The plan needs more memory than the budget allows.
     LittleMemory {
         /// What it may take, bytes.
         asked: u64,
@@ -27,7 +27,7 @@ pub enum StudyError {
         /// Columns of the plan.
         width: u32,
     },
-    /// The plan is drawn at once, and has too many cells for that.
+    /// The plan has too many cells to be drawn at once.
     TooManyCells {
         /// Columns of the plan.
         width: u32,
@@ -49,9 +49,9 @@ pub enum StudyError {
     Gpu(#[from] GpuError),
     /// Volumes and silhouettes were requested of a technique other than the stencil.
     NoVolumes(String),
-    /// Techniques are held against ray casting where they draw.
+    /// The techniques cannot be compared with ray casting on this machine.
     NoVerification(String),
-    /// Every device on which the work was tried failed, and nothing else can do it.
+    /// Every device failed on which the work was tried, and nothing else can do it.
     NoDevice(String),
     /// All instants are at night.
     NoDay,

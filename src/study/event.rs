@@ -2,7 +2,7 @@
 
 use super::{StudyError, TiledStudy};
 use crate::message::Message;
-use crate::profile::{Shaded, Unfinished};
+use crate::profile::{ShadedTime, Unfinished};
 use crate::sun::Zone;
 use crate::view::{Bits, Mask, Tile};
 use chrono::DateTime;
@@ -10,61 +10,61 @@ use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// What happens on the way.
+/// What happens while a study runs.
 #[derive(Clone, Debug)]
 pub enum Event<'a> {
     /// Something that the user should know.
     Note(Message),
-    /// A graphics adapter failed, and the work is done again: what was reported of it is void, except for notes.
-    Anew,
-    /// The same study is done again. A listener that has kept what was done so far ([`Event::Kept`]) can put it here, and
+    /// A graphics adapter failed, and the work starts again: what was reported of it is void, except for notes.
+    StartsOver,
+    /// The same study runs again. A listener that has kept what was done so far ([`Event::Kept`]) can put it here, and
     /// the study continues from there.
     Resumes {
         /// The study.
         study: &'a TiledStudy<'a>,
-        /// From what the study is to continue.
+        /// The state from which the study is to continue.
         begun: &'a RefCell<Option<Unfinished>>,
     },
     /// A study on patches that is to be kept (`patches_kept`) is prepared. A listener that has kept what was done so far
     /// can put it here, and the study continues from there.
     Prepared {
-        /// Which study it is: a number of all that its result depends on.
+        /// The study's fingerprint: a number made of everything that its result depends on.
         number: u64,
-        /// From what the study is to continue.
+        /// The state from which the study is to continue.
         begun: &'a RefCell<Option<Unfinished>>,
     },
-    /// All is prepared; drawing begins.
+    /// Everything is prepared; drawing begins.
     Started {
-        /// How many instants there are, those of each tile counted.
+        /// The number of instants, added up over the tiles.
         instants: usize,
-        /// How many tiles there are.
+        /// The number of tiles.
         tiles: usize,
     },
-    /// Some of the instants were done before, and are not drawn again.
+    /// Some of the instants were done before the study was stopped, and are not drawn again.
     GoesOn {
-        /// How many.
+        /// Their number.
         done: usize,
     },
     /// A tile of the plan begins or continues: the next instants belong to it.
     Tile(Tile),
     /// The tile's sums, once all of its instants are done.
-    Summed(Arc<Shaded>),
-    /// One instant is done, in time's order for each tile.
+    Summed(Arc<ShadedTime>),
+    /// One instant is done. Within a tile they come in the order of time.
     Drawn {
-        /// From 0.
+        /// Its index, from 0.
         index: usize,
-        /// Of how many.
+        /// The number of instants.
         count: usize,
-        /// Local clock time of the place.
+        /// The local clock time at the place.
         time: DateTime<Zone>,
-        /// Its mask, where masks are wanted.
+        /// Its mask, if masks are wanted.
         mask: Option<&'a Mask>,
-        /// Which cells are in shadow, where that is wanted and there is a sun.
+        /// Which cells are in shadow, if that is wanted and the sun is up.
         bits: Option<&'a Bits>,
     },
-    /// What is done so far, to be kept: with it the study can go on another time.
+    /// The state so far. A listener that keeps it can continue the study later.
     Kept(&'a Unfinished),
-    /// After the study: one more stage of making its files is done.
+    /// After the study, one more stage of making its files is done.
     Stage(&'static str),
 }
 
@@ -74,7 +74,7 @@ pub type OnEvent<'a> = dyn FnMut(Event<'_>) -> ControlFlow<()> + 'a;
 /// Passes an event to the listener.
 ///
 /// # Errors
-/// [`StudyError::Interrupted`] as asked by the listener.
+/// [`StudyError::Interrupted`] if the listener ends the work.
 pub(crate) fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), StudyError> {
     match on_event(event) {
         ControlFlow::Continue(()) => Ok(()),
@@ -82,15 +82,15 @@ pub(crate) fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), S
     }
 }
 
-/// Tells what the user should know of the models: how they were read, how exact they are, and where they stand.
+/// Passes on what the user should know of the models: how they were read, how exact they are, and where they stand.
 ///
 /// # Errors
-/// [`StudyError::Interrupted`] as asked by the listener.
+/// [`StudyError::Interrupted`] if the listener ends the work.
 pub(crate) fn note_models(notes: &[Message], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
 }
 
-/// Says when the plan is done in tiles.
+/// Notes that the plan is worked on in tiles, if it is.
 pub(super) fn note_tiles(tiles: &[Tile], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let [first, _, ..] = tiles else { return Ok(()) };
     let [width, height] = first.size;

@@ -1,7 +1,8 @@
-//! Which study it is: a number of all that its result depends on, so that another one does not go on from its sum.
+//! The fingerprint of a study: a number made of everything that its result depends on, so that no study continues from
+//! the sums of another one.
 //!
-//! What is hashed is written here, field by field with their names and as little-endian bytes, by SipHash-1-3 with the
-//! keys 0: every compiler and machine comes to the same number.
+//! What is hashed is listed here, field by field with names and as little-endian bytes, by SipHash-1-3 with the keys 0.
+//! Every compiler and machine gets the same number.
 
 use super::Wants;
 use crate::choice::Receivers;

@@ -1,4 +1,4 @@
-//! Every instant of a study as a picture: night too.
+//! Every instant of a study as a picture, including those at night.
 
 use super::again::persist;
 use super::chooser::{choose, not_patches};
@@ -12,24 +12,24 @@ use crate::sun::SunTrack;
 use crate::view::{Mask, Surface, View};
 use std::sync::Arc;
 
-/// One of them.
+/// One frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
-    /// Its instant alone.
+    /// The track of its instant alone.
     pub track: &'a SunTrack,
-    /// Which part of the sun each cell sees.
+    /// The share of the sun that each cell sees.
     pub mask: &'a Mask,
     /// What the cells see; the same in all frames.
     pub surface: &'a Surface,
-    /// Whose faces [`Surface::face`] counts.
+    /// The mesh whose faces are in [`Surface::face`].
     pub surface_mesh: &'a Mesh,
     /// What was judged.
     pub receivers: Receivers,
-    /// What drew it.
+    /// What drew the mask.
     pub drawn: &'a Provenance,
 }
 
-/// As `study::instant` for every instant of the study, with what is kept from one to the next. Returns what drew them.
+/// As `study::instant` for every instant of the study, keeping resources from one to the next. Returns what drew them.
 ///
 /// # Errors
 /// [`StudyError`], and what `on_frame` says.

@@ -1,4 +1,4 @@
-//! One instant's shadows, seen from above, from a side or by a camera.
+//! The shadows of one instant, seen from above, from a side or by a camera.
 
 use super::again::persist;
 use super::chooser::{choose, counting, not_patches, stencil_alone};
@@ -12,7 +12,7 @@ use crate::sun::Instant;
 use crate::view::{Mask, Overlay, Tile, View};
 use std::sync::Arc;
 
-/// The first instant alone; at night nothing sees the sun, and a note says so.
+/// The shadows of the track's first instant. At night nothing sees the sun, and a note says so.
 ///
 /// A camera always judges what it sees; [`Site::receivers`] is the plan's.
 ///
@@ -90,7 +90,7 @@ fn shows_volumes(wants: &InstantWants) -> bool {
     wants.volumes || wants.silhouette
 }
 
-/// The tiles of a plan; none of another view. Errs where what counting took is wanted of more than one.
+/// The tiles of a plan; none of another view. Returns an error if what counting took is wanted of more than one.
 fn tiles_of(look: &SiteView<'_>, wants: &InstantWants) -> Result<Vec<Tile>, StudyError> {
     let tiles = match look.view {
         View::Plan(grid) => tiles::of_instant(grid, subject_of(look.site, &look.view), look.machine),

@@ -1,6 +1,6 @@
-//! A site that is looked at: one view after another, one sun after another, on an adapter that is open already.
+//! A site that is looked at: one view after another and one sun after another, on an adapter that stays open.
 //!
-//! The same techniques draw as in `study::instant`; what is kept between two pictures is the only difference.
+//! The same techniques draw as in `study::instant`. The only difference is what is kept between two pictures.
 
 use super::chooser::choose;
 use super::machine::Machine;
@@ -24,14 +24,14 @@ pub(crate) const FARTHEST: f64 = 40.0;
 /// How shadows are found in a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LiveMethod {
-    /// By which technique.
+    /// The technique.
     pub method: Method,
-    /// What is asked of it.
+    /// Its settings.
     pub settings: Settings,
 }
 
 impl LiveMethod {
-    /// Where the adapter is a program on the processor: rays, one a pixel.
+    /// The quickest way on a software adapter: rays, one per pixel.
     ///
     /// What a map or volumes cost grows with the model, and a quick look has few pixels; at a few hundred a side a map
     /// takes about as long as rays do on the tower (docs/benchmarks/desktop.md), and has coarse edges.
@@ -40,7 +40,7 @@ impl LiveMethod {
     }
 }
 
-/// A site, a view of it, and what draws both.
+/// A site, a view of it, and what draws the two.
 pub struct Live {
     gpu: Arc<Gpu>,
     /// What is asked, without the models.
@@ -60,7 +60,7 @@ pub struct Live {
 }
 
 impl Live {
-    /// Uploads the site, draws what is seen.
+    /// Uploads the site, and draws what is seen.
     ///
     /// # Errors
     /// [`StudyError::Shadow`] where the adapter cannot hold it.
@@ -83,8 +83,8 @@ impl Live {
         })
     }
 
-    /// Takes the site as it is written now, where the same models receive in the same way, and keeps all that does not depend
-    /// on the rest; no where the scene is another.
+    /// Takes the site as it is written now, if the same models receive in the same way, and keeps everything that does
+    /// not depend on the rest. Returns `false` if the scene is another.
     pub fn change_to(&mut self, site: &Site) -> bool {
         let seen = |of: &Site| (of.receives.clone(), of.ground.level);
         let is_same_mesh = Arc::ptr_eq(&self.scene.receivers.vertices, &site.mesh.vertices);
@@ -104,12 +104,12 @@ impl Live {
         true
     }
 
-    /// The picture, to be given what lies over it.
+    /// The picture, over which something may be laid.
     pub fn picture(&mut self) -> &mut Picture {
         &mut self.picture
     }
 
-    /// Turns to another view. What was laid over the old one alone is gone.
+    /// Turns to another view. What was laid over the old view alone is removed.
     pub fn look_at(&mut self, view: View) {
         if view != self.view {
             (self.view, self.night) = (view, night(&view));
@@ -117,8 +117,8 @@ impl Live {
         self.picture.clear();
     }
 
-    /// Draws the view under a sun into the target (of [`Picture::target`]), and says what drew. Below the horizon it is
-    /// night.
+    /// Draws the view under a sun into the target (of [`Picture::target`]), and returns what drew it. Below the horizon
+    /// it is night.
     ///
     /// # Errors
     /// [`StudyError::Misfit`] where the way does not go with the view; else what drawing says.
@@ -161,7 +161,7 @@ impl Live {
         Ok(drawn)
     }
 
-    /// What counting takes for that sun in this view, where the way is one that counts.
+    /// How much work counting takes for that sun in this view, if the technique counts.
     ///
     /// # Errors
     /// As [`Live::draw`].

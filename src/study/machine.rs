@@ -1,4 +1,4 @@
-//! A technique with all that it needs to be made for a view.
+//! A technique, with everything that it needs, made for a view.
 
 use super::{StudyError, Wants, subject};
 use crate::choice::{Engine, Finder, Method, MethodRow, Misfit, Receivers, Settings, Subject};

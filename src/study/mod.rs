@@ -1,6 +1,7 @@
-//! The flow: a checked request in, its shadow profile out.
+//! The flow: a checked request goes in, its shadow profile comes out.
 //!
-//! [`run`] and [`in_tiles`] read as the whole program does. [`TiledStudy`] is for a program that shares a study out.
+//! [`run`] and [`in_tiles`] read as the whole program does. [`TiledStudy`] is for a program that distributes the parts
+//! of a study.
 
 // Beside them is what the deliverables call: `instant` is one instant's shadows, `frames` every instant as a picture,
 // `patches` the study on façades and roofs, `compare` that of two states of a site. `verify` holds every technique against

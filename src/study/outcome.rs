@@ -1,4 +1,4 @@
-//! The answers: of a study, and of one instant.
+//! The answers of a study, and of one instant.
 
 use crate::mesh::Mesh;
 use crate::profile::{Profile, Provenance, Statistics, Timings};
@@ -9,33 +9,34 @@ use crate::view::{FragmentCounts, Mask, Overlay, Surface};
 pub struct Outcome {
     /// The shaded time.
     pub profile: Profile,
-    /// What drew it.
+    /// What drew the masks.
     pub drawn: Provenance,
-    /// What the cells see, where wanted: also under [`Receivers::Ground`](crate::choice::Receivers::Ground) with the models.
+    /// What the cells see, if wanted; under [`Receivers::Ground`](crate::choice::Receivers::Ground) also with the
+    /// models.
     pub surface: Option<Surface>,
-    /// Whose faces [`Surface::face`] counts.
+    /// The mesh whose faces are in [`Surface::face`].
     pub surface_mesh: Mesh,
-    /// What counting took, where wanted.
+    /// The statistics of counting, if wanted.
     pub statistics: Option<Statistics>,
-    /// `prepare` and `shadows`.
+    /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }
 
 /// The answer for one instant.
 #[derive(Clone, Debug)]
 pub struct InstantOutcome {
-    /// Which part of the sun each cell sees.
+    /// The share of the sun that each cell sees.
     pub mask: Mask,
-    /// What drew it.
+    /// What drew the mask.
     pub drawn: Provenance,
-    /// What the cells see, where wanted.
+    /// What the cells see, if wanted.
     pub surface: Option<Surface>,
-    /// Volumes and silhouette, where wanted and where there is a camera and a sun.
+    /// Volumes and silhouette, if wanted and if there is a camera and a sun.
     pub overlay: Option<Overlay>,
-    /// What counting took, where wanted and where there is a sun.
+    /// How much work counting took, if wanted and if there is a sun.
     pub counted: Option<FragmentCounts>,
-    /// Whose faces [`Surface::face`] counts.
+    /// The mesh whose faces are in [`Surface::face`].
     pub surface_mesh: Mesh,
-    /// `prepare` and `shadows`.
+    /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }

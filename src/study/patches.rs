@@ -1,4 +1,4 @@
-//! The study on patches: hours of sun on every flat patch of what receives.
+//! The study on patches: hours of sun on every flat patch of the receivers.
 
 use super::again::persist;
 use super::chooser::opened;
@@ -24,22 +24,22 @@ use std::time::{Duration, Instant};
 /// The answer to a study on patches.
 #[derive(Clone, Debug)]
 pub struct PatchOutcome {
-    /// The patches of the components that receive, of [`Site::mesh`].
+    /// The patches of those components of [`Site::mesh`] that receive.
     pub patches: Arc<Patches>,
     /// Their time in the sun.
     pub hours: PatchHours,
     /// How they were judged.
     pub judged: PatchJudgements,
-    /// What drew it.
+    /// What judged them.
     pub drawn: Provenance,
-    /// Bytes of the graphics adapter's memory that were taken; 0 where it was not used.
+    /// The graphics adapter's memory that was used, bytes; 0 without an adapter.
     pub gpu_bytes: u64,
-    /// `prepare` and `shadows`.
+    /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }
 
-/// Hours of sun on patches, with texels of `cell` metres; larger ones where there would be too many, which a note says.
-/// Nothing of it is kept.
+/// The hours of sun on patches, with texels of `cell` metres. The texels are larger if there would be too many, and a
+/// note says so. Nothing is kept.
 ///
 /// # Errors
 /// As [`patches_kept`].
@@ -53,8 +53,8 @@ pub fn patches(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Pat
 /// Each instant is a sample of the sun's centre, or with [`Settings::sun_samples`] as many of its disc, for
 /// its weight. What lies below the ground plane sees no sun.
 ///
-/// For a caller that keeps what is done so far [`Event::Prepared`] asks for what was kept, and [`Event::Kept`] brings what
-/// is to be kept: each time that so long has passed, and when the work is ended. Sums are the same to the bit;
+/// For a caller that keeps what is done so far [`Event::Prepared`] asks for what was kept, and [`Event::Kept`] brings
+/// what is to be kept: each time that so long has passed, and when the work is ended. Sums are the same to the bit;
 /// [`PatchOutcome::judged`] counts this run alone.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! Every instant's shadows, summed to the time in shadow: of the plan in one go, or tile by tile.
+//! Adds up every instant's shadows to the time in shadow: of the whole plan at once, or tile by tile.
 
 use super::again::persist;
 use super::chooser::{choose, counting, not_patches};
@@ -10,7 +10,7 @@ use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::message::{Field, aside, message};
 use crate::profile::accumulate::Sum;
-use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
+use crate::profile::{Profile, Provenance, ShadedTime, Statistics, Timings, Unfinished};
 use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
 use crate::sun;
@@ -20,20 +20,20 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What a study in tiles tells beside the sums, which [`Event::Summed`] tells.
+/// The answer to a study in tiles, without the sums, which [`Event::Summed`] reports.
 #[derive(Clone, Debug)]
 pub struct TiledOutcome {
-    /// What drew.
+    /// What drew the masks.
     pub drawn: Provenance,
-    /// Seconds of the window with the sun above the horizon, and without.
+    /// Seconds of the window with the sun above the horizon, and below it.
     pub day_and_night_secs: (u32, u32),
-    /// What the cells see, where wanted.
+    /// What the cells see, if wanted.
     pub surface: Option<Surface>,
-    /// Whose faces [`Surface::face`] counts.
+    /// The mesh whose faces are in [`Surface::face`].
     pub surface_mesh: Mesh,
-    /// What counting took, where wanted.
+    /// The statistics of counting, if wanted.
     pub statistics: Option<Statistics>,
-    /// `prepare` and `shadows`.
+    /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }
 
@@ -45,7 +45,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     let (mut tile, mut whole) = (Tile::from(site.grid), Arc::default());
     let worked = in_tiles(TiledStudy::new(site, wants, on_event)?, None, &mut |event| {
         match &event {
-            Event::Anew => whole = Arc::default(),
+            Event::StartsOver => whole = Arc::default(),
             // of what is gone on from only the rest would be told
             Event::Resumes { .. } => return ControlFlow::Continue(()),
             Event::Tile(next) => tile = *next,
@@ -60,8 +60,8 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, timings })
 }
 
-/// The whole of a plan's sums, with a tile's in their place; an empty whole has none yet.
-pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
+/// The sums of a whole plan, with a tile's put in their place. An empty whole has no sums yet.
+pub fn paste(whole: &Arc<ShadedTime>, tile: &Tile, shaded: &Arc<ShadedTime>) -> Arc<ShadedTime> {
     if tile.is_whole() {
         return Arc::clone(shaded);
     }
@@ -75,7 +75,7 @@ pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shad
 }
 
 impl<'a> TiledStudy<'a> {
-    /// Chooses what draws, and the tiles.
+    /// Prepares a study: chooses what draws, and the tiles.
     ///
     /// # Errors
     /// [`StudyError`]; choices that exclude each other; [`StudyError::LittleMemory`].
@@ -104,9 +104,10 @@ impl<'a> TiledStudy<'a> {
     }
 }
 
-/// Sums every instant's shadows. A study that was stopped, given as `begun`, continues where it was; its sums are the same to
-/// the bit. Tiles before the one that was worked on are not reported again. What another study left is not used. After
-/// [`Event::Anew`] everything is reported from the first instant on, or from what was put into [`Event::Resumes`].
+/// Sums every instant's shadows. A study that was stopped, given as `begun`, continues where it was; its sums are the
+/// same to the bit. Tiles before the one that was worked on are not reported again. What another study left is not
+/// used. After [`Event::StartsOver`] everything is reported from the first instant on, or from what was put into
+/// [`Event::Resumes`].
 ///
 /// # Errors
 /// [`StudyError`]
@@ -129,7 +130,7 @@ pub fn in_tiles(
         if number.is_some_and(|number| number == tiled.number()) {
             tell(on_event, Event::Resumes { study: &tiled, begun: &begun })?;
         } else {
-            // what another machine takes over is no more the study that was begun, and must not be gone on with as that
+            // what another machine takes over is no more the study that was begun, and must not be continued as that
             tiled.wants.keep_every = None;
         }
         once(tiled, begun.into_inner(), on_event)
@@ -212,9 +213,9 @@ impl TileWork<'_> {
         &mut self,
         (number, tile): (usize, &Tile),
         technique: &mut dyn Technique,
-        begun: Option<Shaded>,
+        begun: Option<ShadedTime>,
         on_event: &mut OnEvent<'_>,
-    ) -> Result<Shaded, StudyError> {
+    ) -> Result<ShadedTime, StudyError> {
         let instants = &self.look.site.track.instants;
         let count = self.tiles * instants.len();
         let mut sum = Sum::new(self.look.machine.gpu(), tile.size[0], tile.size[1]);
@@ -263,7 +264,7 @@ impl TileWork<'_> {
     }
 
     /// Tells what is to be kept after so many instants.
-    fn keep(&mut self, done: usize, shaded: Shaded, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    fn keep(&mut self, done: usize, shaded: ShadedTime, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
         let TileWork { study, tiles, statistics, .. } = *self;
         tell(on_event, Event::Kept(&Unfinished { study, tiles, done, shaded, statistics }))?;
         self.kept = (Instant::now(), true);
@@ -271,7 +272,7 @@ impl TileWork<'_> {
     }
 }
 
-/// Errs where what is wanted is made of the whole plan, and that is done in tiles.
+/// Returns an error if what is wanted is made of the whole plan, and that is done in tiles.
 fn check_tiles(tiles: &[Tile], wants: &Wants) -> Result<(), StudyError> {
     if tiles.len() < 2 {
         return Ok(());

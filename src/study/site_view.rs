@@ -1,4 +1,4 @@
-//! One view of a site: what is judged in it, and what of the site stands there.
+//! One view of a site: what is judged in it, and which parts of the site it contains.
 
 use super::machine::Machine;
 use super::{InstantWants, StudyError};

@@ -1,9 +1,9 @@
-//! How long the stages of the work take.
+//! Measures how long the stages of the work take.
 
 use crate::profile::Timings;
 use std::time::{Duration, Instant};
 
-/// Takes the time of stages, one after the other.
+/// Measures stages, one after another.
 #[derive(Clone, Debug)]
 pub struct Stopwatch {
     started: Instant,
@@ -12,13 +12,13 @@ pub struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// From now on.
+    /// A stopwatch that runs from now on.
     pub fn start() -> Stopwatch {
         let now = Instant::now();
         Stopwatch { started: now, lap: now, stages: Timings::default() }
     }
 
-    /// From now on, after stages that were done before.
+    /// A stopwatch that runs from now on, with stages that were measured before.
     pub fn after(stages: Timings) -> Stopwatch {
         let now = Instant::now();
         let before: f64 = stages.0.iter().map(|(_, secs)| secs).sum();

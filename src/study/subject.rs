@@ -1,10 +1,10 @@
-//! What a technique draws of a view of a site.
+//! The subject: what a technique draws in a view of a site.
 
 use crate::choice::{Receivers, Subject};
 use crate::site::{GroundKind, Site};
 use crate::view::View;
 
-/// What a view judges: the plan what was asked, a camera what it sees.
+/// What a view judges: the plan judges the requested receivers, a camera what it sees.
 pub fn judged(site: &Site, view: &View) -> Receivers {
     match view {
         View::Plan(_) => site.receivers,

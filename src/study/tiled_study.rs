@@ -1,17 +1,17 @@
-//! A study that is prepared, before it is run.
+//! A study that is prepared but not yet run.
 
 use super::machine::Machine;
 use super::{SiteView, Stopwatch, StudyError, Wants, fingerprint};
 use crate::profile::accumulate::Sum;
-use crate::profile::{Shaded, Unfinished};
+use crate::profile::{ShadedTime, Unfinished};
 use crate::site::Site;
 use crate::sun;
 use crate::view::{Tile, View};
 use std::cell::OnceCell;
 use std::fmt;
 
-/// A study that is prepared: with its sums tile by tile ([`Event::Tile`](super::Event::Tile),
-/// [`Event::Summed`](super::Event::Summed)), so that not all of them are held.
+/// A study that is prepared, with its sums tile by tile ([`Event::Tile`](super::Event::Tile),
+/// [`Event::Summed`](super::Event::Summed)), so that not all of them are in memory.
 pub struct TiledStudy<'a> {
     pub(super) site: &'a Site,
     pub(super) wants: Wants,
@@ -22,23 +22,23 @@ pub struct TiledStudy<'a> {
 }
 
 impl TiledStudy<'_> {
-    /// Which study it is: a number of all that its result depends on.
+    /// The study's fingerprint: a number made of everything that its result depends on.
     pub fn number(&self) -> u64 {
         *self.number.get_or_init(|| fingerprint::of(self.site, &self.machine.drawn(), &self.tiles, &self.wants))
     }
 
-    /// Its tiles, in their order.
+    /// The tiles, in their order.
     pub fn tiles(&self) -> &[Tile] {
         &self.tiles
     }
 
-    /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
-    /// instants, which may come from another process. Sums of instants that make up the track add up to the tile's own to the bit, and
-    /// [`paste`](super::paste) puts tiles together. Where the device fails, so does this.
+    /// A part of the study, for a program that distributes the work: the shaded time of one of the tiles at some of the
+    /// instants. These may come from another process. Sums over instants that make up the track add up to the tile's
+    /// own to the bit, and [`paste`](super::paste) puts tiles together. If the device fails, this returns an error.
     ///
     /// # Errors
     /// [`StudyError::Shadow`], where drawing failed.
-    pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<Shaded, StudyError> {
+    pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<ShadedTime, StudyError> {
         let mut technique = self.look().technique_of(tile)?;
         let mut sum = Sum::new(self.machine.gpu(), tile.size[0], tile.size[1]);
         for instant in instants.iter().filter(|instant| !instant.night) {
@@ -52,7 +52,7 @@ impl TiledStudy<'_> {
         SiteView { site, machine, view: View::Plan(site.grid), receivers: site.receivers }
     }
 
-    /// Whether that was left by this study.
+    /// Whether a state was left by this study.
     pub fn is_of(&self, begun: &Unfinished) -> bool {
         let count = self.tiles.len() * self.site.track.instants.len();
         let tile = self.tiles.get(self.worked_on(begun.done));
@@ -63,8 +63,8 @@ impl TiledStudy<'_> {
             && tile.is_some_and(|tile| begun.shaded.len() == tile.cells())
     }
 
-    /// The tile that is worked on after so many instants, those of each tile counted: the last one until all of its instants
-    /// are done and told.
+    /// The tile that is worked on after so many instants, those of each tile counted: the last one until all of its
+    /// instants are done and told.
     pub(crate) fn worked_on(&self, done: usize) -> usize {
         done.saturating_sub(1) / self.site.track.instants.len().max(1)
     }

@@ -1,4 +1,4 @@
-//! A plan in tiles: where it has more cells than the adapter draws at once, or than there is memory for.
+//! A plan in tiles, where it has more cells than the adapter draws at once, or than the memory holds.
 
 use super::machine::Machine;
 use super::{Budget, StudyError, Wants, subject_of};
@@ -44,7 +44,7 @@ pub(super) fn of_instant(grid: Grid, subject: Subject, machine: &Machine) -> Vec
     split(grid, columns, rows)
 }
 
-/// Errs where one instant's plan is more than can be drawn at once.
+/// Returns an error if one instant's plan is more than can be drawn at once.
 pub(super) fn at_once(grid: Grid, subject: Subject, machine: &Machine) -> Result<(), StudyError> {
     match of_instant(grid, subject, machine).len() {
         1 => Ok(()),

@@ -1,7 +1,7 @@
-//! Every technique against ray casting, so that users can see on their own site how far to trust each.
+//! Compares every technique with ray casting, so that users can see on their own site how far to trust each.
 //!
-//! [`verify`] makes the techniques, [`hold`] holds them against the truth, instant by instant. Ray casting is held against
-//! itself without its trees, at some cells.
+//! [`verify`] makes the techniques, and [`hold`] compares them with the truth, instant by instant. Ray casting is
+//! compared with itself without its trees, at some cells.
 
 use super::again::persist;
 use super::chooser::{not_patches, opened};
@@ -21,30 +21,30 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::time;
 
-/// Cells along the plan's longer side where nobody asks.
+/// The default number of cells along the plan's longer side.
 pub const SIZE: u32 = 512;
 /// Points of the sun's disc where nobody asks.
 const SUN_SAMPLES: u32 = 64;
-/// At so many cells of a study ray casting is held against itself without its trees; half of them are edge cells.
+/// At so many cells of a study ray casting is compared with itself without its trees; half of them are edge cells.
 const MOST_SAMPLED: usize = 200;
 
 /// Which part of an exact technique's edge cells may differ: on the ground under clean models, and elsewhere.
 const EDGE_SHARE_CLEAN: f64 = 0.005;
 const EDGE_SHARE: f64 = 0.01;
 
-/// A technique that is to be held against the truth.
+/// A technique that is compared with the truth.
 pub struct Trial {
-    /// What draws.
+    /// What draws its masks.
     pub drawn: Provenance,
-    /// What it is held against.
+    /// The truth with which it is compared.
     pub against: Truth,
     /// What it promises.
     pub promise: Promise,
-    /// Made for the site's plan.
+    /// The technique, made for the site's plan.
     pub technique: Box<dyn Technique>,
 }
 
-/// Every technique against ray casting, at the study's instants.
+/// Compares every technique with ray casting, at the study's instants.
 ///
 /// # Errors
 /// [`StudyError`]; a study all at night, and a machine without a graphics adapter, before anything is drawn.
@@ -86,7 +86,7 @@ fn trials(gpu: &Arc<Gpu>, site: &Site, on_event: &mut OnEvent<'_>) -> Result<Vec
     Ok(trials)
 }
 
-/// The techniques that are held against ray casting: the exact ones first, as a map is held against one of them.
+/// The techniques that are compared with ray casting: the exact ones first, as a map is compared with one of them.
 fn held() -> Vec<&'static MethodRow> {
     let is_held = |row: &&MethodRow| row.method != Method::Auto && row.promise != Promise::Same;
     let mut rows: Vec<&MethodRow> = TABLE.iter().filter(is_held).collect();
@@ -94,7 +94,7 @@ fn held() -> Vec<&'static MethodRow> {
     rows
 }
 
-/// Holds techniques, and ray casting itself, against the truth.
+/// Compares techniques, and ray casting itself, with the truth.
 ///
 /// # Errors
 /// As [`verify`].
@@ -225,7 +225,7 @@ fn without_trees(cast: &TruthCaster, instant: &Instant, cells: &[(u32, u32)], ta
     tally.differ(Difference::at(cells, mask, &truth), 0, 0, mask);
 }
 
-/// Cells spread over a mask, every second one an edge cell, where there are any; each number has its own.
+/// Cells spread over a mask, half of them edge cells if there are any. Each number chooses its own cells.
 pub fn spread(mask: &Mask, numbers: std::ops::Range<usize>) -> Vec<(u32, u32)> {
     let at = |cell: usize| (cell as u32 % mask.width, cell as u32 / mask.width);
     let all = mask.share.len();

@@ -4,35 +4,37 @@ use crate::message::Field;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Memory for all that grows with the raster: sums, masks, what cells see and what the drawing takes, on the adapter too.
-/// The models, the program with the few megabytes that each of its threads works with, and the adapter's driver come on top.
+/// The memory for everything that grows with the raster: sums, masks, what cells see and what the drawing takes,
+/// including the adapter's memory. The models, the program with a few megabytes for each of its threads, and the
+/// adapter's driver come on top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// All that there is, bytes.
+    /// The whole budget, bytes.
     pub bytes: u64,
-    /// What whoever asks takes of it for a drawing once the sums are done, bytes.
+    /// The part of it that the caller needs for a drawing once the sums are done, bytes.
     pub drawing: u64,
 }
 
-/// What is made beside the profile.
+/// What a study makes beside the profile.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wants {
     /// Every instant's mask, in [`Event::Drawn`](super::Event::Drawn).
     pub masks: bool,
-    /// Of every instant with a sun which cells are in shadow, in [`Event::Drawn`](super::Event::Drawn).
+    /// For every instant with a sun, which cells are in shadow, in [`Event::Drawn`](super::Event::Drawn).
     pub bits: bool,
-    /// The folder to which whoever asks writes the masks, by its canonical name: a study that writes them elsewhere is
+    /// The folder to which the caller writes the masks, by its canonical name. A study that writes them elsewhere is
     /// another study.
     pub masks_in: Option<PathBuf>,
-    /// Whether lines are drawn, which are made of all cells at once: tiles will not do.
+    /// Whether lines are drawn. They are made of all cells at once, so that tiles are not possible.
     pub lines: bool,
     /// What the cells see, for a drawing.
     pub surface: bool,
-    /// What counting took.
+    /// The statistics of counting.
     pub statistics: bool,
-    /// What is done so far, in [`Event::Kept`](super::Event::Kept): each time that so long has passed, and when the work is ended.
+    /// How often the state so far is reported in [`Event::Kept`](super::Event::Kept); it is also reported when the work
+    /// is ended.
     pub keep_every: Option<Duration>,
-    /// What memory there is for rasters; without one as much as they take.
+    /// The memory for rasters; without a value there is no limit.
     pub budget: Option<Budget>,
 }
 
@@ -45,16 +47,16 @@ pub struct InstantWants {
     pub volumes: bool,
     /// The silhouette's lines over a camera's picture.
     pub silhouette: bool,
-    /// What counting took, cell by cell, and what it is for.
+    /// How much work counting took, cell by cell, and for which purpose.
     pub counted: Option<CountingPurpose>,
 }
 
-/// What counting shadow volumes is for.
+/// The purposes of counting shadow volumes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CountingPurpose {
-    /// Numbers of the whole.
+    /// Statistics of the whole.
     Statistics,
-    /// A diagram of what a map decided and what the volumes did.
+    /// A diagram of what the map decided and what the volumes decided.
     Mask,
     /// A diagram of how many fragments were counted.
     Overdraw,

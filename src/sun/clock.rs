@@ -1,4 +1,4 @@
-//! When a reading occurs at a place: the instants that the clock there, or the sun, gives it.
+//! The instant of a reading at a place: the time that the clock there, or the sun, gives it.
 
 use super::day::light;
 use super::zone::Jump;
@@ -7,16 +7,17 @@ use chrono::{DateTime, FixedOffset, NaiveDate, NaiveDateTime, Offset, TimeDelta,
 
 /// When a reading is on one date: an instant, or why there is none.
 pub(super) enum ReadingTime {
-    /// One instant.
+    /// An instant.
     At(DateTime<Zone>),
-    /// A sunrise or sunset that does not happen: what stands for it in a window, and the error where nothing can.
+    /// A sunrise or sunset that does not happen: the time that replaces it in a window, and the error for everything
+    /// else.
     Instead(DateTime<Zone>, SunError),
-    /// None that can be taken; both instants that it could mean, and the error that says so.
+    /// No single instant: the two instants that the reading could mean, and the error that says so.
     Not([DateTime<Zone>; 2], SunError),
 }
 
 impl Reading {
-    /// The instant that this reading is at the place on a date (its own date goes first).
+    /// The instant of this reading at the place on a date. The reading's own date has priority.
     ///
     /// # Errors
     /// A clock time that does not exist or exists twice, an offset that fits neither,
@@ -28,8 +29,8 @@ impl Reading {
         }
     }
 
-    /// As [`Reading::at`], where a window begins or ends: with the date's light, and where it has none at what stands for a
-    /// sunrise or sunset that does not happen.
+    /// As [`Reading::at`], where a window begins or ends: with the date's light, and where it has none at what stands
+    /// for a sunrise or sunset that does not happen.
     pub(super) fn bound(&self, place: &Place, date: NaiveDate) -> Result<DateTime<Zone>, SunError> {
         let of_light = |end: usize, shift_secs| {
             let light = light(place, self.date.unwrap_or(date))?;

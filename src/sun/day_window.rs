@@ -4,21 +4,21 @@ use super::day::midnight;
 use super::{Day, Place, Reading, SunError, Window, Zone};
 use chrono::{DateTime, NaiveDate};
 
-/// A day, and the part of it that is asked.
+/// A day, and the requested part of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DayWindow {
     /// The date, and what the sun does on it.
     pub day: Day,
-    /// Its first instant.
+    /// The first instant of that part.
     pub from: DateTime<Zone>,
-    /// Its end.
+    /// The end of that part.
     pub to: DateTime<Zone>,
 }
 
 impl DayWindow {
-    /// All of a local date, from midnight to midnight, or from and to readings without dates. As in a study's window a
-    /// `to` earlier than `from` is on the next day; but where it is bound to the sun and its end
-    /// comes before its beginning, as `sunset-…` does before `sunrise+…`, nothing is asked.
+    /// All of a local date, from midnight to midnight, or the part between two readings without dates. As in a study's
+    /// window, a `to` earlier than `from` is on the next day. But if the part is bound to the sun and its end comes
+    /// before its beginning, as `sunset-…` does before `sunrise+…`, it is empty.
     ///
     /// # Errors
     /// Readings that are no instants on that date, or equal; a year outside 1600 to 2999.

@@ -6,8 +6,8 @@ use chrono::{DateTime, NaiveDate};
 use rayon::prelude::*;
 
 impl SunTrack {
-    /// The instants of a window on each of some dates, which follow one another: as a window's of its own, one day after
-    /// the other, and with the same weights. Where a day's window ends as the next begins, the instant between them is one.
+    /// The instants of a window on each of several consecutive dates: those of each day's own window, one day after
+    /// another, with the same weights. Where a day's window ends as the next begins, the two share one instant.
     ///
     /// Where `sunrise+…` is later than `sunset-…` a day has none; bound to the sun, in polar night, its noon alone.
     ///

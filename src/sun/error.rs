@@ -24,7 +24,7 @@ pub enum SunError {
     UnknownZone {
         /// What was given.
         name: String,
-        /// What was meant, and the way out.
+        /// What was meant, and a hint.
         hint: String,
     },
     /// No zone could be found from the coordinates.

@@ -1,4 +1,4 @@
-//! One instant: where the sun stands then, and for how much of a study it counts.
+//! One instant: where the sun stands at it, and for how much of a study it counts.
 
 use super::Zone;
 use chrono::DateTime;

@@ -1,9 +1,9 @@
-//! What is probably meant by a time zone that does not exist: an offset, a city, or a zone with a slip of the pen.
+//! What a time zone that does not exist probably means: an offset, a city, or a misspelt zone.
 
 use super::{Zone, zone_names};
 use unicode_normalization::UnicodeNormalization;
 
-/// The way out, to follow a semicolon. `here` is the zone at the place's coordinates.
+/// The hint, to follow a semicolon. `here` is the zone at the place's coordinates.
 pub(super) fn way_out(name: &str, here: Option<Zone>) -> String {
     let or_none = match here {
         Some(here) => format!("leave time_zone out, and it is \"{here}\" by the coordinates"),

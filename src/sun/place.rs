@@ -1,4 +1,4 @@
-//! A place on earth: checked coordinates, and whose clock is read there.
+//! A place on Earth: checked coordinates, and the zone whose clock is read there.
 
 use super::{SunError, Zone, ZoneRules, meant};
 use std::sync::OnceLock;
@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 /// Latitude and longitude stay in degrees, as the world writes them and as SPA takes them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
-    /// What people call it; empty if it has no name.
+    /// Its name; empty if it has none.
     pub name: String,
     /// Degrees, north positive.
     pub latitude_deg: f64,

@@ -25,12 +25,12 @@ impl Air {
     }
 }
 
-/// Where the sun's centre is seen, topocentric.
+/// The apparent position of the sun's centre, topocentric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Position {
     /// Clockwise from true north, degrees, 0 to 360.
     pub azimuth_deg: f64,
-    /// Above the horizon, degrees; as bent by the air where there is one.
+    /// Degrees above the horizon, including refraction if there is air.
     pub altitude_deg: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What people write for times, dates and durations.
+//! Reads what people write for times, dates and durations.
 
 use super::SunError;
 use chrono::{FixedOffset, NaiveDate, NaiveTime};
@@ -8,9 +8,9 @@ use std::str::FromStr;
 /// A time as written: a clock time, or one that counts from the sun's rise or set.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reading {
-    /// Its own date, where it names one.
+    /// Its own date, if it names one.
     pub date: Option<NaiveDate>,
-    /// What it says of the day.
+    /// Its time of day.
     pub time: TimeOfDay,
     pub(super) text: String,
 }
@@ -18,7 +18,7 @@ pub struct Reading {
 /// The part of a reading within its day.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TimeOfDay {
-    /// Local clock time, whole seconds; the offset chooses where that exists twice.
+    /// Local clock time in whole seconds. The offset chooses between two instants with the same time.
     Clock(NaiveTime, Option<FixedOffset>),
     /// Seconds after the sunrise.
     Sunrise(i64),

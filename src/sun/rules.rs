@@ -1,5 +1,5 @@
-//! Where the rules of clocks come from: the IANA Time Zone Database as it is bundled, or as the system keeps it where
-//! that is newer.
+//! The rules of clocks: the IANA Time Zone Database as the program contains it, or as the system has it where that is
+//! newer.
 
 use super::TzVersion;
 use super::zone::{Zone, ZoneData};
@@ -22,20 +22,22 @@ pub struct ZoneRules {
 }
 
 impl ZoneRules {
-    /// The rules that the program goes by: the system's where those are newer than the bundled ones.
+    /// The rules that the program uses: the system's if they are newer than the bundled ones, otherwise the bundled
+    /// ones.
     pub fn newest() -> &'static ZoneRules {
         static NEWEST: LazyLock<ZoneRules> = LazyLock::new(|| ZoneRules::newest_of(FOLDERS.map(Path::new)));
         &NEWEST
     }
 
-    /// The rules that came with the program.
+    /// The bundled rules.
     #[cfg(feature = "test-hooks")]
     pub fn bundled() -> &'static ZoneRules {
         static BUNDLED: LazyLock<ZoneRules> = LazyLock::new(|| ZoneRules::of(bundled_version(), None));
         &BUNDLED
     }
 
-    /// The newest of those in some folders, which say their version, and the bundled ones; of equal ones the bundled.
+    /// The newest rules of those in some folders that say their version, and the bundled ones. Of equal ones the
+    /// bundled rules are taken.
     pub fn newest_of<'a>(folders: impl IntoIterator<Item = &'a Path>) -> ZoneRules {
         let mut newest = (bundled_version(), None);
         for folder in folders {
@@ -50,13 +52,13 @@ impl ZoneRules {
         ZoneRules { version, folder, known: Mutex::default() }
     }
 
-    /// Which release it is.
+    /// Their release.
     pub fn version(&self) -> &TzVersion {
         &self.version
     }
 
-    /// The zone of a name, letter by letter; nothing where there is none. Where the system lacks a zone, or its file
-    /// cannot be read, it is the bundled one, which says so in [`Zone::version`].
+    /// The zone with exactly this name; `None` if there is none. If the system lacks a zone, or its file cannot be
+    /// read, the bundled one is taken, which [`Zone::version`] shows.
     pub fn zone(&self, name: &str) -> Option<Zone> {
         // a thread that panicked left the map whole
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
@@ -104,8 +106,8 @@ fn version_in(folder: &Path) -> Option<TzVersion> {
     of_source.or_else(|| TzVersion::parse(&first_line("+VERSION")?))
 }
 
-/// Whether it can be a zone's: neither a path out of the folder, nor what else lies there (`posix/…`, `right/…` with leap
-/// seconds, `localtime`, tables), nor the stand-in of a machine that nobody has set up.
+/// Whether it can be a zone's: neither a path out of the folder, nor what else lies there (`posix/…`, `right/…` with
+/// leap seconds, `localtime`, tables), nor the stand-in of a machine that nobody has set up.
 fn is_name(name: &str) -> bool {
     let is_part = |part: &str| {
         part.starts_with(|first: char| first.is_ascii_uppercase())

@@ -1,4 +1,4 @@
-//! The sun of a study: its instants, and the days they lie on.
+//! The sun track of a study: its instants, and the days on which they lie.
 
 use super::{Day, Instant, Polar, Reading, Zone};
 use crate::message::Message;

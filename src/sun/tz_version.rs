@@ -1,4 +1,4 @@
-//! The releases of the IANA Time Zone Database, and which is the later one.
+//! The releases of the IANA Time Zone Database, and which of two is later.
 
 /// A release of the database, such as 2026f; a later one is greater.
 ///
@@ -17,7 +17,7 @@ impl TzVersion {
         TzVersion { year: 0, length: 0, letters: String::new() }
     }
 
-    /// Reads `2026f`; what packagers add (`2026f-dfsg`) is ignored. None for text that is no release.
+    /// Reads `2026f`, and ignores what packagers add (`2026f-dfsg`). `None` for text that is not a release.
     pub fn parse(text: &str) -> Option<TzVersion> {
         let (year, rest) = text.trim().split_at_checked(4)?;
         let length = rest.bytes().take_while(u8::is_ascii_lowercase).count();

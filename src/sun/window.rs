@@ -1,4 +1,4 @@
-//! A study's window: its instants and how many seconds each stands for.
+//! A study's window: its instants, and how many seconds each stands for.
 
 use super::clock::ReadingTime;
 use super::day::{light, midnight};

@@ -1,4 +1,4 @@
-//! A time zone: whose clock is read, and by which rules.
+//! A time zone: its name, and the rules of its clock.
 
 use super::TzVersion;
 use chrono::{
@@ -8,8 +8,8 @@ use jiff::Timestamp;
 use jiff::tz::{AmbiguousOffset, Offset as JiffOffset};
 use std::fmt;
 
-/// A zone of the IANA Time Zone Database, as [`chrono::DateTime`] takes it. Its clock goes on after the last change that
-/// is known by the last rule.
+/// A zone of the IANA Time Zone Database, in the form that [`chrono::DateTime`] takes. After the last known change its
+/// clock follows the last rule.
 #[derive(Clone, Copy)]
 pub struct Zone(&'static ZoneData);
 
@@ -62,19 +62,19 @@ impl Zone {
         &self.0.name
     }
 
-    /// The release of the database that its rules are of.
+    /// The release of the database from which its rules come.
     pub fn version(self) -> &'static TzVersion {
         &self.0.version
     }
 
-    /// Whether it is an offset that no government can change, as `UTC` and `Etc/GMT+7` are.
+    /// Whether it is an offset that no government can change, such as `UTC` and `Etc/GMT+7`.
     pub fn is_fixed(self) -> bool {
         self.0.rules.preceding(Timestamp::MAX).next().is_none()
     }
 
-    /// What is to be said of a time for which its clock is a guess: more than a year after the release whose rules it
-    /// goes by, counted from the end of the release's year, as a release has no other date. Nothing of one before that,
-    /// and of an offset that no government can change.
+    /// A note on a time for which the clock is a guess: more than a year after the release of its rules, counted from
+    /// the end of the release's year, since a release has no other date. There is none for earlier times, nor for an
+    /// offset that no government can change.
     pub fn doubt(time: &DateTime<Zone>) -> Option<String> {
         let (zone, year) = (time.timezone(), time.year());
         let version = zone.version();

@@ -1,4 +1,4 @@
-//! The answer on patches: time in the sun, texel by texel on flat patches.
+//! The answer on patches: time in the sun on flat patches, texel by texel.
 
 use crate::mesh::patches::{Patch, Patches};
 
@@ -7,20 +7,21 @@ use crate::mesh::patches::{Patch, Patches};
 /// Sums are exact integers, the same on every machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PatchHours {
-    /// Per texel of [`Patches::texels`] the seconds in the sun, each counted for every sample that is seen.
+    /// For each texel of [`Patches::texels`], the seconds in the sun, each counted once for every sample that is seen.
     pub lit: Vec<u32>,
-    /// How many samples an instant has: 1 for the sun's centre, more for points of its disc.
+    /// The number of samples per instant: 1 for the sun's centre, more for points of its disc.
     pub samples: u32,
     /// Seconds of the window with the sun above the horizon.
     pub day_secs: u32,
-    /// Seconds of the window without.
+    /// Seconds of the window with the sun below the horizon.
     pub night_secs: u32,
 }
 
-/// What a patch, or many together, come to.
+/// The hours of a patch, or of several together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exposure {
-    /// Square metres of faces; what is there again, or lies between parts that touch, is left out of all of these.
+    /// The area of faces, square metres. Surfaces that exist twice, or lie between parts that touch, are left out here
+    /// and in everything below.
     pub area_m2: f64,
     /// Mean hours of sun over the area.
     pub hours_mean: f64,
@@ -28,7 +29,7 @@ pub struct Exposure {
     pub hours_min: f64,
     /// Hours in the sunniest texel.
     pub hours_max: f64,
-    /// Which part of the area has at least 1, 2, 3 and 4 hours, 0 to 1.
+    /// The shares of the area with at least 1, 2, 3 and 4 hours, 0 to 1.
     pub shares: [f64; 4],
 }
 
@@ -38,7 +39,7 @@ impl PatchHours {
         f64::from(self.lit[texel]) / (f64::from(self.samples) * 3600.0)
     }
 
-    /// What a patch comes to: those of its texels that count count alike.
+    /// The hours of a patch. Texels that count have equal weights.
     pub fn of_patch(&self, patch: &Patch) -> Exposure {
         let counts = |texel: &usize| patch.uncounted.binary_search(&(*texel as u32)).is_err();
         let texels = || (patch.texels.start as usize..patch.texels.end as usize).filter(counts);
@@ -61,7 +62,7 @@ impl PatchHours {
         }
     }
 
-    /// What patches come to together, each weighing as much as its area; none without a patch.
+    /// The hours of several patches together, weighted by their areas; `None` without a patch.
     pub fn of_patches<'a>(&self, patches: impl IntoIterator<Item = &'a Patch>) -> Option<Exposure> {
         let mut patches = patches.into_iter().peekable();
         patches.peek()?;
@@ -85,7 +86,7 @@ impl PatchHours {
         })
     }
 
-    /// What a component comes to; none where it has no patch.
+    /// The hours of a component; `None` if it has no patch.
     pub fn of_component(&self, patches: &Patches, component: u32) -> Option<Exposure> {
         self.of_patches(&patches.list[patches.of_component(component)])
     }

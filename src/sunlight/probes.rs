@@ -9,7 +9,7 @@ use glam::DVec3;
 /// What bounds an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IntervalBound {
-    /// Nothing: the window asked begins or ends.
+    /// Nothing: the requested window begins or ends.
     Window,
     /// The sun is down.
     Horizon,
@@ -17,7 +17,8 @@ pub enum IntervalBound {
     Behind,
     /// The ground: the probe lies below it.
     Ground,
-    /// A component that casts, the nearest to the probe on the way to the sun: by its number in [`Sunlight::components`].
+    /// The casting component that is nearest to the probe on the way to the sun, by its index in
+    /// [`Sunlight::components`].
     Component(usize),
 }
 
@@ -35,7 +36,7 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// How long it is, seconds.
+    /// Its length, seconds.
     pub fn secs(&self) -> i64 {
         (self.end - self.start).num_seconds()
     }
@@ -44,7 +45,7 @@ impl Interval {
 /// The intervals of several probes on several days.
 #[derive(Clone, Debug)]
 pub struct Sunlight {
-    /// Seconds between the instants at which was looked first: no interval of sun or shade that is at least so long is
+    /// The seconds between the instants that are tested first: no interval of sun or shade that is at least so long is
     /// missed.
     pub step_secs: u32,
     /// Whether directions include atmospheric refraction.
@@ -57,10 +58,10 @@ pub struct Sunlight {
     pub components: Vec<String>,
 }
 
-/// One day, as it is for all probes.
+/// One day, with what all probes share.
 #[derive(Clone, Debug)]
 pub struct SunDay {
-    /// The date, and what is asked of it.
+    /// The date, and the requested part of it.
     pub window: DayWindow,
     /// When the sun is above the horizon within the window.
     pub up: Vec<Interval>,
@@ -69,16 +70,18 @@ pub struct SunDay {
 /// One probe's intervals.
 #[derive(Clone, Debug)]
 pub struct ProbeIntervals {
-    /// Which probe.
+    /// The probe.
     pub probe: Probe,
-    /// How far below the ground it is judged, metres: below the terrain, or the plane. None where it is not.
+    /// How far it lies below the ground (terrain or plane) as judged, metres; `None` if it does not.
     pub below_ground_m: Option<f64>,
-    /// For each day its intervals, in time's order. A sun that shines on over midnight has one on either day.
+    /// The intervals of each day, in time's order. Where the sun shines across midnight, each of the two days has an
+    /// interval.
     pub days: Vec<Vec<Interval>>,
 }
 
 impl Sunlight {
-    /// What blocks, in a word or by the component's name. A component that is named as one of the words is told from it.
+    /// What blocks, as a word or as the component's name. A component whose name is one of the words gets a distinct
+    /// name.
     pub fn name(&self, blocked: IntervalBound) -> String {
         match blocked {
             IntervalBound::Window => "window".to_owned(),
@@ -92,7 +95,7 @@ impl Sunlight {
         }
     }
 
-    /// The dates with the least and with the most sun for a probe, the first of equals; seconds beside them.
+    /// The dates with the least and with the most sun for a probe, each the first of equals, with their seconds.
     pub fn least_and_most(&self, probed: &ProbeIntervals) -> Option<[(NaiveDate, i64); 2]> {
         let days = || self.days.iter().zip(&probed.days).map(|(day, found)| (day.window.day.date, secs(found)));
         let least = days().min_by_key(|(_, secs)| *secs)?;
@@ -101,13 +104,13 @@ impl Sunlight {
     }
 }
 
-/// Where a probe is judged: with a normal a millimetre before its plane.
+/// The point at which a probe is judged: with a normal, a millimetre in front of its plane.
 pub fn judged(probe: &Probe) -> DVec3 {
     probe.point + probe.normal.unwrap_or(DVec3::ZERO) * JUDGED_ABOVE_M
 }
 
 impl ProbeIntervals {
-    /// How long the probe lies in the sun on all days, seconds.
+    /// The time in the sun on all days, seconds.
     pub fn secs(&self) -> i64 {
         self.days.iter().map(|day| secs(day)).sum()
     }
@@ -118,7 +121,7 @@ impl ProbeIntervals {
     }
 }
 
-/// How long intervals are together, seconds.
+/// The total length of intervals, seconds.
 pub fn secs(intervals: &[Interval]) -> i64 {
     intervals.iter().map(Interval::secs).sum()
 }

@@ -1,7 +1,7 @@
-//! How two masks differ, in the terms of the design: at shadow edges, and elsewhere.
+//! How two masks differ, in the terms of the definitions: at shadow edges, and elsewhere.
 //!
 //! An *edge cell* is one whose 3 × 3 neighbourhood in the truth is not uniform. There a rasteriser may differ a little,
-//! since it rounds corners to 1/256 of a cell; elsewhere it may not, except beside what is thinner than a cell.
+//! since it rounds corners to 1/256 of a cell. Elsewhere it may not, except beside what is thinner than a cell.
 
 use super::is_edge_cell;
 use crate::shadow::ray_cast::RayCast;
@@ -13,13 +13,13 @@ use std::fmt;
 /// Counts of cells, of one pair of masks or of several.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Difference {
-    /// Edge cells of the truth.
+    /// The number of edge cells of the truth.
     pub edge_cells: u64,
-    /// Edge cells that differ.
+    /// The number of edge cells that differ.
     pub edge_differ: u64,
-    /// All other cells.
+    /// The number of all other cells.
     pub other_cells: u64,
-    /// Other cells that differ.
+    /// The number of other cells that differ.
     pub other_differ: u64,
     /// Columns and rows of the edge cells that differ.
     pub edge_at: Vec<(u32, u32)>,
@@ -28,13 +28,13 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Counts where `drawn` differs from `truth`, a mask of the same size.
+    /// Counts the cells in which `drawn` differs from `truth`, a mask of the same size.
     #[cfg(feature = "test-hooks")]
     pub fn between(drawn: &Mask, truth: &Mask) -> Difference {
         Difference::in_all(drawn, truth, |share, truth| share != truth)
     }
 
-    /// The same for soft shadows: a cell differs where its share is off by more than half the sun.
+    /// The same for soft shadows: a cell differs if its share is off by more than half the sun.
     pub fn by_half(drawn: &Mask, truth: &Mask) -> Difference {
         Difference::in_all(drawn, truth, off_by_half)
     }
@@ -52,7 +52,7 @@ impl Difference {
         difference
     }
 
-    /// Counts where some cells (column and row) of a mask are off by more than half the sun; `truth` has their shares.
+    /// Counts the cells (column and row) of a mask that are off by more than half the sun; `truth` has their shares.
     pub fn at(cells: &[(u32, u32)], mask: &Mask, truth: &[u8]) -> Difference {
         assert_eq!(cells.len(), truth.len());
         let mut difference = Difference::default();
@@ -73,8 +73,8 @@ impl Difference {
         at.extend(differs_at);
     }
 
-    /// Drops the other cells at which a shadow or a sunlit spot thinner than a cell lies: the neighbourhood in the
-    /// truth, cast again in finer cells, is not uniform. `truth` is left looking at `view`.
+    /// Removes the other cells in which a shadow or a sunlit spot thinner than a cell lies: in the truth, cast again in
+    /// finer cells, their neighbourhood is not uniform. Afterwards `truth` is turned to `view`.
     ///
     /// # Errors
     /// As [`Technique::draw`].
@@ -132,22 +132,23 @@ impl Difference {
         self.other_at.extend(other.other_at);
     }
 
-    /// How many cells were counted.
+    /// The number of cells that were counted.
     pub fn cells(&self) -> u64 {
         self.edge_cells + self.other_cells
     }
 
-    /// How many of them differ.
+    /// The number of cells that differ.
     pub fn differ(&self) -> u64 {
         self.edge_differ + self.other_differ
     }
 
-    /// Which part of the edge cells differs.
+    /// The share of the edge cells that differs.
     pub fn edge_share(&self) -> f64 {
         self.edge_differ as f64 / self.edge_cells.max(1) as f64
     }
 
-    /// At most this share of edge cells differ, and at most one in 100,000 of the others (one cell may always).
+    /// Whether at most this share of the edge cells differs, and at most one in 100,000 of the others (one cell is
+    /// always allowed).
     pub fn holds(&self, edge_share: f64) -> bool {
         let most_edge = (self.edge_cells as f64 * edge_share).max(1.0);
         let most_other = (self.other_cells as f64 / 1e5).max(1.0);

@@ -1,8 +1,8 @@
-//! Where a mask's shadow edges are.
+//! The shadow edges of a mask.
 
 use crate::view::Mask;
 
-/// How far the cells of a mask lie from its shadow edge: from the nearest cell on the other side of half the sun.
+/// The distances of a mask's cells from its shadow edge: from the nearest cell on the other side of half the sun.
 ///
 /// The first half of Meijster, Roerdink and Hesselink, *A general algorithm for computing distance transforms in linear
 /// time* (2000): distances along the columns. The second, along the rows, is left to the few cells that are asked.
@@ -13,7 +13,7 @@ pub struct Edges<'a> {
 }
 
 impl Edges<'_> {
-    /// Looks along all columns, down and up.
+    /// Finds the distances along all columns, down and up.
     pub fn of(mask: &Mask) -> Edges<'_> {
         let width = mask.width as usize;
         let mut along_column = vec![u32::MAX; mask.share.len()];
@@ -26,7 +26,7 @@ impl Edges<'_> {
         Edges { mask, along_column }
     }
 
-    /// The distance between the centres, in cells: 1 right at the edge; none where the mask has no edge.
+    /// The distance between the centres, in cells: 1 right at the edge; `None` if the mask has no edge.
     pub fn distance(&self, column: u32, row: u32) -> Option<f64> {
         let Mask { width, .. } = *self.mask;
         let first = row as usize * width as usize;

@@ -9,30 +9,30 @@ pub use edges::{Edges, is_edge_cell};
 pub use tally::Tally;
 
 use crate::choice::{Promise, Truth};
-use crate::profile::{Provenance, Shaded};
+use crate::profile::{Provenance, ShadedTime};
 use crate::view::Grid;
 
-/// All techniques on one site.
+/// The comparison of all techniques on one site.
 #[derive(Clone, Debug)]
 pub struct Verification {
     /// The plan's raster.
     pub grid: Grid,
-    /// How many instants were compared; night is left out.
+    /// The number of instants that were compared, without night.
     pub instants: usize,
-    /// Whether every part that casts is closed and well wound.
+    /// Whether every casting part is closed and well wound.
     pub clean: bool,
-    /// Which part of the edge cells of an exact technique may differ.
+    /// The share of the edge cells of an exact technique that may differ.
     pub edge_share: f64,
-    /// To how many points of the sun's disc rays were cast.
+    /// The number of points of the sun's disc to which rays were cast.
     pub sun_samples: u32,
-    /// How long ray casting took to the disc, seconds an instant.
+    /// The time of ray casting to the disc, seconds per instant.
     pub disc_secs: f64,
-    /// A technique each, ray casting last.
+    /// One row per technique, ray casting last.
     pub rows: Vec<Row>,
 }
 
 impl Verification {
-    /// Whether a row holds; none where the row decides nothing.
+    /// Whether a row holds; `None` if the row decides nothing.
     pub fn row_holds(&self, row: &Row) -> Option<bool> {
         match row.promise {
             Promise::Exact => Some(row.difference.holds(self.edge_share)),
@@ -47,44 +47,45 @@ impl Verification {
     }
 }
 
-/// One technique.
+/// The row of one technique.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// What drew it.
+    /// What drew its masks.
     pub drawn: Provenance,
-    /// What it was held against.
+    /// The truth with which it was compared.
     pub against: Truth,
     /// What it promises.
     pub promise: Promise,
     /// The cells that differ: their share is off by more than half the sun.
     pub difference: Difference,
-    /// Cells that differ beside what is thinner than a cell; not in `difference`.
+    /// The number of cells that differ beside what is thinner than a cell; they are not in `difference`.
     pub thin: u64,
-    /// Cells that the map decided otherwise than the stencil; not in `difference`. Absent without such a map.
+    /// The number of cells that the map decided otherwise than the stencil; they are not in `difference`. Absent
+    /// without such a map.
     pub missed: Option<u64>,
-    /// How far the furthest of the cells that differ lies from a shadow edge of the truth, in cells; absent where none does.
+    /// The greatest distance of a cell that differs from a shadow edge of the truth, in cells; absent if none differs.
     pub furthest: Option<f64>,
-    /// By how much the share is off, 0 to 1, in the mean of all cells.
+    /// The mean over all cells by which the share is off, 0 to 1.
     pub share_off: f64,
-    /// By how many hours the profile is off; absent where the instants have no weight.
+    /// The hours by which the profile is off; absent if the instants have no weight.
     pub hours_off: Option<HoursDifference>,
-    /// How long an instant took until the mask was in memory, seconds; the first one, which also builds, counts only
-    /// where it is alone.
+    /// The time of an instant until its mask was in memory, seconds. The first instant, which also builds, counts only
+    /// if it is the only one.
     pub secs: f64,
 }
 
 /// How two profiles differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoursDifference {
-    /// In the worst cell, hours.
+    /// The greatest difference of a cell, hours.
     pub largest: f64,
-    /// In the mean of all cells, hours.
+    /// The mean difference over all cells, hours.
     pub mean: f64,
 }
 
 impl HoursDifference {
-    /// Between sums of shaded time in 1/255 s.
-    pub fn between(drawn: &Shaded, truth: &Shaded) -> HoursDifference {
+    /// The difference between two sums of shaded time in 1/255 s.
+    pub fn between(drawn: &ShadedTime, truth: &ShadedTime) -> HoursDifference {
         let off = || drawn.iter().zip(truth.iter()).map(|(drawn, truth)| drawn.abs_diff(truth));
         let hours = |sum: u64| sum as f64 / (255.0 * 3600.0);
         HoursDifference {

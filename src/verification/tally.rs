@@ -3,7 +3,7 @@
 use super::{Difference, Edges, HoursDifference, Row};
 use crate::choice::{Promise, Truth};
 use crate::profile::accumulate::Sum;
-use crate::profile::{Provenance, Shaded};
+use crate::profile::{Provenance, ShadedTime};
 use crate::shadow::{DrawnMask, ShadowError};
 use crate::view::{Grid, Mask};
 
@@ -22,7 +22,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Nothing yet.
+    /// A tally without masks.
     pub fn new(grid: &Grid) -> Tally {
         Tally {
             sum: Sum::new(None, grid.width, grid.height),
@@ -36,7 +36,7 @@ impl Tally {
         }
     }
 
-    /// A mask was drawn.
+    /// Adds a mask that was drawn.
     ///
     /// # Errors
     /// None for a mask in memory.
@@ -45,7 +45,7 @@ impl Tally {
         self.sum.add(&DrawnMask::Memory(mask), weight_secs)
     }
 
-    /// Shares were compared one by one.
+    /// Adds shares that were compared one by one.
     pub fn compare<'a>(&mut self, shares: impl IntoIterator<Item = (&'a u8, &'a u8)>) {
         for (share, truth) in shares {
             self.share_off += u64::from(share.abs_diff(*truth));
@@ -53,7 +53,7 @@ impl Tally {
         }
     }
 
-    /// Cells differ from a truth; beside them `thin` and `missed`, which are counted apart.
+    /// Adds cells that differ from the truth; `thin` and `missed` are counted separately.
     pub fn differ(&mut self, difference: Difference, thin: u64, missed: u64, truth: &Mask) {
         self.thin += thin;
         self.missed += missed;
@@ -73,15 +73,15 @@ impl Tally {
         secs.iter().sum::<f64>() / secs.len().max(1) as f64
     }
 
-    /// The sum of all masks drawn.
+    /// The sum of all masks that were drawn.
     ///
     /// # Errors
     /// None for masks in memory.
-    pub fn sum(self) -> Result<Shaded, ShadowError> {
+    pub fn sum(self) -> Result<ShadedTime, ShadowError> {
         self.sum.finish()
     }
 
-    /// The row; `truth` is the sum that belongs to the truth, where instants have a weight.
+    /// The technique's row. `truth` is the sum of the truth, if instants have a weight.
     ///
     /// # Errors
     /// None for masks in memory.
@@ -90,7 +90,7 @@ impl Tally {
         drawn: Provenance,
         against: Truth,
         promise: Promise,
-        truth: Option<&Shaded>,
+        truth: Option<&ShadedTime>,
     ) -> Result<Row, ShadowError> {
         Ok(Row {
             drawn,

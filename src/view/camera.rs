@@ -6,11 +6,11 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 /// A perspective camera in the world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where the eye is, metres.
+    /// The position of the eye, metres.
     pub eye: DVec3,
     /// The point in the middle of the picture, metres.
     pub target: DVec3,
-    /// The direction that is upwards in the picture.
+    /// The direction that is up in the picture.
     pub up: DVec3,
     /// Vertical field of view, radians.
     pub fov_rad: f64,
@@ -21,7 +21,7 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// What lies nearer to the eye is not drawn, metres.
+    /// The distance of the near plane, metres. What lies nearer to the eye is not drawn.
     pub const NEAR_M: f64 = 0.05;
 
     /// Rightwards, upwards and forwards in the picture: unit vectors in the world frame.
@@ -37,19 +37,19 @@ impl Camera {
         DVec2::new(half_height * f64::from(self.width) / f64::from(self.height), half_height)
     }
 
-    /// A side, with the same point in the middle and as much of what lies there.
+    /// A side, with the same point in the middle, and as much of it as the perspective shows there.
     pub fn side(&self, side: Side) -> Elevation {
         let Camera { target, width, height, .. } = *self;
         let cell = 2.0 * (self.eye - target).length() * (self.fov_rad / 2.0).tan() / f64::from(height);
         Elevation { target, to_viewer: side.to_viewer(), cell, width, height }
     }
 
-    /// The direction in which a pixel's centre lies, a unit vector in the world frame.
+    /// The direction of a pixel's centre, a unit vector in the world frame.
     pub fn direction(&self, column: u32, row: u32) -> DVec3 {
         self.lens().direction(column, row)
     }
 
-    /// What the directions of all pixels have in common.
+    /// What the directions of all pixels share.
     #[doc(hidden)]
     pub fn lens(&self) -> Lens {
         Lens {
@@ -61,8 +61,8 @@ impl Camera {
 
     /// The perspective, from the near plane (depth 1) to infinity (depth 0).
     ///
-    /// Seed 004, section 6, with depth reversed: a point at infinity has depth 0 exactly, so that no volume is cut
-    /// at a far plane on any adapter, and `f32` depth keeps its precision far away.
+    /// *Geometry of Real Time Shadows*, section 6, with depth reversed: a point at infinity has depth 0 exactly, so
+    /// that no volume is cut at a far plane on any adapter, and `f32` depth keeps its precision far away.
     pub fn clip_from_world(&self) -> DMat4 {
         let [right, up, forward] = self.axes();
         let row = |axis: DVec3, scale: f64| (axis * scale).extend(-axis.dot(self.eye) * scale);
@@ -77,7 +77,7 @@ impl Camera {
     }
 }
 
-/// A camera's axes and opening, found once for all of its pixels.
+/// A camera's axes and field of view, computed once for all of its pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct Lens {
     axes: [DVec3; 3],

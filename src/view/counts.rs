@@ -1,6 +1,6 @@
 //! How much work counting shadow volumes takes, cell by cell.
 
-/// What decided a cell's share, where a map decides some and volumes the others.
+/// What decided a cell's share, where the map decides some cells and the volumes the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decider {
     /// The map, and the cell is in shadow.
@@ -13,17 +13,17 @@ pub enum Decider {
     VolumeLight,
 }
 
-/// What counting shadow volumes takes at one instant.
+/// How much work counting shadow volumes takes at one instant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FragmentCounts {
     /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Per cell how many fragments of walls and caps reach the count, row 0 first.
+    /// For each cell, how many fragments of walls and caps reach the count, row 0 first.
     pub reached: Vec<u32>,
-    /// How many would in all cells together, if no mask kept any away.
+    /// How many fragments would reach it in all cells together without the mask.
     pub all: u64,
-    /// Per cell what decided it, where a map did too.
+    /// What decided each cell, if the map decided some.
     pub decided: Option<Vec<Decider>>,
 }

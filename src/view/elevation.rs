@@ -1,8 +1,8 @@
-//! A side, seen along level, parallel rays.
+//! The view of a side, along level, parallel rays.
 
 use glam::{DVec2, DVec3};
 
-/// One of four sides: what is seen from there.
+/// One of the four sides from which a site is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// From the north.
@@ -33,8 +33,8 @@ impl Side {
         }
     }
 
-    /// The middle of the picture of that proportion that holds a box whole, and how much it shows from foot to head,
-    /// metres. The box stands low in it: below the ground's line there is only cut earth.
+    /// The middle of a picture with that proportion that contains the whole box, and the height that it shows, metres.
+    /// The box stands low in it: below the ground's line there is only cut earth.
     pub fn around(self, (low, high): (DVec3, DVec3), width_by_height: f64) -> (DVec3, f64) {
         let size = high - low;
         let width = size.dot(self.right().abs()) / (1.0 - 2.0 * BESIDE);
@@ -82,7 +82,7 @@ impl Elevation {
         DVec2::new(f64::from(self.width), f64::from(self.height)) * self.cell / 2.0
     }
 
-    /// Where a pixel's centre lies in the plane of the picture, which goes through the target.
+    /// The position of a pixel's centre in the plane of the picture, which contains the target.
     pub fn centre(&self, column: u32, row: u32) -> DVec3 {
         let [right, up, _] = self.axes();
         let half = self.half_size();

@@ -35,8 +35,8 @@ impl Grid {
         [self.west, self.south(), self.east(), self.north]
     }
 
-    /// From columns and rows to metres, in GDAL's order: x = t₀ + column · t₁ + row · t₂, y = t₃ + column · t₄ + row · t₅.
-    /// Columns count from the west edge, rows from the north edge.
+    /// From columns and rows to metres, in GDAL's order: x = t₀ + column · t₁ + row · t₂, y = t₃ + column · t₄ + row ·
+    /// t₅. Columns count from the west edge, rows from the north edge.
     pub fn transform(&self) -> [f64; 6] {
         [self.west, self.cell, 0.0, self.north, 0.0, -self.cell]
     }
@@ -46,13 +46,13 @@ impl Grid {
         DVec2::new(self.west + (f64::from(column) + 0.5) * self.cell, self.north - (f64::from(row) + 0.5) * self.cell)
     }
 
-    /// How many cells there are.
+    /// The number of cells.
     pub fn cells(&self) -> usize {
         self.width as usize * self.height as usize
     }
 }
 
-/// A rectangle of a plan's cells, which is worked out on its own where the plan is too large for one go.
+/// A rectangle of a plan's cells, which is computed on its own if the plan is too large to be computed at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tile {
     /// The whole plan.
@@ -75,7 +75,7 @@ impl Tile {
         *self == self.plan.into()
     }
 
-    /// Its cells as a plan of their own. They lie where they lay but for the rounding of its corner.
+    /// Its cells as a plan of their own. They lie in the same place except for the rounding of its corner.
     pub fn grid(&self) -> Grid {
         let Tile { plan, first: [column, row], size: [width, height] } = *self;
         let west = plan.west + f64::from(column) * plan.cell;
@@ -83,7 +83,7 @@ impl Tile {
         Grid { west, north, cell: plan.cell, width, height }
     }
 
-    /// How many cells there are.
+    /// The number of cells.
     pub fn cells(&self) -> usize {
         self.size[0] as usize * self.size[1] as usize
     }

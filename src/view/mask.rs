@@ -1,39 +1,39 @@
-//! The share of the sun that each cell sees: a byte a cell, or a bit.
+//! The share of the sun that each cell sees: a byte per cell, or a bit.
 
 use super::Tile;
 use rayon::prelude::*;
 
-/// Which part of the sun each cell sees at one instant: 255 the whole of it, 0 none.
+/// The share of the sun that each cell sees at one instant: 255 all of it, 0 none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
     /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Per cell the share of the sun that is seen, in 1/255, row 0 first.
+    /// For each cell, the share of the sun that is seen, in 1/255, row 0 first.
     pub share: Vec<u8>,
 }
 
-/// Which cells are in shadow, where the sun is a point: one bit a cell.
+/// Which cells are in shadow, for a point-like sun: one bit per cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bits {
     /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// 1 in shadow, 0 where the sun is seen; each row begins a word of its own, and its first cell is the lowest bit. What a
-    /// row leaves over of its last word is 0.
+    /// 1 in shadow, 0 where the sun is seen. Each row begins with its own word, and its first cell is the lowest bit.
+    /// The unused bits of a row's last word are 0.
     pub words: Vec<u64>,
 }
 
 impl Bits {
-    /// No cell is in shadow.
+    /// A raster without shadow.
     pub fn new(width: u32, height: u32) -> Bits {
         let words = vec![0; width.div_ceil(64) as usize * height as usize];
         Bits { width, height, words }
     }
 
-    /// Of a mask: in shadow is where at most half of the sun is seen.
+    /// The cells of a mask that are in shadow, which see at most half of the sun.
     pub fn of(mask: &Mask) -> Bits {
         let mut bits = Bits::new(mask.width, mask.height);
         let in_row = bits.in_row();
@@ -47,7 +47,7 @@ impl Bits {
         bits
     }
 
-    /// Puts a tile's cells in their place on the plan. A tile's first column is a multiple of 64.
+    /// Copies a tile's cells to their place on the plan. A tile's first column is a multiple of 64.
     pub fn paste(&mut self, tile: &Tile, part: &Bits) {
         let [left, top] = tile.first.map(|first| first as usize);
         let in_row = self.in_row();
@@ -68,7 +68,7 @@ impl Bits {
         self.width.div_ceil(64) as usize
     }
 
-    /// The same with a byte a cell.
+    /// The same with one byte per cell.
     pub fn mask(&self) -> Mask {
         let mut share = vec![0; self.width as usize * self.height as usize];
         let rows = share.par_chunks_mut(self.width as usize).zip(self.words.par_chunks(self.in_row()));

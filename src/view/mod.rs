@@ -1,7 +1,7 @@
-//! What is looked at (a plan, a camera, a side, probes), and what is found there: surfaces and masks.
+//! What is looked at (a plan, a camera, a side, probes), and what is found there (surfaces and masks).
 //!
-//! A [`View`] is the plan's [`Grid`] of cells, a [`Camera`] or an [`Elevation`]; a [`Probe`] is a single point. Of a view each cell
-//! sees a [`Surface`], and for one sun there is a [`Mask`].
+//! A [`View`] is the plan's [`Grid`] of cells, a [`Camera`] or an [`Elevation`]; a [`Probe`] is a single point. Each
+//! cell of a view sees a [`Surface`], and for one sun there is a [`Mask`].
 
 mod camera;
 mod counts;
@@ -32,11 +32,11 @@ use glam::DVec4;
 /// What a mask is drawn for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum View {
-    /// Straight down on the grid's cells.
+    /// The plan: straight down on the grid's cells.
     Plan(Grid),
     /// A perspective picture.
     Camera(Camera),
-    /// A side, as drawings have it.
+    /// A side, along parallel rays.
     Elevation(Elevation),
 }
 
@@ -50,7 +50,7 @@ impl View {
         }
     }
 
-    /// The point from which everything is seen, homogeneous: the eye, or the direction straight up, or level towards the
+    /// The viewer as a homogeneous point: the eye, the direction straight up, or the level direction towards the
     /// viewer.
     pub fn viewer(&self) -> DVec4 {
         match self {

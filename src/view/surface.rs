@@ -11,13 +11,13 @@ pub struct Surface {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Per cell the face of the mesh that is seen, or [`Surface::GROUND`], or [`Surface::SKY`].
+    /// For each cell, the face of the mesh that is seen, [`Surface::GROUND`] or [`Surface::SKY`].
     pub face: Vec<u32>,
-    /// Per cell the world height of the seen point, metres (NaN for the sky).
+    /// For each cell, the height of the seen point in the world frame, metres (NaN for the sky).
     pub height_m: Vec<f32>,
 }
 
-/// What the cells of a plan see, some rows at a time: a drawing of many cells does not hold them all.
+/// What the cells of a plan see, some rows at a time, so that a drawing of many cells need not hold all of them.
 pub trait SurfaceRows: Sync {
     /// How many cells there are.
     fn cells(&self) -> usize;

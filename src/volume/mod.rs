@@ -1,9 +1,9 @@
-//! Silhouette and caps → a closed volume, and how many volumes can lie over one point.
+//! Silhouette and caps → a closed volume, and the bound of how many volumes can lie over one point.
 //!
-//! The volume of a mesh is the sum of the prisms behind its faces, each face turned towards the light: the
-//! **light cap** is the faces themselves, the walls hang from the silhouette, and (unless they reach to infinity)
-//! a **dark cap** closes their far ends. The count at a point is the number of faces that a ray to the light
-//! crosses, for closed, open and crowded meshes alike. [`solid`] cuts volumes at the ground, for other programs.
+//! The volume of a mesh is the sum of the prisms behind its faces, each face turned towards the light: the **light
+//! cap** is the faces themselves, the walls hang from the silhouette, and (unless they reach to infinity) a **dark
+//! cap** closes their far ends. The count at a point is the number of faces that a ray to the light crosses, for
+//! closed, open and crowded meshes alike. [`solid`] cuts volumes at the ground, for other programs.
 
 pub mod solid;
 
@@ -14,14 +14,14 @@ use glam::{DVec2, DVec3, DVec4};
 /// One mesh's volume for one light, as indices of the mesh's vertices.
 #[derive(Clone, Debug, Default)]
 pub struct Volume {
-    /// Walls hang from these, away from the light; as often as they stand here.
+    /// The edges from which walls hang, away from the light; an edge may be repeated.
     pub walls: Vec<DirectedEdge>,
     /// Faces, counter-clockwise seen from the light.
     pub light_cap: Vec<[u32; 3]>,
 }
 
 impl Volume {
-    /// The walls, and the light cap where it is needed, for a light around the mesh's origin.
+    /// The walls, and the light cap if it is needed, for a light around the mesh's origin.
     pub fn find(mesh: &Mesh, finder: &mut dyn SilhouetteFinder, local_light: DVec4, with_cap: bool) -> Volume {
         let mut walls = Vec::new();
         finder.find(mesh, local_light, &mut walls);
@@ -43,8 +43,7 @@ impl Volume {
 /// Cells a side of the grid on which [`layers_bound`] counts.
 const BOUND_CELLS: usize = 512;
 
-/// An upper bound of how many of the mesh's faces a ray to the sun can cross anywhere, which bounds the count of its
-/// volume.
+/// An upper bound of how many of the mesh's faces a ray to the sun can cross, which bounds the count of its volume.
 ///
 /// Seen from the sun, every face is counted in all cells of a coarse grid that its box touches; no ray crosses more
 /// faces than its cell counts. A summed-area table makes this a few operations a face, however large it is.

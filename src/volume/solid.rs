@@ -1,12 +1,14 @@
-//! Volumes as solids that other programs can take: one for each component, cut at the ground, closed.
+//! Volumes as solids for other programs: one for each component, cut at the ground, closed.
 //!
-//! The solid is the sum of the prisms between the casting faces and their shadows on the ground: the faces, turned to
-//! the sun, are its light cap; the same faces along the sun down on the ground are its dark cap; walls hang where the
-//! directions of the faces at an edge do not cancel. It is closed in that signed sense whatever the mesh, and it may
-//! overlap itself: how often it winds around a point is how many casting faces lie between the point and the sun.
+//! The solid is the sum of the prisms between the casting faces and their shadows on the ground. The faces, turned to
+//! the sun, are its light cap; the same faces, projected along the sun onto the ground, are its dark cap; walls hang
+//! where the directions of the faces at an edge do not cancel. It is closed in that signed sense whatever the mesh, and
+//! it may overlap itself: how often it winds around a point is how many casting faces lie between the point and the
+//! sun.
 //!
-//! A closed, well-wound component needs only the half of its faces through which rays from inside leave to the sun;
-//! then most points are covered once, not twice, and the building itself is in the solid. Of all others every face casts.
+//! A closed, well-wound component needs only the half of its faces through which rays from inside leave to the sun.
+//! Then most points are covered once, not twice, and the building itself is in the solid. In all other components every
+//! face casts.
 
 use super::Volume;
 use crate::mesh::{Component, Mesh};
@@ -183,7 +185,7 @@ impl<'a> CutFaces<'a> {
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &point| (low.min(point), high.max(point)));
         // of the near end, which is looked at closely; a number that `f32` holds, as files keep it
         let origin = ((low + high) / 2.0).with_z(self.ground).round().as_vec3().as_dvec3();
-        let mut rounded = Rounded::default();
+        let mut rounded = RoundedPoints::default();
         let near: Vec<u32> = self.points.iter().map(|&point| rounded.vertex(point - origin)).collect();
         let far = |point: &DVec3| (*point + along * (point.z - self.ground)).with_z(self.ground);
         let far: Vec<u32> = self.points.iter().map(|point| rounded.vertex(far(point) - origin)).collect();
@@ -250,12 +252,12 @@ fn summed<K: Ord>(signed: impl Iterator<Item = (K, i32)>) -> Vec<(K, i32)> {
 
 /// Points as `f32`; those that become equal are one vertex.
 #[derive(Default)]
-struct Rounded {
+struct RoundedPoints {
     vertices: Vec<Vec3>,
     of_bits: FxHashMap<[u32; 3], u32>,
 }
 
-impl Rounded {
+impl RoundedPoints {
     fn vertex(&mut self, point: DVec3) -> u32 {
         let vertex = point.as_vec3() + Vec3::ZERO; // + 0 makes −0 and 0 one
         *self.of_bits.entry(vertex.to_array().map(f32::to_bits)).or_insert_with(|| {
@@ -283,7 +285,7 @@ impl Rounded {
 impl Solid {
     /// Whether it is closed: at every edge between two positions the directions of the triangles cancel.
     pub fn closed(&self) -> bool {
-        let mut rounded = Rounded::default();
+        let mut rounded = RoundedPoints::default();
         let welded: Vec<u32> = self.vertices.iter().map(|vertex| rounded.vertex(vertex.as_dvec3())).collect();
         let triangles: Vec<_> = self.triangles.iter().map(|face| face.map(|corner| welded[corner as usize])).collect();
         // an edge from a vertex to itself runs both ways

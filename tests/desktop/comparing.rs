@@ -154,7 +154,7 @@ fn change_from_a_kept_state_is_the_engines() {
     harness.key_press(Key::F);
     harness.step();
     settle(&mut harness);
-    let (View::Plan(grid), _) = harness.state().shown().unwrap() else { panic!("a plan") };
+    let (View::Plan(grid), _) = harness.state().picture_view().unwrap() else { panic!("a plan") };
     let (_, _, pixels) = harness.state().picture().unwrap();
     let surfaces = [&outcome.surfaces[0], &outcome.surfaces[1]];
     let colours =
@@ -245,7 +245,7 @@ fn change_from_another_file_is_that_of_the_command() {
     harness.key_press(Key::F);
     harness.step();
     settle(&mut harness);
-    let (View::Plan(grid), _) = harness.state().shown().unwrap() else { panic!("a plan") };
+    let (View::Plan(grid), _) = harness.state().picture_view().unwrap() else { panic!("a plan") };
     let most = found.most(Change::SunLost).expect("sun is lost");
     let rect = harness.get_by_label("Model").rect();
     let [east, north] = most.at;

@@ -173,9 +173,9 @@ fn saved_site_reopens_to_the_same_view() {
     settle(&mut harness);
     // what is exported from here is what the command draws from what is saved
     let [ours, saved] = exported_and_saved(&mut harness, folder.path());
-    let before = harness.state().shown().unwrap();
+    let before = harness.state().picture_view().unwrap();
     let again = window(Some(&saved));
-    let after = again.state().shown().unwrap();
+    let after = again.state().picture_view().unwrap();
     let (gnomon::view::View::Camera(before), gnomon::view::View::Camera(after)) = (before.0, after.0) else {
         panic!("two cameras")
     };
@@ -201,9 +201,9 @@ fn saved_site_reopens_to_the_same_side() {
     drag(&mut harness, rect.left_bottom() + egui::vec2(80.0, -60.0), rect.left_bottom() + egui::vec2(187.0, -93.0));
     settle(&mut harness);
     let [ours, saved] = exported_and_saved(&mut harness, folder.path());
-    let before = harness.state().shown().unwrap();
+    let before = harness.state().picture_view().unwrap();
     let mut again = window(Some(&saved));
-    let after = again.state().shown().unwrap();
+    let after = again.state().picture_view().unwrap();
     let (gnomon::view::View::Elevation(before), gnomon::view::View::Elevation(after)) = (before.0, after.0) else {
         panic!("two sides")
     };

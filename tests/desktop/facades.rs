@@ -86,7 +86,7 @@ fn hours_on_facades_are_the_engines() {
     click(&mut harness, "On façades, too");
     click(&mut harness, "Find the hours");
     settle(&mut harness);
-    let (View::Camera(camera), _) = harness.state().shown().unwrap() else { panic!("a camera") };
+    let (View::Camera(camera), _) = harness.state().picture_view().unwrap() else { panic!("a camera") };
     let (_, _, pixels) = harness.state().picture().unwrap();
     let (loaded, outcome) = studied(&site);
     let mut seen = seen(&loaded, &outcome, &camera);

@@ -43,7 +43,7 @@ fn pixels(harness: &Harness<'_, App>) -> Vec<[u8; 4]> {
 fn hidden_component_is_looked_through_and_casts() {
     let (_folder, site) = small_site();
     let mut harness = window(Some(&site));
-    let (view, _) = harness.state().shown().unwrap();
+    let (view, _) = harness.state().picture_view().unwrap();
     let (names, of_pixels) = seen(&site, view);
     let hidden = largest(&names, &of_pixels);
     let (before, written) = (pixels(&harness), harness.state().site_file().clone());
@@ -93,7 +93,7 @@ fn hidden_component_is_looked_through_and_casts() {
 fn hours_stay_on_the_faces_beside_hidden_ones() {
     let (_folder, site) = small_site();
     let mut harness = window(Some(&site));
-    let (view, _) = harness.state().shown().unwrap();
+    let (view, _) = harness.state().picture_view().unwrap();
     let (names, of_pixels) = seen(&site, view);
     let hidden = largest(&names, &of_pixels);
     click(&mut harness, "On façades, too");

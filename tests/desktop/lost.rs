@@ -31,12 +31,12 @@ fn picture_comes_again_whose_device_is_lost() {
     assert_ne!(first, moved, "an hour later the shadows lie elsewhere");
     later(&mut harness, Key::ArrowLeft);
     settle(&mut harness);
-    assert_eq!(harness.state().told(), [None, None]);
+    assert_eq!(harness.state().fault_and_notice(), [None, None]);
     // while one is drawn, and before the next is asked for
     later(&mut harness, Key::ArrowRight);
     harness.state().lose_pictures(0);
     settle(&mut harness);
-    let [fault, note] = harness.state().told();
+    let [fault, note] = harness.state().fault_and_notice();
     assert_eq!(fault, None);
     let note = note.expect("it is told");
     assert!(note.contains("its device was lost"), "{note}");
@@ -65,7 +65,7 @@ fn picture_comes_without_any_device() {
         harness.state().lose_pictures(further);
         later(&mut harness, Key::ArrowLeft);
         settle(&mut harness);
-        let [fault, told] = harness.state().told();
+        let [fault, told] = harness.state().fault_and_notice();
         assert_eq!(fault, None);
         assert!(told.is_some_and(|told| told.contains("its device was lost") && told.contains(note)), "{told:?}");
         click(&mut harness, "Close");
@@ -78,7 +78,7 @@ fn picture_comes_without_any_device() {
     // and on it goes
     harness.key_press(Key::Num2);
     settle(&mut harness);
-    assert_eq!(harness.state().told()[0], None);
+    assert_eq!(harness.state().fault_and_notice()[0], None);
 }
 
 const LOST: &str = "lost::window_is_opened_again_whose_device_is_lost";
@@ -100,7 +100,7 @@ fn losing_window() {
             }
             1 if rests => {
                 right = picture(app);
-                println!("{SAYS}hours {:?}", app.told());
+                println!("{SAYS}hours {:?}", app.fault_and_notice());
                 step = 2;
             }
             // somebody looks at the screen
@@ -112,7 +112,7 @@ fn losing_window() {
             }
             // the message takes room from the picture
             3 | 6 if rests => {
-                println!("{SAYS}again {:?}", app.told());
+                println!("{SAYS}again {:?}", app.fault_and_notice());
                 app.hush();
                 step += 1;
             }
@@ -172,8 +172,8 @@ fn losing_again_and_again() {
         frames += 1;
         context.request_repaint_after(Duration::from_millis(20));
         if frames == 3 {
-            println!("{SAYS}{:?}", app.told());
-            match app.told()[1].is_some_and(|told| told.contains("processor")) {
+            println!("{SAYS}{:?}", app.fault_and_notice());
+            match app.fault_and_notice()[1].is_some_and(|told| told.contains("processor")) {
                 true => app.lose_window_in_painting(context),
                 false => app.lose_window(),
             }

@@ -73,7 +73,11 @@ fn dropped_model_is_added_to_the_open_site() {
     assert_eq!(models(&harness), before + 1);
     let path = harness.state().site_file().model.last().and_then(|model| model.path.clone());
     assert_eq!(path.as_deref(), Some("other.glb"), "beside the site file it is named from there");
-    assert!(harness.state().is_unsaved() && harness.state().told()[0].is_none(), "{:?}", harness.state().told());
+    assert!(
+        harness.state().is_unsaved() && harness.state().fault_and_notice()[0].is_none(),
+        "{:?}",
+        harness.state().fault_and_notice()
+    );
 }
 
 #[test]

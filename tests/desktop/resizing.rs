@@ -112,13 +112,13 @@ fn resized_window() {
             (size, changed) = (now, Instant::now());
             sizes.insert((now.x as u32, now.y as u32));
         }
-        if !app.is_adding() && app.asked().is_some() && changed.elapsed() < Duration::from_secs(1) {
+        if !app.is_adding() && app.wanted_view().is_some() && changed.elapsed() < Duration::from_secs(1) {
             app.find_hours(context);
             studies += 1;
         }
         // a hand would draw frames, too
         context.request_repaint_after(Duration::from_millis(20));
-        let faults = app.told();
+        let faults = app.fault_and_notice();
         let state = if app.is_settled() { "settled" } else { "at work" };
         let now = format!("{} x {} {state} {faults:?}", size.x, size.y);
         if now != said {

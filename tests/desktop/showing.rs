@@ -30,7 +30,7 @@ fn picture_is_the_engines_mask() {
     let mut harness = window(Some(&path));
     write(&mut harness, "Clock", "16:00");
     settle(&mut harness);
-    let (view, to_sun) = harness.state().shown().expect("a picture");
+    let (view, to_sun) = harness.state().picture_view().expect("a picture");
     let (width, height, pixels) = harness.state().picture().unwrap();
     assert_eq!(view.size(), (width, height));
     let site = Site::load(&path, &Overrides::default()).unwrap();
@@ -113,7 +113,7 @@ fn time_is_dragged_typed_and_stepped() {
     write(&mut harness, "Clock", "23:30");
     settle(&mut harness);
     harness.get_by_label("night");
-    let (_, to_sun) = harness.state().shown().unwrap();
+    let (_, to_sun) = harness.state().picture_view().unwrap();
     assert!(to_sun.z < 0.0);
     // keys that go to no slider: an hour on, and play
     harness.get_by_label("Clock").focus();
@@ -138,7 +138,7 @@ fn techniques_are_chosen_and_said() {
         harness.get_by_label(word).click();
         harness.step();
         settle(&mut harness);
-        assert_eq!(harness.state().drawn().map(|drawn| drawn.technique.word()), Some(technique));
+        assert_eq!(harness.state().picture_provenance().map(|drawn| drawn.technique.word()), Some(technique));
     }
     // volumes and silhouette lie over the picture
     let before = harness.state().picture().unwrap();
@@ -155,7 +155,7 @@ fn techniques_are_chosen_and_said() {
 fn eye_turns_comes_nearer_and_stands_elsewhere() {
     let (_folder, site) = small_site();
     let mut harness = window(Some(&site));
-    let camera = |harness: &Harness<'_, App>| match harness.state().shown() {
+    let camera = |harness: &Harness<'_, App>| match harness.state().picture_view() {
         Some((View::Camera(camera), _)) => camera,
         other => panic!("a camera, not {other:?}"),
     };
@@ -181,7 +181,7 @@ fn eye_turns_comes_nearer_and_stands_elsewhere() {
         harness.key_press(key);
         harness.step();
         settle(&mut harness);
-        assert_eq!(matches!(harness.state().shown(), Some((View::Plan(_), _))), is_plan);
+        assert_eq!(matches!(harness.state().picture_view(), Some((View::Plan(_), _))), is_plan);
     }
     harness.key_press(Key::F);
     harness.step();
@@ -198,7 +198,8 @@ fn sun_is_dragged_along_its_day() {
     settle(&mut harness);
     let later = harness.query_by_label("Time of day: 13:00").is_none();
     assert!(later, "the time follows the sun");
-    let azimuth = harness.state().shown().map(|(_, to_sun)| to_sun.x.atan2(to_sun.y).to_degrees().rem_euclid(360.0));
+    let azimuth =
+        harness.state().picture_view().map(|(_, to_sun)| to_sun.x.atan2(to_sun.y).to_degrees().rem_euclid(360.0));
     assert!(azimuth.is_some_and(|azimuth| azimuth > 200.0), "{azimuth:?}");
 }
 

@@ -148,7 +148,7 @@ fn what_is_wrong_with_a_study_is_told_by_the_labels() {
     let set = |harness: &mut Harness<'_, App>, label: &str, text: &str| {
         write(harness, label, text);
         settle(harness);
-        harness.state().told()[0].map(str::to_owned)
+        harness.state().fault_and_notice()[0].map(str::to_owned)
     };
     let told = set(&mut harness, "to", "9:00").expect("nothing from nine to nine");
     let wanted = "Window, to: the window from 9:00 to 9:00 is empty; give a later `\"to\"`";
@@ -171,7 +171,7 @@ fn what_a_technique_cannot_do_is_told_by_the_labels() {
     settle(&mut harness);
     click(&mut harness, "Find the hours");
     settle(&mut harness);
-    let told = harness.state().told()[0].expect("it draws no plan").to_owned();
+    let told = harness.state().fault_and_notice()[0].expect("it draws no plan").to_owned();
     assert!(told.starts_with("Technique: soft-texture ") && !told.contains("--"), "{told}");
 }
 

@@ -10,7 +10,7 @@ use gnomon::view::{Elevation, View};
 use std::ops::ControlFlow;
 
 fn view(harness: &Harness<'_, App>) -> View {
-    harness.state().shown().expect("a picture").0
+    harness.state().picture_view().expect("a picture").0
 }
 
 fn side(harness: &Harness<'_, App>) -> Elevation {
@@ -164,11 +164,11 @@ fn diagrams_and_the_disc_are_seen() {
     let mask = harness.state().picture().unwrap().2;
     choose(&mut harness, "Picture of", "volumes counted");
     let counted = harness.state().picture().unwrap().2;
-    assert_eq!(harness.state().drawn().map(|drawn| drawn.technique.word()), Some("hybrid"));
+    assert_eq!(harness.state().picture_provenance().map(|drawn| drawn.technique.word()), Some("hybrid"));
     assert!(plain != mask && mask != counted && counted != plain, "three pictures");
     choose(&mut harness, "Technique", "ray-cast");
     let hard = harness.state().picture().unwrap().2;
-    assert_eq!(harness.state().drawn().map(|drawn| drawn.technique.word()), Some("ray-cast"));
+    assert_eq!(harness.state().picture_provenance().map(|drawn| drawn.technique.word()), Some("ray-cast"));
     click(&mut harness, "The sun as a disc: soft edges");
     settle(&mut harness);
     let soft = harness.state().picture().unwrap().2;

@@ -173,7 +173,7 @@ fn samples_register() {
 
 #[test]
 fn the_projection_is_herfs() {
-    // seed 002, section 3.2, with its cross products
+    // M. Herf's paper, section 3.2, with its cross products
     let (b, e_x, e_y) = (dvec3(1.0, 2.0, 0.5), dvec3(8.0, 0.0, 0.0), dvec3(0.0, 3.0, 4.0));
     let a = dvec3(2.0, -3.0, 9.0);
     let e_w = b - a;

@@ -1,4 +1,4 @@
-//! The map's filters side by side (seed 001, figure 7).
+//! The map's filters side by side (figure 7 of Brabec and Seidel).
 
 use crate::picture::{Part, RED};
 use crate::scenes;

@@ -1,4 +1,5 @@
-//! How the hybrid works, where it fails, and what it looks like beside its parents (seed 000, figures 3-5 and 3-7 to 3-9).
+//! How the hybrid works, where it fails, and what it looks like beside its parents (figures 3-5 and 3-7 to 3-9 of E. Chan's
+//! thesis).
 
 use crate::dense::{self, Dense};
 use crate::filters::{detail, yard};

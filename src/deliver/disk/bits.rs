@@ -1,17 +1,18 @@
-//! `shadow.bits`: one bit a cell for every instant with a sun, so that questions that come later (the longest run of sun,
-//! any threshold) need no new computation.
+//! `shadow.bits`: one bit per cell for every instant with a sun, so that later questions (the longest run of sun, any
+//! threshold) need no new computation.
 //!
-//! The layout, numbers from the lowest byte up:
+//! The layout, with all numbers little-endian:
 //!
 //! - 8 bytes: `GNOMBITS`;
-//! - 8 bytes: a number, where the rasters begin;
-//! - JSON in UTF-8 up to there, filled up with blanks: `region`, `cell`, `width`, `height`, `receivers`, `bytes_a_row` and
-//!   `instants` as `profile.json` has them, those at night left out;
-//! - for each of these instants a raster: rows from north to south, each of `bytes_a_row` = ⌈`width` / 8⌉ bytes; the lowest
-//!   bit of a row's first byte is its westmost cell; 1 is shadow, where at most half of the sun is seen. Bits beyond the
-//!   row's end are 0.
+//! - 8 bytes: the offset at which the rasters begin;
+//! - JSON in UTF-8 up to there, padded with blanks: `region`, `cell`, `width`, `height`, `receivers`, `bytes_a_row` and
+//!   `instants` as in `profile.json`, without those at night;
+//! - for each of these instants a raster: rows from north to south, each of `bytes_a_row` = ⌈`width` / 8⌉ bytes. The
+//!   lowest bit of a row's first byte is its westernmost cell; 1 is shadow, where at most half of the sun is seen. Bits
+//!   beyond the row's end are 0.
 //!
-//! It is written instant by instant, for each tile of the plan, beside its place, and renamed when it is whole.
+//! The study writes the file instant by instant, for each tile of the plan, under a temporary name beside its final
+//! place, and renames it when it is complete.
 
 use super::unfinished::bits_path;
 use crate::choice::Receivers;
@@ -25,10 +26,10 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// What it is called.
+/// The name of the file.
 pub const NAME: &str = "shadow.bits";
 const MAGIC: &[u8; 8] = b"GNOMBITS";
-/// Rasters begin at a multiple of this.
+/// Rasters begin at a multiple of this many bytes.
 const ALIGNED: usize = 64;
 
 #[derive(Serialize)]
@@ -42,7 +43,7 @@ struct Header {
     instants: Vec<InstantReport>,
 }
 
-/// The whole file, of the shadows at all instants with a sun.
+/// The whole file, with the shadows at all instants with a sun.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -62,7 +63,7 @@ pub fn encode<'a>(
     Ok(bytes)
 }
 
-/// All before the first raster.
+/// Everything before the first raster.
 fn header(grid: Grid, receivers: Receivers, track: &SunTrack) -> Result<Vec<u8>, ExportError> {
     let instants: Vec<_> = track.instants.iter().filter(|instant| !instant.night).map(instant_report).collect();
     let bytes_a_row = grid.width.div_ceil(8) as usize;
@@ -75,23 +76,23 @@ fn header(grid: Grid, receivers: Receivers, track: &SunTrack) -> Result<Vec<u8>,
     Ok(header)
 }
 
-/// The file as it comes to be.
+/// The file while it is being written.
 pub struct BitsFile {
     path: PathBuf,
     unfinished: PathBuf,
     header: Vec<u8>,
     grid: Grid,
-    /// Instants with a sun.
+    /// The number of instants with a sun.
     count: usize,
     file: Option<BufWriter<File>>,
-    /// Of the header, and of all that was added, in the order of the work.
+    /// The checksum of the header and of everything added, in the order of the work.
     checksum: Checksum,
-    /// Where the next byte goes.
+    /// The offset of the next byte.
     at: u64,
 }
 
 impl BitsFile {
-    /// What is to be written to a folder, of which study; nothing is yet.
+    /// The file of a study in a folder; nothing is written yet.
     ///
     /// # Errors
     /// [`ExportError::Encode`] where the encoder refuses.
@@ -108,26 +109,26 @@ impl BitsFile {
         Ok(BitsFile { path, unfinished, header, grid, count, file: None, checksum: Checksum::default(), at: 0 })
     }
 
-    /// Its place.
+    /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Its place until it is whole.
+    /// Its path until it is complete.
     pub fn unfinished(&self) -> &Path {
         &self.unfinished
     }
 
-    /// How large it will be, bytes.
+    /// Its final size, bytes.
     pub fn size(&self) -> u64 {
         self.size_after(self.count)
     }
 
-    /// Errs where the disk has less room than it will take.
+    /// Returns an error if the disk has less room than the file needs.
     ///
     /// # Errors
     /// [`ExportError::NoRoom`]; [`ExportError::Write`] where the file system does not say.
-    pub fn check_room(&self) -> Result<(), ExportError> {
+    pub(crate) fn check_room(&self) -> Result<(), ExportError> {
         file::check_room(&self.path, &self.unfinished, self.size())
     }
 
@@ -140,9 +141,9 @@ impl BitsFile {
         self.grid.width.div_ceil(8)
     }
 
-    /// Looks for what a stopped study left, and goes on with it: with these tiles' cells at these of the instants with a sun,
-    /// in the order of the work. Whether it is what was written then, by its checksum.
-    pub fn go_on(&mut self, drawn: impl Iterator<Item = (usize, Tile)>, checksum: u64) -> bool {
+    /// Looks for what a stopped study left, and continues with it: with these tiles' cells at these of the instants
+    /// with a sun, in the order of the work. Returns whether its checksum shows that it is what was written.
+    pub(crate) fn go_on(&mut self, drawn: impl Iterator<Item = (usize, Tile)>, checksum: u64) -> bool {
         let mut drawn = drawn.peekable();
         // nights alone made no file
         if drawn.peek().is_none() {
@@ -176,7 +177,7 @@ impl BitsFile {
         Ok(checksum)
     }
 
-    /// Begins, or goes on with what a stopped study left.
+    /// Begins, or continues with what a stopped study left.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -193,18 +194,18 @@ impl BitsFile {
         Ok(())
     }
 
-    /// The checksum of all that was added so far.
+    /// The checksum of everything added so far.
     pub fn checksum(&self) -> u64 {
         self.checksum.number()
     }
 
-    /// Where a tile's first row lies at an instant.
+    /// The offset of a tile's first row at an instant.
     fn first_byte(&self, instant: usize, tile: &Tile) -> u64 {
         let row_bytes = u64::from(self.bytes_a_row());
         self.size_after(instant) + u64::from(tile.first[1]) * row_bytes + u64::from(tile.first[0] / 8)
     }
 
-    /// Adds a tile's cells at an instant: at which of those with a sun.
+    /// Adds a tile's cells at an instant, which is given by its index among those with a sun.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -236,7 +237,7 @@ impl BitsFile {
         write().map_err(|error| file::failed(&self.path, "writing the file beside it", error))
     }
 
-    /// Sees that what was added is on the disk.
+    /// Makes sure that everything added is on the disk.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -246,7 +247,7 @@ impl BitsFile {
         synced.map_err(|error| file::failed(&self.path, "writing the file beside it", error))
     }
 
-    /// Puts the whole file in place.
+    /// Moves the complete file to its final path.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.

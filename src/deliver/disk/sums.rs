@@ -1,14 +1,15 @@
-//! `profile.sums.NUMBER.unfinished`: the sums of a study in tiles, which are kept there while it goes on, and not in memory.
+//! `profile.sums.NUMBER.unfinished`: the sums of a study in tiles, which are kept in this file and not in memory while
+//! the study runs.
 //!
-//! The layout: the plan's cells from the north-west, row after row, each its shaded time in 1/255 s from the lowest byte up,
-//! in 4 bytes, or in 8 where the study has more daylight than 32 bits hold. A tile is in it once all of its instants are
-//! done; what a stopped study had of the next one is in `profile.NUMBER.unfinished`.
+//! The layout: the plan's cells from the north-west, row after row, each its shaded time in 1/255 s, little-endian, in
+//! 4 bytes, or in 8 where the study has more daylight than 32 bits hold. The file contains a tile once all of the
+//! tile's instants are done; what a stopped study had of the next tile is in `profile.NUMBER.unfinished`.
 
 use super::unfinished::sums_path;
 use crate::export::checksum::Checksum;
 use crate::export::{ExportError, file};
 use crate::profile::accumulate::MOST_SECS;
-use crate::profile::{Shaded, ShadedCells, ShadedPart};
+use crate::profile::{ShadedCells, ShadedPart, ShadedTime};
 use crate::view::{Grid, Tile};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -16,19 +17,19 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The file as it comes to be, and as it is read.
+/// The file while it is being written, and as it is read.
 pub struct SumsFile {
     path: PathBuf,
     grid: Grid,
     cell_bytes: u64,
     file: Mutex<File>,
-    /// Of all that was put, in the order of the work.
+    /// The checksum of everything put, in the order of the work.
     checksum: Checksum,
     /// What could not be read.
     fault: Mutex<Option<io::Error>>,
 }
 
-/// How large it is, bytes.
+/// Its size, bytes.
 pub fn size(grid: &Grid, day_secs: u32) -> u64 {
     grid.cells() as u64 * cell_bytes(day_secs)
 }
@@ -38,7 +39,7 @@ fn cell_bytes(day_secs: u32) -> u64 {
 }
 
 impl SumsFile {
-    /// Begins, of a study.
+    /// Begins the file of a study.
     ///
     /// # Errors
     /// [`ExportError::NoRoom`] where the disk has less room than it takes; [`ExportError::Write`] where the file system
@@ -54,9 +55,9 @@ impl SumsFile {
         Ok(SumsFile::new(path, file, grid, day_secs))
     }
 
-    /// Looks for what a stopped study left with these tiles, and goes on with it, where it is what was written then: by its
-    /// checksum.
-    pub fn go_on(
+    /// Looks for what a stopped study left with these tiles, and continues with it if its checksum shows that it is
+    /// what was written.
+    pub(crate) fn go_on(
         folder: &Path,
         study: u64,
         grid: Grid,
@@ -93,22 +94,22 @@ impl SumsFile {
         Ok(checksum)
     }
 
-    /// The checksum of all that was put so far.
+    /// The checksum of everything put so far.
     pub fn checksum(&self) -> u64 {
         self.checksum.number()
     }
 
-    /// Where a row of a tile begins.
+    /// The offset of a tile's row.
     fn first_byte(&self, tile: &Tile, row: u32) -> u64 {
         let [left, top] = tile.first.map(u64::from);
         ((top + u64::from(row)) * u64::from(self.grid.width) + left) * self.cell_bytes
     }
 
-    /// Puts a tile's sums in their place.
+    /// Puts a tile's sums into their place in the file.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
-    pub fn put(&mut self, tile: &Tile, shaded: &Shaded) -> Result<(), ExportError> {
+    pub fn put(&mut self, tile: &Tile, shaded: &ShadedTime) -> Result<(), ExportError> {
         let width = tile.size[0] as usize;
         let mut bytes = Vec::new();
         for row in 0..tile.size[1] {
@@ -126,7 +127,7 @@ impl SumsFile {
         Ok(())
     }
 
-    /// Sees that what was put is on the disk.
+    /// Makes sure that everything put is on the disk.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -135,7 +136,7 @@ impl SumsFile {
         file.sync_data().map_err(|error| file::failed(&self.path, "writing to it", error))
     }
 
-    /// Errs where something could not be read since it was opened: it was taken for nothing.
+    /// Returns an error if something could not be read since the file was opened; such cells were taken as 0.
     ///
     /// # Errors
     /// [`ExportError::Read`]

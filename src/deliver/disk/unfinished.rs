@@ -1,18 +1,18 @@
-//! What a stopped study leaves in its folder, so that it can go on another time.
+//! What a stopped study leaves in its folder, so that it can continue later.
 //!
-//! Its files carry the study's number in their names, so that several stopped studies lie side by side, and each goes on
-//! when the same is asked again: `profile.NUMBER.unfinished`, and where it has them `shadow.bits.NUMBER.unfinished` and
-//! `profile.sums.NUMBER.unfinished`.
+//! The names of its files contain the study's number. So several stopped studies can lie side by side, and each
+//! continues when the same request is made again: `profile.NUMBER.unfinished`, and where they exist
+//! `shadow.bits.NUMBER.unfinished` and `profile.sums.NUMBER.unfinished`.
 //!
-//! The layout of the first, all numbers from the lowest byte up: the line `gnomon unfinished 3`; in 64 bits each the
-//! study's number, how many tiles it has, how many instants are done, how many cells there are, and the bytes of a cell, 4
-//! or 8; a byte that says what counting took follows: 0 nothing, 1 without and 2 with cells that a map left to the
-//! volumes; then in 64 bits each the four numbers of that, the checksums of bits and sums, how many masks are written, and
-//! the checksum of each; the cells; last the checksum of all before it.
+//! The layout of the first, with all numbers little-endian: the line `gnomon unfinished 3`; in 64 bits each the study's
+//! number, how many tiles it has, how many instants are done, how many cells there are, and the bytes of a cell, 4 or
+//! 8; a byte that says which statistics of counting follow: 0 none, 1 without and 2 with cells that a map left to the
+//! volumes; then in 64 bits each those four numbers, the checksums of bits and sums, how many masks are written, and
+//! the checksum of each; the cells; last the checksum of everything before it.
 
 use crate::export::checksum::checksum;
 use crate::export::{ExportError, bytes, file};
-use crate::profile::{Shaded, Statistics, Unfinished};
+use crate::profile::{ShadedTime, Statistics, Unfinished};
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::fs;
@@ -21,31 +21,32 @@ use std::path::{Path, PathBuf};
 
 const FIRST_LINE: &[u8] = b"gnomon unfinished 3\n";
 
-/// What the names of its files begin with; the first is there as soon as there is something to go on from.
+/// The beginnings of the names of its files. The first file exists as soon as there is something from which the study
+/// can continue.
 const FIRST_WORDS: [&str; 3] = ["profile", "shadow.bits", "profile.sums"];
 
-/// The checksums of what lies in other files, as far as the study is done.
+/// The checksums of a study's other files, as far as the study is done.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Checks {
-    /// Of its bits.
+    /// The checksum of its bits.
     pub bits: u64,
-    /// Of the sums of finished tiles.
+    /// The checksum of the sums of finished tiles.
     pub sums: u64,
-    /// Of each mask.
+    /// The checksum of each mask.
     pub masks: Vec<u64>,
 }
 
-/// What was found of a study.
+/// What was found of a stopped study.
 pub enum StoredStudy {
     /// Nothing.
     Nothing,
-    /// A file that is not what was written: a byte of it is another.
+    /// A file with at least one byte that is not what was written.
     Damaged,
-    /// All of it.
+    /// The complete state.
     Whole(Box<(Unfinished, Checks)>),
 }
 
-/// The file of a study, in its folder.
+/// The path of a study's file in its folder.
 pub fn path(folder: &Path, study: u64) -> PathBuf {
     file_of(folder, FIRST_WORDS[0], study)
 }
@@ -54,8 +55,8 @@ pub(super) fn bits_path(folder: &Path, study: u64) -> PathBuf {
     file_of(folder, FIRST_WORDS[1], study)
 }
 
-/// The file with the sums of finished tiles.
-pub fn sums_path(folder: &Path, study: u64) -> PathBuf {
+/// The path of the file with the sums of finished tiles.
+pub(crate) fn sums_path(folder: &Path, study: u64) -> PathBuf {
     file_of(folder, FIRST_WORDS[2], study)
 }
 
@@ -63,7 +64,7 @@ fn file_of(folder: &Path, first_words: &str, study: u64) -> PathBuf {
     folder.join(format!("{first_words}.{study:016x}.unfinished"))
 }
 
-/// Keeps it; an older one is replaced when the new one is whole.
+/// Keeps the state. An older file is replaced when the new one is complete.
 ///
 /// # Errors
 /// As [`file::write`].
@@ -71,7 +72,7 @@ pub fn keep(folder: &Path, unfinished: &Unfinished, checks: &Checks) -> Result<(
     file::write(&path(folder, unfinished.study), &encode(unfinished, checks))
 }
 
-/// What was kept of a study.
+/// The state that was kept of a study.
 ///
 /// # Errors
 /// [`ExportError::Read`] where there is a file that cannot be read.
@@ -87,7 +88,7 @@ pub fn kept(folder: &Path, study: u64) -> Result<StoredStudy, ExportError> {
     }
 }
 
-/// Removes all that is kept of a study, when it is done or has to start over.
+/// Removes everything that is kept of a study, when it is done or has to start over.
 ///
 /// # Errors
 /// [`ExportError::Write`] where the file system refuses.
@@ -96,9 +97,9 @@ pub fn remove(folder: &Path, study: u64) -> Result<(), ExportError> {
     FIRST_WORDS.iter().try_for_each(|words| file::remove(&file_of(folder, words, study)))
 }
 
-/// Says which studies beside these were stopped in the folder and keep files there. Bits and sums that no study can go on with,
-/// as it was killed before it kept anything, are removed. Whoever calls it has locked the folder.
-pub fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
+/// Says which other studies were stopped in the folder and keep files there. Bits and sums that no study can continue
+/// with, because it was killed before it kept anything, are removed. The caller has locked the folder.
+pub(crate) fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
     file::remove_leftovers(&studies.iter().map(|study| path(folder, *study)).collect::<Vec<_>>());
     let others = studies_in(folder).into_iter().filter(|other| !studies.contains(other));
     let (stopped, dead): (Vec<u64>, Vec<u64>) = others.partition(|other| path(folder, *other).is_file());
@@ -121,8 +122,8 @@ pub fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
     ))
 }
 
-/// Removes the files of all stopped studies in a folder but the newest ones. Whoever calls it has locked the folder.
-pub fn keep_newest(folder: &Path, most: usize) {
+/// Removes the files of all stopped studies in a folder except the newest ones. The caller has locked the folder.
+pub(crate) fn keep_newest(folder: &Path, most: usize) {
     let mut studies: Vec<u64> = studies_in(folder).into_iter().collect();
     // what is dead has no time, and is the oldest
     let changed = |study: &u64| path(folder, *study).metadata().and_then(|found| found.modified()).ok();
@@ -133,7 +134,7 @@ pub fn keep_newest(folder: &Path, most: usize) {
     }
 }
 
-/// The studies that have files in a folder; what cannot be listed is not touched.
+/// The studies that have files in a folder. Folders that cannot be listed are not touched.
 fn studies_in(folder: &Path) -> BTreeSet<u64> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Ok(entries) = fs::read_dir(here) else { return BTreeSet::new() };
@@ -141,7 +142,7 @@ fn studies_in(folder: &Path) -> BTreeSet<u64> {
     names.filter_map(|name| study_of(&name)).collect()
 }
 
-/// Whose a file is, by its name.
+/// The study to which a file belongs, by its name.
 fn study_of(name: &str) -> Option<u64> {
     let (words, number) = name.strip_suffix(".unfinished")?.rsplit_once('.')?;
     let is_ours = FIRST_WORDS.contains(&words) && number.len() == 16 && !number.starts_with('+');
@@ -197,7 +198,7 @@ fn decode(bytes: &[u8]) -> Option<(Unfinished, Checks)> {
     if cells.checked_mul(word_bytes) != Some(rest.len() as u64) {
         return None;
     }
-    let shaded: Shaded = match word_bytes {
+    let shaded: ShadedTime = match word_bytes {
         4 => rest.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect::<Vec<u32>>().into(),
         8 => rest.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect::<Vec<u64>>().into(),
         _ => return None,
@@ -206,7 +207,7 @@ fn decode(bytes: &[u8]) -> Option<(Unfinished, Checks)> {
     Some((Unfinished { study, tiles, done, shaded, statistics }, Checks { bits, sums, masks }))
 }
 
-/// The first numbers, which are taken away.
+/// Takes the first numbers off the bytes.
 fn numbers<const N: usize>(rest: &mut &[u8]) -> Option<[u64; N]> {
     let mut numbers = [0; N];
     for number in &mut numbers {

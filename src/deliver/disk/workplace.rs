@@ -1,11 +1,14 @@
-//! The folders in which a study works. They are locked meanwhile, so that no two write their files there side by side.
+//! The folders in which a study works. They are locked meanwhile, so that no two studies write their files there at
+//! once.
 //!
-//! The lock is the system's own, on the open file `.gnomon.lock`: it goes with the process, however that ends, and what a
-//! crash leaves of the file bars nobody. Where a disk knows no locks the study goes on, and that is told.
+//! The lock is the system's own, on the open file `.gnomon.lock`. The system drops it when the process ends, however
+//! that happens, so a file that a crash left behind locks nobody out. Where a disk does not support locks the study
+//! continues, and a note says so.
 //!
 //! A process that is done removes the file while it still holds the lock. Another process may have opened the file just
-//! before, and then gets the lock of a file that has no name any more, while a third one creates a new file. So a lock
-//! counts only if its path still leads to the locked file; otherwise the process tries again. Two never hold one folder.
+//! before; it then gets the lock of a file that no longer has a name, while a third process creates a new file. So a
+//! lock counts only if its path still leads to the locked file; otherwise the process tries again. Two processes never
+//! hold the same folder.
 
 use crate::export::{ExportError, file};
 use chrono::{DateTime, Local};
@@ -15,30 +18,31 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 const NAME: &str = ".gnomon.lock";
-/// So often a folder may become free and be taken again while it is looked at.
+/// How often a folder may become free and be taken again while a process tries to lock it.
 const ATTEMPTS: usize = 100;
-/// Who works in a folder says it in no more bytes.
+/// The greatest length of the text that says who works in a folder, bytes.
 const MOST_BYTES: u64 = 500;
 
 /// Folders that are locked until this is dropped.
 pub struct Workplace {
     held: Vec<FolderLock>,
-    /// Those on disks that know no locks, and what the system said.
+    /// The folders on disks without locks, and the system's message for each.
     unlocked: Vec<(PathBuf, io::Error)>,
 }
 
-/// A lock. It ends with the file.
+/// A lock. It ends when the file is closed.
 struct FolderLock {
     folder: PathBuf,
     file: File,
 }
 
 impl Workplace {
-    /// Makes the folders, sees that files can be written there, and locks them; removes what dead processes left of the
-    /// outputs there, half written. Others are told that `who` works there: a command, or a window.
+    /// Creates the folders, makes sure that files can be written there, and locks them; removes half-written outputs of
+    /// dead processes. Other processes can read that `who` works there: a command, or a window.
     ///
     /// # Errors
-    /// [`ExportError::Busy`] where another study works in one of them; [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Busy`] where another study works in one of them; [`ExportError::Write`] where the file system
+    /// refuses.
     pub fn take<'a>(
         folders: impl IntoIterator<Item = &'a Path>,
         outputs: &[PathBuf],
@@ -64,7 +68,7 @@ impl Workplace {
         Ok(place)
     }
 
-    /// What the user should know: that a folder could not be locked.
+    /// A note for the user if a folder could not be locked.
     pub fn note(&self) -> Option<String> {
         let (folder, error) = self.unlocked.first()?;
         Some(format!(
@@ -73,7 +77,7 @@ impl Workplace {
         ))
     }
 
-    /// Errs where a folder is no longer the one that was locked.
+    /// Returns an error if a folder is no longer the one that was locked.
     ///
     /// # Errors
     /// [`ExportError::Lost`]
@@ -96,7 +100,7 @@ impl Drop for FolderLock {
     }
 }
 
-/// The locked file; or what the system said where it knows no locks there.
+/// The locked file; or the system's message if the disk has no locks.
 fn lock(folder: &Path, asked: &Path, who: &str) -> Result<io::Result<File>, ExportError> {
     let path = folder.join(NAME);
     let failed = |error| file::failed(asked, "locking the folder", error);
@@ -148,7 +152,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     handle.is_ok_and(|handle| Handle::from_path(path).is_ok_and(|found| found == handle))
 }
 
-/// Who works there, as far as that can be read: Windows lets nobody read a locked file.
+/// The error that says who works there, as far as that can be read: on Windows nobody can read a locked file.
 fn busy(folder: &Path, path: &Path) -> ExportError {
     let mut text = Vec::new();
     let file = OpenOptions::new().read(true).open(path);

@@ -1,4 +1,4 @@
-//! Hours that were found → their files.
+//! Writes the hours that were found into their files.
 
 use super::hours::{Hours, Range};
 use super::request::{DRAWING, ProfileRequest, RASTER, REPORT};
@@ -7,7 +7,7 @@ use crate::deliver::disk::bits;
 use crate::deliver::parts::{DrawnView, figure_context, report_context};
 use crate::deliver::sink::{OpenSink, WholeFile};
 use crate::export::{ExportError, figure, raster, report};
-use crate::profile::{Profile, Shaded, Timings};
+use crate::profile::{Profile, ShadedTime, Timings};
 use crate::shadow::PlanSurface;
 use crate::site::Site;
 use crate::study::{Stopwatch, StudyError};
@@ -15,7 +15,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 use std::time::Instant;
 
-/// All files, whole and not yet in their places.
+/// All files, complete but not yet in place.
 pub(super) struct Pieces {
     pub(super) ready: Vec<WholeFile>,
     /// `profile.json`
@@ -23,7 +23,7 @@ pub(super) struct Pieces {
     pub(super) range: Range,
 }
 
-/// Makes what is asked; bits are those of the outlines. `stage` hears of each stage, and may end the work.
+/// Makes the requested files; bits are those of the outlines. `stage` is called for each stage, and may end the work.
 pub(super) fn make(
     site: &Site,
     hours: &Hours,
@@ -55,7 +55,7 @@ pub(super) fn make(
     stage("picture")?;
     if let (Some(shaded), false) = (hours.shaded(), asked.lines.is_empty()) {
         let Profile { grid, day_secs, night_secs, .. } = *profile;
-        let profile = Profile { grid, shaded: Shaded::clone(shaded), day_secs, night_secs };
+        let profile = Profile { grid, shaded: ShadedTime::clone(shaded), day_secs, night_secs };
         for lines in asked.lines {
             files.extend(lines.files(&scene(), &profile, &hours.outlines)?);
         }
@@ -83,7 +83,7 @@ pub(super) fn make(
     Ok(Pieces { ready, report, range })
 }
 
-/// The raster is written beside its place as it is made.
+/// Writes the raster under a temporary name while it is made.
 fn raster_of(site: &Site, hours: &Hours, open: &OpenSink<'_>) -> Result<WholeFile, ExportError> {
     match open.path(Path::new(RASTER)) {
         Some(path) => {
@@ -95,7 +95,7 @@ fn raster_of(site: &Site, hours: &Hours, open: &OpenSink<'_>) -> Result<WholeFil
     }
 }
 
-/// Work as a stage of its own, that is done beside others.
+/// Work that is a stage of its own and runs beside other work.
 fn timed<T>(stage: &'static str, work: impl FnOnce() -> T) -> (T, Timings) {
     let started = Instant::now();
     let result = work();

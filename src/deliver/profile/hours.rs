@@ -1,4 +1,4 @@
-//! The hours of shadow on a plan, as a study finds them.
+//! Finds the hours of shadow on a plan.
 
 use super::ProfileRequest;
 use super::keeping::{Beside, StudyStore};
@@ -7,7 +7,7 @@ use crate::deliver::DeliverError;
 use crate::export::ExportError;
 use crate::export::figure::Outline;
 use crate::mesh::Mesh;
-use crate::profile::{Profile, Provenance, Shaded, ShadedCells, Statistics, Timings};
+use crate::profile::{Profile, Provenance, ShadedCells, ShadedTime, Statistics, Timings};
 use crate::site::Site;
 use crate::study::{self, OnEvent, Outcome, TiledOutcome, TiledStudy};
 use rayon::prelude::*;
@@ -18,31 +18,31 @@ use std::sync::Arc;
 pub struct Hours {
     /// Shaded time.
     pub profile: Profile<Sums>,
-    /// What drew.
+    /// What drew the shadows.
     pub drawn: Provenance,
-    /// Whose faces the plan's cells see.
+    /// The mesh whose faces the plan's cells see.
     pub surface_mesh: Mesh,
-    /// What counting took, where that was asked.
+    /// The statistics of counting, if they were requested.
     pub statistics: Option<Statistics>,
     /// How long the stages took.
     pub timings: Timings,
-    /// The shadow at each instant with a sun, where that was asked and is in memory.
+    /// The shadow at each instant with a sun, if that was requested and is in memory.
     pub outlines: Vec<Outline>,
 }
 
 /// The least and the most hours of shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// In the cell that has the least.
+    /// The hours in the cell that has the least.
     pub least: f64,
-    /// In the cell that has the most.
+    /// The hours in the cell that has the most.
     pub most: f64,
     /// Hours of the window with the sun above the horizon.
     pub day: f64,
 }
 
-/// Finds them. What the study left in the folder when it was stopped is gone on with; what is left there now goes when
-/// [`StudyStore`] finishes.
+/// Finds the hours, and continues what the study left in the folder when it was stopped. [`StudyStore`] removes what is
+/// left there when it finishes.
 pub(in crate::deliver) fn find<'a>(
     site: &Site,
     asked: &ProfileRequest<'a>,
@@ -66,19 +66,19 @@ pub(in crate::deliver) fn find<'a>(
 }
 
 impl Hours {
-    /// The sums, where they are in memory.
-    pub fn shaded(&self) -> Option<&Arc<Shaded>> {
+    /// The sums, if they are in memory.
+    pub fn shaded(&self) -> Option<&Arc<ShadedTime>> {
         match &self.profile.shaded {
             Sums::Memory(shaded) => Some(shaded),
             Sums::File(_) => None,
         }
     }
 
-    /// As a study of the plan answers that is not kept.
+    /// The same as the outcome of a study of the plan that is not kept.
     ///
     /// # Errors
     /// Where the sums lie in a file that cannot be read.
-    pub fn into_outcome(self) -> Result<Outcome, ExportError> {
+    pub(crate) fn into_outcome(self) -> Result<Outcome, ExportError> {
         let Hours { profile, drawn, surface_mesh, statistics, timings, .. } = self;
         let Profile { grid, shaded, day_secs, night_secs } = profile;
         let shaded = Arc::unwrap_or_clone(shaded.in_memory()?);
@@ -93,7 +93,7 @@ impl Hours {
         Ok(self)
     }
 
-    /// The least and the most.
+    /// The least and the most hours.
     pub fn range(&self) -> Range {
         let Profile { grid, shaded, day_secs, .. } = &self.profile;
         let width = grid.width as usize;

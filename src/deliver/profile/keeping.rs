@@ -20,38 +20,38 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What is written while the study goes on: in a folder, from which it can go on another time; or in memory alone.
+/// What is written while the study runs: into a folder, from which the study can continue later, or into memory alone.
 pub(in crate::deliver) struct StudyStore<'a> {
     folder: Option<&'a Path>,
     /// The study's number.
     study: u64,
-    /// The checksums of what was written so far.
+    /// The checksums of everything written so far.
     checks: Checks,
-    /// The folder that is named for the masks.
+    /// The folder for the masks.
     masks: Option<&'a Path>,
-    /// The masks, where there is no folder.
+    /// The masks, if there is no folder.
     pub(super) held_masks: Vec<NamedFile>,
     pub(super) bits: Option<BitsFile>,
-    /// Each instant's shadow, where that is needed when all is done.
+    /// Each instant's shadow, if it is needed at the end.
     pub(super) outlines: Vec<Outline>,
     holds_outlines: bool,
-    /// How many instants before each have a sun; one more than there are.
+    /// For each instant, how many instants before it have a sun; and their total number at the end.
     with_sun: Vec<usize>,
     pub(super) sums: Sums,
-    /// The sums that are gone on with.
+    /// The sums with which the study continues.
     begun_sums: Option<SumsFile>,
-    /// The tile that is worked on, of how many, and whether this run begins with the first instant.
+    /// The tile in progress, the number of tiles, and whether this run begins with the first instant.
     tile: (Tile, usize),
     is_new: bool,
     /// Whether no tile was begun yet.
     is_first: bool,
-    /// Whether there is something to go on from.
+    /// Whether there is a state from which the study can continue.
     is_kept: bool,
     /// What could not be written.
     fault: Option<DeliverError>,
 }
 
-/// What of the folder's stopped studies belongs to the same request, and is not spoken of.
+/// The stopped studies in the folder that belong to the same request, and are not mentioned to the user.
 #[derive(Clone, Copy)]
 pub(in crate::deliver) enum Beside<'a> {
     /// These.
@@ -106,7 +106,7 @@ impl StudyStore<'_> {
         Ok(())
     }
 
-    /// What the study left when it was stopped, where all that it wrote is still there as it was written.
+    /// What the study left when it was stopped, if everything that it wrote is still there unchanged.
     pub(super) fn begun(
         &mut self,
         study: &TiledStudy<'_>,
@@ -131,7 +131,8 @@ impl StudyStore<'_> {
         Ok(Some(begun))
     }
 
-    /// Looks for all that the study wrote beside what is begun, and takes it; else which file of it is another one.
+    /// Looks for everything that the study wrote besides its state, and continues with it. Returns the file that was
+    /// changed, if one was.
     fn other_than_written(
         &mut self,
         folder: &Path,
@@ -166,22 +167,22 @@ impl StudyStore<'_> {
         None
     }
 
-    /// Another stage is done of what is made of the study.
+    /// Reports that another stage of making the files is done.
     pub(in crate::deliver) fn stage(&self, stage: &'static str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
         tell(on_event, Event::Stage(stage)).inspect_err(|_| shelf::note_end(self.folder.map(|_| self.kept()), on_event))
     }
 
-    /// Which study it is.
+    /// The fingerprint of the study.
     pub(in crate::deliver) fn number(&self) -> u64 {
         self.study
     }
 
-    /// The file that keeps what is done, where there is something to go on from.
+    /// The file that keeps the state, if there is a state from which the study can continue.
     pub(in crate::deliver) fn kept(&self) -> Option<PathBuf> {
         self.folder.filter(|_| self.is_kept).map(|folder| unfinished::path(folder, self.study))
     }
 
-    /// The work ends before all is done: what nobody can go on from does not stay.
+    /// Called when the work ends early: removes what no study can continue with.
     pub(super) fn leave(&mut self, on_event: &mut OnEvent<'_>) {
         if let Some(folder) = self.folder
             && self.is_new
@@ -196,17 +197,17 @@ impl StudyStore<'_> {
         shelf::note_kept(self.kept(), on_event);
     }
 
-    /// All is in its place: nothing is kept any more.
+    /// Called when everything is in place: removes the state.
     pub(in crate::deliver) fn finish(&self) -> Result<(), ExportError> {
         self.folder.map_or(Ok(()), |folder| unfinished::remove(folder, self.study))
     }
 
-    /// What could not be written, where that ended the work.
+    /// The fault that ended the work, if something could not be written.
     pub(super) fn take_fault(&mut self) -> Option<DeliverError> {
         self.fault.take()
     }
 
-    /// Makes room for what is written, before the first tile.
+    /// Makes sure that there is room for what will be written, before the first tile.
     fn begin(&mut self, site: &Site) -> Result<(), ExportError> {
         let Some(folder) = self.folder else { return Ok(()) };
         if self.is_new {
@@ -221,8 +222,8 @@ impl StudyStore<'_> {
         Ok(())
     }
 
-    /// Writes what an event brings, and tells it on. Once an instant is drawn, what is done can be kept: until then nobody
-    /// ends the work.
+    /// Writes what an event brings, and passes it on. Once an instant is drawn, the state can be kept; until then
+    /// nobody may end the work.
     pub(super) fn hear(&mut self, event: Event<'_>, site: &Site, on_event: &mut OnEvent<'_>) -> ControlFlow<()> {
         let done = match &event {
             // the study is done again on another device, and asks where it was
@@ -242,7 +243,7 @@ impl StudyStore<'_> {
 
     fn write(&mut self, event: &Event<'_>, site: &Site) -> Result<(), ExportError> {
         match event {
-            Event::Anew => {
+            Event::StartsOver => {
                 // Windows removes no open file
                 (self.is_new, self.is_first, self.is_kept) = (true, true, false);
                 (self.sums, self.begun_sums) = (Sums::Memory(Arc::default()), None);
@@ -297,7 +298,7 @@ impl StudyStore<'_> {
         Ok(())
     }
 
-    /// Holds an instant's shadow, of which a tile has come.
+    /// Holds an instant's shadow, of which one tile is drawn.
     fn hold(&mut self, index: usize, bits: &Bits) {
         let tile = &self.tile.0;
         if tile.is_whole() {
@@ -311,7 +312,7 @@ impl StudyStore<'_> {
         self.outlines[at].shadow.paste(tile, bits);
     }
 
-    /// What is done so far is on the disk.
+    /// Makes sure that everything so far is on the disk, and keeps the state.
     fn keep(&mut self, done: &Unfinished) -> Result<(), ExportError> {
         let Some(folder) = self.folder else { return Ok(()) };
         if let Some(file) = &mut self.bits {

@@ -1,7 +1,7 @@
 //! The shadow profile of a study: hours of shadow on the plan, as a drawing, a raster, a report, lines, masks and bits.
 //!
-//! A study that was stopped in a folder goes on there. Whoever shows hours first and writes them later finds them with
-//! [`find_hours`], and writes them with [`write_hours`].
+//! A study that was stopped in a folder continues there. A caller that shows hours first and writes them later finds
+//! them with [`find_hours`], and writes them with [`write_hours`].
 
 mod files;
 mod hours;
@@ -25,24 +25,24 @@ use request::mask_path;
 pub(super) use hours::find as find_kept;
 pub(super) use keeping::{Beside, StudyStore};
 
-/// What came of it.
+/// The result of a profile.
 #[derive(Clone, Debug)]
 pub struct ProfileAnswer {
-    /// The files, without the masks.
+    /// The files that were written, without the masks.
     pub written: WrittenFiles,
-    /// How many masks were written.
+    /// The number of masks that were written.
     pub masks: usize,
-    /// `profile.json`, whether it is one of the files or not.
+    /// The content of `profile.json`, whether it was written or not.
     pub report: String,
-    /// What drew.
+    /// What drew the shadows.
     pub drawn: Provenance,
-    /// What counting took, where that was asked.
+    /// The statistics of counting, if they were requested.
     pub statistics: Option<Statistics>,
     /// The least and the most hours.
     pub range: Range,
 }
 
-/// Adds up the hours of shadow on the site's plan, and writes what is asked.
+/// Adds up the hours of shadow on the site's plan, and writes the requested files.
 ///
 /// # Errors
 /// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
@@ -90,8 +90,8 @@ pub fn profile(
 
 /// Finds hours that are to be shown, all of them in memory; with bits, each instant's shadow too.
 ///
-/// A study that is stopped is kept in `shelf`, of the newest ones, and goes on when the same is asked again. One with bits
-/// is not kept, and none is while another one works there.
+/// If a study is stopped, it is kept in `shelf` (which keeps the newest ones), and continues when the same request is made
+/// again. A study with bits is not kept, and nothing is kept while another study works there.
 ///
 /// # Errors
 /// As [`profile()`].
@@ -110,7 +110,7 @@ pub fn find_hours(
     })
 }
 
-/// Writes hours that were found, as far as is asked. The request's stopwatch runs on from [`Hours::timings`].
+/// Writes the requested files of hours that were found. The request's stopwatch runs on from [`Hours::timings`].
 ///
 /// # Errors
 /// As [`profile()`].

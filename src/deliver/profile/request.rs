@@ -24,20 +24,20 @@ pub struct ProfileRequest<'a> {
     pub report: bool,
     /// Drawings of lines.
     pub lines: &'a [Lines],
-    /// The bare mask of each instant, in this folder.
+    /// The folder for the bare mask of each instant.
     pub masks: Option<&'a Path>,
-    /// `shadow.bits`: one bit a cell for every instant with a sun.
+    /// `shadow.bits`: one bit per cell for every instant with a sun.
     pub bits: bool,
-    /// What counting shadow volumes took.
+    /// Whether statistics of counting shadow volumes are wanted.
     pub statistics: bool,
-    /// Memory for what grows with the plan, bytes; without a limit as much as that takes.
+    /// The memory for everything that grows with the plan, bytes; without a value there is no limit.
     pub memory: Option<u64>,
-    /// Runs since before the site was read.
+    /// Has been running since before the site was read.
     pub watch: Stopwatch,
 }
 
 impl<'a> ProfileRequest<'a> {
-    /// Asks for no file yet. The stopwatch runs since before the site was read.
+    /// A request without files. The stopwatch has been running since before the site was read.
     pub fn of(watch: Stopwatch) -> ProfileRequest<'a> {
         ProfileRequest {
             drawing: false,
@@ -52,7 +52,7 @@ impl<'a> ProfileRequest<'a> {
         }
     }
 
-    /// What its files are called, without the masks.
+    /// The names of its files, without the masks.
     pub fn names(&self) -> Vec<PathBuf> {
         let kinds = [(self.drawing, DRAWING), (self.raster, RASTER), (self.report, REPORT), (self.bits, bits::NAME)];
         let kinds = kinds.into_iter().filter(|(asked, _)| *asked).map(|(_, name)| name);
@@ -65,7 +65,7 @@ impl<'a> ProfileRequest<'a> {
         Some(SecondFolder { folder, files })
     }
 
-    /// Whether each instant's shadow is needed when all is done.
+    /// Whether each instant's shadow is needed at the end.
     pub(super) fn holds_outlines(&self) -> bool {
         self.lines.contains(&Lines::Outlines)
     }
@@ -89,7 +89,7 @@ impl<'a> ProfileRequest<'a> {
     }
 }
 
-/// Where an instant's mask goes.
+/// The path of an instant's mask.
 pub(super) fn mask_path(folder: &Path, index: usize) -> PathBuf {
     folder.join(format!("mask-{index:04}.png"))
 }

@@ -1,21 +1,21 @@
-//! The sums of a study: in memory, or in a file where the plan is done in tiles.
+//! The sums of a study: in memory, or in a file where the plan is worked on in tiles.
 
 use crate::deliver::disk::sums::SumsFile;
 use crate::export::ExportError;
-use crate::profile::{Shaded, ShadedCells, ShadedPart};
+use crate::profile::{ShadedCells, ShadedPart, ShadedTime};
 use std::ops::Range;
 use std::sync::Arc;
 
 /// Shaded time per cell.
 pub enum Sums {
-    /// All of it is in memory.
-    Memory(Arc<Shaded>),
-    /// It is read from a file, some cells at a time.
+    /// The sums are in memory.
+    Memory(Arc<ShadedTime>),
+    /// The sums are read from a file, some cells at a time.
     File(SumsFile),
 }
 
 impl Sums {
-    /// Errs where something could not be read since the file was opened: it was taken for nothing.
+    /// Returns an error if something could not be read since the file was opened; such cells were taken as 0.
     pub(super) fn check(&self) -> Result<(), ExportError> {
         match self {
             Sums::Memory(_) => Ok(()),
@@ -23,15 +23,15 @@ impl Sums {
         }
     }
 
-    /// All of it in memory.
-    pub(super) fn in_memory(self) -> Result<Arc<Shaded>, ExportError> {
+    /// All sums, in memory.
+    pub(super) fn in_memory(self) -> Result<Arc<ShadedTime>, ExportError> {
         let file = match self {
             Sums::Memory(shaded) => return Ok(shaded),
             Sums::File(file) => file,
         };
         let shaded = match file.part(0..file.cells()) {
-            ShadedPart::One(cells) => Shaded::from(cells.into_owned()),
-            ShadedPart::Two(cells) => Shaded::from(cells.into_owned()),
+            ShadedPart::One(cells) => ShadedTime::from(cells.into_owned()),
+            ShadedPart::Two(cells) => ShadedTime::from(cells.into_owned()),
         };
         file.check()?;
         Ok(Arc::new(shaded))

@@ -1,4 +1,4 @@
-//! The commands of the window: open, write, copy, show all.
+//! The commands of the window: open, write, copy, show everything.
 
 use crate::desktop::app::state::App;
 use crate::desktop::parts::path_dialog::{PathDialog, Purpose};
@@ -55,7 +55,7 @@ impl App {
                 let is_of_file = written.text != open.project.written.text;
                 self.settings.site = written.site.clone();
                 let hidden = Arc::clone(&self.settings.hidden);
-                let wanted = LoadRequest::Again(Box::new(written), hidden, Box::new(open.project.before(true)));
+                let wanted = LoadRequest::Again(Box::new(written), hidden, Box::new(open.project.loaded(true)));
                 self.loading = Some(LoadJob::start(wanted, &self.reading, context.clone()));
                 self.is_reading = true;
                 if is_of_file {

@@ -1,4 +1,4 @@
-//! The window's own graphics device, and the stage beside it.
+//! The window's own graphics device, and the stage that works beside it.
 
 use crate::desktop::parts::screen;
 use crate::desktop::stage::Stage;

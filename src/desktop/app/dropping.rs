@@ -1,4 +1,4 @@
-//! Files that are dropped on the window: a site is opened; models are opened, or added to the open site.
+//! Files that are dropped on the window. A site is opened; models are opened, or added to the open site.
 
 use crate::desktop::app::state::App;
 use crate::desktop::parts::question::Question;

@@ -75,7 +75,7 @@ impl App {
         }
     }
 
-    /// Forgets what was told, as the button does.
+    /// Clears the message, as its button does.
     pub fn hush(&mut self) {
         (self.fault, self.notice) = (None, None);
         if let Some(open) = &mut self.open {

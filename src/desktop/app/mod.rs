@@ -1,4 +1,4 @@
-//! The window: it owns all that is open, and has its frame, its panel and its commands.
+//! The window. It owns everything that is open, and has its frame, its panel and its commands.
 
 pub(in crate::desktop) mod cards;
 pub(in crate::desktop) mod commands;

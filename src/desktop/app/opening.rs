@@ -99,7 +99,7 @@ impl App {
             let mut written = project.written.clone();
             written.site = self.settings.site.clone();
             let hidden = Arc::clone(&self.settings.hidden);
-            let wanted = LoadRequest::Again(Box::new(written), hidden, Box::new(project.before(false)));
+            let wanted = LoadRequest::Again(Box::new(written), hidden, Box::new(project.loaded(false)));
             self.loading = Some(LoadJob::start(wanted, &self.reading, context.clone()));
             self.is_reading = true;
         }

@@ -19,7 +19,7 @@ impl App {
         }
     }
 
-    /// The same window, which keeps in a folder what is not saved, and offers what it finds there of windows that have ended.
+    /// The same window, which keeps unsaved settings in a folder, and offers those of windows that have ended.
     pub fn recovering_in(mut self, folder: &Path) -> App {
         self.saving.recovery.begin_in(folder);
         self

@@ -12,7 +12,7 @@ use eframe::egui::{self, ViewportCommand};
 use std::path::{Path, PathBuf};
 
 impl App {
-    /// Whether something is set that no file has.
+    /// Whether there are settings that are in no file.
     pub fn is_unsaved(&self) -> bool {
         self.open.is_some()
             && self
@@ -22,7 +22,7 @@ impl App {
                 .is_none_or(|(site, method)| *site != self.settings.site || *method != self.settings.shown.method)
     }
 
-    /// What the window's bar says: the file, with a mark while it is not what is set.
+    /// The title of the window: the file, with a mark while there are unsaved settings.
     pub fn title(&self) -> String {
         match self.file_name() {
             Some(name) => format!("{}{name} — Gnomon", if self.is_unsaved() { "• " } else { "" }),

@@ -1,4 +1,4 @@
-//! The window's state: what is open, what is set, what is under way.
+//! The window's state: what is open, what is set, and which work is running.
 
 use crate::desktop::app::device::devices;
 use crate::desktop::parts::fields::TypedText;
@@ -103,7 +103,7 @@ pub struct App {
 }
 
 impl App {
-    /// A window on eframe's device, with a site or a model in it where one is named. Models are read in this process.
+    /// A window on eframe's device, with a site or a model in it if one is named. Models are read in this process.
     ///
     /// # Errors
     /// Where eframe has no device.
@@ -169,7 +169,7 @@ impl App {
         self.open.as_ref()?.viewer.shown()?.legend.as_ref()
     }
 
-    /// The picture that is shown, read back: columns, rows and pixels.
+    /// Reads back the picture that is shown: columns, rows and pixels.
     ///
     /// # Errors
     /// Where there is none, or the adapter fails.

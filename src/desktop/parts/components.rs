@@ -1,4 +1,4 @@
-//! Components: their colours, and what each of them does.
+//! The list of components: their colours, and what each of them does.
 
 use crate::desktop::parts::theme;
 use crate::desktop::state::project::Project;

@@ -1,5 +1,5 @@
-//! Fields for typing: the text is read when it is finished, as people write it. Text that cannot be read changes nothing,
-//! and the reason stands under its field.
+//! Fields for typing. The text is read when it is finished, in the ways in which people write it. Text that cannot be
+//! read changes nothing, and the reason is shown below its field.
 
 use crate::desktop::state::words::PanelWords;
 use crate::message::Worded;

@@ -1,4 +1,5 @@
-//! What the window is drawn of: the picture and what lies over it, fields, lists, dialogs. None of them knows the window.
+//! The parts of which the window is drawn: the picture and what lies over it, fields, lists, dialogs. None of them
+//! knows the window.
 
 pub(in crate::desktop) mod components;
 pub(in crate::desktop) mod fields;

@@ -1,4 +1,5 @@
-//! Asks for paths: with the system's dialogs, or with one in the window where the system has none; and offers samples.
+//! Asks for paths with the system's dialogs, or with a dialog in the window where the system has none. It also offers
+//! the samples.
 
 use crate::deliver::lines::Lines;
 use crate::desktop::parts::question::Question;
@@ -14,19 +15,19 @@ use std::time::{Duration, Instant};
 /// For what a path is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::desktop) enum Purpose {
-    /// To open what lies there.
+    /// Opens what lies there.
     Open,
-    /// To compare the open site with what lies there.
+    /// Compares the open site with what lies there.
     Compare,
-    /// To write the site file.
+    /// Writes the site file.
     SaveSite,
-    /// To write the drawing of the instant.
+    /// Writes the drawing of the instant.
     Drawing,
-    /// To write the hours, or the change, in a folder.
+    /// Writes the hours, or the change, into a folder.
     Hours,
-    /// To write the hours as a drawing of lines, in a folder.
+    /// Writes the hours as a line drawing, into a folder.
     Lines(Lines),
-    /// To write the study as pictures and as a GIF, in a folder.
+    /// Writes the study as pictures and as a GIF, into a folder.
     Animation,
 }
 
@@ -85,11 +86,11 @@ pub(in crate::desktop) struct PathDialog {
 
 /// What an asking came to.
 pub(in crate::desktop) enum DialogAnswer {
-    /// It goes on.
+    /// The dialog stays open.
     None,
-    /// A path.
+    /// A path was chosen.
     Path(Purpose, PathBuf),
-    /// Nothing was chosen.
+    /// The dialog was closed without a choice.
     Nothing,
 }
 

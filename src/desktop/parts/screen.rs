@@ -1,7 +1,7 @@
-//! The picture and the ground of the panels, put into the window's frame by shaders that do no more than that.
+//! Draws the picture and the panels' background into the window's frame, by two shaders that do nothing else.
 //!
-//! egui has one fragment shader for everything, letters included. On an adapter that is a program on the processor it takes
-//! ten times as long for a picture as sampling it does, and so would every frame.
+//! egui has one fragment shader for everything, text included. On a software adapter it takes ten times as long for a
+//! picture as sampling the picture does, and so would every frame.
 
 use crate::gpu::shaders;
 use eframe::egui::{Color32, PaintCallback, PaintCallbackInfo, Rect};

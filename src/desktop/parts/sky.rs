@@ -1,5 +1,5 @@
-//! What lies over the picture: the sun's path, the north arrow, the scale bar. Lines and letters by egui, where the picture's
-//! own view puts them.
+//! What lies over the picture: the sun's path, the north arrow, the scale bar. egui draws the lines and the text,
+//! placed by the view of the picture.
 
 use crate::desktop::parts::theme::{self, SUN};
 use crate::desktop::state::clock::Clock;

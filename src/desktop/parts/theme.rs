@@ -1,4 +1,4 @@
-//! How the window looks: one accent, quiet panels, the letters of the drawings.
+//! The look of the window: one accent colour, quiet panels, the fonts of the drawings.
 
 use eframe::egui::epaint::Shadow;
 use eframe::egui::style::{HandleShape, Selection, WidgetVisuals, Widgets};

@@ -1,4 +1,4 @@
-//! The bar below the picture: a slider for the day, one for the year, fields that take typing, and play.
+//! The bar below the picture: a slider for the day, one for the year, fields for typing, and the play buttons.
 
 use crate::desktop::parts::fields::refused;
 use crate::desktop::parts::theme::{self, SUN};

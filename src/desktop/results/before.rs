@@ -1,4 +1,4 @@
-//! The state that is compared with.
+//! The state that the open site is compared with.
 
 use crate::desktop::results::{Findings, StudyResult};
 use crate::desktop::state::project::{self, Project};

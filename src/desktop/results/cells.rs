@@ -1,4 +1,4 @@
-//! Colours of a plan's cells as they lie over the scene, and the cell below a point.
+//! The colours of a plan's cells as they lie over the scene, and the cell below a point.
 
 use crate::export::figure::scale::Rgb;
 use crate::picture::HoursRaster;

@@ -1,4 +1,4 @@
-//! What a change does to the sun: from another state of the site, before, to the open one, after.
+//! What a change does to the sun: from another state of the site (before) to the open one (after).
 
 use crate::deliver::Sink;
 use crate::deliver::comparison::write_comparison;

@@ -1,4 +1,4 @@
-//! Hours of sun on the model itself: façades, roofs and undersides, texel by texel.
+//! The hours of sun on the model itself: façades, roofs and undersides, texel by texel.
 
 use crate::choice::{Engine, Method, Subject};
 use crate::deliver::Sink;

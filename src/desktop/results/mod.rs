@@ -46,7 +46,7 @@ pub(in crate::desktop) struct StudyResult {
 pub(in crate::desktop) enum Findings {
     /// The hours of shadow on ground and roofs.
     Shadow(Box<ShadowHours>),
-    /// What changes from another state to that of the site.
+    /// The change from another state to that of the site.
     Change(Box<ChangeResult>),
     /// The hours of sun on façades and roofs.
     Facades(Box<Facades>),

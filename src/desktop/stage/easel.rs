@@ -1,5 +1,5 @@
-//! What pictures are drawn on: a graphics device of its own, so that drawing never stands in the window's way; another one
-//! where that fails; and none where that fails again and again.
+//! The device on which pictures are drawn. It is not the window's, so that drawing never blocks the window. If it
+//! fails, it is replaced by another one; if devices fail repeatedly, pictures are drawn without any.
 
 use crate::gpu::{Gpu, GpuError};
 #[cfg(feature = "test-hooks")]

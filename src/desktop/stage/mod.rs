@@ -1,8 +1,8 @@
-//! The picture is drawn by a thread of its own, on a device of its own: it takes the newest wish, drops what was wished
-//! before, and hands over a texture of the window's device, which the window shows as it is.
+//! The stage draws the picture on its own thread and its own device. It takes the newest wish, drops older ones, and
+//! hands over a texture of the window's device, which the window shows unchanged.
 //!
-//! Were both on one device, the window could not be resized while a picture is drawn: wgpu refuses to configure a surface
-//! where another thread hands in work meanwhile, and waits for all work that was handed in before.
+//! With one device for both, the window could not be resized while a picture is drawn: wgpu refuses to configure a
+//! surface while another thread submits work, and waits for all work that was submitted before.
 
 pub(in crate::desktop) mod easel;
 pub(in crate::desktop) mod plain;
@@ -47,10 +47,10 @@ pub(in crate::desktop) struct StagePicture {
 
 /// The thread that draws, as the window knows it.
 pub(in crate::desktop) struct Stage {
-    shared: Arc<Shared>,
+    shared: Arc<StageWorker>,
 }
 
-struct Shared {
+struct StageWorker {
     easel: Easel,
     render: RenderState,
     context: egui::Context,
@@ -64,7 +64,7 @@ struct Shared {
 impl Stage {
     /// Starts the thread.
     pub(in crate::desktop) fn new(render: RenderState, context: egui::Context) -> Stage {
-        let shared = Arc::new(Shared {
+        let shared = Arc::new(StageWorker {
             easel: Easel::new(render.adapter.clone()),
             render,
             context,
@@ -141,7 +141,7 @@ struct StageCache {
     plain: Option<PlainDrawer>,
 }
 
-impl Shared {
+impl StageWorker {
     fn work(&self) {
         let mut kept = [StageCache::default(), StageCache::default()];
         while let Some(wish) = self.wait() {

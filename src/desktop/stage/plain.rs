@@ -1,4 +1,4 @@
-//! A picture without a graphics adapter: sun and shadow by rays, in the colours of drawings.
+//! Draws a picture without a graphics adapter: sun and shadow by rays, in the colours of drawings.
 
 use crate::choice::{Engine, Method, Receivers, Settings};
 use crate::deliver::instant::seen_casts;

@@ -1,4 +1,4 @@
-//! What the window wishes to see.
+//! The wish: what the window wants to see.
 
 use crate::desktop::results::StudyResult;
 use crate::export::figure::Diagram;

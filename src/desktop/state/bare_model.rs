@@ -1,4 +1,4 @@
-//! One or several models without a site file, for which the window asks the place.
+//! One or several models without a site file; the window asks for their place.
 
 use crate::desktop::state::words::PanelWords;
 use crate::message::Worded;

@@ -1,4 +1,4 @@
-//! Where the eye is: around a point, above it, or far before a façade.
+//! The position of the eye: around a point, above it, or far in front of a façade.
 
 use crate::site::Site;
 use crate::site::file::CameraTable;
@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 /// From where one looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::desktop) enum Stand {
-    /// From anywhere around.
+    /// A perspective from any direction.
     Perspective,
     /// Straight down, north up, without perspective.
     Plan,

@@ -1,4 +1,4 @@
-//! What lies under a place of the picture, and how far the models reach.
+//! What lies under a point of the picture, and how far the models reach.
 
 use crate::desktop::state::project::Project;
 use crate::view::View;

@@ -1,4 +1,4 @@
-//! The open site: as it is written, as it is meant, and what the window needs of it.
+//! The open site: as written, as meant, and what else the window needs to know of it.
 
 use crate::desktop::state::settings::{Hidden, WindowSettings};
 use crate::formats::ModelReader;
@@ -34,24 +34,24 @@ pub(in crate::desktop) struct Project {
 /// What an open site is made of.
 pub(in crate::desktop) struct LoadedSite {
     pub(in crate::desktop) path: Option<PathBuf>,
-    /// None where they are to be read again.
+    /// None if they are to be read again.
     pub(in crate::desktop) models: Option<Models>,
     pub(in crate::desktop) visible: Arc<Site>,
     pub(in crate::desktop) seen: Arc<(Mesh, RayCaster)>,
 }
 
 impl Project {
-    /// What of it may do for the site as it is written now; `anew` its models may not.
-    pub(in crate::desktop) fn before(&self, anew: bool) -> LoadedSite {
+    /// What of it can be used for the site as it is written now; its models cannot where they are to be read again.
+    pub(in crate::desktop) fn loaded(&self, reads_models: bool) -> LoadedSite {
         LoadedSite {
             path: self.path.clone(),
-            models: (!anew).then(|| self.models.clone()),
+            models: (!reads_models).then(|| self.models.clone()),
             visible: Arc::clone(&self.visible),
             seen: Arc::clone(&self.seen),
         }
     }
 
-    /// Its models, for a site as it is written, where they are those of that.
+    /// Its models, if they are those of a site as it is written.
     pub(in crate::desktop) fn models_of(&self, written: &WrittenSite) -> Option<Models> {
         self.models.are_those_of(written).then(|| self.models.clone())
     }
@@ -91,7 +91,7 @@ impl Project {
         WindowSettings { site: self.written.site.clone(), shown, hidden: Arc::clone(&self.hidden), before: None }
     }
 
-    /// What the site is called: its place, else its file.
+    /// What the site is called: its place, otherwise its file.
     pub(in crate::desktop) fn name(&self) -> String {
         let named = self.written.site.place.as_ref().and_then(|place: &PlaceTable| place.name.clone());
         named.filter(|name| !name.trim().is_empty()).unwrap_or_else(|| name_of(Path::new(&self.written.file)))

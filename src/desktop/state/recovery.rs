@@ -1,4 +1,4 @@
-//! Unsaved settings, kept beside the window's own data, so that they outlive a crash or a kill.
+//! Unsaved settings, kept beside the window's own data, so that they survive a crash or a kill.
 
 use crate::choice::Method;
 use crate::desktop::state::project::Project;

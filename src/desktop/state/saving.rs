@@ -25,19 +25,19 @@ pub(in crate::desktop) struct SaveState {
 
 /// What is asked.
 pub(in crate::desktop) enum SaveQuestion {
-    /// What becomes of what is not saved.
+    /// Asks what becomes of unsaved settings.
     Unsaved(PendingAction),
-    /// Whether the site file, which is not what was read any more, is replaced.
+    /// Asks whether the site file, which has changed since it was read, is replaced.
     Replaced(PathBuf),
 }
 
 /// What would lose what is not saved.
 pub(in crate::desktop) enum PendingAction {
-    /// The window closes.
+    /// Closes the window.
     Close,
-    /// Another site is open.
+    /// Opens another site.
     Open(Box<Project>),
-    /// The site file is read again.
+    /// Reads the site file again.
     Reload,
 }
 

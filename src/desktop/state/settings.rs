@@ -1,4 +1,4 @@
-//! What a person sets, as one small value; and its history.
+//! What a person sets, as one small value, and its history.
 
 use crate::choice::Method;
 use crate::export::figure::Diagram;

@@ -1,4 +1,4 @@
-//! The unit in which lengths are shown. What is written is metres.
+//! The unit in which lengths are shown. Files always have metres.
 
 /// A unit of length.
 #[derive(Clone, Copy)]

@@ -1,4 +1,5 @@
-//! What the window calls the fields of a request: by the labels of its panel, and what has none by the site file's keys.
+//! The window's words for the fields of a request: the labels of its panel, and for fields without a label the keys of
+//! the site file.
 
 use crate::message::{Field, Words};
 

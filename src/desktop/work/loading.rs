@@ -18,9 +18,9 @@ use std::sync::{Arc, Mutex, mpsc};
 
 /// Why there is no project.
 pub(in crate::desktop) enum LoadError {
-    /// It is a bare model, or several.
+    /// The files are a bare model, or several.
     Bare(Vec<PathBuf>),
-    /// What the command would say.
+    /// A message, as the command would print it.
     Message(String),
 }
 
@@ -30,9 +30,9 @@ pub(in crate::desktop) enum LoadRequest {
     Files(Vec<PathBuf>),
     /// A bare model, where it stands.
     Placed(BareModel),
-    /// What a window that has ended had open: its site file, and what was read of it.
+    /// The site file of a window that has ended, and what was read of it.
     Left(Option<PathBuf>, Box<WrittenSite>),
-    /// The open site, as it is written now, what of it is hidden, and what may still do.
+    /// The open site as it is written now, what of it is hidden, and what can be used again.
     Again(Box<WrittenSite>, Hidden, Box<LoadedSite>),
 }
 

@@ -47,7 +47,7 @@ impl<T: Send + 'static> Work<T> {
                     }
                     Event::Note(note) => last = Some(note.in_words(&PanelWords)),
                     // the note before it says why
-                    Event::Anew => {
+                    Event::StartsOver => {
                         if let Ok(mut noted) = noted.lock() {
                             *noted = last.take();
                         }

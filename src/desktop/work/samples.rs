@@ -1,4 +1,4 @@
-//! Sample sites, which are written out where they can be opened.
+//! The sample sites, and writing them to a folder from which they can be opened.
 
 use crate::export::file;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,5 @@
-//! Studies of the open site, computed in threads of their own; and when a single point lies in the sun.
+//! Studies of the open site, computed in threads of their own, and the intervals in which a single point lies in the
+//! sun.
 
 use crate::choice::{Method, Receivers};
 use crate::deliver::comparison::find_comparison;
@@ -165,7 +166,7 @@ fn compare(
         event => {
             match event {
                 Event::Started { .. } if !std::mem::take(&mut is_again) => begun += 1,
-                Event::Anew => is_again = true,
+                Event::StartsOver => is_again = true,
                 _ => {}
             }
             on_event(event)

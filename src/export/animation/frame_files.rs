@@ -1,4 +1,4 @@
-//! The files of an animation: what they are called, and a frame read back.
+//! The files of an animation: their names, and reading a frame back.
 
 use crate::export::ExportError;
 use crate::export::figure::Screen;
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 pub(super) const GIF: &str = "day.gif";
 
-/// Where a frame is.
+/// The path of a frame.
 pub(super) fn frame_path(folder: &Path, index: usize) -> PathBuf {
     folder.join(format!("frame-{index:04}.png"))
 }

@@ -1,7 +1,7 @@
-//! A study as pictures that follow each other: `frame-0000.png` …, and `day.gif` of the same.
+//! A study as pictures that follow each other: `frame-0000.png` …, and `day.gif` of the same pictures.
 //!
-//! Frames are written as they come. The GIF is made of them when all are there, as its colours are: one frame is held at
-//! a time. It is written beside its place, and renamed when it is whole.
+//! Frames are written as they are drawn. The GIF is made when all of them are there, since its colours depend on all,
+//! and then one frame at a time is in memory. It is written under a temporary name and renamed when it is complete.
 
 mod frame_files;
 mod palette;
@@ -18,10 +18,10 @@ use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// How many frames there can be.
-pub const MOST_FRAMES: usize = 2000;
+/// The greatest number of frames.
+pub(crate) const MOST_FRAMES: usize = 2000;
 
-/// The GIF's colours are taken from about so many of the frames, evenly spread.
+/// The GIF's colours come from about this many of the frames, evenly spread.
 const SAMPLED: usize = 64;
 
 /// The pictures in a folder, and the colours seen so far.
@@ -34,7 +34,8 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// `count` of them, none there yet. Frames of an older animation that are beyond them go when all is done.
+    /// `count` frames, none of which is written yet. Further frames of an older animation are removed when everything
+    /// is done.
     ///
     /// # Errors
     /// [`ExportError::OtherFrame`] where a file is called as such a frame is, and is not known to be one.
@@ -43,28 +44,28 @@ impl Frames {
         Ok(Frames { folder: folder.to_owned(), count, older, done: 0, counts: Counts::default() })
     }
 
-    /// What the user should know: which frames of an older animation go.
+    /// A note for the user on the frames of an older animation that are removed.
     pub fn note(&self) -> Option<String> {
         self.older.note()
     }
 
-    /// Where a frame is.
+    /// The path of a frame.
     pub fn path(folder: &Path, index: usize) -> PathBuf {
         frame_path(folder, index)
     }
 
-    /// All that an animation of `count` frames writes into a folder.
-    pub fn outputs(folder: &Path, count: usize) -> Vec<PathBuf> {
+    /// Everything that an animation of `count` frames writes into a folder.
+    pub(crate) fn outputs(folder: &Path, count: usize) -> Vec<PathBuf> {
         (0..count).map(|index| Frames::path(folder, index)).chain([folder.join(GIF)]).collect()
     }
 
-    /// What an animation would replace in a folder: a GIF, or the first file that is called as a frame is.
+    /// What an animation would replace in a folder: a GIF, or the first file that has a frame's name.
     pub fn there(folder: &Path) -> Option<PathBuf> {
         let gif = Some(folder.join(GIF)).filter(|gif| gif.is_file());
         gif.or_else(|| previous_frames::beyond(folder, 0).into_values().next())
     }
 
-    /// Writes the next one.
+    /// Writes the next frame.
     ///
     /// # Errors
     /// [`ExportError::Encode`] from the encoder; as [`file::write`].
@@ -77,10 +78,11 @@ impl Frames {
         Ok(())
     }
 
-    /// All are there: the GIF of them begins. Each is shown for so many hundredths of a second.
+    /// Begins the GIF, when all frames are written. Each is shown for that many hundredths of a second.
     ///
     /// # Errors
-    /// [`ExportError::Read`] and [`ExportError::Encode`] where the first frame is not what was written; as [`file::write`].
+    /// [`ExportError::Read`] and [`ExportError::Encode`] where the first frame is not what was written; as
+    /// [`file::write`].
     pub fn gif(self, delay: u16) -> Result<Gif, ExportError> {
         let path = self.folder.join(GIF);
         let palette = self.counts.palette();
@@ -98,7 +100,7 @@ impl Frames {
     }
 }
 
-/// A GIF that is being made of frames that are there. Where it is not finished, there is none.
+/// A GIF that is being made from the written frames. If it is not finished, no GIF remains.
 pub struct Gif {
     folder: PathBuf,
     older: OldFrames,
@@ -112,7 +114,7 @@ pub struct Gif {
 }
 
 impl Gif {
-    /// Adds one of the frames.
+    /// Adds a frame.
     ///
     /// # Errors
     /// [`ExportError::Read`] and [`ExportError::Encode`] where it is not what was written; [`ExportError::Write`] where
@@ -129,7 +131,8 @@ impl Gif {
         self.encoder.write_frame(&frame).map_err(|error| failed(&self.path, error))
     }
 
-    /// All frames are in it: it replaces what was there, and what else is there of an older animation goes. Returns its path.
+    /// Finishes the GIF when all frames are in it: it replaces an older one, and what else is left of an older
+    /// animation is removed. Returns its path.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.

@@ -1,14 +1,14 @@
 //! The colours of a GIF: at most 256 for all of its frames, so that nothing flickers.
 //!
-//! Median cut (Heckbert, Color Image Quantization for Frame Buffer Display, 1982), with two changes. The box that is cut
-//! next is the one whose colours lie farthest from their mean, and it is cut there; and a box stands for its most frequent
-//! colour, not for its mean: a drawing's flat colours stay what they are to the bit. Nothing is dithered, as grain would
-//! be taken for cells, and would crawl from frame to frame.
+//! The method is median cut (Heckbert, *Color Image Quantization for Frame Buffer Display*, 1982), with two changes.
+//! The box to cut next is the one whose colours lie farthest from their mean, and it is cut at the mean; and a box is
+//! represented by its most frequent colour, not by its mean, so that a drawing's flat colours stay the same to the bit.
+//! Nothing is dithered, as the grain would look like cells, and would crawl from frame to frame.
 
 use crate::export::figure::{Screen, scale::Rgb};
 use rustc_hash::FxHashMap;
 
-/// What a GIF can hold.
+/// The greatest number of colours of a GIF.
 const MOST_COLOURS: usize = 256;
 
 /// How often each colour is seen.
@@ -41,13 +41,13 @@ impl Counts {
 
 type ColourCount = (Rgb, u64);
 
-/// Some colours that are near each other.
+/// Colours that are near each other.
 struct Box {
     colours: Vec<ColourCount>,
-    /// In which part they differ most, and its mean.
+    /// The component (red, green or blue) in which they differ most, and its mean.
     part: usize,
     mean: f64,
-    /// How far they are from it: the sum of squares over all pixels. 0 where there is one colour.
+    /// The sum of squared differences from that mean over all pixels; 0 if there is one colour.
     spread: f64,
 }
 
@@ -68,7 +68,7 @@ impl Box {
         Box { colours, part, mean, spread }
     }
 
-    /// Into what lies below the mean and what does not. Neither is empty where there is a spread.
+    /// Splits the box into what lies below the mean and the rest. Neither is empty if the spread is not 0.
     fn cut(self) -> [Box; 2] {
         let Box { colours, part, mean, .. } = self;
         let (low, high) = colours.into_iter().partition(|(colour, _)| f64::from(colour[part]) < mean);
@@ -76,21 +76,21 @@ impl Box {
     }
 }
 
-/// The colours, and which of them is nearest to those that were asked for.
+/// The colours, with the nearest of them for colours that were looked up before.
 pub(super) struct Palette {
     colours: Vec<Rgb>,
     known: FxHashMap<Rgb, u8>,
 }
 
 impl Palette {
-    /// Red, green, blue of each colour in turn.
+    /// Red, green and blue of each colour, one after another.
     pub(super) fn bytes(&self) -> Vec<u8> {
         self.colours.concat()
     }
 
-    /// A frame in the palette's numbers.
+    /// A frame as indices of the palette.
     pub(super) fn of(&mut self, frame: &Screen) -> Vec<u8> {
-        /// What is remembered, so that a long animation does not remember all.
+        /// The greatest number of colours that are remembered, so that a long animation does not fill the memory.
         const MOST_KNOWN: usize = 1 << 20;
         if self.known.len() > MOST_KNOWN {
             self.known.clear();
@@ -105,7 +105,7 @@ impl Palette {
     }
 }
 
-/// Which of the colours is nearest to one.
+/// The index of the colour nearest to a given one.
 pub(super) fn nearest(colours: &[Rgb], asked: Rgb) -> u8 {
     let distance = |colour: &Rgb| -> i32 {
         let parts = colour.iter().zip(asked).map(|(one, other)| i32::from(*one) - i32::from(other));

@@ -1,6 +1,6 @@
-//! What an older, longer animation left in the folder of a new one. Its frames beyond the new one's would be taken for that
-//! one's, and so they are removed; but only those that are known to be of it: they show what the GIF beside them shows, pixel
-//! for pixel, in its colours. A picture that somebody put there, or drew on, does not.
+//! Removes what an older, longer animation left in the folder of a new one. Its further frames would be taken for
+//! frames of the new one. Only frames that are known to belong to it are removed: those that show, pixel for pixel,
+//! what the GIF beside them shows in its colours. A picture that somebody put there, or drew on, is kept.
 
 use super::frame_files::{GIF, frame_path, read};
 use super::palette::nearest;
@@ -14,11 +14,11 @@ use std::fs::{self, OpenOptions};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-/// Frames of the older animation, and what is in them.
+/// Frames of the older animation, and their contents.
 pub(super) struct OldFrames(Vec<(PathBuf, u64)>);
 
 impl OldFrames {
-    /// The frames in a folder beyond so many, which must all be those of the GIF there.
+    /// The frames in a folder from an index on, which must all belong to the GIF there.
     ///
     /// # Errors
     /// [`ExportError::OtherFrame`] where one is not.
@@ -35,7 +35,7 @@ impl OldFrames {
         Ok(OldFrames(found))
     }
 
-    /// What the user should know.
+    /// A note for the user.
     pub(super) fn note(&self) -> Option<String> {
         let (first, last) = (&self.0.first()?.0, &self.0.last()?.0);
         let which = match self.0.len() {
@@ -49,7 +49,7 @@ impl OldFrames {
         Some(format!("{which} when this one is done"))
     }
 
-    /// Removes them; one that is another by now stays.
+    /// Removes them. A frame that has changed since is kept.
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
@@ -59,7 +59,7 @@ impl OldFrames {
     }
 }
 
-/// The files that are called as frames are, of so many on.
+/// The files with names of frames from an index on.
 pub(super) fn beyond(folder: &Path, count: usize) -> BTreeMap<usize, PathBuf> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let entries = fs::read_dir(here).into_iter().flatten().flatten();
@@ -72,7 +72,7 @@ pub(super) fn beyond(folder: &Path, count: usize) -> BTreeMap<usize, PathBuf> {
     frames.filter(|(index, _)| *index >= count).collect()
 }
 
-/// Those of some frames that show what the GIF in their folder shows there; none where there is none that is ours.
+/// Those of some frames that look as the GIF in their folder shows them; none if there is no GIF of ours.
 fn of_gif(folder: &Path, frames: &BTreeMap<usize, PathBuf>) -> Option<Vec<usize>> {
     let file = OpenOptions::new().read(true).open(folder.join(GIF)).ok()?;
     let mut options = DecodeOptions::new();
@@ -98,7 +98,7 @@ fn of_gif(folder: &Path, frames: &BTreeMap<usize, PathBuf>) -> Option<Vec<usize>
     Some(known)
 }
 
-/// Whether numbers of colours are what a frame comes to in one of the palettes.
+/// Whether a frame becomes these indices in one of the palettes.
 fn shows(numbers: &[u8], frame: &Screen, palettes: &[Vec<Rgb>]) -> bool {
     let pairs: FxHashSet<(Rgb, u8)> = frame.pixels.iter().copied().zip(numbers.iter().copied()).collect();
     let is_in = |palette: &Vec<Rgb>| pairs.iter().all(|(colour, number)| nearest(palette, *colour) == *number);

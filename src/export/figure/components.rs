@@ -18,24 +18,24 @@ const NAMED: [Rgb; 8] = [
     [187, 204, 51],  // pear
     [170, 170, 0],   // olive
 ];
-/// So much nearer to white they are tints of the card, in which light and shade still tell.
+/// How much nearer to white the colours are, so that they are tints in which light and shade still show.
 const SOFTER: f64 = 0.38;
 
-/// What casts no shadow is so much nearer to white.
+/// How much nearer to white a component is that casts no shadow.
 const CASTS_NOTHING: f64 = 0.72;
 const WHITE: Rgb = [255, 252, 246];
 
 /// The colours of one picture's components.
 pub(super) struct Components {
-    /// Where each component's faces end, and its colour.
+    /// The end of each component's faces, and its colour.
     colours: Vec<(u32, Rgb)>,
-    /// The largest ones that are seen, and how many more are.
+    /// The largest components that are seen, and how many more there are.
     pub legend: Vec<(Rgb, String)>,
 }
 
 impl Components {
-    /// `casts` says for each component of the mesh whether it casts. Colours go by area among those that are seen, so
-    /// that they do not change with what casts.
+    /// `casts` says for each component of the mesh whether it casts. Colours are chosen by area among the components
+    /// that are seen, so that they do not change with what casts.
     pub(super) fn new(mesh: &Mesh, surface: &Surface, casts: &[bool]) -> Components {
         let mut seen = vec![false; mesh.components.len()];
         for &face in surface.face.iter().filter(|face| **face < Surface::GROUND) {
@@ -72,7 +72,7 @@ impl Components {
     }
 }
 
-/// The colour of each component, by area among all of them; `casts` says which cast.
+/// The colour of each component, chosen by its area among all of them; `casts` says which cast.
 pub fn of_all(mesh: &Mesh, casts: &[bool]) -> Vec<Rgb> {
     let mut by_size: Vec<(usize, f64)> = (0..mesh.components.len()).map(|at| (at, area(mesh, at))).collect();
     by_size.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -83,7 +83,7 @@ pub fn of_all(mesh: &Mesh, casts: &[bool]) -> Vec<Rgb> {
     colours
 }
 
-/// The colour of the component that is the `rank`th in size.
+/// The colour of the component with that rank in size.
 fn colour(rank: usize, casts: bool) -> Rgb {
     let own = NAMED.get(rank).map(|named| mix(*named, WHITE, SOFTER));
     let own = own.unwrap_or_else(|| further(rank - NAMED.len()));
@@ -97,8 +97,7 @@ fn area(mesh: &Mesh, component: usize) -> f64 {
     faces.map(|face| area(mesh.corners(face as usize))).sum()
 }
 
-/// Quiet tones for the components beyond those colours: hues a golden section apart, so that any two of them
-/// that follow each other differ.
+/// Quiet colours for further components: hues a golden section apart, so that any two in sequence differ.
 fn further(index: usize) -> Rgb {
     let hue = (0.55 + index as f64 * 0.618_034).fract() * TAU;
     let light = 232.0 - 10.0 * (index % 3) as f64;

@@ -1,4 +1,4 @@
-//! What drawings are made from, besides the answer itself.
+//! The context of a drawing: everything that it is made from except the answer itself.
 
 use crate::choice::Receivers;
 use crate::mesh::Mesh;
@@ -10,29 +10,29 @@ use crate::view::Surface;
 /// What every drawing needs besides the answer itself.
 #[derive(Clone, Copy, Debug)]
 pub struct FigureContext<'a, S = Surface> {
-    /// Where on earth.
+    /// The place on Earth.
     pub place: &'a Place,
-    /// The instants studied; the first one is drawn where there is one.
+    /// The instants of the study. A drawing of one instant shows the first.
     pub track: &'a SunTrack,
-    /// What stands there.
+    /// The mesh of the site.
     pub mesh: &'a Mesh,
-    /// What each cell of the view sees; of a plan's also some rows at a time.
+    /// What each cell of the view sees; of a plan it can also be read some rows at a time.
     pub surface: &'a S,
     /// What was judged.
     pub receivers: Receivers,
     /// The ground.
     pub ground: Ground,
-    /// What drew.
+    /// What drew the answer.
     pub drawn: &'a Provenance,
 }
 
 impl<S> FigureContext<'_, S> {
-    /// Whether the ground alone was judged, and so no building.
+    /// Whether the ground alone was judged, and no building.
     pub(super) fn is_ground_alone(&self) -> bool {
         self.receivers == Receivers::Ground
     }
 
-    /// Whether what a plan's cell sees is drawn as ground: the plane, or terrain.
+    /// Whether a cell of the plan is drawn as ground: the plane, or terrain.
     pub(super) fn is_ground(&self, face: u32) -> bool {
         face == Surface::GROUND || self.mesh.is_terrain(face)
     }

@@ -1,40 +1,41 @@
-//! How much work counting took, as colours of cells: seed 000, figures 3-5 and 3-9.
+//! How much work counting took, as colours of cells, after figures 3-5 and 3-9 of E. Chan's thesis (*Efficient Shadow
+//! Algorithms on Graphics Hardware*, 2004).
 
 use super::scale::{Rgb, mix};
 use crate::view::{Decider, FragmentCounts};
 
-/// Which picture of it.
+/// The diagrams of counting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Diagram {
-    /// Who decided each cell, and how.
+    /// Which method decided each cell, and how.
     Mask,
-    /// How many fragments reached the count, as brightness.
+    /// The number of fragments that reached the count, as brightness.
     Overdraw,
 }
 
-/// The paper's colours, a little quieter.
+/// The thesis's colours, a little quieter.
 const MAP_SHADOW: Rgb = [196, 60, 48];
 const MAP_LIGHT: Rgb = [122, 164, 220];
 const VOLUME_SHADOW: Rgb = [12, 12, 14];
 const VOLUME_LIGHT: Rgb = [70, 190, 80];
 
-/// No fragment, and the most of the picture.
+/// The colours of no fragment, and of the most in the picture.
 const NO_FRAGMENT: Rgb = [18, 18, 22];
 const MOST_FRAGMENTS: Rgb = [255, 255, 255];
 
-/// Colours of cells, and what they mean.
+/// Colours of cells, and their meaning.
 #[derive(Clone, Debug)]
 pub struct Colours {
-    /// Row 0 first.
+    /// The colour of each cell, row 0 first.
     pub of_cells: Vec<Rgb>,
     /// What they measure.
     pub legend_head: String,
-    /// What each means.
+    /// Each colour, and what it means.
     pub legend: Vec<(Rgb, String)>,
 }
 
 impl Diagram {
-    /// What a drawing of it is called.
+    /// The title of a drawing of it.
     pub(super) fn title(self) -> &'static str {
         match self {
             Diagram::Mask => "Computation mask",
@@ -44,7 +45,7 @@ impl Diagram {
 }
 
 impl Colours {
-    /// None where a mask is to be shown and there was none.
+    /// `None` if a mask is requested and there was none.
     pub fn of(counted: &FragmentCounts, diagram: Diagram) -> Option<Colours> {
         match diagram {
             Diagram::Mask => Some(of_mask(counted.decided.as_ref()?)),
@@ -74,7 +75,7 @@ fn of_mask(decided: &[Decider]) -> Colours {
     }
 }
 
-/// Brightness grows with the root of the fragments: else a few dense cells would leave all others black.
+/// Brightness grows with the square root of the fragments; otherwise a few dense cells would leave all others black.
 fn of_overdraw(counted: &FragmentCounts) -> Colours {
     let most = counted.reached.iter().copied().max().unwrap_or(0).max(1);
     let colour = |fragments: u32| mix(NO_FRAGMENT, MOST_FRAGMENTS, (f64::from(fragments) / f64::from(most)).sqrt());

@@ -8,28 +8,29 @@ use crate::mesh::Mesh;
 use crate::profile::comparison::{Alteration, Change, Comparison};
 use crate::view::Surface;
 
-/// More shadow, from a little to the most; darker in print without colours, too.
+/// More shadow, from a little to the most; darker than the same amount of less shadow, so that prints without colour
+/// can be read.
 const LOST: [Rgb; 3] = [[208, 224, 240], [84, 125, 176], [10, 30, 88]];
-/// Less shadow: lighter than the same amount the other way.
+/// Less shadow, lighter than the same amount of more shadow.
 const GAINED: [Rgb; 3] = [[253, 232, 188], [243, 174, 82], [204, 98, 14]];
-/// What is new, and what is gone.
+/// The colours of what is new, and of what is gone.
 const BUILT: Rgb = [112, 110, 106];
 const CLEARED: Rgb = [201, 199, 194];
 
-/// More bands than this on either side are hard to tell apart.
+/// The greatest number of bands on either side; more are hard to tell apart.
 const MOST_BANDS: u32 = 7;
 
-/// The bands of a change: none, then (0, band], (band, 2 band], … on either side, as far as the larger one reaches.
+/// The bands of a change: none, then (0, band], (band, 2 band], … on either side, up to the larger change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChangeBands {
     /// Width of a band, seconds.
     pub band_secs: u32,
-    /// How many there are on either side.
+    /// The number of bands on either side.
     pub count: u32,
 }
 
 impl ChangeBands {
-    /// As wide as the study's step where that makes few enough, else of a round duration.
+    /// Bands as wide as the study's step if these are few enough, otherwise of a round duration.
     pub fn of(comparison: &Comparison, step_secs: u32) -> ChangeBands {
         let most = (0..comparison.cells()).filter_map(|cell| comparison.change(cell)).map(i64::unsigned_abs).max();
         // no change is longer than the daylight, which fits
@@ -75,18 +76,19 @@ impl ChangeBands {
 
 /// A change in the drawing's colours.
 pub struct ChangeColours {
-    /// A colour a cell.
+    /// The colour of each cell.
     pub of_cells: Vec<Rgb>,
-    /// Over the legend.
+    /// The heading of the legend.
     pub legend_head: String,
-    /// Each colour and what it means: the most sun gained first.
+    /// Each colour and its meaning; the most sun gained comes first.
     pub legend: Vec<(Rgb, String)>,
-    /// How what each cell sees is drawn as altered.
+    /// How each cell is drawn as altered.
     altered: Vec<Alteration>,
 }
 
 impl ChangeColours {
-    /// Of what is seen before and after, the latter's faces those of a mesh, judged so in steps of so many seconds.
+    /// The colours of what is seen before and after. The faces seen after are those of a mesh, judged with these
+    /// receivers in steps of that many seconds.
     pub fn of(
         comparison: &Comparison,
         [before, after]: [&Surface; 2],
@@ -128,11 +130,12 @@ impl ChangeColours {
     }
 }
 
-/// `compare.png`: hours of sun lost and gained on the plan. The scenes are those before and after; the latter names the
-/// sheet.
+/// `compare.png`: hours of sun lost and gained on the plan. The scenes are those before and after; the second one names
+/// the sheet.
 ///
 /// # Errors
-/// [`ExportError::Size`] where a surface or the comparison does not fill the grid; [`ExportError::Encode`] from the encoder.
+/// [`ExportError::Size`] where a surface or the comparison does not fill the grid; [`ExportError::Encode`] from the
+/// encoder.
 pub fn difference(
     scenes: &[FigureContext; 2],
     names: &[String; 2],

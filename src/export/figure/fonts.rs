@@ -1,9 +1,9 @@
-//! Faces: Noto Sans for every letter that it has, so that a drawing looks the same on every machine, and the system's for
-//! all others.
+//! Fonts. Noto Sans has priority for every letter that it has, so that a drawing looks the same on every machine; for
+//! all other letters the system's fonts are used.
 //!
-//! A line that needs several faces is set run by run, each in a face that has all of its letters: a renderer that takes
-//! the next face for the whole line gives up where a face makes another number of glyphs of it, as one of emoji does, and
-//! then letters that other faces have are boxes, too.
+//! A line that needs several fonts is set run by run, each run in a font that has all of its letters. A renderer that
+//! replaces the font of a whole line gives up where the other font makes a different number of glyphs, as an emoji font
+//! does, and then letters that other fonts have become boxes, too.
 
 use super::text::{escape, unescape};
 use resvg::usvg::fontdb::{Database, FaceInfo, ID, Source, Style};
@@ -16,10 +16,10 @@ use unicode_bidi::{BidiInfo, Level};
 
 /// The family's name in the drawings' SVG.
 pub(super) const FAMILY: &str = "Noto Sans";
-/// Before a face's number in the database, as the family's name of a run.
+/// The prefix of the family name of a run, before the font's index in the database.
 const FACE: &str = "face-";
 
-/// How a drawing's SVG is read. The system is asked for its faces where the drawing has letters for them, and not before.
+/// The options for rendering a drawing's SVG. The system's fonts are searched only if the drawing needs them.
 pub(super) fn options(svg: &str) -> Options<'static> {
     let fontdb = if svg.chars().any(is_foreign) { with_system() } else { own() };
     let numbered = |family: &FontFamily| match family {
@@ -36,12 +36,12 @@ pub(super) fn options(svg: &str) -> Options<'static> {
     Options { fontdb, font_family: FAMILY.to_owned(), font_resolver, ..Options::default() }
 }
 
-/// Regular or bold, whichever is nearer. Noto Sans of the system may be another one.
+/// Regular or bold Noto Sans, whichever is nearer to the weight. The system's Noto Sans may be another one.
 fn own_face(weight: u16, faces: &Database) -> Option<ID> {
     faces.faces().take(2).min_by_key(|face| face.weight.0.abs_diff(weight)).map(|face| face.id)
 }
 
-/// A drawing's SVG in which every line that needs several faces is set run by run. All else stays as it is.
+/// A drawing's SVG in which every line that needs several fonts is set run by run. Everything else is unchanged.
 pub(super) fn in_runs(svg: &str) -> Cow<'_, str> {
     if !svg.chars().any(is_foreign) {
         return Cow::Borrowed(svg);
@@ -61,7 +61,7 @@ pub(super) fn in_runs(svg: &str) -> Cow<'_, str> {
     Cow::Owned(set)
 }
 
-/// One line in runs; none where it needs a single face, or is not set at an x of its own.
+/// One line in runs; `None` if it needs a single font, or is not set at an x of its own.
 fn line_in_runs(line: &str, faces: &Database) -> Option<String> {
     let (head, said) = line.strip_suffix("</text>")?.split_once('>')?;
     if !said.chars().any(is_foreign) {
@@ -102,7 +102,7 @@ fn line_in_runs(line: &str, faces: &Database) -> Option<String> {
     Some(lines)
 }
 
-/// How far the pen goes along a line that begins at 0.
+/// The width of a line that begins at 0.
 fn width(line: &str) -> f64 {
     let svg = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1\" height=\"1\">{line}</svg>");
     let tree = Tree::from_str(&svg, &options(&svg));
@@ -113,8 +113,8 @@ fn width(line: &str) -> f64 {
     tree.map_or(0.0, |tree| tree.root().children().iter().map(of).fold(0.0, f64::max))
 }
 
-/// A line's runs from left to right, each with the face that has its letters: none for Noto Sans, of whose weights this is
-/// one. What no face has stays with Noto Sans, which draws a box.
+/// A line's runs from left to right, each with the font that has its letters: `None` for Noto Sans, of whose weights
+/// `weight` is one. What no font has stays with Noto Sans, which draws a box.
 pub fn runs(line: &str, weight: u16, faces: &Database) -> Vec<(Option<ID>, String)> {
     let bidi = BidiInfo::new(line, Some(Level::ltr()));
     let mut runs = Vec::new();
@@ -133,7 +133,7 @@ pub fn runs(line: &str, weight: u16, faces: &Database) -> Vec<(Option<ID>, Strin
     runs
 }
 
-/// Runs of a part that is read in one direction, in the order in which it is.
+/// The runs of a part with one direction, in the order of that direction.
 fn split(part: &str, weight: u16, faces: &Database, last: &mut Option<ID>) -> Vec<(Option<ID>, String)> {
     let base: Vec<ID> = own_face(weight, faces).into_iter().collect();
     let in_face =
@@ -171,7 +171,7 @@ fn split(part: &str, weight: u16, faces: &Database, last: &mut Option<ID>) -> Ve
     joined
 }
 
-/// The letters of a text that no face has, each once: they are drawn as boxes.
+/// The letters of a text that no font has, each once: they are drawn as boxes.
 pub fn without_face(text: &str) -> String {
     let mut missing = String::new();
     for letter in text.chars().filter(|letter| is_foreign(*letter)) {
@@ -182,18 +182,18 @@ pub fn without_face(text: &str) -> String {
     missing
 }
 
-/// Whether Noto Sans lacks a letter; control characters are no letters, nor is what only chooses how one looks.
+/// Whether Noto Sans lacks a letter. Control characters are not letters, and neither are variation selectors.
 fn is_foreign(letter: char) -> bool {
     !letter.is_ascii() && !is_unseen(letter) && !has(notosans::REGULAR_TTF, 0, letter)
 }
 
-/// What is not drawn itself: control characters, joiners, and selectors of how a letter looks.
+/// Characters that are not drawn themselves: control characters, joiners, and variation selectors.
 fn is_unseen(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{200B}'..='\u{200F}' | '\u{2060}'..='\u{2064}' | '\u{FE00}'..='\u{FE0F}' | '\u{E0000}'..='\u{E0FFF}')
 }
 
-/// What is drawn on the letter before it: accents, enclosing signs, and the tones of emoji.
+/// Characters that are drawn on the letter before: accents, enclosing signs, and skin tones of emoji.
 fn is_attached(letter: char) -> bool {
     matches!(
         letter,
@@ -202,14 +202,13 @@ fn is_attached(letter: char) -> bool {
     )
 }
 
-/// Whether a face draws a letter. One of pictures alone, as some of emoji are, draws none here.
+/// Whether a font draws a letter. A font of bitmaps alone, as some emoji fonts are, draws none here.
 fn has(face: &[u8], index: u32, letter: char) -> bool {
     FontRef::from_index(face, index)
         .is_ok_and(|face| face.outline_glyphs().format().is_some() && face.charmap().map(letter).is_some())
 }
 
-/// The face that has a letter and stands best beside the first of those in use: upright, of like weight, and not of
-/// typewriters.
+/// The font that has a letter and suits the first of those in use best: upright, of similar weight, and not monospaced.
 fn fallback(letter: char, used: &[ID], faces: &Database) -> Option<ID> {
     let weight = used.first().and_then(|first| faces.face(*first)).map_or(400, |face| face.weight.0);
     let mut fitting: Vec<&FaceInfo> = faces.faces().filter(|face| !used.contains(&face.id)).collect();
@@ -223,7 +222,7 @@ fn fallback(letter: char, used: &[ID], faces: &Database) -> Option<ID> {
     fitting.into_iter().find(has_letter).map(|face| face.id)
 }
 
-/// Regular and bold.
+/// The database with Noto Sans, regular and bold.
 fn own() -> Arc<Database> {
     static FACES: OnceLock<Arc<Database>> = OnceLock::new();
     let load = || {
@@ -236,7 +235,7 @@ fn own() -> Arc<Database> {
     Arc::clone(FACES.get_or_init(load))
 }
 
-/// Those, and after them the system's.
+/// The same with the system's fonts after them.
 fn with_system() -> Arc<Database> {
     static FACES: OnceLock<Arc<Database>> = OnceLock::new();
     let load = || {

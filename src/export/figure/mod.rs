@@ -1,6 +1,6 @@
-//! The drawing: a picture of the answer on a sheet that says what it shows, ready for print and for a slide.
+//! Drawings: a picture of the answer on a sheet that says what it shows, ready for print and for a slide.
 //!
-//! The picture is made cell by cell in Rust; everything that is lines and letters is one SVG, drawn by resvg over it.
+//! The picture is made cell by cell in Rust; all lines and text are one SVG, which resvg draws over it.
 
 mod components;
 mod context;
@@ -53,9 +53,9 @@ use scale::{Bands, NO_SHADOW, mix};
 pub struct PictureExtras<'a> {
     /// Shadow volumes and silhouette, over the picture.
     pub overlay: Option<&'a Overlay>,
-    /// Each component of [`FigureContext::mesh`] in its own colour; here is said which of them cast.
+    /// Each component of [`FigureContext::mesh`] in its own colour; the slice says which of them cast.
     pub casts: Option<&'a [bool]>,
-    /// What counting took, instead of sun and shadow; in the plan's picture, too.
+    /// How much work counting took, instead of sun and shadow; also in the plan's picture.
     pub counted: Option<(&'a FragmentCounts, Diagram)>,
 }
 
@@ -76,7 +76,7 @@ pub fn profile<S: SurfaceRows, C: ShadedCells>(
     page::page(&panel, size, Some(grid.cell), |fit| plan::profile(scene, profile, &bands, fit), page::png)
 }
 
-/// What drawings of hours of shadow say.
+/// The panel that all drawings of hours of shadow share.
 fn profile_panel<S, C>(scene: &FigureContext<S>, profile: &Profile<C>, kicker: &str) -> Panel {
     let grid = &profile.grid;
     let mut panel = panel(scene, kicker);
@@ -95,23 +95,24 @@ fn profile_panel<S, C>(scene: &FigureContext<S>, profile: &Profile<C>, kicker: &
     panel
 }
 
-/// What [`profile`] takes at the most of what grows with the plan, bytes.
-pub fn profile_bytes(grid: &Grid) -> u64 {
+/// The greatest memory that [`profile`] takes of what grows with the plan, bytes.
+pub(crate) fn profile_bytes(grid: &Grid) -> u64 {
     // the sheet may be higher or wider than its picture, never the other way round
     let fit = picture::Fit::within((grid.width, grid.height), (f64::from(WIDTH) / 2.0, f64::from(HEIGHT) / 2.0));
     picture::task_bytes(&fit) * page::tasks() as u64
 }
 
-/// One instant, the first of the track, on the plan or in the camera's picture; what is `shown` over it is for the latter.
+/// One instant, the first of the track, on the plan or in the camera's picture. `shown` is laid over the camera's
+/// picture.
 ///
 /// # Errors
-/// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay; [`ExportError::Encode`] from the encoder, or
-/// where the track has no instant.
+/// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay;
+/// [`ExportError::Encode`] from the encoder, or where the track has no instant.
 pub fn instant(scene: &FigureContext, view: &View, mask: &Mask, shown: &PictureExtras) -> Result<Vec<u8>, ExportError> {
     instant_as(scene, view, mask, shown, page::png)
 }
 
-/// The sheet of [`instant`], which becomes what `finish` makes of it.
+/// The sheet of [`instant`], turned into a result by `finish`.
 fn instant_as<T>(
     scene: &FigureContext,
     view: &View,
@@ -164,7 +165,7 @@ fn instant_as<T>(
     }
 }
 
-/// Errs where what belongs to one picture differs in size.
+/// Returns an error if what belongs to one picture differs in size.
 fn check_instant(surface: &Surface, size: (u32, u32), mask: &Mask, shown: &PictureExtras) -> Result<(), ExportError> {
     check_size("mask", mask.share.len(), size.0, size.1)?;
     check_surface(surface, size)?;
@@ -179,7 +180,7 @@ fn check_instant(surface: &Surface, size: (u32, u32), mask: &Mask, shown: &Pictu
     }
 }
 
-/// What stands beside the picture of an instant; the legend is still empty.
+/// The panel beside the picture of an instant, without a legend.
 fn instant_panel(scene: &FigureContext, view: &View, now: &Instant, shown: &PictureExtras) -> Panel {
     let kicker = match shown.counted {
         _ if now.night => "Night",
@@ -224,7 +225,7 @@ fn instant_legend(
     legend
 }
 
-/// Through what a picture is seen, and where it is true to scale its pixel's side, metres; the sheet says of a side which.
+/// The camera or side of a picture, and a pixel's side in metres if it is true to scale. For a side the panel names it.
 fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::PixelRays, Option<f64>), ExportError> {
     match view {
         View::Plan(_) => Err(ExportError::encode("drawing", "a plan has no lens")),
@@ -237,7 +238,7 @@ fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::PixelRays, Optio
     }
 }
 
-/// The colours of level ground in the sun and in the shade, before a camera.
+/// The colours of level ground in the sun and in the shade, as a camera sees them.
 #[cfg(feature = "test-hooks")]
 pub fn ground_tones(to_sun: glam::DVec3) -> [scale::Rgb; 2] {
     perspective::ground_tones(to_sun)
@@ -259,10 +260,10 @@ fn show(panel: &mut Panel, shown: &PictureExtras, ground: scale::Rgb, components
     }
 }
 
-/// Buildings where only the ground is judged, in the legend.
+/// The legend's entry for buildings where only the ground is judged.
 const UNJUDGED: &str = "not judged";
 
-/// The fact that a camera's view changes.
+/// The name of the fact that a camera's view changes.
 const JUDGED: &str = "Judged";
 
 fn check_surface(surface: &Surface, (width, height): (u32, u32)) -> Result<(), ExportError> {
@@ -270,7 +271,7 @@ fn check_surface(surface: &Surface, (width, height): (u32, u32)) -> Result<(), E
     check_size("surface's heights", surface.height_m.len(), width, height)
 }
 
-/// What all drawings say; the legend is still empty.
+/// The panel that all drawings share, without a legend.
 fn panel<S>(scene: &FigureContext<S>, kicker: &str) -> Panel {
     let (place, track) = (scene.place, scene.track);
     let name = text::clean(&place.name);
@@ -320,7 +321,7 @@ fn cells(width: u32, height: u32, cell_m: f64) -> String {
     format!("{width} × {height} of {}", words::metres(cell_m))
 }
 
-/// The sun at the start, at noon where the window holds one, and at the end.
+/// The sun at the start, at noon if the window contains it, and at the end.
 fn sun_rows(place: &Place, track: &SunTrack) -> Vec<[String; 4]> {
     let row = |what: &str, time: String, azimuth_rad: f64, altitude_rad: f64| {
         [what.to_owned(), time, words::degrees(azimuth_rad), words::degrees(altitude_rad)]
@@ -344,8 +345,8 @@ fn sun_rows(place: &Place, track: &SunTrack) -> Vec<[String; 4]> {
     std::iter::once(at("start", first)).chain(noon).chain([at("end", last)]).collect()
 }
 
-/// Of several days, the highest that the sun stands on any at the instants: on the day where that is most, and where it
-/// is least.
+/// For several days, the sun's greatest altitude at any instant of the day on which it is greatest, and of the day on
+/// which it is least.
 fn highest_rows(track: &SunTrack, row: impl Fn(&str, String, f64, f64) -> [String; 4]) -> Vec<[String; 4]> {
     let mut highest: Vec<&Instant> = Vec::new();
     for instant in &track.instants {

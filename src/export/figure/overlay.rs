@@ -1,4 +1,4 @@
-//! Volumes and silhouette over a finished picture: translucent yellow, and black lines above it.
+//! Lays volumes and silhouette over a finished picture: translucent yellow, and black lines above it.
 
 use super::picture::{CellBorder, CellSpan, PagePicture, spans};
 use super::scale::{Rgb, mix};
@@ -6,12 +6,12 @@ use crate::look::LOOK;
 use crate::view::Overlay;
 use rayon::prelude::*;
 
-/// How opaque so many layers are.
+/// The opacity of that many layers.
 fn opacity(layers: u8) -> f64 {
     (1.0 - (1.0 - LOOK.layer).powi(i32::from(layers))).min(LOOK.most_layers)
 }
 
-/// Ground in the sun behind two volumes, of two walls each, for the legend.
+/// The colour of sunny ground behind two volumes, with two walls each, for the legend.
 pub(super) fn volume_tone(ground: Rgb) -> Rgb {
     mix(ground, LOOK.volume, opacity(4))
 }

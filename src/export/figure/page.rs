@@ -1,4 +1,4 @@
-//! The sheet: A3 landscape, the picture as large as it can be, the panel beside or below it.
+//! The layout of a sheet: A3 landscape, the picture as large as it can be, the panel beside or below it.
 
 use super::panel::{self, COLUMN, Panel};
 use super::paper::{HEIGHT, PAPER_METRES_A_PIXEL, WIDTH};
@@ -10,25 +10,25 @@ use rayon::prelude::*;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::Tree;
 
-/// Off-white, so that the sheet's own white can stand for light.
+/// Off-white, so that the sheet's own white can represent light.
 pub(super) const PAPER: Rgb = [249, 247, 242];
 
-/// From the page's edge to its frame, and from a frame to what it holds.
+/// The distance from the page's edge to its frame, and from a frame to its content.
 const MARGIN: f64 = 56.0;
 const PAD: f64 = 44.0;
-/// Between blocks, at least.
+/// The least gap between blocks.
 const GAP: f64 = 30.0;
 
-/// Where everything goes.
+/// The positions of everything on a page.
 struct PageLayout {
     fit: Fit,
-    /// The picture's north-west corner, whole pixels.
+    /// The picture's north-west corner, in whole pixels.
     corner: (u32, u32),
     overlay: Block,
 }
 
-/// Lays out and draws the page; `draw` makes the picture once its size is known. `cell_m` is absent in perspective. What
-/// the sheet becomes is `finish`'s to say: [`png`], as a rule.
+/// Lays out and draws the page; `draw` makes the picture once its size is known. `cell_m` is absent in perspective.
+/// What the sheet becomes is `finish`'s to say: [`png`], as a rule.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the page cannot be drawn, and what `finish` says.
@@ -53,7 +53,7 @@ pub(super) fn page<P: Pixels, T>(
     finish(&Sheet { pieces, picture: Some(((left, top), &picture)) })
 }
 
-/// As [`page`], for a picture of lines and letters alone: the whole sheet is one block.
+/// As [`page`], for a picture of lines and text alone: the whole sheet is one block.
 pub(super) fn whole(panel: &Panel, cells: (u32, u32), cell_m: f64, draw: impl FnOnce(Fit) -> Block) -> Block {
     let mut layout = beside_or_below(panel, cells, Some(cell_m));
     let picture = draw(layout.fit);
@@ -85,20 +85,20 @@ pub(super) fn chart(
     png(&Sheet { pieces, picture: None })
 }
 
-/// A panel below the picture is less at hand; the picture must grow by this much for it.
+/// How much larger the picture must become for the panel to be put below it, where it is less convenient.
 const WORTH_IT: f64 = 1.12;
 
-/// The panel stands beside the picture, or below a wide one.
+/// Puts the panel beside the picture, or below a wide one.
 fn beside_or_below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     let beside = beside(panel, cells, cell_m);
     let below = below(panel, cells, cell_m);
     if below.fit.scale() > beside.fit.scale() * WORTH_IT { below } else { beside }
 }
 
-/// The sheet within its frame: x, y, width, height.
+/// The sheet within its frame: x, y, width and height.
 const SHEET: [f64; 4] = [MARGIN, MARGIN, WIDTH as f64 - 2.0 * MARGIN, HEIGHT as f64 - 2.0 * MARGIN];
 
-/// What a panel leaves beside it.
+/// The field that a panel at the side leaves for the picture.
 const BESIDE: [f64; 4] = [SHEET[0], SHEET[1], SHEET[2] - COLUMN - 2.0 * PAD, SHEET[3]];
 
 fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
@@ -107,7 +107,7 @@ fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     layout
 }
 
-/// The panel at the sheet's right.
+/// Puts the panel at the sheet's right.
 fn stand_beside(panel: &Panel, metres_a_pixel: Option<f64>, overlay: &mut Block) {
     let x = BESIDE[0] + BESIDE[2];
     overlay.fill([x - 1.0, SHEET[1], 2.0, SHEET[3]], HAIR);
@@ -146,7 +146,7 @@ fn stand_beside(panel: &Panel, metres_a_pixel: Option<f64>, overlay: &mut Block)
 
 fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     const COLUMNS: f64 = 4.0;
-    /// A legend that is longer stands closer.
+    /// The height from which a legend's rows stand closer.
     const LEGEND: f64 = 475.0;
     let (title, facts, sun) = (panel::title(panel), panel::facts(panel), panel::sun_table(panel));
     let (legend, footer) = (panel::legend(panel, LEGEND), panel::footer(panel));
@@ -175,7 +175,7 @@ fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     layout
 }
 
-/// The picture in the middle of its field; the sheet is framed.
+/// Puts the picture in the middle of its field, and frames the sheet.
 fn with_picture(field: [f64; 4], cells: (u32, u32)) -> PageLayout {
     const AROUND: f64 = 36.0;
     let room = (field[2] - 2.0 * AROUND, field[3] - 2.0 * AROUND);
@@ -194,7 +194,7 @@ fn frame(layout: &mut PageLayout) {
     overlay.frame([corner.0, corner.1, fit.pixels.0, fit.pixels.1].map(f64::from), 3.0, GRAY);
 }
 
-/// A part of the sheet that has lines and letters.
+/// A part of the sheet with lines and text.
 struct SheetPart {
     /// West, north, east and south on the page.
     place: [u32; 4],
@@ -202,7 +202,7 @@ struct SheetPart {
 }
 
 impl SheetPart {
-    /// Paper.
+    /// An empty part.
     fn blank(place: [u32; 4]) -> Result<SheetPart, ExportError> {
         let [west, north, east, south] = place;
         let mut pixels = Pixmap::new(east - west, south - north).ok_or_else(|| failed("the page is too large"))?;
@@ -211,7 +211,7 @@ impl SheetPart {
         Ok(SheetPart { place, pixels })
     }
 
-    /// A picture upon it; the piece is the page.
+    /// Lays a picture onto it; the part is then the page.
     fn lay(&mut self, (left, top): (u32, u32), picture: &PagePicture) {
         let lines = self.pixels.data_mut().chunks_exact_mut(WIDTH as usize * 4).skip(top as usize);
         for (line, row) in lines.zip(picture.pixels.chunks_exact(picture.width as usize)) {
@@ -221,7 +221,7 @@ impl SheetPart {
         }
     }
 
-    /// Its part of a row of the page.
+    /// Copies its part of a row of the page.
     fn put(&self, row: u32, line: &mut [Rgb]) {
         let [west, north, east, south] = self.place;
         if (north..south).contains(&row) {
@@ -234,7 +234,7 @@ impl SheetPart {
     }
 }
 
-/// Everything that is lines and letters, over what is there.
+/// Draws all lines and text over what is there.
 fn letter(overlay: &Block, pieces: &mut [SheetPart]) -> Result<(), ExportError> {
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"{}\">{}</svg>",
@@ -251,7 +251,7 @@ fn letter(overlay: &Block, pieces: &mut [SheetPart]) -> Result<(), ExportError> 
     Ok(())
 }
 
-/// A sheet as SVG, of its size on A3. Where there is no Noto Sans another plain face stands in.
+/// A sheet as SVG, of its size on A3. Where Noto Sans is missing, another plain font replaces it.
 pub(super) fn svg(sheet: &Block) -> String {
     let paper = hex(PAPER);
     format!(
@@ -263,25 +263,25 @@ pub(super) fn svg(sheet: &Block) -> String {
     )
 }
 
-/// Rows of a sheet that one task puts together.
+/// The rows of a sheet that one task assembles.
 const BAND: usize = 64;
 
-/// All that is on a page, before it becomes a file. Its picture is drawn band by band.
+/// Everything on a page, before it becomes a file. Its picture is drawn band by band.
 pub(super) struct Sheet<'a> {
     pieces: Vec<SheetPart>,
-    /// With its north-west corner.
+    /// The picture with its north-west corner.
     picture: Option<((u32, u32), &'a dyn Pixels)>,
 }
 
 impl Sheet<'_> {
-    /// Of lines and letters alone.
+    /// A sheet with lines and text alone.
     pub(super) fn of(sheet: &Block) -> Result<Sheet<'static>, ExportError> {
         let mut pieces = vec![SheetPart::blank([0, 0, WIDTH, HEIGHT])?];
         letter(sheet, &mut pieces)?;
         Ok(Sheet { pieces, picture: None })
     }
 
-    /// A band's rows, put together.
+    /// The rows of a band, assembled.
     fn draw(&self, band: usize, rows: &mut [Rgb]) {
         let width = WIDTH as usize;
         let first = (band * BAND) as u32;
@@ -302,7 +302,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// All of its pixels, for a screen.
+    /// All pixels, for a screen.
     pub(super) fn pixels(&self) -> Vec<Rgb> {
         let mut pixels = vec![PAPER; WIDTH as usize * HEIGHT as usize];
         let bands = pixels.par_chunks_mut(BAND * WIDTH as usize).enumerate();
@@ -311,12 +311,12 @@ impl Sheet<'_> {
     }
 }
 
-/// How many bands of a sheet are drawn at once.
+/// The number of bands of a sheet that are drawn at once.
 pub(super) fn tasks() -> usize {
     rayon::current_num_threads().min(8)
 }
 
-/// As a PNG of its size on paper. It is put together band by band, while those before are compressed.
+/// The sheet as a PNG of its size on paper. It is assembled band by band, while the bands before are compressed.
 pub(super) fn png(sheet: &Sheet) -> Result<Vec<u8>, ExportError> {
     let width = WIDTH as usize;
     // some at once, for as many processors

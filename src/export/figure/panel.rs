@@ -1,33 +1,33 @@
-//! What stands beside the picture: title, facts, the sun's table, legend, scale and north.
+//! The panel beside the picture: title, facts, the sun's table, legend, scale and north.
 
 use super::scale::Rgb;
 use super::svg::{ACCENT, Block, GRAY, HAIR, INK, LetterStyle, TextAnchor};
 use super::text;
 
-/// The panel's column, page pixels.
+/// The width of the panel's column, page pixels.
 pub(super) const COLUMN: f64 = 790.0;
 
-/// What a panel says.
+/// The content of a panel.
 pub(super) struct Panel {
-    /// What kind of drawing it is.
+    /// The kind of drawing.
     pub kicker: String,
     /// The place's name.
     pub title: String,
-    /// When: date, window.
+    /// Date and window.
     pub lead: Vec<String>,
     /// Label and value.
     pub facts: Vec<(&'static str, String)>,
-    /// Per instant shown: what it is, time, azimuth, altitude.
+    /// For each instant shown: its name, time, azimuth and altitude.
     pub sun: Vec<[String; 4]>,
     /// What the colours measure.
     pub legend_head: String,
     /// From the lightest to the darkest.
     pub legend: Vec<(Rgb, String)>,
-    /// What lines mean, below that.
+    /// The meaning of lines, below the legend.
     pub keys: Vec<(Rgb, String)>,
-    /// The tz version by which the clock goes.
+    /// The tz version of the clock's rules.
     pub tz: String,
-    /// Whether what is up in the picture is north.
+    /// Whether north is up in the picture.
     pub north_up: bool,
 }
 
@@ -52,11 +52,11 @@ pub(super) fn title(panel: &Panel) -> Block {
     block
 }
 
-/// From a fact's label to its value, which has so many lines.
+/// The distance from a fact's label to its value, and the greatest number of lines of the value.
 const INDENT: f64 = 200.0;
 const FACT_LINES: usize = 3;
 
-/// Whether a fact's value stands whole.
+/// Whether a fact's value fits completely.
 pub(super) fn holds(value: &str) -> bool {
     let lines = text::wrap(value, LetterStyle::BODY.weight, LetterStyle::BODY.size, COLUMN - INDENT, FACT_LINES);
     lines.join(" ") == value
@@ -94,18 +94,18 @@ pub(super) fn sun_table(panel: &Panel) -> Block {
     block
 }
 
-/// A legend's colour beside its label, and the gap between them.
+/// The width of a legend's colour beside its label, and the gap between them.
 const SWATCH: f64 = 96.0;
 const SWATCH_GAP: f64 = 24.0;
-/// From one of two columns of a legend to the next.
+/// The distance between two columns of a legend.
 const HALF: f64 = COLUMN / 2.0 + 6.0;
 
-/// How thick a line of the legend is.
+/// The thickness of a line in the legend.
 const KEY: f64 = 7.0;
-/// Between the colours and the lines of a legend.
+/// The gap between the colours and the lines of a legend.
 const KEYS_GAP: f64 = 14.0;
 
-/// Rows of the legend: more short entries than `most` stand in two columns.
+/// The rows of the legend: more than `most` short entries are in two columns.
 fn legend_rows(entries: &[(Rgb, String)], most: usize) -> usize {
     let room = COLUMN - HALF - SWATCH - SWATCH_GAP;
     let short =
@@ -113,7 +113,7 @@ fn legend_rows(entries: &[(Rgb, String)], most: usize) -> usize {
     if entries.len() > most && entries.iter().all(short) { entries.len().div_ceil(2) } else { entries.len() }
 }
 
-/// The legend with rows of at most `room` in height altogether, between 36 and 52 each.
+/// The legend with rows of at most `room` in height altogether, each between 36 and 52 high.
 pub(super) fn legend(panel: &Panel, room: f64) -> Block {
     const HEAD: f64 = 62.0;
     let rows = legend_rows(&panel.legend, 8);
@@ -153,7 +153,7 @@ pub(super) fn legend(panel: &Panel, room: f64) -> Block {
     block
 }
 
-/// The scale bar, and of a plan the north arrow; its height does not depend on the scale.
+/// The scale bar, and for a plan the north arrow; its height does not depend on the scale.
 pub(super) fn scale_and_north(panel: &Panel, metres_a_pixel: f64) -> Block {
     const ROOM: f64 = 560.0;
     let mut block = Block { height: 172.0, ..Block::default() };
@@ -182,7 +182,7 @@ pub(super) fn scale_and_north(panel: &Panel, metres_a_pixel: f64) -> Block {
     block
 }
 
-/// A printed scale for the whole page on A3, three digits.
+/// The scale when the whole page is printed on A3, to three digits.
 fn paper_scale(metres_a_pixel: f64) -> String {
     let ratio = metres_a_pixel / super::paper::PAPER_METRES_A_PIXEL;
     let digits = 10_f64.powf((ratio.max(1e-9).log10().floor() - 2.0).max(0.0));
@@ -204,7 +204,7 @@ pub(super) fn thousands(value: f64) -> String {
     said
 }
 
-/// A length of 1, 2 or 5 times a power of ten metres, and how long it is on the page.
+/// A length of 1, 2 or 5 times a power of ten metres, and its length on the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaleBar {
     /// Metres.
@@ -248,13 +248,13 @@ impl ScaleBar {
     }
 }
 
-/// At most two decimals, and none in vain.
+/// A number with at most two decimals, without trailing zeros.
 fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Who computed it, and what that is worth.
+/// The footer: what computed the drawing, and how far to trust it.
 pub(super) fn footer(panel: &Panel) -> Block {
     let mut block = Block::default();
     let by = format!("Gnomon {}, tz {}", env!("CARGO_PKG_VERSION"), panel.tz);

@@ -11,14 +11,15 @@ use crate::view::{Surface, View};
 use glam::Vec4Swizzles as _;
 use rayon::prelude::*;
 
-/// The ground, which is not judged either; it needs no word in the legend.
+/// The ground, which is not judged either and has no entry in the legend.
 const GROUND: Rgb = [236, 234, 229];
 
-/// `surfaces.png`: the hours of sun on the patches that a camera or a side sees. `scene`'s mesh is that of what
-/// receives alone.
+/// `surfaces.png`: the hours of sun on the patches that a camera or a side sees. The mesh of `scene` contains only
+/// receivers.
 ///
 /// # Errors
-/// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder, and for a plan.
+/// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder, and for a
+/// plan.
 pub fn patches(scene: &FigureContext, view: &View, found: &PatchContext) -> Result<Vec<u8>, ExportError> {
     let size = view.size();
     check_surface(scene.surface, size)?;
@@ -43,7 +44,7 @@ fn labelled(scene: &FigureContext, found: &PatchContext) -> Panel {
     panel
 }
 
-/// What the colours mean: a head, and each of them, the most sun first.
+/// The meaning of the colours: a heading, and each of them, the most sun first.
 pub fn legend(found: &PatchContext) -> (String, Vec<(Rgb, String)>) {
     let bands = found.bands();
     let head = match found.hours.day_secs {
@@ -61,7 +62,7 @@ pub fn legend(found: &PatchContext) -> (String, Vec<(Rgb, String)>) {
     (head, bands.chain(rest).collect())
 }
 
-/// Per pixel its colour; the sky's is not looked at.
+/// The colour of each pixel. Those of the sky are not used.
 fn painted(scene: &FigureContext, lens: &PixelRays, found: &PatchContext) -> Vec<Rgb> {
     let (patches, bands, samples) = (found.patches, found.bands(), found.hours.samples);
     // the scene's faces are those of the components that receive

@@ -1,4 +1,5 @@
-//! The camera's colours and lines: a quiet model photograph, warm in the sun and cool in the shade.
+//! The colours and lines of a camera's picture: like a photograph of a plain model, warm in the sun and cool in the
+//! shade.
 
 use super::FigureContext;
 use super::components::Components;
@@ -9,16 +10,16 @@ use crate::view::{Camera, Elevation, Mask, Surface};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use rayon::prelude::*;
 
-/// What has colours of its own.
+/// Colours that replace those of the material.
 #[derive(Clone, Copy)]
 pub(super) struct OwnColours<'a> {
-    /// Components, in sun and shadow.
+    /// Components, shown in sun and shadow.
     pub(super) components: Option<&'a Components>,
-    /// Cells, instead of sun and shadow; not the sky.
+    /// Cells, shown instead of sun and shadow, without the sky.
     pub(super) of_cells: Option<&'a [Rgb]>,
 }
 
-/// Sun and shadow at one instant, as the camera sees them; of matt card where nothing is painted.
+/// Sun and shadow at one instant, as the camera sees them; like matt card where nothing has a colour of its own.
 pub(super) fn instant(
     scene: &FigureContext,
     lens: &PixelRays,
@@ -64,7 +65,7 @@ pub(super) fn instant(
     compose(fit, CellBorder::Smooth, &colours, |a, b| pen(scene, lens, a, b).map(quieter))
 }
 
-/// Cells in the colours given, with or without lines, under the sky of a day; that of the sky's cells is not asked.
+/// Cells in given colours, with or without lines, under a daytime sky. The colours of the sky's cells are not used.
 pub(super) fn painted(
     scene: &FigureContext,
     lens: &PixelRays,
@@ -87,7 +88,7 @@ pub(super) fn ground_tones(to_sun: DVec3) -> [Rgb; 2] {
     [1.0, 0.0].map(|share| display(at_night(to_sun, LOOK.ground * light.on(DVec3::Z, share))))
 }
 
-/// Without a sun all is dimmer and bluer.
+/// Dims and blues a colour for night.
 fn at_night(to_sun: DVec3, colour: DVec3) -> DVec3 {
     if to_sun.z > 0.0 { colour } else { colour * LOOK.night }
 }
@@ -99,9 +100,9 @@ pub(super) struct PixelRays {
     up: DVec3,
     size: [f64; 2],
     focus_m: f64,
-    /// The point from which everything is seen, or the direction to it where rays are parallel; homogeneous.
+    /// The viewer as a homogeneous point: the eye, or the direction to the viewer of a side.
     pub(super) viewer: DVec4,
-    /// Of a side along parallel rays: the middle of its picture, and a pixel's side, metres.
+    /// For a side, the middle of its picture and a pixel's side in metres.
     side: Option<(DVec3, f64)>,
 }
 
@@ -124,7 +125,7 @@ impl PixelRays {
         }
     }
 
-    /// Of a side along parallel rays.
+    /// The rays of a side, which are parallel.
     pub(super) fn of_side(side: &Elevation) -> PixelRays {
         let [right, up, forward] = side.axes();
         let half = side.half_size();
@@ -143,7 +144,7 @@ impl PixelRays {
         self.size[0] as usize
     }
 
-    /// A point on a pixel's ray: the eye, or of a side where the ray crosses the picture.
+    /// A point on a pixel's ray: the eye, or for a side the point at which the ray crosses the picture.
     pub(super) fn start(&self, column: usize, row: usize) -> DVec3 {
         let [x, y] = self.at(column, row);
         self.side.map_or(self.viewer.xyz(), |(target, _)| target + self.right * x + self.up * y)
@@ -153,7 +154,7 @@ impl PixelRays {
         [2.0 * (column as f64 + 0.5) / self.size[0] - 1.0, 1.0 - 2.0 * (row as f64 + 0.5) / self.size[1]]
     }
 
-    /// From the eye through a pixel's centre; one metre along it is one metre of depth.
+    /// The vector from the eye through a pixel's centre; along it, one metre of length is one metre of depth.
     pub(super) fn ray(&self, column: usize, row: usize) -> DVec3 {
         let [x, y] = self.at(column, row);
         if self.side.is_some() { self.forward } else { self.forward + self.right * x + self.up * y }
@@ -165,7 +166,7 @@ impl PixelRays {
         if depth.is_finite() { depth.max(0.0) * ray.length() } else { f64::INFINITY }
     }
 
-    /// 0 at the subject, towards 1 at many times its distance.
+    /// The share of haze: 0 at the subject, towards 1 at many times its distance.
     fn haze(&self, distance_m: f64) -> f64 {
         if self.side.is_some() {
             return 0.0;
@@ -184,14 +185,14 @@ pub(super) fn facing(scene: &FigureContext, face: u32, viewer: DVec4) -> DVec4 {
     if plane.dot(viewer) < 0.0 { -plane } else { plane }
 }
 
-/// What falls on a surface: sky from above, the sun where it is seen.
+/// The light on a surface: from the sky above, and from the sun where it is seen.
 struct SurfaceLight {
     to_sun: DVec3,
     sun: f64,
 }
 
 impl SurfaceLight {
-    /// Exposed so that level ground in the sun is nearly the paper's white, even at a low sun.
+    /// Exposes so that level ground in the sun is nearly the paper's white, even at a low sun.
     fn new(to_sun: DVec3) -> SurfaceLight {
         let sun = (LOOK.exposure - LOOK.sky - LOOK.sky_slope) / to_sun.z.max(LOOK.least_height);
         SurfaceLight { to_sun, sun }
@@ -210,7 +211,7 @@ fn sky(ray: DVec3) -> DVec3 {
     LOOK.horizon.lerp(LOOK.zenith, (height * LOOK.sky_rise).min(1.0).sqrt() * LOOK.sky_most)
 }
 
-/// To display values; the brightest tenth is pressed together instead of cut off.
+/// Converts to display values; the brightest tenth is compressed instead of cut off.
 fn display(colour: DVec3) -> Rgb {
     let (above, room) = (LOOK.pressed_above, LOOK.pressed_room);
     let soft = |value: f64| {

@@ -1,4 +1,4 @@
-//! From cells to the page's pixels: colours averaged by area, lines drawn where neighbouring cells part.
+//! Cells → the page's pixels: colours are averaged by area, and lines drawn where neighbouring cells differ.
 
 use super::scale::Rgb;
 use crate::look::LOOK;
@@ -15,17 +15,17 @@ pub(super) struct Pen {
 }
 
 impl Pen {
-    /// Against the sky or the ground, and where heights jump.
+    /// The pen against the sky or the ground, and where heights jump.
     pub(super) const OUTLINE: Pen = Pen { radius: 2.0, strength: LOOK.outline };
-    /// A step between parts of buildings.
+    /// The pen of a step between parts of buildings.
     pub(super) const STEP: Pen = Pen { radius: 1.4, strength: LOOK.step };
-    /// Before a camera, where buildings meet the ground.
+    /// The pen where buildings meet the ground, in a camera's picture.
     pub(super) const FOOT: Pen = Pen { radius: 1.2, strength: LOOK.foot };
-    /// Where two faces meet at an angle.
+    /// The pen where two faces meet at an angle.
     pub(super) const CREASE: Pen = Pen { radius: 0.9, strength: LOOK.crease };
 }
 
-/// A picture in the page's pixels, some rows at a time: the whole of a sheet is never held.
+/// A picture in the page's pixels, drawn some rows at a time, so that the whole sheet is never in memory.
 pub(super) trait Pixels: Sync {
     /// Columns and rows.
     fn size(&self) -> (u32, u32);
@@ -34,7 +34,7 @@ pub(super) trait Pixels: Sync {
     fn draw(&self, top: usize, into: &mut [Rgb]);
 }
 
-/// A picture that is held.
+/// A picture in memory.
 pub(super) struct PagePicture {
     /// Columns.
     pub width: u32,
@@ -55,7 +55,7 @@ impl Pixels for PagePicture {
     }
 }
 
-/// A raster of cells and the page pixels it is to fill.
+/// A raster of cells, and the page pixels that it fills.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     /// Columns and rows of cells.
@@ -65,7 +65,7 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// The largest picture of the raster's proportion within `room`.
+    /// The largest picture with the raster's proportion within `room`.
     pub(super) fn within(cells: (u32, u32), room: (f64, f64)) -> Fit {
         let (columns, rows) = (f64::from(cells.0.max(1)), f64::from(cells.1.max(1)));
         let scale = (room.0 / columns).min(room.1 / rows);
@@ -73,43 +73,43 @@ impl Fit {
         Fit { cells, pixels: (pixels(columns), pixels(rows)) }
     }
 
-    /// Page pixels a cell, across.
+    /// The page pixels per cell, across.
     pub(super) fn scale(&self) -> f64 {
         f64::from(self.pixels.0) / f64::from(self.cells.0.max(1))
     }
 }
 
-/// What lies between cells that are larger than pixels.
+/// How the border between cells that are larger than pixels is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CellBorder {
-    /// A border: a cell is one judgement, and the legend's colours stay exact.
+    /// A sharp border: each cell is one judgement, and the legend's colours stay exact.
     Sharp,
-    /// A blend, as between a photograph's pixels.
+    /// A blend, as between the pixels of a photograph.
     Smooth,
 }
 
-/// Pixel rows that one task draws.
+/// The pixel rows of one task.
 const BAND: usize = 64;
-/// So many pixel rows beside those that are drawn have lines that reach into them.
+/// How many pixel rows beside a task's have lines that reach into it.
 const REACH: usize = Pen::OUTLINE.radius as usize + 2;
-/// Cells that a task looks at in one go.
+/// The number of cells that a task reads at once.
 const AT_ONCE: usize = 1 << 18;
 
-/// Some rows of cells as they are to be drawn.
+/// Some rows of cells, ready to be drawn.
 #[derive(Default)]
 pub(super) struct Cells {
     /// Columns.
     width: usize,
-    /// A colour a cell, packed, so that equal ones are found at once.
+    /// The colour of each cell, packed, so that equal ones are found quickly.
     colours: Vec<u32>,
-    /// Borders on a cell's east side: row, column.
+    /// Borders on a cell's east side: row, column, pen.
     east: Vec<(u32, u32, Pen)>,
-    /// Borders on the south side of neighbours in a row: row, first column, the column beyond the last.
+    /// Borders on the south side of neighbours in a row: row, first column, the column after the last, pen.
     south: Vec<(u32, u32, u32, Pen)>,
 }
 
 impl Cells {
-    /// None yet, of so many columns.
+    /// No cells yet, with that many columns.
     pub(super) fn new(width: u32) -> Cells {
         Cells { width: width as usize, ..Cells::default() }
     }
@@ -119,7 +119,7 @@ impl Cells {
         &self.east
     }
 
-    /// Borders on the south side of neighbours in a row: row, first column, the column beyond the last, pen.
+    /// Borders on the south side of neighbours in a row: row, first column, the column after the last, pen.
     pub(super) fn south(&self) -> &[(u32, u32, u32, Pen)] {
         &self.south
     }
@@ -129,9 +129,9 @@ impl Cells {
         self.colours.extend(colours.map(|[r, g, b]| u32::from_le_bytes([r, g, b, 0])));
     }
 
-    /// As [`Cells::border`], where there is no line between cells of one key.
+    /// As [`Cells::border`], for cells with keys: there is no line between cells of equal keys.
     pub(super) fn border_of(&mut self, keys: &[u32], pen: impl Fn(usize, usize) -> Option<Pen>) {
-        /// Columns that are looked at in one go.
+        /// The number of columns that are compared at once.
         const AT_ONCE: usize = 32;
         let width = self.width;
         let rows = keys.len() / width.max(1);
@@ -154,7 +154,7 @@ impl Cells {
         }
     }
 
-    /// Asks for the line between each two neighbours of `rows` rows: west, east or north, south.
+    /// Requests the line between any two neighbours of `rows` rows: west and east, or north and south.
     pub(super) fn border(&mut self, rows: usize, pen: impl Fn(usize, usize) -> Option<Pen>) {
         for row in 0..rows {
             for column in 0..self.width {
@@ -163,7 +163,7 @@ impl Cells {
         }
     }
 
-    /// Asks for the lines on a cell's east and south side.
+    /// Requests the lines on a cell's east and south side.
     fn ask(&mut self, row: usize, column: usize, rows: usize, pen: impl Fn(usize, usize) -> Option<Pen>) {
         let cell = row * self.width + column;
         let (at, from) = (row as u32, column as u32);
@@ -184,7 +184,7 @@ impl Cells {
     }
 }
 
-/// A raster of cells that is drawn when it is asked for: `tell` tells of some rows of cells.
+/// A raster of cells that is drawn on demand: `tell` fills in some rows of cells.
 pub(super) struct LazyRaster<F> {
     fit: Fit,
     columns: Vec<CellSpan>,
@@ -199,7 +199,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> LazyRaster<F> {
         LazyRaster { fit, columns, rows, tell }
     }
 
-    /// All of it.
+    /// The whole picture in memory.
     fn picture(&self) -> PagePicture {
         let (width, height) = self.fit.pixels;
         let mut pixels = vec![LOOK.line; width as usize * height as usize];
@@ -207,7 +207,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> LazyRaster<F> {
         PagePicture { width, height, pixels }
     }
 
-    /// Rows of pixels whose cells are looked at in one go: no more cells than are worth it, or one row's.
+    /// The rows of pixels whose cells are read at once: as many as are worth it, or one row.
     fn at_once(fit: &Fit) -> usize {
         let rows = AT_ONCE / fit.cells.0.max(1) as usize;
         ((rows as f64 * f64::from(fit.pixels.1) / f64::from(fit.cells.1.max(1))) as usize).max(1)
@@ -242,7 +242,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> Pixels for LazyRaster<F> {
 }
 
 impl<F> LazyRaster<F> {
-    /// A row of pixels without its lines; the cells' rows begin with `first`.
+    /// Draws a row of pixels without its lines; the cells' rows begin with `first`.
     fn paint(&self, row: usize, first: usize, cells: &Cells, line: &mut [Rgb]) {
         let span = &self.rows[row];
         let of_row = |row: usize| &cells.colours[(row - first) * cells.width..][..cells.width];
@@ -263,7 +263,7 @@ impl<F> LazyRaster<F> {
     }
 }
 
-/// What a task takes at the most to draw so many cells, bytes: what they see, its heights, hours and colours.
+/// The most memory that a task takes to draw that many cells, bytes: what they see, their heights, hours and colours.
 pub(super) fn task_bytes(fit: &Fit) -> u64 {
     let rows_a_pixel = f64::from(fit.cells.1) / f64::from(fit.pixels.1.max(1));
     let at_once = LazyRaster::<fn(Range<usize>, &mut Cells)>::at_once(fit).min(BAND + 2 * REACH);
@@ -271,7 +271,8 @@ pub(super) fn task_bytes(fit: &Fit) -> u64 {
     rows * u64::from(fit.cells.0) * 32
 }
 
-/// Draws `colours`, one a cell, with the line that `pen` gives for each pair of neighbours (west, east or north, south).
+/// Draws `colours`, one per cell, with the line that `pen` returns for each pair of neighbours (west and east, or north
+/// and south).
 pub(super) fn compose(
     fit: Fit,
     between: CellBorder,
@@ -292,7 +293,7 @@ fn rgb(packed: u32) -> Rgb {
     [r, g, b]
 }
 
-/// The cells that a pixel covers along one axis: from, to (exclusive), and the shares of the first and the last.
+/// The cells that a pixel covers along one axis: from, to (exclusive), and the shares of the first and the last one.
 pub(super) struct CellSpan {
     pub cells: Range<usize>,
     first: f32,
@@ -319,7 +320,7 @@ pub(super) fn spans(cells: usize, pixels: usize, between: CellBorder) -> Vec<Cel
         .collect()
 }
 
-/// The two cells whose centres `at` lies between, each by its nearness.
+/// The two cells between whose centres `at` lies, each with its weight.
 fn blended(cells: usize, at: f64) -> CellSpan {
     let at = at.clamp(0.0, (cells - 1) as f64);
     let start = at as usize;
@@ -373,7 +374,7 @@ struct Ink {
 }
 
 impl Ink {
-    /// The lines between cells, whose rows begin with `first`.
+    /// Draws the lines between cells, whose rows begin with `first`.
     fn lines(&mut self, fit: Fit, first: usize, cells: &Cells) {
         let scale = [fit.pixels.0 as f32 / fit.cells.0 as f32, fit.pixels.1 as f32 / fit.cells.1 as f32];
         let x = |column: u32| column as f32 * scale[0];
@@ -386,7 +387,7 @@ impl Ink {
         }
     }
 
-    /// A stroke with round ends, along one axis; where strokes overlap the stronger one counts.
+    /// Draws a stroke with round ends, along one axis. Where strokes overlap, the stronger one counts.
     fn stroke(&mut self, from: [f32; 2], to: [f32; 2], pen: Pen) {
         let reach = pen.radius + 0.5;
         // rounding down and up are library calls on processors without an instruction for them
@@ -411,7 +412,7 @@ impl Ink {
     }
 }
 
-/// How far `at` lies outside of from..to.
+/// The distance of `at` from the range from..to.
 fn outside(at: f32, from: f32, to: f32) -> f32 {
     (from - at).max(at - to).max(0.0)
 }

@@ -1,4 +1,4 @@
-//! The plan's colours and lines: ground and roofs seen from above.
+//! The colours and lines of a plan: ground and roofs seen from above.
 
 use super::FigureContext;
 use super::picture::{CellBorder, Cells, Fit, LazyRaster, PagePicture, Pen, Pixels, compose};
@@ -55,12 +55,12 @@ pub(super) fn instant(scene: &FigureContext, cell_m: f64, mask: &Mask, fit: Fit)
     )
 }
 
-/// Colours of the cells, with neither relief nor lines, which would be taken for cells.
+/// The colours of the cells, without relief and lines, which would look like cells.
 pub(super) fn painted(of_cells: &[Rgb], fit: Fit) -> PagePicture {
     compose(fit, CellBorder::Sharp, of_cells, |_, _| None)
 }
 
-/// Hours of shadow after minus those before; what is gone keeps its lines.
+/// The hours of shadow after minus those before. What is gone keeps its lines.
 pub(super) fn difference<'a>(
     scenes: &'a [FigureContext; 2],
     of_cells: &'a [Rgb],
@@ -90,9 +90,9 @@ pub(super) fn difference<'a>(
     )
 }
 
-/// Colours by `flat`, of a cell's value and whether it is ground, as if all were level; `values` of some cells tells those
-/// counted from the first of them; slopes get their relief (of terrain and of roofs as strong as said), borders their
-/// lines, and `more` lines of some rows lie beside those.
+/// Colours by `flat`, of a cell's value and whether it is ground, as if all were level; `values` of some cells tells
+/// those counted from the first of them; slopes get their relief (of terrain and of roofs as strong as said), borders
+/// their lines, and `more` lines of some rows lie beside those.
 fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
     scene: &FigureContext<S>,
     cell_m: f64,
@@ -138,7 +138,7 @@ fn face(surface: &Surface, cell: usize) -> Option<usize> {
     (face < Surface::GROUND).then_some(face as usize)
 }
 
-/// The normal of the side that the plan sees; straight up where the face has no area.
+/// The normal of the side that the plan sees; straight up if the face has no area.
 fn upward(mesh: &Mesh, face: usize) -> DVec3 {
     // a plan crosses each face's border a few times: to find the planes of all faces would take longer
     let [a, b, c] = mesh.faces[face].map(|vertex| mesh.vertices[vertex as usize].as_dvec3());
@@ -152,7 +152,8 @@ fn upward(mesh: &Mesh, face: usize) -> DVec3 {
     }
 }
 
-/// Half-way up in the direction of the highest sun of the study, so that relief and shadows tell the same story.
+/// The direction of the light for relief, half-way between up and the highest sun of the study, so that relief and
+/// shadows agree.
 ///
 /// Maps light relief from the north-west, but here that would darken the very roofs that have most sun.
 fn relief_light<S>(scene: &FigureContext<S>) -> DVec3 {
@@ -162,7 +163,7 @@ fn relief_light<S>(scene: &FigureContext<S>) -> DVec3 {
     DVec3::new(sin, cos, 1.0) * std::f64::consts::FRAC_1_SQRT_2
 }
 
-/// 1 where level, less on slopes away from the light, a little more towards it.
+/// The factor of relief: 1 if level, less on slopes away from the light, a little more towards it.
 fn relief(normal: DVec3, light: DVec3, strength: f64) -> f64 {
     // Level roofs keep the legend's colours to the bit.
     if normal.z > 0.9999 {
@@ -179,8 +180,8 @@ fn shade(colour: Rgb, factor: f64) -> Rgb {
     colour.map(|part| (f64::from(part) * factor).round().min(255.0) as u8)
 }
 
-/// The line between two neighbours that see different things. The ground has no lines of its own but where it steps: a
-/// cliff, or the terrain's edge.
+/// The line between two neighbours that see different things. The ground has lines only where it steps: a cliff, or the
+/// terrain's edge.
 pub(super) fn pen<S>(scene: &FigureContext<S>, surface: &Surface, cell_m: f64, a: usize, b: usize) -> Option<Pen> {
     let mesh = scene.mesh;
     let east = b == a + 1;
@@ -205,7 +206,7 @@ pub(super) fn pen<S>(scene: &FigureContext<S>, surface: &Surface, cell_m: f64, a
     }
 }
 
-/// How much a face rises over `half` a cell; nothing for the ground.
+/// How much a face rises over half a cell; 0 for the ground.
 fn rise(normal: Option<DVec3>, half: DVec3) -> f64 {
     // A wall seen from above has no height to carry on with.
     let Some(normal) = normal.filter(|normal| normal.z >= 0.1) else {

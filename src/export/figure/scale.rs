@@ -1,4 +1,4 @@
-//! Which colour an hour of shadow has: bands of whole steps on an even, colour-blind-safe scale.
+//! The colour of an hour of shadow: bands of whole steps on an even scale that colour-blind people can read.
 
 /// An sRGB colour.
 pub type Rgb = [u8; 3];
@@ -21,18 +21,19 @@ const DAVOS_REVERSED: [Rgb; 11] = [
     [0, 5, 74],
 ];
 
-/// The part of the map in use: its light end is kept for no shadow at all, its dark end for lines drawn over it.
+/// The part of the map that is used: its light end is reserved for no shadow at all, its dark end for lines drawn over
+/// it.
 const LIGHTEST: f64 = 0.16;
 const DARKEST: f64 = 0.88;
 
-/// No shadow at all: the paper's own tone, so that sunny ground stays quiet.
+/// No shadow at all: the paper's own colour, so that sunny ground stays quiet.
 pub const NO_SHADOW: Rgb = [254, 253, 249];
 
-/// No sun at all: off the scale, so that it is not taken for a little of it.
-pub const NO_SUN: Rgb = [70, 66, 74];
+/// No sun at all: a colour off the scale, so that it is not taken for a little sun.
+pub(crate) const NO_SUN: Rgb = [70, 66, 74];
 
-/// More bands than this are hard to tell apart.
-pub const MOST_BANDS: u32 = 16;
+/// The greatest number of bands; more are hard to tell apart.
+pub(crate) const MOST_BANDS: u32 = 16;
 
 /// Round durations for bands wider than a step, seconds: from a second to a hundred days of daylight.
 const ROUND_SECS: [u32; 27] = [
@@ -47,12 +48,13 @@ pub struct Bands {
     pub band_secs: u32,
     /// The longest shadow there can be, seconds.
     pub day_secs: u32,
-    /// Per band its colour, the shortest shadow first.
+    /// The colour of each band, the shortest shadow first.
     pub colours: Vec<Rgb>,
 }
 
 impl Bands {
-    /// Bands of one `step_secs` where those are few enough, else of a round duration, a multiple of the step if there is one.
+    /// Bands of one `step_secs` if these are few enough, otherwise of a round duration, which is a multiple of the step
+    /// if one fits.
     pub fn new(step_secs: u32, day_secs: u32) -> Bands {
         let band_secs = band_secs(step_secs, day_secs, MOST_BANDS);
         let count = day_secs.div_ceil(band_secs);
@@ -76,8 +78,9 @@ impl Bands {
         self.colours.get(band).copied().unwrap_or(NO_SHADOW)
     }
 
-    /// The same colours for time in the sun, the lightest for the most: of seconds, each counted for every one of `samples`
-    /// that is seen. None at all has a colour of its own; a band holds its lower bound, the last one all of the daylight.
+    /// The same colours for time in the sun, the lightest for the most. `lit` is in seconds, counted once for every one
+    /// of `samples` that is seen. No sun at all has a colour of its own; a band contains its lower bound, the last one
+    /// all of the daylight.
     pub fn of_sun(&self, lit: u32, samples: u32) -> Rgb {
         if lit == 0 {
             return NO_SUN;
@@ -88,14 +91,14 @@ impl Bands {
         self.colours.get(last - band).copied().unwrap_or(NO_SUN)
     }
 
-    /// From and to, seconds; the last band ends with the daylight.
+    /// The bounds of a band, seconds; the last band ends with the daylight.
     pub fn bounds(&self, band: usize) -> (u32, u32) {
         let from = (band as u32).saturating_mul(self.band_secs);
         (from, from.saturating_add(self.band_secs).min(self.day_secs))
     }
 }
 
-/// The width of bands that are at most so many, seconds.
+/// The width of bands of which there are at most that many, seconds.
 pub(super) fn band_secs(step_secs: u32, all_secs: u32, most_bands: u32) -> u32 {
     let step = step_secs.max(1);
     let few = |secs: &u32| all_secs.div_ceil(*secs) <= most_bands;
@@ -114,7 +117,7 @@ fn colour(band: u32, count: u32) -> Rgb {
     mix(DAVOS_REVERSED[low], DAVOS_REVERSED[low + 1], at - low as f64)
 }
 
-/// From `a` (share 0) to `b` (share 1), in sRGB.
+/// A mixture of `a` (share 0) and `b` (share 1), in sRGB.
 pub(super) fn mix(a: Rgb, b: Rgb, share: f64) -> Rgb {
     std::array::from_fn(|i| (f64::from(a[i]) + (f64::from(b[i]) - f64::from(a[i])) * share).round() as u8)
 }

@@ -1,4 +1,4 @@
-//! A drawing for a screen: the sheet as it is for paper, in fewer pixels.
+//! A drawing for a screen: the sheet as on paper, in fewer pixels.
 
 use super::components::Components;
 use super::page::Sheet;
@@ -25,7 +25,7 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// As a PNG, compressed fast.
+    /// The drawing as a PNG, compressed fast.
     ///
     /// # Errors
     /// [`ExportError::Encode`] from the encoder.
@@ -36,8 +36,8 @@ impl Screen {
     }
 }
 
-/// As [`super::instant`], `width` pixels wide, 1 to [`WIDTH`], and as high as a sheet of that width is: each pixel is the
-/// mean of the sheet's under it.
+/// As [`super::instant`], `width` pixels wide, 1 to [`WIDTH`], and as high as a sheet of that width: each pixel is the
+/// mean of the sheet's pixels under it.
 ///
 /// # Errors
 /// As [`super::instant`].
@@ -64,8 +64,8 @@ fn on_screen(sheet: &Sheet, width: u32) -> Result<Screen, ExportError> {
     Ok(Screen { width, height, pixels })
 }
 
-/// What a view shows of sun and shadow without a sheet around it: a pixel a cell, row 0 first. Of what is `shown` over it
-/// there are the components' colours, in a camera's picture.
+/// What a view shows of sun and shadow without a sheet around it: one pixel per cell, row 0 first. Of `shown` only the
+/// components' colours apply, in a camera's picture.
 pub fn bare(scene: &FigureContext, view: &View, mask: &Mask, to_sun: DVec3, shown: &PictureExtras) -> Vec<Rgb> {
     let size = view.size();
     let fit = Fit { cells: size, pixels: size };

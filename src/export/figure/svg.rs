@@ -1,16 +1,16 @@
-//! A block of the page: SVG in its own coordinates, and how tall it is.
+//! A block of the page: SVG in its own coordinates, and its height.
 
 use super::scale::Rgb;
 use super::text::{self, FontWeight};
 use std::fmt::Write;
 
-/// Ink for text, for what stands behind it, for hair lines, and the one accent.
+/// The colours of text, of secondary text, of hair lines, and the one accent.
 pub(super) const INK: Rgb = [35, 38, 44];
 pub(super) const GRAY: Rgb = [104, 108, 115];
 pub(super) const HAIR: Rgb = [188, 184, 174];
 pub(super) const ACCENT: Rgb = [190, 82, 44];
 
-/// How a line of text looks.
+/// The style of a line of text.
 #[derive(Clone, Copy)]
 pub(super) struct LetterStyle {
     /// Page pixels.
@@ -29,13 +29,13 @@ impl LetterStyle {
     pub(super) const LABEL: LetterStyle = LetterStyle { size: 32.0, weight: FontWeight::Regular, colour: GRAY };
     pub(super) const FINE: LetterStyle = LetterStyle { size: 30.0, weight: FontWeight::Regular, colour: GRAY };
 
-    /// From one baseline to the next.
+    /// The distance from one baseline to the next.
     pub(super) fn leading(&self) -> f64 {
         (self.size * 1.28).round()
     }
 }
 
-/// Where the given x lies in a line.
+/// The part of a line that lies at the given x.
 #[derive(Clone, Copy)]
 pub(super) enum TextAnchor {
     Start,
@@ -43,7 +43,7 @@ pub(super) enum TextAnchor {
     End,
 }
 
-/// Part of the page.
+/// A part of the page.
 #[derive(Default)]
 pub(super) struct Block {
     pub svg: String,
@@ -52,7 +52,7 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// One line; `y` is its baseline.
+    /// Adds one line of text; `y` is its baseline.
     pub(super) fn text(&mut self, x: f64, y: f64, anchor: TextAnchor, style: LetterStyle, line: &str) {
         let anchor = match anchor {
             TextAnchor::Start => "start",
@@ -71,7 +71,7 @@ impl Block {
         ));
     }
 
-    /// Lines below what is there already, each at x; the block grows.
+    /// Adds lines of text below what is there, each at x; the block grows.
     pub(super) fn lines(&mut self, x: f64, style: LetterStyle, lines: &[String]) {
         for line in lines {
             let baseline = self.height + style.size;
@@ -88,7 +88,7 @@ impl Block {
         ));
     }
 
-    /// A rectangle's line, wholly outside of it.
+    /// A rectangle's line, completely outside of it.
     pub(super) fn frame(&mut self, [x, y, width, height]: [f64; 4], line: f64, colour: Rgb) {
         self.push(format_args!(
             "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{line}\"/>",
@@ -110,7 +110,7 @@ impl Block {
         self.push(format_args!("<polygon points=\"{list}\" fill=\"{}\"/>", hex(colour)));
     }
 
-    /// A line through points; none where there are none.
+    /// A line through points; nothing without points.
     pub(super) fn polyline(&mut self, points: &[[f64; 2]], line: f64, colour: Rgb) {
         if points.is_empty() {
             return;
@@ -126,7 +126,7 @@ impl Block {
         ));
     }
 
-    /// A circle's line.
+    /// The line of a circle.
     pub(super) fn ring(&mut self, x: f64, y: f64, radius: f64, line: f64, colour: Rgb) {
         self.push(format_args!(
             "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{line}\"/>",
@@ -134,19 +134,19 @@ impl Block {
         ));
     }
 
-    /// Another block, moved; this one's height stays.
+    /// Adds another block, moved; the height of this one stays.
     pub(super) fn place(&mut self, x: f64, y: f64, block: &Block) {
         self.push(format_args!("<g transform=\"translate({x:.1} {y:.1})\">{}</g>", block.svg));
     }
 
-    /// An element, or some.
+    /// Adds one or more elements.
     pub(super) fn push(&mut self, element: std::fmt::Arguments) {
         // Writing to a String cannot fail.
         let _ = self.svg.write_fmt(element);
     }
 }
 
-/// As SVG writes a colour.
+/// A colour in SVG's notation.
 pub(super) fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

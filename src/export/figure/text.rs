@@ -1,4 +1,4 @@
-//! Lines of letters: how wide they are, and how they are cut.
+//! Lines of text: how wide they are, and how they are shortened.
 
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
@@ -10,7 +10,7 @@ pub(super) enum FontWeight {
     Bold,
 }
 
-/// How wide a line is, in the unit of `size`; kerning, which only tightens, is left out.
+/// The width of a line, in the unit of `size`. Kerning, which only tightens, is left out.
 pub(super) fn width(text: &str, weight: FontWeight, size: f64) -> f64 {
     let face = match weight {
         FontWeight::Regular => notosans::REGULAR_TTF,
@@ -36,7 +36,7 @@ pub(super) fn clean(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The text in at most `most` lines of `room`; what does not fit ends in an ellipsis.
+/// Breaks the text into at most `most` lines of `room`. What does not fit becomes an ellipsis.
 pub(super) fn wrap(text: &str, weight: FontWeight, size: f64, room: f64, most: usize) -> Vec<String> {
     let fits = |line: &str| width(line, weight, size) <= room;
     let mut lines: Vec<String> = Vec::new();
@@ -58,7 +58,7 @@ pub(super) fn wrap(text: &str, weight: FontWeight, size: f64, room: f64, most: u
     lines.iter().map(|line| ellipsis(line, weight, size, room)).collect()
 }
 
-/// The line if it fits, else as much of it as does, and an ellipsis.
+/// The line if it fits, otherwise as much of it as fits, and an ellipsis.
 fn ellipsis(line: &str, weight: FontWeight, size: f64, room: f64) -> String {
     if width(line, weight, size) <= room {
         return line.to_owned();
@@ -76,8 +76,8 @@ fn ellipsis(line: &str, weight: FontWeight, size: f64, room: f64) -> String {
     format!("{}…", kept.trim_end())
 }
 
-/// Two names in as few letters as fit, and still told apart: without the folders that both begin with, then with an
-/// ellipsis in the middle, and where those are alike with one before what differs.
+/// Two names in few enough letters to fit, but still different: without the folders that both begin with, then with an
+/// ellipsis in the middle, or, if they are alike there, before the first difference.
 pub(super) fn told_apart(names: &[String; 2], fits: impl Fn(&str) -> bool) -> [String; 2] {
     let names = names.each_ref().map(|name| clean(name));
     if names.iter().all(|name| fits(name)) {
@@ -101,7 +101,7 @@ pub(super) fn told_apart(names: &[String; 2], fits: impl Fn(&str) -> bool) -> [S
     [one, other].map(|name| format!("…{}", &name[differs..]))
 }
 
-/// The name if it fits, else as much of its beginning and its end as does.
+/// The name if it fits, otherwise as much of its beginning and its end as fits.
 pub fn without_middle(name: &str, fits: impl Fn(&str) -> bool) -> String {
     if fits(name) {
         return name.to_owned();
@@ -114,13 +114,13 @@ pub fn without_middle(name: &str, fits: impl Fn(&str) -> bool) -> String {
     (0..letters.len()).rev().map(of).find(|cut| fits(cut)).unwrap_or_else(|| of(0))
 }
 
-/// What [`escape`] was given.
+/// Reverses [`escape`].
 pub(super) fn unescape(text: &str) -> String {
     let signs = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")];
     signs.into_iter().fold(text.to_owned(), |text, (written, sign)| text.replace(written, sign))
 }
 
-/// Text as XML wants it.
+/// Escapes text for XML.
 pub(super) fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {

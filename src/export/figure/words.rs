@@ -1,4 +1,4 @@
-//! How a drawing says things: places, times, durations, techniques.
+//! How a drawing words things: places, times, durations, techniques.
 
 use crate::choice::{Finder, Receivers, Settings};
 use crate::profile::Provenance;
@@ -15,7 +15,7 @@ pub(super) fn coordinates(place: &Place) -> String {
     format!("{}, {}", side(place.latitude_deg, 'N', 'S'), side(place.longitude_deg, 'E', 'W'))
 }
 
-/// A number of metres to four digits, and none in vain.
+/// A number of metres to four digits, without trailing zeros.
 pub(super) fn metres(value: f64) -> String {
     let decimals = 3.0 - value.abs().max(1e-9).log10().floor();
     // At least one, so that no whole number loses its zeros.
@@ -24,7 +24,7 @@ pub(super) fn metres(value: f64) -> String {
     format!("{} m", if text == "-0" { "0" } else { text }).replace('-', "−")
 }
 
-/// `0.00 m, models’ zero; 12.00 m below`, or `terrain; beyond it 312.00 m`: in one line of a panel.
+/// The ground in one line of a panel: `0.00 m, models’ zero; 12.00 m below`, or `terrain; beyond it 312.00 m`.
 pub(super) fn ground(ground: &Ground) -> String {
     if ground.kind == GroundKind::Terrain {
         return format!("terrain; beyond it {}", site::metres(ground.level)).replace('-', "−");
@@ -106,7 +106,7 @@ fn each_day(each: &EachDay) -> String {
     }
 }
 
-/// `CEST (UTC+2)`, or `UTC+3` where people have no letters for it.
+/// `CEST (UTC+2)`, or `UTC+3` if the zone has no abbreviation.
 pub(super) fn zone(time: &DateTime<Zone>) -> String {
     let secs = time.offset().fix().local_minus_utc();
     let (hours, minutes) = (secs.abs() / 3600, secs.abs() / 60 % 60);
@@ -130,10 +130,10 @@ pub(in crate::export) fn duration(secs: u32) -> String {
     if said.is_empty() { "0 s".to_owned() } else { said.join(" ") }
 }
 
-/// From here on minutes say nothing, seconds.
+/// The duration from which minutes are left out, seconds.
 pub(super) const MANY_HOURS_SECS: u32 = 100 * 3600;
 
-/// As [`duration`], many hours without minutes.
+/// As [`duration`]; long ones without minutes.
 pub(super) fn long_duration(secs: u32) -> String {
     if secs < MANY_HOURS_SECS { duration(secs) } else { format!("{} h", (f64::from(secs) / 3600.0).round()) }
 }
@@ -144,7 +144,7 @@ pub(super) fn hours(secs: u32, with_secs: bool) -> String {
     if with_secs { format!("{h}:{m:02}:{s:02}") } else { format!("{h}:{m:02}") }
 }
 
-/// `sunrise 06:35, noon 12:48, sunset 19:02`, or which kind of polar day it is.
+/// `sunrise 06:35, noon 12:48, sunset 19:02`, or the kind of polar day.
 pub(super) fn day(day: &Day) -> String {
     let noon = day.noon.as_ref().map(|noon| format!("noon {}", almanac(noon)));
     let parts = match day.polar {
@@ -159,7 +159,7 @@ pub(super) fn day(day: &Day) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-/// What drew, in words: technique, silhouettes, machine.
+/// What drew the answer, in words: technique, silhouettes, machine.
 pub(super) fn technique(drawn: &Provenance) -> String {
     let technique = drawn.technique.row().name;
     let silhouettes = drawn.finder.map(|finder| match finder {
@@ -192,7 +192,7 @@ pub(super) fn receivers(receivers: Receivers) -> &'static str {
     }
 }
 
-/// Whether and how the air bends the light.
+/// Whether refraction is included, and how it was computed.
 pub(super) fn refraction(refraction: bool, place: &Place) -> String {
     if refraction {
         let air = Air::standard(place.elevation_m);

@@ -1,8 +1,8 @@
-//! `surfaces.glb`: the model with its hours of sun as textures, a binary glTF 2.0 file that any viewer of models opens.
+//! `surfaces.glb`: the model with its hours of sun as textures, a binary glTF 2.0 file that any model viewer opens.
 //!
-//! A node a component, a primitive a page of the atlas; what does not receive is plain. The colours are the drawing's, without light and shade of the
-//! viewer's own (KHR_materials_unlit). Beside each page's colours lies a texture of the numbers: 16-bit gray, `extras` of
-//! the scene say how many seconds a unit is.
+//! It has one node per component and one primitive per page of the atlas; what does not receive is plain. The colours
+//! are those of the drawing, without the viewer's own light and shade (KHR_materials_unlit). Beside each page's colours
+//! lies a texture of the numbers in 16-bit gray; `extras` of the scene say how many seconds a unit is.
 
 use super::{Exposure, PatchContext, pages};
 use crate::export::ExportError;
@@ -23,13 +23,13 @@ const NEAREST: u32 = 9728;
 const LINEAR: u32 = 9729;
 const CLAMP_TO_EDGE: u32 = 33071;
 
-/// What this is, where it is refused.
+/// The name of this file in an error.
 const WHAT: &str = "surfaces";
 
-/// In a texture of numbers, what belongs to no patch.
+/// The value of a texel that belongs to no patch, in a texture of numbers.
 const NO_NUMBER: u16 = u16::MAX;
 
-/// The file.
+/// The content of the file.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where nothing receives, or where the file would be 4 GiB or larger.
@@ -79,7 +79,7 @@ fn refused(why: impl ToString) -> ExportError {
     ExportError::encode(WHAT, why)
 }
 
-/// So many seconds a unit of the textures of numbers, that the window's daylight fits.
+/// The seconds of a unit in the textures of numbers, so that the window's daylight fits.
 fn seconds_a_unit(found: &PatchContext) -> u32 {
     found.hours.day_secs.div_ceil(u32::from(NO_NUMBER) - 1).max(1)
 }
@@ -124,7 +124,7 @@ fn not_judged() -> Value {
     })
 }
 
-/// What the file is put together from.
+/// What the file is assembled from.
 #[derive(Default)]
 struct SurfaceFile {
     glb: GlbFile,
@@ -155,7 +155,8 @@ impl SurfaceFile {
         ])
     }
 
-    /// A component's patches, a primitive a page. Patches share no vertex, as each has its own place in its page.
+    /// A component's patches, one primitive per page. Patches share no vertices, since each has its own place in its
+    /// page.
     fn primitives(&mut self, found: &PatchContext, patches: &[Patch]) -> Vec<Value> {
         let mut of_pages: BTreeMap<u32, Vec<&Patch>> = BTreeMap::new();
         patches.iter().for_each(|patch| of_pages.entry(patch.page).or_default().push(patch));
@@ -175,7 +176,7 @@ impl SurfaceFile {
         of_pages.into_iter().map(primitive).collect()
     }
 
-    /// A component that does not receive, as it is.
+    /// A component that does not receive, unchanged.
     fn plain(&mut self, found: &PatchContext, component: &Component, material: usize) -> Value {
         let mesh = found.mesh;
         let mut positions = Vec::new();
@@ -193,7 +194,7 @@ impl SurfaceFile {
     }
 }
 
-/// A patch's faces, wound so that they look to the side that is judged.
+/// A patch's faces, wound so that their fronts are on the judged side.
 fn append(
     found: &PatchContext,
     patch: &Patch,

@@ -1,5 +1,5 @@
-//! Hours of sun on the model's patches as files: `surfaces.csv` for numbers, `surfaces.glb` for the eye. The drawing is
-//! [`figure::patches`](super::figure::patches).
+//! The hours of sun on the model's patches as files: `surfaces.csv` for numbers, `surfaces.glb` for the eye. The
+//! drawing is [`figure::patches`](super::figure::patches).
 
 mod glb;
 pub(super) mod pages;
@@ -16,25 +16,25 @@ use crate::sun::{Place, SunTrack};
 use crate::sunlight::{Exposure, PatchHours};
 use std::fmt::Write;
 
-/// The answer on patches, and what it is about.
+/// The answer on patches, and its context.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchContext<'a> {
-    /// Where on earth.
+    /// The place on Earth.
     pub place: &'a Place,
     /// The instants studied.
     pub track: &'a SunTrack,
-    /// Whose faces the patches hold.
+    /// The mesh to which the patches belong.
     pub mesh: &'a Mesh,
-    /// Per component of it whether it receives.
+    /// For each of its components, whether it receives.
     pub receives: &'a [bool],
-    /// The flat parts of what receives.
+    /// The patches of the receivers.
     pub patches: &'a Patches,
     /// Their time in the sun.
     pub hours: &'a PatchHours,
 }
 
 impl PatchContext<'_> {
-    /// The drawing's colours.
+    /// The bands of the drawing's colours.
     pub fn bands(&self) -> Bands {
         Bands::new(self.track.step_secs, self.hours.day_secs)
     }
@@ -49,8 +49,8 @@ impl PatchContext<'_> {
     }
 }
 
-/// `surfaces.csv`: for each component a line, whose patch is `all`, and after it a line for each of its patches, numbered
-/// from 1, the largest first. Lines end in CR LF (RFC 4180).
+/// `surfaces.csv`: for each component a line, whose patch is `all`, and after it a line for each of its patches,
+/// numbered from 1, the largest first. Lines end in CR LF (RFC 4180).
 ///
 /// Areas are square metres, hours those of sun; azimuths clockwise from true north, absent where a patch is level or
 /// where there are many; tilts 0 for what looks up, 90 for walls, 180 for what looks down; shares, 0 to 1, are the part
@@ -80,15 +80,15 @@ pub fn csv(found: &PatchContext) -> String {
     text
 }
 
-/// Degrees from 0 to below 360, so that north is written in one way.
+/// Degrees from 0 to below 360, so that north has one spelling.
 fn azimuth_text(azimuth_deg: f64) -> String {
     let hundredths = (azimuth_deg * 100.0).round().rem_euclid(36_000.0);
     // + 0 makes −0 and 0 one
     format!("{:.2}", hundredths / 100.0 + 0.0)
 }
 
-/// What it comes to, a line a component, the largest areas first; ends with a line break.
-pub fn summary(found: &PatchContext) -> String {
+/// The result, one line per component, the largest areas first; ends with a line break.
+pub(crate) fn summary(found: &PatchContext) -> String {
     let patches = found.patches;
     let mut text = format!(
         "{} patches, {} texels of {:.3} m; {} of daylight\n",
@@ -114,5 +114,5 @@ pub fn summary(found: &PatchContext) -> String {
     text
 }
 
-/// Components that are told on the terminal.
+/// The greatest number of components that the terminal lists.
 const MOST_LINES: usize = 12;

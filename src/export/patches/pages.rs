@@ -1,5 +1,5 @@
-//! The atlas as rasters: what texels came to, and between and around them what their neighbours did, so that no picture
-//! shows an edge where a texel's centre lies just beside its faces.
+//! The atlas as rasters. The texels have their own values, and the space between and around them has those of their
+//! neighbours, so that no picture shows an edge where a texel's centre lies just beside its faces.
 
 use super::PatchContext;
 use crate::export::figure::scale::{Bands, NO_SUN, Rgb};
@@ -8,16 +8,16 @@ use crate::sunlight::PatchHours;
 use glam::DVec3;
 use std::collections::VecDeque;
 
-/// What is seen of the answer: on which patch a face lies, and what each of its texels came to.
+/// The answer as it is seen: the patch of each face, and the value of each texel.
 pub struct Atlas {
-    /// Of each face of the components that receive, of these alone, its patch.
+    /// The patch of each face of the components that receive.
     pub patch_of: Vec<Option<u32>>,
-    /// Per page, row by row, seconds in the sun times samples, as [`PatchHours::lit`], or [`EMPTY`].
+    /// For each page, row by row, seconds in the sun times samples, as in [`PatchHours::lit`], or [`EMPTY`].
     pub(crate) pages: Vec<Vec<u32>>,
 }
 
 impl Atlas {
-    /// Of an answer.
+    /// The atlas of an answer.
     pub fn of(found: &PatchContext) -> Atlas {
         let patches = found.patches;
         let mut patch_of = vec![None; found.mesh.faces.len()];
@@ -32,14 +32,14 @@ impl Atlas {
         Atlas { patch_of, pages: pages(patches, found.hours) }
     }
 
-    /// The patch of a face, where that is its judged side which looks along `facing`.
+    /// The patch of a face, if the face's judged side looks along `facing`.
     pub fn patch<'a>(&self, patches: &'a Patches, face: u32, facing: DVec3) -> Option<&'a Patch> {
         let number = self.patch_of.get(face as usize).copied().flatten()?;
         let patch = &patches.list[number as usize];
         (patch.two_sided || patch.normal().dot(facing) > 0.0).then_some(patch)
     }
 
-    /// What the texel came to in which a point around [`Patches::origin`] lies, on a patch.
+    /// The value of the texel that contains a point around [`Patches::origin`], on a patch.
     pub fn lit(&self, patches: &Patches, patch: &Patch, point: DVec3) -> u32 {
         let place = patches.in_page(patch, point);
         // a pixel's centre may lie a hair beside the face that it sees
@@ -58,7 +58,7 @@ impl Atlas {
 /// A texel of a page that belongs to no patch.
 pub(crate) const EMPTY: u32 = u32::MAX;
 
-/// Per page, row by row, seconds in the sun times samples, as [`PatchHours::lit`], or [`EMPTY`].
+/// For each page, row by row, seconds in the sun times samples, as in [`PatchHours::lit`], or [`EMPTY`].
 pub(crate) fn pages(patches: &Patches, hours: &PatchHours) -> Vec<Vec<u32>> {
     let side = patches.page_size as usize;
     let mut pages = vec![vec![EMPTY; side * side]; patches.pages as usize];
@@ -76,7 +76,8 @@ pub(crate) fn pages(patches: &Patches, hours: &PatchHours) -> Vec<Vec<u32>> {
     pages
 }
 
-/// Gives what is empty within a patch's rectangle and its gutter the value of the texel that is the fewest steps away.
+/// Gives each empty texel within a patch's rectangle and its gutter the value of the texel that is the fewest steps
+/// away.
 fn spread(patch: &Patch, page: &mut [u32], side: usize, mut spreading: VecDeque<usize>) {
     let (left, right) = ((patch.x - GUTTER) as usize, (patch.x + patch.width + GUTTER) as usize);
     let (top, bottom) = ((patch.y - GUTTER) as usize, (patch.y + patch.height + GUTTER) as usize);

@@ -1,4 +1,4 @@
-//! Text in Latin 1, which the reader of XML does not know, as UTF-8.
+//! Text in Latin-1, which the XML reader does not know → UTF-8.
 
 use crate::formats::ModelFault;
 use crate::message::message;

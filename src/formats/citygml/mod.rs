@@ -1,7 +1,9 @@
-//! CityGML 2 and 3 → parts. The text is read event by event, and no tree is made of it; what is kept is the coordinates, and
-//! which geometry is of which object. The files of this folder, in the order of the flow: `latin` (older encodings), `tables`
-//! (what is kept), `scan` (events → tables), `polygon` (positions → rings), `objects` (which geometry of which objects stands
-//! there, and what references lead to).
+//! CityGML 2 and 3 → parts. The text is read event by event, without building a tree; kept are the coordinates, and
+//! which geometry belongs to which object.
+//!
+//! The files of this folder, in the order of the flow: `latin` (older encodings), `tables` (what is kept), `scan`
+//! (events → tables), `polygon` (positions → rings), `objects` (which geometries of which objects are taken, and where
+//! references lead).
 
 use super::city::CityBuilder;
 use super::crs::{NamedSystem, is_north_first, named_system};

@@ -1,4 +1,4 @@
-//! Which objects stand there, with which of their geometries, and what references lead to.
+//! Which objects are taken, with which of their geometries, and where references lead.
 
 use super::tables::{GmlGeometry, GmlMember, GmlMemberKind, GmlObject, GmlTables, NamedGml};
 use crate::formats::ModelFault;

@@ -1,4 +1,4 @@
-//! Positions of GML → rings.
+//! GML positions → rings.
 
 use super::tables::{GmlPolygon, GmlTables};
 use glam::DVec3;

@@ -1,4 +1,5 @@
-//! Events of XML → tables. Elements are known by their local names, which versions 2 and 3 share but for a few.
+//! XML events → tables. Elements are known by their local names, which are the same in versions 2 and 3 with few
+//! exceptions.
 
 use super::polygon::{OpenPolygon, add_positions};
 use super::tables::{GmlGeometry, GmlMember, GmlMemberKind, GmlObject, GmlTables, NamedGml};
@@ -15,7 +16,7 @@ const MOST_NAME_BYTES: usize = 1000;
 
 /// What an element is for the elements in it.
 enum ElementRole {
-    /// An object, or what may be one: it is one where a geometry is in it.
+    /// An object, or what may be one: it is one if it contains a geometry.
     Feature(GmlFeature),
     /// A property with the geometry of a feature.
     Property(GmlProperty),
@@ -27,9 +28,9 @@ enum ElementRole {
     /// A polygon, a patch or a triangle.
     Polygon,
     Ring,
-    /// Numbers or letters that are wanted.
+    /// Text that is wanted, numbers or letters.
     Text,
-    /// What is not looked into.
+    /// An element whose content is skipped.
     Skipped,
     /// Anything else.
     Other,

@@ -10,18 +10,18 @@ use std::ops::Range;
 pub(super) struct GmlTables {
     /// Corners of all polygons, as the file has them.
     pub points: Vec<DVec3>,
-    /// Where rings end in `points`.
+    /// The end of each ring in `points`.
     pub ends: Vec<usize>,
     pub polygons: Vec<GmlPolygon>,
-    /// What geometries are made of.
+    /// The members of geometries.
     pub members: Vec<GmlMember>,
     pub geometries: Vec<GmlGeometry>,
     pub objects: Vec<GmlObject>,
-    /// What `gml:id`s of geometries name.
+    /// The geometries to which `gml:id`s refer.
     pub ids: FxHashMap<String, NamedGml>,
     /// The first reference system that is named.
     pub system: Option<String>,
-    /// Geometries that name another.
+    /// The number of geometries that name another system.
     pub other_systems: u64,
     pub tally: LeftOutTally,
 }
@@ -57,7 +57,7 @@ pub(super) enum NamedGml {
 /// A geometry of an object, or of one of the surfaces around it.
 pub(super) struct GmlGeometry {
     pub object: usize,
-    /// `RoofSurface`; empty where it is the object's own.
+    /// `RoofSurface`; empty for the object's own geometry.
     pub surface: String,
     pub lod: u8,
     pub is_solid: bool,
@@ -69,8 +69,8 @@ pub(super) struct GmlObject {
     pub kind: String,
     pub id: String,
     pub name: Option<String>,
-    /// The number of its element, by which its parts name it.
+    /// The number of its element, by which its parts refer to it.
     pub serial: u64,
-    /// Elements that it is in, from the outermost, with their ids.
+    /// The elements around it, from the outermost, with their ids.
     pub around: Vec<(u64, String)>,
 }

@@ -87,9 +87,9 @@ pub(super) struct CityGeometry {
     pub boundaries: Boundaries,
     #[serde(default)]
     pub semantics: Option<FaceSemantics>,
-    /// Of an instance.
+    /// The template of an instance.
     pub template: Option<usize>,
-    /// Of an instance, row by row.
+    /// The matrix of an instance, row by row.
     #[serde(rename = "transformationMatrix")]
     pub matrix: Option<[f64; 16]>,
 }

@@ -1,5 +1,5 @@
 //! CityJSON 1.0 to 2.0 and CityJSONSeq → parts. The files of this folder, in the order of the flow: `document` (JSON →
-//! structure), `objects` (which geometry of which objects stands there), `surfaces` (boundaries → faces).
+//! structure), `objects` (which geometries of which objects are taken), `surfaces` (boundaries → faces).
 
 use super::city::CityBuilder;
 use super::crs::{is_north_first, named_system};

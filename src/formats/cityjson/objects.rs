@@ -1,4 +1,4 @@
-//! Which objects of a document stand there, and with which of their geometries.
+//! Which objects of a document are taken, and with which of their geometries.
 
 use super::document::{CityDocument, CityObject, VertexTransform};
 use super::surfaces::{CityShape, NO_SURFACES, Templates};
@@ -75,7 +75,7 @@ fn shapes<'a>(
     shapes
 }
 
-/// Of several, the highest that is solid, else the highest with surfaces.
+/// Of several, the highest that is solid, otherwise the highest with surfaces.
 fn best_of(shapes: &[CityShape<'_>]) -> Option<Rank> {
     shapes.iter().map(|shape| shape.rank).reduce(|best, next| if next > best { next } else { best })
 }

@@ -30,7 +30,7 @@ pub(super) struct CityShape<'a> {
     transform: VertexTransform,
     /// Of an instance.
     stands: Option<DMat4>,
-    /// How good it is.
+    /// Its rank among the object's geometries.
     pub rank: Rank,
     /// How many lists are around a face.
     depth: usize,

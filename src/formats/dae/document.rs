@@ -1,4 +1,4 @@
-//! What a Collada file says, by its ids.
+//! The contents of a Collada file, by their ids.
 
 use super::effect::DaeEffect;
 use crate::formats::face_cutter::FaceCutter;
@@ -39,11 +39,11 @@ pub(super) struct DaeGeometry {
 
 /// A node.
 pub(super) struct DaeNode {
-    /// Its name, else its id; empty where it has neither.
+    /// Its name, otherwise its id; empty if it has neither.
     pub name: String,
     pub parent_from_node: DAffine3,
     pub children: Vec<usize>,
-    /// Ids of nodes that stand here, too.
+    /// The ids of nodes that are instantiated here.
     pub instances: Vec<String>,
     pub geometries: Vec<GeometryInstance>,
     /// Whether it is placed in a way that is not read, as cameras are.
@@ -62,11 +62,11 @@ pub(super) struct DaeDocument {
     pub unit_m: Option<f64>,
     pub up: Option<DaeUp>,
     pub geometries: FxHashMap<String, DaeGeometry>,
-    /// Of all libraries and scenes.
+    /// The nodes of all libraries and scenes.
     pub nodes: Vec<DaeNode>,
     pub node_of: FxHashMap<String, usize>,
     pub scenes: Vec<DaeScene>,
-    /// The id of the scene that stands there.
+    /// The id of the scene that is shown.
     pub scene: Option<String>,
     pub materials: FxHashMap<String, DaeMaterial>,
     pub effects: FxHashMap<String, DaeEffect>,

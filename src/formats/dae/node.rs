@@ -1,4 +1,4 @@
-//! Nodes: where they stand, and what is below them.
+//! Nodes: their transforms, and what is below them.
 
 use super::document::{DaeDocument, DaeNode, GeometryInstance};
 use super::xml::{DaeXml, attribute, local_id};

@@ -1,4 +1,4 @@
-//! Elements of an XML text, one after the other. A function that is given an element reads to the element's end.
+//! Elements of an XML text, one after another. A function that is given an element reads to the element's end.
 
 use crate::formats::left_out::label;
 use crate::formats::source::{number, words};

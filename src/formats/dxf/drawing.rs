@@ -1,4 +1,4 @@
-//! What a DXF file says: its layers, its blocks, and what stands in the model space.
+//! The contents of a DXF file: its layers, its blocks, and what stands in the model space.
 
 use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::LeftOutTally;
@@ -11,7 +11,7 @@ pub(super) struct DxfLayer {
     pub name: String,
     pub is_frozen: bool,
     pub is_off: bool,
-    /// Entities that were left out as it is frozen or off.
+    /// The number of entities that were left out because the layer is frozen or off.
     pub left_out: u64,
 }
 
@@ -31,11 +31,12 @@ pub(super) struct LayerTriangles {
 pub(super) struct DxfInsert {
     pub layer: u32,
     pub block: String,
-    /// World from the block's coordinates, its base point not yet taken away, and before the step to a row and a column.
+    /// Transforms the block's coordinates to the world, before its base point is subtracted, and before the step to a
+    /// row and a column.
     pub world_from_block: DAffine3,
     pub columns: u64,
     pub rows: u64,
-    /// From one to the next, in the coordinates that the insert stands in.
+    /// The step from one column to the next, in the coordinates in which the insert stands.
     pub column_step: DVec3,
     pub row_step: DVec3,
 }
@@ -68,7 +69,7 @@ impl DxfBlock {
 
 /// What a file says.
 pub(super) struct Drawing {
-    /// By number; the first is `0`.
+    /// The layers by number; the first is `0`.
     pub layers: Vec<DxfLayer>,
     pub layer_of: FxHashMap<String, u32>,
     pub blocks: FxHashMap<String, DxfBlock>,
@@ -76,11 +77,11 @@ pub(super) struct Drawing {
     pub unit: Option<i64>,
     pub left_out: LeftOutTally,
     pub cutter: FaceCutter,
-    /// Bodies whose shape is ACIS's.
+    /// The number of bodies whose shape is stored as ACIS.
     pub acis: u64,
-    /// Polylines that have a width, which is not read.
+    /// The number of polylines that have a width, which is not read.
     pub wide: u64,
-    /// Closed outlines with a thickness: walls without a lid.
+    /// The number of closed outlines with a thickness: walls without a lid.
     pub lidless: u64,
     /// Triangles of all blocks, each once.
     pub triangles: u64,

@@ -1,4 +1,4 @@
-//! What one entity of a DXF file says: its groups, up to the next entity.
+//! One entity of a DXF file: its groups, up to the next entity.
 
 use super::group::{DxfGroup, DxfGroups, cut_off};
 use crate::message::Message;

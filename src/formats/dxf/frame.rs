@@ -1,4 +1,5 @@
-//! The axes of what is drawn in a plane of its own: DXF gives only the plane's normal, and an "arbitrary axis algorithm".
+//! The axes of an entity that is drawn in a plane of its own. DXF gives only the plane's normal; its "arbitrary axis
+//! algorithm" finds the axes.
 
 use glam::{DMat3, DVec3};
 

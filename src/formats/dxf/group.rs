@@ -1,4 +1,4 @@
-//! The bytes of a DXF file → groups: a code, and a value of the type that the code has.
+//! The bytes of a DXF file → groups: a code, and a value of the type that belongs to the code.
 
 use crate::formats::source::{TextLines, number, text};
 use crate::message::{Message, message};

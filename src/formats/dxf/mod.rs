@@ -1,8 +1,9 @@
 //! DXF, ASCII or binary → parts: one per layer, and per block and layer.
 //!
-//! The reader is our own: the crate `dxf` keeps whole drawings of all entities as structs, and knows neither MESH nor what of
-//! a file it passed over. `group` reads codes and values, `sections` the sections, `fields` an entity, `entity`,
-//! `outline` and `polyline` turn it into triangles, `frame` has the axes of what is drawn in a plane of its own, and `place` puts blocks where they are inserted.
+//! The reader is our own: the crate `dxf` keeps whole drawings of all entities as structs, does not know MESH, and does
+//! not report what it skipped. `group` reads codes and values, `sections` the sections, `fields` an entity; `entity`,
+//! `outline` and `polyline` turn it into triangles; `frame` has the axes of planes, and `place` puts blocks where they
+//! are inserted.
 
 mod drawing;
 mod entity;

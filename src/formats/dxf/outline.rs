@@ -1,4 +1,4 @@
-//! What is drawn in a plane → the walls that its thickness makes of it.
+//! An outline in a plane, and its thickness → walls.
 
 use super::faces::EntityFaces;
 use super::fields::DxfFields;

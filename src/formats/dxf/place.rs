@@ -1,4 +1,4 @@
-//! A drawing's blocks where they are inserted → parts.
+//! A drawing's blocks, where they are inserted → parts.
 
 use super::drawing::{Drawing, DxfBlock, DxfLayer, LAYER_0};
 use super::entity::NO_ACIS;

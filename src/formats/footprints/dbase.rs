@@ -1,4 +1,4 @@
-//! The attributes of a shapefile: a table of dBASE, of which the wanted columns are read.
+//! The attributes of a shapefile: a dBASE table, of which the wanted columns are read.
 
 use super::flatbuffer::bytes_at;
 use super::tags::FootprintTags;

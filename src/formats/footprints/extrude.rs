@@ -2,18 +2,18 @@
 
 use super::tags::{FootprintTags, Rise};
 use super::{Footprint, RingPolygon, names_of};
-use crate::formats::face_cutter::{FaceCutter, Uncut, ring_area};
+use crate::formats::face_cutter::{CutFault, FaceCutter, ring_area};
 use crate::formats::left_out::LeftOutTally;
 use crate::mesh::Part;
 use glam::{DVec2, DVec3};
 
 /// A building or a part of one, cut into triangles.
 pub(super) struct FootprintOutline {
-    /// What is said of it.
+    /// Its attributes.
     pub tags: FootprintTags,
     number: u64,
     rise: Rise,
-    /// Its polygons with an area, all turned counter-clockwise, holes clockwise.
+    /// Its polygons with an area: outer rings counter-clockwise, holes clockwise.
     pub polygons: Vec<FlatPolygon>,
     /// Whether one of them crosses itself.
     pub crosses: bool,
@@ -21,9 +21,9 @@ pub(super) struct FootprintOutline {
 
 /// One polygon of an outline.
 pub(super) struct FlatPolygon {
-    /// Of all rings.
+    /// The corners of all rings.
     pub corners: Vec<DVec2>,
-    /// Where each ring ends.
+    /// The end of each ring.
     pub ends: Vec<usize>,
     /// Counter-clockwise.
     triangles: Vec<[u32; 3]>,
@@ -75,7 +75,7 @@ impl FootprintOutline {
 
 impl FlatPolygon {
     /// The polygon, and whether its triangles are all that it encloses.
-    fn cut(polygon: &RingPolygon, cutter: &mut FaceCutter) -> Result<(Self, bool), Uncut> {
+    fn cut(polygon: &RingPolygon, cutter: &mut FaceCutter) -> Result<(Self, bool), CutFault> {
         let foot = polygon.points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
         let (mut corners, mut ends) = (Vec::new(), Vec::new());
         let mut start = 0;
@@ -91,7 +91,7 @@ impl FlatPolygon {
         let level: Vec<DVec3> = corners.iter().map(|corner| corner.extend(0.0)).collect();
         let cut = cutter.cut(&level, &ends)?;
         if !foot.is_finite() {
-            return Err(Uncut::NoPoint);
+            return Err(CutFault::NoPoint);
         }
         let is_exact = cut.is_exact;
         let triangles = cut.triangles.to_vec();

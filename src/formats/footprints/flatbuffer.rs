@@ -1,4 +1,5 @@
-//! Tables of FlatBuffers, as far as FlatGeobuf needs them. Every offset is checked: what leads out of the bytes is not there.
+//! Tables of FlatBuffers, as far as FlatGeobuf needs them. Every offset is checked; what an offset outside of the bytes
+//! would lead to counts as absent.
 
 /// A table in some bytes.
 #[derive(Clone, Copy)]

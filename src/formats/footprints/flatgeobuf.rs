@@ -1,4 +1,4 @@
-//! FlatGeobuf: a header, an index that is skipped, and features, each a FlatBuffer with its length before it.
+//! FlatGeobuf: a header, an index that is skipped, and features, each a FlatBuffer preceded by its length.
 
 use super::flatbuffer::{FlatTable, bytes_at};
 use super::tags::FootprintTags;

@@ -1,4 +1,4 @@
-//! One footprint as a file has it, and what it is called.
+//! One footprint as its file has it, and its names.
 
 use super::tags::FootprintTags;
 use crate::formats::left_out::label;
@@ -18,7 +18,7 @@ pub(super) struct RingPolygon {
 pub(super) struct Footprint {
     pub polygons: Vec<RingPolygon>,
     pub tags: FootprintTags,
-    /// From 1, in the file.
+    /// Its number in the file, from 1.
     pub number: u64,
 }
 

@@ -1,4 +1,4 @@
-//! GeoJSON, one document or several after each other.
+//! GeoJSON: one document, or several in sequence.
 
 use super::tags::FootprintTags;
 use super::{Footprints, NO_AREA, RingPolygon};

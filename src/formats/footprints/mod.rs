@@ -1,10 +1,10 @@
 //! Outlines of buildings with their heights → blocks with flat roofs: GeoJSON, FlatGeobuf and shapefiles.
 //!
-//! Outlines keep the coordinates of their file, be they degrees or those of a map: only what does not depend on them is
-//! found here, and `site` brings every corner to its place. The files of this folder, in the order of the flow: `geojson`,
-//! `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (the attributes of an outline, and
-//! lengths as people write them), `footprint` (one outline, and its names), `overlap` (which outlines their parts replace),
-//! `extrude` (outlines → blocks).
+//! Outlines keep the coordinates of their file, whether degrees or those of a map. Everything here is independent of
+//! which they are, and `site` brings every corner to its place. The files of this folder, in the order of the flow:
+//! `geojson`, `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (the attributes of an
+//! outline, and lengths as people write them), `footprint` (one outline, and its names), `overlap` (which outlines are
+//! replaced by their parts), `extrude` (outlines → blocks).
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted};

@@ -1,7 +1,7 @@
-//! Which outlines of buildings their parts replace.
+//! Finds the outlines of buildings that are replaced by their parts.
 //!
-//! OpenStreetMap has a building as an outline and, where somebody drew it more closely, as parts within it, each with its own
-//! height. Both at once would give the building its greatest height everywhere.
+//! OpenStreetMap has a building as an outline and, where somebody drew it in more detail, as parts within it, each with
+//! its own height. Both together would give the building its greatest height everywhere.
 
 use super::extrude::{FlatPolygon, FootprintOutline};
 use glam::DVec2;
@@ -17,16 +17,16 @@ const SAMPLES: usize = 24;
 const MOST_ABOVE: usize = 64;
 
 /// What parts do to outlines.
-pub(super) struct Replaced {
-    /// Numbers of the outlines that do not stand there.
+pub(super) struct Replacements {
+    /// The numbers of the outlines that are replaced completely.
     pub whole: FxHashSet<usize>,
-    /// How many are covered in part, and stand.
+    /// The number of outlines that are covered in part, and kept.
     pub partly: usize,
 }
 
 /// Which outlines are covered by parts.
-pub(super) fn replaced_by_parts(outlines: &[FootprintOutline]) -> Replaced {
-    let mut replaced = Replaced { whole: FxHashSet::default(), partly: 0 };
+pub(super) fn replaced_by_parts(outlines: &[FootprintOutline]) -> Replacements {
+    let mut replaced = Replacements { whole: FxHashSet::default(), partly: 0 };
     if !outlines.iter().any(|outline| outline.tags.is_part()) {
         return replaced;
     }

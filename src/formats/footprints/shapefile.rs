@@ -1,4 +1,4 @@
-//! Shapefiles: polygons with the attributes and the reference system that lie beside them, and bodies of MultiPatch.
+//! Shapefiles: polygons with the attributes and the reference system from the files beside them, and MultiPatch bodies.
 
 use super::dbase::AttributeTable;
 use super::flatbuffer::bytes_at;

@@ -1,4 +1,4 @@
-//! The attributes of a footprint, by OpenStreetMap's keys; and lengths as people write them.
+//! The attributes of a footprint, by OpenStreetMap's keys, and lengths as people write them.
 
 /// Metres that a storey is guessed to be high.
 pub(super) const STOREY_M: f64 = 3.0;
@@ -19,7 +19,7 @@ pub(super) struct FootprintTags {
     location: Option<String>,
     street: Option<String>,
     house: Option<String>,
-    /// What people call it.
+    /// Its name for people.
     pub name: Option<String>,
     /// The file's own number of it.
     pub id: Option<String>,
@@ -31,18 +31,18 @@ pub(super) struct Rise {
     pub bottom_m: f64,
     pub top_m: f64,
     pub from: HeightSource,
-    /// Whether the bottom is guessed from levels.
+    /// Whether the bottom is derived from levels.
     pub bottom_is_guessed: bool,
 }
 
 /// What says how high a block is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum HeightSource {
-    /// The file.
+    /// The height is in the file.
     Said,
-    /// Guessed from its storeys.
+    /// The height is derived from the storeys.
     Levels,
-    /// The user, for all footprints without a height.
+    /// The height is the user's, for all footprints without one.
     Default,
 }
 
@@ -66,7 +66,7 @@ impl FootprintTags {
 
     /// What GDAL puts the other keys of OpenStreetMap into: `"key"=>"value","key"=>"value"`.
     fn set_others(&mut self, text: &str) {
-        let mut strings = Quoted(text);
+        let mut strings = QuotedStrings(text);
         while let (Some(key), Some(value)) = (strings.next(), strings.next()) {
             if normal(&key) != "other_tags" {
                 self.set(&key, &value);
@@ -198,9 +198,9 @@ fn number(text: &str) -> Option<f64> {
 }
 
 /// The strings in quotes of a text; a backslash takes the next letter as it is.
-struct Quoted<'a>(&'a str);
+struct QuotedStrings<'a>(&'a str);
 
-impl Iterator for Quoted<'_> {
+impl Iterator for QuotedStrings<'_> {
     type Item = String;
 
     fn next(&mut self) -> Option<String> {

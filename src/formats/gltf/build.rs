@@ -1,4 +1,4 @@
-//! Placed nodes and their meshes → parts in the world, and which of their materials light passes.
+//! Placed nodes and their meshes → parts in the world, and which of their materials are see-through.
 
 use super::accessor::Accessors;
 use super::buffers::Buffers;
@@ -26,9 +26,9 @@ const ABSENT: u32 = u32::MAX;
 pub(super) struct BuiltScene {
     /// One part per node and material, in the order of the scene.
     pub parts: Vec<Part>,
-    /// What each part is, where one is not a building.
+    /// The kind of each part, if one of them is not a building.
     pub kinds: Vec<PartKind>,
-    /// Each name once.
+    /// The see-through materials, each name once.
     pub see_through: Vec<SeeThrough>,
 }
 

@@ -1,4 +1,4 @@
-//! How coarse the numbers of a file's corners are, where they are so coarse that a note says it.
+//! How coarsely the corners' numbers are stored, where that is coarse enough for a note.
 
 use super::reader::Reader;
 use crate::mesh::CornerPrecision;

@@ -1,4 +1,5 @@
-//! The file's bytes → its JSON and, in a `.glb`, its binary chunk. The content decides, not the file's name.
+//! The file's bytes → its JSON and, in a `.glb`, its binary chunk. The content decides which it is, not the file's
+//! name.
 
 use super::Fault;
 use std::fs::File;
@@ -15,9 +16,9 @@ const CHUNK_HEADER: usize = 8;
 
 /// The two halves of a model file.
 pub(super) struct Container<'a> {
-    /// The structure.
+    /// The JSON.
     pub json: &'a [u8],
-    /// What buffer 0 holds in a `.glb`.
+    /// The content of buffer 0 in a `.glb`.
     pub binary: Option<&'a [u8]>,
 }
 

@@ -1,8 +1,8 @@
-//! The JSON → the structure of what casts. Textures, images, cameras and animations are not even parsed.
+//! The JSON → the structure of what casts. Textures, images, cameras and animations are not parsed.
 //!
-//! `gltf::json` reads meshes, accessors, views and buffers. Nodes are our own, since it keeps transforms in `f32`, which
-//! far from the origin, at map coordinates, is steps of 25 cm; scenes and materials are, since it refuses scenes
-//! without nodes and broken textures.
+//! `gltf::json` reads meshes, accessors, views and buffers. Nodes are our own, since it keeps transforms in `f32`,
+//! whose steps are 25 cm at map coordinates far from the origin. Scenes and materials are our own, since it refuses
+//! scenes without nodes and broken textures.
 
 use super::Fault;
 use super::material::Material;
@@ -17,8 +17,8 @@ use std::collections::BTreeMap;
 /// Bytes in a name; every component carries the names of its node, mesh and material.
 const MAX_NAME_BYTES: usize = 1000;
 
-/// Extensions about how surfaces look, sound, are described or answer a hand, by how their names begin: whatever they say,
-/// the triangles stay the same.
+/// Extensions about how surfaces look, sound, are described or answer a hand, by how their names begin: whatever they
+/// say, the triangles stay the same.
 const HARMLESS: [&str; 25] = [
     "KHR_materials_",
     "EXT_materials_",
@@ -110,7 +110,7 @@ pub(super) struct DocumentScene {
 pub(super) struct Skin {
     #[serde(default)]
     pub joints: Vec<usize>,
-    /// An accessor.
+    /// The index of an accessor.
     pub inverse_bind_matrices: Option<usize>,
 }
 
@@ -122,10 +122,10 @@ pub(super) struct Node {
     weights: Option<Vec<f32>>,
     #[serde(default)]
     pub children: Vec<usize>,
-    /// Column by column.
+    /// The matrix, column by column.
     pub matrix: Option<Box<[f64; 16]>>,
     pub translation: Option<[f64; 3]>,
-    /// x, y, z, w.
+    /// The rotation as a quaternion x, y, z, w.
     pub rotation: Option<[f64; 4]>,
     pub scale: Option<[f64; 3]>,
     #[serde(default)]
@@ -158,7 +158,7 @@ impl Node {
 /// Where copies of a node's mesh stand.
 #[derive(Deserialize)]
 pub(super) struct Instancing {
-    /// Accessors by name.
+    /// The accessors, by the names of their attributes.
     pub attributes: BTreeMap<String, usize>,
 }
 
@@ -192,7 +192,7 @@ impl Document {
         self.extensions_required.iter().map(String::as_str).filter(|name| is_harmless(name))
     }
 
-    /// The default weights of a node's morph targets: its own, else its mesh's.
+    /// The default weights of a node's morph targets: its own, otherwise its mesh's.
     pub(super) fn weights(&self, node: usize, mesh: usize) -> &[f32] {
         let own = self.nodes.get(node).and_then(|node| node.weights.as_deref());
         own.or_else(|| self.meshes.get(mesh)?.weights.as_deref()).unwrap_or_default()
@@ -226,7 +226,7 @@ impl Document {
         given(&self.scenes.get(scene)?.name)
     }
 
-    /// A node's name, else its mesh's, else its number.
+    /// A node's name, otherwise its mesh's, otherwise its number.
     pub(super) fn node_name(&self, node: usize) -> String {
         let of_mesh = || self.mesh_name(self.nodes.get(node)?.mesh?);
         let own = self.nodes.get(node).and_then(|node| given(&node.name));
@@ -243,7 +243,7 @@ impl Document {
         self.materials.get(material).is_some_and(|material| material.is_see_through(has_faded_vertices))
     }
 
-    /// A material's name, else its number; `default` where a primitive names none.
+    /// A material's name, otherwise its number; `default` where a primitive names none.
     pub(super) fn material_name(&self, material: Option<usize>) -> String {
         let Some(index) = material else {
             return "default".into();

@@ -1,6 +1,6 @@
 //! KHR_draco_mesh_compression: a primitive's compressed bytes → the elements of its accessors.
 //!
-//! The decoder is `draco-core`, in Rust alone. What it is given is anybody's bytes, so that it is caught where it panics.
+//! The decoder is `draco-core`, which is Rust alone. Its input may be anybody's bytes, so a panic in it is caught.
 
 use super::document::Document;
 use super::{Fault, MAX_TRIANGLES};
@@ -18,7 +18,7 @@ const DRACO: &str = "KHR_draco_mesh_compression";
 /// The elements of an accessor, one behind the other.
 pub(super) struct UnpackedElements {
     pub bytes: Vec<u8>,
-    /// From one number to the next, where they were rounded before they were packed.
+    /// The step from one number to the next, if they were rounded before they were packed.
     pub step: Option<f64>,
 }
 

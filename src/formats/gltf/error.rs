@@ -1,11 +1,11 @@
-//! What can be wrong with a glTF file: each fault names the thing and the way out.
+//! What can be wrong with a glTF file. Each fault names the thing and says what to do.
 
 use super::{MAX_COMPONENTS, MAX_TRIANGLES};
 
 /// What is wrong with a glTF file.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
-    /// The operating system does not give the file.
+    /// The operating system does not let the file be read.
     #[error("cannot be read: {0}")]
     Unreadable(std::io::Error),
     /// A folder, a pipe or a device.
@@ -14,7 +14,7 @@ pub enum Fault {
     /// Larger than any glTF container.
     #[error("has {0} bytes; a model may have 4 GiB: export it in parts or with less detail")]
     TooLarge(u64),
-    /// Another format, or none.
+    /// The file is of another format, or of none.
     #[error("is not glTF, though its name says so; it is damaged or of another format: copy or export it again")]
     NotGltf,
     /// The binary container contradicts itself.
@@ -23,7 +23,7 @@ pub enum Fault {
     /// The JSON is not JSON, or not glTF's.
     #[error("its JSON is damaged ({0}): export it again")]
     Json(serde_json::Error),
-    /// glTF 1.0, or one that is not written yet.
+    /// glTF 1.0, or a version that does not exist yet.
     #[error("is glTF {0}, and Gnomon reads glTF 2.0: export it as glTF 2.0")]
     Version(String),
     /// An extension without which the geometry would be wrong.
@@ -66,7 +66,7 @@ pub enum Fault {
         /// Bytes in it.
         holds: u64,
     },
-    /// A name that no one can have meant; names are copied into every component.
+    /// A name so long that nobody can have meant it; names are copied into every component.
     #[error("{what} has a name of {bytes} bytes; a name may have 1000: shorten it and export again")]
     LongName {
         /// What is named.
@@ -87,7 +87,7 @@ pub enum Fault {
     Buffer {
         /// Its number.
         buffer: usize,
-        /// Verb, object and way out.
+        /// Verb, object and hint.
         problem: String,
     },
     /// A node that has no place in the world.
@@ -106,7 +106,7 @@ pub enum Fault {
         /// Verb and object.
         problem: String,
     },
-    /// No such scene as was asked for.
+    /// The requested scene does not exist.
     #[error("{0}")]
     Scene(String),
     /// A primitive whose triangles cannot be read.
@@ -119,16 +119,16 @@ pub enum Fault {
         /// Verb and object.
         problem: String,
     },
-    /// More triangles than anyone can study.
+    /// More triangles than a study can handle.
     #[error("has more than {MAX_TRIANGLES} triangles, instances counted: export it in parts or with less detail")]
     TooManyTriangles,
-    /// More components than anyone can name.
+    /// More components than a study can handle.
     #[error("has more than {MAX_COMPONENTS} components: join its objects by material and export again")]
     TooManyComponents,
-    /// More to move than anyone has modelled.
+    /// More numbers to morph or skin than a study can handle.
     #[error("morphs or skins too much, instances counted: export it as it stands, without morph targets and skins")]
     TooManyMoves,
-    /// Nothing that could cast.
+    /// Nothing in the file could cast.
     #[error("has no triangles in {scene}, so nothing casts a shadow: {way_out}")]
     Empty {
         /// Which scene is read.

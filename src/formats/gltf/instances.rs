@@ -10,7 +10,7 @@ use gltf::json::accessor::{ComponentType, Type};
 
 /// The copies of a node's mesh; without the extension, the one that stands where the node does.
 pub(super) struct Instances<'a> {
-    /// How many.
+    /// The number of instances.
     pub count: usize,
     node: usize,
     translation: Option<Reader<'a>>,
@@ -19,7 +19,7 @@ pub(super) struct Instances<'a> {
 }
 
 impl<'a> Instances<'a> {
-    /// Those of a node: the copies that it asks for, else the mesh itself.
+    /// Those of a node: the copies that it asks for, otherwise the mesh itself.
     pub(super) fn of(number: usize, node: Option<&Node>, accessors: &mut Accessors<'a, '_>) -> Result<Self, Fault> {
         match node.and_then(|node| node.extensions.instancing.as_ref()) {
             Some(asked) => Self::open(number, asked, accessors),

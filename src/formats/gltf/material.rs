@@ -1,4 +1,4 @@
-//! Whether light passes a material; every material casts as solid all the same.
+//! Whether a material is see-through. Every material casts as if it were solid all the same.
 
 use serde::Deserialize;
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! The files that a model names: they lie beside it, and are its user's, whether they are read or not.
+//! The files that a model names. They lie beside it and belong to its user, whether they are read or not.
 
 use super::buffers::{has_scheme, percent_decode};
 use super::container;

@@ -1,4 +1,4 @@
-//! What the user should know of how a file was read: what was left out, and what was passed over.
+//! What the user should know of how a file was read: what was left out or skipped.
 
 use super::document::Document;
 use super::scene::{SceneContents, scenes};

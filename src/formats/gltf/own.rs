@@ -1,4 +1,4 @@
-//! What this program itself writes, where glTF has no word for it: under `gnomon` in the `extras` of a node and of a scene.
+//! What this program itself writes where glTF cannot express it: `gnomon` in the `extras` of a node and of a scene.
 
 use crate::formats::{Anchor, AnchorPoint, PartKind, composed};
 use serde::{Deserialize, Deserializer};
@@ -19,7 +19,7 @@ pub(super) struct OwnExtras {
 #[derive(Clone, Debug, Default)]
 pub(super) struct OwnScene {
     pub anchor: Option<Anchor>,
-    /// Metres a unit, where somebody had said the unit.
+    /// The length of a unit in metres, if somebody had said it.
     pub unit_m: Option<f64>,
     /// Whether somebody had said the axis.
     pub up_is_said: bool,

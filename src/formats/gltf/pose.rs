@@ -1,7 +1,7 @@
-//! How a mesh stands where no animation moves it: its default morph weights (glTF 2.0, 3.7.2.2), and the joints of its
-//! skin at rest (3.7.3). Positions are morphed first, then skinned.
+//! How a mesh stands without animation: with its default morph weights (glTF 2.0, 3.7.2.2), and the joints of its skin
+//! at rest (3.7.3). Positions are morphed first, then skinned.
 //!
-//! Most meshes have neither, and are read without a look at either for every vertex.
+//! Most meshes have neither, and are read without checking either for every vertex.
 
 use super::Fault;
 use super::accessor::Accessors;

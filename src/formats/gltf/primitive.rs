@@ -1,4 +1,4 @@
-//! A mesh's primitives → which vertices make which triangles, grouped by material.
+//! A mesh's primitives → triangles as indices of vertices, grouped by material.
 
 use super::Fault;
 use super::accessor::Accessors;
@@ -10,21 +10,21 @@ use gltf::json::validation::Checked;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The triangles of a mesh, checked but for the values of its indices and positions.
+/// The triangles of a mesh, checked except for the values of its indices and positions.
 pub(super) struct MeshTriangles<'a> {
-    /// In the order in which the materials appear; those without triangles are left out.
+    /// The groups in the order in which their materials appear; those without triangles are left out.
     pub groups: Vec<MaterialGroup<'a>>,
-    /// Whether the mesh has one material, be it with triangles or without.
+    /// Whether the mesh has one material, including materials without triangles.
     pub one_material: bool,
 }
 
 /// The primitives of one mesh and material.
 pub(super) struct MaterialGroup<'a> {
-    /// Its number, where it has one.
+    /// Its number, if it has one.
     pub material: Option<usize>,
-    /// Whether the colours of its vertices have an alpha.
+    /// Whether the colours of its vertices have an alpha channel.
     pub has_faded_vertices: bool,
-    /// One or more, each with triangles.
+    /// Its primitives, at least one, each with triangles.
     pub surfaces: Vec<PrimitiveTriangles<'a>>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct PrimitiveTriangles<'a> {
     pub primitive: usize,
     /// Its vertices.
     pub positions: Reader<'a>,
-    /// One or more.
+    /// The number of triangles, at least one.
     pub triangles: usize,
     indices: Option<Reader<'a>>,
     mode: Mode,

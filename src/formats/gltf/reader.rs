@@ -1,7 +1,7 @@
 //! The numbers of a checked accessor: strided, normalised, sparse, or zero.
 //!
-//! [`super::accessor`] has checked that all elements lie where they are said to; the reads here still go through `get`,
-//! so that a mistake there would read zeros and not crash.
+//! [`super::accessor`] has checked that all elements lie within their buffers. The reads here still go through `get`,
+//! so that a mistake there would give zeros and not a crash.
 
 use super::Fault;
 use glam::DVec3;
@@ -13,19 +13,19 @@ use std::ops::Range;
 pub(super) struct Reader<'a> {
     /// Its number in the file.
     pub accessor: usize,
-    /// Elements.
+    /// The number of elements.
     pub count: usize,
-    /// What its numbers are.
+    /// The type of its numbers.
     pub component: ComponentType,
-    /// How many of them make an element.
+    /// The number of components of an element.
     pub shape: Type,
-    /// Whether whole numbers stand for 0 to 1, or −1 to 1.
+    /// Whether integers represent 0 to 1, or −1 to 1.
     pub normalized: bool,
-    /// Where its elements lie; nowhere where they are zero.
+    /// Where its elements lie; `None` if they are zero.
     pub base: Option<StridedElements<'a>>,
-    /// What stands for some of them.
+    /// The elements that replace some of them.
     pub sparse: Option<Sparse<'a>>,
-    /// From one number to the next, where they were rounded to steps before they were packed.
+    /// The step from one number to the next, if they were rounded to steps before they were packed.
     pub rounded: Option<f64>,
 }
 
@@ -39,9 +39,9 @@ pub(super) struct StridedElements<'a> {
 /// Elements that stand for those of the base. Looked up where they lie, so that a table costs no memory.
 #[derive(Clone, Copy)]
 pub(super) struct Sparse<'a> {
-    /// Entries.
+    /// The number of entries.
     pub count: usize,
-    /// Of the indices: u8, u16 or u32.
+    /// The type of the indices: u8, u16 or u32.
     pub component: ComponentType,
     /// Strictly increasing.
     pub indices: StridedElements<'a>,

@@ -1,4 +1,4 @@
-//! Which nodes stand in a scene, and where. Trees may be as deep as the file likes: nothing here recurses.
+//! Which nodes stand in a scene, and where. Trees may have any depth, so nothing here recurses.
 
 use super::Fault;
 use super::document::{Document, Node};
@@ -9,29 +9,29 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// A node with a mesh, and where it stands.
 pub(super) struct PlacedNode {
-    /// The node's number.
+    /// The index of the node.
     pub node: usize,
-    /// The mesh's number; there is such a mesh.
+    /// The index of the mesh, which exists.
     pub mesh: usize,
-    /// The skin's number, where it has one.
+    /// The index of the skin, if it has one.
     pub skin: Option<usize>,
-    /// Metres in the world from the node's own units.
+    /// Transforms the node's own units to metres in the world.
     pub model_from_node: DAffine3,
 }
 
 /// What stands in a scene, and what is hidden there (KHR_node_visibility).
 pub(super) struct SceneContents {
-    /// The nodes with a mesh that are seen, parents before children and siblings in the file's order.
+    /// The visible nodes with a mesh, parents before children and siblings in the file's order.
     pub placed: Vec<PlacedNode>,
-    /// How many nodes with a mesh are hidden.
+    /// The number of hidden nodes with a mesh.
     pub hidden: usize,
-    /// The nodes that say so of themselves and all below them.
+    /// The nodes that hide themselves and everything below them.
     pub hiding: Vec<usize>,
-    /// The scene's number, where the file has scenes.
+    /// The index of the scene, if the file has scenes.
     pub scene: Option<usize>,
 }
 
-/// The nodes of the scene that is asked for, else of the file's default one.
+/// The nodes of the scene that is asked for, otherwise of the file's default one.
 pub(super) fn place(document: &Document, asked: Option<&SceneName>) -> Result<SceneContents, Fault> {
     let parents = parents(document)?;
     check_cycles(&parents)?;
@@ -159,7 +159,7 @@ fn check_cycles(parents: &[Option<usize>]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The scene that is asked for, else the file's default one, else its first; none where it has none.
+/// The scene that is asked for, otherwise the file's default one, otherwise its first; none where it has none.
 fn number(document: &Document, asked: Option<&SceneName>) -> Result<Option<usize>, Fault> {
     let count = document.scenes.len();
     let Some(asked) = asked else {

@@ -1,9 +1,9 @@
 //! Where the file says that the zero of its coordinates lies, and which way north is.
 //!
-//! All angles of [`Anchor::north_rad`] are clockwise, seen from above, from the file's +y to the north that is meant. Of
-//! `TrueNorth` (x, y), a direction in the file's own axes, it is atan2(x, y). Of `IfcMapConversion` it is
-//! atan2(XAxisOrdinate, XAxisAbscissa): the file's +x is turned so far anticlockwise from the map's east, so the map's north
-//! is turned so far clockwise from the file's +y.
+//! The angle [`Anchor::north_rad`] is clockwise, seen from above, from the file's +y to the north that is meant. For
+//! `TrueNorth` (x, y), a direction in the file's own axes, it is atan2(x, y). For `IfcMapConversion` it is
+//! atan2(XAxisOrdinate, XAxisAbscissa): the file's +x is turned by that angle anticlockwise from the map's east, so the
+//! map's north is turned by the same angle clockwise from the file's +y.
 
 use super::super::{Anchor, AnchorPoint};
 use super::scan::IfcScan;
@@ -35,9 +35,9 @@ pub(super) struct IfcPlaces {
 
 /// What the reader found of units and of the first site's placement.
 pub(super) struct IfcFrame {
-    /// Metres a unit of the file.
+    /// The length of a unit of the file, metres.
     pub unit_m: f64,
-    /// Where the site's own zero lies in the file's coordinates, in metres.
+    /// The position of the site's own zero in the file's coordinates, metres.
     pub site: Option<[f64; 3]>,
 }
 
@@ -104,8 +104,8 @@ impl IfcPlaces {
         }
     }
 
-    /// Metres of a map's unit that is not said: the project's, as IFC has it; but metres, where the numbers are those of a map
-    /// in metres and would lie beside its zero in the project's unit. Many programs write them so.
+    /// Metres of a map's unit that is not said: the project's, as IFC has it; but metres, where the numbers are those
+    /// of a map in metres and would lie beside its zero in the project's unit. Many programs write them so.
     fn unsaid_map_unit_m(&mut self, map: &GeoReference, said_by: &str, unit_m: f64) -> f64 {
         let is_named = map.crs_name.as_deref().is_some_and(|name| !name.trim().is_empty());
         let as_metres = map.eastings.hypot(map.northings);
@@ -147,7 +147,7 @@ impl IfcPlaces {
         scale
     }
 
-    /// The direction of true north, by the context of the model, else by that of a plan.
+    /// The direction of true north, by the context of the model, otherwise by that of a plan.
     fn true_north(&mut self, scan: &IfcScan, decoder: &mut EntityDecoder) -> Option<f64> {
         let mut said: Vec<(bool, f64)> = Vec::new();
         for &id in &scan.contexts {

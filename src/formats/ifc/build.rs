@@ -1,4 +1,4 @@
-//! A file's text → the model: which products the reader builds, and what the notes say about the others.
+//! A file's text → the model: the products that the reader builds, and the notes on the others.
 
 use super::super::{Coordinates, LeftOut, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, Up};
 use super::anchors::{self, IfcFrame};

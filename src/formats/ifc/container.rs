@@ -1,4 +1,5 @@
-//! A file → its text: as it is, or the `.ifc` within a zip archive. The content decides, not the file's name.
+//! A file → its text: the file itself, or the `.ifc` within a zip archive. The content decides which it is, not the
+//! file's name.
 
 use super::super::ModelFault;
 use crate::message::message;

@@ -1,5 +1,5 @@
-//! Layers: those that the file has switched off or frozen, since what lies on them alone is not seen by whoever drew it; and
-//! the names of those with a style, which the reader does not tell.
+//! Layers that the file has switched off or frozen: whoever drew the model does not see what lies on them alone. Also
+//! the names of layers with a style, which the reader does not report.
 
 use super::lost::is_solid;
 use super::scan::{IfcProduct, IfcScan};
@@ -15,9 +15,9 @@ pub(super) struct IfcLayers {
     on: FxHashMap<u32, Rc<str>>,
     /// The same of layers with a style that are shown.
     styled: FxHashMap<u32, Rc<str>>,
-    /// Products whose whole shape lies there.
+    /// The products whose whole shape lies on hidden layers.
     pub products: FxHashSet<u32>,
-    /// How many of them each hidden layer has; pieces of others too.
+    /// The number of them on each hidden layer, including pieces of others.
     pub counts: BTreeMap<Rc<str>, u64>,
 }
 

@@ -1,4 +1,5 @@
-//! Products that have a shape in the file and no triangles: what their shape is, so that whoever exported it can tell.
+//! Products that have a shape in the file but no triangles. The kind of their shape is reported, so that whoever
+//! exported the file can tell what was lost.
 
 use super::super::LeftOut;
 use super::scan::IfcProduct;

@@ -1,4 +1,5 @@
-//! How IFC files begin and end: by that they are told from others, and whole ones from those that are cut off.
+//! The beginning and the end of IFC files, by which they are told from other files, and complete ones from those that
+//! are cut off.
 
 /// Whether a file begins as STEP text whose schema is one of IFC. Other programs write other schemas in the same form.
 pub(super) fn is_ifc_text(head: &[u8]) -> bool {

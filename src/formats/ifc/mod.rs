@@ -1,10 +1,11 @@
-//! IFC → the parts that stand there. `ifc-lite` reads the text and builds the shapes; which of them stand there, what they
-//! are called and where they lie is decided here.
+//! IFC → parts. `ifc-lite` reads the text and builds the shapes; which of them are taken, their names and their places
+//! are decided here.
 //!
-//! The reader is others' code, in the feature `ifc`: without it a file of the format is one error. The files of this
-//! folder, in the order of the flow: `marks` (whether it is IFC, and whole), `container` (a file, zipped or not → its text), `scan` (text → which records matter),
-//! `layers` (and which of them are off), `relations` (whose storey and material), `parts` (shapes → parts), `lost` (what became of
-//! the products without), `anchors` (where the file's zero lies), `build` (all of it → the model).
+//! The reader is another library, in the feature `ifc`; without it a file of the format is one error. The files of this
+//! folder, in the order of the flow: `marks` (whether a file is IFC, and complete), `container` (a file, zipped or not
+//! → its text), `scan` (text → which records matter), `layers` (which of them are off), `relations` (storeys and
+//! materials), `parts` (shapes → parts), `lost` (products without triangles), `anchors` (where the file's zero lies),
+//! `build` (all of it → the model).
 
 #[cfg(feature = "ifc")]
 mod anchors;

@@ -1,4 +1,5 @@
-//! Meshes as the reader gives them → parts in the file's own coordinates. A part is a product's share of one material.
+//! Meshes from the reader → parts in the file's own coordinates. A part is everything of one product that has one
+//! material.
 
 use super::super::{MAX_COMPONENTS, MAX_TRIANGLES, PartKind, SeeThrough, composed};
 use super::layers::IfcLayers;
@@ -27,17 +28,17 @@ pub(super) struct IfcParts<'a> {
     told_step: f64,
     /// Where the reader's zero lies, and how its axes are turned.
     frame: MeshFrame,
-    /// Stops the reader where there is too much.
+    /// Stops the reader when there are too many.
     pub stop: Arc<AtomicBool>,
     triangles: u64,
     pub parts: Vec<Part>,
     pub kinds: Vec<PartKind>,
     pub see_through: Vec<SeeThrough>,
-    /// Products that have triangles, hidden ones too.
+    /// The products that have triangles, including hidden ones.
     pub meshed: FxHashSet<u32>,
-    /// Meshes with corners that are no points.
+    /// The number of meshes with corners that are not points.
     pub broken: u64,
-    /// Names that were cut.
+    /// The number of names that were cut.
     pub cut_names: u64,
 }
 

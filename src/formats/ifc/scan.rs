@@ -1,4 +1,4 @@
-//! The file's text → which of its records matter here, and where each record lies: one walk, before shapes are made.
+//! The file's text → which of its records matter here, and where each record lies: one pass, before shapes are built.
 
 use ifc_lite_core::{EntityDecoder, EntityIndex, EntityScanner, IfcType};
 use rustc_hash::FxHashMap;
@@ -9,26 +9,26 @@ use std::sync::Arc;
 pub(super) struct IfcScan {
     /// Where each record lies.
     pub index: Arc<EntityIndex>,
-    /// Of what stands there or may, in the file's order.
+    /// The products that are built or may be, in the file's order.
     pub products: Vec<IfcProduct>,
-    /// As many as have a shape, of kinds that do not stand there.
+    /// The number of products with a shape, of kinds that are not built.
     pub apart: FxHashMap<String, u64>,
-    /// Records of kinds that the reader does not know, with the record that would be their shape.
+    /// Records of kinds that the reader does not know, each with the record that would be its shape.
     pub unknown: Vec<(String, u32)>,
-    /// Relations of containment and of whole and part, whose records are read later.
+    /// Relations of containment and of aggregation, whose records are read later.
     pub containing: Vec<u32>,
     pub composing: Vec<u32>,
     pub materials: Vec<u32>,
-    /// Layers, of which those with a style may be off.
+    /// Layers; those with a style may be off.
     pub layers: Vec<u32>,
     pub styled_layers: Vec<u32>,
     pub sites: Vec<u32>,
     pub contexts: Vec<u32>,
-    /// What may say where the model lies on a map.
+    /// Records that may say where the model lies on a map.
     pub georeference: Vec<(u32, IfcType)>,
-    /// Records of an old name that ends a shape, from where to where their keyword goes.
+    /// Records with an old name at the end of a shape: the range of their keyword.
     pub old_shapes: Vec<(usize, usize)>,
-    /// Records that could not be made out.
+    /// The number of records that could not be parsed.
     pub malformed: u64,
 }
 

@@ -21,13 +21,13 @@ pub(super) struct ObjTriangles {
 pub(super) struct ObjGeometry {
     pub positions: Vec<DVec3>,
     pub parts: Vec<ObjTriangles>,
-    /// Of objects, groups and materials.
+    /// The names of objects, groups and materials.
     pub names: Vec<String>,
-    /// What `mtllib` names, a line each.
+    /// The files that `mtllib` names, one line each.
     pub libraries: Vec<String>,
     pub cutter: FaceCutter,
     pub left_out: LeftOutTally,
-    /// The first word that is a number only at its beginning, and its line.
+    /// The first word that begins with a number but is not one, and its line.
     pub odd_number: Option<(usize, String)>,
     numbers_of: FxHashMap<String, u32>,
     part_of: FxHashMap<[u32; 3], usize>,

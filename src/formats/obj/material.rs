@@ -1,4 +1,4 @@
-//! Material libraries, MTL: which materials light passes, and which files they name.
+//! Material libraries (MTL): which materials are see-through, and which files they name.
 
 use crate::formats::left_out::label;
 use crate::formats::source::{TextLines, as_ascii, beside, keyword, number, text, words};

@@ -1,7 +1,7 @@
 //! Wavefront OBJ with its MTL → parts: one per object or group, and material.
 //!
-//! The reader is our own: `tobj` reads UTF-8 alone, ends at a number that it does not know, and clips no polygons. `faces`
-//! reads the geometry, `material` the libraries.
+//! The reader is our own: `tobj` reads only UTF-8, stops at a number that it does not know, and does not cut polygons
+//! into triangles. `faces` reads the geometry, `material` the libraries.
 
 mod faces;
 mod material;

@@ -1,4 +1,4 @@
-//! A PLY file's header: which tables there are, and of what numbers.
+//! A PLY file's header: its tables, and the types of their numbers.
 
 use crate::formats::left_out::label;
 use crate::formats::source::{TextLines, text, words};
@@ -54,7 +54,7 @@ impl PlyNumber {
 /// What each row of a table has.
 pub(super) struct PlyProperty {
     pub name: Vec<u8>,
-    /// Of a list, the type of its length.
+    /// For a list, the type of its length.
     pub length: Option<PlyNumber>,
     pub number: PlyNumber,
 }

@@ -1,6 +1,6 @@
 //! PLY, ASCII or binary of either byte order → one part.
 //!
-//! `header` reads what the file holds, `body` the numbers.
+//! `header` reads which tables the file has, `body` reads the numbers.
 
 mod body;
 mod header;

@@ -1,4 +1,4 @@
-//! Esri's ASCII grid: a head of names and numbers, then heights, the northernmost row first.
+//! Esri's ASCII grid: a header of names and numbers, then heights, the northernmost row first.
 
 use super::grid::HeightGrid;
 use super::model_of;
@@ -9,7 +9,7 @@ use crate::message::message;
 use glam::DVec2;
 use std::path::Path;
 
-/// `.asc` and `.grd` of Esri's form.
+/// Esri's ASCII grid, `.asc` and `.grd`.
 pub struct AsciiGrid;
 
 impl Format for AsciiGrid {

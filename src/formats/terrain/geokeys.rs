@@ -1,18 +1,18 @@
-//! The keys of a GeoTIFF or of LAS: of which map the coordinates are, and in which unit the heights.
+//! The keys of a GeoTIFF or of LAS: the map to which the coordinates belong, and the unit of the heights.
 //!
-//! OGC GeoTIFF 1.1 (19-008r4): the directory is numbers of 16 bits, four a key: its number, where its value lies, how
-//! many, and the value or where it begins.
+//! OGC GeoTIFF 1.1 (19-008r4): the directory is 16-bit numbers, four for each key: its number, the tag that has its
+//! value, the count, and the value or its index in that tag.
 
 /// The values of the keys that say where and how high.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct MapKeys {
-    /// As `EPSG:25832`, or the name of one that has no number.
+    /// The reference system, as `EPSG:25832`, or the name of one that has no number.
     pub crs: Option<String>,
-    /// Metres a unit of height, where it is said.
+    /// The length of a unit of height in metres, if the keys say it.
     pub height_unit_m: Option<f64>,
-    /// Metres a unit of the map, where it is said.
+    /// The length of a unit of the map in metres, if the keys say it.
     pub map_unit_m: Option<f64>,
-    /// Whether a sample stands for a point, and not for a cell around it.
+    /// Whether a sample is the height of a point, and not of a cell around it.
     pub is_point: bool,
 }
 

@@ -1,4 +1,4 @@
-//! GeoTIFF elevation: striped, tiled or planar, of any type of number.
+//! GeoTIFF elevation: striped, tiled or planar, of any number type.
 
 use super::geokeys::MapKeys;
 use super::grid::HeightGrid;
@@ -23,7 +23,7 @@ const KEY_DIRECTORY: Tag = Tag::Unknown(34735);
 const KEY_TEXTS: Tag = Tag::Unknown(34737);
 const NO_DATA: Tag = Tag::Unknown(42113);
 
-/// `.tif` of heights.
+/// GeoTIFF elevation, `.tif`.
 pub struct GeoTiff;
 
 type Tiff = Decoder<BufReader<File>>;
@@ -154,7 +154,7 @@ fn numbers(read: DecodingResult) -> Vec<f32> {
     all!(U8, U16, U32, U64, F64, I8, I16, I32, I64)
 }
 
-/// The number that stands for no height: what the file says, else the most usual where it stands there.
+/// The number that stands for no height: what the file says, otherwise the most usual where it stands there.
 fn no_data(tiff: &mut Tiff, heights: &[f32], notes: &mut Vec<Message>) -> Option<f32> {
     if let Ok(text) = tiff.get_tag_ascii_string(NO_DATA) {
         return text.trim_end_matches('\0').trim().parse::<f64>().ok().map(|number| number as f32);

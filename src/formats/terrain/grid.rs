@@ -11,11 +11,11 @@ const MAX_SAMPLES: u64 = 100_000_000;
 pub(super) struct HeightGrid {
     pub columns: usize,
     pub rows: usize,
-    /// Metres; NaN where there is none.
+    /// The heights in metres; NaN where there is none.
     pub heights: Vec<f32>,
-    /// Where the first sample lies, in the file's coordinates.
+    /// The position of the first sample, in the file's coordinates.
     pub first: DVec2,
-    /// From one sample to the next of its row, and from one row to the next.
+    /// The steps from one sample to the next in its row, and from one row to the next.
     pub steps: [DVec2; 2],
 }
 

@@ -1,4 +1,4 @@
-//! LandXML: the surfaces that surveyors triangulate.
+//! LandXML: the triangulated surfaces of surveyors.
 
 use super::{NamedSheet, of_sheets};
 use crate::formats::source::stem;
@@ -11,7 +11,7 @@ use quick_xml::events::{BytesStart, Event};
 use rustc_hash::FxHashMap;
 use std::path::Path;
 
-/// `.xml` of LandXML.
+/// LandXML, `.xml`.
 pub struct LandXml;
 
 impl Format for LandXml {

@@ -1,7 +1,7 @@
 //! Terrain: heights on a raster, measured points, and triangulated surfaces → sheets of triangles that are the ground.
 //!
-//! Rasters and points become a `HeightGrid`, which `thin` turns into triangles that lie nowhere further from the heights
-//! than is asked. LandXML gives its triangles itself.
+//! Rasters and points become a `HeightGrid`, which `thin` turns into triangles that lie no farther from the heights
+//! than a given error. LandXML already has triangles.
 
 mod ascii_grid;
 mod geokeys;

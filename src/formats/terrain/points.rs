@@ -1,5 +1,4 @@
-//! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on
-//! request.
+//! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on request.
 
 use super::geokeys::MapKeys;
 use super::point_cells::{CellBlocks, PointCells};
@@ -14,7 +13,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-/// `.las`, `.laz` and COPC.
+/// LAS and LAZ, also COPC: `.las`, `.laz`.
 pub struct LasPoints;
 
 /// The most points that are read.
@@ -31,7 +30,7 @@ const NOISE: [u8; 2] = [7, 18];
 const CLASSES: [(&str, &[u8]); POINT_CLASSES.len()] =
     [(POINT_CLASSES[0], &[6]), (POINT_CLASSES[1], &[3, 4, 5]), (POINT_CLASSES[2], &[17]), (POINT_CLASSES[3], &[9])];
 
-/// The classes of points that can be asked to stand beside the ground.
+/// The classes of points that can be read besides the ground.
 pub const POINT_CLASSES: [&str; 4] = ["building", "vegetation", "bridge", "water"];
 
 impl Format for LasPoints {

@@ -1,10 +1,11 @@
-//! A raster of heights → as few triangles as lie within a stated error of all its samples.
+//! A raster of heights → as few triangles as possible that lie within a given error of all its samples.
 //!
-//! Right-triangulated irregular networks (Evans, Kirkpatrick and Townsend, 2001): squares of the raster are halved along
-//! their diagonal, and each right triangle again from its right angle to the middle of its longest side, until it lies close
-//! enough to the samples in it. Two triangles that share a longest side share the decision to halve it, and whoever's halves
-//! are halved is halved, so no crack opens and no corner hangs in a side. Unlike the common form of it, which looks at the
-//! middle of the longest side alone, each triangle is held against all samples in it, so the error that is asked is a bound.
+//! The method is right-triangulated irregular networks (Evans, Kirkpatrick and Townsend, 2001): squares of the raster
+//! are halved along their diagonal, and each right triangle again from its right angle to the middle of its longest
+//! side, until it lies close enough to the samples in it. Two triangles that share a longest side are halved together,
+//! and a triangle is halved if one of its halves is, so no crack opens and no corner lies within a side. The common
+//! form of the method looks only at the middle of the longest side; here each triangle is tested against all samples in
+//! it, so the given error is a bound.
 
 use super::grid::HeightGrid;
 use glam::{DVec2, DVec3};
@@ -22,9 +23,9 @@ const ABSENT: u32 = u32::MAX;
 
 /// What comes of a raster.
 pub(super) struct ThinnedSheet {
-    /// In the file's coordinates.
+    /// The vertices, in the file's coordinates.
     pub positions: Vec<DVec3>,
-    /// Counter-clockwise seen from above.
+    /// The triangles, counter-clockwise seen from above.
     pub triangles: Vec<[u32; 3]>,
 }
 

@@ -1,4 +1,4 @@
-//! A batched 3D model: tables of its features, and glTF.
+//! A batched 3D model: tables of its features, and a glTF.
 
 use crate::message::{Message, message};
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Contents of tiles → parts of one model.
+//! The contents of tiles → parts of one model.
 
 use super::b3dm::{MAGIC, TileGltf, cesium_center, opened};
 use crate::formats::left_out::{LeftOutTally, label};
@@ -71,7 +71,8 @@ impl TileBuilder {
         self.join(model, name, world * DMat4::from_translation(center), turned)
     }
 
-    /// `world` brings what `turned` has turned upright to its place; apart from each other, so that quarter turns are exact.
+    /// `world` brings what `turned` has turned upright to its place; apart from each other, so that quarter turns are
+    /// exact.
     fn join(&mut self, model: Model, name: &str, world: DMat4, turned: DMat4) -> Result<(), ModelFault> {
         let is_turned = turned != DMat4::IDENTITY;
         let is_mirrored = world.determinant() < 0.0;
@@ -117,7 +118,7 @@ impl TileBuilder {
         Ok(())
     }
 
-    /// Errs where there are more triangles than a model may have.
+    /// Returns an error if there are more triangles than a model may have.
     pub(super) fn check_size(&self) -> Result<(), Message> {
         if self.triangles > MAX_TRIANGLES {
             let what = format!("has more than {MAX_TRIANGLES} triangles, which is the most that a model may have");

@@ -1,4 +1,4 @@
-//! The JSON of a tileset, and of those that it names → which contents stand where.
+//! The JSON of a tileset, and of the tilesets that it names → which contents stand where.
 
 use crate::formats::ModelFault;
 use crate::formats::gltf::percent_decode;
@@ -60,7 +60,7 @@ pub(super) struct TileContent {
     /// Its address, without the ending.
     pub name: String,
     pub world: DMat4,
-    /// Whether its glTF has y up, as all but the oldest tilesets have it.
+    /// Whether its glTF has y up, as in all but the oldest tilesets.
     pub is_y_up: bool,
 }
 

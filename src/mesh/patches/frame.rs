@@ -1,8 +1,9 @@
-//! The frame of a patch: which way its rows run.
+//! The frame of a patch: the direction of its rows.
 //!
-//! Rows of a patch that is not level are level, so that a wall stands upright in its texture; seen from its judged side,
-//! what is right is right. Level patches, and those that take less than half of the texels so (a strut that leans), have
-//! their rows along their longest border, turned to where level rows or the east would be.
+//! The rows of a patch that is not level are level, so that a wall stands upright in its texture; seen from the side
+//! that is judged, right in the texture is right. Level patches, and those that need less than half the texels that way
+//! (a strut that leans), have their rows along their longest border. Of that border's directions the one nearest to
+//! level rows, or to the east, is taken.
 
 use super::gather::FlatPatch;
 use super::patch::LEVEL;

@@ -1,4 +1,4 @@
-//! Faces that hang together in one plane.
+//! Gathers connected faces that lie in one plane.
 
 use super::{FLAT_ANGLE_DEG, FLAT_M, seen_side};
 use crate::mesh::planes::{self, area_vector};
@@ -31,8 +31,8 @@ pub(super) fn gather(mesh: &Mesh, receives: &[bool]) -> Vec<FlatPatch> {
     receiving.par_iter().map(of_component).collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
-/// Grows patches from the largest faces of a component. All faces of a patch are held against its first face's plane, never
-/// against a neighbour's, so that a gentle curve is not flattened step by step.
+/// Grows patches from the largest faces of a component. All faces of a patch are compared with its first face's plane,
+/// never against a neighbour's, so that a gentle curve is not flattened step by step.
 fn of_component(
     mesh: &Mesh,
     index: u32,

@@ -1,10 +1,10 @@
-//! Flat patches: the faces of components as receivers, each with a raster of texels in its own plane.
+//! Flat patches: the faces of components as receivers, each patch with a raster of texels in its own plane.
 //!
-//! A patch is a set of faces of one component that hang together by edges and lie in one plane, within
-//! `FLAT_ANGLE_DEG` and [`FLAT_M`]; so holes are respected, and every face with an area is in exactly one patch.
-//! Curved bodies become many small ones. A texel is judged at its centre, where that lies in one of the patch's faces; a
-//! patch too thin to hold a centre is judged at one point in its largest face. All patches are packed into the pages of
-//! an atlas, for the graphics adapter and for textures in files.
+//! A patch is a set of faces of one component that are connected by edges and lie in one plane, within `FLAT_ANGLE_DEG`
+//! and [`FLAT_M`]. So holes stay holes, and every face with an area is in exactly one patch. Curved bodies become many
+//! small patches. A texel is judged at its centre, if that lies in one of the patch's faces; a patch too thin to
+//! contain a centre is judged at one point in its largest face. All patches are packed into the pages of an atlas, for
+//! the graphics adapter and for textures in files.
 
 mod frame;
 mod gather;
@@ -21,8 +21,8 @@ pub use patch::{
 use super::Mesh;
 
 impl Patches {
-    /// Gathers the faces of the components that receive, with texels of `cell` metres; larger ones where the atlas would
-    /// have more than `most_texels`, or a patch be longer than a page.
+    /// Gathers the faces of the components that receive, with texels of `cell` metres. The texels are larger if the
+    /// atlas would otherwise have more than `most_texels`, or a patch be longer than a page.
     pub fn of(mesh: &Mesh, receives: &[bool], cell: f64, most_texels: usize) -> Patches {
         let flats = gather::gather(mesh, receives);
         let frames: Vec<_> = frame::of_all(mesh, &flats, cell);

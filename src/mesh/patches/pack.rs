@@ -1,4 +1,4 @@
-//! Where the patches lie in the pages of the atlas: in shelves, the highest first.
+//! Packs the patches into the pages of the atlas: in shelves, the highest first.
 
 use super::frame::PatchFrame;
 use super::{GUTTER, MOST_PAGE, Patches};

@@ -1,23 +1,24 @@
-//! A patch, and the atlas in which the patches of a mesh lie.
+//! A patch, and the atlas that has the patches of a mesh.
 
 use glam::{DVec3, DVec4};
 use std::ops::Range;
 
-/// Faces of a patch are turned to each other by no more, degrees.
+/// The greatest angle between the faces of a patch, degrees.
 pub const FLAT_ANGLE_DEG: f64 = 1.0;
 
-/// The corners of a patch's faces lie this near to its plane, metres: half of the millimetre above itself at which a
-/// receiver is judged, so that no patch shades itself. Where `f32` is coarser around the mesh's origin, two of its steps.
+/// The greatest distance of a patch's corners from its plane, metres: half of the millimetre above itself at which a
+/// receiver is judged, so that no patch shades itself. Where `f32` is coarser around the mesh's origin, it is two steps
+/// of `f32`.
 pub const FLAT_M: f64 = 0.0005;
 
-/// Texels are so long where nobody says otherwise, metres.
+/// The default side of a texel, metres.
 pub const DEFAULT_CELL_M: f64 = 0.25;
 
-/// How many texels of the atlas there may be where nobody says otherwise. With what the graphics adapter keeps for each
-/// and a mesh of some hundred thousand triangles that is far below 1 GiB.
+/// The default for the greatest number of texels in the atlas. With what the graphics adapter keeps for each, and a
+/// mesh of some hundred thousand triangles, that takes far less than 1 GiB.
 pub const MOST_TEXELS: usize = 1 << 25;
 
-/// A page is no longer on a side, texels: what every adapter and viewer takes.
+/// The greatest side of a page, texels, which every adapter and viewer supports.
 pub const MOST_PAGE: u32 = 4096;
 
 /// Empty texels around each patch in its page, so that textures can be filtered.
@@ -26,13 +27,13 @@ pub const GUTTER: u32 = 1;
 /// The patches of a mesh, and where they lie in the atlas.
 #[derive(Clone, Debug)]
 pub struct Patches {
-    /// World position around which planes and frames are, metres: the mesh's.
+    /// The world position around which planes and frames are, metres: the mesh's origin.
     pub origin: DVec3,
     /// A texel's side, metres.
     pub cell: f64,
-    /// The side that was asked for, metres; less than `cell` where the atlas would have become too large.
+    /// The requested side, metres; less than `cell` where the atlas would have become too large.
     pub asked_cell: f64,
-    /// Every patch; those of one component follow each other, the larger ones first.
+    /// The patches; those of one component follow each other, the larger ones first.
     pub list: Vec<Patch>,
     /// Faces of the mesh, patch after patch.
     pub faces: Vec<u32>,
@@ -40,30 +41,30 @@ pub struct Patches {
     pub texels: Vec<Texel>,
     /// A page's side, texels.
     pub page_size: u32,
-    /// How many pages the atlas has.
+    /// The number of pages of the atlas.
     pub pages: u32,
-    /// How much of their area counts in no sum, once that was asked ([`Patches::leave_out_shared`]).
+    /// The area that counts in no sum, once [`Patches::leave_out_shared`] has found it.
     pub left_out: UncountedArea,
 }
 
 /// One flat patch. Positions are around [`Patches::origin`].
 #[derive(Clone, Debug)]
 pub struct Patch {
-    /// Of the mesh's components.
+    /// The index of its component in the mesh.
     pub component: u32,
     /// Its run of [`Patches::faces`].
     pub faces: Range<u32>,
     /// Its unit plane (n, −n·p); n points to the side that is judged.
     pub plane: DVec4,
-    /// Nothing tells its outer side, so that it is judged on the side that faces the sun, whichever that is.
+    /// Whether nothing shows its outer side, so that it is judged on whichever side faces the sun.
     pub two_sided: bool,
-    /// The area of its faces, square metres; without what counts in no sum.
+    /// The area of its faces, square metres, without what counts in no sum.
     pub area_m2: f64,
-    /// Which of [`Patches::texels`] count in no sum, in their order.
+    /// The indices of its texels that count in no sum, in order.
     pub uncounted: Vec<u32>,
-    /// The corner where the first texel begins; like all of the frame in the patch's plane.
+    /// The corner where the first texel begins. The whole frame lies in the patch's plane.
     pub corner: DVec3,
-    /// A unit vector along its rows; level where the patch is not.
+    /// A unit vector along its rows, level unless the patch is level.
     pub right: DVec3,
     /// A unit vector down its columns.
     pub down: DVec3,
@@ -71,7 +72,7 @@ pub struct Patch {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// In which page it lies.
+    /// The index of its page.
     pub page: u32,
     /// The page's column of its first texel.
     pub x: u32,
@@ -79,25 +80,26 @@ pub struct Patch {
     pub y: u32,
     /// Its run of [`Patches::texels`], never empty.
     pub texels: Range<u32>,
-    /// Where the patch is judged if no centre lies in it; its only texel is the one that holds this point.
+    /// The point at which the patch is judged if no centre lies in it. Its only texel is the one that contains this
+    /// point.
     pub alone: Option<DVec3>,
 }
 
 /// A texel that is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Texel {
-    /// From the patch's left.
+    /// The column, from the patch's left.
     pub column: u16,
-    /// From the patch's top.
+    /// The row, from the patch's top.
     pub row: u16,
 }
 
-/// How much of the patches' area counts in no sum.
+/// The area of patches that counts in no sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UncountedArea {
-    /// What is there again, square metres.
+    /// Surfaces that exist twice, square metres.
     pub doubled_m2: f64,
-    /// What lies between parts that touch, on both sides, square metres.
+    /// Surfaces between parts that touch, on both sides, square metres.
     pub touching_m2: f64,
 }
 
@@ -107,14 +109,14 @@ impl Patch {
         self.plane.truncate()
     }
 
-    /// The direction in which it looks, clockwise from north, degrees from 0 to 360; none where it lies level.
+    /// The direction in which it looks, clockwise from north, degrees from 0 to 360; `None` if it is level.
     pub fn azimuth_deg(&self) -> Option<f64> {
         let normal = self.normal();
         let level = normal.truncate().length() < LEVEL;
         (!level).then(|| normal.x.atan2(normal.y).to_degrees().rem_euclid(360.0))
     }
 
-    /// How far it is tilted, degrees: 0 looks straight up, 90 is a wall, 180 looks straight down.
+    /// Its tilt, degrees: 0 looks straight up, 90 is a wall, 180 looks straight down.
     pub fn tilt_deg(&self) -> f64 {
         self.normal().z.clamp(-1.0, 1.0).acos().to_degrees()
     }
@@ -131,19 +133,19 @@ impl Patch {
 pub(super) const LEVEL: f64 = 0.001745;
 
 impl Patches {
-    /// Where a texel is judged, in the patch's plane; around [`Patches::origin`].
+    /// The point at which a texel is judged, in the patch's plane, around [`Patches::origin`].
     pub fn point(&self, patch: &Patch, texel: Texel) -> DVec3 {
         patch.alone.unwrap_or_else(|| patch.centre(texel, self.cell))
     }
 
-    /// A point around [`Patches::origin`] in texels of the patch's page, for a texture's coordinates: texel (0, 0) reaches
+    /// A point around [`Patches::origin`] in texels of the patch's page, for texture coordinates: texel (0, 0) reaches
     /// from 0 to 1.
     pub fn in_page(&self, patch: &Patch, point: DVec3) -> [f64; 2] {
         let from_corner = (point - patch.corner) / self.cell;
         [f64::from(patch.x) + from_corner.dot(patch.right), f64::from(patch.y) + from_corner.dot(patch.down)]
     }
 
-    /// The patches of a component, and where they begin in the list.
+    /// The patches of a component, and the index at which they begin in the list.
     pub fn of_component(&self, component: u32) -> Range<usize> {
         let first = self.list.partition_point(|patch| patch.component < component);
         first..self.list.partition_point(|patch| patch.component <= component)

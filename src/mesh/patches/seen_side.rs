@@ -1,18 +1,19 @@
-//! Which side of a face is judged. An architect means the outer one, and windings cannot be trusted to tell it.
+//! Which side of a face is judged. An architect means the outer one, and windings cannot be trusted to show it.
 //!
-//! A *piece* is what hangs together by edges of two faces. Within it faces are turned one way by their neighbours,
-//! whatever their winding; then the piece as a whole is turned:
+//! A *piece* is a set of faces that are connected by edges of two faces. Within it faces are turned one way by their
+//! neighbours, whatever their winding; then the piece as a whole is turned:
 //!
-//! - A closed piece is judged on its outside, as its signed volume tells: a box turned inside out is a box. The largest
-//!   piece of a component sets the component's hand; one of the other hand is an outside turned over. But within the box of
-//!   a larger one it may be that one's cavity, or stand in its court: nothing tells which.
-//! - An open piece that looks upwards for the most part (roofs against soffits, of faces less steep than 60°) is judged on
-//!   the side that does: terrain, a sheet of roof with its walls. But where what looks up lies lower than the walls it may
-//!   be a basin, or a house whose roof is another component: nothing tells which.
-//! - Of those, of a sheet that is closed as its front and back are both there, and of any other open piece (a fence, walls
-//!   without a roof, a twisted band), no outer side is known. They are judged on the side that faces the sun. Where walls of
-//!   a single sheet enclose a room, the inner side is as dark as the room; what sun falls through windows onto it is counted
-//!   too.
+//! - A closed piece is judged on its outside, which its signed volume shows: a box turned inside out is still a box.
+//!   The largest piece of a component sets the winding of the component; a piece wound the other way is taken for one
+//!   turned inside out. But within the bounding box of a larger piece it may be a cavity of that, or stand in its
+//!   courtyard: nothing shows which.
+//! - An open piece that mostly looks upwards (roofs against soffits, of faces less steep than 60°) is judged on that
+//!   side: terrain, or a sheet of roof with its walls. But where what looks up lies lower than the walls it may be a
+//!   basin, or a house whose roof is another component: nothing shows which.
+//! - For those pieces, for a closed sheet whose front and back are both in the file, and for any other open piece (a
+//!   fence, walls without a roof, a twisted band), no outer side is known. They are judged on the side that faces the
+//!   sun. Where walls of a single sheet enclose a room, the inner side is as dark as the room; sunlight that falls onto
+//!   it through windows is counted, too.
 
 use crate::mesh::planes::area_vector;
 use crate::mesh::{Component, Mesh};
@@ -38,7 +39,7 @@ const NO_VOLUME: f64 = 1e-9;
 /// By which part of that area more must look one way than the other.
 const CLEARLY: f64 = 0.5;
 
-/// Faces that hang together by edges of two faces.
+/// Faces that are connected by edges of two faces.
 #[derive(Default)]
 struct FacePiece {
     faces: Vec<u32>,
@@ -176,8 +177,8 @@ fn measure(mesh: &Mesh, piece: &mut FacePiece, first: u32, seen: &mut [SeenSide]
     piece.volume = piece.faces.iter().map(volume).sum();
 }
 
-/// Whether an open piece looks up as it is turned, or down; nothing where that is not clear, or where walls stand higher than
-/// what looks up.
+/// Whether an open piece looks up as it is turned, or down; nothing where that is not clear, or where walls stand
+/// higher than what looks up.
 fn upwards(mesh: &Mesh, piece: &FacePiece, first: u32, seen: &[SeenSide]) -> Option<bool> {
     let (mut roofs, mut up) = (0.0, 0.0);
     // area, and area times height, of what is level and of what is steep

@@ -1,12 +1,12 @@
-//! Parts of patches that are no surfaces of their own: those that are there twice, and those between parts that touch.
+//! Parts of patches that are not surfaces of their own: those that exist twice, and those between solids that touch.
 //!
-//! Patches share a place where one lies in the other's plane, within the millimetre at which receivers are judged. Two
-//! outsides that look at each other there have a solid on either side, so that no sun reaches them. All else that shares a
-//! place is one surface, which counts where it stands first.
+//! Patches share a place where one lies in the other's plane, within the millimetre at which receivers are judged.
+//! Where two outer sides face each other there, each has a solid behind it, so that no sun reaches them. Everything
+//! else that shares a place is one surface, which counts in the first patch that has it.
 //!
-//! Where two solids of one component share the very corners of a wall, nothing tells its outer side. Its two sides run against
-//! each other there, as the two of a sheet do whose back is in the file; but around the wall there are faces before it and
-//! behind it everywhere.
+//! Where two solids of one component share the exact corners of a wall, nothing shows its outer side. Its two sides run
+//! against each other there, like the two sides of a sheet whose back is in the file; but around the wall there are
+//! faces in front of it and behind it everywhere.
 
 use super::texels::place;
 use super::{FLAT_ANGLE_DEG, Patch, Patches, UncountedArea, gather};
@@ -58,7 +58,7 @@ struct CountedArea {
 }
 
 impl Patches {
-    /// Leaves out of all sums what is no surface of its own.
+    /// Leaves out of all sums what is not a surface of its own.
     pub fn leave_out_shared(&mut self, mesh: &Mesh, casts: &[bool], receives: &[bool]) {
         let only_cast: Vec<bool> = casts.iter().zip(receives).map(|(casts, receives)| *casts && !receives).collect();
         let beside = gather::gather(mesh, &only_cast);

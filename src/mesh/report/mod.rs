@@ -1,6 +1,6 @@
 //! What is wrong with a mesh, in numbers, names and places.
 //!
-//! Nothing here stops a study: shadows of dirty parts are right too. But an open solid is often a modelling slip,
+//! None of it stops a study: shadows of defective parts are right, too. But an open solid is often a modelling mistake,
 //! and a part that is missing from the file casts no shadow.
 
 mod open;
@@ -19,34 +19,34 @@ use rustc_hash::FxHashSet;
 pub struct ComponentReport {
     /// The component's name.
     pub name: String,
-    /// Its triangles, as the file has them.
+    /// The number of its triangles, as in the file.
     pub triangles: usize,
-    /// Every edge is run along as often as against: the component bounds a solid and is well wound.
+    /// Whether every edge is run along as often as against: the component then bounds a solid and is well wound.
     pub closed: bool,
-    /// Edges with one face.
+    /// The number of edges with one face.
     pub open_edges: usize,
-    /// Vertices that stand within an open edge, which should be split there: T-junctions.
+    /// The number of T-junctions: vertices within an open edge, which should be split there.
     pub t_junctions: usize,
-    /// Edges with more than two faces.
+    /// The number of edges with more than two faces.
     pub crowded_edges: usize,
-    /// Edges whose two faces run the same way: one of them is wound wrongly.
+    /// The number of edges whose two faces run the same way: one of them is wound wrongly.
     pub flipped_edges: usize,
-    /// Triangles without area.
+    /// The number of triangles without area.
     pub degenerate_triangles: usize,
-    /// Triangles that repeat another one's corners, whichever way they are wound.
+    /// The number of triangles that repeat another one's corners, whatever their winding.
     pub duplicate_triangles: usize,
-    /// Where all that is.
+    /// The places of these defects.
     pub places: Places,
 }
 
 impl ComponentReport {
-    /// Whether there is anything to say against it.
+    /// Whether the component has no defect.
     pub fn clean(&self) -> bool {
         self.closed && self.crowded_edges + self.degenerate_triangles + self.duplicate_triangles == 0
     }
 }
 
-/// Looks at every component.
+/// The state of every component.
 pub fn components(mesh: &Mesh) -> Vec<ComponentReport> {
     let spacing = Spacing::of(mesh);
     mesh.components.par_iter().map(|component| report(mesh, component, &spacing)).collect()

@@ -1,4 +1,4 @@
-//! Open edges: what they are the border of, and which vertices stand within them.
+//! Open edges: what they border, and which vertices lie within them.
 
 use super::places::{OpenKind, OpenPlace, edge, longest, world};
 use crate::mesh::spacing::Spacing;
@@ -10,8 +10,8 @@ use obvhs::cwbvh::builder::build_cwbvh;
 use obvhs::ray::{Ray, RayHit};
 use std::time::Duration;
 
-/// Vertices of open edges that stand within another open edge, as far apart as welding would join; each with the longest
-/// such edge. One of the faces there was split and its neighbour was not.
+/// Vertices of open edges that stand within another open edge, as far apart as welding would join; each with the
+/// longest such edge. One of the faces there was split and its neighbour was not.
 pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacing: &Spacing) -> Vec<(u32, u32)> {
     let mut ends: Vec<u32> = open.iter().flat_map(|&edge| mesh.edges[edge as usize]).collect();
     ends.sort_unstable();
@@ -63,7 +63,7 @@ pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacin
     found.into_iter().map(|(vertex, edge, _)| (vertex, edge)).collect()
 }
 
-/// Open edges that hang together at vertices.
+/// Open edges that are connected at vertices.
 #[derive(Clone, Debug, Default)]
 struct EdgeGroup {
     edges: Vec<u32>,
@@ -138,8 +138,8 @@ fn place(mesh: &Mesh, group: &EdgeGroup) -> OpenPlace {
 /// Below this part of its squared length the area of a ring is none.
 const NO_AREA: f64 = 1e-5;
 
-/// A sheet is this flat at its rim: the cosine of the angle to its border's plane, about 25°. The flared foot of a statue is
-/// no sheet.
+/// A sheet is this flat at its rim: the cosine of the angle to its border's plane, about 25°. The flared foot of a
+/// statue is no sheet.
 const SHEET: f64 = 0.9;
 
 /// Hole, rim or seam. The area within a ring, run around as its faces do, looks to the side of their front where they

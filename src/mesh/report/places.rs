@@ -1,4 +1,4 @@
-//! Where a mesh is not clean: points and edges in metres of the world frame, the longest first.
+//! The places where a mesh is not clean: points and edges in metres of the world frame, the longest first.
 
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -6,10 +6,10 @@ use glam::DVec3;
 /// More places of one kind than these, the longest, are not kept.
 const MOST_PLACES: usize = 100;
 
-/// Where a component is not clean: of each kind at most 100 places, the longest first.
+/// Where a component is not clean: at most 100 places of each kind, the longest first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Places {
-    /// Open edges, those that hang together told as one.
+    /// Open edges; connected ones are one place.
     pub open: Vec<OpenPlace>,
     /// T-junctions, the longest split edge first.
     pub t_junctions: Vec<Junction>,
@@ -23,54 +23,54 @@ pub struct Places {
     pub duplicate: Vec<FacePlace>,
 }
 
-/// How open edges hang together.
+/// How open edges are connected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OpenKind {
-    /// One edge by itself.
+    /// A single edge.
     Edge,
     /// A closed ring in a surface.
     Hole,
-    /// A closed ring around a surface that is open: a sheet.
+    /// A closed ring around an open surface: a sheet.
     Rim,
     /// A closed ring whose edges lie on each other: two borders with different corners.
     Seam,
-    /// One after the other, between two ends.
+    /// A chain of edges between two ends.
     Run,
-    /// They branch.
+    /// A network of edges that branch.
     Net,
 }
 
-/// Open edges that hang together.
+/// Connected open edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenPlace {
-    /// How.
+    /// How they are connected.
     pub kind: OpenKind,
-    /// How many edges.
+    /// The number of edges.
     pub edges: usize,
     /// The length of all of them, metres.
     pub length_m: f64,
-    /// One end of an edge or a run, else of the longest edge.
+    /// One end of an edge or a run; otherwise of the longest edge.
     pub from: DVec3,
     /// The other end.
     pub to: DVec3,
-    /// The middle of a ring, else of the longest edge.
+    /// The middle of a ring; otherwise of the longest edge.
     pub near: DVec3,
 }
 
-/// An edge at which something is wrong.
+/// A defective edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EdgePlace {
     /// One end.
     pub from: DVec3,
     /// The other.
     pub to: DVec3,
-    /// Metres.
+    /// Its length, metres.
     pub length_m: f64,
-    /// How many faces it has.
+    /// The number of its faces.
     pub faces: usize,
 }
 
-/// A triangle with which something is wrong.
+/// A defective triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FacePlace {
     /// Its middle.

@@ -5,7 +5,7 @@ use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 /// What of the stencil counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::shadow) enum StencilBits {
-    /// All of it, in every cell.
+    /// All bits, in every cell.
     All,
     /// The low seven bits, in the cells whose top bit is set; the top bit is never written.
     BelowMask,

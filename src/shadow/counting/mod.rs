@@ -1,17 +1,17 @@
 //! The count of shadow volumes in the stencil, for [`super::stencil`] and, behind a mask, for [`super::hybrid`].
 //!
-//! Crow 1977; Heidmann's z-pass and Carmack's z-fail after seed 004, sections 3 to 6. Walls hang from the silhouette and
-//! are extruded in the vertex shader; two-sided stencil with wrap counts them; a cell is in shadow where the count is
-//! not 0.
+//! The method is F. Crow's, 1977, with Heidmann's z-pass and Carmack's z-fail, after *Geometry of Real Time Shadows*,
+//! sections 3 to 6. Walls hang from the silhouette and are extruded in the vertex shader; two-sided stencil with wrap
+//! counts them; a cell is in shadow where the count is not 0.
 //!
-//! - **z-pass** counts the walls in front of what is seen, so it needs no dark cap and walls that end at the lowest
-//!   receiver. It is right where nothing of a volume is cut by the near plane: always in the plan, whose near plane
-//!   lies above everything; in a camera view where no caster reaches into the near-clip volume, which is spanned by the
-//!   near rectangle and the direction to the sun (seed 004, section 7), and that looks from above the ground, so that no
-//!   ray meets the walls' open lower end. It needs the light cap where casters are not among what is seen.
-//! - **z-fail** counts behind what is seen, in all other views: with light cap, and walls to the sun's point at infinity,
-//!   which needs no dark cap. Depth is reversed, so that point has depth 0 exactly and no far plane cuts it.
-//! - The stencil holds 8 bits, or 7 beside the mask: casters come in batches, none of which counts further (`batch.rs`).
+//! - **z-pass** counts the walls in front of the visible point, so it needs no dark cap and no walls below the lowest
+//!   receiver. It is right where the near plane cuts nothing of a volume: always in the plan, whose near plane lies
+//!   above everything; and in a camera view where no caster reaches into the near-clip volume, which the near rectangle
+//!   and the direction to the sun span (section 7), and which looks from above the ground, so that no ray meets the
+//!   walls' open lower end. It needs the light cap where the view does not draw the casters themselves.
+//! - **z-fail** counts behind the visible point, in all other views: with light cap, and walls to the sun's point at
+//!   infinity, which needs no dark cap. Depth is reversed, so that point has depth 0 exactly and no far plane cuts it.
+//! - The stencil has 8 bits, or 7 beside the mask: casters come in batches, none of which counts further (`batch.rs`).
 
 mod bits;
 mod ways;

@@ -1,4 +1,4 @@
-//! The pipelines that count, and that show what they would count.
+//! The pipelines that count, and those that show what would be counted.
 
 use super::StencilBits;
 use crate::gpu::shaders;

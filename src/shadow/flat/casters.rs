@@ -1,4 +1,4 @@
-//! What stands above a plane: points, edges, and for every sun which way the faces look.
+//! What stands above a plane: points and edges, and for every sun the facing of the faces.
 
 use crate::mesh::{Incidence, Mesh, lowest};
 use glam::{DAffine3, DVec2, DVec3, Vec3Swizzles};

@@ -1,13 +1,13 @@
-//! Hard shadows on a plane, exactly and by edges alone: the casters are cut at the plane once, and for every sun their
+//! Hard shadows on a plane, exactly and by edges alone. The casters are cut at the plane once; for every sun their
 //! silhouette is projected onto it and summed along the rows of a raster.
 //!
-//! Each face is turned to the sun, so that it adds one to the cells that it covers; the sum is how many faces cover a
-//! cell, and not 0 is shadow. A face's ones begin and end at its edges, and where faces meet that begin and end the same
-//! ones nothing changes: only silhouette edges do, as often as their multiplicity says. It is the rule of shadow volumes
-//! ([`crate::volume`]) in the plane, so casters need not be clean. The idea of running sums between edges is as old as
-//! scan conversion (W. Jack Bouknight, *A procedure for generation of three-dimensional half-toned computer graphics
-//! presentations*, 1970); nothing here is rounded but where a point falls, in double precision, and where an edge crosses
-//! a row, to steps of 2⁻³⁰ columns ([`scan`]).
+//! Each face is turned to the sun, so that it adds one to the cells that it covers. The sum is how many faces cover a
+//! cell, and not 0 is shadow. What a face adds begins and ends at its edges; where the neighbours of an edge cancel,
+//! nothing changes. So only silhouette edges change the sum, as often as their multiplicity says. It is the rule of
+//! shadow volumes ([`crate::volume`]) in the plane, so casters need not be clean. Running sums between edges are as old
+//! as scan conversion (W. Jack Bouknight, *A procedure for generation of three-dimensional half-toned computer graphics
+//! presentations*, 1970). Only two things are rounded: where a point falls, in double precision, and where an edge
+//! crosses a row, to steps of 2⁻³⁰ columns ([`scan`]).
 
 mod casters;
 mod scan;
@@ -28,9 +28,9 @@ pub(super) struct FlatShadow {
 }
 
 impl FlatShadow {
-    /// `raster_from_local` takes metres around the mesh's origin to columns, rows and the height above the plane. Centres of
-    /// cells are whole numbers; what is not above the plane casts nothing on it. So many columns and rows are drawn, from
-    /// the first ones on.
+    /// `raster_from_local` takes metres around the mesh's origin to columns, rows and the height above the plane.
+    /// Centres of cells are whole numbers; what is not above the plane casts nothing on it. So many columns and rows
+    /// are drawn, from the first ones on.
     pub(super) fn new(mesh: &Mesh, raster_from_local: DAffine3, first: [u32; 2], size: [u32; 2]) -> FlatShadow {
         let casters = Casters::cut(mesh, &raster_from_local);
         let scan = Scan::new(&casters, first, size);
@@ -65,7 +65,7 @@ impl FlatShadow {
 
 /// How many columns and rows away from the sun a shadow falls, a metre of height.
 pub(super) fn throw(raster_from_local: &DAffine3, to_sun: DVec3) -> DVec2 {
-    // the sun may be in the plane but for rounding
+    // the sun may be in the plane except for rounding
     let along = raster_from_local.transform_vector3(to_sun);
     along.truncate() / along.z.max(1e-9 * along.length())
 }

@@ -1,4 +1,4 @@
-//! Silhouettes → rows of bits: each edge marks where it crosses the rows, and sums run along them.
+//! Silhouettes → rows of bits: each edge marks where it crosses the rows, and sums run along the rows.
 
 use super::casters::{Casters, FaceSide, FallingEdge};
 use crate::view::Bits;
@@ -7,11 +7,12 @@ use std::cell::RefCell;
 
 /// A raster that is drawn band by band, so that what is summed stays in the processor's cache.
 ///
-/// Where an edge crosses a row depends on the edge and the row alone, so that a part of a raster is drawn as the whole is.
+/// Where an edge crosses a row depends on the edge and the row alone, so that a part of a raster is drawn as the whole
+/// is.
 pub(super) struct Scan {
     bits: Bits,
     part: RasterPart,
-    /// Per band where faces end in the plane: the same under every sun, but for whether it sees them.
+    /// Per band where faces end in the plane: the same under every sun, except for whether it sees them.
     sections: Vec<Vec<(EdgeCrossing, FaceSide)>>,
     /// Per task and band which edges of the silhouette cross it. Kept, so that no sun allocates anything.
     crossings: Vec<Vec<Vec<EdgeCrossing>>>,
@@ -30,8 +31,8 @@ struct EdgeCrossing {
     change: i32,
 }
 
-/// Columns in steps of 2⁻³⁰: whole steps from row to row lead to the same place wherever they begin. After a million rows
-/// that is off by less than half a thousandth of a column.
+/// Columns in steps of 2⁻³⁰: whole steps from row to row lead to the same place wherever they begin. After a million
+/// rows that is off by less than half a thousandth of a column.
 #[derive(Clone, Copy)]
 struct Fixed(i64);
 

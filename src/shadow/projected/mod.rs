@@ -1,10 +1,11 @@
-//! Projected shadows: exact hard shadows on a plan, the fastest of all on the processor; and those of the ground by the
-//! graphics adapter.
+//! Projected shadows: exact hard shadows on a plan, by far the fastest on the processor; those on the ground can also
+//! be drawn by the graphics adapter.
 //!
-//! J. Blinn, *Me and My (Fake) Shadow*, 1988; seed 002 calls the same a hard shadow. The shadow on a flat receiver is the
-//! union of the casters' faces, cut at the height that is judged and projected along the sun. `flat` finds
-//! it on the ground from the silhouette alone: no rays, no volumes, no tree, and nothing that a raster rounds. What stands
-//! above the ground is no flat receiver; its cells are judged one by one on the same raster, by `raised`.
+//! J. Blinn, *Me and My (Fake) Shadow*, 1988; M. Herf's *Efficient Generation of Soft Shadow Textures*, 1997, adds up
+//! such shadows. The shadow on a flat receiver is the union of the casters' faces, cut at the height that is judged and
+//! projected along the sun. `flat` finds it on the ground from the silhouette alone: no rays, no volumes, no tree, and
+//! nothing that a raster rounds. What stands above the ground is not one flat receiver; its cells are judged one by one
+//! on the same raster, by `raised`.
 
 mod on_gpu;
 
@@ -28,7 +29,7 @@ pub struct Projected {
 }
 
 impl Projected {
-    /// Cuts the casters at the height at which the ground is judged, and looks down on the receivers.
+    /// Cuts the casters at the height at which the ground is judged, and finds what the plan sees of the receivers.
     pub fn new(scene: &Scene, tile: impl Into<Tile>) -> Projected {
         let tile: Tile = tile.into();
         let raster_from_local = raster_from_local(scene, &tile.plan);

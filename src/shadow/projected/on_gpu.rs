@@ -1,9 +1,10 @@
-//! Projected shadows on the ground, by the graphics adapter: it lets the cut faces fall along the sun and fills them.
+//! Projected shadows on the ground, by the graphics adapter: it projects the cut faces along the sun's rays and fills
+//! them.
 //!
-//! One pass an instant, without depth, stencil or silhouette: the adapter's own scan conversion is the union of the faces.
-//! Places are `f32` around the raster's middle, and corners are rounded to the adapter's lattice (1/256 of a cell on all
-//! that we know). A cell is ray casting's, but within 1/128 of a cell of an edge; where shadows fall further than 2¹⁵
-//! cells the rounding of `f32` (2⁻²² of how far) comes on top.
+//! It is one pass per instant, without depth, stencil or silhouette: the adapter's own scan conversion makes the union
+//! of the faces. Positions are `f32` around the raster's middle, and corners are rounded to the adapter's lattice
+//! (1/256 of a cell on all adapters that we know). A cell is that of ray casting unless it lies within 1/128 of a cell
+//! of an edge; where shadows fall farther than 2¹⁵ cells the rounding of `f32` is added (2⁻²² of the distance).
 
 use super::raster_from_local;
 use crate::gpu::targets::{SHARE, Stages, whole};
@@ -34,8 +35,8 @@ pub struct ProjectedOnGpu {
 }
 
 impl ProjectedOnGpu {
-    /// Cuts the casters at the height at which the ground is judged, and uploads them. What the scene receives on must be
-    /// the ground alone.
+    /// Cuts the casters at the height at which the ground is judged, and uploads them. The scene may receive on the
+    /// ground alone.
     ///
     /// # Errors
     /// [`ShadowError`] where raster or casters do not fit the adapter.

@@ -1,11 +1,11 @@
-//! How strongly a light shines on a point when nothing stands between.
+//! How strongly a light shines on a point when nothing stands between the two.
 
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The part of a point's sky, each direction weighed by its cosine, that a flat lamp takes: 0 to 1.
+/// The part of a point's sky, each direction weighted by its cosine, that a flat lamp takes: 0 to 1.
 ///
-/// Cohen and Wallace, *Radiosity and Realistic Image Synthesis*, page 72; formula 4.2 of seed 002:
+/// Cohen and Wallace, *Radiosity and Realistic Image Synthesis*, page 72; formula 4.2 of M. Herf's paper:
 /// F = 1/(2π) · Σ βᵢ · N·(Rᵢ × Rᵢ₊₁)/|Rᵢ × Rᵢ₊₁|, Rᵢ from the point to the lamp's corners, βᵢ the angle between Rᵢ and Rᵢ₊₁.
 /// The corners run either way around; the lamp stands wholly above the point's plane. It changes slowly, so it can be
 /// asked at few texels. Towards the sun, the same is the cosine `normal.dot(to_sun)`.

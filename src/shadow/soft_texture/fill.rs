@@ -1,14 +1,15 @@
-//! Hard shadows of one sample on one patch, on the processor, in double precision.
+//! Fills the hard shadows of one sample on one patch, on the processor, in double precision.
 //!
-//! - [`Fill::Faces`]: every face is filled, a bit a cell: the plain twin.
-//! - [`Fill::Silhouettes`]: the paper's edge-flag fill (section 4.3.1, after Ackland and Weste, 1981) of silhouettes
-//!   (4.3.3). Each edge marks in every row the cell from which on its faces' layers begin or end; a running sum over the row
-//!   is then the number of layers before each cell. An edge counts as often as the directions of its faces do not cancel:
-//!   ±2 between two faces of one side, ±1 at a border, 0 inside. The paper lists events by light in each cell; we add a
-//!   sample's at once, so that an event is a number and there is nothing to allocate.
+//! - [`Fill::Faces`] fills every face, one bit per cell: the plain twin.
+//! - [`Fill::Silhouettes`] is the edge-flag fill (section 4.3.1 of M. Herf's paper, after Ackland and Weste, 1981) of
+//!   silhouettes (4.3.3). In every row each edge marks the cell at which the layers of its faces begin or end; a
+//!   running sum over the row is then the number of layers before each cell. An edge counts as often as the directions
+//!   of its faces do not cancel: ±2 between two faces of one side, ±1 at a border, 0 inside. The paper lists events by
+//!   light in each cell; we add one sample's events at once, so that an event is a number and nothing has to be
+//!   allocated.
 //!
-//! Both cut at the judged plane alike. A face that is cut marks its own border, the section included; where it meets a face
-//! that is not, their marks fall into the same cells and cancel in the sum.
+//! Both cut faces at the judged plane in the same way. A face that is cut marks its own border, the section included;
+//! where it meets a face that is not cut, their marks fall into the same cells and cancel in the sum.
 
 use super::occluders::Occluders;
 use crate::mesh::Mesh;
@@ -63,7 +64,7 @@ impl Scratch {
 /// Which cells something lies before.
 pub(super) enum CoveredCells<'a> {
     Bits(Coverage),
-    /// Layers, row by row of one cell more than the patch is wide.
+    /// The layers, row by row; a row has one number more than the patch has columns.
     Layers(&'a [i32], usize),
 }
 
@@ -176,8 +177,8 @@ impl Events<'_> {
         }
     }
 
-    /// Marks the rows that an edge crosses, whose faces run along it so often, with their insides at its left hand as rows
-    /// go down. What lies left of the raster is marked at its left border (section 4.3.1, clipping).
+    /// Marks the rows that an edge crosses, whose faces run along it so often, with their insides at its left hand as
+    /// rows go down. What lies left of the raster is marked at its left border (section 4.3.1, clipping).
     fn mark(&mut self, from: DVec2, to: DVec2, times: i32) {
         let (top, bottom, times) = if from.y < to.y { (from, to, -times) } else { (to, from, times) };
         // a row belongs to the edge whose upper end it meets

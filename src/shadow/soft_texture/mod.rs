@@ -1,15 +1,17 @@
 //! Registered soft shadow textures: which part of a light's samples every texel of a flat patch sees.
 //!
-//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138. For each patch and each sample the faces between
-//! them are projected onto the patch's own texels ([`crate::shadow::registered`]) and filled; as all samples' hard shadows
-//! register, they are simply added. Samples are points of the sun's disc, a soft shadow at an instant; or the instants of
-//! a study, hours of sun on a facade; or points of a lamp. It is the same code.
+//! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138, 1997. For each patch and each sample the
+//! faces between them are projected onto the patch's own texels ([`crate::shadow::registered`]) and filled. All
+//! samples' hard shadows register, so they are simply added. Samples are points of the sun's disc, which give a soft
+//! shadow at an instant; or the instants of a study, which give hours of sun on a façade; or points of a lamp. The code
+//! is the same.
 //!
-//! What we changed: sums are integers with a weight for each sample; faces are culled for each patch by a tree of boxes; a
-//! patch is judged a millimetre above itself, so that it never shades itself and takes no light through a wall that stands
-//! on it; the paper's factor of an unoccluded light (`unoccluded`, a hook for tests) is apart from all that, and hours do without it.
+//! What we changed: sums are integers with a weight for each sample; faces are culled for each patch by a tree of
+//! boxes; a patch is judged a millimetre above itself, so that it never shades itself and gets no light through a wall
+//! that stands on it; the paper's factor of an unoccluded light (`unoccluded`, a hook for tests) is computed
+//! separately, and hours do not need it.
 //!
-//! Where it fails: a texel's value is that of its centre; and where patches are many and tiny, rays cost less
+//! Where it fails: a texel has the value of its centre; and where patches are many and tiny, rays cost less
 //! ([`Choice::Auto`]).
 
 #[cfg(feature = "test-hooks")]
@@ -39,7 +41,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What fills hard shadows.
+/// The machine that fills hard shadows.
 #[derive(Clone)]
 pub enum Painter {
     /// The processor.
@@ -66,7 +68,7 @@ pub struct SoftTexture {
 }
 
 impl SoftTexture {
-    /// For the faces that cast; they share their origin with the patches.
+    /// For the casting faces of a mesh, whose origin is that of the patches.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]
@@ -100,14 +102,14 @@ impl SoftTexture {
         })
     }
 
-    /// Fills every face for every patch, as the paper does: for measurements.
+    /// Fills every face for every patch, as the paper does, for measurements.
     #[cfg(feature = "test-hooks")]
     pub fn without_culling(mut self) -> SoftTexture {
         self.culling = false;
         self
     }
 
-    /// Adds samples' weights to the texels that see them.
+    /// Adds the weight of each sample to the texels that see it.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]
@@ -152,23 +154,23 @@ impl SoftTexture {
         Ok(())
     }
 
-    /// Goes on from sums that were added before: per texel, as [`SoftTexture::so_far`] has them.
+    /// Continues from sums that were added before, per texel, as [`SoftTexture::so_far`] returns them.
     pub fn begin_with(&mut self, sums: &[u32]) {
         self.sums.copy_from_slice(sums);
     }
 
-    /// How patches were judged so far.
+    /// How the patches were judged so far.
     pub fn judged(&self) -> PatchJudgements {
         let [textures, texture_texels, faces, rays] = [0, 1, 2, 3].map(|at| self.counts[at].load(Ordering::Relaxed));
         PatchJudgements { textures, texture_texels, faces, rays }
     }
 
-    /// Bytes of the graphics adapter's memory that are taken; 0 without one.
+    /// The graphics adapter's memory that is used, bytes; 0 without an adapter.
     pub fn gpu_bytes(&self) -> u64 {
         self.drawer.as_ref().map_or(0, AdapterDrawer::bytes)
     }
 
-    /// Per texel of [`Patches::texels`] the weights of the samples so far that it sees.
+    /// For each texel of [`Patches::texels`], the sum of the weights of the samples so far that it sees.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]
@@ -176,7 +178,7 @@ impl SoftTexture {
         self.added_to(self.sums.clone())
     }
 
-    /// Per texel of [`Patches::texels`] the weights of the samples that it sees.
+    /// For each texel of [`Patches::texels`], the sum of the weights of the samples that it sees.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]

@@ -1,7 +1,7 @@
 //! What stands between a patch and a light: the faces that a tree of boxes does not rule out.
 //!
-//! The paper (sections 4.4.1 and 5.5) names this culling as what it lacks. A box is ruled out where it lies wholly beyond
-//! one side of the pyramid, or of the sun's prism, between the patch's outermost centres and the light; in registered
+//! The paper (sections 4.4.1 and 5.5) names this culling as missing. A box is ruled out if it lies wholly beyond one
+//! side of the pyramid, or of the sun's prism, between the patch's outermost centres and the light; in registered
 //! coordinates each side is one linear form.
 
 use crate::mesh::Mesh;

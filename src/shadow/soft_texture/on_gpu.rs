@@ -1,8 +1,8 @@
-//! Hard shadows filled by the graphics adapter: each patch is a viewport in its page, into which its occluders are drawn;
-//! then every judged texel of the page that nothing covers gets the sample's weight, in integers.
+//! Hard shadows filled by the graphics adapter. Each patch is a viewport in its page, into which its occluders are
+//! drawn; then every judged texel of the page that nothing covers gets the sample's weight, in integers.
 //!
-//! One page's mask serves all pages. For a sample the matrices of its patches and the lists of their occluders go to the
-//! adapter; nothing comes back before the end.
+//! One mask is used for all pages. For each sample the matrices of its patches and the lists of their occluders go to
+//! the adapter; nothing is read back before the end.
 
 use super::occluders::Occluders;
 use super::query::{Choice, OccluderQuery, PatchJudgements, Sample, is_drawn, raster};

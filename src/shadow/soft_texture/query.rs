@@ -1,4 +1,4 @@
-//! The request for a patch: its samples, how it is judged, and what stands before it.
+//! The request for one patch: its samples, how it is judged, and what stands in front of it.
 
 use super::occluders::Occluders;
 use crate::mesh::patches::{Patch, Patches};
@@ -9,41 +9,42 @@ use glam::DVec4;
 /// One point of a light, or one instant of the sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Homogeneous, in the world frame: a unit vector to the sun (w = 0), or a lamp's point (w = 1).
+    /// The light as a homogeneous point in the world frame: a unit vector to the sun (w = 0), or a lamp's position (w =
+    /// 1).
     pub light: DVec4,
-    /// What a texel that sees it gets.
+    /// The weight that a texel gets if it sees the sample.
     pub weight: u32,
 }
 
 /// How a patch is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
-    /// By its texture; a patch without a centre by a ray all the same.
+    /// By its texture; only a patch without a centre is judged by a ray.
     Texture,
-    /// By one ray a texel and sample.
+    /// By one ray per texel and sample.
     Rays,
-    /// By what costs less.
+    /// By the cheaper of both.
     Auto,
 }
 
-/// How patches were judged, over all samples that stand in front of them.
+/// How patches were judged, over all samples in front of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PatchJudgements {
-    /// Textures filled: patches times samples.
+    /// The number of filled textures: patches times samples.
     pub textures: u64,
-    /// Texels in them.
+    /// The number of texels in them.
     pub texture_texels: u64,
-    /// Faces between patches and samples that culling left.
+    /// The number of faces between patches and samples that culling kept.
     pub faces: u64,
-    /// Rays cast.
+    /// The number of rays.
     pub rays: u64,
 }
 
-/// With [`Choice::Auto`] a texture is filled where no more faces a texel than these lie between patch and sample; else rays
-/// cost less. Measured in `docs/benchmarks/receivers.md`.
+/// With [`Choice::Auto`] a texture is filled if at most this many faces per texel lie between patch and sample;
+/// otherwise rays cost less. Measured in `docs/benchmarks/receivers.md`.
 pub const MOST_FACES_A_TEXEL: usize = 2;
 
-/// With [`Choice::Auto`] patches of fewer texels are not worth a draw call of the adapter.
+/// With [`Choice::Auto`] patches with fewer texels are not worth a draw call.
 pub const FEWEST_DRAWN: usize = 256;
 
 /// Whether the adapter draws a patch, unless too much stands before it.

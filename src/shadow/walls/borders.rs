@@ -1,8 +1,8 @@
-//! Which walls the view cannot show.
+//! Leaves out the walls that the view cannot show.
 //!
-//! Seed 004, section 9, saves fill by bounds around casters. Here walls are left out one by one, which saves at least as
-//! much, needs no bounds, and cannot change a mask: what lies beyond a border is cut away anyway. A wall that ends at the
-//! lowest receiver fills nothing that a scissor around its caster's shadow would spare.
+//! *Geometry of Real Time Shadows*, section 9, saves fill rate by bounds around casters. Here walls are left out one by
+//! one, which saves at least as much, needs no bounds, and cannot change a mask: what lies beyond a border is cut away
+//! anyway. A wall that ends at the lowest receiver fills nothing that a scissor around its caster's shadow would save.
 
 use crate::silhouette::DirectedEdge;
 use glam::{DMat4, DVec3, DVec4, Vec3};
@@ -12,9 +12,9 @@ use glam::{DMat4, DVec3, DVec4, Vec3};
 pub struct Borders {
     /// Metres around the mesh's origin → clip space, depth 1 near and 0 far.
     pub clip_from_local: DMat4,
-    /// Where walls end, metres above the origin; none where they end at infinity.
+    /// The height at which walls end, metres above the origin; `None` if they end at infinity.
     pub lowest_z: Option<f64>,
-    /// Unit vector to the sun.
+    /// The unit vector to the sun.
     pub to_sun: DVec3,
 }
 

@@ -1,10 +1,11 @@
-//! Silhouettes found on the GPU: one pass over all edges writes the list of walls and the arguments with which it is
-//! drawn, and nothing comes back.
+//! Silhouettes found on the GPU: one pass over all edges writes the list of walls and the arguments of the indirect
+//! draw, and nothing is read back.
 //!
-//! The twin of [`crate::silhouette::brute_force`]. (Seed 003 extracts in the vertex shader, for want of compute passes:
-//! `Silhouettes::InVertexShader`, which tests and benches compare with. Here only silhouette edges become vertices.) Facing is a bit of
-//! `super::faces`. Edges come in runs, each so short that its buffers fit the adapter's bindings however many of its
-//! edges are silhouette.
+//! The twin of [`crate::silhouette::brute_force`]. (Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd
+//! edition, 2008, section 9.1, extract in the vertex shader, since there were no compute passes:
+//! `Silhouettes::InVertexShader`, with which tests and benches compare. Here only silhouette edges become vertices.)
+//! Facing is a bit of `super::faces`. Edges come in runs, each so short that its buffers fit the adapter's bindings
+//! however many of its edges are part of the silhouette.
 
 use super::faces::{self, Faces, GROUP};
 use super::query::{NO_FACE, WallQuery, Walls, along, packed};
@@ -22,7 +23,7 @@ const CROWDED: u32 = 1 << 31;
 const NOTHING_DRAWN: layout::DrawArguments =
     layout::DrawArguments { index_count: 0, instance_count: 1, first_index: 0, base_vertex: 0, first_instance: 0 };
 
-/// What all meshes share.
+/// The pipelines, which all meshes share.
 pub struct ExtractionProgram {
     pub(super) faces: Arc<faces::FacingProgram>,
     extract: ComputePipeline,
@@ -135,13 +136,14 @@ impl Extraction {
         Ok(Extraction { gpu, extract: program.extract.clone(), most, faces, runs })
     }
 
-    /// In how many runs the edges are asked.
+    /// The number of runs of edges.
     #[cfg(feature = "test-hooks")]
     pub fn runs(&self) -> usize {
         self.runs.len()
     }
 
-    /// The lists that were written last, walls and cap. What is drawn stays on the GPU.
+    /// Reads back the lists that were written last, walls and cap. Drawing does not need this: it reads them on the
+    /// GPU.
     #[cfg(feature = "test-hooks")]
     pub fn read(&self) -> Result<[Vec<u32>; 2], GpuError> {
         let mut walls = Vec::new();

@@ -1,4 +1,4 @@
-//! Faces on the GPU: which of them a light shines on, one bit a face; and the light cap that those bits turn.
+//! Faces on the GPU: one bit per face says whether it is turned to the light, and the light cap is drawn by those bits.
 
 use super::WallQuery;
 use crate::gpu::targets::whole;

@@ -1,5 +1,5 @@
-//! Where the walls of shadow volumes come from: found on the processor and uploaded, extracted on the GPU, or decided
-//! vertex by vertex. All give the same walls.
+//! The walls of shadow volumes: found on the processor and uploaded, extracted on the GPU, or decided vertex by vertex.
+//! All three ways give the same walls.
 
 pub mod borders;
 pub mod extraction;
@@ -21,14 +21,15 @@ use std::sync::Arc;
 use uploaded::UploadedWalls;
 use wgpu::{BindGroupLayout, ShaderModule};
 
-/// Who finds the silhouettes.
+/// The ways to find silhouettes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Silhouettes {
     /// A finder on the processor; its walls are uploaded.
     OnProcessor(ProcessorFinder),
     /// A compute pass over all edges.
     OnGpu,
-    /// The vertex shader, for each edge of the mesh. To compare with: it is the older way (seed 003).
+    /// The vertex shader, for each edge of the mesh. The older way (*Real-Time Rendering*, 3rd edition,
+    /// section 9.1), for comparison.
     #[cfg(feature = "test-hooks")]
     InVertexShader,
 }

@@ -1,7 +1,10 @@
-//! Silhouettes decided in the vertex shader: every edge is a quadrilateral, collapsed where it is no silhouette.
+//! Silhouettes decided in the vertex shader: every edge is a quadrilateral, collapsed where it is not part of the
+//! silhouette.
 //!
-//! Seed 003, pages on extrusion; kept to compare with. Every edge costs its twelve vertices, silhouette or not. Seed and
-//! shader know edges with two faces: one with more comes as several, a pair of its faces each, whose walls add up.
+//! Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd edition, 2008, section 9.1, figure 9.14; kept for
+//! comparison. Every edge costs its twelve vertices, whether it is silhouette or not. The book and the shader know only
+//! edges with two faces: an edge with more is drawn several times, each time with two of its faces, and these walls add
+//! up.
 
 use super::faces::{self, Faces, GROUP};
 use super::query::{NO_FACE, WallQuery, Walls, packed};

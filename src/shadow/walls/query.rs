@@ -1,4 +1,4 @@
-//! The request for walls, and what all ways to make them have in common.
+//! The request for walls, and what all ways to make them share.
 
 use super::borders::Borders;
 use crate::gpu::{GpuError, layout};
@@ -6,18 +6,18 @@ use crate::mesh::{Incidence, Mesh};
 use glam::{DVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
 use wgpu::{CommandEncoder, RenderPass};
 
-/// Which volume is sought.
+/// The volume that is wanted.
 #[derive(Clone, Copy, Debug)]
 pub struct WallQuery {
     /// The light around the mesh's origin (sun: w = 0, lamp: w = 1).
     pub local_light: DVec4,
-    /// Walls end in one point at infinity, so that each is one triangle; else two.
+    /// Whether walls end in one point at infinity, so that each is one triangle instead of two.
     pub to_infinity: bool,
-    /// The light cap is drawn too.
+    /// Whether the light cap is drawn, too.
     pub with_cap: bool,
-    /// Walls stand half as often; every multiplicity is even.
+    /// Whether walls are drawn half as often, because every multiplicity is even.
     pub halved: bool,
-    /// Walls beyond these may be left out, where leaving them out costs less than handing them to the adapter.
+    /// The borders of the view. Walls beyond them may be left out if that costs less than uploading them.
     pub borders: Option<Borders>,
 }
 
@@ -36,11 +36,11 @@ impl WallQuery {
     }
 }
 
-/// The walls and caps of one mesh. Where indices are drawn, they count vertices that come twice: where they are, and
-/// where their walls end.
+/// The walls and caps of one mesh. Where indices are drawn, they refer to a list that has each vertex twice: in its
+/// place, and at the far end of its walls.
 pub trait Walls {
-    /// Finds the volume that is drawn next; what the GPU has to do for it goes into `encoder`. Says whether there may be
-    /// something to draw.
+    /// Finds the volume that is drawn next; what the GPU has to do for it goes into `encoder`. Says whether there may
+    /// be something to draw.
     fn find(&mut self, mesh: &Mesh, sought: &WallQuery, encoder: &mut CommandEncoder) -> Result<bool, GpuError>;
 
     /// Draws its walls.
@@ -51,8 +51,8 @@ pub trait Walls {
 }
 
 /// The vertex of an edge from which its wall's triangles begin: the one nearer to the sun, from which the plan's shader
-/// takes the depth of slivers; the lower number among equals, so that a wall and its opposite are the same triangles and
-/// cancel. The shaders decide by the same sum in `f32`.
+/// takes the depth of slivers; the lower number among equals, so that a wall and its opposite are the same triangles
+/// and cancel. The shaders decide by the same sum in `f32`.
 pub(super) fn sunward(vertices: &[Vec3], [one, other]: [u32; 2], light: Vec4) -> u32 {
     let (first, second) = (one.min(other), one.max(other));
     if along(vertices, [first, second]).dot(light.xy()) > 0.0 { second } else { first }

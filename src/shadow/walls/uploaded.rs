@@ -1,4 +1,4 @@
-//! Walls from a finder on the processor, as a list of indices that is uploaded at each instant.
+//! Walls from a finder on the processor: a list of indices that is uploaded at each instant.
 
 use super::query::{WallQuery, Walls, sunward};
 use crate::gpu::{Gpu, GpuError};

@@ -1,13 +1,13 @@
-//! Latitude and longitude.
+//! Latitude or longitude, one at a time.
 
 use std::fmt;
 
-/// What an angle on the globe says.
+/// The two angles of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
-    /// North positive.
+    /// Latitude, north positive.
     Latitude,
-    /// East positive.
+    /// Longitude, east positive.
     Longitude,
 }
 

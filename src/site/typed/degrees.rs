@@ -1,4 +1,4 @@
-//! Latitude and longitude, one of them or both.
+//! Latitude and longitude as they are typed, one of them or both.
 
 use super::number::number;
 use super::{Axis, TypedError};
@@ -19,7 +19,7 @@ impl Axis {
     }
 }
 
-/// What a field for one angle was given.
+/// The content of a field for one angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Degrees {
     /// The angle.
@@ -48,8 +48,8 @@ pub fn degrees(text: &str, axis: Axis) -> Result<Degrees, TypedError> {
 }
 
 /// Latitude and longitude as people write them: `48.2082, 16.3738`, `48,2082; 16,3738`, `48.2082 16.3738`,
-/// `48°12'30" N 16°22'26" E`. Letters say which is which; without them the latitude is the first. Degrees, north and east
-/// positive.
+/// `48°12'30" N 16°22'26" E`. Letters say which is which; without them the latitude is the first. Degrees, north and
+/// east positive.
 ///
 /// # Errors
 /// [`TypedError::Place`], and [`SunError::OutOfRange`].

@@ -1,16 +1,16 @@
-//! Why what was typed is not taken.
+//! Why a typed value is not accepted.
 
 use super::Axis;
 use crate::message::{Message, Worded, message, plain_display};
 use crate::sun::SunError;
 use chrono::NaiveDate;
 
-/// Why what was typed is not taken.
+/// Why a typed value is not accepted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TypedError {
     /// Not a number.
     Number(String),
-    /// A number that cannot be.
+    /// A number outside of its range.
     Outside {
         /// What was typed.
         value: f64,
@@ -30,7 +30,7 @@ pub enum TypedError {
     },
     /// Not two of them.
     Place(String),
-    /// A coordinate outside the globe, a step of nothing.
+    /// A coordinate off the globe, or a step of 0.
     Sun(#[from] SunError),
     /// Not a date.
     Date(String),

@@ -1,6 +1,7 @@
-//! What people type and paste for numbers, degrees, dates and times, in the ways in which they write them.
+//! Numbers, degrees, dates and times in all the ways in which people type and paste them.
 //!
-//! The window's fields and `--place` read so. Site files and all other options keep to the one way that is documented.
+//! The window's fields and the command's place are read in this way. Site files and all other options have one way,
+//! which is documented.
 
 mod axis;
 mod date;

@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 
 /// A number as people write it: `0.5`, `0,5`, `1 234.5`, `1.234,5`, `1,234.5`, `1'234.5`, `−3`, `1e-3`.
 ///
-/// A single point or comma parts the decimals, whatever follows it: `1,234` is a little more than one. Where there are both,
-/// the last one does. What parts thousands has three digits between it and the next.
+/// A single point or comma parts the decimals, whatever follows it: `1,234` is a little more than one. Where there are
+/// both, the last one does. What parts thousands has three digits between it and the next.
 ///
 /// # Errors
 /// [`TypedError::Number`].
@@ -14,7 +14,7 @@ pub fn number(text: &str) -> Result<f64, TypedError> {
     read(text).ok_or_else(|| TypedError::Number(text.trim().to_owned()))
 }
 
-/// A number of a range.
+/// A number in a range.
 ///
 /// # Errors
 /// [`TypedError::Number`], [`TypedError::Outside`].

@@ -1,4 +1,4 @@
-//! What is drawn under the lines: the ground, the buildings, and those borders between cells that the sun does not make.
+//! What is drawn under the lines: the ground, the buildings, and the borders between cells that the sun does not cause.
 
 use super::{Line, LineGroup, Scale, fill, group, line, paths, stroke};
 use crate::contour::{Contour, ScalarField, contours};
@@ -17,19 +17,19 @@ pub(super) struct Base {
     width: u32,
     height: u32,
     ground_only: bool,
-    /// Whether a cell sees one.
+    /// For each cell, whether it sees a building.
     buildings: Vec<bool>,
-    /// Whether something steps up or down east of a cell, and south of it.
+    /// For each cell, whether something steps up or down on its east side, and on its south side.
     steps: [Vec<bool>; 2],
-    /// Lines between the cells: from, to in cells, and how.
+    /// Lines between cells: from and to in cells, and the pen.
     strokes: Vec<([u32; 2], [u32; 2], Pen)>,
-    /// Around the buildings.
+    /// The contours of the buildings.
     footprints: Vec<Contour>,
 }
 
 impl Base {
     pub(super) fn new<S: SurfaceRows>(scene: &FigureContext<S>, grid: &Grid) -> Base {
-        /// Rows that one task looks at.
+        /// The rows of one task.
         const BAND: usize = 64;
         let (width, height) = (grid.width, grid.height);
         let bands: Vec<_> = (0..height as usize).step_by(BAND).collect();
@@ -88,13 +88,13 @@ impl Base {
         self.steps[usize::from(b != a + 1)][a]
     }
 
-    /// Whether two neighbours, which the sun parts, are parted by nothing else, and judged.
+    /// Whether nothing except the sun separates two neighbours, and both are judged.
     pub(super) fn open(&self, a: usize, b: usize) -> bool {
         let is_judged = |cell: usize| !(self.ground_only && self.buildings[cell]);
         !self.is_step(a, b) && is_judged(a) && is_judged(b)
     }
 
-    /// The contours of numbers on this plan.
+    /// The contours of a field of numbers on this plan.
     pub(super) fn contours(&self, value: &(dyn Fn(usize) -> u64 + Sync), threshold: u64) -> Vec<Contour> {
         let open = |a, b| self.open(a, b);
         contours(&ScalarField { width: self.width, height: self.height, value, open: &open }, threshold)
@@ -105,7 +105,7 @@ impl Base {
         group(block, "roofs", |block| fill(block, &scale.areas(&self.footprints), colour, 1.0));
     }
 
-    /// Around the buildings, where they step up.
+    /// The lines around the buildings, where they step up.
     pub(super) fn footprints(&self, scale: Scale) -> Vec<Line> {
         let LineGroup { large, small } = scale.lines(&self.footprints);
         [large, small].concat()

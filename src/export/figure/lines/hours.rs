@@ -13,22 +13,22 @@ use crate::profile::Profile;
 use crate::view::SurfaceRows;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The lines, and their hours.
+/// The colours of the lines, and of their labels.
 const LINE: Rgb = [172, 56, 22];
 const LABEL: LetterStyle = LetterStyle { size: 27.0, weight: FontWeight::Bold, colour: LINE };
-/// Page pixels.
+/// The width of a line, page pixels.
 const WIDTH: f64 = 2.6;
-/// Behind letters.
+/// The halo behind labels.
 const HALO: Rgb = [255, 255, 255];
-/// The bands are lighter than the profile's: lines and letters lie over them.
+/// How much lighter the bands are than the profile's, since lines and labels lie over them.
 const LIGHTER: f64 = 0.5;
-/// A label for each so long part of a line, none on a shorter one than this, and so far from the same label: pixels.
+/// The length of line per label, the shortest line with a label, and the least distance between equal labels: pixels.
 const PART: f64 = 1300.0;
 const SHORT: f64 = 130.0;
 const APART: f64 = 240.0;
 
-/// `hours`: the profile's bands, and a labelled line for each whole hour of shadow; for as many hours as a band has where
-/// those are more, and for each band where the window has no whole hour.
+/// `hours`: the profile's bands, and a labelled line for each whole hour of shadow. Where a band is wider than an hour
+/// the lines are those of the bands, and also where the window has no whole hour.
 ///
 /// A line parts cells with more shadow than it says from those with no more; along walls there is none.
 ///
@@ -92,9 +92,9 @@ pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) ->
     Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
 }
 
-/// The hours on each line that is long enough for them, again and again; beside the longest one where none is.
+/// Labels each line that is long enough with its hours, repeatedly; if no line is, the label stands beside the longest.
 fn label(labels: &mut Labels, said: &str, lines: &LineGroup) {
-    /// Between a line and letters beside it, pixels.
+    /// The gap between a line and a label beside it, pixels.
     const BESIDE: f64 = 10.0;
     let half = labels.half(said);
     let mut is_placed = false;
@@ -123,7 +123,7 @@ fn label(labels: &mut Labels, said: &str, lines: &LineGroup) {
     }
 }
 
-/// From line to line, seconds.
+/// The step between lines, seconds.
 fn line_secs(bands: &Bands) -> u32 {
     const HOUR: u32 = 3600;
     if bands.day_secs > HOUR { bands.band_secs.max(HOUR) } else { bands.band_secs }

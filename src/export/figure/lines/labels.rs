@@ -1,16 +1,16 @@
-//! Labels on lines, placed where they can be read and, if possible, cover nothing else.
+//! Labels on lines, placed so that they can be read and, if possible, cover nothing else.
 
 use super::{distance, length};
 use crate::export::figure::scale::Rgb;
 use crate::export::figure::svg::{Block, LetterStyle, hex};
 use crate::export::figure::text;
 
-/// A place for a label: its middle, and the angle of its line of letters, radians clockwise from rightwards.
+/// A place for a label: its middle, and the angle of the text, radians clockwise from rightwards.
 #[derive(Clone, Copy)]
 pub(super) struct Spot {
     pub(super) at: [f64; 2],
     pub(super) angle: f64,
-    /// How bad it is by itself; a pixel of another line under the letters is 1.
+    /// Its own cost; one pixel of another line under the label costs 1.
     pub(super) cost: f64,
 }
 
@@ -19,21 +19,21 @@ pub(super) struct Labels {
     size: [f64; 2],
     style: LetterStyle,
     columns: usize,
-    /// In squares of [`SQUARE`] pixels: how much of lines runs there, and whether letters stand there.
+    /// For squares of [`SQUARE`] pixels: the length of lines in each, and whether a label covers it.
     lines: Vec<f32>,
     letters: Vec<bool>,
     placed: Vec<(Spot, String, Rgb)>,
-    /// The same is not said again so near, pixels.
+    /// The least distance between equal labels, pixels.
     apart: f64,
 }
 
 /// Side of a square, pixels.
 const SQUARE: f64 = 6.0;
-/// Around letters, pixels.
+/// The margin around a label, pixels.
 const AROUND: f64 = 6.0;
 
 impl Labels {
-    /// None yet, on a picture of so many pixels.
+    /// No labels yet, on a picture of that many pixels.
     pub(super) fn new(pixels: (u32, u32), style: LetterStyle, apart: f64) -> Labels {
         let size = [f64::from(pixels.0), f64::from(pixels.1)];
         let [columns, rows] = size.map(|length| (length / SQUARE).ceil() as usize + 1);
@@ -41,7 +41,7 @@ impl Labels {
         Labels { size, style, columns, lines, letters, placed: Vec::new(), apart }
     }
 
-    /// A line that letters had better not lie on.
+    /// Adds a line that labels should avoid.
     pub(super) fn avoid(&mut self, line: &[[f64; 2]]) {
         for ends in line.windows(2) {
             let [from, to] = [ends[0], ends[1]];
@@ -66,13 +66,13 @@ impl Labels {
         [text::width(said, self.style.weight, self.style.size) / 2.0, self.style.size * 0.40]
     }
 
-    /// Whether letters there would lie on no line.
+    /// Whether a label there would lie on no line.
     pub(super) fn is_clear(&self, said: &str, spot: &Spot) -> bool {
         let squares = self.under(spot, self.half(said).map(|half| half + AROUND));
         squares.is_some_and(|squares| squares.iter().all(|&square| self.lines[square] == 0.0))
     }
 
-    /// Puts a label where it is least bad; says whether there was room at all.
+    /// Puts a label where it costs least. Returns whether there was room at all.
     pub(super) fn place(&mut self, said: &str, colour: Rgb, spots: &mut [Spot]) -> bool {
         spots.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         let same: Vec<_> = self.placed.iter().filter(|placed| placed.1 == said).map(|placed| placed.0.at).collect();
@@ -97,7 +97,7 @@ impl Labels {
         true
     }
 
-    /// The squares under a label; none where it would leave the picture or touch another label.
+    /// The squares under a label; `None` if it would leave the picture or touch another label.
     fn under(&self, spot: &Spot, half: [f64; 2]) -> Option<Vec<usize>> {
         let (sin, cos) = spot.angle.sin_cos();
         let [columns, rows] = half.map(|half| (2.0 * half / SQUARE).ceil().max(1.0) as usize);
@@ -116,7 +116,7 @@ impl Labels {
         Some(squares)
     }
 
-    /// Draws them: first what keeps them clear of what they lie on, in `halo`, then the letters.
+    /// Draws the labels: first a halo that separates them from what they cover, then the text.
     pub(super) fn draw(&self, block: &mut Block, halo: Rgb) {
         let LetterStyle { size, .. } = self.style;
         let draw = |block: &mut Block, how: &dyn Fn(Rgb) -> String| {
@@ -141,14 +141,14 @@ impl Labels {
     }
 }
 
-/// Spots along a line between `from` and `to`, its own length, for letters of so much width: where it is straight enough
-/// for them, upright.
+/// Spots along a line between the lengths `from` and `to`, for a label of that width: where the line is straight
+/// enough, with the text upright.
 pub(super) fn along(line: &[[f64; 2]], [from, to]: [f64; 2], width: f64) -> Vec<Spot> {
-    /// Between spots, pixels.
+    /// The distance between spots, pixels.
     const PITCH: f64 = 9.0;
-    /// Letters turned further are turned the other way: 80°.
+    /// The angle from which text is turned the other way: 80°.
     const STEEP: f64 = 1.4;
-    /// How much longer the line may be than the way across the letters.
+    /// How much longer the line may be than the straight distance across the label.
     const BENT: f64 = 1.09;
     let [from, to] = [from.max(width / 2.0), to.min(length(line) - width / 2.0)];
     let count = ((to - from) / PITCH).floor();

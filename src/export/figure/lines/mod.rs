@@ -1,6 +1,7 @@
-//! Line drawings: a plan of lines, flat colours and letters, as one SVG; its PNG is that SVG, drawn.
+//! Line drawings: a plan of lines, flat colours and text, as one SVG. Its PNG is rendered from that SVG.
 //!
-//! Coordinates are page pixels from the picture's north-west corner, but for those of contours, which are cells.
+//! Coordinates are pixels of the page from the picture's north-west corner, except for those of contours, which are
+//! cells.
 
 mod base;
 mod hours;
@@ -23,17 +24,17 @@ use std::fmt::Write;
 pub struct LineDrawing(Block);
 
 impl LineDrawing {
-    /// Lays the sheet out; `draw` makes the picture once its size is known.
+    /// Lays out the sheet. `draw` makes the picture once its size is known.
     fn new(panel: &Panel, cells: (u32, u32), cell_m: f64, draw: impl FnOnce(Fit) -> Block) -> LineDrawing {
         LineDrawing(page::whole(panel, cells, cell_m, draw))
     }
 
-    /// As SVG, of the sheet's size on paper; text stays text.
+    /// The drawing as SVG, of the sheet's size on paper. Text stays text.
     pub fn svg(&self) -> String {
         page::svg(&self.0)
     }
 
-    /// As PNG, of the size that all drawings have.
+    /// The drawing as PNG, of the size that all drawings have.
     ///
     /// # Errors
     /// [`ExportError::Encode`] where the sheet cannot be drawn or encoded.
@@ -56,9 +57,9 @@ impl Scale {
         [column * self.0[0], row * self.0[1]]
     }
 
-    /// What is drawn of contours.
+    /// The drawn parts of contours.
     fn lines(self, contours: &[Contour]) -> LineGroup {
-        /// Square pixels.
+        /// The area below which a contour is small, square pixels.
         const SMALL: f64 = 3000.0;
         let mut lines = LineGroup::default();
         for contour in contours {
@@ -82,7 +83,7 @@ impl Scale {
     }
 }
 
-/// Page pixels.
+/// A line in page pixels.
 type Line = Vec<[f64; 2]>;
 
 /// Lines of one kind.
@@ -90,7 +91,7 @@ type Line = Vec<[f64; 2]>;
 struct LineGroup {
     /// The longest first.
     large: Vec<Line>,
-    /// Around what is so small that a full line would drown it.
+    /// Lines around what is so small that a full line would hide it.
     small: Vec<Line>,
 }
 
@@ -114,7 +115,7 @@ fn distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     (bx - ax).hypot(by - ay)
 }
 
-/// Adds a line to a path's data; one that ends where it begins is closed.
+/// Appends a line to a path's data; a line that ends where it begins is closed.
 fn line(data: &mut String, points: impl Iterator<Item = [f64; 2]>) {
     for (at, [x, y]) in points.enumerate() {
         // Writing to a String cannot fail.
@@ -133,7 +134,7 @@ fn paths(lines: &[Line]) -> String {
     data
 }
 
-/// To a hundredth of a pixel, without zeros that say nothing.
+/// A number to a hundredth of a pixel, without trailing zeros.
 struct SvgNumber(f64);
 
 impl std::fmt::Display for SvgNumber {
@@ -149,7 +150,7 @@ impl std::fmt::Display for SvgNumber {
     }
 }
 
-/// A group of the SVG under its name, by which a drawing program shows it as a layer.
+/// A named group of the SVG, which drawing programs show as a layer.
 fn group(block: &mut Block, name: &str, what: impl FnOnce(&mut Block)) {
     let mut group = Block::default();
     what(&mut group);
@@ -173,7 +174,7 @@ fn fill(block: &mut Block, data: &str, colour: Rgb, opacity: f64) {
     }
 }
 
-/// Lines of one width and colour; what they are is told by `title` where there is one.
+/// Lines of one width and colour, with a `title` that describes them.
 fn stroke(block: &mut Block, data: &str, width: f64, colour: Rgb, title: &str) {
     if data.is_empty() {
         return;

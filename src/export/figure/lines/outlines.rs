@@ -14,36 +14,36 @@ use crate::export::{ExportError, check_size};
 use crate::sun::Instant;
 use crate::view::{Bits, Grid, SurfaceRows};
 
-/// More are hard to tell apart.
+/// The greatest number of outlines; more are hard to tell apart.
 pub const MOST_OUTLINES: usize = 24;
 
 /// One instant's shadow.
 #[derive(Clone, Debug)]
 pub struct Outline {
-    /// Which instant of the track, from 0.
+    /// The index of its instant in the track, from 0.
     pub index: usize,
     /// Which cells are in shadow.
     pub shadow: Bits,
 }
 
-/// From morning to evening.
+/// The colours from morning to evening.
 const DAY: [Rgb; 5] = [[24, 74, 150], [14, 120, 128], [96, 96, 24], [190, 84, 16], [150, 24, 60]];
-/// Ground and roofs, lighter than under a single shadow.
+/// Ground and roofs, lighter than under one shadow.
 const GROUND: Rgb = [253, 251, 246];
 const ROOF: Rgb = [231, 224, 210];
 const SHADE: Rgb = [92, 106, 132];
-/// How dark the shade is where all instants lie over each other.
+/// The darkness of the shade where all instants overlap.
 const DARKEST: f64 = 0.55;
 const HALO: Rgb = [255, 255, 255];
-/// Page pixels.
+/// The width of a line, page pixels.
 const WIDTH: f64 = 3.0;
 const LABEL: LetterStyle = LetterStyle { size: 31.0, weight: FontWeight::Bold, colour: [0; 3] };
-/// How often an instant's time stands on its outline at most, where the shadow is how long in comparison with its longest,
-/// and how far apart, pixels.
+/// The greatest number of labels of one instant, the share of the longest shadow from which a shadow has further ones,
+/// and their least distance in pixels.
 const MOST_LABELS: usize = 3;
 const NEARLY: f64 = 0.7;
 const APART: f64 = 600.0;
-/// Between places that are looked at, and between the line and letters beside it, pixels.
+/// The distance between places that are tried, and between the line and a label beside it, pixels.
 const PITCH: f64 = 16.0;
 const BESIDE: f64 = 12.0;
 
@@ -52,8 +52,8 @@ const BESIDE: f64 = 12.0;
 /// A line parts cells in shadow from cells in the sun; along walls there is none.
 ///
 /// # Errors
-/// [`ExportError::Size`] where surface or a shadow do not fill the grid; [`ExportError::Encode`] where the track has no such
-/// instant.
+/// [`ExportError::Size`] where surface or a shadow do not fill the grid; [`ExportError::Encode`] where the track has no
+/// such instant.
 pub fn outlines<S: SurfaceRows>(
     scene: &FigureContext<S>,
     grid: &Grid,
@@ -71,7 +71,7 @@ pub fn outlines<S: SurfaceRows>(
     Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
 }
 
-/// What stands beside the outlines.
+/// The panel beside the outlines.
 fn panel<S>(scene: &FigureContext<S>, grid: &Grid, drawn: &[DrawnOutline]) -> Panel {
     let mut panel = figure::panel(scene, "Shadow outlines");
     panel.facts.push(("Cells", figure::cells(grid.width, grid.height, grid.cell)));
@@ -87,7 +87,7 @@ fn panel<S>(scene: &FigureContext<S>, grid: &Grid, drawn: &[DrawnOutline]) -> Pa
     panel
 }
 
-/// The drawing itself: ground and roofs, the shadows over each other, and over all the lines with their times.
+/// The drawing itself: ground and roofs, the overlapping shadows, and above them the lines with their times.
 fn sheet(base: &Base, drawn: &mut [DrawnOutline], is_judged: bool, fit: Fit) -> Block {
     let scale = Scale::of(fit);
     let once = opacity(drawn.len());
@@ -124,7 +124,7 @@ struct DrawnOutline<'a> {
     time: String,
     colour: Rgb,
     contours: Vec<Contour>,
-    /// Known when the sheet is laid out.
+    /// The line, once the sheet is laid out.
     lines: LineGroup,
     shadow: &'a Bits,
 }
@@ -147,7 +147,8 @@ impl<'a> DrawnOutline<'a> {
     }
 }
 
-/// The time where the shadow reaches farthest, and once or twice more beside long shadows in open sun.
+/// Labels each outline with its time where the shadow reaches farthest, and once or twice more beside long shadows in
+/// open sun.
 fn label(labels: &mut Labels, drawn: &[DrawnOutline], at: usize, scale: Scale) {
     let DrawnOutline { instant, time, colour, lines, shadow, .. } = &drawn[at];
     // rows run southwards
@@ -188,14 +189,14 @@ fn label(labels: &mut Labels, drawn: &[DrawnOutline], at: usize, scale: Scale) {
     }
 }
 
-/// The cell under a place of the picture.
+/// The cell under a point of the picture.
 fn cell(of: &Bits, scale: Scale, at: [f64; 2]) -> Option<usize> {
     let at = [0, 1].map(|axis| at[axis] / scale.0[axis]);
     let is_within = at.iter().zip([of.width, of.height]).all(|(at, count)| *at >= 0.0 && *at < f64::from(count));
     is_within.then(|| at[1] as usize * of.width as usize + at[0] as usize)
 }
 
-/// Of one of so many shadows that lie over each other.
+/// The opacity of one of that many overlapping shadows.
 fn opacity(count: usize) -> f64 {
     1.0 - (1.0 - DARKEST).powf(1.0 / count.max(1) as f64)
 }

@@ -1,4 +1,4 @@
-//! The chart's axes: whole hours of the local clock across, and which days have a line and a label.
+//! The chart's axes: whole hours of the local clock across, and the days that have a line and a label.
 
 use crate::sun::Zone;
 use crate::sunlight::SunDay;
@@ -11,7 +11,7 @@ pub(super) struct HourAxis {
 }
 
 impl HourAxis {
-    /// The whole hours around all that the sun does on the days.
+    /// The whole hours around everything that the sun does on the days.
     pub(super) fn of(days: &[SunDay]) -> HourAxis {
         let times = |day: &SunDay| {
             let of_day = [day.window.day.sunrise, day.window.day.sunset].into_iter().flatten();
@@ -26,35 +26,35 @@ impl HourAxis {
         HourAxis { first, last: (high + 3599).div_euclid(3600).max(first + 1) }
     }
 
-    /// Where so many seconds after midnight lie: 0 at the left, 1 at the right.
+    /// The position of a number of seconds after midnight: 0 at the left, 1 at the right.
     pub(super) fn at(&self, secs: i64) -> f64 {
         (secs - self.first * 3600) as f64 / ((self.last - self.first) * 3600) as f64
     }
 
-    /// Where a time of a day lies by the local clock, also where that is put forward or back in between.
+    /// The position of a time on a day by the local clock, also if the clock is put forward or back in between.
     pub(super) fn of_time(&self, day: &SunDay, time: DateTime<Zone>) -> f64 {
         self.at(clock_secs(day, time))
     }
 }
 
-/// What the local clock reads, in seconds after the midnight with which the date begins.
+/// The reading of the local clock, in seconds after the midnight with which the date begins.
 fn clock_secs(day: &SunDay, time: DateTime<Zone>) -> i64 {
     (time.naive_local() - day.window.day.date.and_time(NaiveTime::MIN)).num_seconds()
 }
 
-/// A day with a line above it, and a label.
+/// A day with a line above it and a label.
 pub(super) struct Tick {
-    /// Which of the days, from 0.
+    /// The index of the day.
     pub(super) row: usize,
     pub(super) label: String,
-    /// Whether the label stands in the middle of the day's own row, or below its line.
+    /// Whether the label is in the middle of the day's own row, or below its line.
     pub(super) within: bool,
 }
 
-/// From one label to the next at least, page pixels.
+/// The least distance between labels, page pixels.
 const PITCH: f64 = 42.0;
 
-/// Every day, every seventh, or the first ones of months, quarters or years, as rows of so many pixels leave room.
+/// Every day, every seventh, or the first days of months, quarters or years, depending on the height of a row.
 pub(super) fn ticks(days: &[NaiveDate], row: f64) -> Vec<Tick> {
     let each = |begins: &dyn Fn(usize, NaiveDate) -> bool, format: &dyn Fn(NaiveDate) -> &'static str| -> Vec<Tick> {
         let room = |at: usize| (days.len() - at) as f64 * row >= PITCH - 8.0;

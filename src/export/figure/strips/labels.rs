@@ -1,4 +1,4 @@
-//! What stands beside the strips.
+//! The text beside the strips.
 
 use super::colours::{NIGHT, OUTSIDE, SHADE, SUN};
 use crate::export::figure::panel::Panel;
@@ -50,14 +50,14 @@ pub(super) fn panel(sunlight: &Sunlight, place: &Place, ground: &Ground) -> Pane
     }
 }
 
-/// Whether less is asked of a day than all that the sun is up.
+/// Whether the requested part of a day is less than the time that the sun is up.
 fn is_cut(day: &SunDay) -> bool {
     let window = &day.window;
     let up = [window.day.sunrise, window.day.sunset];
     up.into_iter().flatten().any(|event| !(window.from..=window.to).contains(&event)) || window.from == window.to
 }
 
-/// A probe's total, its longest interval, and of several days those with the least and the most.
+/// A probe's total, its longest interval, and for several days those with the least and the most.
 fn sums(facts: &mut Vec<(&'static str, String)>, sunlight: &Sunlight, probed: &ProbeIntervals) {
     facts.push(("Total", clock(probed.secs())));
     let several = sunlight.days.len() > 1;
@@ -72,7 +72,7 @@ fn sums(facts: &mut Vec<(&'static str, String)>, sunlight: &Sunlight, probed: &P
     }
 }
 
-/// The date or dates, and whose clock is read.
+/// The date or dates, and the time zone.
 fn lead(sunlight: &Sunlight, place: &Place) -> Vec<String> {
     let (Some(first), Some(last)) = (sunlight.days.first(), sunlight.days.last()) else { return Vec::new() };
     let [from, to] = [first, last].map(|day| words::date(day.window.day.date));
@@ -89,7 +89,7 @@ fn lead(sunlight: &Sunlight, place: &Place) -> Vec<String> {
     vec![dates, format!("{}, {}", zones.join(" and "), place.time_zone.name())]
 }
 
-/// Of a single day: where the sun rises and sets, and how high it climbs.
+/// For a single day, where the sun rises and sets, and its greatest altitude.
 fn sun_rows(sunlight: &Sunlight, place: &Place) -> Vec<[String; 4]> {
     let [day] = sunlight.days.as_slice() else { return Vec::new() };
     let air = sunlight.refraction.then(|| Air::standard(place.elevation_m));
@@ -105,7 +105,7 @@ fn sun_rows(sunlight: &Sunlight, place: &Place) -> Vec<[String; 4]> {
     rows.into_iter().flatten().collect()
 }
 
-/// A single probe's intervals on a single day, as a table of at most so high.
+/// A single probe's intervals on a single day, as a table of at most that height.
 pub(super) fn intervals(sunlight: &Sunlight, intervals: &[Interval], room: f64) -> Block {
     const LEFT: [f64; 5] = [0.0, 260.0, 520.0, 780.0, 1500.0];
     const PITCH: f64 = 54.0;

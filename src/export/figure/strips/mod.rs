@@ -1,4 +1,4 @@
-//! The strip chart: when probes lie in the sun. The local clock's time of day across, days down.
+//! The strip chart: when probes lie in the sun. The local clock's time of day runs across, the days run down.
 
 mod axes;
 mod colours;
@@ -19,21 +19,22 @@ use axes::{HourAxis, Tick, ticks};
 use chrono::{DateTime, NaiveDate};
 use colours::{NIGHT, OUTSIDE, SHADE, SUN};
 
-/// How far a grid's line stands out.
+/// The strength of a grid line.
 const GRID: f64 = 0.16;
 
-/// Around the strips: days at the left, hours above and below.
+/// The margins around the strips: days at the left, hours above and below.
 const LEFT: f64 = 150.0;
 const HOURS: f64 = 64.0;
 const RIGHT: f64 = 24.0;
-/// A probe's line above its strip, and from strip to strip.
+/// The height of a probe's line above its strip, and the gap between strips.
 const HEAD: f64 = 58.0;
 const GAP: f64 = 62.0;
-/// How high a strip is at least; a single day's at most.
+/// The least height of a strip, and the greatest height of a single day's.
 const LOWEST: f64 = 60.0;
 const HIGHEST: f64 = 300.0;
 
-/// `gnomon probe --out`: a strip for each probe; where they do not all fit, what `words` call says where the others are.
+/// `gnomon probe --out`: a strip for each probe. Where not all of them fit, the drawing says where the others are, in
+/// the face's `words`.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the page cannot be drawn or encoded.
@@ -45,7 +46,7 @@ pub fn strips(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn W
     })
 }
 
-/// Where the strips lie.
+/// The positions of the strips.
 struct Strips {
     width: u32,
     height: u32,
@@ -53,7 +54,7 @@ struct Strips {
 }
 
 impl Strips {
-    /// As high as there is room; where there are too many probes the first ones alone.
+    /// Strips as high as there is room for. If there are too many probes, only the first ones have strips.
     fn within(sunlight: &Sunlight, (width, height): (u32, u32)) -> Strips {
         let room = f64::from(height) + GAP;
         let most = (room / (HEAD + GAP + LOWEST)) as usize;
@@ -117,7 +118,7 @@ fn draw(sunlight: &Sunlight, hours: &HourAxis, pixels: (u32, u32), words: &dyn W
     (picture, over)
 }
 
-/// A strip's pixels: a row a day, and the lines of hours and dates.
+/// A strip's pixels: one row per day, and the lines of hours and dates.
 fn strip(sunlight: &Sunlight, probed: &ProbeIntervals, hours: &HourAxis, ticks: &[Tick], strips: &Strips) -> Vec<Rgb> {
     let (width, height) = (strips.width as usize, strips.height as usize);
     let rows = sunlight.days.iter().zip(&probed.days);
@@ -140,7 +141,7 @@ fn strip(sunlight: &Sunlight, probed: &ProbeIntervals, hours: &HourAxis, ticks: 
     pixels
 }
 
-/// A day's colours, averaged over each column's time.
+/// A day's colours, averaged over the time of each column.
 fn colours(day: &SunDay, intervals: &[Interval], hours: &HourAxis, columns: usize) -> Vec<Rgb> {
     let mut line = vec![OUTSIDE; columns];
     let mut paint = |from: DateTime<Zone>, to: DateTime<Zone>, colour: Rgb| {
@@ -157,7 +158,7 @@ fn colours(day: &SunDay, intervals: &[Interval], hours: &HourAxis, columns: usiz
     line
 }
 
-/// Above a strip: which probe it is, and how much sun it has.
+/// The line above a strip: the probe's name, and how much sun it has.
 fn head(lines: &mut Block, sunlight: &Sunlight, probed: &ProbeIntervals, width: f64) {
     let longest = probed.longest().map_or(0, Interval::secs);
     let sums = match (probed.days.as_slice(), longest) {
@@ -182,9 +183,10 @@ fn head(lines: &mut Block, sunlight: &Sunlight, probed: &ProbeIntervals, width: 
     }
 }
 
-/// Sunrise and sunset over a strip's days.
+/// The curves of sunrise and sunset over a strip's days.
 fn curves(lines: &mut Block, sunlight: &Sunlight, hours: &HourAxis, strips: &Strips) {
-    /// A line goes on where clocks are put forward or back, but not from one midnight to the other: so many hours.
+    /// A curve continues where clocks are put forward or back, but not from one midnight to the other: the greatest
+    /// step, in hours.
     const FARTHEST: f64 = 3.0;
     let row = f64::from(strips.height) / sunlight.days.len() as f64;
     let hour = f64::from(strips.width) / (hours.last - hours.first) as f64;
@@ -205,7 +207,7 @@ fn curves(lines: &mut Block, sunlight: &Sunlight, hours: &HourAxis, strips: &Str
     curve(|day| day.sunset);
 }
 
-/// On a single day's strip: from when to when each interval is, and what blocks between them.
+/// The labels on a single day's strip: the times of each interval, and what blocks between them.
 fn label(
     lines: &mut Block,
     sunlight: &Sunlight,

@@ -1,4 +1,4 @@
-//! Mode 0, and the filters that its elements may have.
+//! Mode 0 (attributes), and the filters that its elements may have.
 
 /// Elements of a group.
 const GROUP: usize = 16;

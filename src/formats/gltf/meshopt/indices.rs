@@ -1,4 +1,4 @@
-//! Modes 1 and 2: triangles, and other lists of vertices.
+//! Modes 1 and 2: triangles, and other sequences of indices.
 
 /// The first entries of a queue of 16, the newest first; none that was not written.
 struct Newest<T> {

@@ -1,7 +1,8 @@
 //! EXT_meshopt_compression and KHR_meshopt_compression: a compressed buffer view → its bytes.
 //!
-//! Written after the specification's Appendix A (bitstream) and B (filters); `attributes` and `indices` are its modes. There is
-//! a binding to the C++ library, which would need its compiler, and a port that knows a vertex's size when it is built.
+//! Written after the specification's Appendix A (bitstream) and B (filters); `attributes` and `indices` are its modes.
+//! The existing binding to the C++ library would need a C++ compiler, and the existing port has the size of a vertex
+//! fixed at compile time.
 
 mod attributes;
 mod indices;
