@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// The hours of shadow on ground and roofs.
 pub(in crate::desktop) struct ShadowHours {
-    /// The answer, with each instant's shadow where outlines can be drawn of the study.
+    /// The answer, with each instant's shadow if outlines can be drawn of the study.
     hours: Hours,
     /// Its sums.
     shaded: Arc<ShadedTime>,
@@ -38,7 +38,7 @@ impl ShadowHours {
         raster(&self.hours.profile.grid, &self.colours, &self.surface.height_m)
     }
 
-    /// As a study of the plan answers.
+    /// The hours as the outcome of a study of the plan.
     pub(in crate::desktop) fn outcome(&self) -> Outcome {
         let Hours { profile: Profile { grid, day_secs, night_secs, .. }, .. } = self.hours;
         let Hours { drawn, surface_mesh, statistics, timings, .. } = &self.hours;
@@ -75,12 +75,12 @@ impl ShadowHours {
         (format!("Hours of shadow out of {}", hours(bands.day_secs)), entries)
     }
 
-    /// No file yet.
+    /// A request without files.
     pub(in crate::desktop) fn nothing(&self) -> ProfileRequest<'_> {
         ProfileRequest::of(Stopwatch::after(self.hours.timings.clone()))
     }
 
-    /// The drawing, the raster and the report; bits where each instant's shadow is at hand.
+    /// A request for the drawing, the raster and the report, and for the bits if each instant's shadow is in memory.
     pub(in crate::desktop) fn all(&self) -> ProfileRequest<'_> {
         ProfileRequest {
             drawing: true,
