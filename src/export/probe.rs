@@ -135,8 +135,8 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
-/// For each probe a table of its intervals, on a single day or on several, and a summary; then the ground, and which
-/// intervals cannot have been missed. Ends with a line break.
+/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and what
+/// cannot have been missed. Ends with a line break.
 pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> String {
     let mut table = String::new();
     for probed in &sunlight.probes {

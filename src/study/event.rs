@@ -90,7 +90,7 @@ pub(crate) fn note_models(notes: &[Message], on_event: &mut OnEvent<'_>) -> Resu
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
 }
 
-/// Notes that the plan is worked on in tiles, if it is.
+/// Says when the plan is done in tiles.
 pub(super) fn note_tiles(tiles: &[Tile], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let [first, _, ..] = tiles else { return Ok(()) };
     let [width, height] = first.size;

@@ -32,9 +32,9 @@ impl TiledStudy<'_> {
         &self.tiles
     }
 
-    /// A part of the study, for a program that distributes the work: the shaded time of one of the tiles at some of the
-    /// instants. These may come from another process. Sums over instants that make up the track add up to the tile's
-    /// own to the bit, and [`paste`](super::paste) puts tiles together. If the device fails, this returns an error.
+    /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
+    /// instants, which may come from another process. Sums of instants that make up the track add up to the tile's own to the bit, and
+    /// [`paste`](super::paste) puts tiles together. Where the device fails, so does this.
     ///
     /// # Errors
     /// [`StudyError::Shadow`], where drawing failed.

@@ -11,7 +11,7 @@ use eframe::egui;
 use std::path::PathBuf;
 
 impl App {
-    /// Takes dropped files: a site is opened, and so are models if no site is open.
+    /// Takes what is dropped: what is no model is opened, and models are where no site is open.
     pub(in crate::desktop) fn take_dropped(&mut self, context: &egui::Context) {
         let dropped = |input: &egui::InputState| {
             input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<PathBuf>>()

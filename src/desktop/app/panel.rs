@@ -332,7 +332,7 @@ fn study(app: &mut App, ui: &mut Ui) {
     study::show(app, ui);
 }
 
-/// An empty text counts as not given.
+/// What is empty is not said.
 fn empty_or<T>(read: impl FnOnce(&str) -> Result<T, TypedError>) -> impl FnOnce(&str) -> Result<Option<T>, TypedError> {
     move |text: &str| if text.trim().is_empty() { Ok(None) } else { read(text).map(Some) }
 }
