@@ -3,7 +3,7 @@
 use super::machine::Machine;
 use super::{SiteView, Stopwatch, StudyError, Wants, fingerprint};
 use crate::profile::accumulate::Sum;
-use crate::profile::{ShadedTime, Unfinished};
+use crate::profile::{Shaded, Unfinished};
 use crate::site::Site;
 use crate::sun;
 use crate::view::{Tile, View};
@@ -38,7 +38,7 @@ impl TiledStudy<'_> {
     ///
     /// # Errors
     /// [`StudyError::Shadow`], where drawing failed.
-    pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<ShadedTime, StudyError> {
+    pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<Shaded, StudyError> {
         let mut technique = self.look().technique_of(tile)?;
         let mut sum = Sum::new(self.machine.gpu(), tile.size[0], tile.size[1]);
         for instant in instants.iter().filter(|instant| !instant.night) {

@@ -5,7 +5,7 @@ use crate::deliver::profile::{Hours, ProfileRequest, write_hours};
 use crate::desktop::results::cells::{cell_at, raster};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
 use crate::picture::HoursRaster;
-use crate::profile::{Profile, ShadedTime, hours as hours_of};
+use crate::profile::{Profile, Shaded, hours as hours_of};
 use crate::shadow::plan_surface;
 use crate::site::Site;
 use crate::study::{OnEvent, Outcome, Stopwatch};
@@ -18,7 +18,7 @@ pub(in crate::desktop) struct ShadowHours {
     /// The answer, with each instant's shadow if outlines can be drawn of the study.
     hours: Hours,
     /// Its sums.
-    shaded: Arc<ShadedTime>,
+    shaded: Arc<Shaded>,
     /// What the cells see.
     surface: Surface,
     bands: Bands,
@@ -43,7 +43,7 @@ impl ShadowHours {
         let Hours { profile: Profile { grid, day_secs, night_secs, .. }, .. } = self.hours;
         let Hours { drawn, surface_mesh, statistics, timings, .. } = &self.hours;
         Outcome {
-            profile: Profile { grid, shaded: ShadedTime::clone(&self.shaded), day_secs, night_secs },
+            profile: Profile { grid, shaded: Shaded::clone(&self.shaded), day_secs, night_secs },
             drawn: drawn.clone(),
             surface: None,
             surface_mesh: surface_mesh.clone(),
