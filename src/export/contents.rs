@@ -11,7 +11,7 @@ use std::fmt::Write;
 /// Groups and kinds of things left out that a table has a line for; JSON has all.
 const MOST: usize = 12;
 
-/// The contents of a file.
+/// What a file holds.
 #[derive(Serialize)]
 pub(super) struct ContentsReport<'a> {
     file: &'a str,
