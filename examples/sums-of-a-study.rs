@@ -2,7 +2,7 @@
 //! share it.
 
 use gnomon::choice::Engine;
-use gnomon::profile::{ShadedTime, hours};
+use gnomon::profile::{Shaded, hours};
 use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, TiledStudy, Wants};
 use std::ops::ControlFlow;
@@ -32,6 +32,6 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     for part in [study.sum(tile, earlier)?, study.sum(tile, later)?] {
         sums.iter_mut().zip(part.iter()).for_each(|(sum, shaded)| *sum += shaded);
     }
-    assert_eq!(ShadedTime::from(sums), profile.shaded);
+    assert_eq!(Shaded::from(sums), profile.shaded);
     Ok(())
 }

@@ -24,7 +24,7 @@
 //!
 //! ## A study and its sums
 //!
-//! [`study::run`] gives the [`profile::Profile`]: [`profile::ShadedTime::in_one_word`] is the slice, [`view::Grid::transform`]
+//! [`study::run`] gives the [`profile::Profile`]: [`profile::Shaded::in_one_word`] is the slice, [`view::Grid::transform`]
 //! where it lies. To share a study out, [`study::TiledStudy::sum`] does one tile at some instants, whose fields are plain
 //! data ([`sun::Instant`]); [`study::TiledStudy::number`] is the study's fingerprint, the same wherever it is built and
 //! runs.

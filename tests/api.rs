@@ -13,7 +13,7 @@ use chrono::{NaiveDate, TimeZone};
 use glam::{DVec3, dvec3};
 use gnomon::choice::{Engine, Method};
 use gnomon::mesh::{Mesh, MeshError, Part};
-use gnomon::profile::ShadedTime;
+use gnomon::profile::Shaded;
 use gnomon::site::{Overrides, Site, SiteError};
 use gnomon::study::{self, Budget, TiledStudy, Wants, paste};
 use gnomon::sun::{Instant, Place, SunTrack, Window};
@@ -51,7 +51,7 @@ fn site_of(mesh: Mesh) -> Site {
     Site { engine: Engine::Cpu, ..site }
 }
 
-fn sums(site: &Site) -> ShadedTime {
+fn sums(site: &Site) -> Shaded {
     study::run(site, &Wants::default(), &mut |_| ControlFlow::Continue(())).unwrap().profile.shaded
 }
 
@@ -170,7 +170,7 @@ fn tiles_and_instants_put_together_are_the_study() {
                 let part = study.sum(*tile, instants).unwrap();
                 sums.iter_mut().zip(part.iter()).for_each(|(sum, shaded)| *sum += shaded);
             }
-            whole = paste(&whole, tile, &Arc::new(ShadedTime::from(sums)));
+            whole = paste(&whole, tile, &Arc::new(Shaded::from(sums)));
         }
         assert_eq!(*whole, self::sums(&site));
     }
@@ -189,7 +189,7 @@ fn instants_pass_through_plain_numbers() {
 
 #[test]
 fn sums_are_a_slice_of_either_width_and_a_plan_has_a_transform() {
-    let (short, long) = (ShadedTime::from(vec![1u32, 2]), ShadedTime::from(vec![1u64, 1 << 40]));
+    let (short, long) = (Shaded::from(vec![1u32, 2]), Shaded::from(vec![1u64, 1 << 40]));
     assert_eq!((short.in_one_word(), short.in_two_words()), (Some(&[1, 2][..]), None));
     assert_eq!((long.in_one_word(), long.in_two_words()), (None, Some(&[1, 1 << 40][..])));
     let t = GRID.transform();

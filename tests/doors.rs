@@ -65,7 +65,7 @@ const SHOWN: &[(&str, &[&str])] = &[
             "stencil",
         ],
     ),
-    ("profile", &["Profile", "Provenance", "ShadedTime", "Statistics", "Timings", "Unfinished", "hours"]),
+    ("profile", &["Profile", "Provenance", "Shaded", "Statistics", "Timings", "Unfinished", "hours"]),
     (
         "study",
         &[

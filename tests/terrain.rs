@@ -9,7 +9,7 @@ use glam::{DVec3, dvec3};
 use gnomon::choice::Receivers;
 use gnomon::choice::{Engine, Method, Settings, Subject};
 use gnomon::mesh::{Mesh, Part};
-use gnomon::profile::ShadedTime;
+use gnomon::profile::Shaded;
 use gnomon::profile::comparison::{Alteration, Change};
 use gnomon::shadow::JUDGED_ABOVE_M;
 use gnomon::site::{GroundKind, Pair, Site};
@@ -65,7 +65,7 @@ fn drawn(site: &Site) -> (Outcome, Vec<(DVec3, Mask)>) {
     (outcome.unwrap(), masks)
 }
 
-fn sums(site: &Site) -> ShadedTime {
+fn sums(site: &Site) -> Shaded {
     drawn(site).0.profile.shaded
 }
 

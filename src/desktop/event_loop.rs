@@ -14,10 +14,10 @@ use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::platform::run_on_demand::EventLoopExtRunOnDemand;
 use winit::window::WindowId;
 
-/// What a panic said.
+/// The message of a panic.
 pub(in crate::desktop) type Panic = Box<dyn Any + Send>;
 
-/// The loop of this process, as the options have it.
+/// The event loop of this process, with these options.
 ///
 /// # Errors
 /// No display, as a rule.
@@ -29,7 +29,7 @@ pub(in crate::desktop) fn new(options: &mut NativeOptions) -> Result<EventLoop<U
     builder.build()
 }
 
-/// Shows a window until it is closed; tells of a panic that ended it.
+/// Shows a window until it is closed. Returns the panic that ended it, if one did.
 ///
 /// # Errors
 /// What the system says.
@@ -52,7 +52,7 @@ struct PanicGuard<'a> {
 }
 
 impl PanicGuard<'_> {
-    /// Hands an event on, unless the window has ended.
+    /// Passes an event on, unless the window has ended.
     fn hand_on(&mut self, event_loop: &ActiveEventLoop, event: impl FnOnce(&mut EframeWinitApplication<'_>)) {
         if self.panic.is_none() {
             let window = &mut self.window;
@@ -97,7 +97,7 @@ impl ApplicationHandler<UserEvent> for PanicGuard<'_> {
         self.hand_on(event_loop, |window| window.memory_warning(event_loop));
     }
 
-    /// After a panic too: the system's window goes, and what eframe keeps is kept.
+    /// Is also called after a panic: the system's window is closed, and eframe keeps what it keeps.
     fn exiting(&mut self, event_loop: &ActiveEventLoop) {
         let ended = catch_unwind(AssertUnwindSafe(|| self.window.exiting(event_loop)));
         // the first panic is the one to tell of

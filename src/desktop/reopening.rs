@@ -21,8 +21,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use wgpu::{Adapter, CurrentSurfaceTexture, DeviceType, PollType};
 
-/// A window whose device is lost more often within [`MOMENT`] is opened on the processor; and given up where that is lost
-/// as often.
+/// A window whose device is lost more often than this within [`MOMENT`] is opened on the processor; if that is lost as
+/// often, the program gives up.
 const MOST_LOSSES: usize = 3;
 const MOMENT: Duration = Duration::from_secs(60);
 
@@ -88,21 +88,21 @@ fn open_reading(
     }
 }
 
-/// On what the window is opened next.
+/// The device on which the window is opened next.
 #[derive(Default)]
 struct Reopening {
-    /// On the processor.
+    /// Whether it is opened on the processor.
     software: bool,
-    /// When devices were lost.
+    /// The times at which devices were lost.
     losses: Vec<Instant>,
-    /// Why it is on the processor, where devices were lost.
+    /// Why it is on the processor, if devices were lost.
     lost: Option<String>,
-    /// What the next window says.
+    /// The note of the next window.
     note: Option<String>,
 }
 
 impl Reopening {
-    /// A device was lost.
+    /// Notes that a device was lost.
     fn note_loss(&mut self, why: String) -> anyhow::Result<()> {
         self.losses.retain(|at| at.elapsed() < MOMENT);
         self.losses.push(Instant::now());
@@ -117,7 +117,7 @@ impl Reopening {
         Ok(())
     }
 
-    /// No window came.
+    /// Notes that no window could be opened.
     fn note_unopened(&mut self, panic: Option<Panic>) -> anyhow::Result<()> {
         if !self.software {
             self.note = Some("No graphics adapter opens: the window is drawn on the processor".to_owned());
@@ -140,7 +140,7 @@ fn unopened(error: impl std::fmt::Display) -> anyhow::Error {
     anyhow!("the window cannot be opened: {error}; without a display use the commands (gnomon help)")
 }
 
-/// How the window is to be opened.
+/// The options with which the window is opened.
 fn options(software: bool) -> NativeOptions {
     let mut setup = create_new();
     if software {
@@ -159,7 +159,8 @@ fn options(software: bool) -> NativeOptions {
             .with_inner_size([1280.0, 760.0])
             // all is seen down to here: twice as large on a screen of 1280 × 720
             .with_min_inner_size([640.0, 360.0]),
-        // panels are flat and the picture has its colours: there is nothing between two of them that a dither could hide
+        // panels are flat and the picture has its colours: there is nothing between two of them that a dither could
+        // hide
         dithering: false,
         wgpu_options: WgpuConfiguration {
             wgpu_setup: WgpuSetup::CreateNew(setup),
@@ -188,7 +189,7 @@ fn create_new() -> WgpuSetupCreateNew {
     setup
 }
 
-/// An app in the window of this time.
+/// The app in its current window.
 struct AppWindow<'a> {
     app: &'a mut App,
     on_frame: &'a mut dyn FnMut(&mut App, &egui::Context),
@@ -218,8 +219,8 @@ impl eframe::App for AppWindow<'_> {
     }
 }
 
-/// What egui remembers goes on in another context; whoever still asks the last one for a frame, as work that goes on beside
-/// the window does, asks the new one.
+/// Moves what egui remembers to another context. Work that still requests frames from the last context requests them
+/// from the new one.
 fn take_over(last: &egui::Context, new: &egui::Context) {
     let memory = last.memory(Clone::clone);
     new.memory_mut(|its| *its = memory);
@@ -229,7 +230,7 @@ fn take_over(last: &egui::Context, new: &egui::Context) {
 }
 
 impl App {
-    /// Goes on in another window, on its device, with what egui knew in the last one.
+    /// Continues in another window, on its device, with what egui knew in the last one.
     fn move_to(&mut self, cc: &CreationContext<'_>, last: Option<&egui::Context>) -> Result<(), GpuError> {
         if let Some(last) = last {
             take_over(last, &cc.egui_ctx);
@@ -242,8 +243,8 @@ impl App {
         Ok(())
     }
 
-    /// Whether the window's device is lost: then nothing can be shown, and the window closes. What else the device says is
-    /// told, once.
+    /// Whether the window's device is lost: then nothing can be shown, and the window closes. Other faults of the
+    /// device are reported once.
     fn leaves_device(&mut self, context: &egui::Context) -> bool {
         // what became of it is told when it is asked
         let _ = self.gpu.device.poll(PollType::Poll);
@@ -257,8 +258,8 @@ impl App {
         is_lost
     }
 
-    /// Why the window's device is lost, where it is, and what the next window says of it. After a panic any fault that the
-    /// device has reported is why: egui's renderer can do without none.
+    /// Why the window's device is lost, if it is, which the next window says. After a panic it is any fault that the
+    /// device has reported, since egui's renderer cannot cope with faults.
     fn lost(&mut self, has_panicked: bool) -> Option<String> {
         let _ = self.gpu.device.poll(PollType::wait_indefinitely());
         let is_lost = self.gpu.is_lost() || has_panicked;

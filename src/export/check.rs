@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A table is cut to about this many rows, a screen; `--json` has all.
+/// A table is cut to about so many rows, a screen; `--json` has all.
 const MOST_ROWS: usize = 40;
 /// The number of rows that are always there, and of those that a kind takes with its worst places.
 const FIXED_ROWS: usize = 11;
@@ -44,7 +44,7 @@ struct ComponentLine<'a> {
     places: Value,
 }
 
-/// `check --json`: triangles as in the files, vertices as welded, and what is wrong at which places.
+/// `check --json`: triangles as the files have them, vertices as welded, and where what is wrong.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -84,8 +84,8 @@ fn is_turned(references: &[ModelReference]) -> bool {
     references.iter().any(|model| model.up == Up::Y)
 }
 
-/// The totals with how the models were read below them, then a line for each part that is not clean, then what the
-/// words mean and where the worst is; ends with a line break.
+/// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
+/// break. How the models were read stands below the totals.
 pub fn table(
     mesh: &Mesh,
     components: &[ComponentReport],
@@ -153,7 +153,7 @@ fn shadows(mesh: &Mesh) -> String {
     }
 }
 
-/// One row per component, the worst first.
+/// A line a component, the worst first.
 fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&DefectKind], words: &dyn Words) {
     let most = MOST_ROWS.saturating_sub(FIXED_ROWS + kinds.len() * (1 + PLACES_A_KIND));
     let shown = &dirty[..dirty.len().min(most)];

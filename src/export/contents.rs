@@ -8,10 +8,10 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// The greatest number of groups and of kinds left out that the table lists; JSON has all.
+/// Groups and kinds of things left out that a table has a line for; JSON has all.
 const MOST: usize = 12;
 
-/// The contents of a file.
+/// What a file holds.
 #[derive(Serialize)]
 pub(super) struct ContentsReport<'a> {
     file: &'a str,
@@ -76,7 +76,7 @@ pub(super) fn table(models: &[ModelContents], words: &dyn Words) -> String {
     table
 }
 
-/// Says how many more there are than those listed.
+/// That there is more than is shown.
 fn more(count: usize, words: &dyn Words) -> String {
     match count.checked_sub(MOST) {
         None | Some(0) => String::new(),

@@ -152,7 +152,7 @@ pub(super) fn table(models: &[ModelReference]) -> String {
     table
 }
 
-/// A number to six significant digits, without trailing zeros: an inch is 0.0254 m, whatever its last bits are.
+/// A number with six digits that count, without zeros at its end: an inch is 0.0254 m, whatever its last bits are.
 fn six_digits(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }

@@ -60,8 +60,7 @@ struct IntervalReport {
 ///
 /// - `probes`, each with its `name`, its `point` in metres, its `normal` (of length 1, or null),
 ///   how far it lies below the ground (`below_ground_m`, null where it does not) and its `days`; these with
-///   `date`, `sunrise` and `sunset` (null where there is none), and `intervals`: the first second in sunlight
-/// (`start`),
+///   `date`, `sunrise` and `sunset` (null where there is none), and `intervals`: the first second in sunlight (`start`),
 ///   the first no longer in it (`end`), the `seconds` between them, and what blocks one second before the start and at
 ///   the end (`blocked_before`, `blocked_after`): the nearest component, `horizon` (the sun is down), `behind` (it is
 ///   behind the probe's own plane) or `window` (what is asked begins or ends there);
@@ -135,8 +134,8 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
-/// For each probe a table of its intervals, on a single day or on several, and a summary; then the ground, and which
-/// intervals cannot have been missed. Ends with a line break.
+/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and what
+/// cannot have been missed. Ends with a line break.
 pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> String {
     let mut table = String::new();
     for probed in &sunlight.probes {

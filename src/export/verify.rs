@@ -62,19 +62,16 @@ struct RowReport<'a> {
 ///
 /// - `instants_compared`: those with a sun;
 /// - `sun_samples`, `sun_samples_secs_per_instant`: the points of the sun's disc, and how long an instant took to them;
-/// - `clean`: every part that casts is closed and well wound; `edge_share_bound`: the part of the edge cells of an
-/// exact
+/// - `clean`: every part that casts is closed and well wound; `edge_share_bound`: the part of the edge cells of an exact
 ///   technique that may therefore differ (of other cells, one in 100,000);
 /// - `holds`: whether every technique that decides does;
-/// - `techniques`, each with what drew it and `against` (`centre`: ray casting to the sun's centre, `disc`: to the
-/// points
+/// - `techniques`, each with what drew it and `against` (`centre`: ray casting to the sun's centre, `disc`: to the points
 ///   of its disc, `every-face`: rays without the trees, at some cells), the `cells` compared, how many of them are
 ///   `edge_cells`; how many of these and of the others differ by more than half the sun (`edge_differ`,
 ///   `other_differ`), counted apart where they lie beside what is thinner than a cell (`thin_differ`) and where the
 ///   hybrid's map missed something (`map_missed`); how far the furthest of those that differ lies from a shadow edge
 ///   (`furthest_cells`); by how much the share of the sun, 0 to 1, and the hours of the profile are off
-///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the
-/// technique
+///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the technique
 ///   decides nothing;
 /// - `notes` as in `profile.json`.
 ///

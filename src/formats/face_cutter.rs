@@ -22,7 +22,7 @@ pub(super) struct FaceCutter {
 
 /// Why a face has no triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum CutFault {
+pub(super) enum Uncut {
     /// Fewer than three corners, or all of them on a line.
     NoArea,
     /// A coordinate is infinite or NaN.
@@ -31,13 +31,13 @@ pub(super) enum CutFault {
     TooLarge,
 }
 
-impl CutFault {
+impl Uncut {
     /// As a clause of what is left out.
     pub(super) fn why(self) -> &'static str {
         match self {
-            CutFault::NoArea => "no area",
-            CutFault::NoPoint => "a coordinate is no number",
-            CutFault::TooLarge => "more than 20,000 corners",
+            Uncut::NoArea => "no area",
+            Uncut::NoPoint => "a coordinate is no number",
+            Uncut::TooLarge => "more than 20,000 corners",
         }
     }
 }
@@ -64,17 +64,17 @@ impl FaceCutter {
 
     /// The triangles of a face whose rings follow each other in `points` and end before `ends`; the first is the outer one.
     /// A ring may repeat its first point at its end.
-    pub(super) fn cut(&mut self, points: &[DVec3], ends: &[usize]) -> Result<CutFace<'_>, CutFault> {
+    pub(super) fn cut(&mut self, points: &[DVec3], ends: &[usize]) -> Result<CutFace<'_>, Uncut> {
         let outer = points.get(..ends.first().copied().unwrap_or(0)).unwrap_or_default();
         if points.len() > MOST_CORNERS {
-            return Err(CutFault::TooLarge);
+            return Err(Uncut::TooLarge);
         }
         if !points.iter().all(|point| point.is_finite()) {
-            return Err(CutFault::NoPoint);
+            return Err(Uncut::NoPoint);
         }
         let normal = normal(outer);
         if outer.len() < 3 || !(normal.is_finite() && normal.length_squared() > 0.0) {
-            return Err(CutFault::NoArea);
+            return Err(Uncut::NoArea);
         }
         self.triangles.clear();
         let is_exact = match *points {
@@ -122,8 +122,8 @@ impl FaceCutter {
     }
 
     /// Clips a face, seen from the side to which it is turned; gives whether its triangles cover what it encloses.
-    fn clip(&mut self, points: &[DVec3], ends: &[usize], normal: DVec3) -> Result<bool, CutFault> {
-        let [first, ..] = *points else { return Err(CutFault::NoArea) };
+    fn clip(&mut self, points: &[DVec3], ends: &[usize], normal: DVec3) -> Result<bool, Uncut> {
+        let [first, ..] = *points else { return Err(Uncut::NoArea) };
         let axes = seen_along(normal);
         self.flat.clear();
         self.flat.extend(points.iter().map(|&point| axes.map(|axis| (point - first)[axis])));
@@ -145,7 +145,7 @@ impl FaceCutter {
             self.triangles.push(if area < 0.0 { [a, c, b] } else { [a, b, c] });
         }
         if self.triangles.is_empty() || !covered.is_finite() {
-            return Err(CutFault::NoArea);
+            return Err(Uncut::NoArea);
         }
         let enclosed = self.enclosed(ends);
         Ok((covered - enclosed).abs() <= 1e-3 * enclosed)

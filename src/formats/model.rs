@@ -245,7 +245,7 @@ impl ModelError {
         }
     }
 
-    /// Whether the reading was cancelled, and nothing is wrong.
+    /// Whether nothing is wrong, and somebody ended the reading.
     pub fn is_given_up(&self) -> bool {
         matches!(self.fault, ModelFault::GivenUp)
     }

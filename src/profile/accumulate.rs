@@ -1,6 +1,6 @@
 //! Adds up masks times weights, where the masks are, in integers.
 
-use super::ShadedTime;
+use super::Shaded;
 use crate::gpu::layout::WeightUniforms;
 use crate::gpu::targets::{NUMBER, whole};
 use crate::gpu::{Gpu, readback, shaders};
@@ -120,7 +120,7 @@ impl Sum {
     }
 
     /// Continues from a sum over that many seconds.
-    pub fn begin_with(&mut self, shaded: &ShadedTime, secs: u32) {
+    pub fn begin_with(&mut self, shaded: &Shaded, secs: u32) {
         match (&mut self.running, shaded.in_one_word()) {
             (RunningSum::Memory(running), Some(cells)) if secs <= MOST_SECS => {
                 running.copy_from_slice(cells);
@@ -201,7 +201,7 @@ impl Sum {
     }
 
     /// The sum so far. On the GPU this is slow, as the sum is read back.
-    pub fn so_far(&mut self) -> Result<ShadedTime, ShadowError> {
+    pub fn so_far(&mut self) -> Result<Shaded, ShadowError> {
         self.settle();
         match (&self.running, &self.poured) {
             (RunningSum::Memory(sum), None) => Ok(sum.clone().into()),
@@ -211,7 +211,7 @@ impl Sum {
     }
 
     /// The final sum.
-    pub fn finish(mut self) -> Result<ShadedTime, ShadowError> {
+    pub fn finish(mut self) -> Result<Shaded, ShadowError> {
         self.settle();
         match self {
             Sum { running: RunningSum::Memory(sum), poured: None, .. } => Ok(sum.into()),

@@ -10,7 +10,7 @@ mod statistics;
 mod unfinished;
 
 pub use provenance::{Provenance, Timings};
-pub use shaded::ShadedTime;
+pub use shaded::Shaded;
 #[doc(hidden)]
 pub use shaded::{ShadedCells, ShadedPart};
 pub use statistics::Statistics;
@@ -22,7 +22,7 @@ use crate::view::Grid;
 ///
 /// Sums are exact integers, the same on every machine: seconds times the covered share of the sun in 1/255.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Profile<S = ShadedTime> {
+pub struct Profile<S = Shaded> {
     /// The grid of the raster.
     pub grid: Grid,
     /// The shaded time of each cell, without night.

@@ -6,7 +6,7 @@ use std::ops::Range;
 /// The shaded time of each cell in 1/255 s, row 0 (north) first: in one 32-bit word per cell, which just holds a year
 /// of daylight, or in two for longer studies.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ShadedTime(ShadedPart<'static>);
+pub struct Shaded(ShadedPart<'static>);
 
 /// The shaded time of some cells, in memory or read from a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,7 +55,7 @@ pub trait ShadedCells: Sync {
     fn part(&self, cells: Range<usize>) -> ShadedPart<'_>;
 }
 
-impl ShadedCells for ShadedTime {
+impl ShadedCells for Shaded {
     fn cells(&self) -> usize {
         self.len()
     }
@@ -68,7 +68,7 @@ impl ShadedCells for ShadedTime {
     }
 }
 
-impl ShadedTime {
+impl Shaded {
     /// The number of cells.
     pub fn len(&self) -> usize {
         self.0.len()
@@ -89,7 +89,7 @@ impl ShadedTime {
         (0..self.len()).map(|cell| self.of(cell))
     }
 
-    /// The cells, if one word per cell is enough; otherwise [`ShadedTime::in_two_words`] has them.
+    /// The cells, if one word per cell is enough; otherwise [`Shaded::in_two_words`] has them.
     pub fn in_one_word(&self) -> Option<&[u32]> {
         match &self.0 {
             ShadedPart::One(cells) => Some(cells),
@@ -106,18 +106,18 @@ impl ShadedTime {
     }
 }
 
-impl From<Vec<u32>> for ShadedTime {
-    fn from(cells: Vec<u32>) -> ShadedTime {
-        ShadedTime(ShadedPart::One(cells.into()))
+impl From<Vec<u32>> for Shaded {
+    fn from(cells: Vec<u32>) -> Shaded {
+        Shaded(ShadedPart::One(cells.into()))
     }
 }
 
-impl From<Vec<u64>> for ShadedTime {
+impl From<Vec<u64>> for Shaded {
     /// One word where that is enough for all cells, so that equal sums are equal.
-    fn from(cells: Vec<u64>) -> ShadedTime {
+    fn from(cells: Vec<u64>) -> Shaded {
         match cells.iter().map(|&cell| u32::try_from(cell)).collect::<Result<Vec<u32>, _>>() {
             Ok(cells) => cells.into(),
-            Err(_) => ShadedTime(ShadedPart::Two(cells.into())),
+            Err(_) => Shaded(ShadedPart::Two(cells.into())),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The state of a study that was stopped.
 
-use super::{ShadedTime, Statistics};
+use super::{Shaded, Statistics};
 
 /// The state of a study that was stopped. It does not contain the finished tiles before the last one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,7 +12,7 @@ pub struct Unfinished {
     /// The number of instants that are done, added up over the tiles.
     pub done: usize,
     /// The sum of those in the last tile.
-    pub shaded: ShadedTime,
+    pub shaded: Shaded,
     /// The statistics of counting them, if they were requested.
     pub statistics: Option<Statistics>,
 }

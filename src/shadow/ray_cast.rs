@@ -1,11 +1,11 @@
 //! Ray casting on the processor, in double precision: the truth with which other techniques are compared, and the
 //! engine where there is no GPU.
 //!
-//! It is plain on purpose. Intersection follows S. Woop, C. Benthin and I. Wald, *Watertight Ray/Triangle Intersection*
-//! (JCGT, 2013): the triangle is sheared so that the ray is an axis, and the signs of three areas decide. A ray through
-//! a shared edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as
-//! hits. The tree only prunes: its boxes are padded by more than the rounding of its `f32` rays, and beyond the first
-//! tenth of a millimetre of a ray, in which it finds nothing.
+//! Plain on purpose. Intersection after Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2013):
+//! the triangle is sheared so that the ray is an axis, and the signs of three areas decide; a ray through a shared
+//! edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as hits.
+//! The tree only prunes: its boxes are padded beyond all rounding of its `f32` rays, and beyond the first tenth of a
+//! millimetre of a ray, in which it finds nothing.
 
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
@@ -31,7 +31,7 @@ pub struct RayCaster {
 const LOOKED_PAST: f64 = 1e-4;
 
 impl RayCaster {
-    /// Builds the tree. `reach` is the greatest distance of a ray's origin from the mesh's origin, metres.
+    /// Builds the tree; `reach` is the farthest that a ray's origin lies from the mesh's origin, metres.
     pub fn new(mesh: &Mesh, reach: f64) -> RayCaster {
         let size = mesh.vertices.iter().fold(0.0f32, |size, vertex| size.max(vertex.abs().max_element()));
         let rounding = (f64::from(size) + reach) * f64::from(f32::EPSILON) * 8.0;
@@ -48,7 +48,7 @@ impl RayCaster {
         RayCaster { tree, corners: faces.iter().map(|&face| mesh.corners(face as usize)).collect(), faces }
     }
 
-    /// The nearest face along a ray, and its distance in lengths of `direction`.
+    /// The nearest face along a ray, and how many lengths of `direction` away.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
         let shear = Shear::along(direction);
         let length = direction.length();
@@ -76,7 +76,7 @@ impl RayCaster {
         self.tree.as_ref().is_some_and(|tree| !tree.ray_traverse_miss(ray(origin, shear.direction), hit))
     }
 
-    /// The number of faces along a ray: the count that a shadow volume must have at its origin.
+    /// How many faces lie along a ray: the count that a shadow volume must have at its origin.
     #[cfg(feature = "test-hooks")]
     pub fn crossings(&self, origin: DVec3, direction: DVec3) -> usize {
         let shear = Shear::along(direction);
@@ -89,7 +89,7 @@ fn ray(origin: DVec3, direction: DVec3) -> Ray {
     Ray::new_inf(origin.as_vec3a(), direction.normalize().as_vec3a() + Vec3A::ZERO)
 }
 
-/// A frame in which a direction is an axis, the same for all parallel rays.
+/// The frame in which a direction is an axis, the same for all parallel rays.
 #[doc(hidden)]
 pub struct Shear {
     direction: DVec3,
@@ -98,7 +98,7 @@ pub struct Shear {
 }
 
 impl Shear {
-    /// The frame for rays along a direction that is not zero.
+    /// For rays along a direction that is not zero.
     pub fn along(direction: DVec3) -> Shear {
         let forward = direction.abs().max_position();
         let (mut right, mut up) = ((forward + 1) % 3, (forward + 2) % 3);

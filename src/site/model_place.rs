@@ -38,7 +38,7 @@ pub struct ModelReference {
     pub has_height: bool,
     /// All that its file says.
     pub anchors: Vec<Anchor>,
-    /// Degrees clockwise from its north to true north, as the site file says, otherwise its anchor.
+    /// Degrees clockwise from its north to true north, as the site file says, else its anchor.
     pub north_deg: f64,
     /// Degrees clockwise from true north to the map's, there.
     pub convergence_deg: Option<f64>,
@@ -108,8 +108,8 @@ pub(super) struct ModelsFrame {
     pub(super) elevation: Option<(usize, f64)>,
 }
 
-/// The frame around a place that the site file says. Where it says no elevation, that of the first model is, whose file
-/// says one and that stands nearby: the models stand at 0, as those do whose files say none.
+/// The frame around a place that the site file says. Where it says no elevation, that of the first model is, whose file says
+/// one and that stands nearby: the models stand at 0, as those do whose files say none.
 fn written_frame<'a>(table: &PlaceTable, models: impl Iterator<Item = SaidModel<'a>>) -> ModelsFrame {
     let Some((latitude_deg, longitude_deg)) = table.latitude.zip(table.longitude) else {
         return ModelsFrame::default();
@@ -137,8 +137,8 @@ pub(super) fn elevation_note(height_m: f64) -> Message {
     ]
 }
 
-/// The place of the models: the site file's, otherwise the first that a file proposes; one that is a program's own only
-/// where there is no other.
+/// The place of the models: the site file's, else the first that a file proposes; one that is a program's own only where
+/// there is no other.
 pub(super) fn frame<'a>(written: &WrittenSite, models: impl Iterator<Item = SaidModel<'a>>) -> ModelsFrame {
     if let Some(table) = &written.site.place {
         return written_frame(table, models);

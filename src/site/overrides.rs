@@ -32,7 +32,7 @@ pub struct Overrides {
     pub to: Option<String>,
     /// The time between two instants, such as `30min`.
     pub step: Option<String>,
-    /// The first date of a study of several days.
+    /// `--from-date 2026-02-19`, the first of several days.
     pub from_date: Option<String>,
     /// The last date of a study of several days.
     pub to_date: Option<String>,

@@ -15,7 +15,7 @@ pub struct Placement {
     pub terrain_error_m: Option<f64>,
     /// The classes of measured points that are read besides the ground.
     pub point_classes: Vec<String>,
-    /// The upward axis; by default that of the file or its format.
+    /// Which of the model's axes is up; as its file or format says where none is said.
     pub up: Option<Up>,
     /// Radians clockwise from the model's north (−Z if its y is up, +Y if its z is) to true north; the model is turned
     /// by that angle the other way. By default the file's, otherwise 0.

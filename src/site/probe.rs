@@ -41,7 +41,7 @@ pub struct ProbeSite {
     pub probes: Vec<Probe>,
     /// The days in their order, at least one, each with the requested part of it.
     pub days: Vec<DayWindow>,
-    /// The seconds between the instants that are tested first.
+    /// Seconds between the instants at which is looked first.
     pub step_secs: u32,
     /// Whether directions include atmospheric refraction.
     pub refraction: bool,

@@ -2,7 +2,7 @@
 
 use super::{StudyError, TiledStudy};
 use crate::message::Message;
-use crate::profile::{ShadedTime, Unfinished};
+use crate::profile::{Shaded, Unfinished};
 use crate::sun::Zone;
 use crate::view::{Bits, Mask, Tile};
 use chrono::DateTime;
@@ -48,7 +48,7 @@ pub enum Event<'a> {
     /// A tile of the plan begins or continues: the next instants belong to it.
     Tile(Tile),
     /// The tile's sums, once all of its instants are done.
-    Summed(Arc<ShadedTime>),
+    Summed(Arc<Shaded>),
     /// One instant is done. Within a tile they come in the order of time.
     Drawn {
         /// Its index, from 0.
@@ -90,7 +90,7 @@ pub(crate) fn note_models(notes: &[Message], on_event: &mut OnEvent<'_>) -> Resu
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
 }
 
-/// Notes that the plan is worked on in tiles, if it is.
+/// Says when the plan is done in tiles.
 pub(super) fn note_tiles(tiles: &[Tile], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let [first, _, ..] = tiles else { return Ok(()) };
     let [width, height] = first.size;

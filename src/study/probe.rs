@@ -1,9 +1,8 @@
-//! When points lie in the sun: rays at the instants of a grid, and bisection between two neighbours that differ.
+//! When points lie in the sun: rays at the instants of a grid, and halving between two of them that differ.
 //!
 //! A probe lies in sunlight where the sun is above the horizon, in front of the probe's plane if it has one, and a ray
-//! to the sun's centre meets no caster; a probe below the ground never does. An interval of sun or of shade that is at
-//! least one step long contains an instant of the grid, and so cannot be missed; a shorter one may be. Each change that
-//! is found is exact to the second.
+//! to the sun's centre meets no caster; not below the ground. An interval of sun or of shade that is at least one step long holds an instant
+//! of the grid, and so cannot be missed; a shorter one may be. Each change that is found is exact to the second.
 
 use super::{Event, OnEvent, StudyError, note_models, tell};
 use crate::mesh::Mesh;

@@ -10,7 +10,7 @@ use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::message::{Field, aside, message};
 use crate::profile::accumulate::Sum;
-use crate::profile::{Profile, Provenance, ShadedTime, Statistics, Timings, Unfinished};
+use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
 use crate::sun;
@@ -61,7 +61,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
 }
 
 /// The sums of a whole plan, with a tile's put in their place. An empty whole has no sums yet.
-pub fn paste(whole: &Arc<ShadedTime>, tile: &Tile, shaded: &Arc<ShadedTime>) -> Arc<ShadedTime> {
+pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
     if tile.is_whole() {
         return Arc::clone(shaded);
     }
@@ -213,9 +213,9 @@ impl TileWork<'_> {
         &mut self,
         (number, tile): (usize, &Tile),
         technique: &mut dyn Technique,
-        begun: Option<ShadedTime>,
+        begun: Option<Shaded>,
         on_event: &mut OnEvent<'_>,
-    ) -> Result<ShadedTime, StudyError> {
+    ) -> Result<Shaded, StudyError> {
         let instants = &self.look.site.track.instants;
         let count = self.tiles * instants.len();
         let mut sum = Sum::new(self.look.machine.gpu(), tile.size[0], tile.size[1]);
@@ -264,7 +264,7 @@ impl TileWork<'_> {
     }
 
     /// Tells what is to be kept after so many instants.
-    fn keep(&mut self, done: usize, shaded: ShadedTime, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    fn keep(&mut self, done: usize, shaded: Shaded, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
         let TileWork { study, tiles, statistics, .. } = *self;
         tell(on_event, Event::Kept(&Unfinished { study, tiles, done, shaded, statistics }))?;
         self.kept = (Instant::now(), true);

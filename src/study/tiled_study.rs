@@ -3,7 +3,7 @@
 use super::machine::Machine;
 use super::{SiteView, Stopwatch, StudyError, Wants, fingerprint};
 use crate::profile::accumulate::Sum;
-use crate::profile::{ShadedTime, Unfinished};
+use crate::profile::{Shaded, Unfinished};
 use crate::site::Site;
 use crate::sun;
 use crate::view::{Tile, View};
@@ -32,13 +32,13 @@ impl TiledStudy<'_> {
         &self.tiles
     }
 
-    /// A part of the study, for a program that distributes the work: the shaded time of one of the tiles at some of the
-    /// instants. These may come from another process. Sums over instants that make up the track add up to the tile's
-    /// own to the bit, and [`paste`](super::paste) puts tiles together. If the device fails, this returns an error.
+    /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
+    /// instants, which may come from another process. Sums of instants that make up the track add up to the tile's own to the bit, and
+    /// [`paste`](super::paste) puts tiles together. Where the device fails, so does this.
     ///
     /// # Errors
     /// [`StudyError::Shadow`], where drawing failed.
-    pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<ShadedTime, StudyError> {
+    pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<Shaded, StudyError> {
         let mut technique = self.look().technique_of(tile)?;
         let mut sum = Sum::new(self.machine.gpu(), tile.size[0], tile.size[1]);
         for instant in instants.iter().filter(|instant| !instant.night) {

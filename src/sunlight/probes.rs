@@ -45,7 +45,7 @@ impl Interval {
 /// The intervals of several probes on several days.
 #[derive(Clone, Debug)]
 pub struct Sunlight {
-    /// The seconds between the instants that are tested first: no interval of sun or shade that is at least so long is
+    /// Seconds between the instants at which was looked first: no interval of sun or shade that is at least so long is
     /// missed.
     pub step_secs: u32,
     /// Whether directions include atmospheric refraction.
@@ -104,7 +104,7 @@ impl Sunlight {
     }
 }
 
-/// The point at which a probe is judged: with a normal, a millimetre in front of its plane.
+/// Where a probe is judged: with a normal a millimetre before its plane.
 pub fn judged(probe: &Probe) -> DVec3 {
     probe.point + probe.normal.unwrap_or(DVec3::ZERO) * JUDGED_ABOVE_M
 }

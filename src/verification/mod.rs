@@ -9,7 +9,7 @@ pub use edges::{Edges, is_edge_cell};
 pub use tally::Tally;
 
 use crate::choice::{Promise, Truth};
-use crate::profile::{Provenance, ShadedTime};
+use crate::profile::{Provenance, Shaded};
 use crate::view::Grid;
 
 /// The comparison of all techniques on one site.
@@ -85,7 +85,7 @@ pub struct HoursDifference {
 
 impl HoursDifference {
     /// The difference between two sums of shaded time in 1/255 s.
-    pub fn between(drawn: &ShadedTime, truth: &ShadedTime) -> HoursDifference {
+    pub fn between(drawn: &Shaded, truth: &Shaded) -> HoursDifference {
         let off = || drawn.iter().zip(truth.iter()).map(|(drawn, truth)| drawn.abs_diff(truth));
         let hours = |sum: u64| sum as f64 / (255.0 * 3600.0);
         HoursDifference {

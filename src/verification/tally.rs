@@ -3,7 +3,7 @@
 use super::{Difference, Edges, HoursDifference, Row};
 use crate::choice::{Promise, Truth};
 use crate::profile::accumulate::Sum;
-use crate::profile::{Provenance, ShadedTime};
+use crate::profile::{Provenance, Shaded};
 use crate::shadow::{DrawnMask, ShadowError};
 use crate::view::{Grid, Mask};
 
@@ -77,7 +77,7 @@ impl Tally {
     ///
     /// # Errors
     /// None for masks in memory.
-    pub fn sum(self) -> Result<ShadedTime, ShadowError> {
+    pub fn sum(self) -> Result<Shaded, ShadowError> {
         self.sum.finish()
     }
 
@@ -90,7 +90,7 @@ impl Tally {
         drawn: Provenance,
         against: Truth,
         promise: Promise,
-        truth: Option<&ShadedTime>,
+        truth: Option<&Shaded>,
     ) -> Result<Row, ShadowError> {
         Ok(Row {
             drawn,

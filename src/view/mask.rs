@@ -47,7 +47,7 @@ impl Bits {
         bits
     }
 
-    /// Copies a tile's cells to their place on the plan. A tile's first column is a multiple of 64.
+    /// Puts a tile's cells in their place on the plan. A tile's first column is a multiple of 64.
     pub fn paste(&mut self, tile: &Tile, part: &Bits) {
         let [left, top] = tile.first.map(|first| first as usize);
         let in_row = self.in_row();

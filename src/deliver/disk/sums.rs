@@ -9,7 +9,7 @@ use super::unfinished::sums_path;
 use crate::export::checksum::Checksum;
 use crate::export::{ExportError, file};
 use crate::profile::accumulate::MOST_SECS;
-use crate::profile::{ShadedCells, ShadedPart, ShadedTime};
+use crate::profile::{Shaded, ShadedCells, ShadedPart};
 use crate::view::{Grid, Tile};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -109,7 +109,7 @@ impl SumsFile {
     ///
     /// # Errors
     /// [`ExportError::Write`] where the file system refuses.
-    pub fn put(&mut self, tile: &Tile, shaded: &ShadedTime) -> Result<(), ExportError> {
+    pub fn put(&mut self, tile: &Tile, shaded: &Shaded) -> Result<(), ExportError> {
         let width = tile.size[0] as usize;
         let mut bytes = Vec::new();
         for row in 0..tile.size[1] {

@@ -12,7 +12,7 @@
 
 use crate::export::checksum::checksum;
 use crate::export::{ExportError, bytes, file};
-use crate::profile::{ShadedTime, Statistics, Unfinished};
+use crate::profile::{Shaded, Statistics, Unfinished};
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::fs;
@@ -198,7 +198,7 @@ fn decode(bytes: &[u8]) -> Option<(Unfinished, Checks)> {
     if cells.checked_mul(word_bytes) != Some(rest.len() as u64) {
         return None;
     }
-    let shaded: ShadedTime = match word_bytes {
+    let shaded: Shaded = match word_bytes {
         4 => rest.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect::<Vec<u32>>().into(),
         8 => rest.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect::<Vec<u64>>().into(),
         _ => return None,

@@ -7,7 +7,7 @@ use crate::deliver::disk::bits;
 use crate::deliver::parts::{DrawnView, figure_context, report_context};
 use crate::deliver::sink::{OpenSink, WholeFile};
 use crate::export::{ExportError, figure, raster, report};
-use crate::profile::{Profile, ShadedTime, Timings};
+use crate::profile::{Profile, Shaded, Timings};
 use crate::shadow::PlanSurface;
 use crate::site::Site;
 use crate::study::{Stopwatch, StudyError};
@@ -55,7 +55,7 @@ pub(super) fn make(
     stage("picture")?;
     if let (Some(shaded), false) = (hours.shaded(), asked.lines.is_empty()) {
         let Profile { grid, day_secs, night_secs, .. } = *profile;
-        let profile = Profile { grid, shaded: ShadedTime::clone(shaded), day_secs, night_secs };
+        let profile = Profile { grid, shaded: Shaded::clone(shaded), day_secs, night_secs };
         for lines in asked.lines {
             files.extend(lines.files(&scene(), &profile, &hours.outlines)?);
         }

@@ -7,7 +7,7 @@ use crate::deliver::DeliverError;
 use crate::export::ExportError;
 use crate::export::figure::Outline;
 use crate::mesh::Mesh;
-use crate::profile::{Profile, Provenance, ShadedCells, ShadedTime, Statistics, Timings};
+use crate::profile::{Profile, Provenance, Shaded, ShadedCells, Statistics, Timings};
 use crate::site::Site;
 use crate::study::{self, OnEvent, Outcome, TiledOutcome, TiledStudy};
 use rayon::prelude::*;
@@ -67,7 +67,7 @@ pub(in crate::deliver) fn find<'a>(
 
 impl Hours {
     /// The sums, if they are in memory.
-    pub fn shaded(&self) -> Option<&Arc<ShadedTime>> {
+    pub fn shaded(&self) -> Option<&Arc<Shaded>> {
         match &self.profile.shaded {
             Sums::Memory(shaded) => Some(shaded),
             Sums::File(_) => None,

@@ -2,14 +2,14 @@
 
 use crate::deliver::disk::sums::SumsFile;
 use crate::export::ExportError;
-use crate::profile::{ShadedCells, ShadedPart, ShadedTime};
+use crate::profile::{Shaded, ShadedCells, ShadedPart};
 use std::ops::Range;
 use std::sync::Arc;
 
 /// Shaded time per cell.
 pub enum Sums {
     /// The sums are in memory.
-    Memory(Arc<ShadedTime>),
+    Memory(Arc<Shaded>),
     /// The sums are read from a file, some cells at a time.
     File(SumsFile),
 }
@@ -24,14 +24,14 @@ impl Sums {
     }
 
     /// All sums, in memory.
-    pub(super) fn in_memory(self) -> Result<Arc<ShadedTime>, ExportError> {
+    pub(super) fn in_memory(self) -> Result<Arc<Shaded>, ExportError> {
         let file = match self {
             Sums::Memory(shaded) => return Ok(shaded),
             Sums::File(file) => file,
         };
         let shaded = match file.part(0..file.cells()) {
-            ShadedPart::One(cells) => ShadedTime::from(cells.into_owned()),
-            ShadedPart::Two(cells) => ShadedTime::from(cells.into_owned()),
+            ShadedPart::One(cells) => Shaded::from(cells.into_owned()),
+            ShadedPart::Two(cells) => Shaded::from(cells.into_owned()),
         };
         file.check()?;
         Ok(Arc::new(shaded))

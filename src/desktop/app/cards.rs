@@ -14,13 +14,13 @@ use crate::view::{Probe, View};
 use eframe::egui::{self, Align2, Color32, Id, Rect, Sense, Ui, Vec2, vec2};
 use std::sync::Arc;
 
-/// As wide as a card may be, and as much room as one leaves around itself, points.
+/// The greatest width of a card, and the room that it leaves around itself, points.
 const WIDTH: f32 = 290.0;
 const AROUND: f32 = 14.0;
-/// Within a card's border.
+/// The margin within a card's border.
 const WITHIN: f32 = 10.0;
 
-/// Shows the cards over a picture: beside each other, or in one where there is no room for two.
+/// Shows the cards over a picture: side by side, or in one column if there is no room for two.
 pub(in crate::desktop) fn show(ui: &Ui, open: &mut Open, settings: &mut WindowSettings, rect: Rect, unit: Unit) {
     let result = open.result.clone().filter(|_| open.shows_hours);
     let is_probed = open.probing.is_some() || open.sunlight.is_some();
@@ -48,13 +48,13 @@ fn card(ui: &Ui, name: &str, rect: Rect, corner: Align2, offset: Vec2, content: 
     });
 }
 
-/// What of a card may be longer than the picture is high; some room is kept below.
+/// The part of a card that may be longer than the picture is high; some room is kept below.
 fn scrolled(ui: &mut Ui, below: f32, content: impl FnOnce(&mut Ui)) {
     let most = (ui.available_height() - below).max(24.0);
     egui::ScrollArea::vertical().max_height(most).auto_shrink(true).min_scrolled_height(24.0).show(ui, content);
 }
 
-/// Marks the point that is searched or was found.
+/// Marks the point that is being searched or was found.
 pub(in crate::desktop) fn mark(ui: &Ui, open: &Open, view: &View, rect: Rect) {
     let found = open.sunlight.as_ref().and_then(|sunlight| sunlight.probes.first());
     let Some(probed) = found else { return };
@@ -74,7 +74,7 @@ pub(in crate::desktop) fn swatch(ui: &mut Ui, [r, g, b]: Rgb, what: &str) {
     });
 }
 
-/// What the colours mean of what lies over the scene.
+/// The meaning of the colours that lie over the scene.
 fn legend(ui: &mut Ui, result: &StudyResult) {
     let (head, entries) = result.legend();
     ui.label(head);
@@ -135,7 +135,7 @@ fn probe(open: &mut Open, settings: &mut WindowSettings, unit: Unit, result: Opt
     }
 }
 
-/// Where a point lies, and what the study that lies over the scene says of it.
+/// The position of a point, and what the study that lies over the scene says of it.
 fn place(ui: &mut Ui, probed: &ProbeIntervals, said: Option<String>, unit: Unit) {
     let (at, name) = (probed.probe.point / unit.metres, unit.name);
     ui.weak(format!("{:.2} {name} east, {:.2} {name} north, {:.2} {name} up", at.x, at.y, at.z).replace('-', "−"));

@@ -26,7 +26,7 @@ impl App {
         }
     }
 
-    /// Looks whether the site's files are still what was read: when the window gets the focus back.
+    /// Checks, when the window gets the focus back, whether the site's files have changed since they were read.
     pub(in crate::desktop) fn look_for_changes(&mut self, context: &egui::Context) {
         let has_focus = context.input(|input| input.focused);
         if has_focus && !std::mem::replace(&mut self.had_focus, has_focus) {
@@ -36,8 +36,8 @@ impl App {
         self.had_focus = has_focus;
     }
 
-    /// Reads the open site's files again. What was set in the window stays where the site file has not changed on the disk;
-    /// else it is asked about, and is what undo brings back.
+    /// Reads the open site's files again. What was set in the window stays if the site file has not changed on the
+    /// disk; otherwise the window asks about it, and undo brings it back.
     pub(in crate::desktop) fn reload(&mut self, context: &egui::Context) {
         let Some(open) = &self.open else { return };
         if open.project.path.as_ref().is_some_and(|path| open.project.written.has_changed_at(path)) {

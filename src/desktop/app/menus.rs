@@ -23,7 +23,7 @@ const EXPORT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::
 const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
 const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
 
-/// A menu; what is longer than the window is high is scrolled.
+/// A menu, which scrolls if it is longer than the window is high.
 fn menu(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     ui.menu_button(name, |ui| {
         // else 400 points, however high the window
@@ -32,7 +32,7 @@ fn menu(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// An entry of a menu, with its keys.
+/// An entry of a menu, with its shortcut.
 fn entry(context: &egui::Context, name: &str, keys: &KeyboardShortcut) -> egui::Button<'static> {
     egui::Button::new(name.to_owned()).shortcut_text(context.format_shortcut(keys))
 }
@@ -49,7 +49,7 @@ fn themes(ui: &mut Ui) {
     }
 }
 
-/// Larger, smaller, and as the screen has it. The keys are egui's own.
+/// Larger, smaller, and the screen's own scale. The shortcuts are egui's.
 fn interface_scale(ui: &mut Ui) {
     use egui::gui_zoom::{kb_shortcuts, zoom_in, zoom_out};
     let context = ui.ctx().clone();
@@ -176,7 +176,7 @@ impl App {
         self.export_entries(ui);
     }
 
-    /// The entries of the file menu that write what is shown and what was found.
+    /// The entries of the file menu that export what is shown and what was found.
     fn export_entries(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
         let is_open = self.open.is_some();
@@ -240,7 +240,7 @@ impl App {
         interface_scale(ui);
     }
 
-    /// What lies under the pointer, and where; the less of it, the less room there is.
+    /// What lies under the pointer, and where, shortened to the room that there is.
     fn read_out(&self, open: &Open, ui: &mut Ui) {
         let Some(under) = &open.viewer.under else { return };
         let unit = Unit::of(self.kept.feet);

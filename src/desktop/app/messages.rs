@@ -5,7 +5,7 @@ use crate::desktop::work::export;
 use eframe::egui::{self, Ui};
 
 impl App {
-    /// What goes on, and what went wrong.
+    /// The work in progress, and what went wrong.
     pub(in crate::desktop) fn messages(&mut self, ui: &mut Ui) {
         self.loading_message(ui);
         if self.writing.as_ref().is_some_and(|writing| export::progress(writing, ui)) {
@@ -36,7 +36,7 @@ impl App {
         }
     }
 
-    /// A file of the open site is no longer what was read.
+    /// Says that a file of the open site has changed since it was read.
     fn changed_message(&mut self, ui: &mut Ui) {
         if let Some(name) = &self.changed {
             let mut reloads = false;

@@ -38,8 +38,8 @@ impl App {
         }
     }
 
-    /// A site file that was read again may leave the place to a model's file, as one that is opened may: what that says is
-    /// set, saved, and what undo keeps.
+    /// Lets a model's file propose the place of a site file that was read again, as when it is opened: the proposed
+    /// place is set, saved, and kept by undo.
     fn set_proposed_place(&mut self, place: Option<&PlaceTable>) {
         let propose = |site: &mut SiteFile| {
             if site.place.is_none() {
@@ -80,7 +80,7 @@ impl App {
         self.set_recovered();
     }
 
-    /// Reads the site again where its settings have changed, once the hand rests.
+    /// Reads the site again if its settings have changed, once the mouse is at rest.
     pub(in crate::desktop) fn follow_settings(&mut self, context: &egui::Context) {
         let rests = !context.input(|input| input.pointer.any_down());
         if rests {
@@ -106,7 +106,7 @@ impl App {
     }
 }
 
-/// The instant with which a clock begins.
+/// The instant with which the clock begins.
 fn middle_of(track: &SunTrack) -> Option<Instant> {
     track.instants.get(track.instants.len() / 2).cloned()
 }
@@ -138,7 +138,7 @@ impl Open {
     }
 }
 
-/// How long the diagonal of the models is, metres.
+/// The length of the models' diagonal, metres.
 fn length(project: &Project) -> f64 {
     project.site.mesh.bounds_at_home().map_or(1.0, |(low, high)| (high - low).length().max(1e-6))
 }

@@ -20,10 +20,10 @@ use crate::site::{Ground, Mend, ModelReference};
 use eframe::egui::{self, Ui, vec2};
 use std::ops::RangeInclusive;
 
-/// Metres that a unit of a model may have.
+/// The range of metres per unit of a model.
 const SCALE: RangeInclusive<f64> = 1e-6..=1e6;
 
-/// What a technique is good for, as a sentence.
+/// A sentence on what a technique is good for.
 fn good_for(method: Method) -> String {
     let text = method.row().good_for;
     let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
@@ -50,7 +50,7 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
     });
 }
 
-/// What the command would note of the models, of those before where two states are compared as well.
+/// The command's notes on the models, also on those before if two states are compared.
 fn notes(app: &App) -> Vec<&Message> {
     let Some(open) = &app.open else { return Vec::new() };
     let notes = &open.project.site.notes;
@@ -59,7 +59,7 @@ fn notes(app: &App) -> Vec<&Message> {
     notes.iter().chain(before.iter().filter(|note| !notes.contains(note))).collect()
 }
 
-/// What the user should know of the models, and the keys that would mend what looks wrong.
+/// What the user should know of the models, with the keys that would correct what looks wrong.
 fn section_of_notes(app: &mut App, ui: &mut Ui) {
     let notes: Vec<String> = notes(app).into_iter().map(|note| note.in_words(&PanelWords)).collect();
     let Some(open) = app.open.as_ref().filter(|_| !notes.is_empty()) else { return };
@@ -99,7 +99,7 @@ fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// A label and fields beside it, aligned with all others.
+/// A label and the fields beside it, aligned with all others.
 fn row(ui: &mut Ui, name: &str, field: impl FnOnce(&mut Ui, egui::Id)) {
     ui.horizontal(|ui| {
         let size = vec2(78.0, ui.spacing().interact_size.y);
@@ -111,7 +111,7 @@ fn row(ui: &mut Ui, name: &str, field: impl FnOnce(&mut Ui, egui::Id)) {
     });
 }
 
-/// The word before a second field in a row.
+/// The label before a second field in a row.
 fn then(ui: &mut Ui, name: &str) -> egui::Id {
     ui.weak(name).id
 }
@@ -131,7 +131,7 @@ fn place(app: &mut App, ui: &mut Ui) {
     }
 }
 
-/// The place's name, latitude and longitude; both of these can be typed into either.
+/// The place's name, latitude and longitude; both angles can be typed into either field.
 fn coordinates(ui: &mut Ui, typed: &mut TypedText, table: &mut PlaceTable) {
     let name = table.name.clone().unwrap_or_default();
     row(ui, "Name", |ui, label| {
@@ -173,7 +173,7 @@ fn elevation(ui: &mut Ui, typed: &mut TypedText, table: &mut PlaceTable, unit: U
     typed.show_faults(ui, &["Elevation"]);
 }
 
-/// How the only model is turned and scaled. What its file says of itself is shown until something is written.
+/// The rotation and the scale of a single model. What its file says is shown until something else is written.
 fn placement(ui: &mut Ui, typed: &mut TypedText, model: &mut ModelTable, said: Option<&ModelReference>) {
     let by_file = said.is_some_and(|said| said.said_by.is_some());
     let has_unit = said.is_some_and(|said| said.unit_is_said);
@@ -197,7 +197,7 @@ fn placement(ui: &mut Ui, typed: &mut TypedText, model: &mut ModelTable, said: O
     typed.show_faults(ui, &["Model north", "scale"]);
 }
 
-/// The ground's height as the site file says it, or as it was found; and what is to be known of it.
+/// The ground's height, as the site file gives it or as it was found, and what the user should know of it.
 fn ground(ui: &mut Ui, typed: &mut TypedText, level: &mut Option<f64>, found: &Ground, unit: Unit) {
     row(ui, "Ground", |ui, label| {
         let mut value = level.unwrap_or(found.level) / unit.metres;

@@ -8,7 +8,7 @@ use crate::desktop::work::loading::LoadRequest;
 use crate::message::few;
 use eframe::egui::{self, Key, Response, TextEdit, Ui};
 
-/// A field, and below it why what was typed is not taken: until something else is.
+/// A field, and below it why the typed text is not accepted, until something else is typed.
 fn field(ui: &mut Ui, name: &str, hint: &str, text: &mut String, fault: &mut Option<String>) -> Response {
     let label = ui.label(name);
     let response = ui.vertical(|ui| {

@@ -11,7 +11,7 @@ use eframe::egui;
 use std::sync::Arc;
 
 impl App {
-    /// Takes what the work beside the window has come to.
+    /// Receives the results of the work beside the window.
     pub(in crate::desktop) fn receive(&mut self, context: &egui::Context) {
         self.receive_note();
         self.receive_site(context);
@@ -76,7 +76,7 @@ impl App {
         }
     }
 
-    /// Lays over the scene what was found; what a change was found from is what is compared with.
+    /// Lays over the scene what was found. After a comparison, the state before is kept to be compared with.
     fn lay(&mut self, result: StudyResult) {
         let Some(open) = &mut self.open else { return };
         if let Some(change) = result.change() {

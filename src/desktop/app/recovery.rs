@@ -11,7 +11,7 @@ use eframe::egui;
 use std::path::Path;
 
 impl App {
-    /// The same window, which keeps what is not saved beside what eframe keeps of it.
+    /// The same window, which keeps unsaved settings beside eframe's own data.
     pub(in crate::desktop) fn recovering(self) -> App {
         match eframe::storage_dir("gnomon") {
             Some(folder) => self.recovering_in(&folder.join("recovery")).keeping_studies_in(&folder.join("studies")),
@@ -25,7 +25,7 @@ impl App {
         self
     }
 
-    /// Keeps what is not saved, once it rests; and nothing where all is saved.
+    /// Keeps unsaved settings once they are at rest, and removes them if everything is saved.
     pub(in crate::desktop) fn keep_unsaved(&mut self, context: &egui::Context) {
         let is_wanted = self.is_unsaved() && !self.is_left();
         let Some(open) = &self.open else { return };
@@ -40,7 +40,7 @@ impl App {
         }
     }
 
-    /// Offers what a window that has ended had not saved.
+    /// Offers the unsaved settings of a window that has ended.
     pub(in crate::desktop) fn offer_recovered(&mut self, context: &egui::Context) {
         let Some(unsaved) = self.saving.recovery.offer() else { return };
         let file = unsaved.path.as_deref().unwrap_or(Path::new(&unsaved.written.file));
@@ -64,7 +64,7 @@ impl App {
         }
     }
 
-    /// Opens the site as its file was, and sets what was not saved: a change like any other, which undo takes back.
+    /// Opens the site as its file was, and applies the unsaved settings, as a change that undo takes back.
     fn restore(&mut self, slot: Slot, unsaved: UnsavedSite, context: &egui::Context) {
         let UnsavedSite { path, written } = unsaved;
         let set = written.site.clone();
@@ -83,7 +83,7 @@ impl App {
         self.saving.recovery.restore(slot, set);
     }
 
-    /// A site was opened to which something belongs that was not saved.
+    /// A site was opened to which unsaved settings belong.
     pub(in crate::desktop) fn set_recovered(&mut self) {
         let Some((slot, mut site)) = self.saving.recovery.take_restored() else { return };
         let technique = site.study.technique.take();

@@ -30,7 +30,7 @@ impl App {
         }
     }
 
-    /// What people call the open file: a `site.toml` by its folder, too.
+    /// The name of the open file for people; a `site.toml` has the name of its folder.
     fn file_name(&self) -> Option<String> {
         let project = &self.open.as_ref()?.project;
         let path = project.path.as_deref().unwrap_or(Path::new(&project.written.file));
@@ -39,14 +39,14 @@ impl App {
         Some(if folder == name { name } else { format!("{folder}/{name}") })
     }
 
-    /// The settings are those of the site file, or of a bare model.
+    /// Notes that the settings are those of the site file, or of a bare model.
     pub(in crate::desktop) fn note_saved(&mut self) {
         let saved = || (self.settings.site.clone(), self.settings.shown.method);
         let has_file = self.open.as_ref().is_some_and(|open| open.project.path.is_some());
         self.saving.saved = has_file.then(saved);
     }
 
-    /// Writes the site file that is open; asks where, for a bare model and a sample.
+    /// Writes the open site file; asks where for a bare model and a sample.
     pub(in crate::desktop) fn save_site(&mut self, context: &egui::Context) {
         let Some(open) = &self.open else { return };
         match &open.project.path {
@@ -62,7 +62,7 @@ impl App {
         }
     }
 
-    /// Asks for the path of the site file; where another path is being asked for nothing is saved.
+    /// Asks for the path of the site file. If another path is being asked for, nothing is saved.
     fn ask_where(&mut self, context: &egui::Context) {
         self.ask(Purpose::SaveSite, context);
         if !self.asking.as_ref().is_some_and(|asking| asking.purpose() == Purpose::SaveSite) {
@@ -70,7 +70,7 @@ impl App {
         }
     }
 
-    /// Where a site file is proposed to be written: where it lies, or where none does.
+    /// The proposed path of the site file: where it is, or a new one.
     pub(in crate::desktop) fn proposed_site(&self) -> PathBuf {
         let open = self.open.as_ref().map(|open| (&open.project.path, &open.project.written.file));
         let Some((path, file)) = open else { return self.folder().join("site.toml") };
@@ -85,7 +85,7 @@ impl App {
         }
     }
 
-    /// Writes the site file, which is the open one from now on.
+    /// Writes the site file, which becomes the open one.
     pub(in crate::desktop) fn write_site(&mut self, path: PathBuf, context: &egui::Context) {
         let then = self.saving.then.take();
         self.notice = None;
@@ -130,7 +130,7 @@ impl App {
         }
     }
 
-    /// Goes on, where that loses nothing; else asks first.
+    /// Performs an action if it loses nothing; otherwise asks first.
     pub(in crate::desktop) fn go_on_or_ask(&mut self, then: PendingAction, context: &egui::Context) {
         if self.is_unsaved() {
             self.question_unsaved(then);
@@ -139,7 +139,7 @@ impl App {
         }
     }
 
-    /// Asks what becomes of what is not saved; what was to follow an earlier question does not any more.
+    /// Asks what becomes of unsaved settings, and forgets the action of an earlier question.
     fn question_unsaved(&mut self, then: PendingAction) {
         self.give_up_saving();
         self.saving.question = Some(SaveQuestion::Unsaved(then));
@@ -157,22 +157,22 @@ impl App {
         }
     }
 
-    /// Nothing is saved, or nothing waits for it: what was to follow does not.
+    /// Nothing was saved: forgets the action that was to follow.
     pub(in crate::desktop) fn give_up_saving(&mut self) {
         self.saving.then = None;
     }
 
-    /// Whether what is not saved is wanted by nobody.
+    /// Whether the unsaved settings were discarded.
     pub(in crate::desktop) fn is_left(&self) -> bool {
         self.saving.is_left
     }
 
-    /// Whether something is asked, and nothing else goes on.
+    /// Whether a question is open, so that nothing else may happen.
     pub(in crate::desktop) fn is_questioned(&self) -> bool {
         self.saving.question.is_some() || self.saving.recovery.is_offering() || !self.dropped.is_empty()
     }
 
-    /// Keeps the window open over what is not saved: also while it is hidden, and shown by nobody.
+    /// Keeps the window open while there are unsaved settings, even while it is hidden.
     pub(in crate::desktop) fn watch_closing(&mut self, context: &egui::Context) {
         let is_asked = context.input(|input| input.viewport().close_requested());
         if !is_asked || self.saving.is_left {
@@ -194,8 +194,7 @@ impl App {
         }
     }
 
-    /// The end of a frame, in which the fields have taken what was typed: saves, closes, asks, and says in the title how it
-    /// stands.
+    /// The end of a frame, after the fields have taken the typed text: saves, closes, asks, and sets the title.
     pub(in crate::desktop) fn save_and_ask(&mut self, context: &egui::Context) {
         if std::mem::take(&mut self.saving.saves) {
             // nothing follows it but what its own question says

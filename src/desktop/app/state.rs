@@ -35,7 +35,7 @@ pub(in crate::desktop) struct PersistentState {
     pub(in crate::desktop) no_sun_path: bool,
 }
 
-/// An open site, and what is found of it.
+/// An open site, and what was found of it.
 pub(in crate::desktop) struct Open {
     /// The site.
     pub(in crate::desktop) project: Project,
@@ -43,21 +43,21 @@ pub(in crate::desktop) struct Open {
     /// The instant that is shown.
     pub(in crate::desktop) clock: Clock,
     pub(in crate::desktop) viewer: Viewer,
-    /// How many times hours were asked for.
+    /// How many times hours were requested.
     pub(in crate::desktop) answers: u64,
     /// The hours that are being added up.
     pub(in crate::desktop) adding: Option<Work<StudyResult>>,
     /// The hours that were found, or the change.
     pub(in crate::desktop) result: Option<Arc<StudyResult>>,
-    /// Whether they lie over the model, instead of one instant: a matter of looking, which undo leaves alone.
+    /// Whether they lie over the model, instead of one instant. This belongs to the view, which undo leaves alone.
     pub(in crate::desktop) shows_hours: bool,
-    /// The state that was kept to be compared with.
+    /// The state that was kept for comparison.
     pub(in crate::desktop) before: Option<BeforeState>,
     /// The point that is being searched.
     pub(in crate::desktop) probing: Option<Work<Sunlight>>,
-    /// When a point lies in the sun.
+    /// The intervals in which a point lies in the sun.
     pub(in crate::desktop) sunlight: Option<Sunlight>,
-    /// What was clicked for it.
+    /// The point that was clicked.
     pub(in crate::desktop) clicked: Option<PickedPoint>,
 }
 
@@ -75,28 +75,28 @@ pub struct App {
     pub(in crate::desktop) history: History,
     pub(in crate::desktop) loading: Option<LoadJob>,
     pub(in crate::desktop) loaded: u64,
-    /// The site is being read again, as its settings have changed.
+    /// Whether the site is being read again, because its settings have changed.
     pub(in crate::desktop) is_reading: bool,
-    /// Settings of which it is known that no site comes of them.
+    /// Settings that are known to make no site.
     pub(in crate::desktop) refused: Option<WindowSettings>,
     pub(in crate::desktop) bare: Option<BareModel>,
-    /// Models that were dropped on the open site, until it is answered what becomes of them.
+    /// Models that were dropped on the open site, until the question about them is answered.
     pub(in crate::desktop) dropped: Vec<PathBuf>,
     /// How model files are read.
     pub(in crate::desktop) reading: ModelReader,
     pub(in crate::desktop) asking: Option<PathDialog>,
     pub(in crate::desktop) writing: Option<Work<PathBuf>>,
-    /// What is typed into the panel's fields.
+    /// The text that is being typed into the panel's fields.
     pub(in crate::desktop) typed: TypedText,
-    /// What is saved, and what is asked about what is not.
+    /// What is saved, and the questions about what is not.
     pub(in crate::desktop) saving: SaveState,
-    /// What went wrong, as the command would say it.
+    /// What went wrong, in the command's words.
     pub(in crate::desktop) fault: Option<String>,
     /// What was done.
     pub(in crate::desktop) notice: Option<String>,
-    /// Where studies are kept that are stopped; nowhere without one.
+    /// The folder in which stopped studies are kept, if any.
     pub(in crate::desktop) studies: Option<PathBuf>,
-    /// A file of the open site that is no more what was read.
+    /// A file of the open site that has changed since it was read.
     pub(in crate::desktop) changed: Option<String>,
     /// Whether the window had the focus at the last frame.
     pub(in crate::desktop) had_focus: bool,
@@ -114,7 +114,7 @@ impl App {
         Self::with_reader(cc, path, ModelReader::default())
     }
 
-    /// The same, with another way to read models.
+    /// The same, with another reader of models.
     pub(in crate::desktop) fn with_reader(
         cc: &eframe::CreationContext<'_>,
         path: Option<&Path>,
@@ -154,17 +154,17 @@ impl App {
         Ok(app)
     }
 
-    /// Whether pictures are drawn by a program on the processor.
+    /// Whether pictures are drawn by a software adapter or by the processor.
     pub(in crate::desktop) fn is_software(&self) -> bool {
         self.stage.is_software()
     }
 
-    /// From where one looks.
+    /// The current stand: the perspective, the plan, or a side.
     pub(in crate::desktop) fn stand(&self) -> Stand {
         self.open.as_ref().map_or(Stand::Perspective, |open| open.viewer.eye.stand)
     }
 
-    /// What the colours of the shown diagram mean.
+    /// The meaning of the colours of the shown diagram.
     pub(in crate::desktop) fn legend(&self) -> Option<&Colours> {
         self.open.as_ref()?.viewer.shown()?.legend.as_ref()
     }

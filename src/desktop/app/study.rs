@@ -68,7 +68,7 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
     }
 }
 
-/// Begins to find what is asked.
+/// Starts finding what is requested.
 pub(in crate::desktop) fn find(
     open: &mut Open,
     settings: &WindowSettings,
@@ -89,7 +89,7 @@ pub(in crate::desktop) fn find(
     });
 }
 
-/// What the open site is compared with.
+/// The state with which the open site is compared.
 fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
     let mut other = None;
     let mut asks = false;
@@ -145,7 +145,7 @@ impl App {
         self
     }
 
-    /// Finds what changes from the site in a file to the open one.
+    /// Finds the change from the site in a file to the open one.
     pub(in crate::desktop) fn compare_with(&mut self, path: &Path, context: &egui::Context) {
         (self.fault, self.notice) = (None, None);
         let Some(open) = &mut self.open else { return };
@@ -165,7 +165,7 @@ impl App {
     }
 }
 
-/// How much sun is lost and gained, as the command tells it.
+/// The areas of sun lost and gained, as the command prints them.
 pub(in crate::desktop) fn areas(app: &App, ui: &mut Ui) {
     let Some(change) = app.open.as_ref().and_then(|open| open.result.as_ref()).and_then(|result| result.change())
     else {

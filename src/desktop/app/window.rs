@@ -101,7 +101,7 @@ impl App {
         }
     }
 
-    /// Nothing is open yet.
+    /// The window while nothing is open.
     fn welcome(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
         ui.vertical_centered(|ui| {

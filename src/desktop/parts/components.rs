@@ -8,13 +8,13 @@ use crate::site::file::Names;
 use eframe::egui::{self, Color32, Sense};
 use std::sync::Arc;
 
-/// What a component's switches say, in the order of their columns.
+/// The tooltips of a component's switches, in the order of their columns.
 const SWITCHES: [(&str, &str); 3] = [
     ("casts", "Takes the sun away from others"),
     ("receives", "Is judged, and drawn; what does not receive is looked through"),
     ("visible", "Is in this window's picture: what is hidden there counts all the same"),
 ];
-/// How wide such a column is, points.
+/// The width of a column of switches, points.
 const COLUMN: f32 = 52.0;
 
 /// The list: colour, name, and three switches.
@@ -53,7 +53,7 @@ pub(in crate::desktop) fn list(ui: &mut egui::Ui, project: &Project, settings: &
     hidden_count(ui, project, settings);
 }
 
-/// What the columns are, and how many components there are.
+/// The headings of the columns, and the number of components.
 fn heading(ui: &mut egui::Ui, count: usize) {
     row(ui, |ui, column| match column {
         Some(column) => {
@@ -66,7 +66,7 @@ fn heading(ui: &mut egui::Ui, count: usize) {
     });
 }
 
-/// A component's row; which of its switches was used, and to what.
+/// A component's row. Returns the switch that was used, and its new value.
 fn component(
     ui: &mut egui::Ui,
     (name, [r, g, b]): (&str, [u8; 3]),
@@ -97,7 +97,7 @@ fn component(
     switched
 }
 
-/// How many components are hidden, and the way back.
+/// The number of hidden components, and a button that shows them again.
 fn hidden_count(ui: &mut egui::Ui, project: &Project, settings: &mut WindowSettings) {
     // a name of which nothing is left hides nothing
     let roles = project.site.receives.iter().zip(&project.visible.receives);
@@ -112,7 +112,7 @@ fn hidden_count(ui: &mut egui::Ui, project: &Project, settings: &mut WindowSetti
     }
 }
 
-/// A row: what stands at its left, which is no column, and the columns of switches at its right.
+/// A row: its content at the left, and the columns of switches at the right.
 fn row(ui: &mut egui::Ui, mut content: impl FnMut(&mut egui::Ui, Option<usize>)) {
     let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
     ui.allocate_ui_with_layout(size, egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -129,7 +129,7 @@ fn row(ui: &mut egui::Ui, mut content: impl FnMut(&mut egui::Ui, Option<usize>))
     });
 }
 
-/// Leaves a component out of the picture, or takes it in again.
+/// Hides a component, or shows it again.
 pub(in crate::desktop) fn hide(settings: &mut WindowSettings, name: &str, hides: bool) {
     let hidden = Arc::make_mut(&mut settings.hidden);
     if hides {
@@ -139,7 +139,7 @@ pub(in crate::desktop) fn hide(settings: &mut WindowSettings, name: &str, hides:
     }
 }
 
-/// Per component whether it casts, or else whether it receives, as the settings say it.
+/// For each component, whether it casts, or whether it receives, by the settings.
 fn roles(project: &Project, settings: &WindowSettings, casts: bool) -> Vec<bool> {
     let mut components = project.site.mesh.components.as_slice();
     let counts = project.models.component_counts().into_iter().zip(&settings.site.model).enumerate();
@@ -151,7 +151,7 @@ fn roles(project: &Project, settings: &WindowSettings, casts: bool) -> Vec<bool>
     of_model.collect()
 }
 
-/// Writes into the site that a component casts, or is seen, or not.
+/// Sets in the site whether a component casts, or whether it receives.
 fn switch(project: &Project, settings: &mut WindowSettings, (index, casts, on): (usize, bool, bool), now: &[bool]) {
     let site = &project.site;
     let mut first = 0;

@@ -9,31 +9,31 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-/// What is typed, and what of it could not be read.
+/// The text that is being typed, and the texts that could not be read.
 #[derive(Default)]
 pub(in crate::desktop) struct TypedText {
-    /// The field that is typed into, and what stands in it.
+    /// The field into which text is being typed, and the text.
     now: Option<(String, String)>,
-    /// What a field said when something else was typed into it, and why that is not taken.
+    /// What a field showed when something else was typed into it, and why that is not accepted.
     faults: BTreeMap<String, (String, String)>,
 }
 
-/// What a field of a number takes, and how it shows it.
+/// The range of a number field, and how it shows the number.
 pub(in crate::desktop) struct NumberField<'a> {
-    /// By how much it changes when it is dragged by a point.
+    /// The change per point when it is dragged.
     pub(in crate::desktop) speed: f64,
-    /// What it takes.
+    /// The numbers that it accepts.
     pub(in crate::desktop) range: RangeInclusive<f64>,
-    /// Of what it is a number.
+    /// The unit of the number.
     pub(in crate::desktop) unit: &'static str,
-    /// What stands behind it.
+    /// The text behind the number.
     pub(in crate::desktop) suffix: &'a str,
-    /// How many decimals it shows.
+    /// The number of decimals that it shows.
     pub(in crate::desktop) decimals: RangeInclusive<usize>,
 }
 
 impl TypedText {
-    /// A field of text, and what was read of it when it was finished.
+    /// A text field. Returns what was read from the text once it was finished.
     pub(in crate::desktop) fn text<T>(
         &mut self,
         ui: &mut Ui,
@@ -61,7 +61,7 @@ impl TypedText {
         read.ok()
     }
 
-    /// A field of a number, which can be dragged, too.
+    /// A number field, which can also be dragged.
     pub(in crate::desktop) fn number(
         &mut self,
         ui: &mut Ui,
@@ -108,7 +108,7 @@ impl TypedText {
         response
     }
 
-    /// A field of a latitude or longitude, in degrees; and the place, where one is typed into it.
+    /// A field for a latitude or longitude in degrees. Returns both if a place is typed into it.
     pub(in crate::desktop) fn degrees(
         &mut self,
         ui: &mut Ui,
@@ -130,7 +130,7 @@ impl TypedText {
         (response.changed(), place.take())
     }
 
-    /// Why what was typed into one of these fields is not taken.
+    /// Shows why the text typed into one of these fields is not accepted.
     pub(in crate::desktop) fn show_faults(&self, ui: &mut Ui, names: &[&str]) {
         for (_, fault) in names.iter().filter_map(|name| self.faults.get(*name)) {
             refused(ui, fault);
@@ -144,7 +144,7 @@ impl TypedText {
         };
     }
 
-    /// What was refused is past once the field says something else: by undo, or by another site.
+    /// Forgets a refused text once the field shows something else, after an undo or with another site.
     fn forget(&mut self, name: &str, said: &str) {
         if self.faults.get(name).is_some_and(|(then, _)| then != said) {
             self.faults.remove(name);
@@ -152,7 +152,7 @@ impl TypedText {
     }
 }
 
-/// Why what was typed is not taken, below it.
+/// Shows below a field why the typed text is not accepted.
 pub(in crate::desktop) fn refused(ui: &mut Ui, fault: &str) {
     let text = egui::RichText::new(fault.replace('`', "").replace(" -", " −")).color(ui.visuals().error_fg_color);
     ui.add(egui::Label::new(text).wrap());

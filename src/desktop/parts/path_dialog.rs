@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
-/// For what a path is asked.
+/// The purposes for which a path is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::desktop) enum Purpose {
     /// Opens what lies there.
@@ -45,17 +45,17 @@ impl Purpose {
         }
     }
 
-    /// Whether something is there already.
+    /// Whether something must already be there.
     fn reads(self) -> bool {
         matches!(self, Purpose::Open | Purpose::Compare)
     }
 
-    /// Whether a folder is asked for, and not a file.
+    /// Whether it is a folder, and not a file.
     fn is_folder(self) -> bool {
         matches!(self, Purpose::Hours | Purpose::Lines(_) | Purpose::Animation)
     }
 
-    /// What is proposed, beside what is open.
+    /// The name that is proposed, beside the open site.
     pub(in crate::desktop) fn name(self) -> &'static str {
         match self {
             Purpose::Open | Purpose::Compare => "",
@@ -72,19 +72,19 @@ pub(in crate::desktop) struct PathDialog {
     purpose: Purpose,
     begun: Instant,
     answer: mpsc::Receiver<Option<PathBuf>>,
-    /// What is proposed.
+    /// The proposed path.
     proposed: PathBuf,
-    /// Names of the files that will be written, where a folder is asked for; an animation has its own.
+    /// The names of the files that will be written into a folder; an animation has its own.
     files: Vec<PathBuf>,
-    /// The dialog in the window: what is typed.
+    /// The text typed into the dialog in the window.
     typed: Option<String>,
-    /// It has been shown, and its field had the focus.
+    /// Whether it was shown, and its field had the focus.
     is_met: bool,
-    /// The path that was chosen, and the file that is there already.
+    /// The path that was chosen, and the file that is already there.
     replaces: Option<(PathBuf, PathBuf)>,
 }
 
-/// What an asking came to.
+/// The answer of a dialog.
 pub(in crate::desktop) enum DialogAnswer {
     /// The dialog stays open.
     None,
@@ -95,8 +95,8 @@ pub(in crate::desktop) enum DialogAnswer {
 }
 
 impl PathDialog {
-    /// Asks by the system's dialog, beginning with what is proposed; `files` are the names of what will be written into a
-    /// folder.
+    /// Asks by the system's dialog, beginning with the proposed path; `files` are the names of what will be written
+    /// into a folder.
     pub(in crate::desktop) fn start(
         purpose: Purpose,
         proposed: PathBuf,
@@ -129,14 +129,14 @@ impl PathDialog {
         PathDialog { purpose, begun, answer, proposed, files, typed: None, is_met: false, replaces: None }
     }
 
-    /// For what it is.
+    /// The purpose of the path.
     pub(in crate::desktop) fn purpose(&self) -> Purpose {
         self.purpose
     }
 
-    /// Looks for the answer; shows the dialog in the window where the system showed none.
+    /// Looks for the answer. If the system showed no dialog, it shows the one in the window.
     pub(in crate::desktop) fn show(&mut self, context: &egui::Context) -> DialogAnswer {
-        /// Nobody answers so soon: there was no dialog.
+        /// The time within which nobody can have answered: the system showed no dialog.
         const AT_ONCE: Duration = Duration::from_millis(400);
         match self.answer.try_recv() {
             Ok(Some(path)) if self.purpose.is_folder() => return self.choose(path),
@@ -187,7 +187,7 @@ impl PathDialog {
         }
     }
 
-    /// A path was chosen; what is there already is not replaced without a question.
+    /// Takes a path that was chosen. An existing file is not replaced without a question.
     fn choose(&mut self, path: PathBuf) -> DialogAnswer {
         let is_there = |file: &PathBuf| file.is_file();
         let there = match self.purpose {
@@ -224,12 +224,12 @@ impl PathDialog {
     }
 }
 
-/// How the names of sites and models end.
+/// The endings of names of sites and models.
 fn endings() -> Vec<&'static str> {
     ["toml"].into_iter().chain(FORMATS.iter().flat_map(|format| format.endings()).copied()).collect()
 }
 
-/// Folders, sites and models around what is typed, to be clicked.
+/// Folders, sites and models around the typed path, to be clicked.
 fn listing(ui: &mut egui::Ui, typed: &mut String) {
     let path = PathBuf::from(typed.trim());
     let folder = if path.is_dir() { path } else { path.parent().map(Path::to_owned).unwrap_or_default() };

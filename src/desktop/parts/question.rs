@@ -3,22 +3,22 @@
 use crate::desktop::parts::theme;
 use eframe::egui::{self, RichText};
 
-/// A question, and the answers to it; the last one, which Escape gives too, leaves all as it is.
+/// A question and its answers. The last answer, which Escape also gives, leaves everything as it is.
 pub(in crate::desktop) struct Question<'a, const N: usize> {
     /// What it is about.
     pub(in crate::desktop) heading: &'a str,
     /// What would happen.
     pub(in crate::desktop) text: &'a str,
-    /// Of what, in full; where one wants to know.
+    /// The full path that it is about, if that helps.
     pub(in crate::desktop) path: &'a str,
-    /// What can be answered.
+    /// The possible answers.
     pub(in crate::desktop) answers: [&'a str; N],
-    /// Which of them Enter gives.
+    /// The answer that Enter gives.
     pub(in crate::desktop) first: usize,
 }
 
 impl<const N: usize> Question<'_, N> {
-    /// Shows it; which answer was given.
+    /// Shows the question. Returns the answer that was given.
     pub(in crate::desktop) fn show(&self, context: &egui::Context) -> Option<usize> {
         let mut given = None;
         let modal = theme::modal(context, self.heading).show(context, |ui| {

@@ -8,7 +8,7 @@ use eframe::egui::{Color32, PaintCallback, PaintCallbackInfo, Rect};
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use wgpu::*;
 
-/// What draws them; one for the window, kept where egui's renderer finds it.
+/// The pipelines that draw it, one set per window, kept where egui's renderer finds them.
 struct ScreenPipelines {
     shows: RenderPipeline,
     fills: RenderPipeline,
@@ -17,7 +17,7 @@ struct ScreenPipelines {
     sampler: Sampler,
 }
 
-/// Makes the window's renderer ready.
+/// Prepares the window's renderer.
 pub(in crate::desktop) fn set_up(render: &RenderState) {
     let device = &render.device;
     let module = device.create_shader_module(ShaderModuleDescriptor {
@@ -92,7 +92,7 @@ impl Print {
         })))
     }
 
-    /// Shows it in a rectangle, as large as that is.
+    /// Shows it in a rectangle, at the rectangle's size.
     pub(in crate::desktop) fn shown_in(&self, rect: Rect) -> PaintCallback {
         Callback::new_paint_callback(rect, self.clone())
     }
@@ -108,10 +108,10 @@ impl CallbackTrait for Print {
     }
 }
 
-/// The colour on which a frame's panels stand.
+/// The background colour of a frame's panels.
 struct PanelColour(Color32);
 
-/// Fills a rectangle, the frame's first: one colour a frame.
+/// Fills a rectangle as the first thing in the frame, with one colour per frame.
 pub(in crate::desktop) fn ground(rect: Rect, colour: Color32) -> PaintCallback {
     Callback::new_paint_callback(rect, PanelColour(colour))
 }

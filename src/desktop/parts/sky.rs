@@ -10,11 +10,11 @@ use crate::view::{Camera, View};
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, Vec2, pos2, vec2};
 use glam::DVec3;
 
-/// Ink over the picture, which is bright in both themes.
+/// The ink over the picture, which is bright in both themes.
 pub(in crate::desktop) const INK: Color32 = Color32::from_rgb(35, 38, 44);
 const PATH: Color32 = Color32::from_rgb(196, 116, 30);
 
-/// Where a point of the world is on the picture; none behind the eye.
+/// The position of a point of the world in the picture; `None` behind the eye.
 pub(in crate::desktop) fn on_picture(view: &View, rect: Rect, point: DVec3) -> Option<Pos2> {
     let (x, y) = match view {
         View::Plan(grid) => {
@@ -36,8 +36,8 @@ pub(in crate::desktop) fn on_picture(view: &View, rect: Rect, point: DVec3) -> O
     Some(rect.min + vec2(x as f32 * rect.width(), y as f32 * rect.height()))
 }
 
-/// Draws the path of the day and of the solstices, the hours, and the sun, which can be dragged along its day: to where, in
-/// seconds of the day.
+/// Draws the paths of the day and of the solstices, the hours, and the sun. Returns the second of the day to which the
+/// sun was dragged along its path.
 pub(in crate::desktop) fn path(ui: &egui::Ui, view: &View, rect: Rect, dome: &Dome, clock: &Clock) -> Option<f64> {
     let painter = ui.painter_at(rect);
     let place = |to_sun: DVec3| on_picture(view, rect, dome.at(to_sun));
@@ -89,7 +89,7 @@ pub(in crate::desktop) fn path(ui: &egui::Ui, view: &View, rect: Rect, dome: &Do
     Some(clock.day[index].time.signed_duration_since(clock.midnight).num_seconds() as f64)
 }
 
-/// The arrow that points north, as the picture shows north at its middle.
+/// The arrow that points north at the picture's middle.
 pub(in crate::desktop) fn north(ui: &egui::Ui, view: &View, rect: Rect) {
     let north = match view {
         View::Plan(_) => vec2(0.0, -1.0),
@@ -118,7 +118,7 @@ pub(in crate::desktop) fn north(ui: &egui::Ui, view: &View, rect: Rect) {
     painter.text(middle + north * 30.0, Align2::CENTER_CENTER, "N", theme::bold(13.0), INK);
 }
 
-/// A bar of a round length, as long as that is at the picture's middle.
+/// A bar of a round length, true to scale at the picture's middle.
 pub(in crate::desktop) fn scale_bar(ui: &egui::Ui, rect: Rect, metres_a_point: f64, feet: bool) {
     let unit = Unit::of(feet);
     let most = 150.0 * metres_a_point / unit.metres;
@@ -139,14 +139,14 @@ pub(in crate::desktop) fn scale_bar(ui: &egui::Ui, rect: Rect, metres_a_point: f
     label(&painter, pos2((left.x + right.x) / 2.0, right.y - 12.0), Align2::CENTER_CENTER, &text);
 }
 
-/// Names what is only painted.
+/// Gives a name to something that is only painted.
 fn named(ui: &egui::Ui, rect: Rect, name: String) {
     let id = ui.scope_id().with(name.split(':').next().unwrap_or_default());
     let response = ui.interact(rect, id, Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name.clone()));
 }
 
-/// Letters with a light rim, legible over anything.
+/// Text with a light rim, legible over anything.
 pub(in crate::desktop) fn label(painter: &egui::Painter, at: Pos2, align: Align2, text: &str) {
     let font = FontId::proportional(12.0);
     for rim in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {

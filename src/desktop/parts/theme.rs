@@ -7,36 +7,36 @@ use eframe::egui::{
 };
 use std::sync::Arc;
 
-/// The drawings' red-brown.
+/// The red-brown of the drawings.
 pub(in crate::desktop) const ACCENT: Color32 = Color32::from_rgb(190, 82, 44);
-/// The same on dark panels.
+/// The same colour on dark panels.
 const ACCENT_ON_DARK: Color32 = Color32::from_rgb(228, 128, 84);
-/// The sun.
+/// The colour of the sun.
 pub(in crate::desktop) const SUN: Color32 = Color32::from_rgb(244, 178, 62);
 
-/// The bold letters.
+/// The bold font.
 pub(in crate::desktop) fn bold(size: f32) -> FontId {
     FontId::new(size, FontFamily::Name("bold".into()))
 }
 
-/// A dialog, with air around what it says.
+/// A dialog with a margin around its text.
 pub(in crate::desktop) fn modal(context: &egui::Context, name: &str) -> egui::Modal {
     let frame = egui::Frame::popup(&context.global_style()).inner_margin(16.0);
     egui::Modal::new(egui::Id::unique(name)).frame(frame)
 }
 
-/// How wide a line of plain letters is, points.
+/// The width of a line of plain text, points.
 pub(in crate::desktop) fn width_of(ui: &egui::Ui, text: &str) -> f32 {
     let font = TextStyle::Body.resolve(ui.style());
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
 }
 
-/// The accent of a theme.
+/// The accent colour of a theme.
 pub(in crate::desktop) fn accent(visuals: &egui::Visuals) -> Color32 {
     if visuals.dark_mode { ACCENT_ON_DARK } else { ACCENT }
 }
 
-/// Sets letters, spaces and colours of both themes.
+/// Sets fonts, spaces and colours of both themes.
 pub(in crate::desktop) fn set(context: &egui::Context) {
     let mut fonts = FontDefinitions::empty();
     for (name, bytes, families) in [

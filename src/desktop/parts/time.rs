@@ -41,7 +41,7 @@ impl Clock {
         self.year_slider(ui);
     }
 
-    /// The zone, and where the sun stands.
+    /// The time zone, and the position of the sun.
     fn zone_and_sun(&self, ui: &mut Ui) {
         let offset = self.now.time.offset().fix().to_string();
         let standard = self.solstices.iter().flatten().map(|instant| instant.time.offset().fix().local_minus_utc());
@@ -82,7 +82,7 @@ impl Clock {
         }
     }
 
-    /// Date or clock, as text that is read when it is finished.
+    /// Date or clock as text, which is read when it is finished.
     fn field(&mut self, ui: &mut Ui, which: usize, name: &str, width: f32) {
         let said = if which == 0 { "%Y-%m-%d" } else { "%H:%M" };
         let mut text = self.typed[which].clone().unwrap_or_else(|| self.now.time.format(said).to_string());
@@ -236,7 +236,7 @@ impl Clock {
     }
 }
 
-/// A slider's rail with room for letters above and below.
+/// A slider's rail with room for labels above and below.
 fn rail(ui: &mut Ui, name: &str, value: f64, said: &str) -> (Rect, Response) {
     let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), 47.0), Sense::click_and_drag());
     let label = format!("{name}: {said}");
@@ -255,7 +255,7 @@ fn handle(ui: &Ui, at: egui::Pos2, response: &Response, night: bool) {
     ui.painter().circle(at, radius, fill, Stroke::new(1.5, theme::ACCENT));
 }
 
-/// Where along the rail the pointer is, 0 to 1, while it drags or clicks.
+/// The position of the pointer along the rail, 0 to 1, while it drags or clicks.
 fn dragged(response: &Response, rect: Rect) -> Option<f64> {
     if response.clicked() || response.drag_started() {
         response.request_focus();
@@ -264,7 +264,7 @@ fn dragged(response: &Response, rect: Rect) -> Option<f64> {
     Some(f64::from((pointer.x - rect.left()) / rect.width()).clamp(0.0, 1.0))
 }
 
-/// How many steps the arrow keys ask of a slider that has the focus; with shift twelve at a time.
+/// The steps that the arrow keys move a slider with the focus, with Shift twelve at a time.
 fn keys(ui: &Ui, response: &Response) -> i64 {
     if !response.has_focus() {
         return 0;
@@ -274,8 +274,8 @@ fn keys(ui: &Ui, response: &Response) -> i64 {
     steps(ui.ctx(), Key::ArrowLeft, Key::ArrowRight, 12)
 }
 
-/// How often one key was pressed more than another; with shift each press counts as `many`. Each press is asked for its own
-/// shift, which may be up again when the frame begins.
+/// How often one key was pressed more than another. With Shift each press counts as `many`; each press carries its own
+/// Shift, which may be up again when the frame begins.
 pub(in crate::desktop) fn steps(context: &egui::Context, back: Key, on: Key, many: i64) -> i64 {
     context.input(|input| {
         let step = |event: &egui::Event| match event {

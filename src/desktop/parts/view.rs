@@ -20,26 +20,26 @@ use eframe::egui_wgpu::RenderState;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// How long nothing must move before a better picture is drawn, seconds.
+/// How long everything must be still before a better picture is drawn, seconds.
 const STILL_SECS: f64 = 0.22;
-/// How long a quick look may take, seconds: its size follows.
+/// The longest time of a quick look, seconds, which decides its size.
 const QUICK_SECS: f64 = 0.06;
-/// Points of the sun's disc to which rays go.
+/// The number of points of the sun's disc to which rays are cast.
 pub(in crate::desktop) const DISC_SAMPLES: u32 = 32;
 
-/// The picture that is shown, and the one that is wished for.
+/// The picture that is shown, and the one that is wanted.
 pub(in crate::desktop) struct Viewer {
-    /// From where.
+    /// The position of the eye.
     pub(in crate::desktop) eye: Eye,
-    /// All is to be seen, once the picture's proportion is known.
+    /// Whether everything is to be shown once the picture's proportion is known.
     fits: bool,
     shown: Option<StagePicture>,
     print: Option<Print>,
     wished: Option<Wish>,
-    /// The best picture of what is asked, as asked at the last frame; and when that changed last.
+    /// The best picture of the last request, as of the last frame, and when the request changed.
     best: Option<Wish>,
     moved_at: f64,
-    /// Of the full size, for a quick look.
+    /// The share of the full size that a quick look has.
     scale: f64,
     /// Why there is no picture.
     pub(in crate::desktop) fault: Option<String>,
@@ -47,24 +47,24 @@ pub(in crate::desktop) struct Viewer {
     pub(in crate::desktop) under: Option<PickedPoint>,
 }
 
-/// What the view is asked to show.
+/// What the view is to show.
 pub(in crate::desktop) struct ViewRequest<'a> {
     /// The site.
     pub(in crate::desktop) project: &'a Project,
-    /// Which one of those that were loaded.
+    /// The number of this site among those that were loaded.
     pub(in crate::desktop) number: u64,
     /// How its shadows are shown.
     pub(in crate::desktop) choice: ShadowSettings,
-    /// The hours found, where they are to be seen.
+    /// The hours that were found, if they are to be shown.
     pub(in crate::desktop) result: Option<&'a Arc<StudyResult>>,
-    /// Whether the sun's path lies over it.
+    /// Whether the sun's path is drawn over it.
     pub(in crate::desktop) sun_path: bool,
-    /// Lengths in feet.
+    /// Whether lengths are in feet.
     pub(in crate::desktop) feet: bool,
 }
 
 impl Viewer {
-    /// Looks at a site from where its camera is.
+    /// Looks at a site from its camera.
     pub(in crate::desktop) fn new(project: &Project) -> Viewer {
         Viewer {
             eye: Eye::of(&project.site, &project.written.site.camera),
@@ -80,12 +80,12 @@ impl Viewer {
         }
     }
 
-    /// Shows all from where one looks.
+    /// Shows everything from the current stand.
     pub(in crate::desktop) fn fit(&mut self) {
         self.fits = true;
     }
 
-    /// Shows all from everywhere, as another scene stands there.
+    /// Shows everything from all stands, because the scene is another one.
     pub(in crate::desktop) fn fit_all(&mut self, project: &Project) {
         self.eye.forget_flat();
         let stand = std::mem::replace(&mut self.eye.stand, Stand::Perspective);
@@ -93,7 +93,7 @@ impl Viewer {
         self.eye.stand = stand;
     }
 
-    /// The pictures lie on a device that is lost.
+    /// Forgets pictures on a device that is lost.
     pub(in crate::desktop) fn forget_pictures(&mut self) {
         (self.shown, self.print, self.wished) = (None, None, None);
     }
@@ -103,20 +103,20 @@ impl Viewer {
         self.shown.as_ref()
     }
 
-    /// The best picture of what was asked at the last frame.
+    /// The best picture of the last frame's request.
     #[cfg(feature = "test-hooks")]
     pub(in crate::desktop) fn best(&self) -> Option<&Wish> {
         self.best.as_ref()
     }
 
-    /// Whether what is shown is the best picture of what is asked.
+    /// Whether the picture that is shown is the best one of what is requested.
     #[cfg(feature = "test-hooks")]
     pub(in crate::desktop) fn is_settled(&self) -> bool {
         let both = self.shown.as_ref().zip(self.best.as_ref());
         both.is_some_and(|(shown, best)| shown.wish.is_same(best))
     }
 
-    /// Takes what the stage has drawn.
+    /// Takes the pictures that the stage has drawn.
     pub(in crate::desktop) fn receive(&mut self, stage: &Stage, render: &RenderState) {
         match stage.done() {
             None => {}
@@ -133,8 +133,8 @@ impl Viewer {
         }
     }
 
-    /// Chooses the size of the next quick look by how long rays took for this picture. Sizes lie apart, as another one is
-    /// looked at again; it does not grow before there is time to spare.
+    /// Chooses the size of the next quick look by how long rays took for this picture. Sizes differ by steps,
+    /// since the stage prepares the view again for each new size; a size grows only when there is time to spare.
     fn adapt(&mut self, shown: &StagePicture) {
         const SIZES: [f64; 8] = [0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
         let Some(best) = &self.best else { return };
@@ -151,7 +151,8 @@ impl Viewer {
         }
     }
 
-    /// Shows the picture, moves the eye, asks for what is seen next; a click on the model comes back.
+    /// Shows the picture, moves the eye, and requests the next picture. Returns the point of the model that was
+    /// clicked.
     pub(in crate::desktop) fn show(
         &mut self,
         ui: &mut Ui,
@@ -195,7 +196,8 @@ impl Viewer {
         clicked
     }
 
-    /// Asks for the picture of this moment: a quick one while something moves, the best when all is still.
+    /// Requests the picture of this moment: a quick look while something moves, the best picture when everything is
+    /// still.
     fn wish(&mut self, ui: &Ui, rect: Rect, stage: &Stage, software: bool, request: &ViewRequest<'_>, clock: &Clock) {
         let now = ui.input(|input| input.time);
         let pixels = f64::from(ui.pixels_per_point());
@@ -222,7 +224,7 @@ impl Viewer {
         }
     }
 
-    /// The best picture of what is asked, in so many pixels.
+    /// The best picture of the request, in that many pixels.
     fn best_wish(&self, size: (u32, u32), software: bool, request: &ViewRequest<'_>, clock: &Clock) -> Wish {
         let choice = request.choice;
         let stand = self.eye.stand;
@@ -299,7 +301,7 @@ impl Viewer {
         }
     }
 
-    /// What drew, at the picture's corner.
+    /// What drew the picture, at its corner.
     fn status(&self, ui: &Ui, rect: Rect, software: bool, request: &ViewRequest<'_>) {
         let Some(shown) = &self.shown else { return };
         let provenance = &shown.provenance;
@@ -324,8 +326,8 @@ impl Viewer {
     }
 }
 
-/// What is to be seen from a stand: the models, from a side what of them stands above the ground; in the plan their shadows,
-/// too.
+/// The extent to show from a stand: the models; from a side, their part above the ground; in the plan, also their
+/// shadows.
 fn extent(project: &Project, stand: Stand) -> (DVec3, DVec3) {
     let site = &project.site;
     let (low, high) = site.mesh.bounds_at_home().unwrap_or((DVec3::ZERO, DVec3::ONE));

@@ -7,26 +7,26 @@ use crate::study::Outcome;
 use std::path::Path;
 use std::sync::Arc;
 
-/// What is known of the state that is compared with.
+/// The state with which the open site is compared.
 #[derive(Clone)]
 pub(in crate::desktop) struct BeforeState {
-    /// As it was written.
+    /// The state as it was written.
     pub(in crate::desktop) before: Arc<WrittenSite>,
-    /// Its models. Those of a kept state stay as they were, whatever becomes of their files; those of another file are that
-    /// file's.
+    /// Its models. Those of a kept state stay as they were, whatever happens to their files; those of another file are
+    /// that file's.
     pub(in crate::desktop) models: Models,
     /// The hours of a state that was kept.
     pub(in crate::desktop) result: Option<Arc<StudyResult>>,
 }
 
 impl BeforeState {
-    /// Its models, where they need not be read again.
+    /// Its models, if they need not be read again.
     pub(in crate::desktop) fn models(&self) -> Option<Models> {
         let holds = self.result.is_some() || self.models.changed_file().is_none();
         holds.then(|| self.models.clone())
     }
 
-    /// Its hours, where they are those of such a study.
+    /// Its hours, if they belong to the same study.
     pub(in crate::desktop) fn outcome(&self, site: &Site) -> Option<Outcome> {
         let result = self.result.as_ref()?;
         let its = &result.site;
@@ -41,7 +41,7 @@ impl BeforeState {
     }
 }
 
-/// Reads another file as the state before; what names no place stands in that of the open site.
+/// Reads another file as the state before. If it has no place, it gets that of the open site.
 ///
 /// # Errors
 /// As the command reads it.
@@ -49,7 +49,7 @@ pub(in crate::desktop) fn read(path: &Path, project: &Project) -> Result<Written
     WrittenSite::read_beside(path, &project.written, &Overrides::default())
 }
 
-/// A path that a state came from, as people call it.
+/// The name for people of the path from which a state came.
 pub(in crate::desktop) fn name_of(before: &WrittenSite) -> String {
     let named = before.site.place.as_ref().and_then(|place| place.name.clone());
     named.filter(|name| !name.trim().is_empty()).unwrap_or_else(|| project::name_of(Path::new(&before.file)))

@@ -5,13 +5,13 @@ use crate::picture::HoursRaster;
 use crate::view::{Grid, Surface};
 use glam::DVec3;
 
-/// Colours of a plan's cells, as the picture takes them.
+/// The colours of a plan's cells, in the form that the picture takes.
 pub(in crate::desktop) fn raster<'a>(grid: &Grid, colours: &'a [Rgb], height_m: &'a [f32]) -> HoursRaster<'a> {
     let size = (grid.width, grid.height);
     HoursRaster { corner: [grid.west, grid.north], cell: grid.cell, size, colours, height_m }
 }
 
-/// The cell in which a point lies, where it lies on the surface that the cell sees.
+/// The cell of a point, if the point lies on the surface that the cell sees.
 pub(in crate::desktop) fn cell_at(grid: &Grid, surface: &Surface, point: DVec3) -> Option<usize> {
     let column = ((point.x - grid.west) / grid.cell).floor();
     let row = ((grid.north - point.y) / grid.cell).floor();

@@ -16,20 +16,20 @@ use std::sync::Arc;
 
 /// A change that was found.
 pub(in crate::desktop) struct ChangeResult {
-    /// The state before, as it was asked.
+    /// The state before, as it was requested.
     pub(in crate::desktop) before: Arc<WrittenSite>,
-    /// What stands there before.
+    /// The models before.
     pub(in crate::desktop) models: Models,
     /// Both states, without their models.
     pub(in crate::desktop) pair: Pair,
     pub(in crate::desktop) outcome: CompareOutcome,
     pub(in crate::desktop) timings: Timings,
-    /// As the drawing has them.
+    /// The drawing's colours.
     pub(in crate::desktop) colours: ChangeColours,
 }
 
 impl ChangeResult {
-    /// As the picture takes it.
+    /// The cells' colours, in the form that the picture takes.
     pub(in crate::desktop) fn raster(&self) -> HoursRaster<'_> {
         raster(self.outcome.comparison.grid(), &self.colours.of_cells, &self.outcome.surfaces[1].height_m)
     }
@@ -52,17 +52,17 @@ impl ChangeResult {
         })
     }
 
-    /// What the command would note of the models before.
+    /// The command's notes on the models before.
     pub(in crate::desktop) fn notes_before(&self) -> &[Message] {
         &self.pair.before.notes
     }
 
-    /// What people call the states.
+    /// The names of the states for people.
     pub(in crate::desktop) fn names(&self) -> &[String; 2] {
         &self.pair.names
     }
 
-    /// The areas, as the command tells them.
+    /// The areas, as the command prints them.
     pub(in crate::desktop) fn rows(&self) -> Vec<[String; 3]> {
         comparison::rows(&self.outcome.comparison, &self.pair.after.track)
     }

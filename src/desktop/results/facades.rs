@@ -19,18 +19,19 @@ pub(in crate::desktop) struct Facades {
     pub(in crate::desktop) atlas: Atlas,
     /// The atlas in the drawing's colours.
     pub(in crate::desktop) pages: Vec<Vec<Rgb>>,
-    /// What the colours mean.
+    /// The meaning of the colours.
     pub(in crate::desktop) legend: (String, Vec<(Rgb, String)>),
 }
 
-/// By what patches are judged, where the window draws by some technique: by that, or by the faster of the two that can.
+/// The technique that judges patches, given the window's technique: that one if it can, otherwise the faster of those
+/// that can.
 pub(in crate::desktop) fn method(settings: &WindowSettings) -> Method {
     let method = settings.shown.method;
     if method.row().draws(Engine::Auto, Subject::Patches) { method } else { Method::Auto }
 }
 
 impl Facades {
-    /// Lays them over a picture of the site that they were found on, or of what of it is visible.
+    /// Lays the hours over a picture of the site for which they were found, or of its visible part.
     ///
     /// # Errors
     /// Where the adapter cannot hold them.
@@ -48,7 +49,7 @@ impl Facades {
         picture.lay_patches(&PatchColours { patches: &self.outcome.patches, patch_of: &patch_of, pages: &self.pages })
     }
 
-    /// The hours of sun at a point, and where it lies on its face.
+    /// The hours of sun at a point, and its position on its surface.
     pub(in crate::desktop) fn said(&self, under: &PickedPoint, unit: Unit) -> Option<String> {
         let patches = &self.outcome.patches;
         let patch = self.atlas.patch(patches, under.face?, under.normal)?;

@@ -5,7 +5,7 @@ use crate::deliver::profile::{Hours, ProfileRequest, write_hours};
 use crate::desktop::results::cells::{cell_at, raster};
 use crate::export::figure::scale::{Bands, NO_SHADOW, Rgb};
 use crate::picture::HoursRaster;
-use crate::profile::{Profile, ShadedTime, hours as hours_of};
+use crate::profile::{Profile, Shaded, hours as hours_of};
 use crate::shadow::plan_surface;
 use crate::site::Site;
 use crate::study::{OnEvent, Outcome, Stopwatch};
@@ -15,10 +15,10 @@ use std::sync::Arc;
 
 /// The hours of shadow on ground and roofs.
 pub(in crate::desktop) struct ShadowHours {
-    /// The answer, with each instant's shadow where outlines can be drawn of the study.
+    /// The answer, with each instant's shadow if outlines can be drawn of the study.
     hours: Hours,
     /// Its sums.
-    shaded: Arc<ShadedTime>,
+    shaded: Arc<Shaded>,
     /// What the cells see.
     surface: Surface,
     bands: Bands,
@@ -38,12 +38,12 @@ impl ShadowHours {
         raster(&self.hours.profile.grid, &self.colours, &self.surface.height_m)
     }
 
-    /// As a study of the plan answers.
+    /// The hours as the outcome of a study of the plan.
     pub(in crate::desktop) fn outcome(&self) -> Outcome {
         let Hours { profile: Profile { grid, day_secs, night_secs, .. }, .. } = self.hours;
         let Hours { drawn, surface_mesh, statistics, timings, .. } = &self.hours;
         Outcome {
-            profile: Profile { grid, shaded: ShadedTime::clone(&self.shaded), day_secs, night_secs },
+            profile: Profile { grid, shaded: Shaded::clone(&self.shaded), day_secs, night_secs },
             drawn: drawn.clone(),
             surface: None,
             surface_mesh: surface_mesh.clone(),
@@ -75,12 +75,12 @@ impl ShadowHours {
         (format!("Hours of shadow out of {}", hours(bands.day_secs)), entries)
     }
 
-    /// No file yet.
+    /// A request without files.
     pub(in crate::desktop) fn nothing(&self) -> ProfileRequest<'_> {
         ProfileRequest::of(Stopwatch::after(self.hours.timings.clone()))
     }
 
-    /// The drawing, the raster and the report; bits where each instant's shadow is at hand.
+    /// A request for the drawing, the raster and the report, and for the bits if each instant's shadow is in memory.
     pub(in crate::desktop) fn all(&self) -> ProfileRequest<'_> {
         ProfileRequest {
             drawing: true,

@@ -30,19 +30,19 @@ use std::sync::Arc;
 pub(in crate::desktop) struct StudyResult {
     /// Grows with every answer.
     pub(in crate::desktop) number: u64,
-    /// The open site that it was found of.
+    /// The open site for which it was found.
     pub(in crate::desktop) site: Arc<Site>,
-    /// By which technique, as it was asked.
+    /// The technique that was requested.
     pub(in crate::desktop) method: Method,
-    /// The same as it was written.
+    /// The same site as it was written.
     pub(in crate::desktop) written: SiteFile,
-    /// The number of its models.
+    /// The mark of its models.
     pub(in crate::desktop) mark: u64,
-    /// What.
+    /// The findings.
     pub(in crate::desktop) found: Findings,
 }
 
-/// What can be found.
+/// The kinds of findings.
 pub(in crate::desktop) enum Findings {
     /// The hours of shadow on ground and roofs.
     Shadow(Box<ShadowHours>),
@@ -53,7 +53,7 @@ pub(in crate::desktop) enum Findings {
 }
 
 impl StudyResult {
-    /// Lays it over a picture of the site, or of what of it is visible.
+    /// Lays the findings over a picture of the site, or of its visible part.
     ///
     /// # Errors
     /// Where the adapter cannot hold it.
@@ -66,7 +66,7 @@ impl StudyResult {
         Ok(())
     }
 
-    /// What it is, in a few words.
+    /// The findings in a few words.
     pub(in crate::desktop) fn what(&self) -> &'static str {
         match &self.found {
             Findings::Shadow(_) => "hours of shadow",
@@ -75,14 +75,14 @@ impl StudyResult {
         }
     }
 
-    /// Whether it can lie over another site: hours on the plan lie wherever heights agree.
+    /// Whether they can lie over another site: hours on the plan can wherever heights agree.
     pub(in crate::desktop) fn lies_on(&self, site: &Site) -> bool {
         let ours = &self.site;
         let same_mesh = || ours.mesh.vertices == site.mesh.vertices && ours.mesh.faces == site.mesh.faces;
         !matches!(self.found, Findings::Facades(_)) || (ours.receives == site.receives && same_mesh())
     }
 
-    /// What it says of a point, where its surface is the one that was counted.
+    /// What they say of a point, if its surface is the one that was counted.
     pub(in crate::desktop) fn said(&self, under: &PickedPoint, unit: Unit) -> Option<String> {
         match &self.found {
             Findings::Shadow(hours) => hours.said(under.point),
@@ -91,7 +91,7 @@ impl StudyResult {
         }
     }
 
-    /// What its colours mean: a head, and each of them.
+    /// The meaning of their colours: a heading, and each colour.
     pub(in crate::desktop) fn legend(&self) -> (String, Vec<(Rgb, String)>) {
         match &self.found {
             Findings::Shadow(hours) => hours.legend(),
@@ -100,7 +100,7 @@ impl StudyResult {
         }
     }
 
-    /// What its files are called.
+    /// The names of their files.
     pub(in crate::desktop) fn names(&self) -> Vec<PathBuf> {
         match &self.found {
             Findings::Shadow(hours) => hours.all().names(),
@@ -131,7 +131,7 @@ impl StudyResult {
         }
     }
 
-    /// Whether it is what the settings ask of the site.
+    /// Whether they are what the settings request of the site.
     pub(in crate::desktop) fn is_asked(&self, project: &Project, settings: &WindowSettings) -> bool {
         let is_found = match (&self.found, &settings.before) {
             (Findings::Change(change), Some(before)) => change.before == *before,
@@ -151,7 +151,7 @@ impl StudyResult {
         is_found && self.method == method && (Arc::ptr_eq(&self.site, &project.site) || (of_models && of_study))
     }
 
-    /// The change, where it is one.
+    /// The change, if it is one.
     pub(in crate::desktop) fn change(&self) -> Option<&ChangeResult> {
         match &self.found {
             Findings::Change(change) => Some(change),

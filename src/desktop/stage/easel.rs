@@ -7,21 +7,21 @@ use std::sync::atomic::AtomicU32;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The device at hand, and where the next one comes from.
+/// The current device, and the adapter of the next one.
 pub(in crate::desktop) struct Easel {
-    /// The window's.
+    /// The window's adapter.
     adapter: wgpu::Adapter,
     gpu: Mutex<Option<Arc<Gpu>>>,
     software: AtomicBool,
     given_up: AtomicBool,
     note: Mutex<Option<String>>,
-    /// So many devices are to be lost as soon as they are opened.
+    /// The number of devices that are to be lost as soon as they are opened.
     #[cfg(feature = "test-hooks")]
     to_lose: AtomicU32,
 }
 
 impl Easel {
-    /// None is opened yet.
+    /// An easel without an open device.
     pub(in crate::desktop) fn new(adapter: wgpu::Adapter) -> Easel {
         let software = AtomicBool::new(adapter.get_info().device_type == wgpu::DeviceType::Cpu);
         let (gpu, note) = (Mutex::new(None), Mutex::new(None));
@@ -36,7 +36,7 @@ impl Easel {
         }
     }
 
-    /// Whether pictures are drawn by the processor: by an adapter that is a program, or without any.
+    /// Whether pictures are drawn by the processor: by a software adapter, or without any.
     pub(in crate::desktop) fn is_software(&self) -> bool {
         self.software.load(Ordering::Acquire)
     }
@@ -46,12 +46,12 @@ impl Easel {
         self.given_up.load(Ordering::Acquire)
     }
 
-    /// What became of a device, since the last time it was asked for.
+    /// What happened to a device since the last call.
     pub(in crate::desktop) fn note(&self) -> Option<String> {
         locked(&self.note).take()
     }
 
-    /// The device at hand, or a new one: on the window's adapter, or where that has none on another. None where all failed.
+    /// The current device, or a new one: on the window's adapter, or on another if that has none. `None` if all failed.
     pub(in crate::desktop) fn gpu(&self) -> Option<Arc<Gpu>> {
         if self.is_given_up() {
             return None;
@@ -74,8 +74,8 @@ impl Easel {
         }
     }
 
-    /// Another device, as this one failed at a picture so many times by now: a new one on the same adapter, then one on an
-    /// adapter that is a program on the processor, then none.
+    /// Replaces a device that failed at a picture that many times: by a new one on the same adapter, then by one on a
+    /// software adapter, then by none.
     pub(in crate::desktop) fn replace(&self, error: &GpuError, failures: usize) -> Option<Arc<Gpu>> {
         *locked(&self.gpu) = None;
         match failures {
@@ -116,7 +116,7 @@ impl Easel {
         Arc::clone(at_hand.insert(Arc::new(gpu)))
     }
 
-    /// Takes the device away, as a driver that is reset would, and further ones as soon as they are opened.
+    /// Loses the device, as if its driver was reset, and that many further ones as soon as they are opened.
     #[cfg(feature = "test-hooks")]
     pub(in crate::desktop) fn lose(&self, further: u32) {
         self.to_lose.store(further, Ordering::Release);

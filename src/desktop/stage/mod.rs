@@ -32,20 +32,20 @@ use std::time::Instant;
 pub(in crate::desktop) struct StagePicture {
     /// The picture, on the window's device.
     pub(in crate::desktop) texture: wgpu::Texture,
-    /// What was wished.
+    /// The wish that it fulfils.
     pub(in crate::desktop) wish: Wish,
     /// What drew it.
     pub(in crate::desktop) provenance: Provenance,
-    /// It is without what lies over sun and shadow.
+    /// Whether it shows only sun and shadow, without what lies over them.
     pub(in crate::desktop) plain: bool,
-    /// How long that took until the adapter had all of it, seconds: what a size of the picture has a say in. How long the
-    /// adapter takes then is a matter of the window's frames as well.
+    /// The time until the adapter had all of the work, seconds, as far as it depends on the picture's size. The time
+    /// that the adapter then needs depends on the window's frames as well.
     pub(in crate::desktop) secs: f64,
-    /// What the colours of a diagram mean.
+    /// The meaning of the colours of a diagram.
     pub(in crate::desktop) legend: Option<Colours>,
 }
 
-/// The thread that draws, as the window knows it.
+/// The drawing thread, as the window sees it.
 pub(in crate::desktop) struct Stage {
     shared: Arc<StageWorker>,
 }
@@ -79,7 +79,7 @@ impl Stage {
         Stage { shared }
     }
 
-    /// Wishes for a picture; one that was not begun yet is forgotten.
+    /// Wishes for a picture. A wish that was not begun yet is forgotten.
     pub(in crate::desktop) fn wish(&self, wish: Wish) {
         if let Ok(mut next) = self.shared.next.lock() {
             *next = Some(wish);
@@ -88,12 +88,12 @@ impl Stage {
         }
     }
 
-    /// The newest picture since the last time it was asked for, or why there is none.
+    /// The newest picture since the last call, or why there is none.
     pub(in crate::desktop) fn done(&self) -> Option<Result<StagePicture, String>> {
         self.shared.done.lock().ok()?.take()
     }
 
-    /// What became of the device that pictures are drawn on, since the last time it was asked for.
+    /// What happened to the device on which pictures are drawn, since the last call.
     pub(in crate::desktop) fn note(&self) -> Option<String> {
         self.shared.easel.note()
     }
@@ -104,12 +104,12 @@ impl Stage {
         self.shared.is_busy()
     }
 
-    /// Whether it draws by a program on the processor.
+    /// Whether it draws by the processor.
     pub(in crate::desktop) fn is_software(&self) -> bool {
         self.shared.easel.is_software()
     }
 
-    /// Takes its device away, and further ones.
+    /// Loses its device, and further ones.
     #[cfg(feature = "test-hooks")]
     pub(in crate::desktop) fn lose_devices(&self, further: u32) {
         self.shared.easel.lose(further);
@@ -126,11 +126,11 @@ impl Drop for Stage {
     }
 }
 
-/// What is kept from one picture to the next; for quick looks and for the best ones apart, so that neither turns the other
-/// to its size.
+/// What is kept from one picture to the next, separately for quick looks and for the best pictures, so that neither
+/// changes the other's size.
 #[derive(Default)]
 struct StageCache {
-    /// The site's number, and the site itself with what draws it.
+    /// The site's number, and the site with what draws it.
     live: Option<(u64, Live)>,
     hours: Option<u64>,
     /// What was drawn last.
@@ -159,7 +159,7 @@ impl StageWorker {
         }
     }
 
-    /// Makes what quick looks need while nothing is asked, so that the first movement does not wait for it.
+    /// Prepares what quick looks need while there is no other work, so that the first movement does not wait for it.
     fn get_ready(&self, kept: &mut [StageCache; 2]) {
         let [best, quick] = &*kept;
         let (Some(wish), false) = (&best.wish, self.is_busy() || self.easel.is_given_up()) else { return };

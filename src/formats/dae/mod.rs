@@ -1,7 +1,7 @@
 //! Collada 1.4 and 1.5 → parts: one per node and material for each place where the node stands.
 //!
-//! The XML is read once, from beginning to end, and no entity in it is expanded. `xml` reads elements; `library`,
-//! `mesh`, `node` and `effect` read what they say; `build` places the nodes.
+//! The XML is read once, from its beginning to its end, and no entity in it is expanded. `xml` reads elements, `library`
+//! and its `mesh`, `node` and `effect` what they say, `build` places the nodes.
 
 mod build;
 mod document;

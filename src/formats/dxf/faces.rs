@@ -1,7 +1,7 @@
 //! Collects the faces of an entity in its layer.
 
 use super::drawing::LayerTriangles;
-use crate::formats::face_cutter::{CutFault, FaceCutter};
+use crate::formats::face_cutter::{FaceCutter, Uncut};
 use crate::formats::left_out::LeftOutTally;
 use glam::DVec3;
 
@@ -33,7 +33,7 @@ impl<'a> EntityFaces<'a> {
         let triangles = match self.cutter.cut(&self.ring, &[self.ring.len()]) {
             Ok(cut) => cut.triangles,
             // an entity of which nothing has an area is told as a whole
-            Err(CutFault::NoArea) => return,
+            Err(Uncut::NoArea) => return,
             Err(uncut) => return self.left_out.add("faces", uncut.why()),
         };
         // a file of 4 GiB has fewer corners

@@ -2,7 +2,7 @@
 
 use super::tags::{FootprintTags, Rise};
 use super::{Footprint, RingPolygon, names_of};
-use crate::formats::face_cutter::{CutFault, FaceCutter, ring_area};
+use crate::formats::face_cutter::{FaceCutter, Uncut, ring_area};
 use crate::formats::left_out::LeftOutTally;
 use crate::mesh::Part;
 use glam::{DVec2, DVec3};
@@ -75,7 +75,7 @@ impl FootprintOutline {
 
 impl FlatPolygon {
     /// The polygon, and whether its triangles are all that it encloses.
-    fn cut(polygon: &RingPolygon, cutter: &mut FaceCutter) -> Result<(Self, bool), CutFault> {
+    fn cut(polygon: &RingPolygon, cutter: &mut FaceCutter) -> Result<(Self, bool), Uncut> {
         let foot = polygon.points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
         let (mut corners, mut ends) = (Vec::new(), Vec::new());
         let mut start = 0;
@@ -91,7 +91,7 @@ impl FlatPolygon {
         let level: Vec<DVec3> = corners.iter().map(|corner| corner.extend(0.0)).collect();
         let cut = cutter.cut(&level, &ends)?;
         if !foot.is_finite() {
-            return Err(CutFault::NoPoint);
+            return Err(Uncut::NoPoint);
         }
         let is_exact = cut.is_exact;
         let triangles = cut.triangles.to_vec();

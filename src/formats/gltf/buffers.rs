@@ -1,8 +1,8 @@
 //! Buffers → bytes: the binary chunk of a `.glb`, base64 in the JSON, or a file beside the model.
 //!
 //! A buffer is read when the first accessor needs it, so one that only holds textures may be missing. A path may not
-//! leave the model's folder, and nothing is fetched from the web: a model must not be able to read files that the user
-//! does not mean to show. (A symbolic link in the folder is followed, because the user made it.)
+//! leave the model's folder, and nothing is fetched from the web: a model must not be able to read what its reader
+//! does not mean to show. (A symbolic link in the folder is followed, for it is the user's own.)
 
 use super::document::Document;
 use super::draco::UnpackedElements;

@@ -4,13 +4,13 @@
 //! they do without animation: with their default morph weights, and with their skins at rest. Hidden nodes are left
 //! out. Points and lines cast nothing and are skipped.
 //!
-//! A file is never trusted: every index and byte range is checked before it is used, and the size of what is built from
-//! it is computed before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON
-//! and binary chunk), `document` and `material` (JSON → structure), `scene` (which nodes stand where), `buffers`,
-//! `accessor` and `reader` (bytes → numbers), `draco` and `meshopt` (decompression), `coarse` (how exact the numbers
-//! are), `instances`, `primitive` (which triangles a mesh has), `pose` (morphs and skins), `build` (all of it → parts),
-//! `own` (what this program itself has written about them), `notes` (what the user should know of it); beside it
-//! `named` (which other files the model names).
+//! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
+//! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
+//! binary chunk), `document` and `material` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
+//! and `reader` (bytes → numbers), `draco` and `meshopt` (what is compressed), `coarse` (how exact those are),
+//! `instances`, `primitive` (which triangles a mesh has), `pose` (morphs and skins), `build` (all of it → parts), `own`
+//! (what this program itself has written of them), `notes` (what the user should know of it); beside it `named` (which
+//! other files are the model's).
 
 use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
 use std::collections::BTreeSet;

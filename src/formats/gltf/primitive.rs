@@ -24,7 +24,7 @@ pub(super) struct MaterialGroup<'a> {
     pub material: Option<usize>,
     /// Whether the colours of its vertices have an alpha channel.
     pub has_faded_vertices: bool,
-    /// Its primitives, at least one, each with triangles.
+    /// One or more, each with triangles.
     pub surfaces: Vec<PrimitiveTriangles<'a>>,
 }
 

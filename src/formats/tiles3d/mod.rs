@@ -1,8 +1,8 @@
 //! 3D Tiles: a tileset with its contents, or a single content. Only the finest tiles are taken.
 //!
-//! A tile's content is glTF, with y up; tiles have z up, and place their contents on the Earth, whose centre is the
-//! origin. The files of this folder, in the order of the flow: `tileset` (JSON → which contents stand where), `b3dm` (a
-//! content's bytes → its glTF), `build` (all of it → parts).
+//! What a tile holds is glTF, with its y up; tiles have z up, and bring their contents to where they are on the Earth, whose
+//! centre is zero. The files of this folder, in the order of the flow: `tileset` (JSON → which contents stand where), `b3dm`
+//! (a content's bytes → its glTF), `build` (all of it → parts).
 
 use super::whole::whole_file;
 use super::{Format, Model, ModelFault, ReadOptions, json_head};

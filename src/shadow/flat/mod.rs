@@ -1,13 +1,13 @@
 //! Hard shadows on a plane, exactly and by edges alone. The casters are cut at the plane once; for every sun their
 //! silhouette is projected onto it and summed along the rows of a raster.
 //!
-//! Each face is turned to the sun, so that it adds one to the cells that it covers. The sum is how many faces cover a
-//! cell, and not 0 is shadow. What a face adds begins and ends at its edges; where the neighbours of an edge cancel,
-//! nothing changes. So only silhouette edges change the sum, as often as their multiplicity says. It is the rule of
-//! shadow volumes ([`crate::volume`]) in the plane, so casters need not be clean. Running sums between edges are as old
-//! as scan conversion (W. Jack Bouknight, *A procedure for generation of three-dimensional half-toned computer graphics
-//! presentations*, 1970). Only two things are rounded: where a point falls, in double precision, and where an edge
-//! crosses a row, to steps of 2⁻³⁰ columns ([`scan`]).
+//! Each face is turned to the sun, so that it adds one to the cells that it covers; the sum is how many faces cover a
+//! cell, and not 0 is shadow. A face's ones begin and end at its edges, and where faces meet that begin and end the same
+//! ones nothing changes: only silhouette edges do, as often as their multiplicity says. It is the rule of shadow volumes
+//! ([`crate::volume`]) in the plane, so casters need not be clean. The idea of running sums between edges is as old as
+//! scan conversion (W. Jack Bouknight, *A procedure for generation of three-dimensional half-toned computer graphics
+//! presentations*, 1970); nothing here is rounded but where a point falls, in double precision, and where an edge crosses
+//! a row, to steps of 2⁻³⁰ columns ([`scan`]).
 
 mod casters;
 mod scan;

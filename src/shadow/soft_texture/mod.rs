@@ -154,7 +154,7 @@ impl SoftTexture {
         Ok(())
     }
 
-    /// Continues from sums that were added before, per texel, as [`SoftTexture::so_far`] returns them.
+    /// Goes on from sums that were added before: per texel, as [`SoftTexture::so_far`] has them.
     pub fn begin_with(&mut self, sums: &[u32]) {
         self.sums.copy_from_slice(sums);
     }
