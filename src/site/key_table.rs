@@ -148,6 +148,10 @@ pub const SITE_KEYS: &[SiteKey] = &[
             "Which classes of [measured points](formats.md#las-and-laz) stand there beside the ground: `building`, \
              `vegetation`, `bridge`, `water`.",
         ),
+    key("model", "layers", ValueType::Texts, "layers = [\"walls\", \"!furniture\"]").default("all").means(
+        "What of the file is read, by names as in `casts`: layers, storeys, groups, materials or components. What is not \
+             read stands nowhere, and is counted among what was left out.",
+    ),
     key("model", "crs", ValueType::Text, "crs = \"EPSG:25832\"").default("as the file says").means(
         "The reference system of the model's coordinates, which gives position and north: its number in the EPSG \
              dataset, its name, WKT, or PROJ's text. See [georeference.md](georeference.md).",

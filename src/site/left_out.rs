@@ -1,8 +1,9 @@
 //! What each model of a site holds: all of it for `gnomon check`, and for all others a short note on what was left out.
 
-use super::contents::{ModelContents, ReadContents, names_of};
+use super::contents::{ModelContents, ReadContents};
 use super::file::Names;
 use super::models::{Models, name};
+use super::names::names_of;
 use super::written::WrittenSite;
 use crate::formats::LeftOut;
 use crate::mesh::Component;
