@@ -102,7 +102,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .means("East is positive, −180 to 180."),
     key("place", "elevation", ValueType::Number, "elevation = 35.0")
         .unit("metres")
-        .default("0")
+        .default("as a model's file says, else 0")
         .means("Height above sea level, −500 to 9000. It sets the air's pressure, and so refraction."),
     key("place", "time_zone", ValueType::Text, "time_zone = \"Europe/Paris\"")
         .default("found from the coordinates")

@@ -65,6 +65,14 @@ fn numbers(table: &PlaceTable) -> [Option<f64>; 3] {
     [table.latitude, table.longitude, table.elevation]
 }
 
+/// Those of the place as it is written, and with what files propose of it.
+fn places(written: &WrittenSite, proposed: Option<&PlaceTable>) -> [[Option<f64>; 3]; 2] {
+    let table = written.site.place.clone().unwrap_or_default();
+    let mut whole = table.clone();
+    proposed.iter().for_each(|proposed| whole.complete_with(proposed));
+    [numbers(&table), numbers(&whole)]
+}
+
 /// Where a model comes from, and where it stands.
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
@@ -88,14 +96,13 @@ impl Models {
         }
         // a file that changes while it is read has changed since
         let sources = sources(written)?;
-        let PlacedModels { models: mut placed, mut proposed, elevation, place_notes, references } =
+        let PlacedModels { models: mut placed, proposed, elevation, place_notes, references } =
             read_placed(written, &read_model)?;
         on_terrain::settle(&mut placed);
         let is_on_earth = placed.iter().any(|placed| placed.is_on_earth);
         let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut kinds = Vec::new();
         // by each model's file, of unit and axis; and how it was turned and moved
-        let (mut said, mut contents) = (Vec::new(), Vec::new());
+        let (mut said, mut contents, mut kinds) = (Vec::new(), Vec::new(), Vec::new());
         for (index, placed) in placed.into_iter().enumerate() {
             let model = placed.model;
             said.push((TakenFrame::of_file(&model), (placed.north_rad, placed.position)));
@@ -117,15 +124,9 @@ impl Models {
         notes.extend(notes::of_all(&mesh, far_from(written, proposed.as_ref(), is_on_earth)));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
-        let mark = mark(&mesh);
-        let elevation_m = elevation.as_ref().map(|of| of.height_m);
-        // what no file says the site does
-        let written_place = written.site.place.as_ref().map(numbers).unwrap_or_default();
-        let mut table = written.site.place.clone().unwrap_or_default();
-        proposed = proposed.or(elevation.map(|of| of.proposed()));
-        proposed.iter().for_each(|proposed| table.complete_with(proposed));
-        let place = is_on_earth.then(|| numbers(&table));
+        let [written_place, place] = places(written, proposed.as_ref());
         let models = Models {
+            mark: mark(&mesh),
             mesh,
             bounds,
             notes,
@@ -136,11 +137,10 @@ impl Models {
             contents,
             see_through,
             sources,
-            mark,
-            place,
+            place: is_on_earth.then_some(place),
             written_place,
             proposed,
-            elevation_m,
+            elevation_m: elevation.map(|of| of.height_m),
             place_notes,
             references,
         };
@@ -346,8 +346,13 @@ pub(super) fn read_placed(
     let of_model = |(index, (placement, model, said))| (name(written, index), model, placement, said);
     let all = read.iter().map(|(placement, model, said)| (placement, model, said)).enumerate().map(of_model);
     let ModelsFrame { frame, proposed, elevation } = model_place::frame(written, all)?;
-    let mut placed =
-        PlacedModels { models: Vec::new(), proposed, elevation, place_notes: Vec::new(), references: Vec::new() };
+    let mut placed = PlacedModels {
+        models: Vec::new(),
+        proposed: proposed.or_else(|| elevation.as_ref().map(ModelElevation::proposed)),
+        elevation,
+        place_notes: Vec::new(),
+        references: Vec::new(),
+    };
     for (index, (placement, model, mut said)) in read.into_iter().enumerate() {
         let of_elevation = placed.elevation.as_ref().filter(|of| of.model == index);
         said.notes.extend(of_elevation.map(|of| model_place::elevation_note(of.height_m)));
