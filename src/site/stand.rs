@@ -201,7 +201,13 @@ fn anchored(
             message![what; "write position = [0.0, 0.0, 0.0] to have its zero at the place, or correct [place]"],
         ));
     };
-    let by_anchor = north_by_anchor(zero, at, is_elsewhere, frame);
+    // a building that is moved keeps its true north, and not that of where its anchor lies
+    let moved_to = match placement.position {
+        Some(position) => Some(frame.local.on_earth(position)),
+        None => is_elsewhere.then(|| Some(frame.local.place())),
+    };
+    let meridian = frame.local.true_north_rad(moved_to.map_or(at, |moved_to| moved_to.unwrap_or(at)));
+    let by_anchor = north_by_anchor(zero, moved_to.is_some(), meridian.unwrap_or_default(), frame);
     let north = placement.north_rad.or(by_anchor).unwrap_or_default();
     let position = placement.position.unwrap_or(there);
     let mut said = vec![stands_where(zero, said_by, placement.position, (at, there, away), is_elsewhere)];
@@ -210,7 +216,6 @@ fn anchored(
             said.push(said_north(said_by, by_anchor, north));
         }
         (None, Some(by_anchor)) => {
-            let meridian = frame.local.true_north_rad(at).filter(|_| !is_elsewhere);
             said.push(own_north(zero, by_anchor, meridian));
         }
         _ => {}
@@ -258,13 +263,13 @@ fn stands_where(
     }
 }
 
-/// Radians clockwise from the model's north to the frame's, as an anchor says it.
-fn north_by_anchor(zero: &AnchoredZero, at: GeodeticPoint, is_elsewhere: bool, frame: &SiteFrame) -> Option<f64> {
+/// Radians clockwise from the model's north to the frame's, as an anchor says it, by the meridian of where it stands.
+fn north_by_anchor(zero: &AnchoredZero, is_moved: bool, meridian: f64, frame: &SiteFrame) -> Option<f64> {
     match (zero.north?, &zero.on_map) {
-        (AnchoredNorth::True(north), _) if is_elsewhere => Some(north),
-        (AnchoredNorth::True(north), _) => Some(north - frame.local.true_north_rad(at)?),
-        (AnchoredNorth::Map(north), Some((crs, on_map))) => Some(north - frame.local.map_north_rad(crs, *on_map)?),
-        (AnchoredNorth::Map(_), None) => None,
+        (AnchoredNorth::Map(north), Some((crs, on_map))) if !is_moved => {
+            Some(north - frame.local.map_north_rad(crs, *on_map)?)
+        }
+        _ => Some(true_north(zero)? - meridian),
     }
 }
 

@@ -143,7 +143,7 @@ fn north_is_one_number_wherever_the_model_stands() {
     for (anchor, is_of_map) in [(map_anchor(30.0), true), (site_anchor(LONG_LAT, Some(30.0)), false)] {
         let house = anchored(vec![anchor]);
         let checked = reference(&site, &house);
-        let found = load(&site, &[("house.glb", house)]).expect("17 km to the east");
+        let found = load(&site, &[("house.glb", house.clone())]).expect("17 km to the east");
         let edge = (corners(&found.mesh, 0)[2] - corners(&found.mesh, 0)[1]).normalize();
         let turned = (-edge.x).atan2(edge.y).to_degrees();
         assert!((turned - checked.north_deg).abs() < 1e-3, "{turned}, and {}", checked.north_deg);
@@ -159,6 +159,10 @@ fn north_is_one_number_wherever_the_model_stands() {
         let words =
             [format!("its north is {:.2}°", checked.north_deg), format!("{meridian:.2}° between true north there")];
         words.iter().for_each(|word| assert!(told.contains(word), "'{word}' is missing in: {told}"));
+        // one that is moved to the place keeps its true north, and has the place's meridian
+        let moved = reference(&format!("{site}position = [0.0, 0.0, 0.0]\n"), &house);
+        let north = 30.0 - moved.convergence_deg.unwrap_or_default();
+        assert!((moved.north_deg - north).abs() < 1e-6 && moved.meridian_deg.is_none(), "{moved:?}");
     }
 }
 
