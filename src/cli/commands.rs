@@ -134,7 +134,7 @@ pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
     let checked = together.iter().map(|(path, beside)| check_one(asked, path, beside));
     match checked.collect::<anyhow::Result<Vec<_>>>()?.as_slice() {
         [one] => say(one),
-        several if asked.common.json => say(&format!("[{}]", several.join(",\n"))),
+        several if asked.common.json => say(&format!("[{}]\n", several.join(","))),
         several => {
             let named = together.iter().zip(several).map(|((path, _), table)| format!("{}\n{table}", path.display()));
             say(&named.collect::<Vec<_>>().join("\n"))

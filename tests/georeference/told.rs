@@ -102,7 +102,7 @@ fn faults_are_said_of_who_says_it() {
 #[test]
 fn units_that_are_taken_are_told() {
     let place = "[place]\nlatitude = 40.7484\nlongitude = -73.9857\nelevation = 0.0\n";
-    let at = DVec3::new(988_212.2372, 211_939.2786, 0.0);
+    let at = DVec3::new(988212.2372, 211939.2786, 0.0);
     let feet = sheet([at, at + DVec3::X * 300.0, at + DVec3::new(0.0, 300.0, 100.0)]);
     let notes = |keys: &str, model: Model| {
         let site = load(&format!("{place}{MODEL}{keys}"), &[("house.glb", model)]).expect(keys);
