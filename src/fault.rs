@@ -4,6 +4,7 @@ use crate::choice::Misfit;
 use crate::deliver::DeliverError;
 use crate::deliver::lines::LinesError;
 use crate::export::ExportError;
+use crate::formats::ModelError;
 use crate::gpu::GpuError;
 use crate::message::{Worded, Words};
 use crate::shadow::ShadowError;
@@ -21,6 +22,7 @@ const WORDED: &[AsWorded] = &[
     worded::<Misfit>,
     worded::<SunError>,
     worded::<TypedError>,
+    worded::<ModelError>,
     worded::<SiteError>,
     worded::<GpuError>,
     worded::<ShadowError>,

@@ -110,6 +110,8 @@ fields! {
     Out => "output",
     /// The answer as CSV.
     Csv => "CSV",
+    /// Lists in full.
+    All => "full lists",
     /// The answer as JSON.
     Json => "JSON",
 }

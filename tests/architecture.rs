@@ -63,7 +63,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         "deliver",
         &["choice", "mesh", "sun", "view", "site", "volume", "shadow", "profile", "sunlight", "study", "export"],
     ),
-    ("fault", &["choice", "sun", "site", "gpu", "shadow", "study", "export", "deliver"]),
+    ("fault", &["choice", "sun", "formats", "site", "gpu", "shadow", "study", "export", "deliver"]),
     (
         "cli",
         &[

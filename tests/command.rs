@@ -1,6 +1,7 @@
 //! The command, driven as its users drive it: files, streams and exit statuses.
 
 mod animate;
+mod check;
 mod clock;
 mod compare;
 mod draw;

@@ -14,6 +14,7 @@ mod kept;
 mod kinds;
 mod mutations;
 mod obj;
+mod one_house;
 mod ply;
 mod several;
 mod stl;

@@ -1,6 +1,7 @@
 //! Where models stand on Earth: by their coordinates, by their anchors, by what the user writes; and the place they propose.
 
 mod doubts;
+mod told;
 
 use crate::shared::said;
 use glam::DVec3;
@@ -251,7 +252,6 @@ fn what_the_user_wrote_goes_before_the_file() {
         ("north = 1.0\ncrs = \"EPSG:25832\"", on_map("EPSG:25832", [UTM; 3], 0.0), "north"),
         ("position = [0.0, 0.0, 1.0]", on_map("EPSG:4326", DEGREES, 0.0), "position"),
         ("crs = \"EPSG:1\"", drawing(), "crs"),
-        ("", on_map("nonsense", DEGREES, 0.0), "crs"),
         ("crs = \"EPSG:25832\"", on_map("EPSG:4326", [[1e9, 2.0]; 3], 0.0), "crs"),
     ] {
         let told = one(keys, model).expect_err(keys).to_string();
@@ -466,11 +466,13 @@ fn references_say_unit_axis_place_and_north() {
     assert_eq!(model.crs.as_deref(), Some("EPSG:25832 (ETRS89 / UTM zone 32N)"));
     assert_eq!(model.said_by.as_deref(), Some("IfcMapConversion"));
     let convergence = model.convergence_deg.expect("a map");
-    assert!((convergence + 0.42586).abs() < 1e-4 && (model.north_deg - 30.0 + convergence).abs() < 1e-9);
-    assert!(model.place.is_some_and(|at| (at.longitude_deg - LONG_LAT[0]).abs() < 1e-7 && at.height_m == 110.0));
+    assert!((convergence + 0.42586).abs() < 1e-4 && (model.north_deg - 30.0 + convergence).abs() < 1e-4);
+    assert_eq!((model.stands, model.stands_by.as_str(), model.meridian_deg), (model.said, "IfcMapConversion", None));
+    let at = model.stands.expect("a place").at;
+    assert!((at.longitude_deg - LONG_LAT[0]).abs() < 1e-7 && at.height_m == 110.0);
     let models = Models::read(&written, |_, _| Ok(drawing())).expect("models");
     let [model] = models.references() else { panic!("one") };
-    assert_eq!((model.crs.as_deref(), model.place, model.convergence_deg, model.north_deg), (None, None, None, 0.0));
+    assert_eq!((model.crs.as_deref(), model.stands, model.convergence_deg, model.north_deg), (None, None, None, 0.0));
 }
 
 /// Footprints know nothing of the sea: the elevation is that of the next model that says one, in whatever order.

@@ -9,6 +9,7 @@ pub(super) use super::technique::DrawArgs;
 use super::technique::{self, FinderArgs, MapArgs};
 use super::wrong_use::WrongUse;
 use crate::choice::Receivers;
+use crate::formats::is_model;
 use crate::site::{Overrides, SiteError, inputs};
 use crate::study::verify::SIZE;
 use clap::{Args, ValueEnum, value_parser};
@@ -217,13 +218,27 @@ pub(super) struct SunArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// A model, or a site with its models
-    #[arg(value_name = "MODEL")]
-    pub(super) path: PathBuf,
+    /// One or more models, or sites with their models. Several models are checked as one site; where a site is among them,
+    /// each is checked on its own
+    #[arg(value_name = "MODEL", required = true)]
+    paths: Vec<PathBuf>,
     #[command(flatten)]
     pub(super) model: ModelArgs,
+    /// List all names, all that was left out and all components that are not clean
+    #[arg(long, conflicts_with = "json")]
+    pub(super) all: bool,
     #[command(flatten)]
     pub(super) common: Common,
+}
+
+impl CheckArgs {
+    /// What is checked together, each by its first path and the others.
+    pub(super) fn together(&self) -> Vec<(&Path, Vec<PathBuf>)> {
+        match self.paths.as_slice() {
+            [first, others @ ..] if self.paths.iter().all(|path| is_model(path)) => vec![(first, others.to_vec())],
+            paths => paths.iter().map(|path| (path.as_path(), Vec::new())).collect(),
+        }
+    }
 }
 
 #[derive(Debug, Args)]

@@ -11,11 +11,12 @@ use super::wrong_use::WrongUse;
 use crate::choice::listed;
 use crate::deliver::instant::{self, InstantRequest};
 use crate::deliver::{Sink, WrittenFiles};
+use crate::export::check::{self, CheckedMesh, TableExtent};
 use crate::export::figure::Diagram;
-use crate::export::{check, file, report};
+use crate::export::{file, report};
 use crate::mesh::report as mesh_report;
 use crate::profile::{Provenance, Statistics};
-use crate::site::{Ground, LoadedMesh, LoadedSun, Site, load_mesh, load_sun};
+use crate::site::{Ground, LoadedMesh, LoadedSun, Overrides, Site, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -129,14 +130,37 @@ pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
 
 /// `gnomon check`
 pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
-    let LoadedMesh { mesh, frame, notes, models, references } =
-        load_mesh(&asked.path, &asked.model.onto(nothing_asked()))?;
+    let together = asked.together();
+    let checked = together.iter().map(|(path, beside)| check_one(asked, path, beside));
+    match checked.collect::<anyhow::Result<Vec<_>>>()?.as_slice() {
+        [one] => say(one),
+        several if asked.common.json => say(&format!("[{}]\n", several.join(","))),
+        several => {
+            let named = together.iter().zip(several).map(|((path, _), table)| format!("{}\n{table}", path.display()));
+            say(&named.collect::<Vec<_>>().join("\n"))
+        }
+    }
+}
+
+/// What is said of one site, or of models that stand together.
+fn check_one(asked: &CheckArgs, path: &Path, beside: &[PathBuf]) -> anyhow::Result<String> {
+    let overrides = Overrides { beside: beside.to_vec(), ..asked.model.onto(nothing_asked()) };
+    let LoadedMesh { mesh, frame, notes, models, references } = load_mesh(path, &overrides)?;
     interrupt::check()?;
     let components = mesh_report::components(&mesh);
     interrupt::check()?;
+    let checked = CheckedMesh {
+        mesh: &mesh,
+        components: &components,
+        frame,
+        notes: &notes,
+        models: &models,
+        references: &references,
+    };
+    let extent = if asked.all { TableExtent::Whole } else { TableExtent::Screen };
     match asked.common.json {
-        true => say(&check::json(&mesh, &components, frame, &notes, &models, &references, &Options)?),
-        false => say(&check::table(&mesh, &components, frame, &notes, &models, &references, &Options)),
+        true => Ok(check::json(checked, &Options)?),
+        false => Ok(check::table(checked, extent, &Options)),
     }
 }
 

@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::wrong_use::WrongUse;
 use crate::deliver::Sink;
 use crate::deliver::conversion::convert as deliver;
-use crate::formats::{by_ending, refusal};
+use crate::formats::{is_model, refusal};
 use crate::site::{inputs, load_model};
 use clap::Args;
 use std::path::PathBuf;
@@ -34,7 +34,7 @@ pub(super) fn convert(asked: &ConvertArgs) -> anyhow::Result<()> {
         return Err(WrongUse(format!("convert writes GLB; name a .glb file instead of {}", out.display())).into());
     }
     // a site is several models, each with its own place
-    if model.is_dir() || (model.is_file() && by_ending(model).is_none() && refusal(model).is_none()) {
+    if model.is_dir() || (model.is_file() && !is_model(model) && refusal(model).is_none()) {
         return Err(WrongUse(format!(
             "convert reads one model, and {} is none; name a model file, for example tower.glb",
             model.display()

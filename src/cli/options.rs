@@ -60,6 +60,7 @@ impl Words for Options {
             Field::Memory => "--memory",
             Field::Out => "--out",
             Field::Csv => "--csv",
+            Field::All => "--all",
             Field::Json => "--json",
         })
     }

@@ -28,10 +28,10 @@ impl MapToLocal<'_> {
         self.frame.point(self.crs.to_wgs84(at)?)
     }
 
-    /// Many points, in place; the index of one that the map does not reach, if there is one, or that lies too far away.
+    /// Many points, in place; the index of the first that the map does not reach, if there is one, or that lies too far away.
     ///
     /// # Errors
-    /// That index; the points are then of no use.
+    /// That index; its point is then still what it was, and the others are of no use.
     pub fn convert(&self, points: &mut [DVec3]) -> Result<(), usize> {
         if points.len() > MOST_EXACT
             && self.crs.kind() != CrsKind::EarthCentred

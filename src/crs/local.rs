@@ -17,7 +17,7 @@ const STEP_M: f64 = 50.0;
 pub struct LocalFrame {
     proj: Proj,
     longlat: Proj,
-    elevation_m: f64,
+    place: GeodeticPoint,
 }
 
 impl std::fmt::Debug for LocalFrame {
@@ -35,20 +35,49 @@ impl LocalFrame {
         }
         let text = format!("+proj=aeqd +lat_0={latitude_deg} +lon_0={longitude_deg} +datum=WGS84 +units=m +no_defs");
         let longlat = Proj::from_proj_string("+proj=longlat +datum=WGS84 +no_defs").ok()?;
-        Some(LocalFrame { proj: Proj::from_proj_string(&text).ok()?, longlat, elevation_m: height_m })
+        Some(LocalFrame { proj: Proj::from_proj_string(&text).ok()?, longlat, place })
     }
 
     /// The height of its zero above the sea, metres.
     pub fn elevation_m(&self) -> f64 {
-        self.elevation_m
+        self.place.height_m
+    }
+
+    /// The point of the Earth at its zero.
+    pub fn place(&self) -> GeodeticPoint {
+        self.place
     }
 
     /// A point of the Earth in this frame; `None` if it is too far away.
     pub fn point(&self, at: GeodeticPoint) -> Option<DVec3> {
+        self.anywhere(at).filter(|local| local.truncate().length() <= TOO_FAR_M)
+    }
+
+    /// How far a point of the Earth is from the place, metres; none where the frame's projection does not reach.
+    pub fn distance_m(&self, at: GeodeticPoint) -> Option<f64> {
+        Some(self.anywhere(at)?.truncate().length())
+    }
+
+    fn anywhere(&self, at: GeodeticPoint) -> Option<DVec3> {
         let mut point = (at.longitude_deg.to_radians(), at.latitude_deg.to_radians(), 0.0);
         transform(&self.longlat, &self.proj, &mut point).ok()?;
-        let local = DVec3::new(point.0, point.1, at.height_m - self.elevation_m);
-        (local.is_finite() && local.truncate().length() <= TOO_FAR_M).then_some(local)
+        let local = DVec3::new(point.0, point.1, at.height_m - self.place.height_m);
+        local.is_finite().then_some(local)
+    }
+
+    /// A point of this frame on the Earth; none where it lies so far away that the frame says nothing of it.
+    pub fn on_earth(&self, at: DVec3) -> Option<GeodeticPoint> {
+        if !(at.is_finite() && at.truncate().length() <= TOO_FAR_M) {
+            return None;
+        }
+        let mut point = (at.x, at.y, 0.0);
+        transform(&self.proj, &self.longlat, &mut point).ok()?;
+        let found = GeodeticPoint {
+            latitude_deg: point.1.to_degrees(),
+            longitude_deg: point.0.to_degrees(),
+            height_m: self.place.height_m + at.z,
+        };
+        (found.latitude_deg.is_finite() && found.longitude_deg.is_finite()).then_some(found)
     }
 
     /// The direction of true north at a point, radians clockwise from this frame's north.

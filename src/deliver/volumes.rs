@@ -3,6 +3,7 @@
 use super::parts::note;
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::volumes::{self as encode, Volumes};
+use crate::message::{Message, message, setting};
 use crate::site::{GroundKind, Site, metres};
 use crate::study::{self, Event, OnEvent, StudyError, tell};
 use crate::sun::Instant;
@@ -42,10 +43,9 @@ pub fn volumes(
     study::note_models(&site.notes, on_event)?;
     let found = solids(&site.mesh, &site.casts, instant.to_sun, site.ground.level)?;
     tell(on_event, Event::Stage("volumes"))?;
-    if site.ground.kind == GroundKind::Terrain {
-        let end = format!("the volumes end at a plane at {}, not at the terrain", metres(site.ground.level));
-        tell(on_event, Event::Note(end.into()))?;
-    }
+    let plane = (site.ground.kind == GroundKind::Terrain).then(|| note_plane(site.ground.level));
+    study::note_models(plane.as_slice(), on_event)?;
+    let notes: Vec<Message> = site.notes.iter().cloned().chain(plane).collect();
     note_extent(&found, instant, on_event)?;
     let volumes = Volumes {
         place: &site.place,
@@ -55,13 +55,21 @@ pub fn volumes(
         mesh: &site.mesh,
         solids: &found.solids,
         left_out: found.left_out,
-        notes: &site.notes,
+        notes: &notes,
         words: site.words,
     };
     let bytes = encode::glb(&volumes)?;
     tell(on_event, Event::Stage("model"))?;
     let written = open.write(vec![(name.to_owned(), bytes)])?;
     Ok(VolumesAnswer { written, report: encode::json(&volumes, name)?, summary: encode::summary(&volumes) })
+}
+
+/// That volumes end below the terrain or above it, which their file says as well.
+fn note_plane(level_m: f64) -> Message {
+    message![
+        format!("the volumes end at a plane at {}, and not at the terrain", metres(level_m));
+        setting("[ground]", "level", "`level` in [ground]"), " sets its height"
+    ]
 }
 
 /// Notes what is left out, and what is very long.

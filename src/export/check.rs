@@ -1,9 +1,10 @@
 //! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the most
 //! important places in them.
 
+use super::contents::{self, MostLines};
 use super::model_lines::{self, ModelLines};
 use super::places::{self, DefectKind};
-use super::{ExportError, contents, report};
+use super::{ExportError, report};
 use crate::formats::Up;
 use crate::mesh::Mesh;
 use crate::mesh::report::ComponentReport;
@@ -13,7 +14,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A table is cut to about so many rows, a screen; `--json` has all.
+/// A table is cut to about so many rows, a screen, where nobody asks for all.
 const MOST_ROWS: usize = 40;
 /// The number of rows that are always there, and of those that a kind takes with its worst places.
 const FIXED_ROWS: usize = 11;
@@ -44,19 +45,38 @@ struct ComponentLine<'a> {
     places: Value,
 }
 
+/// What is checked: models that stand together.
+#[derive(Clone, Copy, Debug)]
+pub struct CheckedMesh<'a> {
+    /// All of them, welded.
+    pub mesh: &'a Mesh,
+    /// What is wrong with each part.
+    pub components: &'a [ComponentReport],
+    /// Whose coordinates the mesh has.
+    pub frame: CoordinateFrame,
+    /// What should be known of how they were read.
+    pub notes: &'a [Message],
+    /// What each file holds.
+    pub models: &'a [ModelContents],
+    /// What is said of the coordinates of each.
+    pub references: &'a [ModelReference],
+}
+
+/// How much a table lists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableExtent {
+    /// What matters most, on about a screen.
+    Screen,
+    /// All names, all that was left out, and all parts that are not clean.
+    Whole,
+}
+
 /// `check --json`: triangles as the files have them, vertices as welded, and where what is wrong.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn json(
-    mesh: &Mesh,
-    components: &[ComponentReport],
-    frame: CoordinateFrame,
-    notes: &[Message],
-    models: &[ModelContents],
-    references: &[ModelReference],
-    words: &dyn Words,
-) -> Result<String, ExportError> {
+pub fn json(checked: CheckedMesh<'_>, words: &dyn Words) -> Result<String, ExportError> {
+    let CheckedMesh { mesh, components, frame, notes, models, references } = checked;
     let lines = components.iter().map(|component| ComponentLine {
         name: &component.name,
         triangles: component.triangles,
@@ -86,22 +106,19 @@ fn is_turned(references: &[ModelReference]) -> bool {
 
 /// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
 /// break. How the models were read stands below the totals.
-pub fn table(
-    mesh: &Mesh,
-    components: &[ComponentReport],
-    frame: CoordinateFrame,
-    notes: &[Message],
-    models: &[ModelContents],
-    references: &[ModelReference],
-    words: &dyn Words,
-) -> String {
+pub fn table(checked: CheckedMesh<'_>, extent: TableExtent, words: &dyn Words) -> String {
+    let CheckedMesh { mesh, components, frame, notes, models, references } = checked;
     let mut table = format!(
         "{}, {}, {}\n",
         counted(components.len(), "component", "components"),
         counted(triangles(components), "triangle", "triangles"),
         counted(mesh.vertices.len(), "vertex", "vertices"),
     );
-    table.push_str(&contents::table(models, words));
+    let most = match extent {
+        TableExtent::Screen => MostLines::OrSee(Field::All),
+        TableExtent::Whole => MostLines::All,
+    };
+    table.push_str(&contents::table(models, most, words));
     table.push_str(&model_lines::table(references));
     for note in notes {
         // Writing to a String cannot fail.
@@ -115,7 +132,7 @@ pub fn table(
     dirty.sort_by(|one, other| faulty_m(other).total_cmp(&faulty_m(one)));
     let sum = |kind: &DefectKind| dirty.iter().map(|component| (kind.count)(component)).sum::<usize>();
     let kinds: Vec<&DefectKind> = places::KINDS.iter().filter(|kind| sum(kind) > 0).collect();
-    rows(&mut table, &dirty, &kinds, words);
+    rows(&mut table, &dirty, &kinds, extent, words);
     let clean = components.len() - dirty.len();
     let _ = writeln!(
         table,
@@ -154,8 +171,11 @@ fn shadows(mesh: &Mesh) -> String {
 }
 
 /// A line a component, the worst first.
-fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&DefectKind], words: &dyn Words) {
-    let most = MOST_ROWS.saturating_sub(FIXED_ROWS + kinds.len() * (1 + PLACES_A_KIND));
+fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&DefectKind], extent: TableExtent, words: &dyn Words) {
+    let most = match extent {
+        TableExtent::Screen => MOST_ROWS.saturating_sub(FIXED_ROWS + kinds.len() * (1 + PLACES_A_KIND)),
+        TableExtent::Whole => usize::MAX,
+    };
     let shown = &dirty[..dirty.len().min(most)];
     let width = shown.iter().map(|component| plain(&component.name).chars().count()).max().unwrap_or(0).max(9);
     // Writing to a String cannot fail.
@@ -172,7 +192,7 @@ fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&DefectKind], w
         table.push('\n');
     }
     if dirty.len() > shown.len() {
-        let more = message![format!("… and {} more", dirty.len() - shown.len()); Field::Json, " has all"];
+        let more = message![format!("… and {} more", dirty.len() - shown.len()); Field::All, " lists all"];
         let _ = writeln!(table, "{}", more.in_words(words));
     }
 }

@@ -8,8 +8,36 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// Groups and kinds of things left out that a table has a line for; JSON has all.
+/// Groups and kinds of things left out that a table has a line for, where not all are asked.
 const MOST: usize = 12;
+
+/// How many groups and kinds of things left out a table lists.
+#[derive(Clone, Copy)]
+pub(super) enum MostLines {
+    /// A few, and the field that has all.
+    OrSee(Field),
+    /// All.
+    All,
+}
+
+impl MostLines {
+    fn count(self) -> usize {
+        match self {
+            MostLines::OrSee(_) => MOST,
+            MostLines::All => usize::MAX,
+        }
+    }
+
+    /// That there is more than is shown.
+    fn more(self, count: usize, words: &dyn Words) -> String {
+        match (self, count.checked_sub(self.count())) {
+            (MostLines::OrSee(field), Some(more @ 1..)) => {
+                message![format!(" … and {more} more"); field, " lists all"].in_words(words)
+            }
+            _ => String::new(),
+        }
+    }
+}
 
 /// What a file holds.
 #[derive(Serialize)]
@@ -49,7 +77,7 @@ impl<'a> ContentsReport<'a> {
 }
 
 /// Lines on each model; they end with a line break.
-pub(super) fn table(models: &[ModelContents], words: &dyn Words) -> String {
+pub(super) fn table(models: &[ModelContents], most: MostLines, words: &dyn Words) -> String {
     let mut table = String::new();
     // Writing to a String cannot fail.
     for model in models {
@@ -60,28 +88,20 @@ pub(super) fn table(models: &[ModelContents], words: &dyn Words) -> String {
             let _ = writeln!(table, "  kinds: {}", kinds.join(", "));
         }
         if !model.groups.is_empty() {
-            let shown = model.groups.iter().take(MOST);
+            let shown = model.groups.iter().take(most.count());
             let shown: Vec<String> =
                 shown.map(|group| format!("\"{}\" ({})", plain(&group.name), group.components)).collect();
-            let _ = writeln!(table, "  groups: {}{}", shown.join(", "), more(model.groups.len(), words));
+            let _ = writeln!(table, "  groups: {}{}", shown.join(", "), most.more(model.groups.len(), words));
         }
-        for left in model.left_out.iter().take(MOST) {
+        for left in model.left_out.iter().take(most.count()) {
             let _ = writeln!(table, "  left out: {}: {}", plain(&left.counted()), plain(&left.why));
         }
-        let others = more(model.left_out.len(), words);
+        let others = most.more(model.left_out.len(), words);
         if !others.is_empty() {
             let _ = writeln!(table, "  left out:{others}");
         }
     }
     table
-}
-
-/// That there is more than is shown.
-fn more(count: usize, words: &dyn Words) -> String {
-    match count.checked_sub(MOST) {
-        None | Some(0) => String::new(),
-        Some(more) => message![format!(" … and {more} more"); Field::Json, " has all"].in_words(words),
-    }
 }
 
 /// A name without what would break the line.

@@ -5,12 +5,12 @@
 //! `extras`, under `gnomon`: a component's other names and its kind, and for the scene where its zero stands on Earth,
 //! which way true north is, and what else the file says of itself. `formats::gltf::own` reads it.
 
-use super::contents::{self, ContentsReport};
+use super::contents::{self, ContentsReport, MostLines};
 use super::glb::{GlbFile, asset};
 use super::volumes::in_gltf;
 use super::{ExportError, report};
 use crate::formats::{Anchor, AnchorPoint, LeftOut, Model, PartKind};
-use crate::message::Words;
+use crate::message::{Field, Words};
 use crate::site::PlacedModel;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -191,6 +191,6 @@ pub(crate) fn summary(placed: &PlacedModel, words: &dyn Words) -> String {
     let faces = if triangles == 1 { "triangle" } else { "triangles" };
     format!(
         "{parts} {components}, {triangles} {faces}\n{}",
-        contents::table(std::slice::from_ref(&placed.contents), words)
+        contents::table(std::slice::from_ref(&placed.contents), MostLines::OrSee(Field::Json), words)
     )
 }

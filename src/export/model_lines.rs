@@ -2,7 +2,7 @@
 
 use super::contents::ContentsReport;
 use crate::formats::{Anchor, AnchorPoint};
-use crate::site::{ModelContents, ModelReference, anchor_text, metres};
+use crate::site::{EarthPoint, ModelContents, ModelReference, anchor_text, metres};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -27,9 +27,11 @@ pub(super) struct ModelLine<'a> {
     crs: Option<&'a str>,
     said_by: Option<&'a str>,
     place: Option<PlaceLine>,
+    file_place: Option<FilePlaceLine<'a>>,
     anchors: Vec<AnchorLine<'a>>,
     north_deg: f64,
     convergence_deg: Option<f64>,
+    meridian_deg: Option<f64>,
     #[serde(flatten)]
     contents: ContentsReport<'a>,
 }
@@ -39,6 +41,24 @@ struct PlaceLine {
     latitude: f64,
     longitude: f64,
     elevation: Option<f64>,
+}
+
+/// Where its file says that it stands, where it stands elsewhere.
+#[derive(Serialize)]
+struct FilePlaceLine<'a> {
+    said_by: &'a str,
+    #[serde(flatten)]
+    place: PlaceLine,
+}
+
+impl PlaceLine {
+    fn of(point: EarthPoint) -> PlaceLine {
+        PlaceLine {
+            latitude: point.at.latitude_deg,
+            longitude: point.at.longitude_deg,
+            elevation: point.has_height.then_some(point.at.height_m),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -70,11 +90,7 @@ impl<'a> ModelLines<'a> {
 
 impl<'a> ModelLine<'a> {
     fn of(model: &'a ModelReference, contents: &'a ModelContents) -> ModelLine<'a> {
-        let place = model.place.map(|at| PlaceLine {
-            latitude: at.latitude_deg,
-            longitude: at.longitude_deg,
-            elevation: model.has_height.then_some(at.height_m),
-        });
+        let file_place = elsewhere(model).map(|(said, said_by)| FilePlaceLine { said_by, place: PlaceLine::of(said) });
         ModelLine {
             name: &model.name,
             unit_m: model.unit_m,
@@ -82,11 +98,13 @@ impl<'a> ModelLine<'a> {
             up: model.up.word(),
             up_is_said: model.up_is_said,
             crs: model.crs.as_deref(),
-            said_by: model.said_by.as_deref(),
-            place,
+            said_by: model.stands.map(|_| model.stands_by.as_str()),
+            place: model.stands.map(PlaceLine::of),
+            file_place,
             anchors: model.anchors.iter().map(AnchorLine::of).collect(),
             north_deg: model.north_deg,
             convergence_deg: model.convergence_deg,
+            meridian_deg: model.meridian_deg,
             contents: ContentsReport::of(contents),
         }
     }
@@ -125,22 +143,15 @@ pub(super) fn table(models: &[ModelReference]) -> String {
             guess(model.up_is_said),
             hundredths(model.north_deg),
         );
-        if let Some(convergence) = model.convergence_deg {
-            let _ = write!(table, " (the map's convergence there: {:.2}°)", hundredths(convergence));
+        let of_north = [
+            model.convergence_deg.map(|deg| format!("the map's convergence there: {:.2}°", hundredths(deg))),
+            model.meridian_deg.map(|deg| format!("true north there, from that at the place: {:.2}°", hundredths(deg))),
+        ];
+        let of_north: Vec<String> = of_north.into_iter().flatten().collect();
+        if !of_north.is_empty() {
+            let _ = write!(table, " ({})", of_north.join("; "));
         }
-        match (&model.place, &model.said_by) {
-            (Some(at), Some(said_by)) => {
-                let _ = write!(table, "\n  stands at {:.5}, {:.5}", at.latitude_deg, at.longitude_deg);
-                if model.has_height {
-                    let _ = write!(table, ", {}", metres(at.height_m));
-                }
-                let _ = write!(table, ", by {}", plain(said_by));
-                if let Some(crs) = &model.crs {
-                    let _ = write!(table, " in {}", plain(crs));
-                }
-            }
-            _ => table.push_str(", no place on Earth"),
-        }
+        table.push_str(&stands(model));
         table.push('\n');
         for anchor in &model.anchors {
             let at = Some(plain(&anchor_text(&anchor.at))).filter(|at| !at.is_empty());
@@ -150,6 +161,38 @@ pub(super) fn table(models: &[ModelReference]) -> String {
         }
     }
     table
+}
+
+/// Where a model stands, and beside it what its file says otherwise.
+fn stands(model: &ModelReference) -> String {
+    let Some(point) = &model.stands else { return ", no place on Earth".to_owned() };
+    let mut said = format!("\n  stands at {}, by {}", numbers(point), plain(&model.stands_by));
+    let other = elsewhere(model);
+    if other.is_none()
+        && let Some(crs) = &model.crs
+    {
+        said.push_str(&format!(" in {}", plain(crs)));
+    }
+    if let Some((point, by)) = &other {
+        said.push_str(&format!("\n  its file says {}, by {}", numbers(point), plain(by)));
+        if let Some(crs) = &model.crs {
+            said.push_str(&format!(" in {}", plain(crs)));
+        }
+    }
+    said
+}
+
+/// Where its file says that a model stands, and by what, where it stands elsewhere.
+fn elsewhere(model: &ModelReference) -> Option<(EarthPoint, &str)> {
+    let (stands, said) = model.stands.zip(model.said)?;
+    let said_by = model.said_by.as_deref()?;
+    (model.stands_by != said_by && stands != said).then_some((said, said_by))
+}
+
+/// `49.10044, 8.43655, 110 m`
+fn numbers(point: &EarthPoint) -> String {
+    let height = if point.has_height { format!(", {}", metres(point.at.height_m)) } else { String::new() };
+    format!("{:.5}, {:.5}{height}", point.at.latitude_deg, point.at.longitude_deg)
 }
 
 /// A number with six digits that count, without zeros at its end: an inch is 0.0254 m, whatever its last bits are.

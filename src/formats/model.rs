@@ -3,7 +3,7 @@
 use super::exact::{self, option as exact_option};
 use super::{MAX_COMPONENTS, MAX_TRIANGLES, gltf};
 use crate::mesh::Part;
-use crate::message::{Message, message};
+use crate::message::{Message, Worded, message, plain_display};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::PathBuf;
@@ -216,7 +216,6 @@ impl ReadOptions {
 
 /// A model file that cannot be used.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {fault}", file.display())]
 pub struct ModelError {
     /// The file, as requested.
     pub file: PathBuf,
@@ -235,16 +234,19 @@ pub enum ModelFault {
     GivenUp,
 }
 
-impl ModelError {
-    /// What is wrong, and what can be done.
-    pub fn message(&self) -> Message {
+plain_display!(ModelError);
+
+impl Worded for ModelError {
+    fn message(&self) -> Message {
         let file = self.file.display().to_string();
         match &self.fault {
             ModelFault::Unusable(message) => Message::clone(message).of(file.into()),
             fault => format!("{file}: {fault}").into(),
         }
     }
+}
 
+impl ModelError {
     /// Whether nothing is wrong, and somebody ended the reading.
     pub fn is_given_up(&self) -> bool {
         matches!(self.fault, ModelFault::GivenUp)

@@ -1,6 +1,7 @@
 //! The contents of a model file, as `gnomon check` lists them.
 
 use super::file::Names;
+use super::names::ComponentNames;
 use crate::formats::{LeftOut, Model, PartKind, Up};
 use crate::mesh::Component;
 use rustc_hash::FxHashMap;
@@ -35,14 +36,6 @@ pub struct NameGroup {
     pub name: String,
     /// At least one.
     pub components: usize,
-}
-
-/// A component's name, and all names by which it may be meant.
-pub(super) type ComponentNames<'a> = (&'a str, &'a [String]);
-
-/// The names of components.
-pub(super) fn names_of(components: &[Component]) -> Vec<ComponentNames<'_>> {
-    components.iter().map(|component| (component.name.as_str(), component.aliases.as_slice())).collect()
 }
 
 /// What is kept of a model beside its parts.

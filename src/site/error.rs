@@ -122,7 +122,7 @@ pub enum SiteError {
         /// As the user named it.
         file: String,
     },
-    /// A name in `casts` or `receives` that no component has.
+    /// A name in `layers`, `casts`, `receives` or `terrain` that no component has.
     UnknownName {
         /// Where it was asked.
         at: FieldLocation,

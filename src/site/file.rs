@@ -50,6 +50,18 @@ pub struct PlaceTable {
     /// The model's file that proposed it, where one did; a text has it in a comment.
     #[serde(skip)]
     pub source: Option<PlaceSource>,
+    /// The model's file that proposed the elevation alone, where one did.
+    #[serde(skip)]
+    pub elevation_source: Option<ElevationSource>,
+}
+
+/// Which file proposed an elevation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElevationSource {
+    /// The file, and what in it.
+    pub said: String,
+    /// The elevation that it proposed: another one is a person's.
+    pub elevation: f64,
 }
 
 /// Which file proposed a place.
@@ -82,6 +94,8 @@ pub struct ModelTable {
     pub terrain_error: Option<f64>,
     /// The classes of measured points that stand there beside the ground.
     pub classes: Option<Vec<String>>,
+    /// Names of what is read of it; with a `!` before it of what is not.
+    pub layers: Option<Vec<String>>,
     /// The reference system of its coordinates.
     pub crs: Option<String>,
     /// What casts.

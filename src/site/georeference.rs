@@ -49,16 +49,39 @@ pub(super) enum Reference {
     Anchor(Box<AnchoredZero>),
 }
 
-/// What is wrong with a key of the model.
-pub(super) type KeyFault = (&'static str, Message);
+/// Why a model cannot stand where it is said.
+pub(super) enum StandFault {
+    /// By a key of the model.
+    Key(&'static str, Message),
+    /// By what its file says; the file is the subject.
+    File(Message),
+}
+
+impl StandFault {
+    /// A fault of the reference system of a model's coordinates: of the key, where the user says it, else of the file.
+    pub(super) fn of_crs(placement: &Placement, message: Message) -> StandFault {
+        match placement.crs {
+            Some(_) => StandFault::Key("crs", message),
+            None => StandFault::File(message),
+        }
+    }
+
+    /// What is wrong, whoever says it.
+    pub(super) fn into_message(self) -> Message {
+        match self {
+            StandFault::Key(_, message) | StandFault::File(message) => message,
+        }
+    }
+}
 
 impl Georeference {
     /// What is said of a model.
     ///
     /// # Errors
     /// A system that is not known, where the model's coordinates are of it, and keys that do not go together.
-    pub(super) fn of(model: &Model, placement: &Placement) -> Result<Georeference, KeyFault> {
-        let asked = placement.crs.as_deref().map(Crs::read).transpose().map_err(|error| ("crs", error))?;
+    pub(super) fn of(model: &Model, placement: &Placement) -> Result<Georeference, StandFault> {
+        let asked = placement.crs.as_deref().map(Crs::read).transpose();
+        let asked = asked.map_err(|error| StandFault::Key("crs", error))?;
         let has_map_anchor = model.anchors.iter().any(|anchor| matches!(anchor.at, AnchorPoint::Map { .. }));
         match (&model.coordinates, asked) {
             (Coordinates::Map(_), Some(crs)) => of_coordinates(model, placement, crs, "crs"),
@@ -75,22 +98,22 @@ impl Georeference {
 }
 
 /// Coordinates of a map that the file names. Where the user says how it stands, they are plain metres.
-fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georeference, KeyFault> {
+fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georeference, StandFault> {
     let named = Crs::read(text);
     let written = placement.position.map(|_| "position").or(placement.north_rad.map(|_| "north"));
     match (named, written) {
         (Ok(crs), None) => of_coordinates(model, placement, crs, "coordinates"),
-        (Err(mut error), None) => {
-            error.hint = message![
-                "";
+        (Err(error), None) => {
+            let mut fault = message![
+                "names a reference system that cannot be taken: ";
                 "write ",
                 setting("[[model]]", "crs", "`crs` under [[model]]"),
-                ", for example crs = \"EPSG:25832\""
-            ]
-            .hint;
-            Err(("crs", error))
+                ", which goes before it, for example crs = \"EPSG:25832\""
+            ];
+            fault.what.extend(error.what);
+            Err(StandFault::File(fault))
         }
-        (Ok(crs), Some(key)) if crs.kind() != CrsKind::Projected => Err((
+        (Ok(crs), Some(key)) if crs.kind() != CrsKind::Projected => Err(StandFault::Key(
             key,
             message![
                 format!("the file's coordinates are of {}, and no metres that could be moved or turned", crs.name());
@@ -108,10 +131,10 @@ fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georefere
 }
 
 /// Coordinates of a map, by the user's word or the file's.
-fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str) -> Result<Georeference, KeyFault> {
+fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str) -> Result<Georeference, StandFault> {
     if placement.north_rad.is_some() {
         let what = format!("{} says which way north is", crs.name());
-        return Err((
+        return Err(StandFault::Key(
             "north",
             message![
                 what;
@@ -145,6 +168,7 @@ fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str)
     let scale = DMat3::from_diagonal(DVec3::new(ground, ground, height));
     let map_from_model = DAffine3::from_mat3(scale * placement.upright(model));
     let unit_m = if crs.kind() == CrsKind::Geographic { DEGREE_M } else { ground * crs.unit_m() };
+    notes.extend(unit_note(model, placement, &crs, height));
     let reference = Reference::Map { crs: Box::new(crs), map_from_model, unit_m };
     notes.extend(outside_of_map(model, &reference, None));
     Ok(Georeference { reference, said_by: said_by.to_owned(), notes })
@@ -179,6 +203,29 @@ fn map_units(model: &Model, placement: &Placement, crs: &Crs) -> [f64; 2] {
             [said.map_or(1.0, ratio), height]
         }
     }
+}
+
+/// That eastings and northings are in another unit than heights, or in the map's, as nobody says one.
+fn unit_note(model: &Model, placement: &Placement, crs: &Crs, height_m: f64) -> Option<Message> {
+    // a foot to its tenth digit
+    let [map_m, height_m] = [crs.unit_m(), height_m].map(|unit_m| (unit_m * 1e10).round() / 1e10);
+    if crs.kind() != CrsKind::Projected {
+        return None;
+    }
+    let is_other = |unit_m: f64| (unit_m / map_m - 1.0).abs() > ONE_UNIT;
+    let scale = || setting("[[model]]", "scale", "`scale` under [[model]]");
+    if placement.scale.is_none() && matches!(model.coordinates, Coordinates::Map(_)) {
+        let what =
+            format!("has heights in units of {height_m} m, and eastings and northings in those of its map, {map_m} m");
+        return is_other(height_m).then(|| message![what; "if all are in one unit, write its metres as ", scale()]);
+    }
+    let is_said = placement.scale.or(model.unit_m).is_some();
+    (!is_said && (map_m - 1.0).abs() > ONE_UNIT).then(|| {
+        message![
+            format!("says no unit, and is taken to be in that of its map, {map_m} m");
+            "if it is in another one, write its metres as ", scale()
+        ]
+    })
 }
 
 /// The first of the anchors that can be used, with what the others say otherwise.

@@ -103,7 +103,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .means("East is positive, −180 to 180."),
     key("place", "elevation", ValueType::Number, "elevation = 35.0")
         .unit("metres")
-        .default("0")
+        .default("as a model's file says, else 0")
         .means("Height above sea level, −500 to 9000. It sets the air's pressure, and so refraction."),
     key("place", "time_zone", ValueType::Text, "time_zone = \"Europe/Paris\"")
         .default("found from the coordinates")
@@ -149,6 +149,10 @@ pub const SITE_KEYS: &[SiteKey] = &[
             "Which classes of [measured points](formats.md#las-and-laz) stand there beside the ground: `building`, \
              `vegetation`, `bridge`, `water`.",
         ),
+    key("model", "layers", ValueType::Texts, "layers = [\"walls\", \"!furniture\"]").default("all").means(
+        "What of the file is read, by names as in `casts`: layers, storeys, groups, materials or components. What is not \
+             read stands nowhere, and is counted among what was left out.",
+    ),
     key("model", "crs", ValueType::Text, "crs = \"EPSG:25832\"").default("as the file says").means(
         "The reference system of the model's coordinates, which gives position and north: its number in the EPSG \
              dataset, its name, WKT, or PROJ's text. See [georeference.md](georeference.md).",

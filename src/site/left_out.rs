@@ -1,9 +1,10 @@
 //! What was left out of each model of a site: the complete list for `gnomon check`, and a short note for everything
 //! else.
 
-use super::contents::{ModelContents, ReadContents, names_of};
+use super::contents::{ModelContents, ReadContents};
 use super::file::Names;
 use super::models::{Models, name};
+use super::names::names_of;
 use super::written::WrittenSite;
 use crate::formats::LeftOut;
 use crate::mesh::Component;

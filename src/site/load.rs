@@ -3,8 +3,8 @@
 use super::contents::ModelContents;
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
-use super::model_place::ModelReference;
-use super::models::Models;
+use super::model_place::{ModelReference, elevation_note};
+use super::models::{Models, name, read_placed};
 use super::overrides::{Overrides, refuse};
 use super::written::WrittenSite;
 use super::{Ground, Site, camera, ground, notes, plan, study};
@@ -12,7 +12,7 @@ use crate::choice::{ChoiceError, Finder, Method, Receivers};
 use crate::formats::{Model, ModelError, ReadOptions};
 use crate::mesh::Mesh;
 use crate::mesh::patches::DEFAULT_CELL_M;
-use crate::message::{Field, Message, message};
+use crate::message::{Field, Message, Worded, message, set_to};
 use crate::sun::{Place, SunTrack};
 use glam::DVec3;
 use std::path::Path;
@@ -34,18 +34,50 @@ pub struct LoadedSun {
     pub notes: Vec<Message>,
 }
 
-/// The place and its sun alone; the models are not read, but where nobody else says the place.
+/// The place and its sun alone; the models are read only where nobody else says the place, or its elevation.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form, its place and its study.
 pub fn load_sun(path: &Path, asked: &Overrides) -> Result<LoadedSun, SiteError> {
+    let read = |path: &Path, options: &ReadOptions| asked.reading.read(path, options);
     let as_written = WrittenSite::read(path, asked)?;
-    let (written, _) =
-        as_written.located(|| Models::read(&as_written, |path, options| asked.reading.read(path, options)))?;
-    let place = written.place(asked)?;
+    let (written, _) = as_written.located(|| Models::read(&as_written, read))?;
+    let mut place = written.place(asked)?;
+    let mut notes: Vec<Message> = written.place_note().into_iter().collect();
+    if as_written.point()?.is_some() {
+        let (elevation_m, note) = elevation(&as_written, read)?;
+        place.elevation_m = elevation_m.unwrap_or(place.elevation_m);
+        notes.extend(note);
+    }
     let track = study::track(&place, &written, asked)?;
-    let notes = written.place_note().into_iter().collect();
     Ok(LoadedSun { place, track, notes })
+}
+
+/// The elevation of a place that is written without one, as a study of the same site finds it, with what is said of that.
+fn elevation(
+    written: &WrittenSite,
+    read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
+) -> Result<(Option<f64>, Option<Message>), SiteError> {
+    let is_written = written.site.place.as_ref().is_some_and(|table| table.elevation.is_some());
+    if is_written || written.site.model.is_empty() {
+        return Ok((None, None));
+    }
+    match read_placed(written, read_model) {
+        Ok(placed) => Ok(placed.elevation.map_or((None, None), |of| {
+            let note = elevation_note(of.height_m).about(name(written, of.model));
+            (Some(of.height_m), Some(note))
+        })),
+        Err(SiteError::Model(error)) if error.is_given_up() => Err(SiteError::Model(error)),
+        // the sun needs no model, and half a kilometre of elevation is no thousandth of a degree by day
+        Err(error) => {
+            let mut note = message![
+                "the elevation of the place is taken as 0, since a model that may say it cannot be read: ";
+                "write ", set_to("[place]", "elevation", "35.0".to_owned(), "`elevation` in [place]".to_owned())
+            ];
+            note.what.extend(error.message().what);
+            Ok((None, Some(note)))
+        }
+    }
 }
 
 /// Whose coordinates a mesh has.
@@ -79,13 +111,14 @@ pub struct LoadedMesh {
 /// Everything that can be wrong with a site file's form and its models.
 pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError> {
     let Overrides { up, default_height, .. } = *asked;
-    let mut written = WrittenSite::read(path, &Overrides { up, default_height, ..Overrides::default() })?;
+    let of_models = Overrides { up, default_height, beside: asked.beside.clone(), ..Overrides::default() };
+    let mut written = WrittenSite::read(path, &of_models)?;
     let is_bare = written.is_bare_model();
     let models = Models::read(&written, |path, options| asked.reading.read(path, options))?;
     let [casts, _] = models.roles(&written)?;
     // what was left out is listed
     let mut notes = models.notes_without_contents(&written, &casts);
-    written.site.place = written.site.place.or_else(|| models.proposed_place().cloned());
+    models.proposed_place().iter().for_each(|place| written.site.place.get_or_insert_default().complete_with(place));
     notes.splice(..0, written.place_note());
     let (references, contents) = (models.references().to_vec(), models.contents(&written));
     let frame = if is_bare && !models.stand_on_earth() { CoordinateFrame::Model } else { CoordinateFrame::Place };

@@ -18,7 +18,7 @@ impl WrittenSite {
         &'a self,
         models: impl FnOnce() -> Result<Models, SiteError> + 'a,
     ) -> Result<(Cow<'a, WrittenSite>, LazyModels<'a>), SiteError> {
-        if self.site.place.is_some() {
+        if self.point()?.is_some() {
             return Ok((Cow::Borrowed(self), Box::new(models)));
         }
         if self.site.model.is_empty() {
@@ -27,7 +27,10 @@ impl WrittenSite {
         let models = models()?;
         let Some(place) = models.proposed_place() else { return Err(self.no_place(models.place_notes())) };
         let mut written = self.clone();
-        written.site.place = Some(place.clone());
+        written.site.place.get_or_insert_default().complete_with(place);
+        if written.point()?.is_none() {
+            return Err(self.no_place(models.place_notes()));
+        }
         Ok((Cow::Owned(written), Box::new(move || Ok(models))))
     }
 
@@ -37,6 +40,6 @@ impl WrittenSite {
             let said = said.first().cloned().map(Box::new);
             return SiteError::NoPlaceForModel { path: self.file.clone(), said };
         }
-        self.missing("[place]", "[place] with latitude = 48.8583 and longitude = 2.2945")
+        self.no_point("latitude = 48.8583 and longitude = 2.2945")
     }
 }

@@ -18,6 +18,7 @@ mod inputs;
 mod key_notes;
 mod key_table;
 mod keys;
+mod layers;
 mod left_out;
 mod likeness;
 mod load;
@@ -59,7 +60,7 @@ pub use likeness::{Likeness, Mend};
 #[doc(hidden)]
 pub use load::{CoordinateFrame, LoadedMesh, LoadedSun, load_mesh, load_sun};
 #[doc(hidden)]
-pub use model_place::{ModelReference, anchor_text};
+pub use model_place::{EarthPoint, ModelReference, anchor_text};
 #[doc(hidden)]
 pub use models::Models;
 pub use overrides::Overrides;

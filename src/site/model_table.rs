@@ -1,6 +1,7 @@
 //! What a table `[[model]]` says, checked.
 
 use super::SiteError;
+use super::file::Names;
 use super::keys;
 use super::overrides::refuse;
 use super::placement::Placement;
@@ -48,6 +49,7 @@ pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Pl
         scene: table.scene.clone(),
         default_height_m,
         terrain_error_m,
+        layers: table.layers.clone().map(Names::Some),
         point_classes: classes(table.classes.as_deref(), wrong)?,
         up,
         north_rad: table.north.map(f64::to_radians),

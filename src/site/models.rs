@@ -7,15 +7,16 @@ use super::file::{Names, PlaceTable};
 use super::georeference::Georeference;
 use super::ground::Ground;
 use super::likeness::{self, Likeness, TakenFrame};
-use super::model_place::{self, ModelReference, ModelsFrame};
+use super::model_place::{self, ModelElevation, ModelReference, ModelsFrame};
 use super::model_table::placed;
+use super::names::names_of;
 use super::notes::FarFrom;
 use super::overrides::refuse;
 use super::placement::Placement;
 use super::stand::{StandingModel, stand};
 use super::standing::{self, TerrainFaces};
 use super::written::{WrittenSite, bare_fault};
-use super::{key_notes, notes, on_terrain};
+use super::{key_notes, layers, notes, on_terrain};
 use crate::formats::{Coordinates, Model, ModelError, PartKind, ReadOptions, SeeThrough, Up, on_disk};
 use crate::mesh::{Component, Mesh, MeshError};
 use crate::message::{Message, few, message, set_to};
@@ -50,6 +51,8 @@ pub struct Models {
     mark: u64,
     /// The place around which they stand, where one of them stands by the Earth.
     place: Option<[Option<f64>; 3]>,
+    /// The numbers of the place as they were written then.
+    written_place: [Option<f64>; 3],
     proposed: Option<PlaceTable>,
     /// The place's elevation, where a model's file says it in place of the site file.
     pub(super) elevation_m: Option<f64>,
@@ -60,6 +63,14 @@ pub struct Models {
 /// What of a place decides where models stand.
 fn numbers(table: &PlaceTable) -> [Option<f64>; 3] {
     [table.latitude, table.longitude, table.elevation]
+}
+
+/// Those of the place as it is written, and with what files propose of it.
+fn places(written: &WrittenSite, proposed: Option<&PlaceTable>) -> [[Option<f64>; 3]; 2] {
+    let table = written.site.place.clone().unwrap_or_default();
+    let mut whole = table.clone();
+    proposed.iter().for_each(|proposed| whole.complete_with(proposed));
+    [numbers(&table), numbers(&whole)]
 }
 
 /// Where a model comes from, and where it stands.
@@ -85,14 +96,13 @@ impl Models {
         }
         // a file that changes while it is read has changed since
         let sources = sources(written)?;
-        let PlacedModels { models: mut placed, proposed, elevation_m, place_notes, references } =
+        let PlacedModels { models: mut placed, proposed, elevation, place_notes, references } =
             read_placed(written, &read_model)?;
         on_terrain::settle(&mut placed);
         let is_on_earth = placed.iter().any(|placed| placed.is_on_earth);
         let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut kinds = Vec::new();
         // by each model's file, of unit and axis; and how it was turned and moved
-        let (mut said, mut contents) = (Vec::new(), Vec::new());
+        let (mut said, mut contents, mut kinds) = (Vec::new(), Vec::new(), Vec::new());
         for (index, placed) in placed.into_iter().enumerate() {
             let model = placed.model;
             said.push((TakenFrame::of_file(&model), (placed.north_rad, placed.position)));
@@ -114,9 +124,9 @@ impl Models {
         notes.extend(notes::of_all(&mesh, far_from(written, proposed.as_ref(), is_on_earth)));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
-        let mark = mark(&mesh);
-        let place = is_on_earth.then(|| proposed.as_ref().or(written.site.place.as_ref()).map(numbers)).flatten();
+        let [written_place, place] = places(written, proposed.as_ref());
         let models = Models {
+            mark: mark(&mesh),
             mesh,
             bounds,
             notes,
@@ -127,10 +137,10 @@ impl Models {
             contents,
             see_through,
             sources,
-            mark,
-            place,
+            place: is_on_earth.then_some(place),
+            written_place,
             proposed,
-            elevation_m,
+            elevation_m: elevation.map(|of| of.height_m),
             place_notes,
             references,
         };
@@ -172,8 +182,8 @@ impl Models {
             placed(written, index).is_ok_and(|(file, placement)| file == source.file && placement == source.placement)
         };
         // what stands by the Earth stands elsewhere around another place
-        let place = written.site.place.as_ref().or(self.proposed.as_ref()).map(numbers);
-        let is_there = self.place.is_none_or(|here| place == Some(here));
+        let place = written.site.place.as_ref().map(numbers).unwrap_or_default();
+        let is_there = self.place.is_none_or(|here| place == here || place == self.written_place);
         is_there && written.site.model.len() == self.sources.len() && self.sources.iter().enumerate().all(is_it)
     }
 
@@ -182,7 +192,7 @@ impl Models {
         self.place.is_some()
     }
 
-    /// The place that a model's file proposes, where the site file says none.
+    /// What a model's file proposes of the place that the site file does not say.
     pub fn proposed_place(&self) -> Option<&PlaceTable> {
         self.proposed.as_ref()
     }
@@ -313,7 +323,7 @@ pub(super) struct PlacedModels {
     pub(super) models: Vec<StandingModel>,
     pub(super) proposed: Option<PlaceTable>,
     /// The place's elevation, where a model's file says it in place of the site file.
-    pub(super) elevation_m: Option<f64>,
+    pub(super) elevation: Option<ModelElevation>,
     pub(super) place_notes: Vec<Message>,
     pub(super) references: Vec<ModelReference>,
 }
@@ -335,25 +345,28 @@ pub(super) fn read_placed(
     }
     let of_model = |(index, (placement, model, said))| (name(written, index), model, placement, said);
     let all = read.iter().map(|(placement, model, said)| (placement, model, said)).enumerate().map(of_model);
-    let ModelsFrame { frame, proposed, elevation } = model_place::frame(written, all);
+    let ModelsFrame { frame, proposed, elevation } = model_place::frame(written, all)?;
     let mut placed = PlacedModels {
         models: Vec::new(),
-        proposed,
-        elevation_m: elevation.map(|(_, height_m)| height_m),
+        proposed: proposed.or_else(|| elevation.as_ref().map(ModelElevation::proposed)),
+        elevation,
         place_notes: Vec::new(),
         references: Vec::new(),
     };
     for (index, (placement, model, mut said)) in read.into_iter().enumerate() {
-        let of_elevation = elevation.filter(|(of_model, _)| *of_model == index);
-        said.notes.extend(of_elevation.map(|(_, height_m)| model_place::elevation_note(height_m)));
+        let of_elevation = placed.elevation.as_ref().filter(|of| of.model == index);
+        said.notes.extend(of_elevation.map(|of| model_place::elevation_note(of.height_m)));
         said.notes.extend(key_notes::of(&written.site.model, index, &placement, &model));
         let name = name(written, index);
-        placed.references.push(ModelReference::of(name, &model, &placement, &said));
+        let mut reference = ModelReference::of(name, &model, &placement, &said);
         if frame.is_none() {
             placed.place_notes.extend(said.notes.iter().cloned().map(|note| note.about(name)));
         }
         let standing = stand(model, &placement, said, frame.as_ref());
-        placed.models.push(standing.map_err(|fault| written.model_fault(index, fault))?);
+        let standing = standing.map_err(|fault| written.model_fault(index, fault))?;
+        frame.iter().for_each(|frame| reference.place_in(frame, &placement, &standing));
+        placed.references.push(reference);
+        placed.models.push(standing);
     }
     Ok(placed)
 }
@@ -375,7 +388,11 @@ fn model(
         true => refuse(written.model_key(index, "scene"), error.to_string()),
         false => error.into(),
     });
-    Ok((placement, read?))
+    let mut model = read?;
+    if let Some(names) = &placement.layers {
+        layers::keep(&mut model, names, || written.model_key(index, "layers"))?;
+    }
+    Ok((placement, model))
 }
 
 /// What people call a model: as the site file does.
@@ -431,7 +448,7 @@ fn chosen(
     names: &Names,
     components: &[Component],
 ) -> Result<Vec<bool>, SiteError> {
-    match names.unknown(components) {
+    match names.unknown(&names_of(components)) {
         Some((name, nearest)) => Err(SiteError::UnknownName { at: written.model_key(index, key), name, nearest }),
         None => Ok(names.chosen(components)),
     }

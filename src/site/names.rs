@@ -7,6 +7,14 @@ use crate::mesh::Component;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::borrow::Cow;
 
+/// A component's name, and all names by which it may be meant.
+pub(super) type ComponentNames<'a> = (&'a str, &'a [String]);
+
+/// The names of components.
+pub(super) fn names_of(components: &[Component]) -> Vec<ComponentNames<'_>> {
+    components.iter().map(|component| (component.name.as_str(), component.aliases.as_slice())).collect()
+}
+
 /// A list of names, once it is known which of them there are.
 struct NameList<'a> {
     /// Those that are meant; where there are none, all are.
@@ -27,12 +35,17 @@ impl Names {
     /// other names choose them, and a list of such names alone chooses all others. If something is itself named
     /// `!glass`, the name chooses that. A name that no component has chooses nothing.
     pub fn chosen(&self, components: &[Component]) -> Vec<bool> {
+        self.chosen_of(&names_of(components))
+    }
+
+    /// The same of what is no component yet.
+    pub(super) fn chosen_of(&self, components: &[ComponentNames<'_>]) -> Vec<bool> {
         let names = match self {
             Names::All(all) => return vec![*all; components.len()],
             Names::Some(names) => names,
         };
         let NameList { wanted, unwanted, is_closed, .. } = list(names, components);
-        let has = |of: &Component, names: &FxHashSet<Cow<str>>| {
+        let has = |of: &ComponentNames, names: &FxHashSet<Cow<str>>| {
             !names.is_empty() && all_names(of).any(|name| names.contains(&composed(name)))
         };
         components.iter().map(|of| (!is_closed || has(of, &wanted)) && !has(of, &unwanted)).collect()
@@ -42,12 +55,12 @@ impl Names {
     pub(super) fn means_only_named(&self, components: &[Component]) -> bool {
         match self {
             Names::All(all) => !all,
-            Names::Some(names) => list(names, components).is_closed,
+            Names::Some(names) => list(names, &names_of(components)).is_closed,
         }
     }
 
     /// The first of the names that no component has, and the nearest that one has.
-    pub(super) fn unknown(&self, components: &[Component]) -> Option<(String, String)> {
+    pub(super) fn unknown(&self, components: &[ComponentNames<'_>]) -> Option<(String, String)> {
         let Names::Some(names) = self else { return None };
         let unknown = list(names, components).unknown?;
         let (mark, name) = unknown.strip_prefix('!').map_or(("", unknown), |name| ("!", name));
@@ -56,7 +69,7 @@ impl Names {
     }
 }
 
-fn list<'a>(names: &'a [String], components: &[Component]) -> NameList<'a> {
+fn list<'a>(names: &'a [String], components: &[ComponentNames<'_>]) -> NameList<'a> {
     let texts: Vec<Cow<str>> = names.iter().map(|name| composed(name)).collect();
     let negated = |text: &Cow<'a, str>| text.strip_prefix('!').map(|name| Cow::Owned(name.to_owned()));
     // whether there is a component of that name
@@ -88,6 +101,6 @@ fn list<'a>(names: &'a [String], components: &[Component]) -> NameList<'a> {
 }
 
 /// All names by which a component may be meant.
-fn all_names(component: &Component) -> impl Iterator<Item = &str> {
-    component.aliases.iter().chain([&component.name]).map(String::as_str)
+fn all_names<'a>((name, aliases): &ComponentNames<'a>) -> impl Iterator<Item = &'a str> {
+    aliases.iter().map(String::as_str).chain([*name])
 }

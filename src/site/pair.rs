@@ -70,9 +70,7 @@ impl Pair {
         let before = &*before;
         let mut second = after.clone();
         // what says no place, not even by a model's file of its own, stands in that of the other
-        if second.site.place.is_none() {
-            second.site.place.clone_from(&before.site.place);
-        }
+        second.take_place_of(before)?;
         let after_name = same_place(before, &second, asked)?;
         let table = &mut second.site;
         table.place.clone_from(&before.site.place);

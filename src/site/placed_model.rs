@@ -3,7 +3,7 @@
 use super::anchored_zero::true_north;
 use super::contents::{ModelContents, ReadContents};
 use super::error::SiteError;
-use super::georeference::{Georeference, KeyFault, Reference};
+use super::georeference::{Georeference, Reference, StandFault};
 use super::metres;
 use super::overrides::Overrides;
 use super::place_doubts::degrees;
@@ -47,7 +47,8 @@ pub fn load_model(path: &Path, asked: &Overrides) -> Result<PlacedModel, SiteErr
         // a map's third coordinate is the height, whatever its format's axes are
         (model.up, model.up_is_said) = (Up::Z, true);
     }
-    let refused = |(_, mut fault): KeyFault| {
+    let refused = |fault: StandFault| {
+        let mut fault = fault.into_message();
         // there is no key to write here
         fault.hint = message![""; "export the file in another map, for example EPSG:25832"].hint;
         SiteError::from(ModelError { file: path.to_owned(), fault: fault.into() })
@@ -79,14 +80,14 @@ fn around_its_middle(
     model: Model,
     placement: &Placement,
     said: Georeference,
-) -> Result<(Model, Anchor, Message), KeyFault> {
+) -> Result<(Model, Anchor, Message), StandFault> {
     let around = |ProposedPoint { at, has_elevation }| {
         let at = GeodeticPoint { height_m: if has_elevation { at.height_m } else { 0.0 }, ..at };
         Some((at, SiteFrame { local: LocalFrame::around(at)?, has_elevation }))
     };
     let (at, frame) = proposal(&model, &said)
         .and_then(around)
-        .ok_or_else(|| ("crs", message!["has coordinates where its map does not reach"]))?;
+        .ok_or_else(|| StandFault::File(message!["has coordinates where its map does not reach"]))?;
     let mut model = stand(model, placement, said, Some(&frame))?.model;
     // that was said of the file's own zero
     model.anchors.clear();

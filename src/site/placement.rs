@@ -1,5 +1,6 @@
 //! What a site file says of where a model stands, and the models that stand by that alone.
 
+use super::file::Names;
 use crate::formats::{Model, ReadOptions, SceneName, Up};
 use glam::{DAffine3, DMat3, DVec3};
 use rayon::prelude::*;
@@ -15,6 +16,8 @@ pub struct Placement {
     pub terrain_error_m: Option<f64>,
     /// The classes of measured points that are read besides the ground.
     pub point_classes: Vec<String>,
+    /// Which parts of the file are read; all where none are said.
+    pub layers: Option<Names>,
     /// Which of the model's axes is up; as its file or format says where none is said.
     pub up: Option<Up>,
     /// Radians clockwise from the model's north (−Z if its y is up, +Y if its z is) to true north; the model is turned

@@ -24,6 +24,10 @@ impl SiteFile {
         if !before.contains_key("place") {
             self.note_source(&mut document);
         }
+        let is_new = |key: &str| before.get("place").and_then(|place| place.get(key)).is_none();
+        if is_new("elevation") {
+            self.note_elevation(&mut document);
+        }
         Ok(document.to_string())
     }
 }
@@ -37,6 +41,15 @@ impl SiteFile {
             // a file's name may have a line break
             let said = said.replace(char::is_control, " ");
             table.decor_mut().set_prefix(format!("\n# from {said}\n"));
+        }
+    }
+
+    /// Says behind a new elevation which file it is from.
+    fn note_elevation(&self, document: &mut DocumentMut) {
+        let said = self.place.as_ref().and_then(|place| place.elevation_said_by());
+        let value = document.get_mut("place").and_then(|place| place.get_mut("elevation")).and_then(Item::as_value_mut);
+        if let (Some(said), Some(value)) = (said, value) {
+            value.decor_mut().set_suffix(format!(" # from {}", said.replace(char::is_control, " ")));
         }
     }
 }

@@ -1,11 +1,11 @@
 //! A model, and what is said of its place → the model where it stands, in the frame of the site.
 
 use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
-use super::georeference::{Georeference, KeyFault, Reference};
+use super::georeference::{Georeference, Reference, StandFault};
 use super::model_bounds::bounds;
 use super::place_doubts::{ONE_PLACE_M, angle, degrees, length, norths_apart};
 use super::placement::Placement;
-use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};
+use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal, TOO_FAR_M};
 use crate::formats::{Model, PartKind};
 use crate::message::{Message, message, set_to, setting};
 use glam::{DAffine3, DVec3};
@@ -13,6 +13,9 @@ use rayon::prelude::*;
 
 /// A geographic anchor farther from the place than this contradicts it, metres.
 pub(super) const FAR_M: f64 = 20_000.0;
+
+/// True norths of two places that differ by less are one: what is shown with two decimals.
+pub(super) const ONE_MERIDIAN_RAD: f64 = 0.005 * std::f64::consts::PI / 180.0;
 
 /// The site's frame, and whether somebody wrote how high it lies.
 #[derive(Clone, Debug)]
@@ -29,6 +32,10 @@ pub(super) struct StandingModel {
     pub(super) position: DVec3,
     /// Whether it stands by what is said of the Earth, so that another place has it elsewhere.
     pub(super) is_on_earth: bool,
+    /// Whether its corners were converted one by one, from a map.
+    pub(super) is_of_map: bool,
+    /// Whether it stands at the very place that its file or `crs` says.
+    pub(super) is_where_said: bool,
     /// What should be known of where it stands, each with the model for its subject.
     pub(super) notes: Vec<Message>,
 }
@@ -42,34 +49,46 @@ pub(super) fn stand(
     placement: &Placement,
     said: Georeference,
     frame: Option<&SiteFrame>,
-) -> Result<StandingModel, KeyFault> {
+) -> Result<StandingModel, StandFault> {
     let Georeference { reference, said_by, mut notes } = said;
-    let by_site = |model: Model, north_rad: f64, position: DVec3, notes, is_on_earth| StandingModel {
+    let by_site = |model: Model, north_rad, position, notes, [is_on_earth, is_where_said]: [bool; 2]| StandingModel {
         model: placement.place_at(model, north_rad, position),
         north_rad,
         position,
         is_on_earth,
+        is_of_map: false,
+        is_where_said,
         notes,
     };
     let (north_rad, position) = (placement.north_rad.unwrap_or_default(), placement.position.unwrap_or_default());
     match (reference, frame) {
         (Reference::Map { crs, map_from_model, unit_m }, Some(frame)) => {
-            let model = converted(model, &crs, map_from_model, unit_m, position, frame)?;
+            let model = converted(model, &crs, map_from_model, unit_m, placement, frame)?;
             notes.extend(note_map(&model, &crs, &said_by, placement, frame));
-            Ok(StandingModel { model, north_rad: 0.0, position, is_on_earth: true, notes })
+            let is_where_said = placement.position.is_none();
+            Ok(StandingModel {
+                model,
+                north_rad: 0.0,
+                position,
+                is_on_earth: true,
+                is_of_map: true,
+                is_where_said,
+                notes,
+            })
         }
         (Reference::Anchor(zero), Some(frame)) => {
-            let (position, north_rad, note) = anchored(&zero, &said_by, placement, frame)?;
+            let AnchoredPosition { position, north_rad, is_where_said, note } =
+                anchored(&zero, &said_by, placement, frame)?;
             notes.extend(note);
-            Ok(by_site(model, north_rad, position, notes, zero.at.is_some()))
+            Ok(by_site(model, north_rad, position, notes, [zero.at.is_some(), is_where_said]))
         }
         (Reference::Anchor(zero), None) => {
             let north_rad = placement.north_rad.or(true_north(&zero)).unwrap_or_default();
-            Ok(by_site(model, north_rad, position, notes, false))
+            Ok(by_site(model, north_rad, position, notes, [false; 2]))
         }
         (Reference::Placement | Reference::Map { .. }, _) => {
             notes.extend(note_no_map(&model, placement));
-            Ok(by_site(model, north_rad, position, notes, false))
+            Ok(by_site(model, north_rad, position, notes, [false; 2]))
         }
     }
 }
@@ -93,58 +112,80 @@ fn converted(
     crs: &Crs,
     map_from_model: DAffine3,
     unit_m: f64,
-    position: DVec3,
+    placement: &Placement,
     frame: &SiteFrame,
-) -> Result<Model, KeyFault> {
+) -> Result<Model, StandFault> {
     let to = MapToLocal { crs, frame: &frame.local };
     let height_unit_m = model.unit_m.unwrap_or(1.0);
     for part in &mut model.parts {
         part.positions.par_iter_mut().for_each(|corner| *corner = map_from_model.transform_point3(*corner));
-        let first = part.positions.first().copied();
         let heights = model.stands_on_ground.then(|| part.positions.iter().map(|corner| corner.z).collect::<Vec<_>>());
-        to.convert(&mut part.positions).map_err(|_| {
-            let at = first.map(|at| format!(" (it begins at {:.2}, {:.2})", at.x, at.y)).unwrap_or_default();
-            let what = format!(
-                "'{}'{at} does not lie within 2000 km of the place, or not where {} reaches",
-                part.name,
-                crs.name()
-            );
-            (
-                "crs",
-                message![
-                    what;
-                    "check ",
-                    setting("[[model]]", "crs", "`crs`"),
-                    " and ",
-                    setting("[[model]]", "scale", "`scale`"),
-                    ", and ",
-                    setting("[place]", "latitude", "latitude"),
-                    " and ",
-                    setting("[place]", "longitude", "longitude in [place]")
-                ],
-            )
+        to.convert(&mut part.positions).map_err(|index| {
+            // what cannot be converted is still what it was
+            let at = part.positions.get(index).copied().unwrap_or_default();
+            StandFault::of_crs(placement, out_of_reach(&part.name, crs, at, frame))
         })?;
         // from the ground, and not from the level of the sea
         part.positions
             .iter_mut()
             .zip(heights.unwrap_or_default())
             .for_each(|(corner, height)| corner.z = height * height_unit_m);
+        let position = placement.position.unwrap_or_default();
         part.positions.par_iter_mut().for_each(|corner| *corner += position);
         part.coarse.iter_mut().for_each(|run| run.step_m *= unit_m);
     }
     Ok(model)
 }
 
-/// Where a zero stands in the frame, by how much its model is turned, and what is to be said of it.
+/// That a corner of a map lies where the map does not reach, or too far from the place; with what is where.
+fn out_of_reach(part: &str, crs: &Crs, at: DVec3, frame: &SiteFrame) -> Message {
+    let crs_key = || setting("[[model]]", "crs", "`crs` under [[model]]");
+    let Some(there) = crs.to_wgs84(at) else {
+        return message![
+            format!("has '{part}' at {}, {}, where {} does not reach", at.x, at.y, crs.name());
+            "write another map as ", crs_key(), ", or the unit as ", setting("[[model]]", "scale", "`scale`")
+        ];
+    };
+    let away = frame.local.distance_m(there).unwrap_or(f64::INFINITY);
+    let what = format!(
+        "has '{part}' at {}, {} in {}: that is {}, {} from the place at {}, and models stand within {} of that",
+        at.x,
+        at.y,
+        crs.name(),
+        degrees(there),
+        length(away),
+        degrees(frame.local.place()),
+        length(TOO_FAR_M)
+    );
+    message![
+        what;
+        "if that is not where it stands, write its map as ", crs_key(), "; if it is, correct ",
+        setting("[place]", "latitude", "latitude"), " and ", setting("[place]", "longitude", "longitude in [place]")
+    ]
+}
+
+/// Where a model with an anchor stands.
+struct AnchoredPosition {
+    position: DVec3,
+    /// By how much it is turned.
+    north_rad: f64,
+    /// Whether it stands where its anchor says.
+    is_where_said: bool,
+    /// What is to be said of it.
+    note: Option<Message>,
+}
+
+/// Where a zero stands in the frame.
 fn anchored(
     zero: &AnchoredZero,
     said_by: &str,
     placement: &Placement,
     frame: &SiteFrame,
-) -> Result<(DVec3, f64, Option<Message>), KeyFault> {
+) -> Result<AnchoredPosition, StandFault> {
     let Some(at) = zero.at else {
-        let (north, note) = turned_alone(zero, said_by, placement);
-        return Ok((placement.position.unwrap_or_default(), north, note));
+        let (north_rad, note) = turned_alone(zero, said_by, placement);
+        let position = placement.position.unwrap_or_default();
+        return Ok(AnchoredPosition { position, north_rad, is_where_said: false, note });
     };
     // without a height the zero lies as high as the place
     let place_height = frame.local.elevation_m();
@@ -155,12 +196,18 @@ fn anchored(
     let Some(there) = there.filter(|_| !is_elsewhere).or(placement.position).or(is_elsewhere.then_some(DVec3::ZERO))
     else {
         let what = format!("by its {said_by} it stands at {}, {} from the place", degrees(at), length(away));
-        return Err((
+        return Err(StandFault::Key(
             "position",
             message![what; "write position = [0.0, 0.0, 0.0] to have its zero at the place, or correct [place]"],
         ));
     };
-    let by_anchor = north_by_anchor(zero, at, is_elsewhere, frame);
+    // a building that is moved keeps its true north, and not that of where its anchor lies
+    let moved_to = match placement.position {
+        Some(position) => Some(frame.local.on_earth(position)),
+        None => is_elsewhere.then(|| Some(frame.local.place())),
+    };
+    let meridian = frame.local.true_north_rad(moved_to.map_or(at, |moved_to| moved_to.unwrap_or(at)));
+    let by_anchor = north_by_anchor(zero, moved_to.is_some(), meridian.unwrap_or_default(), frame);
     let north = placement.north_rad.or(by_anchor).unwrap_or_default();
     let position = placement.position.unwrap_or(there);
     let mut said = vec![stands_where(zero, said_by, placement.position, (at, there, away), is_elsewhere)];
@@ -169,7 +216,7 @@ fn anchored(
             said.push(said_north(said_by, by_anchor, north));
         }
         (None, Some(by_anchor)) => {
-            said.push(own_north(zero, by_anchor));
+            said.push(own_north(zero, by_anchor, meridian));
         }
         _ => {}
     }
@@ -184,7 +231,8 @@ fn anchored(
             " change it"
         ]
     });
-    Ok((position, north, note))
+    let is_where_said = placement.position.is_none() && !is_elsewhere;
+    Ok(AnchoredPosition { position, north_rad: north, is_where_said, note })
 }
 
 /// Where a model stands, beside what its anchor says; empty where both are one.
@@ -213,20 +261,27 @@ fn stands_where(
     }
 }
 
-/// Radians clockwise from the model's north to the frame's, as an anchor says it.
-fn north_by_anchor(zero: &AnchoredZero, at: GeodeticPoint, is_elsewhere: bool, frame: &SiteFrame) -> Option<f64> {
+/// Radians clockwise from the model's north to the frame's, as an anchor says it, by the meridian of where it stands.
+fn north_by_anchor(zero: &AnchoredZero, is_moved: bool, meridian: f64, frame: &SiteFrame) -> Option<f64> {
     match (zero.north?, &zero.on_map) {
-        (AnchoredNorth::True(north), _) if is_elsewhere => Some(north),
-        (AnchoredNorth::True(north), _) => Some(north - frame.local.true_north_rad(at)?),
-        (AnchoredNorth::Map(north), Some((crs, on_map))) => Some(north - frame.local.map_north_rad(crs, *on_map)?),
-        (AnchoredNorth::Map(_), None) => None,
+        (AnchoredNorth::Map(north), Some((crs, on_map))) if !is_moved => {
+            Some(north - frame.local.map_north_rad(crs, *on_map)?)
+        }
+        _ => Some(true_north(zero)? - meridian),
     }
 }
 
-fn own_north(zero: &AnchoredZero, by_anchor: f64) -> String {
+/// The north by which it is turned, and what of it is the map's, and the meridian's.
+fn own_north(zero: &AnchoredZero, by_anchor: f64, meridian: Option<f64>) -> String {
     let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
-    let of_map = convergence.map(|convergence| format!(", with the map's convergence of {}", angle(convergence)));
-    format!("its north is {}{}", angle(by_anchor), of_map.unwrap_or_default())
+    let mut said = format!("its north is {}", angle(by_anchor));
+    if let Some(convergence) = convergence {
+        said.push_str(&format!(", with the map's convergence of {}", angle(convergence)));
+    }
+    if let Some(meridian) = meridian.filter(|meridian| meridian.abs() >= ONE_MERIDIAN_RAD) {
+        said.push_str(&format!(", and {} between true north there and at the place", angle(meridian)));
+    }
+    said
 }
 
 /// The north of a model whose file says no place.

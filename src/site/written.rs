@@ -1,7 +1,7 @@
 //! The user's path → a site file's contents: a site file, a folder, or a model with its place.
 
 use super::error::{FieldLocation, SiteError};
-use super::file::{ModelTable, PlaceTable, SiteFile};
+use super::file::{ModelTable, SiteFile};
 use super::keys;
 use super::overrides::{Overrides, refuse};
 use super::typed::{self, TypedError};
@@ -60,7 +60,7 @@ impl WrittenSite {
         written.add_models(&asked.beside)?;
         written.set_models(asked);
         if let Some(place) = &asked.place {
-            if written.site.place.is_some() {
+            if written.point()?.is_some() {
                 return Err(refuse(
                     FieldLocation::Field(Field::Place),
                     message![format!("{} has its own [place]", written.file); "leave one of the two out"],
@@ -71,8 +71,8 @@ impl WrittenSite {
                 error => refuse(FieldLocation::Field(Field::Place), error.message()),
             });
             let [latitude, longitude] = read?;
-            written.site.place =
-                Some(PlaceTable { latitude: Some(latitude), longitude: Some(longitude), ..PlaceTable::default() });
+            let table = written.site.place.get_or_insert_default();
+            (table.latitude, table.longitude) = (Some(latitude), Some(longitude));
         }
         Ok(written)
     }
@@ -84,10 +84,23 @@ impl WrittenSite {
     pub(crate) fn read_beside(path: &Path, first: &WrittenSite, asked: &Overrides) -> Result<WrittenSite, SiteError> {
         let mut written = Self::read_as_it_is(path)?;
         written.set_models(asked);
-        if written.site.place.is_none() {
-            written.site.place.clone_from(&first.site.place);
-        }
+        written.take_place_of(first)?;
         Ok(written)
+    }
+
+    /// Where it says no point of the Earth, it stands at that of another state.
+    ///
+    /// # Errors
+    /// A latitude without a longitude, and the other way round.
+    pub(super) fn take_place_of(&mut self, first: &WrittenSite) -> Result<(), SiteError> {
+        if self.point()?.is_some() {
+            return Ok(());
+        }
+        match (&mut self.site.place, &first.site.place) {
+            (Some(own), Some(other)) => own.complete_with(other),
+            (own, other) => own.clone_from(other),
+        }
+        Ok(())
     }
 
     /// Adds models to a bare one.
@@ -213,17 +226,36 @@ impl WrittenSite {
         SiteError::Missing { file: self.file.clone(), what: what.into(), example: example.into() }
     }
 
+    /// That nobody says a latitude and a longitude.
+    pub(super) fn no_point(&self, example: &str) -> SiteError {
+        match self.site.place {
+            None => self.missing("[place]", format!("[place] with {example}")),
+            Some(_) => self.missing("latitude and longitude in [place]", example),
+        }
+    }
+
+    /// Latitude and longitude as they are written; none where neither is.
+    ///
+    /// # Errors
+    /// One of them alone.
+    pub(super) fn point(&self) -> Result<Option<[f64; 2]>, SiteError> {
+        let written = self.site.place.as_ref().map(|table| (table.latitude, table.longitude)).unwrap_or_default();
+        let missing = |key: &str| Err(self.missing(format!("{key} in [place]"), keys::example("place", key)));
+        match written {
+            (None, None) => Ok(None),
+            (Some(latitude), Some(longitude)) => Ok(Some([latitude, longitude])),
+            (Some(_), None) => missing("longitude"),
+            (None, Some(_)) => missing("latitude"),
+        }
+    }
+
     /// The checked place.
     pub(super) fn place(&self, asked: &Overrides) -> Result<Place, SiteError> {
         const EXAMPLE: &str = "latitude = 48.8583 and longitude = 2.2945";
-        let Some(table) = &self.site.place else {
-            return Err(self.missing("[place]", format!("[place] with {EXAMPLE}")));
+        let point = self.point()?;
+        let Some((table, [latitude, longitude])) = self.site.place.as_ref().zip(point) else {
+            return Err(self.no_point(EXAMPLE));
         };
-        let number = |key: &str, value: Option<f64>| {
-            value.ok_or_else(|| self.missing(format!("{key} in [place]"), keys::example("place", key)))
-        };
-        let latitude = number("latitude", table.latitude)?;
-        let longitude = number("longitude", table.longitude)?;
         Place::new(
             table.name.as_deref().unwrap_or_default(),
             latitude,

@@ -2,7 +2,7 @@
 
 use crate::shared::program::{done, fails, site};
 use gnomon::cli::Options;
-use gnomon::export::check::table;
+use gnomon::export::check::{CheckedMesh, TableExtent, table};
 use gnomon::formats::{Anchor, AnchorPoint, Up};
 use gnomon::mesh::report::components;
 use gnomon::site::{Overrides, load_mesh};
@@ -49,7 +49,15 @@ fn numbers_of_how_a_model_stands_are_short() {
     references[0].anchors = vec![Anchor { said_by: "TrueNorth", at: AnchorPoint::Nowhere, north_rad: Some(-1e-9) }];
     let of = |references: &[_]| {
         let reports = components(&loaded.mesh);
-        table(&loaded.mesh, &reports, loaded.frame, &[], &loaded.models, references, &Options)
+        let checked = CheckedMesh {
+            mesh: &loaded.mesh,
+            components: &reports,
+            frame: loaded.frame,
+            notes: &[],
+            models: &loaded.models,
+            references,
+        };
+        table(checked, TableExtent::Screen, &Options)
     };
     let told = of(&references);
     for words in ["unit 0.0254 m", "north 0.00° (the map's convergence there: 0.00°)", "\n  TrueNorth: north 0.00°\n"]

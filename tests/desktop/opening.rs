@@ -80,6 +80,48 @@ fn dropped_model_is_added_to_the_open_site() {
     );
 }
 
+/// Models that are dropped together with a site are added to it, in whatever order they come; they are not saved yet.
+#[test]
+fn model_dropped_with_a_site_is_added_to_it() {
+    let (folder, site) = small_site();
+    let other = folder.path().join("other.glb");
+    std::fs::copy(sample("industry/industry.glb"), &other).unwrap();
+    let mut harness = window(None);
+    let second = sample("tower/site.toml");
+    for path in [&other, &site, &second] {
+        harness.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path.clone())));
+    }
+    harness.step();
+    harness.get_by_label_contains("Not opened: tower");
+    settle(&mut harness);
+    let paths: Vec<_> = harness.state().site_file().model.iter().filter_map(|model| model.path.clone()).collect();
+    assert_eq!(paths, ["works.glb", "other.glb"]);
+    assert!(harness.state().is_unsaved() && harness.state().told()[0].is_none(), "{:?}", harness.state().told());
+}
+
+/// The elevation that a model's file says is shown, and saved with a word of where it is from.
+#[test]
+fn elevation_of_a_file_is_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let site = folder.path().join("site.toml");
+    let land = "<LandXML xmlns=\"http://www.landxml.org/schema/LandXML-1.2\"><Units><Metric linearUnit=\"meter\"/></Units>\
+        <CoordinateSystem epsgCode=\"32631\"/><Surfaces><Surface name=\"ground\"><Definition surfType=\"TIN\"><Pnts>\
+        <P id=\"1\">5411900 448100 60</P><P id=\"2\">5411900 448400 60</P><P id=\"3\">5412200 448100 65</P></Pnts>\
+        <Faces><F>1 2 3</F></Faces></Definition></Surface></Surfaces></LandXML>";
+    std::fs::write(folder.path().join("land.xml"), land).unwrap();
+    let text = "[place]\nlatitude = 48.8583\nlongitude = 2.2945\n[[model]]\npath = \"land.xml\"\n\
+        [study]\ndate = 2026-03-21\nfrom = \"9:00\"\nto = \"17:00\"\nstep = \"4h\"\n[plan]\ncell = 4.0\n";
+    std::fs::write(&site, text).unwrap();
+    let mut harness = window(Some(&site));
+    settle(&mut harness);
+    assert_eq!(harness.state().site_file().place.clone().and_then(|place| place.elevation), Some(60.0));
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::S);
+    harness.step();
+    settle(&mut harness);
+    let written = std::fs::read_to_string(&site).unwrap();
+    assert!(written.contains("elevation = 60.0 # from land.xml, coordinates\n"), "{written}");
+}
+
 #[test]
 fn loading_can_be_cancelled() {
     let mut harness = window(None);

@@ -46,6 +46,7 @@ mod bad_readers {
     use super::*;
     use gnomon::cli::Options;
     use gnomon::formats::{ModelError, ModelFault, ReadLimits};
+    use gnomon::message::Worded as _;
     use std::io::Write;
     use std::path::Path;
     use std::process::{Command, Stdio};

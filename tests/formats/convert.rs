@@ -119,7 +119,7 @@ fn comes_back(name: &str, text: &str) -> (Model, ModelReference) {
         assert!(ours.iter().any(|one| is_one(one, triangle)), "{triangle:?} is not among {ours:?}");
     }
     let (was, is) = (&before.references[0], after.references[0].clone());
-    let (at, there) = (was.place.unwrap(), is.place.unwrap());
+    let (at, there) = (was.stands.unwrap().at, is.stands.unwrap().at);
     let apart = (at.latitude_deg - there.latitude_deg).abs().max((at.longitude_deg - there.longitude_deg).abs());
     assert!(apart < 1e-8, "{at:?} became {there:?}");
     assert!((was.north_deg - is.north_deg).abs() < 1e-6, "{} became {}", was.north_deg, is.north_deg);
@@ -154,14 +154,15 @@ fn models_on_maps_stand_in_metres_around_their_place() {
         })
     };
     let (model, said) = comes_back("map.geojson", &collection(json!(outline)).to_string());
-    assert!(model.stands_on_ground && !said.has_height, "its height is that of any ground");
+    assert!(model.stands_on_ground && !said.stands.unwrap().has_height, "its height is that of any ground");
     let corners = [[8.4365934, 49.1003936], [8.4368674, 49.100395], [8.4368643, 49.1006648], [8.4365934, 49.1003936]];
     let mut degrees = collection(json!(corners));
     degrees.as_object_mut().unwrap().remove("crs");
     comes_back("degrees.geojson", &degrees.to_string());
     let high = outline.map(|[x, y]| [x, y, 110.0]);
     let (model, said) = comes_back("high.geojson", &collection(json!(high)).to_string());
-    assert!(said.has_height && (said.place.unwrap().height_m - 110.0).abs() < 1e-9, "{said:?}");
+    let stands = said.stands.unwrap();
+    assert!(stands.has_height && (stands.at.height_m - 110.0).abs() < 1e-9, "{said:?}");
     let corners = || model.parts[0].positions.iter();
     let (low, most) =
         corners().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, most), at| (low.min(at.x), most.max(at.x)));
@@ -172,7 +173,7 @@ fn models_on_maps_stand_in_metres_around_their_place() {
 #[test]
 fn local_model_keeps_its_place_north_and_glass() {
     let (model, said) = comes_back("house.ifc", &house(""));
-    assert!((said.north_deg - 50.0).abs() < 1e-6 && said.has_height, "{said:?}");
+    assert!((said.north_deg - 50.0).abs() < 1e-6 && said.stands.unwrap().has_height, "{said:?}");
     assert_eq!(model.see_through.len(), 1, "the window's glass");
     assert!(model.kinds.contains(&formats::PartKind::GroundCover), "the plot");
 }

@@ -3,6 +3,7 @@
 use crate::shared::program::{PLACE, STUDY, site};
 use crate::shared::said;
 use gnomon::cli::Options;
+use gnomon::export::check::{self, CheckedMesh, TableExtent};
 use gnomon::formats::{self, LeftOut, Model, PartKind};
 use gnomon::site::{Overrides, Site, WrittenSite, load_mesh};
 use std::path::Path;
@@ -71,7 +72,9 @@ fn check_lists_groups_kinds_and_what_is_left_out() {
     assert_eq!(mesh.models.len(), 1);
     let mut all = models.contents(&written);
     all[0].file = "house.ifc".to_owned();
-    let table = gnomon::export::check::table(&mesh.mesh, &[], mesh.frame, &[], &all, &[], &Options);
+    let checked =
+        CheckedMesh { mesh: &mesh.mesh, components: &[], frame: mesh.frame, notes: &[], models: &all, references: &[] };
+    let table = check::table(checked, TableExtent::Screen, &Options);
     for line in [
         "house.ifc: glTF\n",
         "  kinds: 1 building, 1 terrain, 1 ground cover\n",

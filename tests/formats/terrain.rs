@@ -240,12 +240,8 @@ fn landxml_is_northing_easting_and_height() {
     assert_eq!(model.coordinates, Coordinates::Map("EPSG:2225".to_owned()));
     let foot = 1200.0 / 3937.0;
     let corners = part.triangles[0].map(|corner| part.positions[corner as usize]);
-    let expected = [
-        DVec3::new(10.0, 20.0, 100.0 * foot),
-        DVec3::new(30.0, 20.0, 110.0 * foot),
-        DVec3::new(10.0, 50.0, 120.0 * foot),
-    ];
-    assert_eq!(corners, expected, "in the map's unit, but for heights; turned to look up");
+    let expected = [DVec3::new(10.0, 20.0, 100.0), DVec3::new(30.0, 20.0, 110.0), DVec3::new(10.0, 50.0, 120.0)];
+    assert_eq!((corners, model.unit_m), (expected, Some(foot)), "turned to look up");
     let left_out: Vec<_> = model.left_out.iter().map(|left| (left.what.as_str(), left.count)).collect();
     assert_eq!(left_out, [("hidden faces", 1), ("surfaces without triangles", 1)]);
     let local =

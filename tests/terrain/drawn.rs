@@ -3,12 +3,17 @@
 use super::{drawn, mesh, site, terrain};
 use crate::shared::scenes::cuboid;
 use glam::dvec3;
+use gnomon::deliver::Sink;
+use gnomon::deliver::volumes::volumes;
 use gnomon::export::figure::{self, FigureContext};
 use gnomon::mesh::Mesh;
 use gnomon::profile::Profile;
 use gnomon::profile::Provenance;
 use gnomon::site::Site;
+use gnomon::study::Event;
 use gnomon::view::Surface;
+use std::ops::ControlFlow;
+use std::path::Path;
 
 /// A group of a drawing's SVG, as far as its end; empty where there is none.
 fn group<'a>(svg: &'a str, name: &str) -> &'a str {
@@ -29,6 +34,28 @@ fn hours(site: &Site) -> (String, Vec<[u8; 3]>) {
     let svg = figure::iso_hours(&scene, profile).unwrap().svg();
     let page = image::load_from_memory(&figure::profile(&scene, profile).unwrap()).unwrap().to_rgb8();
     (svg, page.pixels().map(|pixel| pixel.0).collect())
+}
+
+/// Volumes are cut at a plane, which what is written says, too.
+#[test]
+fn volumes_say_that_they_do_not_end_at_the_terrain() {
+    let block = || cuboid("box", dvec3(-6.0, -4.0, 2.5), dvec3(7.0, 5.0, 21.0));
+    let of = |site: &Site| {
+        let mut told = String::new();
+        let mut hear = |event: Event<'_>| {
+            if let Event::Note(note) = event {
+                told.push_str(&note.to_string());
+            }
+            ControlFlow::Continue(())
+        };
+        let answer = volumes(site, Path::new("volumes.glb"), Sink::Memory, &mut hear).unwrap();
+        (told, answer.report)
+    };
+    let words = "the volumes end at a plane at 2.50 m, and not at the terrain";
+    let (told, report) = of(&site(mesh(vec![terrain(400.0, |_, _| 2.5), block()]), Some(2.5)));
+    assert!(told.contains(words) && report.contains(words), "{told} {report}");
+    let (told, report) = of(&site(Mesh::build(vec![block()]).unwrap(), Some(2.5)));
+    assert!(!told.contains("end at a plane") && !report.contains("end at a plane"), "{told}");
 }
 
 #[test]

@@ -11,7 +11,8 @@ use eframe::egui;
 use std::path::PathBuf;
 
 impl App {
-    /// Takes what is dropped: what is no model is opened, and models are where no site is open.
+    /// Takes what is dropped: what is no model is opened as a site, to which the models beside it are added; models alone are
+    /// opened where no site is open. Of several sites the first is opened.
     pub(in crate::desktop) fn take_dropped(&mut self, context: &egui::Context) {
         let dropped = |input: &egui::InputState| {
             input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<PathBuf>>()
@@ -20,7 +21,16 @@ impl App {
         let is_model = |file: &PathBuf| formats::is_model(file) && !file.is_dir();
         match files.iter().find(|file| !is_model(file)) {
             _ if files.is_empty() => {}
-            Some(site) => self.load(LoadRequest::Files(vec![site.clone()]), context),
+            Some(site) => {
+                let (models, sites): (Vec<PathBuf>, Vec<PathBuf>) = files.iter().cloned().partition(is_model);
+                self.load(LoadRequest::Files([vec![site.clone()], models].concat()), context);
+                if let [_, others @ ..] = sites.as_slice()
+                    && !others.is_empty()
+                {
+                    let names = few(others.iter().map(|other| name_of(other)).collect());
+                    self.notice = Some(format!("Not opened: {names}. One site is open at a time."));
+                }
+            }
             None if self.open.is_none() => self.load(LoadRequest::Files(files), context),
             None => self.dropped = files,
         }
@@ -51,7 +61,7 @@ impl App {
     }
 
     /// Writes models into the open site, which is read again.
-    fn add_models(&mut self, files: &[PathBuf]) {
+    pub(in crate::desktop) fn add_models(&mut self, files: &[PathBuf]) {
         let Some(open) = &self.open else { return };
         let written = &open.project.written;
         let tables = files.iter().map(|file| ModelTable { path: Some(written.path_of(file)), ..ModelTable::default() });

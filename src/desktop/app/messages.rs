@@ -21,10 +21,12 @@ impl App {
             && loading.reads
         {
             let (share, what) = loading.stage();
+            // the time that has gone by
+            ui.ctx().request_repaint_after(std::time::Duration::from_millis(500));
             let mut cancels = false;
             ui.horizontal(|ui| {
                 ui.label(format!("Loading {}", loading.name));
-                ui.add(egui::ProgressBar::new(share).desired_width(220.0).text(what));
+                ui.add(egui::ProgressBar::new(share).desired_width(280.0).text(what));
                 cancels = ui.button("Cancel").clicked();
             });
             if cancels {

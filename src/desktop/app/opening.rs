@@ -42,9 +42,7 @@ impl App {
     /// place is set, saved, and kept by undo.
     fn set_proposed_place(&mut self, place: Option<&PlaceTable>) {
         let propose = |site: &mut SiteFile| {
-            if site.place.is_none() {
-                site.place = place.cloned();
-            }
+            place.iter().for_each(|place| site.place.get_or_insert_default().complete_with(place));
         };
         propose(&mut self.settings.site);
         self.history.change_all(propose);
@@ -53,7 +51,8 @@ impl App {
         }
     }
 
-    fn open_project(&mut self, project: Project, middle: &Instant) {
+    fn open_project(&mut self, mut project: Project, middle: &Instant) {
+        let beside = std::mem::take(&mut project.beside);
         if let Some(path) = &project.path {
             self.kept.recent.retain(|recent| recent != path);
             self.kept.recent.insert(0, path.clone());
@@ -78,6 +77,8 @@ impl App {
         });
         self.note_saved();
         self.set_recovered();
+        // what is added is not saved, and can be undone
+        self.add_models(&beside);
     }
 
     /// Reads the site again if its settings have changed, once the mouse is at rest.

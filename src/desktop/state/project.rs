@@ -29,6 +29,8 @@ pub(in crate::desktop) struct Project {
     pub(in crate::desktop) colours: Vec<[u8; 3]>,
     /// What is visible, to be asked what lies under the pointer; and whose faces those are.
     pub(in crate::desktop) seen: Arc<(Mesh, RayCaster)>,
+    /// Models that came together with its site file, to be added to it.
+    pub(in crate::desktop) beside: Vec<PathBuf>,
 }
 
 /// What an open site is made of.

@@ -4,9 +4,10 @@ use crate::desktop::state::bare_model::BareModel;
 use crate::desktop::state::project::{LoadedSite, Project, complete, name_of};
 use crate::desktop::state::settings::Hidden;
 use crate::desktop::state::words::{FileWords, PanelWords};
+use crate::export::bytes;
 use crate::export::figure::component_colours;
 use crate::fault;
-use crate::formats::ModelReader;
+use crate::formats::{ModelReader, is_model};
 use crate::message::Words;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::{Models, Overrides, Site, SiteError, WrittenSite};
@@ -15,6 +16,7 @@ use std::cell::Cell;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
+use std::time::{Duration, Instant};
 
 /// Why there is no project.
 pub(in crate::desktop) enum LoadError {
@@ -44,7 +46,7 @@ pub(in crate::desktop) struct LoadJob {
     pub(in crate::desktop) opens: bool,
     /// Whether it takes so long that it is shown: all but the open site's settings.
     pub(in crate::desktop) reads: bool,
-    stage: Arc<Mutex<(f32, String)>>,
+    stage: Arc<Mutex<LoadStage>>,
     cancelled: Arc<AtomicBool>,
     result: mpsc::Receiver<Result<Project, LoadError>>,
 }
@@ -58,7 +60,7 @@ impl LoadJob {
             LoadRequest::Left(_, written) | LoadRequest::Again(written, ..) => PathBuf::from(&written.file),
         };
         let (tell, result) = mpsc::channel();
-        let stage = Arc::new(Mutex::new((0.0, "Reading".to_owned())));
+        let stage = Arc::new(Mutex::new(LoadStage::new(0.0, "Reading".to_owned())));
         let cancelled = Arc::new(AtomicBool::new(false));
         let opens = !matches!(wanted, LoadRequest::Again(..));
         let reads = !matches!(&wanted, LoadRequest::Again(_, _, before) if before.models.is_some());
@@ -73,9 +75,9 @@ impl LoadJob {
         LoadJob { name: name_of(&path), opens, reads, stage, cancelled, result }
     }
 
-    /// How far it is, 0 to 1, and what is being done.
+    /// How far it is, 0 to 1, and what is being done; of what takes long, for how long.
     pub(in crate::desktop) fn stage(&self) -> (f32, String) {
-        self.stage.lock().map(|stage| stage.clone()).unwrap_or_default()
+        self.stage.lock().map(|stage| stage.shown(stage.since.elapsed())).unwrap_or_default()
     }
 
     /// What came of it, once it is done.
@@ -95,8 +97,32 @@ impl LoadJob {
     }
 }
 
+/// What is being done.
+struct LoadStage {
+    share: f32,
+    what: String,
+    since: Instant,
+}
+
+/// What takes no longer does not say how long it takes.
+const SOON: Duration = Duration::from_secs(2);
+
+impl LoadStage {
+    fn new(share: f32, what: String) -> LoadStage {
+        LoadStage { share, what, since: Instant::now() }
+    }
+
+    /// Readers of others do not say how far they are: that time goes by is all that can be shown.
+    fn shown(&self, gone: Duration) -> (f32, String) {
+        match gone < SOON {
+            true => (self.share, self.what.clone()),
+            false => (self.share, format!("{}, {} s", self.what, gone.as_secs())),
+        }
+    }
+}
+
 struct LoadProgress {
-    stage: Arc<Mutex<(f32, String)>>,
+    stage: Arc<Mutex<LoadStage>>,
     /// Until it is cancelled.
     reading: ModelReader,
     cancelled: Arc<AtomicBool>,
@@ -106,15 +132,16 @@ struct LoadProgress {
 impl LoadProgress {
     fn tell(&self, share: f32, what: impl Into<String>) {
         if let Ok(mut stage) = self.stage.lock() {
-            *stage = (share, what.into());
+            *stage = LoadStage::new(share, what.into());
         }
         self.context.request_repaint();
     }
 }
 
 fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, LoadError> {
+    let mut beside = Vec::new();
     let (path, mut written) = match wanted {
-        LoadRequest::Files(paths) => from_files(paths)?,
+        LoadRequest::Files(paths) => from_files(paths, &mut beside)?,
         LoadRequest::Placed(bare) => (None, placed(bare)?),
         LoadRequest::Left(path, written) => (path, *written),
         // a key that is left out of the open site by hand is reported, and not filled in
@@ -123,14 +150,19 @@ fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, Load
         }
     };
     complete(&mut written.site);
-    read(path, written, Hidden::default(), None, progress)
+    let project = read(path, written, Hidden::default(), None, progress)?;
+    Ok(Project { beside, ..project })
 }
 
-/// What somebody opens as it is written, and where its site file lies; models have none.
-fn from_files(paths: Vec<PathBuf>) -> Result<(Option<PathBuf>, WrittenSite), LoadError> {
+/// What somebody opens as it is written, and where its site file lies; models have none. Models that come with a site file
+/// are not of it yet.
+fn from_files(paths: Vec<PathBuf>, beside: &mut Vec<PathBuf>) -> Result<(Option<PathBuf>, WrittenSite), LoadError> {
     let mut paths = paths.into_iter();
     let path = paths.next().unwrap_or_default();
-    let overrides = Overrides { beside: paths.collect(), ..Overrides::default() };
+    let mut overrides = Overrides { beside: paths.collect(), ..Overrides::default() };
+    if path.is_dir() || !is_model(&path) {
+        *beside = std::mem::take(&mut overrides.beside);
+    }
     let written = WrittenSite::read(&path, &overrides).map_err(|error| failure(&error, &FileWords))?;
     if written.is_bare_model() {
         return Ok((None, written));
@@ -190,7 +222,7 @@ fn read(
     progress.tell(1.0, "Drawing");
     let Some(models) = models else { return Err(LoadError::Message("the models were not read".to_owned())) };
     // what a file proposes is in the panel, and is saved
-    written.site.place = written.site.place.or_else(|| models.proposed_place().cloned());
+    models.proposed_place().iter().for_each(|place| written.site.place.get_or_insert_default().complete_with(place));
     Ok(Project {
         path,
         written,
@@ -202,6 +234,7 @@ fn read(
         site,
         hidden,
         visible,
+        beside: Vec::new(),
     })
 }
 
@@ -216,14 +249,15 @@ fn visible(site: &Arc<Site>, hidden: &Hidden) -> Arc<Site> {
 }
 
 fn read_models(written: &WrittenSite, progress: &LoadProgress) -> Result<Models, SiteError> {
-    progress.tell(0.15, "Reading the models");
-    let count = written.site.model.len().max(1) as f32;
-    let done = Cell::new(0.0);
+    let count = written.site.model.len().max(1);
+    let done = Cell::new(0);
     Models::read(written, |path, options| {
+        let share = |done: usize| 0.15 + 0.35 * done as f32 / count as f32;
+        let size = std::fs::metadata(path).map_or_else(|_| String::new(), |found| format!(", {}", bytes(found.len())));
+        progress.tell(share(done.get()), format!("Reading model {} of {count}{size}", done.get() + 1));
         let read = progress.reading.read(path, options)?;
-        done.set(done.get() + 1.0);
-        let share = done.get() / count;
-        progress.tell(0.15 + 0.35 * share, if share < 1.0 { "Reading the models" } else { "Joining triangles" });
+        done.set(done.get() + 1);
+        progress.tell(share(done.get()), "Joining triangles");
         Ok(read)
     })
 }

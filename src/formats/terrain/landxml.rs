@@ -132,20 +132,13 @@ impl LandXmlFile {
             notes.push("does not say its unit; it is taken as metres".to_owned().into());
         }
         let unit_m = self.unit_m.unwrap_or(1.0);
-        let is_of_map = self.crs.is_some();
         let sheets = self.surfaces.into_iter().map(|surface| -> NamedSheet {
             let name = if surface.name.is_empty() { stem(path) } else { surface.name };
-            let mut positions = surface.positions;
-            if is_of_map {
-                // a map has its own unit, and heights are metres there
-                positions.iter_mut().for_each(|point| point.z *= unit_m);
-            }
-            (name, positions, surface.triangles, PartKind::Terrain)
+            (name, surface.positions, surface.triangles, PartKind::Terrain)
         });
         let mut model = of_sheets(sheets.collect(), self.crs, notes);
-        if !is_of_map {
-            model.unit_m = Some(unit_m);
-        }
+        // on a map that is the unit of heights alone
+        model.unit_m = Some(unit_m);
         let mut left_out = |what: &str, count: u64, why: &str| {
             if count > 0 {
                 model.left_out.push(LeftOut { what: what.into(), count, why: why.into() });
