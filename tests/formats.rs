@@ -12,12 +12,15 @@ mod foreign;
 mod ifc;
 mod kept;
 mod kinds;
+#[cfg(unix)]
+mod links;
 mod mutations;
 mod obj;
 mod ply;
 mod several;
 mod stl;
 mod terrain;
+mod zip;
 
 #[cfg(not(feature = "ifc"))]
 #[test]

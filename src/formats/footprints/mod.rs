@@ -161,7 +161,7 @@ impl Footprints {
             let hint = ", or export them with their heights in metres as \"height\"";
             return Err(message![what; "set ", Field::DefaultHeight, hint].into());
         }
-        self.tally.add_many("footprints", "no height of theirs is said", told.without);
+        self.tally.add_many("footprints", "no height is said", told.without);
         self.note(&told, default_height_m);
         Ok(outlines)
     }
@@ -178,7 +178,7 @@ impl Footprints {
         let default_height_m = default_height_m.filter(|_| !tags.is_part());
         match tags.rise(default_height_m) {
             Some(rise) if rise.bottom_m < rise.top_m => return Some(rise),
-            Some(_) => self.tally.add("footprints", "they begin no lower than they end"),
+            Some(_) => self.tally.add("footprints", "the bottom is not below the top"),
             None if tags.is_part() => {
                 self.tally.add("building:part", "no height is said, and the outline stands instead");
             }

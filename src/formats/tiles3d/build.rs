@@ -40,7 +40,7 @@ impl TileBuilder {
 
     /// A content that cannot be used.
     pub(super) fn fail(&mut self, name: &str, fault: &ModelFault) {
-        self.tally.add("contents", "they cannot be read");
+        self.tally.add("contents", "the file cannot be read");
         if self.failed.len() < MOST_NOTES {
             self.failed.push(format!("{name} {fault}"));
         }

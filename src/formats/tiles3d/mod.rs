@@ -4,7 +4,7 @@
 //! centre is zero. The files of this folder, in the order of the flow: `tileset` (JSON → which contents stand where), `b3dm`
 //! (a content's bytes → its glTF), `build` (all of it → parts).
 
-use super::whole::whole_file;
+use super::whole::{whole_file, whole_named_file};
 use super::{Format, Model, ModelFault, ReadOptions, json_head};
 use build::TileBuilder;
 use glam::DMat4;
@@ -38,8 +38,9 @@ impl Format for Tiles3d {
             return builder.finish();
         }
         let listed = tileset::contents(path, &bytes)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
         for content in &listed.contents {
-            let bytes = match whole_file(&content.path) {
+            let bytes = match whole_named_file(folder, &content.path) {
                 Ok(bytes) => bytes,
                 Err(fault) => {
                     builder.fail(&content.name, &fault);

@@ -3,7 +3,7 @@
 use crate::formats::ModelFault;
 use crate::formats::gltf::percent_decode;
 use crate::formats::left_out::{LeftOutTally, label};
-use crate::formats::whole::{below, whole_file, without_mark};
+use crate::formats::whole::{below, whole_named_file, without_mark};
 use crate::message::{Message, message};
 use glam::DMat4;
 use serde::Deserialize;
@@ -78,8 +78,8 @@ pub(super) struct TileList {
 pub(super) fn contents(path: &Path, bytes: &[u8]) -> Result<TileList, ModelFault> {
     let mut list = TileList::default();
     let tileset = parsed(bytes)?;
-    let at =
-        TilesetPlace { folder: path.parent().unwrap_or(Path::new("")), is_y_up: tileset.is_y_up(), deep: MOST_DEEP };
+    let home = path.parent().unwrap_or(Path::new(""));
+    let at = TilesetPlace { home, folder: home, is_y_up: tileset.is_y_up(), deep: MOST_DEEP };
     list.add(&tileset.root, DMat4::IDENTITY, false, at)?;
     Ok(list)
 }
@@ -100,6 +100,8 @@ impl Tileset {
 /// Where a tile is described.
 #[derive(Clone, Copy)]
 struct TilesetPlace<'a> {
+    /// The folder of the tileset that is opened, out of which no link leads.
+    home: &'a Path,
     folder: &'a Path,
     is_y_up: bool,
     /// How much deeper tilesets may name each other.
@@ -155,15 +157,16 @@ impl TileList {
 
     /// A tileset stands where the tile that names it does. One that cannot be read is left out as a content would be.
     fn add_tileset(&mut self, path: &Path, world: DMat4, adds: bool, at: TilesetPlace<'_>) -> Result<(), Message> {
-        let tileset = (at.deep > 0).then(|| whole_file(path).ok().and_then(|bytes| parsed(&bytes).ok())).flatten();
+        let read = || parsed(&whole_named_file(at.home, path).ok()?).ok();
+        let tileset = (at.deep > 0).then(read).flatten();
         let Some(tileset) = tileset else {
-            let why = if at.deep > 0 { "they cannot be read" } else { "they name each other too often" };
+            let why = if at.deep > 0 { "the file cannot be read" } else { "tilesets name each other too often" };
             self.tally.add("tilesets", why);
             return Ok(());
         };
         self.tilesets.push(path.to_owned());
         let folder = path.parent().unwrap_or(Path::new(""));
-        let at = TilesetPlace { folder, is_y_up: tileset.is_y_up(), deep: at.deep - 1 };
+        let at = TilesetPlace { folder, is_y_up: tileset.is_y_up(), deep: at.deep - 1, ..at };
         self.add(&tileset.root, world, adds, at)
     }
 }
