@@ -3,8 +3,10 @@
 mod block;
 mod citygml;
 mod cityjson;
+mod features;
 mod files;
 mod footprints;
+mod implicit;
 mod mutations;
 mod osm;
 mod shapes;

@@ -74,7 +74,7 @@ impl<'a> Buffers<'a> {
     }
 
     /// All bytes of a view that is stored plainly.
-    fn view_bytes(&self, view: Option<usize>, user: impl Fn() -> String) -> Result<&[u8], Fault> {
+    pub(super) fn view_bytes(&self, view: Option<usize>, user: impl Fn() -> String) -> Result<&[u8], Fault> {
         let count = self.document.buffer_views.len();
         let found = view.and_then(|index| Some((index, self.document.buffer_views.get(index)?)));
         let Some((index, view)) = found else {

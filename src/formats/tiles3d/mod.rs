@@ -1,8 +1,8 @@
 //! 3D Tiles: a tileset with its contents, or a content alone. Only the finest tiles stand there.
 //!
 //! What a tile holds is glTF, with its y up; tiles have z up, and bring their contents to where they are on the Earth, whose
-//! centre is zero. The files of this folder, in the order of the flow: `tileset` (JSON → which contents stand where), `b3dm`
-//! (a content's bytes → its glTF), `build` (all of it → parts).
+//! centre is zero. The files of this folder, in the order of the flow: `tileset` (JSON → which contents stand where), `implicit`
+//! and `subtree` (those of tiles that are not written out), `b3dm` (a content's bytes → its glTF), `build` (all of it → parts).
 
 use super::whole::{whole_file, whole_named_file};
 use super::{Format, Model, ModelFault, ReadOptions, json_head};
@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 
 mod b3dm;
 mod build;
+mod implicit;
+mod subtree;
 mod tileset;
 
 /// 3D Tiles, `tileset.json` and `.b3dm`.
