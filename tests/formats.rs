@@ -12,6 +12,7 @@ mod foreign;
 mod ifc;
 mod kept;
 mod kinds;
+mod large_faces;
 #[cfg(unix)]
 mod links;
 mod mutations;

@@ -29,6 +29,7 @@ mod left_out;
 mod limits;
 mod model;
 mod model_reader;
+mod monotone;
 mod names;
 mod obj;
 mod ply;
