@@ -8,6 +8,7 @@ mod files;
 mod footprints;
 mod implicit;
 mod mutations;
+mod notes;
 mod osm;
 mod shapes;
 mod tiles;

@@ -69,8 +69,7 @@ pub(super) fn build(
     let mut skins = Skins::new(document);
     let mut builder = Builder { told_step, ..Builder::default() };
     let mut work = SceneWork::default();
-    let (mut parts, mut kinds) = (Vec::new(), Vec::new());
-    let mut see_through = BTreeMap::<String, Vec<usize>>::new();
+    let mut built = SceneParts::default();
     for place in placed {
         let Some(mesh) = known.get_mut(place.mesh) else {
             continue; // `scene::place` has checked the index.
@@ -102,22 +101,39 @@ pub(super) fn build(
                     Some(ours) => since_written(ours, group, &material, &node),
                     None => aliases(names, document.mesh_name(place.mesh).into_iter().chain([&*material])),
                 };
-                kinds.push(own.map(|own| own.kind).unwrap_or_default());
-                if is_faded {
-                    see_through.entry(material.clone()).or_default().push(parts.len());
-                }
-                parts.push(part);
-                if parts.len() > MAX_COMPONENTS {
-                    return Err(Fault::TooManyComponents);
-                }
+                built.add(part, own.map(|own| own.kind).unwrap_or_default(), is_faded.then_some(&material))?;
             }
         }
     }
-    let see_through = see_through.into_iter().map(|(material, parts)| SeeThrough { material, parts }).collect();
-    if kinds.iter().all(|kind| *kind == PartKind::Building) {
-        kinds.clear();
+    Ok(built.finish())
+}
+
+/// What is built so far.
+#[derive(Default)]
+struct SceneParts {
+    parts: Vec<Part>,
+    kinds: Vec<PartKind>,
+    see_through: BTreeMap<String, Vec<usize>>,
+}
+
+impl SceneParts {
+    /// Adds a part; `faded` is its material where light passes that.
+    fn add(&mut self, part: Part, kind: PartKind, faded: Option<&String>) -> Result<(), Fault> {
+        if let Some(material) = faded {
+            self.see_through.entry(material.clone()).or_default().push(self.parts.len());
+        }
+        self.parts.push(part);
+        self.kinds.push(kind);
+        if self.parts.len() > MAX_COMPONENTS { Err(Fault::TooManyComponents) } else { Ok(()) }
     }
-    Ok(BuiltScene { parts, kinds, see_through })
+
+    fn finish(self) -> BuiltScene {
+        let see_through = self.see_through.into_iter();
+        let see_through = see_through.map(|(material, parts)| SeeThrough { material, parts }).collect();
+        let are_buildings = self.kinds.iter().all(|kind| *kind == PartKind::Building);
+        let kinds = if are_buildings { Vec::new() } else { self.kinds };
+        BuiltScene { parts: self.parts, kinds, see_through }
+    }
 }
 
 /// The names that this program wrote, and the material that another program has given a part since.

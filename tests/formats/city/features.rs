@@ -43,8 +43,12 @@ fn glb(attribute: &str, extras: Value, mesh_extension: Value, ids: [f32; 2], beh
     file
 }
 
-/// A batched model with the names of its features.
 fn batched(ids: [f32; 2], table: &Value) -> Model {
+    model_of("a.b3dm", batched_file(ids, table))
+}
+
+/// A batched model with the names of its features.
+pub(super) fn batched_file(ids: [f32; 2], table: &Value) -> Vec<u8> {
     let gltf = glb("_BATCHID", json!({}), json!({}), ids, &[0; 16]);
     let (plain, table) = (b3dm(&gltf, ""), table.to_string());
     let mut file = plain[..28].to_vec();
@@ -52,7 +56,7 @@ fn batched(ids: [f32; 2], table: &Value) -> Model {
     file[20..24].copy_from_slice(&(table.len() as u32).to_le_bytes());
     file.extend(table.as_bytes());
     file.extend(&plain[28..]);
-    model_of("a.b3dm", file)
+    file
 }
 
 /// What each component is called, and where its triangles lie: how many, and their least x.

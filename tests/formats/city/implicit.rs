@@ -1,7 +1,9 @@
 //! 3D Tiles whose tiles are not written out.
 
 use super::block::left_out;
+use super::features::batched_file;
 use super::files::glb;
+use super::mutations::damaged;
 use super::tiles::{folder_of, read, tileset};
 use gnomon::formats::{FORMATS, Model, ReadOptions};
 use serde_json::{Value, json};
@@ -150,4 +152,27 @@ fn a_tree_that_never_ends_is_refused_soon() {
     refused(1, "more lists of tiles than can be read");
     refused(20, "more than 1000000 tiles");
     refused(40, "no content in its folder");
+}
+
+#[test]
+fn damaged_lists_and_tables_are_survived() {
+    let [first, second] = lists();
+    let text = tree("QUADTREE", "REPLACE", 2, 4);
+    let table = json!({"name": ["Town hall", "Church"]});
+    let (folder, path) = folder_of(&[
+        ("tileset.json", text.as_bytes()),
+        ("s2-3-2.subtree", &second),
+        ("1-0-0.glb", &batched_file([0.0, 1.0], &table)),
+    ]);
+    let (list, tile) = (folder.path().join("s0-0-0.subtree"), folder.path().join("1-0-0.glb"));
+    let mut refused = 0;
+    for seed in 0..1000 {
+        std::fs::write(&list, if seed % 2 == 0 { damaged(&first, seed) } else { first.clone() }).expect("written");
+        let whole = batched_file([0.0, 1.0], &table);
+        std::fs::write(&tile, if seed % 2 == 1 { damaged(&whole, seed) } else { whole }).expect("written");
+        let started = Instant::now();
+        refused += u32::from(gnomon::formats::read(&path, &ReadOptions::default()).is_err());
+        assert!(started.elapsed() < Duration::from_secs(1), "seed {seed}");
+    }
+    assert!((1..1000).contains(&refused), "{refused} of 1000 refused");
 }
