@@ -1,9 +1,11 @@
 //! How long model files take to read, each at a size and at ten times that: `cargo bench --bench formats`. Prints a table in
 //! Markdown, and `-- FILE…` adds files of your own.
 //!
-//! The files are written by the bench itself: a hilly sheet of triangles as OBJ and STL, buildings as CityJSON and as footprints, and heights as
-//! an ASCII grid; IFC is the house of `sites/hillside`. Compare the columns, since absolute times drift with the machine.
+//! The files are written by the bench itself: a hilly sheet of triangles as OBJ and STL, buildings as CityJSON and as
+//! footprints, heights as an ASCII grid, walls and furniture as IFC; beside them stands the house of `sites/hillside`. Compare
+//! the columns, since absolute times drift with the machine.
 
+mod ifc_text;
 mod timing;
 
 use gnomon::formats::{self, ReadOptions};
@@ -17,12 +19,13 @@ const TIMES: usize = 5;
 /// A format's name, the ending of its files, and what writes one of so many things.
 type Writer = (&'static str, &'static str, fn(usize) -> Vec<u8>, usize);
 
-const WRITERS: [Writer; 5] = [
+const WRITERS: [Writer; 6] = [
     ("OBJ, triangles", "obj", obj, 18_200),
     ("STL, triangles", "stl", stl, 18_200),
     ("CityJSON, buildings", "city.json", city_json, 500),
     ("GeoJSON, footprints", "geojson", geojson, 500),
     ("ASCII grid, heights", "asc", ascii_grid, 100_000),
+    ("IFC, products", "ifc", ifc_text::ifc, 200),
 ];
 
 fn main() {

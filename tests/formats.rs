@@ -12,6 +12,9 @@ mod foreign;
 mod ifc;
 mod kept;
 mod kinds;
+mod large_faces;
+#[cfg(unix)]
+mod links;
 mod mutations;
 mod obj;
 mod one_house;
@@ -19,6 +22,7 @@ mod ply;
 mod several;
 mod stl;
 mod terrain;
+mod zip;
 
 #[cfg(not(feature = "ifc"))]
 #[test]

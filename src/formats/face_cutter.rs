@@ -1,13 +1,17 @@
 //! Faces in space → triangles that keep the winding: polygons of meshes, faces of city models, outlines of footprints.
 
 use super::left_out::{LeftOutTally, counted};
+use super::monotone;
 use crate::message::{Message, message};
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashSet;
 
-/// The most corners of a face: clipping one takes the square of them at worst.
-const MOST_CORNERS: usize = 20_000;
+/// The most corners of a face whose ears are clipped: that takes the square of them at worst. Larger ones are swept.
+const MOST_CLIPPED: usize = 20_000;
+
+/// The most corners of a face.
+const MOST_CORNERS: usize = 400_000;
 
 /// Cuts faces; one is kept for all of a file, so that its memory is taken once.
 pub(super) struct FaceCutter {
@@ -29,6 +33,8 @@ pub(super) enum Uncut {
     NoPoint,
     /// More corners than a face may have.
     TooLarge,
+    /// So many that it would be swept, which needs rings that neither cross nor touch.
+    LargeAndCrossing,
 }
 
 impl Uncut {
@@ -37,7 +43,8 @@ impl Uncut {
         match self {
             Uncut::NoArea => "no area",
             Uncut::NoPoint => "a coordinate is no number",
-            Uncut::TooLarge => "more than 20,000 corners",
+            Uncut::TooLarge => "more than 400,000 corners",
+            Uncut::LargeAndCrossing => "more than 20,000 corners, and rings that cross or touch",
         }
     }
 }
@@ -133,6 +140,9 @@ impl FaceCutter {
             self.triangles.extend((1..last).map(|corner| [0, corner, corner + 1]));
             return Ok(false);
         }
+        if points.len() > MOST_CLIPPED {
+            return self.sweep(ends);
+        }
         self.holes.clear();
         self.holes.extend(ends[..ends.len().saturating_sub(1)].iter().map(|&end| end as u32));
         self.earcut.earcut_slice(&self.flat, &self.holes, &mut self.numbers);
@@ -149,6 +159,18 @@ impl FaceCutter {
         }
         let enclosed = self.enclosed(ends);
         Ok((covered - enclosed).abs() <= 1e-3 * enclosed)
+    }
+
+    /// Cuts a large face into triangles that cover what it encloses.
+    fn sweep(&mut self, ends: &[usize]) -> Result<bool, Uncut> {
+        let swept = monotone::triangles(&self.flat, ends).ok_or(Uncut::LargeAndCrossing)?;
+        let at = |corner: u32| self.flat.get(corner as usize).map_or(DVec2::NAN, |&point| DVec2::from(point));
+        let area = |&[a, b, c]: &[u32; 3]| (at(b) - at(a)).perp_dot(at(c) - at(a));
+        let (covered, enclosed) = (swept.iter().map(area).sum::<f64>(), self.enclosed(ends));
+        // no number is no proof either
+        let is_exact = (covered - enclosed).abs() <= 1e-6 * enclosed;
+        self.triangles.extend(swept);
+        if is_exact { Ok(true) } else { Err(Uncut::LargeAndCrossing) }
     }
 
     /// Twice what the outer ring encloses, without the holes.

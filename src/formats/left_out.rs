@@ -44,7 +44,7 @@ impl LeftOutTally {
 }
 
 /// Words of Gnomon's own for many things, and for one; a file's own terms are as the file has them.
-const ONE_OF_MANY: [(&str, &str); 20] = [
+const ONE_OF_MANY: [(&str, &str); 21] = [
     ("contents", "content"),
     ("entities", "entity"),
     ("faces", "face"),
@@ -55,6 +55,7 @@ const ONE_OF_MANY: [(&str, &str); 20] = [
     ("instances", "instance"),
     ("line sets", "line set"),
     ("lines", "line"),
+    ("lists", "list"),
     ("nodes", "node"),
     ("outlines", "outline"),
     ("patches", "patch"),

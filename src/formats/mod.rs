@@ -7,11 +7,13 @@
 //! A file is never trusted: every index and byte range is checked before it is used, and the size of what is built from
 //! it is computed before memory is taken.
 
+mod archive;
 mod cache;
 pub mod child;
 mod city;
 mod citygml;
 mod cityjson;
+mod companion;
 mod crs;
 mod dae;
 mod dxf;
@@ -27,6 +29,7 @@ mod left_out;
 mod limits;
 mod model;
 mod model_reader;
+mod monotone;
 mod names;
 mod obj;
 mod ply;
@@ -40,6 +43,8 @@ mod vertices;
 mod whole;
 
 pub use cache::{CacheEntry, ModelCache};
+#[cfg(feature = "desktop")]
+pub(crate) use companion::goes_with_one_of;
 pub use format::Format;
 pub use limits::{MAX_COMPONENTS, MAX_TRIANGLES, ReadLimits};
 pub use model::{

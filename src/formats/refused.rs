@@ -1,5 +1,6 @@
 //! Files of known programs that are not read, and how to export a file that is read from each program.
 
+use super::companion;
 use crate::message::{Message, message};
 use std::fs::File;
 use std::io::Read as _;
@@ -13,6 +14,8 @@ struct RefusedFormat {
     endings: &'static [&'static str],
     /// How its files begin; several formats may begin alike, and then the ending tells which it is.
     marks: &'static [&'static [u8]],
+    /// Words of their beginning, of texts that begin as many others do.
+    words: &'static [&'static [u8]],
     /// How to export what is read.
     way_out: &'static str,
 }
@@ -25,73 +28,106 @@ const REFUSED: &[RefusedFormat] = &[
         what: "a SketchUp file",
         endings: &["skp", "skb"],
         marks: &[b"\xFF\xFE\xFF\x0ES\0k\0e\0t\0c\0h\0"],
+        words: &[],
         way_out: "in SketchUp, File > Export > 3D Model, as COLLADA (.dae): its components stay apart",
     },
     RefusedFormat {
         what: "a Rhino file",
         endings: &["3dm"],
         marks: &[b"3D Geometry File Format"],
+        words: &[],
         way_out: "in Rhino, File > Export Selected, as .obj or .glb",
     },
     RefusedFormat {
         what: "a Revit file",
         endings: &["rvt", "rfa", "rte", "rft"],
         marks: &[COMPOUND],
+        words: &[],
         way_out: "in Revit, File > Export > IFC; a family is first loaded into a project",
     },
     RefusedFormat {
         what: "a 3ds Max file",
         endings: &["max"],
         marks: &[COMPOUND],
+        words: &[],
         way_out: "in 3ds Max, File > Export > Export, as OBJ",
     },
     RefusedFormat {
         what: "an Archicad file",
         endings: &["pln", "pla", "mod", "tpl", "gsm"],
         marks: &[],
+        words: &[],
         way_out: "in Archicad, File > Save As, as IFC File",
     },
     RefusedFormat {
         what: "a Vectorworks file",
         endings: &["vwx"],
         marks: &[],
+        words: &[],
         way_out: "in Vectorworks, File > Export > Export IFC Project",
     },
     RefusedFormat {
         what: "a DWG drawing",
         endings: &["dwg"],
         marks: &[b"AC10"],
+        words: &[],
         way_out: "in AutoCAD, File > Save As, as DXF; solids first become meshes with the command MESHSMOOTH",
     },
     RefusedFormat {
         what: "a 3DS file",
         endings: &["3ds"],
         marks: &[],
+        words: &[],
         way_out: "in the program that wrote it, File > Export, as OBJ or COLLADA",
     },
     RefusedFormat {
         what: "an FBX file",
         endings: &["fbx"],
         marks: &[b"Kaydara FBX Binary", b"; FBX "],
+        words: &[],
         way_out: "in Blender, File > Import > FBX, then File > Export > glTF 2.0",
     },
     RefusedFormat {
         what: "a Blender file",
         endings: &["blend"],
         marks: &[b"BLENDER"],
+        words: &[],
         way_out: "in Blender, File > Export > glTF 2.0",
     },
     RefusedFormat {
         what: "a USD file",
         endings: &["usd", "usda", "usdc", "usdz"],
         marks: &[b"PXR-USDC", b"#usda"],
+        words: &[],
         way_out: "in Blender, File > Import > Universal Scene Description, then File > Export > glTF 2.0",
+    },
+    RefusedFormat {
+        what: "ifcXML",
+        endings: &["ifcxml"],
+        marks: &[],
+        words: &[
+            b"<ifcXML",
+            b":ifcXML",
+            b"iso_10303_28",
+            b"buildingsmart-tech.org/ifcXML",
+            b"buildingsmart-tech.org/ifc/IFC4",
+        ],
+        way_out: "in the program that wrote it, export the model as IFC (.ifc) instead of ifcXML",
+    },
+    RefusedFormat {
+        what: "IFC 5 (ifcx)",
+        endings: &["ifcx"],
+        marks: &[],
+        words: &[b"\"ifcxVersion\""],
+        way_out: "in the program that wrote it, export the model as IFC 4 or 4.3 (.ifc)",
     },
 ];
 
 impl RefusedFormat {
     fn begins(&self, head: &[u8]) -> bool {
-        self.marks.iter().any(|mark| head.starts_with(mark))
+        let is_text = head.trim_ascii_start().first().is_some_and(|first| b"<{\xEF".contains(first));
+        let holds = |word: &&[u8]| head.windows(word.len()).any(|here| here == *word);
+        self.marks.iter().any(|mark| head.starts_with(mark)) || is_text && self.words.iter().any(holds)
     }
 
     fn message(&self) -> Message {
@@ -125,5 +161,5 @@ pub(crate) fn refusal(path: &Path) -> Option<Message> {
     }
     let mut head = Vec::new();
     File::open(path).ok()?.take(super::format::HEAD_BYTES).read_to_end(&mut head).ok()?;
-    by_content(&head, path).or_else(|| by_ending(path))
+    by_content(&head, path).or_else(|| by_ending(path)).or_else(|| companion::refusal(path))
 }

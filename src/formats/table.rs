@@ -2,7 +2,7 @@
 
 use super::format::{Format, HEAD_BYTES};
 use super::model::{Model, ModelError, ModelFault, ReadOptions};
-use super::{citygml, cityjson, dae, dxf, footprints, gltf, ifc, obj, ply, refused, stl, terrain, tiles3d};
+use super::{citygml, cityjson, companion, dae, dxf, footprints, gltf, ifc, obj, ply, refused, stl, terrain, tiles3d};
 use crate::message::message;
 use std::fs::File;
 use std::io::Read as _;
@@ -86,7 +86,9 @@ pub(super) fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> 
     }
     let head = head_of(path).map_err(ModelFault::unreadable)?;
     if let Some(format) = by_content(&head) {
-        return Ok(format);
+        // the index of a shapefile begins as the shapes do
+        let is_index = format.name() == footprints::Shapefile.name() && by_ending(path).is_none();
+        return companion::refusal(path).filter(|_| is_index).map_or(Ok(format), |refusal| Err(refusal.into()));
     }
     if let Some(refusal) = refused::by_content(&head, path) {
         return Err(refusal.into());
@@ -99,7 +101,7 @@ pub(super) fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> 
                 format!("export it as one of these: {}", names.join(", "))
             ]
         };
-        refused::by_ending(path).unwrap_or_else(unknown).into()
+        refused::by_ending(path).or_else(|| companion::refusal(path)).unwrap_or_else(unknown).into()
     })
 }
 

@@ -7,7 +7,7 @@ use std::io::Read as _;
 use std::path::{Component as Step, Path, PathBuf};
 
 /// The largest file that is read at once.
-const MOST_BYTES: u64 = 4 << 30;
+pub(super) const MOST_BYTES: u64 = 4 << 30;
 
 /// All bytes of a file.
 pub(super) fn whole_file(path: &Path) -> Result<Vec<u8>, ModelFault> {
@@ -24,6 +24,32 @@ pub(super) fn whole_file(path: &Path) -> Result<Vec<u8>, ModelFault> {
     let file = File::open(path).map_err(ModelFault::unreadable)?;
     file.take(MOST_BYTES).read_to_end(&mut bytes).map_err(ModelFault::unreadable)?;
     Ok(bytes)
+}
+
+/// Whether a link leads from a file in a folder to one outside of it. A model must not be able to read what its reader does
+/// not mean to show.
+pub(super) fn leads_out(folder: &Path, path: &Path) -> bool {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    match (folder.canonicalize(), path.canonicalize()) {
+        (Ok(folder), Ok(file)) => !file.starts_with(folder),
+        // there is nothing to read, and whoever reads it says so
+        _ => false,
+    }
+}
+
+/// All bytes of a file that another one names: it lies in that folder or below it, wherever links lead.
+pub(super) fn whole_named_file(folder: &Path, path: &Path) -> Result<Vec<u8>, ModelFault> {
+    if leads_out(folder, path) {
+        return Err(message!["is a link that leads out of the model's folder"; "copy the file itself there"].into());
+    }
+    whole_file(path)
+}
+
+/// All bytes of the file beside a model whose name ends otherwise, where there is one.
+pub(super) fn sidecar(model: &Path, ending: &str) -> Result<Option<Vec<u8>>, ModelFault> {
+    let Some(path) = sibling(model, ending) else { return Ok(None) };
+    let bytes = whole_named_file(model.parent().unwrap_or(Path::new("")), &path);
+    bytes.map(Some).map_err(|fault| message![format!("has a .{ending} beside it that {fault}")].into())
 }
 
 /// A text's bytes without the mark that some editors begin it with.

@@ -3,9 +3,12 @@
 mod block;
 mod citygml;
 mod cityjson;
+mod features;
 mod files;
 mod footprints;
+mod implicit;
 mod mutations;
+mod notes;
 mod osm;
 mod shapes;
 mod tiles;

@@ -1,6 +1,7 @@
 //! Collada.
 
 use super::building::*;
+use super::zip::zipped;
 use glam::DVec3;
 use gnomon::formats::Up;
 use std::fmt::Write;
@@ -162,4 +163,47 @@ fn what_is_wrong_is_told() {
 #[test]
 fn a_thousand_mutations_are_survived() {
     survive_mutations("house.dae", building().as_bytes());
+}
+
+#[test]
+fn a_zipped_document_is_the_document() {
+    let text = building();
+    let alone = zipped(&[("house.dae", text.as_bytes())]);
+    // its first entry tells the format, whatever the file is called
+    assert_is_building(&read_bytes("house.zip", &alone));
+    let manifest = b"<?xml version=\"1.0\"?><dae_root>./models/house.dae#vs</dae_root>";
+    let files = [("manifest.xml", &manifest[..]), ("other.dae", b"<COLLADA/>"), ("models/house.dae", text.as_bytes())];
+    let model = read_bytes("house.zae", &zipped(&files));
+    assert_is_building(&model);
+    let notes: Vec<String> = model.notes.iter().map(ToString::to_string).collect();
+    assert!(
+        notes[0].starts_with("is an archive of several models; models/house.dae is read, not other.dae"),
+        "{notes:?}"
+    );
+    // without a manifest, or with one that names what is not there, the first
+    let named = |manifest: &[u8]| {
+        let files = [("house.dae", text.as_bytes()), ("manifest.xml", manifest), ("other.dae", &b"<COLLADA/>"[..])];
+        assert_is_building(&read_bytes("house.zae", &zipped(&files)));
+    };
+    named(b"<dae_root>../house.dae</dae_root>");
+    named(b"<dae_root>");
+    // what stands in another document of the archive is not followed
+    let linked = text.replace("url=\"#c\"", "url=\"other.dae#c\"");
+    let both = linked.replace("</visual_scene>", "<node><instance_node url=\"#c\"/></node></visual_scene>");
+    let model = read_bytes("house.zae", &zipped(&[("house.dae", both.as_bytes()), ("other.dae", text.as_bytes())]));
+    assert_eq!(left_out(&model), ["1 nodes of other files"]);
+}
+
+#[test]
+fn bombs_and_broken_archives_are_refused() {
+    let refused = |files: &[(&str, &[u8])], words: &[&str]| assert_refused("house.zae", &zipped(files), words);
+    refused(&[("a.dae", &vec![b' '; 200 << 20])], &["more than 100 times as many", "open the .dae within"]);
+    refused(&[("a.obj", b"v 0 0 0")], &["no .dae in it", "Collada"]);
+    refused(
+        &[("manifest.xml", &vec![b' '; 8 << 20]), ("a.dae", building().as_bytes())],
+        &["more than 100 times as many"],
+    );
+    let good = zipped(&[("house.dae", building().as_bytes())]);
+    assert_refused("house.zae", &good[..good.len() - 30], &["its directory cannot be read"]);
+    survive_mutations("house.zae", &good);
 }

@@ -20,6 +20,15 @@ fn files_of_other_programs_say_how_to_export() {
         // the content goes before the name
         ("house.obj", b"AC1032", &["DWG"]),
         ("house", b"#usda 1.0", &["USD"]),
+        ("house.ifcxml", b"", &["ifcXML", "export the model as IFC (.ifc)"]),
+        (
+            "house.xml",
+            b"<?xml version=\"1.0\"?><ifcXML xmlns=\"http://www.buildingsmart-tech.org/ifcXML/IFC4\">",
+            &["ifcXML"],
+        ),
+        ("house.xml", b"<ex:iso_10303_28 xmlns:ex=\"urn:iso\">", &["ifcXML"]),
+        ("house.ifcx", b"", &["IFC 5", "as IFC 4 or 4.3"]),
+        ("house.json", b"{\"header\":{\"ifcxVersion\":\"ifcx_alpha\"},\"data\":[]}", &["IFC 5 (ifcx)"]),
     ] {
         assert_refused(name, head, words);
         assert_refused(name, head, &["which Gnomon does not read"]);
@@ -36,4 +45,26 @@ fn no_ending_is_two_formats_own() {
     endings.sort_unstable();
     endings.dedup();
     assert_eq!(endings.len(), count);
+}
+
+#[test]
+fn files_that_go_with_a_model_name_it() {
+    let shp = [&9994_u32.to_be_bytes()[..], &[0; 24], &1000_u32.to_le_bytes(), &[0; 72]].concat();
+    for (name, bytes, words) in [
+        ("roads.shx", &shp[..], &["the index of a shapefile", "put roads.shp beside it"][..]),
+        ("roads.dbf", b"\x03~\x01\x01", &["the attributes of a shapefile", "put roads.shp beside it"]),
+        ("roads.prj", b"PROJCS[]", &["the reference system of a shapefile or a grid", "roads.shp"]),
+        ("house.mtl", b"newmtl a", &["the materials of an OBJ file", "house.obj"]),
+    ] {
+        assert_refused(name, bytes, words);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["roads.shx", "roads.SHP", "dem.prj", "dem.asc"] {
+        std::fs::write(folder.path().join(name), &shp).unwrap();
+    }
+    let hint =
+        |name: &str| gnomon::formats::read(&folder.path().join(name), &Default::default()).unwrap_err().to_string();
+    assert!(hint("roads.shx").contains("open roads.SHP, which lies beside it"), "{}", hint("roads.shx"));
+    std::fs::write(folder.path().join("dem.prj"), "EPSG:25832").unwrap();
+    assert!(hint("dem.prj").contains("open dem.asc"), "{}", hint("dem.prj"));
 }

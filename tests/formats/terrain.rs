@@ -128,6 +128,18 @@ fn a_grid_is_terrain_where_its_head_says() {
 }
 
 #[test]
+fn a_grid_without_terrain_is_refused_with_the_way_out() {
+    let refused = |rows: &str, heights: &str| {
+        let text = format!("ncols 2\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize 1\nnodata_value -9\n{heights}\n");
+        read("hills.asc", &text, &ReadOptions::default()).expect_err("no terrain")
+    };
+    let empty = refused("2", "-9 -9\n-9 -9");
+    assert!(empty.contains("has no heights: none of its 4 cells has one; export the part"), "{empty}");
+    let line = refused("1", "3 4");
+    assert!(line.contains("has 2 heights, and no three of them side by side; export a larger part"), "{line}");
+}
+
+#[test]
 fn a_damaged_grid_is_refused() {
     let text = ascii_grid(&head());
     let refused = |text: &str| read("hills.asc", text, &ReadOptions::default()).expect_err("it is damaged");

@@ -17,7 +17,10 @@ impl App {
         let dropped = |input: &egui::InputState| {
             input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<PathBuf>>()
         };
-        let files = context.input(dropped);
+        let mut files = context.input(dropped);
+        // all files of a shapefile are dropped together, and one of them is the model
+        let all = files.clone();
+        files.retain(|file| !formats::goes_with_one_of(file, &all));
         let is_model = |file: &PathBuf| formats::is_model(file) && !file.is_dir();
         match files.iter().find(|file| !is_model(file)) {
             _ if files.is_empty() => {}

@@ -136,8 +136,8 @@ fn add_members(
                     add_members(tables, members, surface, is_turned, deep - 1, seen, builder)?;
                 }
             }
-            Some(NamedGml::Members(_)) => builder.tally.add("xlink:href", "they lead on and on"),
-            None => builder.tally.add("xlink:href", "they lead to nothing in the file"),
+            Some(NamedGml::Members(_)) => builder.tally.add("xlink:href", "the reference leads on and on"),
+            None => builder.tally.add("xlink:href", "the reference leads to nothing in the file"),
         }
     }
     Ok(())

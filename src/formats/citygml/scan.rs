@@ -256,7 +256,7 @@ impl GmlScan {
             return;
         }
         let Some(id) = href.strip_prefix('#') else {
-            self.tables.tally.add("xlink:href", "they lead to other files");
+            self.tables.tally.add("xlink:href", "the reference leads to another file");
             return;
         };
         self.add_member(GmlMemberKind::Reference(id.to_owned()));

@@ -121,7 +121,7 @@ impl<'a> CityShape<'a> {
             };
             for &vertex in ring {
                 let Some(&vertex) = self.vertices.get(vertex as usize) else {
-                    builder.tally.add("faces", "they name a vertex that is not there");
+                    builder.tally.add("faces", "a vertex is not in the file");
                     return Ok(());
                 };
                 face.points.push(self.place(vertex));

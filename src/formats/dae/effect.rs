@@ -18,17 +18,15 @@ pub(super) struct DaeEffect {
 /// Reads the effect that was given last.
 pub(super) fn read(xml: &mut DaeXml) -> Result<DaeEffect, Message> {
     let mut effect = DaeEffect::default();
-    xml.children(|xml, name, _| match name {
-        "profile_COMMON" => xml.children(|xml, name, _| match name {
-            "technique" => xml.children(|xml, name, _| match name {
+    xml.each("profile_COMMON", |xml, _| {
+        xml.each("technique", |xml, _| {
+            xml.children(|xml, name, _| match name {
                 "phong" | "lambert" | "blinn" | "constant" => {
                     xml.children(|xml, name, element| effect.shader(xml, name, element))
                 }
                 _ => xml.skip(),
-            }),
-            _ => xml.skip(),
-        }),
-        _ => xml.skip(),
+            })
+        })
     })?;
     Ok(effect)
 }
@@ -50,12 +48,9 @@ impl DaeEffect {
                     _ => xml.skip(),
                 })
             }
-            "transparency" => xml.children(|xml, name, _| match name {
-                "float" => {
-                    self.transparency = xml.numbers()?.first().copied();
-                    Ok(())
-                }
-                _ => xml.skip(),
+            "transparency" => xml.each("float", |xml, _| {
+                self.transparency = xml.numbers()?.first().copied();
+                Ok(())
             }),
             _ => xml.skip(),
         }

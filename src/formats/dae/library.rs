@@ -38,35 +38,18 @@ impl DaeDocument {
     fn library(&mut self, xml: &mut DaeXml, name: &str) -> Result<(), Message> {
         match name {
             "asset" => self.asset(xml),
-            "library_geometries" => xml.children(|xml, name, element| match name {
-                "geometry" => DaeGeometry::read(xml, element, self),
-                _ => xml.skip(),
+            "library_geometries" => xml.each("geometry", |xml, element| DaeGeometry::read(xml, element, self)),
+            "library_nodes" => xml.each("node", |xml, element| DaeNode::read(xml, element, self, 0).map(drop)),
+            "library_visual_scenes" => xml.each("visual_scene", |xml, element| self.visual_scene(xml, element)),
+            "library_materials" => xml.each("material", |xml, element| self.material(xml, element)),
+            "library_effects" => xml.each("effect", |xml, element| {
+                let id = attribute(element, "id").unwrap_or_default();
+                let effect = effect::read(xml)?;
+                self.effects.insert(id, effect);
+                Ok(())
             }),
-            "library_nodes" => xml.children(|xml, name, element| match name {
-                "node" => DaeNode::read(xml, element, self, 0).map(|_| ()),
-                _ => xml.skip(),
-            }),
-            "library_visual_scenes" => xml.children(|xml, name, element| match name {
-                "visual_scene" => self.visual_scene(xml, element),
-                _ => xml.skip(),
-            }),
-            "library_materials" => xml.children(|xml, name, element| match name {
-                "material" => self.material(xml, element),
-                _ => xml.skip(),
-            }),
-            "library_effects" => xml.children(|xml, name, element| match name {
-                "effect" => {
-                    let id = attribute(element, "id").unwrap_or_default();
-                    let effect = effect::read(xml)?;
-                    self.effects.insert(id, effect);
-                    Ok(())
-                }
-                _ => xml.skip(),
-            }),
-            "scene" => xml.children(|xml, name, element| {
-                if name == "instance_visual_scene" {
-                    self.scene = local_id(element, "url");
-                }
+            "scene" => xml.each("instance_visual_scene", |xml, element| {
+                self.scene = local_id(element, "url");
                 xml.skip()
             }),
             _ => xml.skip(),
@@ -99,12 +82,9 @@ impl DaeDocument {
             name: label(&attribute(element, "name").unwrap_or_default()),
             roots: Vec::new(),
         };
-        xml.children(|xml, name, element| match name {
-            "node" => {
-                scene.roots.push(DaeNode::read(xml, element, self, 0)?);
-                Ok(())
-            }
-            _ => xml.skip(),
+        xml.each("node", |xml, element| {
+            scene.roots.push(DaeNode::read(xml, element, self, 0)?);
+            Ok(())
         })?;
         self.scenes.push(scene);
         Ok(())
@@ -114,10 +94,8 @@ impl DaeDocument {
         let id = attribute(element, "id").unwrap_or_default();
         let name = label(&attribute(element, "name").unwrap_or_else(|| id.clone()));
         let mut material = DaeMaterial { name, effect: None };
-        xml.children(|xml, name, element| {
-            if name == "instance_effect" {
-                material.effect = local_id(element, "url");
-            }
+        xml.each("instance_effect", |xml, element| {
+            material.effect = local_id(element, "url");
             xml.skip()
         })?;
         self.materials.insert(id, material);

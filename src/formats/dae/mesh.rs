@@ -166,7 +166,7 @@ impl DaeMesh {
                 self.sources.insert(id, source);
                 Ok(())
             }
-            "vertices" => xml.children(|xml, _, element| {
+            "vertices" => xml.each("input", |xml, element| {
                 if attribute(element, "semantic").as_deref() == Some("POSITION") {
                     self.positions = local_id(element, "source");
                 }
@@ -242,12 +242,10 @@ impl DaeSource {
                 source.numbers = xml.numbers()?;
                 Ok(())
             }
-            "technique_common" => xml.children(|xml, name, element| {
+            "technique_common" => xml.each("accessor", |xml, element| {
                 let count = |name| attribute(element, name).and_then(|text| text.trim().parse::<u16>().ok());
-                if name == "accessor" {
-                    source.offset = count("offset").unwrap_or(0).into();
-                    source.stride = count("stride").unwrap_or(1).into();
-                }
+                source.offset = count("offset").unwrap_or(0).into();
+                source.stride = count("stride").unwrap_or(1).into();
                 xml.skip()
             }),
             _ => xml.skip(),

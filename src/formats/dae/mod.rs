@@ -1,7 +1,7 @@
 //! Collada 1.4 and 1.5 → parts: one per node and material for each place where the node stands.
 //!
-//! The XML is read once, from its beginning to its end, and no entity in it is expanded. `xml` reads elements, `library`
-//! and its `mesh`, `node` and `effect` what they say, `build` places the nodes.
+//! The XML is read once, from its beginning to its end, and no entity in it is expanded. `zipped` finds it in an archive,
+//! `xml` reads elements, `library` and its `mesh`, `node` and `effect` what they say, `build` places the nodes.
 
 mod build;
 mod document;
@@ -10,14 +10,15 @@ mod library;
 mod mesh;
 mod node;
 mod xml;
+mod zipped;
 
 use super::source::{as_ascii, text};
 use super::whole::whole_file;
-use super::{Format, Model, ModelFault, ReadOptions};
+use super::{Format, Model, ModelFault, ReadOptions, archive};
 use document::DaeDocument;
 use std::path::Path;
 
-/// Collada, `.dae`.
+/// Collada, `.dae`, also zipped, `.zae`.
 pub(super) struct Dae;
 
 impl Format for Dae {
@@ -26,16 +27,29 @@ impl Format for Dae {
     }
 
     fn endings(&self) -> &'static [&'static str] {
-        &["dae"]
+        &["dae", "zae"]
     }
 
     fn begins(&self, head: &[u8]) -> bool {
+        if archive::begins_with(head, zipped::ENDING) {
+            return true;
+        }
         let head = as_ascii(head.to_vec());
         head.trim_ascii_start().starts_with(b"<") && head.windows(8).any(|eight| eight == b"<COLLADA")
     }
 
     fn read(&self, path: &Path, _options: &ReadOptions) -> Result<Model, ModelFault> {
-        let source = String::from_utf8(as_ascii(whole_file(path)?)).unwrap_or_else(|error| text(error.as_bytes()));
-        Ok(build::model_of(DaeDocument::read(&source)?)?)
+        let bytes = whole_file(path)?;
+        if !archive::is_archive(&bytes) {
+            return Ok(build::model_of(DaeDocument::read(&source(bytes))?)?);
+        }
+        let zipped = zipped::document(&bytes)?;
+        let mut model = build::model_of(DaeDocument::read(&source(zipped.bytes))?)?;
+        model.notes.extend(zipped.note);
+        Ok(model)
     }
+}
+
+fn source(bytes: Vec<u8>) -> String {
+    String::from_utf8(as_ascii(bytes)).unwrap_or_else(|error| text(error.as_bytes()))
 }

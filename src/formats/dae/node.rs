@@ -96,16 +96,13 @@ impl DaeNode {
 /// The materials that are bound at the instance that was given last.
 fn materials(xml: &mut DaeXml) -> Result<Vec<(String, String)>, Message> {
     let mut materials = Vec::new();
-    xml.children(|xml, name, _| match name {
-        "bind_material" => xml.children(|xml, name, _| match name {
-            "technique_common" => xml.children(|xml, name, element| {
-                let bound = attribute(element, "symbol").zip(local_id(element, "target"));
-                materials.extend(bound.filter(|_| name == "instance_material"));
+    xml.each("bind_material", |xml, _| {
+        xml.each("technique_common", |xml, _| {
+            xml.each("instance_material", |xml, element| {
+                materials.extend(attribute(element, "symbol").zip(local_id(element, "target")));
                 xml.skip()
-            }),
-            _ => xml.skip(),
-        }),
-        _ => xml.skip(),
+            })
+        })
     })?;
     Ok(materials)
 }

@@ -59,6 +59,15 @@ impl<'a> DaeXml<'a> {
         }
     }
 
+    /// Gives the elements of one name within the one that was given last; the others are passed over.
+    pub(super) fn each(
+        &mut self,
+        wanted: &str,
+        mut each: impl FnMut(&mut Self, &BytesStart<'a>) -> Result<(), Message>,
+    ) -> Result<(), Message> {
+        self.children(|xml, name, element| if name == wanted { each(xml, element) } else { xml.skip() })
+    }
+
     /// Passes over the element that was given last.
     pub(super) fn skip(&mut self) -> Result<(), Message> {
         let mut depth = 0_usize;

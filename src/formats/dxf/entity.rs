@@ -91,11 +91,11 @@ fn surface(
         b"POLYLINE" => {
             drawing.wide += u64::from(fields.whole(70) & (16 | 64) == 0 && (is_wide(40) || is_wide(41)));
             let missing = polyline::heavy(fields, vertices, &mut surface);
-            drawing.left_out.add_many("faces of polyface meshes", "they name vertices that are not there", missing);
+            drawing.left_out.add_many("faces of polyface meshes", "a vertex is not in the file", missing);
         }
         b"MESH" => {
             let missing = polyline::mesh(fields, &mut surface);
-            drawing.left_out.add_many("faces of meshes", "they name vertices that are not there", missing);
+            drawing.left_out.add_many("faces of meshes", "a vertex is not in the file", missing);
         }
         _ => {
             drawing.left_out.add(&label(&String::from_utf8_lossy(kind)), "no surface");

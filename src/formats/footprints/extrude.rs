@@ -62,6 +62,11 @@ impl FootprintOutline {
         self.polygons.iter().all(|polygon| polygon.foot == 0.0)
     }
 
+    /// What its block is called.
+    pub(super) fn name(&self, layer: Option<&str>) -> String {
+        names_of(&self.tags, self.number, layer).0
+    }
+
     /// The block.
     pub(super) fn part(&self, layer: Option<&str>) -> Part {
         let (name, aliases) = names_of(&self.tags, self.number, layer);

@@ -10,7 +10,7 @@ use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted};
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
 use crate::mesh::Part;
-use crate::message::{Field, Message, message};
+use crate::message::{Field, Message, Piece, few, message, setting};
 use extrude::FootprintOutline;
 pub(super) use flatgeobuf::FlatGeobuf;
 use footprint::{Footprint, NO_AREA, RingPolygon, names_of};
@@ -141,14 +141,15 @@ impl Footprints {
         let mut outlines = Vec::new();
         let mut told = HeightCounts::default();
         for building in buildings {
-            let Some(rise) = self.rise_of(&building.tags, default_height_m, &mut told) else { continue };
+            let Some(rise) = self.rise_of(&building, default_height_m, &mut told) else { continue };
             let outline = FootprintOutline::cut(building, rise, cutter, &mut self.tally);
             if outline.is_empty() {
                 continue;
             }
-            told.by_levels += u64::from(rise.from == HeightSource::Levels || rise.bottom_is_guessed);
+            let name = || outline.name(self.layer.as_deref());
+            told.by_levels.add_if(rise.from == HeightSource::Levels || rise.bottom_is_guessed, name);
             told.by_default += u64::from(rise.from == HeightSource::Default);
-            told.crossing += u64::from(outline.crosses);
+            told.crossing.add_if(outline.crosses, name);
             told.triangles += outline.triangle_count();
             if told.triangles > MAX_TRIANGLES {
                 let what = format!("has more than {MAX_TRIANGLES} triangles, which is the most that a model may have");
@@ -156,12 +157,12 @@ impl Footprints {
             }
             outlines.push(outline);
         }
-        if told.without > 0 && outlines.is_empty() && self.bodies.is_empty() {
-            let what = format!("has {}, and says the height of none of them", counted(told.without, "footprint"));
-            let hint = ", or export them with their heights in metres as \"height\"";
-            return Err(message![what; "set ", Field::DefaultHeight, hint].into());
+        if told.without.count > 0 && outlines.is_empty() && self.bodies.is_empty() {
+            let what = format!("has {}, and says the height of none of them", told.without.told("footprint"));
+            let hint = " for this one, or export them with their heights in metres as \"height\"";
+            return Err(message![what; "set ", Field::DefaultHeight, " for all models, or ", own_height(), hint].into());
         }
-        self.tally.add_many("footprints", "no height of theirs is said", told.without);
+        self.tally.add_many("footprints", "no height is said", told.without.count);
         self.note(&told, default_height_m);
         Ok(outlines)
     }
@@ -169,53 +170,96 @@ impl Footprints {
     /// From where to where a footprint reaches; where nobody says it, that is counted.
     fn rise_of(
         &mut self,
-        tags: &FootprintTags,
+        footprint: &Footprint,
         default_height_m: Option<f64>,
         told: &mut HeightCounts,
     ) -> Option<Rise> {
-        told.unread += u64::from(tags.has_unread_height());
+        let tags = &footprint.tags;
+        let name = || names_of(tags, footprint.number, self.layer.as_deref()).0;
+        told.unread.add_if(tags.has_unread_height(), name);
         // a part of a guessed height would replace an outline whose height is known
         let default_height_m = default_height_m.filter(|_| !tags.is_part());
         match tags.rise(default_height_m) {
             Some(rise) if rise.bottom_m < rise.top_m => return Some(rise),
-            Some(_) => self.tally.add("footprints", "they begin no lower than they end"),
+            Some(_) => self.tally.add("footprints", "the bottom is not below the top"),
             None if tags.is_part() => {
                 self.tally.add("building:part", "no height is said, and the outline stands instead");
             }
-            None => told.without += 1,
+            None => told.without.add_if(true, name),
         }
         None
     }
 
     /// Notes which heights are guessed, and which are missing.
     fn note(&mut self, told: &HeightCounts, default_height_m: Option<f64>) {
-        let &HeightCounts { without, unread, by_levels, by_default, crossing, .. } = told;
-        if by_levels > 0 {
+        let HeightCounts { without, unread, by_levels, by_default, crossing, .. } = told;
+        if by_levels.count > 0 {
             let what = format!(
-                "says storeys and no height of {}: they are guessed to be {} m a storey",
-                counted(by_levels, "footprint"),
+                "says storeys and no height of {}: a storey is guessed to be {} m high",
+                by_levels.told("footprint"),
                 tags::STOREY_M
             );
-            self.notes.push(message![what; "write their heights in metres as \"height\" where that matters"]);
+            self.notes.push(message![what; "write heights in metres as \"height\" where that matters"]);
         }
-        if let Some(metres) = default_height_m.filter(|_| by_default > 0) {
-            let what = format!("says no height of {}: they are {metres} m high, as ", counted(by_default, "footprint"));
-            self.notes.push(message![what, Field::DefaultHeight, " says"]);
+        if let Some(metres) = default_height_m.filter(|_| *by_default > 0) {
+            let (footprints, are) =
+                (counted(*by_default, "footprint"), if *by_default == 1 { "it is" } else { "each is" });
+            let what =
+                format!("says no height of {footprints}: {are} taken as {metres} m high, as asked for this model");
+            self.notes.push(message![what]);
         }
-        if without > 0 {
-            let what = format!("has {} without a height, left out", counted(without, "footprint"));
-            self.notes.push(message![what; "set ", Field::DefaultHeight, " for them"]);
+        if without.count > 0 {
+            let what = format!("has {} without a height, left out", without.told("footprint"));
+            self.notes.push(
+                message![what; "set ", Field::DefaultHeight, " for all models, or ", own_height(), " for this one"],
+            );
         }
-        if unread > 0 {
-            let what = format!("has {} written otherwise than \"12 m\" or \"40'\" are", counted(unread, "height"));
+        if unread.count > 0 {
+            let what = format!("has {} written otherwise than \"12 m\" or \"40'\" are", unread.told("height"));
             self.notes.push(message![what; "write heights in metres"]);
         }
-        if crossing > 0 {
-            self.notes.push(message![format!(
-                "has {} whose outlines cross themselves, so that their blocks may cover too much or too little",
-                counted(crossing, "footprint")
-            )]);
+        if crossing.count > 0 {
+            let what = match crossing.count {
+                1 => "whose outline crosses itself, so that its block may cover too much or too little",
+                _ => "whose outlines cross themselves, so that their blocks may cover too much or too little",
+            };
+            self.notes.push(message![format!("has {} {what}", crossing.told("footprint"))]);
         }
+    }
+}
+
+/// The key for the height of one model's footprints.
+fn own_height() -> Piece {
+    setting("[[model]]", "default_height", "`default_height` under [[model]]")
+}
+
+/// Footprints that something is said of: how many, and the names of the first.
+#[derive(Default)]
+struct NamedFootprints {
+    count: u64,
+    first: Vec<String>,
+}
+
+impl NamedFootprints {
+    /// How many are named; the others are counted.
+    const NAMED: usize = 4;
+
+    fn add_if(&mut self, is_one: bool, name: impl Fn() -> String) {
+        if is_one {
+            self.count += 1;
+            self.first.extend((self.first.len() < Self::NAMED).then(name));
+        }
+    }
+
+    /// How many things these are or have, and whose.
+    fn told(&self, thing: &str) -> String {
+        let mut names = self.first.clone();
+        match self.count.saturating_sub(names.len() as u64) {
+            0 => {}
+            more => names.push(format!("{more} more")),
+        }
+        let of = if thing == "footprint" { "" } else { "of " };
+        format!("{} ({of}{})", counted(self.count, thing), few(names))
     }
 }
 
@@ -223,14 +267,14 @@ impl Footprints {
 #[derive(Default)]
 struct HeightCounts {
     /// Nobody says a height.
-    without: u64,
+    without: NamedFootprints,
     /// One is written that is none.
-    unread: u64,
+    unread: NamedFootprints,
     /// Guessed from storeys.
-    by_levels: u64,
+    by_levels: NamedFootprints,
     /// The user's for all.
     by_default: u64,
     /// Outlines that cross themselves.
-    crossing: u64,
+    crossing: NamedFootprints,
     triangles: u64,
 }

@@ -5,7 +5,7 @@ use super::flatbuffer::bytes_at;
 use super::tags::FootprintTags;
 use super::{Footprints, NO_AREA, RingPolygon, names_of};
 use crate::formats::face_cutter::{FaceCutter, ring_area};
-use crate::formats::whole::{sibling, whole_file};
+use crate::formats::whole::{sibling, sidecar, whole_file};
 use crate::formats::{Coordinates, Format, Model, ModelFault, ReadOptions};
 use crate::mesh::Part;
 use crate::message::{Message, message};
@@ -45,7 +45,7 @@ impl Format for Shapefile {
 
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         let bytes = whole_file(path)?;
-        let attributes = sibling(path, "dbf").map(|path| whole_file(&path)).transpose()?;
+        let attributes = sidecar(path, "dbf")?;
         let mut footprints = Footprints::default();
         if let Some(stem) = path.file_stem().and_then(|stem| stem.to_str()) {
             footprints.layer = Some(crate::formats::left_out::label(stem));
@@ -249,7 +249,7 @@ fn holds(ring: &[DVec3], point: DVec3) -> bool {
 
 /// What the `.prj` beside the file says.
 fn coordinates_of(path: &Path, footprints: &mut Footprints) -> Result<Coordinates, ModelFault> {
-    let bytes = sibling(path, "prj").map(|path| whole_file(&path)).transpose()?.unwrap_or_default();
+    let bytes = sidecar(path, "prj")?.unwrap_or_default();
     let text = String::from_utf8_lossy(crate::formats::whole::without_mark(&bytes));
     if !text.trim().is_empty() && bytes.len() <= MOST_PRJ_BYTES {
         return Ok(Coordinates::Map(text.trim().to_owned()));

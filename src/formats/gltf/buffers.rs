@@ -1,14 +1,15 @@
 //! Buffers → bytes: the binary chunk of a `.glb`, base64 in the JSON, or a file beside the model.
 //!
 //! A buffer is read when the first accessor needs it, so one that only holds textures may be missing. A path may not
-//! leave the model's folder, and nothing is fetched from the web: a model must not be able to read what its reader
-//! does not mean to show. (A symbolic link in the folder is followed, for it is the user's own.)
+//! leave the model's folder, nor does a link in it, and nothing is fetched from the web: a model must not be able to read
+//! what its reader does not mean to show.
 
 use super::document::Document;
 use super::draco::UnpackedElements;
 use super::meshopt::CompressedView;
 use super::{Fault, container, draco};
 use crate::formats::on_disk;
+use crate::formats::whole::leads_out;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::DecodePaddingMode;
@@ -73,7 +74,7 @@ impl<'a> Buffers<'a> {
     }
 
     /// All bytes of a view that is stored plainly.
-    fn view_bytes(&self, view: Option<usize>, user: impl Fn() -> String) -> Result<&[u8], Fault> {
+    pub(super) fn view_bytes(&self, view: Option<usize>, user: impl Fn() -> String) -> Result<&[u8], Fault> {
         let count = self.document.buffer_views.len();
         let found = view.and_then(|index| Some((index, self.document.buffer_views.get(index)?)));
         let Some((index, view)) = found else {
@@ -187,6 +188,12 @@ impl<'a> Buffers<'a> {
         let path = on_disk(&self.folder.join(relative));
         if let Some(bytes) = self.files.borrow().get(&path) {
             return Ok(bytes.clone());
+        }
+        if leads_out(self.folder, &path) {
+            let what = format!(
+                "lies at '{address}', a link that leads out of the model's folder: copy the file itself there, or export one .glb"
+            );
+            return Err(fault(index, what));
         }
         let bytes: Rc<[u8]> = match container::read_file(&path) {
             Ok(bytes) => bytes.into(),

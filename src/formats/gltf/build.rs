@@ -4,6 +4,7 @@ use super::accessor::Accessors;
 use super::buffers::Buffers;
 use super::coarse;
 use super::document::Document;
+use super::features::{self, FeatureKey, Features};
 use super::instances::Instances;
 use super::pose::{Pose, Skins};
 use super::primitive::{self, MaterialGroup, MeshTriangles, PrimitiveTriangles};
@@ -46,8 +47,8 @@ impl SceneWork {
     }
 
     fn add_moves(&mut self, group: &MaterialGroup, poses: &[Pose], instances: &Instances) -> Result<(), Fault> {
-        for (surface, pose) in group.surfaces.iter().zip(poses) {
-            let each = (surface.triangles as u64).saturating_mul(pose.readers() as u64);
+        for (primitive, pose) in group.primitives.iter().zip(poses) {
+            let each = (primitive.triangles as u64).saturating_mul(pose.readers() as u64);
             self.moves = self.moves.saturating_add(each.saturating_mul(instances.count as u64));
         }
         if self.moves > MAX_MOVES { Err(Fault::TooManyMoves) } else { Ok(()) }
@@ -58,6 +59,7 @@ impl SceneWork {
 pub(super) fn build(
     document: &Document,
     buffers: &Buffers,
+    features: &Features,
     placed: &[PlacedNode],
     told_step: f64,
 ) -> Result<BuiltScene, Fault> {
@@ -67,52 +69,71 @@ pub(super) fn build(
     let mut skins = Skins::new(document);
     let mut builder = Builder { told_step, ..Builder::default() };
     let mut work = SceneWork::default();
-    let (mut parts, mut kinds) = (Vec::new(), Vec::new());
-    let mut see_through = BTreeMap::<String, Vec<usize>>::new();
+    let mut built = SceneParts::default();
     for place in placed {
-        let Some(surfaces) = known.get_mut(place.mesh) else {
+        let Some(mesh) = known.get_mut(place.mesh) else {
             continue; // `scene::place` has checked the index.
         };
-        if surfaces.is_none() {
-            *surfaces = Some(primitive::surfaces(document, &mut accessors, place.mesh)?);
+        if mesh.is_none() {
+            *mesh = Some(primitive::of_mesh(document, &mut accessors, features, place.mesh)?);
         }
-        let Some(surfaces) = surfaces else { continue };
-        if surfaces.groups.is_empty() {
+        let Some(mesh) = mesh else { continue };
+        if mesh.groups.is_empty() {
             continue;
         }
         let node = document.nodes.get(place.node);
         let instances = Instances::of(place.node, node, &mut accessors)?;
         let (own, node) = (node.map(|node| &node.own), document.node_name(place.node));
-        for group in &surfaces.groups {
+        for group in &mesh.groups {
             work.add_triangles(group, &instances)?;
-            let open = |surface| Pose::open(document, &mut accessors, &mut skins, place, surface);
-            let poses: Vec<Pose> = group.surfaces.iter().map(open).collect::<Result<_, _>>()?;
+            let open = |primitive| Pose::open(document, &mut accessors, &mut skins, place, primitive);
+            let poses: Vec<Pose> = group.primitives.iter().map(open).collect::<Result<_, _>>()?;
             work.add_moves(group, &poses, &instances)?;
-            let mut part = builder.part(group, &poses, &instances, place.model_from_node)?;
-            if part.triangles.is_empty() {
-                continue;
-            }
+            let (part, keys) = builder.part(group, &poses, &instances, place.model_from_node)?;
             let material = document.material_name(group.material);
-            part.name = if surfaces.one_material { node.clone() } else { format!("{node}/{material}") };
-            part.aliases = match own.and_then(|own| own.aliases.clone()) {
-                Some(ours) => since_written(ours, group, &material, &node),
-                None => aliases(vec![node.clone()], document.mesh_name(place.mesh).into_iter().chain([&*material])),
-            };
-            kinds.push(own.map(|own| own.kind).unwrap_or_default());
-            if group.material.is_some_and(|index| document.is_see_through(index, group.has_faded_vertices)) {
-                see_through.entry(material).or_default().push(parts.len());
-            }
-            parts.push(part);
-            if parts.len() > MAX_COMPONENTS {
-                return Err(Fault::TooManyComponents);
+            let is_faded = group.material.is_some_and(|index| document.is_see_through(index, group.has_faded_vertices));
+            for (feature, mut part) in features::split(part, &keys) {
+                let feature = feature.map(|key| features.name(key));
+                let object = feature.as_ref().unwrap_or(&node);
+                part.name = if mesh.one_material { object.clone() } else { format!("{object}/{material}") };
+                let names = feature.iter().chain([&node]).cloned().collect();
+                part.aliases = match own.and_then(|own| own.aliases.clone()) {
+                    Some(ours) => since_written(ours, group, &material, &node),
+                    None => aliases(names, document.mesh_name(place.mesh).into_iter().chain([&*material])),
+                };
+                built.add(part, own.map(|own| own.kind).unwrap_or_default(), is_faded.then_some(&material))?;
             }
         }
     }
-    let see_through = see_through.into_iter().map(|(material, parts)| SeeThrough { material, parts }).collect();
-    if kinds.iter().all(|kind| *kind == PartKind::Building) {
-        kinds.clear();
+    Ok(built.finish())
+}
+
+/// What is built so far.
+#[derive(Default)]
+struct SceneParts {
+    parts: Vec<Part>,
+    kinds: Vec<PartKind>,
+    see_through: BTreeMap<String, Vec<usize>>,
+}
+
+impl SceneParts {
+    /// Adds a part; `faded` is its material where light passes that.
+    fn add(&mut self, part: Part, kind: PartKind, faded: Option<&String>) -> Result<(), Fault> {
+        if let Some(material) = faded {
+            self.see_through.entry(material.clone()).or_default().push(self.parts.len());
+        }
+        self.parts.push(part);
+        self.kinds.push(kind);
+        if self.parts.len() > MAX_COMPONENTS { Err(Fault::TooManyComponents) } else { Ok(()) }
     }
-    Ok(BuiltScene { parts, kinds, see_through })
+
+    fn finish(self) -> BuiltScene {
+        let see_through = self.see_through.into_iter();
+        let see_through = see_through.map(|(material, parts)| SeeThrough { material, parts }).collect();
+        let are_buildings = self.kinds.iter().all(|kind| *kind == PartKind::Building);
+        let kinds = if are_buildings { Vec::new() } else { self.kinds };
+        BuiltScene { parts: self.parts, kinds, see_through }
+    }
 }
 
 /// The names that this program wrote, and the material that another program has given a part since.
@@ -147,46 +168,53 @@ struct Builder {
 const AT_ONCE: usize = 1 << 14;
 
 impl Builder {
-    /// All instances of a group; there is a pose for each of its surfaces.
+    /// All instances of a group, and the feature of each corner where something names them; there is a pose for each of its
+    /// primitives.
     fn part(
         &mut self,
         group: &MaterialGroup,
         poses: &[Pose],
         instances: &Instances,
         model_from_node: DAffine3,
-    ) -> Result<Part, Fault> {
-        let mut part = Part::default();
+    ) -> Result<(Part, Vec<Option<FeatureKey>>), Fault> {
+        let (mut part, mut keys) = (Part::default(), Vec::new());
+        let has_features = group.primitives.iter().any(|primitive| primitive.features.is_some());
         for instance in 0..instances.count {
             let model_from_mesh = model_from_node * instances.get(instance)?;
-            for (surface, pose) in group.surfaces.iter().zip(poses) {
-                self.append(&mut part, surface, pose, model_from_mesh)?;
+            for (primitive, pose) in group.primitives.iter().zip(poses) {
+                self.append(&mut part, primitive, pose, model_from_mesh)?;
+                if has_features {
+                    let key = |vertex: &u32| primitive.features?.of_vertex(*vertex as usize);
+                    keys.extend(self.used.iter().map(key));
+                }
+                self.used.clear();
             }
         }
-        Ok(part)
+        Ok((part, keys))
     }
 
-    /// Adds a primitive's triangles, and the vertices that they use.
+    /// Adds a primitive's triangles, and the vertices that they use, which stay listed.
     fn append(
         &mut self,
         part: &mut Part,
-        surface: &PrimitiveTriangles,
+        primitive: &PrimitiveTriangles,
         pose: &Pose,
         model_from_mesh: DAffine3,
     ) -> Result<(), Fault> {
         let mirrors = pose.model_from_mesh(&model_from_mesh).matrix3.determinant() < 0.0;
-        if self.numbers.len() < surface.positions.count {
-            self.numbers.resize(surface.positions.count, ABSENT);
+        if self.numbers.len() < primitive.positions.count {
+            self.numbers.resize(primitive.positions.count, ABSENT);
         }
         // Fits: no part has more than three vertices a triangle.
         let first = part.positions.len() as u32;
-        part.triangles.reserve(surface.triangles);
-        for begin in (0..surface.triangles).step_by(AT_ONCE) {
-            for [a, b, c] in surface.corners(begin..(begin + AT_ONCE).min(surface.triangles))? {
+        part.triangles.reserve(primitive.triangles);
+        for begin in (0..primitive.triangles).step_by(AT_ONCE) {
+            for [a, b, c] in primitive.corners(begin..(begin + AT_ONCE).min(primitive.triangles))? {
                 let triangle = if mirrors { [a, c, b] } else { [a, b, c] };
                 part.triangles.push(triangle.map(|vertex| self.number(vertex, first)));
             }
         }
-        let stored = |vertex: u32| surface.positions.vec3(vertex as usize);
+        let stored = |vertex: u32| primitive.positions.vec3(vertex as usize);
         let used = self.used.par_iter().with_min_len(AT_ONCE);
         if pose.is_plain() {
             part.positions.par_extend(used.map(|&vertex| model_from_mesh.transform_point3(stored(vertex))));
@@ -197,15 +225,15 @@ impl Builder {
         let points = &part.positions[first as usize..];
         let model_from_mesh = pose.model_from_mesh(&model_from_mesh);
         part.coarse.extend(coarse::corners(
-            &surface.positions,
+            &primitive.positions,
             (&self.used, first),
             model_from_mesh,
             points,
             self.told_step,
         ));
-        for (vertex, point) in self.used.drain(..).zip(&part.positions[first as usize..]) {
+        for (vertex, point) in self.used.iter().copied().zip(&part.positions[first as usize..]) {
             if !point.is_finite() {
-                return Err(Fault::of_primitive(surface.mesh, surface.primitive, pose.problem(vertex as usize)));
+                return Err(Fault::of_primitive(primitive.mesh, primitive.primitive, pose.problem(vertex as usize)));
             }
             if let Some(number) = self.numbers.get_mut(vertex as usize) {
                 *number = ABSENT;

@@ -81,6 +81,9 @@ pub(super) struct Document {
     pub buffer_views: Vec<View>,
     #[serde(default)]
     pub buffers: Vec<Buffer>,
+    /// Of the whole file.
+    #[serde(default)]
+    extensions: Value,
 }
 
 /// What every version of glTF says; the rest of glTF 1.0 has another shape.
@@ -185,6 +188,11 @@ impl Document {
             }
         }
         Ok(())
+    }
+
+    /// What an extension says of the whole file.
+    pub(super) fn extension(&self, name: &str) -> Option<&Value> {
+        self.extensions.get(name)
     }
 
     /// The extensions that the file requires and that nothing is read of.

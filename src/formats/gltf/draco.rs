@@ -3,6 +3,7 @@
 //! The decoder is `draco-core`, which is Rust alone. Its input may be anybody's bytes, so a panic in it is caught.
 
 use super::document::Document;
+use super::features::names_features;
 use super::{Fault, MAX_TRIANGLES};
 use draco_core::mesh_decoder::MeshDecoder;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh};
@@ -40,7 +41,7 @@ pub(super) fn view(said: &Value) -> Option<usize> {
     usize::try_from(said.get("bufferView")?.as_u64()?).ok()
 }
 
-/// Unpacks what moves the vertices of a primitive, and its indices.
+/// Unpacks what moves the vertices of a primitive, or says whose they are, and its indices.
 pub(super) fn unpack(
     document: &Document,
     (mesh, number): (usize, usize),
@@ -59,7 +60,8 @@ pub(super) fn unpack(
             Checked::Valid(Semantic::Positions) => "POSITION".to_owned(),
             Checked::Valid(Semantic::Joints(set)) => format!("JOINTS_{set}"),
             Checked::Valid(Semantic::Weights(set)) => format!("WEIGHTS_{set}"),
-            // nothing else moves a vertex
+            Checked::Valid(Semantic::Extras(name)) if names_features(name) => format!("_{name}"),
+            // nothing else moves a vertex, or says whose it is
             _ => continue,
         };
         let id = said.get("attributes").and_then(|ids| ids.get(&name)?.as_u64());

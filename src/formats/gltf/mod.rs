@@ -8,11 +8,12 @@
 //! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
 //! binary chunk), `document` and `material` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
 //! and `reader` (bytes → numbers), `draco` and `meshopt` (what is compressed), `coarse` (how exact those are),
-//! `instances`, `primitive` (which triangles a mesh has), `pose` (morphs and skins), `build` (all of it → parts), `own`
+//! `instances`, `primitive` (which triangles a mesh has), `features` (whose they are), `pose` (morphs and skins), `build` (all of it → parts), `own`
 //! (what this program itself has written of them), `notes` (what the user should know of it); beside it `named` (which
 //! other files are the model's).
 
 use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
+use crate::message::message;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +25,7 @@ mod container;
 mod document;
 mod draco;
 mod error;
+mod features;
 mod instances;
 mod material;
 mod meshopt;
@@ -37,6 +39,7 @@ mod scene;
 
 pub(super) use buffers::percent_decode;
 pub use error::Fault;
+pub(super) use features::batch_names;
 
 /// glTF 2.0, `.glb` and `.gltf`.
 pub struct Gltf;
@@ -70,7 +73,7 @@ impl Format for Gltf {
 }
 
 fn read(path: &Path, options: &ReadOptions) -> Result<Model, Fault> {
-    read_bytes(&container::read_file(path)?, path, options, &[])
+    read_bytes(&container::read_file(path)?, path, options, GltfContext::default())
 }
 
 /// The JSON of a glTF that is in memory.
@@ -78,24 +81,42 @@ pub(super) fn json_in(bytes: &[u8]) -> Option<&[u8]> {
     container::open(bytes).ok().map(|container| container.json)
 }
 
-/// Reads a glTF that is in memory, as a content of 3D Tiles is. What it names lies beside `path`; `applied` are
-/// extensions that the caller applies to what is read.
-pub(super) fn read_bytes(bytes: &[u8], path: &Path, options: &ReadOptions, applied: &[&str]) -> Result<Model, Fault> {
+/// What whoever holds a glTF knows of it.
+#[derive(Clone, Copy, Default)]
+pub(super) struct GltfContext<'a> {
+    /// Extensions that it applies itself to what is read.
+    pub applied: &'a [&'a str],
+    /// The names of the features of a tile.
+    pub batch: &'a [String],
+}
+
+/// Reads a glTF that is in memory, as a content of 3D Tiles is. What it names lies beside `path`.
+pub(super) fn read_bytes(
+    bytes: &[u8],
+    path: &Path,
+    options: &ReadOptions,
+    context: GltfContext,
+) -> Result<Model, Fault> {
     let container = container::open(bytes)?;
-    let document = document::Document::parse(container.json, applied)?;
+    let document = document::Document::parse(container.json, context.applied)?;
     let is_asked = options.scene.is_some();
     let standing = scene::place(&document, options.scene.as_ref())?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut buffers = buffers::Buffers::new(&document, container.binary, folder);
     let meshes: BTreeSet<usize> = standing.placed.iter().map(|place| place.mesh).collect();
     meshes.into_iter().try_for_each(|mesh| buffers.unpack(mesh))?;
+    let features = features::Features::of(&document, &buffers, context.batch);
     let build::BuiltScene { parts, kinds, see_through } =
-        build::build(&document, &buffers, &standing.placed, options.told_step)?;
+        build::build(&document, &buffers, &features, &standing.placed, options.told_step)?;
     if parts.is_empty() {
         let scene = if is_asked { "that scene" } else { "its default scene" };
         return Err(Fault::Empty { scene, way_out: notes::way_out(&document, &standing) });
     }
-    let notes = notes::of(&document, &standing, is_asked);
+    let mut notes = notes::of(&document, &standing, is_asked);
+    if features.is_damaged {
+        notes
+            .push(message!["has a damaged table of names, so that its features are not told apart"; "export it again"]);
+    }
     let scene = standing.scene.and_then(|scene| document.scenes.get(scene));
     let own::OwnScene { anchor, unit_m, up_is_said, stands_on_ground } =
         scene.map(|scene| scene.own.clone()).unwrap_or_default();

@@ -42,11 +42,11 @@ impl<'a> Pose<'a> {
         accessors: &mut Accessors<'a, '_>,
         skins: &mut Skins<'a>,
         place: &PlacedNode,
-        surface: &PrimitiveTriangles<'a>,
+        triangles: &PrimitiveTriangles<'a>,
     ) -> Result<Self, Fault> {
         let weights = document.weights(place.node, place.mesh);
-        let mesh = document.meshes.get(surface.mesh);
-        let primitive = mesh.and_then(|mesh| mesh.primitives.get(surface.primitive));
+        let mesh = document.meshes.get(triangles.mesh);
+        let primitive = mesh.and_then(|mesh| mesh.primitives.get(triangles.primitive));
         let skin = place.skin.filter(|_| primitive.is_some_and(has_joints));
         let is_posed = skin.is_some() || weights.iter().any(|weight| *weight != 0.0);
         let Some(primitive) = primitive.filter(|_| is_posed) else {
@@ -55,11 +55,11 @@ impl<'a> Pose<'a> {
         let skin = match skin {
             Some(skin) => {
                 let joints = skins.get(place.node, skin, accessors)?;
-                Some(Skinned { joints, sets: sets(accessors, surface, primitive)? })
+                Some(Skinned { joints, sets: sets(accessors, triangles, primitive)? })
             }
             None => None,
         };
-        Ok(Self { targets: targets(accessors, surface, primitive, weights)?, skin })
+        Ok(Self { targets: targets(accessors, triangles, primitive, weights)?, skin })
     }
 
     /// Whether the vertices stand as they are stored.
@@ -127,23 +127,23 @@ impl Skinned<'_> {
 /// The morph targets whose weight is not 0. A target that says nothing of positions moves none.
 fn targets<'a>(
     accessors: &mut Accessors<'a, '_>,
-    surface: &PrimitiveTriangles,
+    triangles: &PrimitiveTriangles,
     primitive: &Primitive,
     weights: &[f32],
 ) -> Result<Vec<(f64, Reader<'a>)>, Fault> {
     let mut targets = Vec::new();
     for (target, &weight) in primitive.targets.iter().flatten().zip(weights).filter(|(_, weight)| **weight != 0.0) {
         let Some(positions) = target.positions else { continue };
-        let what = || format!("a morph target of primitive {} of mesh {}", surface.primitive, surface.mesh);
+        let what = || format!("a morph target of primitive {} of mesh {}", triangles.primitive, triangles.mesh);
         let reader = accessors.get(positions.value(), what)?;
         if reader.shape != Type::Vec3 || reader.component == ComponentType::U32 {
             return Err(Fault::of_primitive(
-                surface.mesh,
-                surface.primitive,
+                triangles.mesh,
+                triangles.primitive,
                 "has a morph target of a type that glTF does not allow",
             ));
         }
-        check_count("a morph target", &reader, surface)?;
+        check_count("a morph target", &reader, triangles)?;
         targets.push((weight.into(), reader));
     }
     Ok(targets)
@@ -157,11 +157,11 @@ fn has_joints(primitive: &Primitive) -> bool {
 /// All sets of joints and weights of a primitive.
 fn sets<'a>(
     accessors: &mut Accessors<'a, '_>,
-    surface: &PrimitiveTriangles,
+    triangles: &PrimitiveTriangles,
     primitive: &Primitive,
 ) -> Result<Vec<(Reader<'a>, Reader<'a>)>, Fault> {
-    let fault = |problem: String| Fault::of_primitive(surface.mesh, surface.primitive, problem);
-    let user = || format!("primitive {} of mesh {}", surface.primitive, surface.mesh);
+    let fault = |problem: String| Fault::of_primitive(triangles.mesh, triangles.primitive, problem);
+    let user = || format!("primitive {} of mesh {}", triangles.primitive, triangles.mesh);
     let mut sets = Vec::new();
     for (semantic, joints) in &primitive.attributes {
         let Checked::Valid(Semantic::Joints(number)) = semantic else { continue };
@@ -174,21 +174,21 @@ fn sets<'a>(
         if !fit || joints.normalized || [joints.shape, weights.shape] != [Type::Vec4; 2] {
             return Err(fault("has joints or weights of a type that glTF does not allow".into()));
         }
-        check_count("joints", &joints, surface)?;
-        check_count("weights", &weights, surface)?;
+        check_count("joints", &joints, triangles)?;
+        check_count("weights", &weights, triangles)?;
         sets.push((joints, weights));
     }
     Ok(sets)
 }
 
-fn check_count(what: &str, reader: &Reader, surface: &PrimitiveTriangles) -> Result<(), Fault> {
-    let (has, needs) = (reader.count, surface.positions.count);
+fn check_count(what: &str, reader: &Reader, triangles: &PrimitiveTriangles) -> Result<(), Fault> {
+    let (has, needs) = (reader.count, triangles.positions.count);
     if has == needs {
         return Ok(());
     }
     Err(Fault::of_primitive(
-        surface.mesh,
-        surface.primitive,
+        triangles.mesh,
+        triangles.primitive,
         format!("has {what} for {has} vertices, and there are {needs}"),
     ))
 }

@@ -3,6 +3,7 @@
 use super::Fault;
 use super::accessor::Accessors;
 use super::document::Document;
+use super::features::{Features, PrimitiveFeatures};
 use super::reader::Reader;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -25,7 +26,7 @@ pub(super) struct MaterialGroup<'a> {
     /// Whether the colours of its vertices have an alpha channel.
     pub has_faded_vertices: bool,
     /// One or more, each with triangles.
-    pub surfaces: Vec<PrimitiveTriangles<'a>>,
+    pub primitives: Vec<PrimitiveTriangles<'a>>,
 }
 
 /// A primitive with triangles.
@@ -38,6 +39,8 @@ pub(super) struct PrimitiveTriangles<'a> {
     pub positions: Reader<'a>,
     /// The number of triangles, at least one.
     pub triangles: usize,
+    /// The features of its vertices, where something names them.
+    pub features: Option<PrimitiveFeatures<'a>>,
     indices: Option<Reader<'a>>,
     mode: Mode,
 }
@@ -45,14 +48,15 @@ pub(super) struct PrimitiveTriangles<'a> {
 impl MaterialGroup<'_> {
     /// How many triangles all its primitives have.
     pub(super) fn triangles(&self) -> u64 {
-        self.surfaces.iter().map(|surface| surface.triangles as u64).sum()
+        self.primitives.iter().map(|primitive| primitive.triangles as u64).sum()
     }
 }
 
 /// Reads what the primitives of mesh `index` say; points and lines are skipped.
-pub(super) fn surfaces<'a>(
+pub(super) fn of_mesh<'a>(
     document: &Document,
     accessors: &mut Accessors<'a, '_>,
+    features: &Features,
     index: usize,
 ) -> Result<MeshTriangles<'a>, Fault> {
     let mut groups: Vec<MaterialGroup> = Vec::new();
@@ -77,16 +81,17 @@ pub(super) fn surfaces<'a>(
             });
         }
         let group = *group_of.entry(material).or_insert_with(|| {
-            groups.push(MaterialGroup { material, has_faded_vertices: false, surfaces: Vec::new() });
+            groups.push(MaterialGroup { material, has_faded_vertices: false, primitives: Vec::new() });
             groups.len() - 1
         });
-        let surface = surface(accessors, (index, number), primitive, mode)?;
-        if let Some(group) = groups.get_mut(group).filter(|_| surface.triangles > 0) {
+        let mut triangles = triangles_of(accessors, (index, number), primitive, mode)?;
+        if let Some(group) = groups.get_mut(group).filter(|_| triangles.triangles > 0) {
             group.has_faded_vertices |= has_faded_vertices(document, primitive);
-            group.surfaces.push(surface);
+            triangles.features = features.of_primitive(accessors, (index, number), primitive)?;
+            group.primitives.push(triangles);
         }
     }
-    groups.retain(|group| !group.surfaces.is_empty());
+    groups.retain(|group| !group.primitives.is_empty());
     Ok(MeshTriangles { groups, one_material: group_of.len() == 1 })
 }
 
@@ -97,7 +102,7 @@ fn has_faded_vertices(document: &Document, primitive: &Primitive) -> bool {
     accessor.is_some_and(|accessor| accessor.type_ == Checked::Valid(Type::Vec4))
 }
 
-fn surface<'a>(
+fn triangles_of<'a>(
     accessors: &mut Accessors<'a, '_>,
     (mesh, number): (usize, usize),
     primitive: &Primitive,
@@ -132,7 +137,7 @@ fn surface<'a>(
         Mode::TriangleStrip | Mode::TriangleFan => corners.saturating_sub(2),
         _ => corners / 3,
     };
-    Ok(PrimitiveTriangles { mesh, primitive: number, positions, triangles, indices, mode })
+    Ok(PrimitiveTriangles { mesh, primitive: number, positions, triangles, features: None, indices, mode })
 }
 
 impl PrimitiveTriangles<'_> {

@@ -11,14 +11,6 @@ pub(super) fn is_ifc_text(head: &[u8]) -> bool {
     list.windows(3).any(|word| word.eq_ignore_ascii_case(b"IFC"))
 }
 
-/// Whether a file begins as a zip archive whose first entry is an IFC file: others' archives begin alike.
-pub(super) fn is_zipped_ifc(head: &[u8]) -> bool {
-    let Some(entry) = head.strip_prefix(b"PK\x03\x04") else { return false };
-    let length = entry.get(22..24).and_then(|bytes| bytes.try_into().ok()).map(u16::from_le_bytes);
-    let name = length.and_then(|length| entry.get(26..26 + usize::from(length)));
-    name.is_some_and(|name| name.to_ascii_lowercase().ends_with(b".ifc"))
-}
-
 /// Whether a text ends as STEP has it: the end of its data, and that of the file. What was cut off while it was copied or
 /// written lacks them, though every record before may be whole.
 #[cfg(feature = "ifc")]

@@ -25,8 +25,8 @@ mod relations;
 #[cfg(feature = "ifc")]
 mod scan;
 
-use super::{Format, Model, ModelFault, ReadOptions};
-use marks::{is_ifc_text, is_zipped_ifc};
+use super::{Format, Model, ModelFault, ReadOptions, archive};
+use marks::is_ifc_text;
 use std::path::Path;
 
 /// IFC 2x3, 4 and 4x3 as text (`.ifc`), also zipped (`.ifczip`).
@@ -42,7 +42,7 @@ impl Format for Ifc {
     }
 
     fn begins(&self, head: &[u8]) -> bool {
-        is_ifc_text(head) || is_zipped_ifc(head)
+        is_ifc_text(head) || archive::begins_with(head, ".ifc")
     }
 
     #[cfg(feature = "ifc")]

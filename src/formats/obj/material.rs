@@ -2,7 +2,7 @@
 
 use crate::formats::left_out::label;
 use crate::formats::source::{TextLines, as_ascii, beside, keyword, number, text, words};
-use crate::formats::whole::whole_file;
+use crate::formats::whole::{whole_file, whole_named_file};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -18,10 +18,11 @@ pub(super) fn beside_each(model: &Path, names: &str) -> Vec<PathBuf> {
 
 /// The names of materials that are translucent or cut out, and the libraries that cannot be read.
 pub(super) fn see_through(model: &Path, libraries: &[String]) -> (BTreeSet<String>, Vec<String>) {
+    let folder = model.parent().unwrap_or(Path::new(""));
     let (mut faded, mut missing, mut seen) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
     for names in libraries.iter().filter(|names| seen.insert(names.as_str())) {
         let found: Vec<PathBuf> = beside_each(model, names).into_iter().filter(|file| file.is_file()).collect();
-        let read: Vec<Vec<u8>> = found.iter().filter_map(|file| whole_file(file).ok()).collect();
+        let read: Vec<Vec<u8>> = found.iter().filter_map(|file| whole_named_file(folder, file).ok()).collect();
         if read.is_empty() {
             missing.insert(label(names));
         }

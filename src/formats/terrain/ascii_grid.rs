@@ -3,7 +3,7 @@
 use super::grid::HeightGrid;
 use super::model_of;
 use crate::formats::source::stem;
-use crate::formats::whole::whole_file;
+use crate::formats::whole::{sidecar, whole_file};
 use crate::formats::{Format, Model, ModelFault, ReadOptions};
 use crate::message::message;
 use glam::DVec2;
@@ -33,15 +33,15 @@ impl Format for AsciiGrid {
         let bytes = whole_file(path)?;
         let text = std::str::from_utf8(&bytes).map_err(|_| message!["is not text"; "export it again"])?;
         let grid = grid(text)?;
-        let crs = beside(path);
+        let crs = beside(path)?;
         model_of(&grid, options.terrain_error_m, &stem(path), crs)
     }
 }
 
 /// What the `.prj` file beside a grid says of its map.
-fn beside(path: &Path) -> Option<String> {
-    let text = whole_file(&path.with_extension("prj")).ok()?;
-    String::from_utf8(text).ok().filter(|text| !text.trim().is_empty())
+fn beside(path: &Path) -> Result<Option<String>, ModelFault> {
+    let text = sidecar(path, "prj")?.and_then(|text| String::from_utf8(text).ok());
+    Ok(text.filter(|text| !text.trim().is_empty()))
 }
 
 /// The head: what a grid must say, and what it may.

@@ -4,7 +4,7 @@ use super::geokeys::MapKeys;
 use super::grid::HeightGrid;
 use super::model_of;
 use crate::formats::source::stem;
-use crate::formats::whole::whole_file;
+use crate::formats::whole::sidecar;
 use crate::formats::{Format, Model, ModelFault, ReadOptions};
 use crate::message::{Message, message};
 use glam::DVec2;
@@ -89,7 +89,7 @@ fn placed(tiff: &mut Tiff, keys: &MapKeys, path: &Path) -> Result<(DVec2, [DVec2
         let steps = [DVec2::new(a, c), DVec2::new(b, d)];
         Some((DVec2::new(x, y) + (steps[0] + steps[1]) * middle, steps))
     } else {
-        world_file(path)
+        world_file(path)?
     };
     let is_usable = |(first, [across, down]): &(DVec2, [DVec2; 2])| {
         first.is_finite()
@@ -109,11 +109,12 @@ fn placed(tiff: &mut Tiff, keys: &MapKeys, path: &Path) -> Result<(DVec2, [DVec2
 }
 
 /// Where a `.tfw` beside it says that it lies: the steps, then the middle of the first cell.
-fn world_file(path: &Path) -> Option<(DVec2, [DVec2; 2])> {
-    let text = String::from_utf8(whole_file(&path.with_extension("tfw")).ok()?).ok()?;
+fn world_file(path: &Path) -> Result<Option<(DVec2, [DVec2; 2])>, ModelFault> {
+    let text = sidecar(path, "tfw")?.unwrap_or_default();
+    let text = String::from_utf8_lossy(&text);
     let numbers: Vec<f64> = text.split_ascii_whitespace().filter_map(|word| word.parse().ok()).collect();
-    let [a, c, b, d, x, y] = numbers[..] else { return None };
-    Some((DVec2::new(x, y), [DVec2::new(a, c), DVec2::new(b, d)]))
+    let [a, c, b, d, x, y] = numbers[..] else { return Ok(None) };
+    Ok(Some((DVec2::new(x, y), [DVec2::new(a, c), DVec2::new(b, d)])))
 }
 
 /// The numbers of the first band, row after row.

@@ -17,6 +17,7 @@ pub use geotiff::GeoTiff;
 pub use landxml::LandXml;
 pub use points::{LasPoints, POINT_CLASSES};
 
+use super::left_out::counted;
 use super::{Coordinates, Model, ModelFault, PartKind, Up};
 use crate::mesh::Part;
 use crate::message::message;
@@ -25,10 +26,22 @@ use grid::HeightGrid;
 
 /// What a raster of heights gives: one part, thinned; `name` says what people call it.
 fn model_of(grid: &HeightGrid, error_m: f64, name: &str, crs: Option<String>) -> Result<Model, ModelFault> {
-    let sheet = thin::sheet(grid, error_m as f32);
-    let mut notes = Vec::new();
     let samples = grid.heights.len();
     let missing = grid.heights.iter().filter(|height| height.is_nan()).count();
+    if missing == samples {
+        let what = format!("has no heights: none of its {samples} cells has one");
+        return Err(
+            message![what; "export the part of the terrain that has heights, with the right value for no data"].into(),
+        );
+    }
+    let sheet = thin::sheet(grid, error_m as f32);
+    if sheet.triangles.is_empty() {
+        let what = format!("has {} heights, and no three of them side by side", samples - missing);
+        return Err(
+            message![what; "export a larger part of the terrain, with at least two rows and two columns"].into()
+        );
+    }
+    let mut notes = Vec::new();
     notes.push(message![
         format!(
             "has {} heights {}, thinned to {} triangles that lie within {error_m} m of them",
@@ -39,7 +52,8 @@ fn model_of(grid: &HeightGrid, error_m: f64, name: &str, crs: Option<String>) ->
         "`terrain_error` under [[model]] says how close"
     ]);
     if missing > 0 {
-        notes.push(format!("has {missing} cells without a height, where there is no terrain").into());
+        let (cells, are) = (counted(missing as u64, "cell"), if missing == 1 { "is" } else { "are" });
+        notes.push(message![format!("has {cells} without a height, which {are} left out of the terrain")]);
     }
     Ok(of_sheets(vec![(name.to_owned(), sheet.positions, sheet.triangles, PartKind::Terrain)], crs, notes))
 }

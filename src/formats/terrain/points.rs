@@ -71,10 +71,15 @@ impl Format for LasPoints {
         let mut left_out = Vec::new();
         for (class, numbers) in CLASSES {
             let of_class = points.of_classes(numbers);
+            let is_asked = options.point_classes.iter().any(|asked| asked == class);
             if of_class.is_empty() {
+                if is_asked {
+                    let what = format!("has no points of the class {class}, for which `classes` asks");
+                    notes.push(message![what; "classify its points, and export it again"]);
+                }
                 continue;
             }
-            if !options.point_classes.iter().any(|asked| asked == class) {
+            if !is_asked {
                 let why = format!("`classes = [\"{class}\"]` under [[model]] lets this class stand there");
                 left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
                 continue;
@@ -142,7 +147,10 @@ impl ClassedPoints {
         }
         let all: Vec<DVec3> = self.by_class.values().flatten().copied().collect();
         if all.is_empty() {
-            return Err(message!["has no points"; "export it again"].into());
+            return Err(message![
+                "has no points, or none but noise"; "export it with the points of the ground, of class 2"
+            ]
+            .into());
         }
         Ok((all, false))
     }

@@ -1,5 +1,6 @@
 //! A batched 3D model: tables of its features, and a glTF.
 
+use crate::formats::gltf::batch_names;
 use crate::message::{Message, message};
 use glam::DVec3;
 use serde::Deserialize;
@@ -10,10 +11,11 @@ pub(super) const MAGIC: &[u8] = b"b3dm";
 /// Bytes before the tables: magic, version, length, and the lengths of two tables' JSON and binary.
 const HEADER_BYTES: usize = 28;
 
-/// The glTF of a content, and the point that its coordinates are around.
+/// The glTF of a content, the point that its coordinates are around, and the names of its features.
 pub(super) struct TileGltf<'a> {
     pub gltf: &'a [u8],
     pub center: DVec3,
+    pub names: Vec<String>,
 }
 
 #[derive(Default, Deserialize)]
@@ -52,9 +54,10 @@ pub(super) fn opened(bytes: &[u8]) -> Result<TileGltf<'_>, Message> {
     let body = bytes.get(HEADER_BYTES..*length).ok_or_else(cut_off)?;
     let (table, rest) = body.split_at_checked(*json).ok_or_else(cut_off)?;
     let (table_binary, rest) = rest.split_at_checked(*binary).ok_or_else(cut_off)?;
-    let gltf = rest.get(*batch_json..).and_then(|rest| rest.get(*batch_binary..)).ok_or_else(cut_off)?;
+    let (batch, rest) = rest.split_at_checked(*batch_json).ok_or_else(cut_off)?;
+    let gltf = rest.get(*batch_binary..).ok_or_else(cut_off)?;
     let center = center(table, table_binary).ok_or_else(cut_off)?;
-    Ok(TileGltf { gltf, center })
+    Ok(TileGltf { gltf, center, names: batch_names(batch) })
 }
 
 /// `RTC_CENTER`, or zero where the table has none.

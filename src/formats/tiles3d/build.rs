@@ -1,6 +1,7 @@
 //! The contents of tiles → parts of one model.
 
 use super::b3dm::{MAGIC, TileGltf, cesium_center, opened};
+use crate::formats::gltf::GltfContext;
 use crate::formats::left_out::{LeftOutTally, label};
 use crate::formats::{Coordinates, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough, Up, gltf};
 use crate::mesh::Part;
@@ -40,7 +41,7 @@ impl TileBuilder {
 
     /// A content that cannot be used.
     pub(super) fn fail(&mut self, name: &str, fault: &ModelFault) {
-        self.tally.add("contents", "they cannot be read");
+        self.tally.add("contents", "the file cannot be read");
         if self.failed.len() < MOST_NOTES {
             self.failed.push(format!("{name} {fault}"));
         }
@@ -55,17 +56,17 @@ impl TileBuilder {
         world: DMat4,
         is_y_up: bool,
     ) -> Result<(), ModelFault> {
-        let TileGltf { gltf, center } = match bytes {
+        let TileGltf { gltf, center, names } = match bytes {
             bytes if bytes.starts_with(MAGIC) => opened(bytes)?,
             bytes if bytes.starts_with(b"i3dm") || bytes.starts_with(b"pnts") || bytes.starts_with(b"cmpt") => {
                 let kind = String::from_utf8_lossy(&bytes[..4]);
                 self.tally.add(&kind, "Gnomon reads b3dm, glb and glTF");
                 return Ok(());
             }
-            gltf => TileGltf { gltf, center: DVec3::ZERO },
+            gltf => TileGltf { gltf, center: DVec3::ZERO, names: Vec::new() },
         };
         let options = ReadOptions { told_step: self.told_step, ..ReadOptions::default() };
-        let model = gltf::read_bytes(gltf, path, &options, &["CESIUM_RTC"])?;
+        let model = gltf::read_bytes(gltf, path, &options, GltfContext { applied: &["CESIUM_RTC"], batch: &names })?;
         let center = center + gltf::json_in(gltf).map_or(DVec3::ZERO, cesium_center);
         let turned = if is_y_up { DMat4::from_rotation_x(std::f64::consts::FRAC_PI_2) } else { DMat4::IDENTITY };
         self.join(model, name, world * DMat4::from_translation(center), turned)

@@ -1,10 +1,10 @@
 //! 3D Tiles: a tileset with its contents, or a single content. Only the finest tiles are taken.
 //!
 //! What a tile holds is glTF, with its y up; tiles have z up, and bring their contents to where they are on the Earth, whose
-//! centre is zero. The files of this folder, in the order of the flow: `tileset` (JSON → which contents stand where), `b3dm`
-//! (a content's bytes → its glTF), `build` (all of it → parts).
+//! centre is zero. The files of this folder, in the order of the flow: `tileset` (JSON → which contents stand where), `implicit`
+//! and `subtree` (those of tiles that are not written out), `b3dm` (a content's bytes → its glTF), `build` (all of it → parts).
 
-use super::whole::whole_file;
+use super::whole::{whole_file, whole_named_file};
 use super::{Format, Model, ModelFault, ReadOptions, json_head};
 use build::TileBuilder;
 use glam::DMat4;
@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 
 mod b3dm;
 mod build;
+mod implicit;
+mod subtree;
 mod tileset;
 
 /// 3D Tiles, `tileset.json` and `.b3dm`.
@@ -38,8 +40,9 @@ impl Format for Tiles3d {
             return builder.finish();
         }
         let listed = tileset::contents(path, &bytes)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
         for content in &listed.contents {
-            let bytes = match whole_file(&content.path) {
+            let bytes = match whole_named_file(folder, &content.path) {
                 Ok(bytes) => bytes,
                 Err(fault) => {
                     builder.fail(&content.name, &fault);

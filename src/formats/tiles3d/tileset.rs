@@ -1,13 +1,13 @@
 //! The JSON of a tileset, and of the tilesets that it names → which contents stand where.
 
+use super::implicit::ImplicitTiling;
 use crate::formats::ModelFault;
 use crate::formats::gltf::percent_decode;
 use crate::formats::left_out::{LeftOutTally, label};
-use crate::formats::whole::{below, whole_file, without_mark};
+use crate::formats::whole::{below, whole_named_file, without_mark};
 use crate::message::{Message, message};
 use glam::DMat4;
 use serde::Deserialize;
-use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// How deep tilesets may name each other.
@@ -42,16 +42,38 @@ struct TilesetTile {
     contents: Vec<ContentAddress>,
     #[serde(default)]
     children: Vec<TilesetTile>,
-    implicit_tiling: Option<Value>,
+    implicit_tiling: Option<ImplicitTiling>,
     #[serde(default)]
-    extensions: Value,
+    extensions: TileExtensions,
+}
+
+/// What 1.1 took up was an extension before.
+#[derive(Default, Deserialize)]
+struct TileExtensions {
+    #[serde(rename = "3DTILES_implicit_tiling")]
+    implicit_tiling: Option<ImplicitTiling>,
+    #[serde(rename = "3DTILES_multiple_contents")]
+    contents: Option<SeveralContents>,
 }
 
 #[derive(Deserialize)]
-struct ContentAddress {
+struct SeveralContents {
+    #[serde(alias = "content")]
+    contents: Vec<ContentAddress>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ContentAddress {
     /// Called `url` before 1.0.
     #[serde(alias = "url")]
-    uri: Option<String>,
+    pub uri: Option<String>,
+}
+
+impl TilesetTile {
+    fn contents(&self) -> Vec<&ContentAddress> {
+        let further = self.extensions.contents.iter().flat_map(|several| &several.contents);
+        self.content.iter().chain(&self.contents).chain(further).collect()
+    }
 }
 
 /// A content of a tile that stands there.
@@ -68,7 +90,7 @@ pub(super) struct TileContent {
 #[derive(Default)]
 pub(super) struct TileList {
     pub contents: Vec<TileContent>,
-    /// Further tilesets.
+    /// Further tilesets, and the lists of tiles that are not written out.
     pub tilesets: Vec<PathBuf>,
     pub tally: LeftOutTally,
     tiles: usize,
@@ -78,8 +100,8 @@ pub(super) struct TileList {
 pub(super) fn contents(path: &Path, bytes: &[u8]) -> Result<TileList, ModelFault> {
     let mut list = TileList::default();
     let tileset = parsed(bytes)?;
-    let at =
-        TilesetPlace { folder: path.parent().unwrap_or(Path::new("")), is_y_up: tileset.is_y_up(), deep: MOST_DEEP };
+    let home = path.parent().unwrap_or(Path::new(""));
+    let at = TilesetPlace { home, folder: home, is_y_up: tileset.is_y_up(), deep: MOST_DEEP };
     list.add(&tileset.root, DMat4::IDENTITY, false, at)?;
     Ok(list)
 }
@@ -97,47 +119,63 @@ impl Tileset {
     }
 }
 
-/// Where a tile is described.
+/// Where a tileset is described.
 #[derive(Clone, Copy)]
-struct TilesetPlace<'a> {
-    folder: &'a Path,
+pub(super) struct TilesetPlace<'a> {
+    /// The folder of the tileset that is opened, out of which no link leads.
+    pub home: &'a Path,
+    pub folder: &'a Path,
     is_y_up: bool,
     /// How much deeper tilesets may name each other.
     deep: usize,
 }
 
+/// Where a tile stands.
+#[derive(Clone, Copy)]
+pub(super) struct TilePlace<'a> {
+    pub world: DMat4,
+    /// Whether finer tiles stand beside it, and not instead.
+    pub adds: bool,
+    pub tileset: TilesetPlace<'a>,
+}
+
 impl TileList {
     /// Adds a tile and those below it. JSON is nested no deeper than its reader allows.
     fn add(&mut self, tile: &TilesetTile, around: DMat4, adds: bool, at: TilesetPlace<'_>) -> Result<(), Message> {
-        self.tiles += 1;
-        if self.tiles > MOST_TILES {
-            return Err(message![format!("has more than {MOST_TILES} tiles"); "export a smaller region"]);
-        }
+        self.count_tile()?;
         let world = tile.transform.map_or(around, |transform| around * DMat4::from_cols_array(&transform));
         // what a tile does not say, it has from the one around it
         let adds = tile.refine.as_deref().map_or(adds, |refine| refine.eq_ignore_ascii_case("add"));
-        if tile.implicit_tiling.is_some() || tile.extensions.get("3DTILES_implicit_tiling").is_some() {
-            self.tally.add("implicit tilings", "the tiles are not listed");
-            return Ok(());
+        let place = TilePlace { world, adds, tileset: at };
+        if let Some(tiling) = tile.implicit_tiling.as_ref().or(tile.extensions.implicit_tiling.as_ref()) {
+            return self.add_implicit(tiling, &tile.contents(), place);
         }
-        for content in tile.content.iter().chain(&tile.contents) {
+        for content in tile.contents() {
             if adds || tile.children.is_empty() {
-                self.add_content(content, world, adds, at)?;
+                self.add_content(content.uri.as_deref(), place)?;
             } else {
-                self.tally.add("tiles", "finer ones stand instead");
+                self.leave_out_coarser();
             }
         }
         tile.children.iter().try_for_each(|child| self.add(child, world, adds, at))
     }
 
-    fn add_content(
-        &mut self,
-        content: &ContentAddress,
-        world: DMat4,
-        adds: bool,
-        at: TilesetPlace<'_>,
-    ) -> Result<(), Message> {
-        let uri = content.uri.as_deref().and_then(|uri| percent_decode(uri.split(['?', '#']).next()?));
+    pub(super) fn count_tile(&mut self) -> Result<(), Message> {
+        self.tiles += 1;
+        if self.tiles > MOST_TILES {
+            return Err(message![format!("has more than {MOST_TILES} tiles"); "export a smaller region"]);
+        }
+        Ok(())
+    }
+
+    pub(super) fn leave_out_coarser(&mut self) {
+        self.tally.add("tiles", "finer ones stand instead");
+    }
+
+    /// Adds what lies at an address.
+    pub(super) fn add_content(&mut self, uri: Option<&str>, place: TilePlace<'_>) -> Result<(), Message> {
+        let TilePlace { world, adds, tileset: at } = place;
+        let uri = uri.and_then(|uri| percent_decode(uri.split(['?', '#']).next()?));
         let Some(path) = uri.as_deref().and_then(|uri| below(at.folder, uri)) else {
             self.tally.add("contents", "the address does not lie in the tileset's folder");
             return Ok(());
@@ -155,15 +193,16 @@ impl TileList {
 
     /// A tileset stands where the tile that names it does. One that cannot be read is left out as a content would be.
     fn add_tileset(&mut self, path: &Path, world: DMat4, adds: bool, at: TilesetPlace<'_>) -> Result<(), Message> {
-        let tileset = (at.deep > 0).then(|| whole_file(path).ok().and_then(|bytes| parsed(&bytes).ok())).flatten();
+        let read = || parsed(&whole_named_file(at.home, path).ok()?).ok();
+        let tileset = (at.deep > 0).then(read).flatten();
         let Some(tileset) = tileset else {
-            let why = if at.deep > 0 { "they cannot be read" } else { "they name each other too often" };
+            let why = if at.deep > 0 { "the file cannot be read" } else { "tilesets name each other too often" };
             self.tally.add("tilesets", why);
             return Ok(());
         };
         self.tilesets.push(path.to_owned());
         let folder = path.parent().unwrap_or(Path::new(""));
-        let at = TilesetPlace { folder, is_y_up: tileset.is_y_up(), deep: at.deep - 1 };
+        let at = TilesetPlace { folder, is_y_up: tileset.is_y_up(), deep: at.deep - 1, ..at };
         self.add(&tileset.root, world, adds, at)
     }
 }

@@ -20,7 +20,7 @@ impl Seeded {
 }
 
 /// One to four bytes are changed, taken out, doubled or cut off, or a number is made large.
-fn damaged(bytes: &[u8], seed: u64) -> Vec<u8> {
+pub(super) fn damaged(bytes: &[u8], seed: u64) -> Vec<u8> {
     let mut random = Seeded(seed);
     let mut bytes = bytes.to_vec();
     for _ in 0..=random.next(4) {

@@ -7,7 +7,7 @@ use gnomon::message::Field;
 use serde_json::{Value, json};
 
 /// One footprint of 1 m² for each of some properties.
-fn houses(properties: &[Value]) -> Value {
+pub(super) fn houses(properties: &[Value]) -> Value {
     let each = properties
         .iter()
         .enumerate()
@@ -91,8 +91,11 @@ fn guesses_are_told_with_how_many() {
     let file = houses(&properties).to_string();
     let model = model_of("a.geojson", &file);
     let notes = texts(&model);
-    assert!(notes[0].contains("no height of 2 footprints") && notes[0].contains("3 m a storey"), "{notes:?}");
-    assert!(notes.iter().any(|note| note.contains("1 height written otherwise")), "{notes:?}");
+    assert!(notes[0].contains("no height of 2 footprints") && notes[0].contains("guessed to be 3 m high"), "{notes:?}");
+    assert!(
+        notes.iter().any(|note| note.contains("1 height (of ") && note.contains(") written otherwise")),
+        "{notes:?}"
+    );
     let hint = gnomon::message::Piece::Field(Field::DefaultHeight);
     assert!(model.notes.iter().any(|note| note.hint.contains(&hint)), "{:?}", model.notes);
     assert_eq!(left_out(&model, "footprints"), 3);

@@ -46,7 +46,7 @@ fn assert_stands(model: &Model, world: DMat4) {
     }
 }
 
-fn tileset(root: Value) -> String {
+pub(super) fn tileset(root: Value) -> String {
     json!({"asset": {"version": "1.0"}, "geometricError": 100, "root": root}).to_string()
 }
 
@@ -55,7 +55,7 @@ fn tile(content: &str) -> Value {
 }
 
 /// Files in a folder, of which the first is read.
-fn folder_of(files: &[(&str, &[u8])]) -> (tempfile::TempDir, std::path::PathBuf) {
+pub(super) fn folder_of(files: &[(&str, &[u8])]) -> (tempfile::TempDir, std::path::PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bytes) in files {
         let path = folder.path().join(name);
@@ -66,7 +66,7 @@ fn folder_of(files: &[(&str, &[u8])]) -> (tempfile::TempDir, std::path::PathBuf)
     (folder, path)
 }
 
-fn read(files: &[(&str, &[u8])]) -> Model {
+pub(super) fn read(files: &[(&str, &[u8])]) -> Model {
     let (_folder, path) = folder_of(files);
     model_at(&path)
 }
@@ -164,7 +164,8 @@ fn nothing_outside_of_the_folder_is_read() {
 #[test]
 fn implicit_tilings_other_contents_and_circles_are_told() {
     let mut implicit = tile("{level}.glb");
-    implicit["implicitTiling"] = json!({"subdivisionScheme": "QUADTREE"});
+    implicit["implicitTiling"] =
+        json!({"subdivisionScheme": "QUADTREE", "subtreeLevels": 2, "subtrees": {"uri": "gone/{level}.subtree"}});
     let mut root = json!({"boundingVolume": {}, "geometricError": 0});
     root["children"] = json!([implicit, tile("a.glb"), tile("b.pnts"), tile("tileset.json"), tile("c.b3dm")]);
     let (folder, path) = folder_of(&[
@@ -174,7 +175,7 @@ fn implicit_tilings_other_contents_and_circles_are_told() {
         ("c.b3dm", b"b3dm"),
     ]);
     let model = model_at(&path);
-    assert!(left_out(&model, "implicit tilings") >= 1 && left_out(&model, "pnts") >= 1, "{:?}", model.left_out);
+    assert!(left_out(&model, "lists of tiles") >= 1 && left_out(&model, "pnts") >= 1, "{:?}", model.left_out);
     assert!(left_out(&model, "tilesets") >= 1, "it names itself: {:?}", model.left_out);
     assert!(model.notes[0].to_string().contains("c is cut off"), "{:?}", model.notes);
     drop(folder);
