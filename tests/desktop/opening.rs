@@ -96,7 +96,11 @@ fn model_dropped_with_a_site_is_added_to_it() {
     settle(&mut harness);
     let paths: Vec<_> = harness.state().site_file().model.iter().filter_map(|model| model.path.clone()).collect();
     assert_eq!(paths, ["works.glb", "other.glb"]);
-    assert!(harness.state().is_unsaved() && harness.state().told()[0].is_none(), "{:?}", harness.state().told());
+    assert!(
+        harness.state().is_unsaved() && harness.state().fault_and_notice()[0].is_none(),
+        "{:?}",
+        harness.state().fault_and_notice()
+    );
 }
 
 /// The elevation that a model's file says is shown, and saved with a word of where it is from.
