@@ -41,10 +41,6 @@ pub(super) struct ProbeArgs {
     /// On each day not after: 14:00, sunset-1h30 [default: the whole day]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     to: Option<String>,
-    /// The search's grid: an interval of sun or of shade at least so long cannot be missed, a shorter one may be. Start
-    /// and end are to the second whatever the step [default: 1min]
-    #[arg(long, value_name = "STEP", allow_hyphen_values = true)]
-    step: Option<String>,
     /// A drawing: time of day across, days down
     #[arg(long, value_name = "FILE.png")]
     out: Option<PathBuf>,
@@ -57,10 +53,10 @@ pub(super) struct ProbeArgs {
 
 impl ProbeArgs {
     fn overrides(&self) -> Overrides {
-        let [point, normal, date, from_date, to_date, from, to, step] =
-            [&self.point, &self.normal, &self.date, &self.from_date, &self.to_date, &self.from, &self.to, &self.step]
+        let [point, normal, date, from_date, to_date, from, to] =
+            [&self.point, &self.normal, &self.date, &self.from_date, &self.to_date, &self.from, &self.to]
                 .map(Clone::clone);
-        Overrides { point, normal, date, from_date, to_date, from, to, step, ..self.model.onto(self.site.overrides()) }
+        Overrides { point, normal, date, from_date, to_date, from, to, ..self.model.onto(self.site.overrides()) }
     }
 }
 
@@ -85,6 +81,6 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
     let ProbeAnswer { sunlight, written } = deliver(&probing, &request, sink, &mut |event| progress.heard(&event))?;
     match asked.common.json {
         true => say(&told::json(&sunlight, &probing.place, &probing.ground, (&probing.notes, &Options))?),
-        false => say(&(told::table(&sunlight, &probing.place, &probing.ground, &Options) + &lines(&written))),
+        false => say(&(told::table(&sunlight, &probing.place, &probing.ground) + &lines(&written))),
     }
 }

@@ -2,8 +2,8 @@
 
 use super::names::{field, plain};
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
-use super::{ExportError, figure, report};
-use crate::message::{Field, Message, Words, aside, message};
+use super::{ExportError, report};
+use crate::message::{Message, Words};
 use crate::site::{Ground, metres};
 use crate::sun::{Place, Polar, Zone};
 use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight, longest, secs};
@@ -65,7 +65,7 @@ struct IntervalReport {
 ///   the end (`blocked_before`, `blocked_after`): the nearest component, `horizon` (the sun is down), `behind` (it is
 ///   behind the probe's own plane) or `window` (what is asked begins or ends there);
 /// - of each day and each probe the `seconds` in sunlight and the longest interval's (`longest_seconds`);
-/// - `shortest_found_secs`: no interval of sun or of shade that is at least so long can have been missed;
+/// - `shortest_found_secs`: 1, as each second is decided, and no sun or shade between two of them is left out;
 /// - `notes` as in `profile.json`.
 ///
 /// # Errors
@@ -103,7 +103,7 @@ pub fn json(
                 longest_seconds: probed.longest().map_or(0, Interval::secs),
             })
             .collect(),
-        shortest_found_secs: sunlight.step_secs,
+        shortest_found_secs: 1,
         notes: report::said(notes, words),
     })
 }
@@ -134,9 +134,9 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
-/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and what
-/// cannot have been missed. Ends with a line break.
-pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> String {
+/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and how
+/// exact it is. Ends with a line break.
+pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground) -> String {
     let mut table = String::new();
     for probed in &sunlight.probes {
         // Writing to a String cannot fail.
@@ -151,16 +151,10 @@ pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Wo
         }
         table.push('\n');
     }
-    let shortest = figure::duration(sunlight.step_secs);
-    let missed = message![
-        format!("Sun or shade of {shortest} or more cannot have been missed"),
-        aside(Field::Step);
-        "start: the first second in sunlight, end: the first not in it"
-    ];
     let _ = writeln!(
         table,
-        "{}\nground at {}\nclock: {}, tz {}",
-        missed.in_words(words),
+        "To the second, nothing left out; start: the first second in sunlight, end: the first not in it\nground at {}\n\
+         clock: {}, tz {}",
         ground.said(),
         place.time_zone,
         place.time_zone.version()

@@ -12,15 +12,12 @@ use crate::choice::Receivers;
 use crate::formats::composed;
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Words, message};
-use crate::sun::{DayWindow, Place, SunError, Zone, parse_duration_secs};
+use crate::sun::{DayWindow, Place, Zone};
 use crate::view::Probe;
 use chrono::NaiveDate;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
-
-/// The step where nobody asks.
-const STEP: &str = "1min";
 
 /// The checked request of `gnomon probe`: place, models, points, days.
 #[derive(Clone, Debug)]
@@ -41,8 +38,6 @@ pub struct ProbeSite {
     pub probes: Vec<Probe>,
     /// The days in their order, at least one, and what is asked of each.
     pub days: Vec<DayWindow>,
-    /// Seconds between the instants at which is looked first.
-    pub step_secs: u32,
     /// Whether directions include atmospheric refraction.
     pub refraction: bool,
 }
@@ -59,11 +54,6 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     let place = written.place(asked)?;
     let probes = probes(&written, asked)?;
     let days = days(&place, &written, asked)?;
-    let step_secs = match parse_duration_secs(asked.step.as_deref().unwrap_or(STEP)) {
-        Ok(0) => Err(SunError::ZeroStep),
-        step => step,
-    }
-    .map_err(|error| SiteError::sun(FieldLocation::Field(Field::Step), error))?;
     let level = ground::level(&written, asked)?;
     let models = models()?.with_terrain(&written)?;
     let [casts, receives] = models.roles(&written)?;
@@ -77,7 +67,7 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     notes.extend(on_probes(&probes));
     let refraction = !asked.no_refraction;
     let words = asked.words;
-    Ok(ProbeSite { place, mesh, notes, words, casts, ground, probes, days, step_secs, refraction })
+    Ok(ProbeSite { place, mesh, notes, words, casts, ground, probes, days, refraction })
 }
 
 /// The point of the command line, or else those of the file.

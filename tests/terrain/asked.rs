@@ -165,7 +165,6 @@ fn probing(mesh: Mesh, points: &[(DVec3, Option<DVec3>)]) -> Sunlight {
         ground,
         probes: points.iter().enumerate().map(probe_of).collect(),
         days: vec![DayWindow::on(&vienna(), "2026-03-21".parse().unwrap(), None, None).unwrap()],
-        step_secs: 60,
         refraction: true,
     };
     probe(&asked, &mut |_| ControlFlow::Continue(())).unwrap()

@@ -60,7 +60,6 @@ pub(in crate::desktop) fn probe(
     date: NaiveDate,
     context: egui::Context,
 ) -> Work<Sunlight> {
-    const STEP_SECS: u32 = 60;
     let site = Arc::clone(&project.site);
     Work::start(context, move |on_event| {
         let day = DayWindow::on(&site.place, date, None, None).map_err(StudyError::from)?;
@@ -73,7 +72,6 @@ pub(in crate::desktop) fn probe(
             casts: site.casts.clone(),
             probes: vec![probe],
             days: vec![day],
-            step_secs: STEP_SECS,
             refraction: site.track.refraction,
         };
         Ok(probe::probe(&probing, &ProbeRequest::default(), Sink::Memory, on_event)?.sunlight)
