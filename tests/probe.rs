@@ -50,7 +50,7 @@ fn probing(place: &Place, parts: Vec<Part>, probes: Vec<Probe>, days: Vec<DayWin
     let casts = vec![true; mesh.components.len()];
     let (place, notes, ground) = (place.clone(), Vec::new(), Ground::asked(0.0));
     let words = &gnomon::message::PlainWords;
-    ProbeSite { place, mesh, notes, words, casts, ground, probes, days, refraction: true }
+    ProbeSite { place, mesh, notes, words, casts, ground, probes, laid: Vec::new(), days, refraction: true }
 }
 
 fn found(asked: &ProbeSite) -> Sunlight {

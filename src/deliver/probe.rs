@@ -2,6 +2,7 @@
 
 use super::parts::note_letters;
 use super::{DeliverError, Sink, WrittenFiles};
+use crate::export::totals::totals as encode_totals;
 use crate::export::{figure, probe as encode};
 use crate::message::Words;
 use crate::site::ProbeSite;
@@ -16,6 +17,8 @@ pub struct ProbeRequest {
     pub drawing: Option<PathBuf>,
     /// What the table is called, with a line an interval.
     pub table: Option<PathBuf>,
+    /// What the table of totals is called, a day, a month and a year.
+    pub totals: Option<PathBuf>,
     /// In whose words the drawing speaks of fields.
     pub words: &'static dyn Words,
 }
@@ -39,7 +42,7 @@ pub fn probe(
     sink: Sink<'_>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<ProbeAnswer, DeliverError> {
-    let names: Vec<PathBuf> = [&asked.drawing, &asked.table].into_iter().flatten().cloned().collect();
+    let names: Vec<PathBuf> = [&asked.drawing, &asked.table, &asked.totals].into_iter().flatten().cloned().collect();
     let open = sink.open(&names, None)?;
     if asked.drawing.is_some() {
         let probes = probing.probes.iter().map(|probe| probe.name.as_str());
@@ -49,6 +52,9 @@ pub fn probe(
     let mut files = Vec::new();
     if let Some(name) = &asked.table {
         files.push((name.clone(), encode::csv(&sunlight).into_bytes()));
+    }
+    if let Some(name) = &asked.totals {
+        files.push((name.clone(), encode_totals(&sunlight).into_bytes()));
     }
     if let Some(name) = &asked.drawing {
         files.push((name.clone(), figure::strips(&sunlight, &probing.place, &probing.ground, asked.words)?));

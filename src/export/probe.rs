@@ -8,7 +8,7 @@ use crate::site::{Ground, metres};
 use crate::sun::{Place, Polar, Zone};
 use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight, longest, secs};
 use crate::view::Probe;
-use chrono::DateTime;
+use chrono::{DateTime, NaiveDate};
 use glam::DVec3;
 use serde::Serialize;
 use std::fmt::Write;
@@ -134,11 +134,18 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
+/// Of more probes there is one table for all.
+const MOST_TABLES: usize = 20;
+
 /// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and how
 /// exact it is. Ends with a line break.
 pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground) -> String {
     let mut table = String::new();
-    for probed in &sunlight.probes {
+    let is_long = sunlight.probes.len() > MOST_TABLES;
+    if is_long {
+        probes_table(&mut table, sunlight);
+    }
+    for probed in sunlight.probes.iter().filter(|_| !is_long) {
         // Writing to a String cannot fail.
         let _ = writeln!(table, "{}: {}", plain(&probed.probe.name), lies(&probed.probe));
         let below = probed.below_ground_m;
@@ -243,6 +250,36 @@ fn range_table(table: &mut String, sunlight: &Sunlight, probed: &ProbeIntervals)
         let equals = probed.days.iter().filter(|day| secs(day) == least).count() - 1;
         let more = if equals > 0 { format!(" (and on {equals} more)") } else { String::new() };
         let _ = write!(table, "\n  least on {least_on}{more}: {}; most on {most_on}: {}", clock(least), clock(most));
+    }
+    table.push('\n');
+}
+
+/// A line a probe.
+fn probes_table(table: &mut String, sunlight: &Sunlight) {
+    let names = || sunlight.probes.iter().map(|probed| plain(&probed.probe.name));
+    let width = names().map(|name| name.chars().count()).fold(5, usize::max).min(40);
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        table,
+        "{} probes, {} days\n\n  {:<width$}  {:>10}  {:>8}  {:>9}  {:<20}  most on",
+        sunlight.probes.len(),
+        sunlight.days.len(),
+        "probe",
+        "sun",
+        "longest",
+        "intervals",
+        "least on"
+    );
+    for (probed, name) in sunlight.probes.iter().zip(names()) {
+        let on = |(date, secs): (NaiveDate, i64)| format!("{date} {:>9}", clock(secs));
+        let [least, most] = sunlight.least_and_most(probed).map_or_else(Default::default, |both| both.map(on));
+        let _ = writeln!(
+            table,
+            "  {name:<width$}  {:>10}  {:>8}  {:>9}  {least}  {most}",
+            clock(probed.secs()),
+            clock(probed.longest().map_or(0, Interval::secs)),
+            probed.days.iter().map(Vec::len).sum::<usize>()
+        );
     }
     table.push('\n');
 }

@@ -44,6 +44,14 @@ pub struct Overrides {
     pub point: Option<String>,
     /// `--normal X,Y,Z`, with `--point`.
     pub normal: Option<String>,
+    /// `--points FILE.csv`: these probes instead of the file's.
+    pub points: Option<PathBuf>,
+    /// `--on NAME`, several times: points on the components of these names.
+    pub on: Vec<String>,
+    /// `--spacing M`, with `--on` and `--height`, metres.
+    pub spacing: Option<f64>,
+    /// `--height M`, metres above the ground.
+    pub height: Option<f64>,
     /// `--region W,S,E,N`, metres.
     pub region: Option<String>,
     /// `--cell M`, metres.

@@ -23,7 +23,13 @@ const DAYS_TOGETHER: usize = 32;
 /// [`StudyError`].
 pub fn probe(asked: &ProbeSite, on_event: &mut OnEvent<'_>) -> Result<Sunlight, StudyError> {
     note_models(&asked.notes, on_event)?;
-    let points = judged_points(asked);
+    let (probes, doubtful) = with_laid(asked);
+    if doubtful > 0 {
+        let note =
+            format!("of {doubtful} points that are laid both sides are as open to the sky: the outer side is a guess");
+        tell(on_event, Event::Note(note.into()))?;
+    }
+    let points = judged_points(asked, &probes);
     let search = ProbeSearch::new(asked.mesh.of_components(&asked.casts), &points);
     let empty = |(probe, at): (&Probe, &JudgedPoint)| ProbeIntervals {
         probe: probe.clone(),
@@ -33,7 +39,7 @@ pub fn probe(asked: &ProbeSite, on_event: &mut OnEvent<'_>) -> Result<Sunlight, 
     let mut sunlight = Sunlight {
         refraction: asked.refraction,
         days: Vec::new(),
-        probes: asked.probes.iter().zip(&points).map(empty).collect(),
+        probes: probes.iter().zip(&points).map(empty).collect(),
         components: search.components(),
     };
 
@@ -60,7 +66,8 @@ pub fn probe(asked: &ProbeSite, on_event: &mut OnEvent<'_>) -> Result<Sunlight, 
 /// As of [`probe`].
 #[cfg(feature = "test-hooks")]
 pub fn probe_by_grid(asked: &ProbeSite, step_secs: i64) -> Result<Sunlight, StudyError> {
-    let points = judged_points(asked);
+    let (probes, _) = with_laid(asked);
+    let points = judged_points(asked, &probes);
     let search = ProbeSearch::new(asked.mesh.of_components(&asked.casts), &points);
     let step = chrono::TimeDelta::seconds(step_secs);
     let of_probe = |(probe, at): (&Probe, &JudgedPoint)| {
@@ -76,9 +83,41 @@ pub fn probe_by_grid(asked: &ProbeSite, step_secs: i64) -> Result<Sunlight, Stud
             .zip(&asked.days)
             .map(|(path, window)| SunDay { window: window.clone(), up: path.up })
             .collect(),
-        probes: asked.probes.iter().zip(&points).map(of_probe).collect::<Result<_, StudyError>>()?,
+        probes: probes.iter().zip(&points).map(of_probe).collect::<Result<_, StudyError>>()?,
         components: search.components(),
     })
+}
+
+/// All points, those that are laid on the side that is more open; and of how many of these both sides are alike.
+fn with_laid(asked: &ProbeSite) -> (Vec<Probe>, usize) {
+    let mut probes = asked.probes.clone();
+    if asked.laid.is_empty() {
+        return (probes, 0);
+    }
+    let origin = asked.mesh.origin;
+    let farthest = |point: DVec3| (point - origin).abs().max_element();
+    let reach = asked.laid.iter().flatten().map(|probe| farthest(judged(probe))).fold(0.0, f64::max);
+    let rays = RayCaster::new(&asked.mesh, reach);
+    let outer = |sides: &Vec<Probe>| {
+        let open: Vec<f64> = sides.iter().map(|side| openness(&rays, judged(side) - origin, side.normal)).collect();
+        let best = (0..sides.len()).max_by(|one, other| open[*one].total_cmp(&open[*other]).then(other.cmp(one)))?;
+        let is_alike = (0..sides.len()).any(|other| other != best && open[other] >= open[best]);
+        Some((sides[best].clone(), is_alike))
+    };
+    let found: Vec<_> = asked.laid.par_iter().filter_map(outer).collect();
+    let doubtful = found.iter().filter(|(_, is_alike)| *is_alike).count();
+    probes.extend(found.into_iter().map(|(probe, _)| probe));
+    (probes, doubtful)
+}
+
+/// How far one sees from a point: metres along rays ahead, to both sides, up and down, each as far as a street is wide.
+fn openness(rays: &RayCaster, point: DVec3, normal: Option<DVec3>) -> f64 {
+    const FAR_M: f64 = 50.0;
+    let Some(normal) = normal else { return 0.0 };
+    let (across, along) = normal.any_orthonormal_pair();
+    let tilted = [across, -across, along, -along].map(|side| (normal + side).normalize());
+    let seen = |direction: DVec3| rays.first_hit(point, direction).map_or(FAR_M, |(_, away)| away.min(FAR_M));
+    tilted.into_iter().chain([normal]).map(seen).sum()
 }
 
 /// The air that bends the sun's light, where it does.
@@ -87,14 +126,14 @@ fn air(asked: &ProbeSite) -> Option<Air> {
 }
 
 /// Where probes are judged: one on the terrain, as exactly as its heights are, a millimetre above it, as all receivers are.
-fn judged_points(asked: &ProbeSite) -> Vec<JudgedPoint> {
+fn judged_points(asked: &ProbeSite, probes: &[Probe]) -> Vec<JudgedPoint> {
     let terrain: Vec<bool> = match asked.ground.kind {
         GroundKind::Plane => Vec::new(),
         GroundKind::Terrain => asked.mesh.components.iter().map(|component| component.is_terrain).collect(),
     };
     let terrain = asked.mesh.of_components(&terrain);
     let top = terrain.top() + 1.0;
-    let reach = asked.probes.iter().map(judged).map(|point| (point.with_z(top) - terrain.origin).abs().max_element());
+    let reach = probes.iter().map(judged).map(|point| (point.with_z(top) - terrain.origin).abs().max_element());
     let rays = (!terrain.faces.is_empty()).then(|| RayCaster::new(&terrain, reach.fold(0.0, f64::max)));
     let height = |point: DVec3| {
         let (_, below) = rays.as_ref()?.first_hit(point.with_z(top) - terrain.origin, DVec3::NEG_Z)?;
@@ -113,5 +152,5 @@ fn judged_points(asked: &ProbeSite) -> Vec<JudgedPoint> {
             }
         }
     };
-    asked.probes.iter().map(judge).collect()
+    probes.iter().map(judge).collect()
 }

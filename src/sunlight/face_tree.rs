@@ -18,7 +18,7 @@ pub(super) struct FaceTree {
 }
 
 /// What a box of the tree holds.
-pub(super) enum Within<'a> {
+pub(super) enum BoxContents<'a> {
     Boxes([u32; 2]),
     Faces(&'a [[Vec3; 3]]),
 }
@@ -55,13 +55,13 @@ impl FaceTree {
         SeenBox { middle: (low + high) / 2.0 - point, half: (high - low) / 2.0 }
     }
 
-    pub(super) fn within(&self, at: u32) -> Within<'_> {
-        let Some(tree) = &self.tree else { return Within::Faces(&[]) };
+    pub(super) fn within(&self, at: u32) -> BoxContents<'_> {
+        let Some(tree) = &self.tree else { return BoxContents::Faces(&[]) };
         let node = &tree.nodes[at as usize];
         let first = node.first_index;
         match node.prim_count {
-            0 => Within::Boxes([first, first + 1]),
-            count => Within::Faces(&self.corners[first as usize..(first + count) as usize]),
+            0 => BoxContents::Boxes([first, first + 1]),
+            count => BoxContents::Faces(&self.corners[first as usize..(first + count) as usize]),
         }
     }
 }
@@ -115,12 +115,12 @@ pub(super) struct SeenFace {
     pub(super) is_flat: bool,
 }
 
-/// How a face lies to all suns of a cell.
+/// Of how many of a cell's suns a face lies before, for all that is known.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Lies {
-    Beside,
-    Before,
-    Across,
+pub(super) enum Coverage {
+    None,
+    Part,
+    Full,
 }
 
 impl SeenFace {
@@ -167,23 +167,23 @@ impl SeenFace {
         along
     }
 
-    /// How it lies to the suns of a pyramid.
-    pub(super) fn lies(&self, pyramid: &SunPyramid) -> Lies {
+    /// How it lies before the suns of a pyramid.
+    pub(super) fn coverage(&self, pyramid: &SunPyramid) -> Coverage {
         if self.is_beside(pyramid) {
-            return Lies::Beside;
+            return Coverage::None;
         }
         if self.is_flat {
-            return Lies::Across;
+            return Coverage::Part;
         }
         let mut before = true;
         for Halfspace { normal, slack } in &self.sides {
             let values = pyramid.corners.map(|corner| normal.dot(corner));
             let near = MOST_OFF_RAD * normal.length() + 4.0 * slack;
             if values.iter().all(|value| *value < -near) {
-                return Lies::Beside;
+                return Coverage::None;
             }
             before &= values.iter().all(|value| *value > near);
         }
-        if before { Lies::Before } else { Lies::Across }
+        if before { Coverage::Full } else { Coverage::Part }
     }
 }

@@ -5,7 +5,7 @@
 //! a day's slot: there the faces, the near ones first, take away the seconds that they surely cover, until none is left or no
 //! face is. Seconds so near a face's side that the polynomials cannot tell are doubtful: the exact ray decides them.
 
-use super::face_tree::{FaceTree, Lies, SeenFace, Within};
+use super::face_tree::{BoxContents, Coverage, FaceTree, SeenFace};
 use super::sift::{Halfspace, Verdict, sift, sift_flat};
 use super::sky_cells::{SunCell, SunCells, SunPyramid};
 use super::sun_path::{MOST_OFF_RAD, SLOT_SECS, Second, SunPath, SunPiece};
@@ -23,7 +23,7 @@ pub(super) struct Shade {
 
 /// A face or a box of faces that may reach a cell.
 #[derive(Clone, Copy)]
-enum Reaching {
+enum Candidate {
     Box(u32),
     /// By its place in [`Descent::faces`].
     Face(u32),
@@ -39,7 +39,7 @@ struct Descent<'a> {
     /// The plane of the probe as something that hides what is behind it.
     behind: Option<Halfspace>,
     /// What may reach the cells on the way to where the descent is; each cell's follow those of the cell around it.
-    reaching: Vec<Reaching>,
+    reaching: Vec<Candidate>,
     faces: Vec<SeenFace>,
     shades: Vec<Shade>,
 }
@@ -54,7 +54,7 @@ pub(super) fn shades(
     let behind = normal.map(|normal| Halfspace { normal: -normal, slack: 1e-15 });
     let shades = vec![Shade::default(); paths.len()];
     let mut descent = Descent { tree, cells, paths, point, behind, reaching: Vec::new(), faces: Vec::new(), shades };
-    descent.reaching.extend(tree.root().map(Reaching::Box));
+    descent.reaching.extend(tree.root().map(Candidate::Box));
     if let Some(root) = cells.root {
         descent.descend(root, 0, normal.is_none());
     }
@@ -109,12 +109,12 @@ impl<'a> Descent<'a> {
         let mut open: Vec<u32> = Vec::new();
         for at in of {
             match self.reaching[at] {
-                Reaching::Face(face) => match self.faces[face as usize].lies(pyramid) {
-                    Lies::Before => return true,
-                    Lies::Across => self.reaching.push(Reaching::Face(face)),
-                    Lies::Beside => {}
+                Candidate::Face(face) => match self.faces[face as usize].coverage(pyramid) {
+                    Coverage::Full => return true,
+                    Coverage::Part => self.reaching.push(Candidate::Face(face)),
+                    Coverage::None => {}
                 },
-                Reaching::Box(at) => open.push(at),
+                Candidate::Box(at) => open.push(at),
             }
             while let Some(at) = open.pop() {
                 let seen = self.tree.seen(at, self.point);
@@ -122,12 +122,12 @@ impl<'a> Descent<'a> {
                     continue;
                 }
                 if !seen.is_large(pyramid) {
-                    self.reaching.push(Reaching::Box(at));
+                    self.reaching.push(Candidate::Box(at));
                     continue;
                 }
                 match self.tree.within(at) {
-                    Within::Boxes(boxes) => open.extend(boxes),
-                    Within::Faces(faces) => {
+                    BoxContents::Boxes(boxes) => open.extend(boxes),
+                    BoxContents::Faces(faces) => {
                         if faces.iter().any(|corners| self.add_face(corners, pyramid)) {
                             return true;
                         }
@@ -141,12 +141,12 @@ impl<'a> Descent<'a> {
     /// Adds a face where it reaches a pyramid. Returns whether it fills it.
     fn add_face(&mut self, corners: &[Vec3; 3], pyramid: &SunPyramid) -> bool {
         let face = SeenFace::new(corners, self.point);
-        let lies = face.lies(pyramid);
-        if lies == Lies::Across {
-            self.reaching.push(Reaching::Face(self.faces.len() as u32));
+        let coverage = face.coverage(pyramid);
+        if coverage == Coverage::Part {
+            self.reaching.push(Candidate::Face(self.faces.len() as u32));
             self.faces.push(face);
         }
-        lies == Lies::Before
+        coverage == Coverage::Full
     }
 
     /// Looks at a single day's slot.
@@ -158,11 +158,11 @@ impl<'a> Descent<'a> {
         if let Some(behind) = self.behind.filter(|_| !is_before) {
             open.take(&[behind], [f64::NEG_INFINITY, f64::INFINITY], shade);
         }
-        let far = |reaching: Reaching| match reaching {
-            Reaching::Face(face) => (faces[face as usize].nearest(), reaching),
-            Reaching::Box(at) => (tree.seen(at, point).nearest(), reaching),
+        let far = |reaching: Candidate| match reaching {
+            Candidate::Face(face) => (faces[face as usize].nearest(), reaching),
+            Candidate::Box(at) => (tree.seen(at, point).nearest(), reaching),
         };
-        let mut left: Vec<(f64, Reaching)> = self.reaching[reaching].iter().map(|reaching| far(*reaching)).collect();
+        let mut left: Vec<(f64, Candidate)> = self.reaching[reaching].iter().map(|reaching| far(*reaching)).collect();
         // the nearest last, as of a stack
         left.sort_unstable_by(|one, other| other.0.total_cmp(&one.0));
         while let Some((_, next)) = left.pop() {
@@ -170,25 +170,25 @@ impl<'a> Descent<'a> {
                 return;
             }
             let at = match next {
-                Reaching::Face(face) => {
+                Candidate::Face(face) => {
                     open.shade(&faces[face as usize], shade);
                     continue;
                 }
-                Reaching::Box(at) => at,
+                Candidate::Box(at) => at,
             };
             let seen = tree.seen(at, point);
             if seen.is_outside(pyramid) || !open.reaches(seen.along(pyramid)) {
                 continue;
             }
             match tree.within(at) {
-                Within::Boxes(two) => {
-                    let mut two = two.map(|at| far(Reaching::Box(at)));
+                BoxContents::Boxes(two) => {
+                    let mut two = two.map(|at| far(Candidate::Box(at)));
                     if two[0].0 < two[1].0 {
                         two.reverse();
                     }
                     left.extend(two);
                 }
-                Within::Faces(faces) => {
+                BoxContents::Faces(faces) => {
                     faces.iter().for_each(|corners| open.shade(&SeenFace::new(corners, point), shade));
                 }
             }

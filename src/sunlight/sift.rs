@@ -20,7 +20,7 @@ pub(super) struct Halfspace {
 
 /// A polynomial with its bounds.
 #[derive(Clone, Copy)]
-struct Bounded {
+struct BoundedPolynomial {
     of: Polynomial<f64>,
     /// What lies so near 0 may be either.
     tolerance: f64,
@@ -28,12 +28,12 @@ struct Bounded {
     bulge: f64,
 }
 
-impl Bounded {
-    fn new(halfspace: &Halfspace, piece: &SunPiece) -> Bounded {
+impl BoundedPolynomial {
+    fn new(halfspace: &Halfspace, piece: &SunPiece) -> BoundedPolynomial {
         let of = piece.to_sun.map(|part| halfspace.normal.dot(part));
         let curved = of.iter().enumerate().map(|(power, part)| (power * power.saturating_sub(1)) as f64 * part.abs());
         let tolerance = piece.off_rad * halfspace.normal.length() + halfspace.slack;
-        Bounded { of, tolerance, bulge: curved.sum::<f64>() / 8.0 }
+        BoundedPolynomial { of, tolerance, bulge: curved.sum::<f64>() / 8.0 }
     }
 
     fn at(&self, unit: f64) -> f64 {
@@ -56,13 +56,13 @@ pub(super) fn sift<const N: usize>(
     [first, last]: [Second; 2],
     found: &mut impl FnMut(Verdict, Second, Second),
 ) {
-    let bounded = halfspaces.each_ref().map(|halfspace| Bounded::new(halfspace, piece));
+    let bounded = halfspaces.each_ref().map(|halfspace| BoundedPolynomial::new(halfspace, piece));
     let at = |second: Second| bounded.each_ref().map(|function| function.at(piece.unit(second)));
     split(&bounded, piece, ([first, last], [at(first), at(last)]), found);
 }
 
 fn split<const N: usize>(
-    bounded: &[Bounded; N],
+    bounded: &[BoundedPolynomial; N],
     piece: &SunPiece,
     ([first, last], values): ([Second; 2], [[f64; N]; 2]),
     found: &mut impl FnMut(Verdict, Second, Second),
@@ -103,7 +103,7 @@ pub(super) fn sift_flat(
 ) {
     let units = f64::from(last - first) / piece.unit_secs;
     let mut signs = [false; 2];
-    for function in halfspaces.each_ref().map(|halfspace| Bounded::new(halfspace, piece)) {
+    for function in halfspaces.each_ref().map(|halfspace| BoundedPolynomial::new(halfspace, piece)) {
         let ends = [first, last].map(|second| function.at(piece.unit(second)));
         let [low, high] = function.range(ends, units);
         signs[0] |= high < -function.tolerance;

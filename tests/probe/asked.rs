@@ -114,6 +114,92 @@ fn text_tells_intervals_or_days_and_a_drawing_is_made() {
 }
 
 #[test]
+fn points_of_a_table_are_probed() {
+    let folder = probes();
+    let path = folder.path();
+    let table =
+        "\u{feff}name,x,y,z,nx,ny,nz\r\n\"window, \"\"north\"\"\",0,20,1.5,0,-2,0\r\n\r\n , 0.0, -30.0, 1.5,,,\r\n";
+    std::fs::write(path.join("points.csv"), table).unwrap();
+    let probed = |asked: &str| -> Value { serde_json::from_str(&done(path, asked)).unwrap() };
+    let own = probed("probe . --json --quiet");
+    let mut of_table = probed("probe . --points points.csv --json --quiet --totals a/totals.csv");
+    assert_eq!(of_table["probes"][1]["name"], "point 2");
+    of_table["probes"][1]["name"] = "probe 2".into();
+    assert_eq!(own["probes"], of_table["probes"]);
+    let totals = std::fs::read_to_string(path.join("a/totals.csv")).unwrap();
+    assert_eq!(totals.lines().count(), 1 + 2 * 3);
+    let [seconds, longest] = ["seconds", "longest_seconds"].map(|key| &own["probes"][1][key]);
+    for (unit, date) in [("day", "2026-03-21"), ("month", "2026-03"), ("year", "2026")] {
+        let line = format!("point 2,{unit},{date},1,{seconds},{longest},");
+        assert!(totals.contains(&line), "{line}: {totals}");
+    }
+    let free = "name,x,y,z\nfree,1,2,3";
+    std::fs::write(path.join("free.csv"), free).unwrap();
+    assert_eq!(probed("probe . --points free.csv --json --quiet")["probes"][0]["normal"], Value::Null);
+    for (text, words) in [
+        ("", &["line 1", "name,x,y,z,nx,ny,nz"][..]),
+        ("name,x,y\na,1,2", &["line 1", "columns"]),
+        ("name,x,y,z\na,1,2", &["line 2", "3 fields and 4 columns"]),
+        ("name,x,y,z\na,1,2,3\n\nb,1,inf,3", &["line 4", "y is \"inf\""]),
+        ("name,x,y,z\n\"a,1,2,3", &["line 2", "quote"]),
+        ("name,x,y,z\na,1,2,3\na,1,2,3", &["line 3", "\"a\"", "otherwise"]),
+        ("name,x,y,z,nx,ny,nz\na,1,2,3,0,0,0", &["line 2", "no direction"]),
+        ("name,x,y,z,nx,ny,nz\na,1,2,3,0,1,", &["line 2", "nz is \"\""]),
+        ("name,x,y,z\n", &["has no point"]),
+    ] {
+        std::fs::write(path.join("wrong.csv"), text).unwrap();
+        let status = if words[0] == "has no point" { 2 } else { 1 };
+        fails(path, "probe . --points wrong.csv", status, words);
+    }
+    fails(path, "probe . --points none.csv", 1, &["none.csv"]);
+    fails(path, "probe . --points free.csv --point 1,2,3", 2, &["--points", "--point", "leave one"]);
+    fails(path, "probe . --points free.csv --totals points.csv", 2, &["points.csv"]);
+}
+
+#[test]
+fn points_are_laid_on_components() {
+    let folder = probes();
+    let path = folder.path();
+    let probed = |asked: &str| -> Value { serde_json::from_str(&done(path, asked)).unwrap() };
+    // a row around the tower of 10 x 10 m
+    let row = probed("probe . --on tower --spacing 2 --height 5 --json --quiet");
+    let laid = row["probes"].as_array().unwrap();
+    assert_eq!(laid.len(), 4 * 5, "{row}");
+    for probe in laid {
+        let [x, y, z] = [0, 1, 2].map(|axis| probe["point"][axis].as_f64().unwrap());
+        let [nx, ny, nz] = [0, 1, 2].map(|axis| probe["normal"][axis].as_f64().unwrap());
+        let away = (x.abs().max(y.abs()) - 5.0).abs();
+        assert!(away < 1e-6 && (z - 5.0).abs() < 1e-6 && nz.abs() < 1e-9, "{probe}");
+        assert!((x * nx + y * ny - 5.0).abs() < 1e-6, "it looks outwards: {probe}");
+    }
+    let south: Vec<_> = laid.iter().filter(|probe| probe["normal"][1].as_f64().unwrap() < -0.5).collect();
+    let mut along: Vec<f64> = south.iter().map(|probe| probe["point"][0].as_f64().unwrap().round()).collect();
+    along.sort_by(f64::total_cmp);
+    assert_eq!(along, [-4.0, -2.0, 0.0, 2.0, 4.0]);
+    // one in the middle of its largest faces
+    let one = probed("probe . --on tower --json --quiet");
+    let [point] = one["probes"].as_array().unwrap().as_slice() else { panic!("{one}") };
+    assert_eq!(point["name"], "tower");
+    assert!((point["point"][2].as_f64().unwrap() - 10.0).abs() < 1e-6, "{point}");
+    let text =
+        done(path, "probe . --on tower --spacing 1 --height 5 --from-date 2026-03-01 --to-date 2026-03-02 --quiet");
+    assert!(text.contains("40 probes, 2 days") && text.contains("tower 40"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 130), "{text}");
+    fails(path, "probe . --on towr", 2, &["--on", "\"towr\"", "\"tower\""]);
+    fails(path, "probe . --spacing 2", 2, &["--spacing", "--on"]);
+    fails(path, "probe . --on tower --spacing 2", 2, &["--spacing", "--height"]);
+    fails(path, "probe . --on tower --height 2", 2, &["--height", "--spacing"]);
+    fails(path, "probe . --on tower --spacing 0 --height 2", 2, &["--spacing", "0.01"]);
+    fails(path, "probe . --on tower --spacing 1 --height 99", 2, &["--on", "no face"]);
+    fails(
+        path,
+        "probe . --on tower --spacing 0.01 --height 5 --from-date 2020-01-01 --to-date 2029-12-31",
+        2,
+        &["4000000"],
+    );
+}
+
+#[test]
 fn mistakes_are_told() {
     let folder = probes();
     let path = folder.path();
@@ -162,5 +248,6 @@ fn mistakes_are_told() {
     fails(path, "probe . --step 30s", 2, &["--step"]);
     fails(path, "probe . --out a.jpg", 2, &["--out", "PNG"]);
     fails(path, "probe . --csv a.txt", 2, &["--csv", "CSV"]);
+    fails(path, "probe . --totals a.txt", 2, &["--totals", "CSV"]);
     fails(path, "probe . --technique ray-cast", 2, &["--technique"]);
 }

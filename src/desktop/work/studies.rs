@@ -71,6 +71,7 @@ pub(in crate::desktop) fn probe(
             words: site.words,
             casts: site.casts.clone(),
             probes: vec![probe],
+            laid: Vec::new(),
             days: vec![day],
             refraction: site.track.refraction,
         };
