@@ -4,6 +4,7 @@ use crate::mesh::patches::{MOST_TEXELS, Patch, Patches};
 use crate::mesh::{Component, Mesh, lowest};
 use crate::view::Probe;
 use glam::{DVec3, Vec3};
+use rustc_hash::FxHashSet;
 
 /// How points are laid.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +15,9 @@ pub(super) enum Laying {
     Row { spacing: f64, height: f64 },
 }
 
-/// The points of the components that are chosen, hardly more than `most`: each with what may be its outer side.
-pub(super) fn lay(mesh: &Mesh, chosen: &[bool], laying: Laying, most: usize) -> Vec<Vec<Probe>> {
+/// The points of the components that are chosen, hardly more than `most`: each with what may be its outer side, and none
+/// called as a point `beside` them.
+pub(super) fn lay(mesh: &Mesh, chosen: &[bool], laying: Laying, (most, beside): (usize, &[Probe])) -> Vec<Vec<Probe>> {
     let mut laid: Vec<Vec<Probe>> = Vec::new();
     let named = mesh.components.iter().zip(chosen).filter(|(_, chosen)| **chosen).map(|(component, _)| component);
     match laying {
@@ -42,7 +44,7 @@ pub(super) fn lay(mesh: &Mesh, chosen: &[bool], laying: Laying, most: usize) -> 
             }
         }
     }
-    tell_apart(&mut laid);
+    tell_apart(&mut laid, beside);
     laid
 }
 
@@ -56,9 +58,9 @@ fn named_after(component: &Component, points: Vec<Vec<[DVec3; 2]>>) -> Vec<Vec<P
     points.into_iter().enumerate().map(of_point).collect()
 }
 
-/// Numbers points of components that are called alike.
-fn tell_apart(laid: &mut [Vec<Probe>]) {
-    let mut taken = rustc_hash::FxHashSet::default();
+/// Numbers points that are called as others are, or as those beside them.
+fn tell_apart(laid: &mut [Vec<Probe>], beside: &[Probe]) {
+    let mut taken: FxHashSet<String> = beside.iter().map(|probe| probe.name.clone()).collect();
     for sides in laid {
         let Some(first) = sides.first() else { continue };
         let plain = first.name.clone();

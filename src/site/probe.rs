@@ -67,7 +67,7 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     notes.extend(models.notes(&written, &casts));
     let Models { mesh, bounds, .. } = models;
     let ground = Ground::of(&mesh, bounds, &receives, level);
-    let laid = laid(&mesh, asked, ground.level)?;
+    let laid = laid(&mesh, asked, ground.level, &probes)?;
     check_count(asked, probes.len() + laid.len(), days.len())?;
     notes.extend((!laid.is_empty()).then(|| Message::from(format!("{} points are laid on components", laid.len()))));
     // a probe below it says so itself
@@ -97,7 +97,7 @@ fn check_count(asked: &Overrides, points: usize, days: usize) -> Result<(), Site
 }
 
 /// The points that are laid on the components asked.
-fn laid(mesh: &Mesh, asked: &Overrides, ground: f64) -> Result<Vec<Vec<Probe>>, SiteError> {
+fn laid(mesh: &Mesh, asked: &Overrides, ground: f64, beside: &[Probe]) -> Result<Vec<Vec<Probe>>, SiteError> {
     let at = |field| FieldLocation::Field(field);
     for (field, value) in [(Field::Spacing, asked.spacing), (Field::Height, asked.height)] {
         if asked.on.is_empty() && value.is_some() {
@@ -127,7 +127,7 @@ fn laid(mesh: &Mesh, asked: &Overrides, ground: f64) -> Result<Vec<Vec<Probe>>, 
     if let Some((name, nearest)) = names.unknown(&mesh.components) {
         return Err(SiteError::UnknownName { at: at(Field::On), name, nearest });
     }
-    let laid = lay(mesh, &names.chosen(&mesh.components), laying, MOST_PROBES);
+    let laid = lay(mesh, &names.chosen(&mesh.components), laying, (MOST_PROBES, beside));
     if laid.is_empty() {
         return Err(refuse(
             at(Field::On),

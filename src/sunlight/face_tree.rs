@@ -138,8 +138,7 @@ impl SeenFace {
         SeenFace {
             corners,
             sides: [side(0, 1), side(1, 2), side(2, 0)],
-            // a volume that is no number is none
-            is_flat: !(volume.abs() > ROUNDING * lengths.iter().product::<f64>()),
+            is_flat: volume.is_nan() || volume.abs() <= ROUNDING * lengths.iter().product::<f64>(),
         }
     }
 

@@ -42,8 +42,8 @@ impl ProbeSearch {
     /// For probes that are judged at these points of the world.
     pub fn new(casters: Mesh, points: &[JudgedPoint]) -> ProbeSearch {
         let reach = points.iter().map(|at| (at.point - casters.origin).abs().max_element());
-        let rays = RayCaster::new(&casters, reach.fold(0.0, f64::max));
-        let tree = FaceTree::new(&casters);
+        let reach = reach.fold(0.0, f64::max);
+        let (rays, tree) = rayon::join(|| RayCaster::new(&casters, reach), || FaceTree::new(&casters));
         ProbeSearch { casters, rays, tree, distrusted: AtomicUsize::new(0) }
     }
 

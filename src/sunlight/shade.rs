@@ -89,6 +89,12 @@ impl<'a> Descent<'a> {
                 return self.faces.truncate(faces);
             }
         }
+        if cell.halves.is_empty() {
+            // no slot is so long; were one, each of its seconds would be asked
+            for shade in &mut self.shades[cell.days.clone()] {
+                shade.doubtful.extend(cell.slots.start * SLOT_SECS..cell.slots.end * SLOT_SECS);
+            }
+        }
         for half in &cell.halves {
             self.descend(*half, start, is_before);
         }
