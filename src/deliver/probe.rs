@@ -45,7 +45,8 @@ pub fn probe(
     let names: Vec<PathBuf> = [&asked.drawing, &asked.table, &asked.totals].into_iter().flatten().cloned().collect();
     let open = sink.open(&names, None)?;
     if asked.drawing.is_some() {
-        let probes = probing.probes.iter().map(|probe| probe.name.as_str());
+        let all = probing.probes.iter().chain(probing.laid.iter().filter_map(|sides| sides.first()));
+        let probes = all.map(|probe| probe.name.as_str());
         note_letters([probing.place.name.as_str()].into_iter().chain(probes), on_event)?;
     }
     let sunlight = study::probe::probe(probing, on_event)?;
