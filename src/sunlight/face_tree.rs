@@ -117,7 +117,7 @@ pub(super) struct SeenFace {
 
 /// Of how many of a cell's suns a face lies before, for all that is known.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Coverage {
+pub(super) enum SunCoverage {
     None,
     Part,
     Full,
@@ -167,22 +167,22 @@ impl SeenFace {
     }
 
     /// How it lies before the suns of a pyramid.
-    pub(super) fn coverage(&self, pyramid: &SunPyramid) -> Coverage {
+    pub(super) fn coverage(&self, pyramid: &SunPyramid) -> SunCoverage {
         if self.is_beside(pyramid) {
-            return Coverage::None;
+            return SunCoverage::None;
         }
         if self.is_flat {
-            return Coverage::Part;
+            return SunCoverage::Part;
         }
         let mut before = true;
         for Halfspace { normal, slack } in &self.sides {
             let values = pyramid.corners.map(|corner| normal.dot(corner));
             let near = MOST_OFF_RAD * normal.length() + 4.0 * slack;
             if values.iter().all(|value| *value < -near) {
-                return Coverage::None;
+                return SunCoverage::None;
             }
             before &= values.iter().all(|value| *value > near);
         }
-        if before { Coverage::Full } else { Coverage::Part }
+        if before { SunCoverage::Full } else { SunCoverage::Part }
     }
 }

@@ -5,7 +5,7 @@
 //! a day's slot: there the faces, the near ones first, take away the seconds that they surely cover, until none is left or no
 //! face is. Seconds so near a face's side that the polynomials cannot tell are doubtful: the exact ray decides them.
 
-use super::face_tree::{BoxContents, Coverage, FaceTree, SeenFace};
+use super::face_tree::{BoxContents, FaceTree, SeenFace, SunCoverage};
 use super::sift::{Halfspace, Verdict, sift, sift_flat};
 use super::sky_cells::{SunCell, SunCells, SunPyramid};
 use super::sun_path::{MOST_OFF_RAD, SLOT_SECS, Second, SunPath, SunPiece};
@@ -116,9 +116,9 @@ impl<'a> Descent<'a> {
         for at in of {
             match self.reaching[at] {
                 Candidate::Face(face) => match self.faces[face as usize].coverage(pyramid) {
-                    Coverage::Full => return true,
-                    Coverage::Part => self.reaching.push(Candidate::Face(face)),
-                    Coverage::None => {}
+                    SunCoverage::Full => return true,
+                    SunCoverage::Part => self.reaching.push(Candidate::Face(face)),
+                    SunCoverage::None => {}
                 },
                 Candidate::Box(at) => open.push(at),
             }
@@ -148,11 +148,11 @@ impl<'a> Descent<'a> {
     fn add_face(&mut self, corners: &[Vec3; 3], pyramid: &SunPyramid) -> bool {
         let face = SeenFace::new(corners, self.point);
         let coverage = face.coverage(pyramid);
-        if coverage == Coverage::Part {
+        if coverage == SunCoverage::Part {
             self.reaching.push(Candidate::Face(self.faces.len() as u32));
             self.faces.push(face);
         }
-        coverage == Coverage::Full
+        coverage == SunCoverage::Full
     }
 
     /// Looks at a single day's slot.
