@@ -60,6 +60,14 @@ fields! {
     Point => "point",
     /// That probe's normal.
     Normal => "normal",
+    /// A table of points.
+    Points => "table of points",
+    /// Components on which points are laid.
+    On => "components with points",
+    /// From point to point along walls.
+    Spacing => "spacing of points",
+    /// How high these points lie above the ground.
+    Height => "height of points",
     /// The rectangle of the plan.
     Region => "region",
     /// The side of a cell.

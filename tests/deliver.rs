@@ -265,7 +265,8 @@ fn every_deliverable_goes_into_memory() {
     let pair = pair.unwrap();
     let point = Overrides { point: Some("12,-3,4.5".to_owned()), ..Overrides::default() };
     let probing = load_probes(path, &point).unwrap();
-    let [one, other, of_volumes] = ["one.png", "other.png", "volumes.glb"].map(|name| path.join(name));
+    let [one, other, third, of_volumes] =
+        ["one.png", "other.png", "third.csv", "volumes.glb"].map(|name| path.join(name));
     let of_instant = InstantRequest {
         view: View::Plan(site.grid),
         drawing: Some(one.clone()),
@@ -274,7 +275,8 @@ fn every_deliverable_goes_into_memory() {
         statistics: false,
         watch: watch.clone(),
     };
-    let of_probe = ProbeRequest { drawing: Some(one), table: Some(other), ..ProbeRequest::default() };
+    let of_probe =
+        ProbeRequest { drawing: Some(one), table: Some(other), totals: Some(third), ..ProbeRequest::default() };
     let all = PatchesRequest::all(watch.clone());
     let on_event = |_: Event<'_>| Continue(());
     let of_one = |sink: Sink<'_>| instant(&site, &of_instant, sink, &mut on_event.clone()).unwrap().written;
@@ -286,7 +288,7 @@ fn every_deliverable_goes_into_memory() {
     let (files, folder) = (Sink::Paths { inputs: &[] }, Sink::Folder(inside(&out)));
     let deliverables: [(Write<'_>, Sink<'_>, usize); 5] = [
         (&of_one, files, 2),
-        (&of_points, files, 2),
+        (&of_points, files, 3),
         (&of_solids, files, 1),
         (&of_walls, folder, 4),
         (&of_both, folder, 3),

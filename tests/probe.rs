@@ -2,6 +2,7 @@
 //! casting, and on odd days; then as users drive it.
 
 mod asked;
+mod twin;
 
 use crate::shared::drawing::{plan, scene_of};
 use crate::shared::scenes::{cuboid, sheet, small};
@@ -49,7 +50,7 @@ fn probing(place: &Place, parts: Vec<Part>, probes: Vec<Probe>, days: Vec<DayWin
     let casts = vec![true; mesh.components.len()];
     let (place, notes, ground) = (place.clone(), Vec::new(), Ground::asked(0.0));
     let words = &gnomon::message::PlainWords;
-    ProbeSite { place, mesh, notes, words, casts, ground, probes, days, step_secs: 60, refraction: true }
+    ProbeSite { place, mesh, notes, words, casts, ground, probes, laid: Vec::new(), days, refraction: true }
 }
 
 fn found(asked: &ProbeSite) -> Sunlight {
@@ -225,8 +226,7 @@ fn probes_agree_with_the_masks_of_ray_casting() {
             let centre = grid.centre(column, row) + DVec2::new(1e-4, -1e-5) * grid.cell;
             at(centre.extend(0.0), Some(DVec3::Z))
         });
-        // a step that divides the instants of the masks, so that all of them are of the search's grid
-        let asked = ProbeSite { step_secs: 420, ..probing(&place, parts, probes.collect(), vec![day.clone()]) };
+        let asked = probing(&place, parts, probes.collect(), vec![day.clone()]);
         let mut sunlight = found(&asked);
         assert_eq!(disagreements(&asked.mesh, view, &day, &sunlight, &cells), 0, "{name}");
         // an interval less is seen
@@ -236,35 +236,6 @@ fn probes_agree_with_the_masks_of_ray_casting() {
             assert!(disagreements(&asked.mesh, view, &day, &sunlight, &cells) > 0, "{name}");
         }
     }
-}
-
-/// A post due south, in the sun's way for some 40 s at noon: a step of 30 s finds it wherever the grid begins, a step of
-/// ten minutes does not.
-#[test]
-fn what_is_a_step_long_cannot_be_missed() {
-    let place = paris();
-    let noon = day(&place, "2026-03-21", None).day.noon.unwrap();
-    let azimuth = sun(&place, noon, 75.0).azimuth_deg.to_radians();
-    let middle = DVec3::new(azimuth.sin(), azimuth.cos(), 0.0) * 100.0;
-    let post = cuboid("post", middle + dvec3(-0.19, -0.1, 0.0), middle + dvec3(0.19, 0.1, 500.0));
-    let found_with = |step_secs: u32, begin: i64| {
-        let [from, to] = [begin - 3600, begin + 3600].map(|shift| noon + TimeDelta::seconds(shift));
-        let window = DayWindow { from, to, ..day(&place, "2026-03-21", None) };
-        let asked = probing(&place, vec![post.clone()], vec![at(dvec3(0.0, 0.0, 1.0), None)], vec![window]);
-        found(&ProbeSite { step_secs, ..asked }).probes[0].days[0].clone()
-    };
-    let mut gaps = Vec::new();
-    for begin in 0..30 {
-        let intervals = found_with(30, begin);
-        let [before, after] = intervals[..] else { panic!("missed from {begin}: {intervals:?}") };
-        assert_eq!([before.after, after.before], [IntervalBound::Component(0); 2]);
-        assert_eq!([before.before, after.after], [IntervalBound::Window; 2]);
-        gaps.push((before.end, after.start));
-    }
-    gaps.dedup();
-    let [(end, start)] = gaps[..] else { panic!("the same to the second: {gaps:?}") };
-    assert!((36..44).contains(&(start - end).num_seconds()), "{}", start - end);
-    assert_eq!(found_with(600, 300).len(), 1);
 }
 
 #[test]

@@ -26,6 +26,19 @@ pub(super) struct ProbeArgs {
     /// With --point: it lies in a plane that looks this way, as a window does, and sees what is in front of that alone
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     normal: Option<String>,
+    /// Points of a table instead, CSV whose first line is name,x,y,z,nx,ny,nz; the last three, a normal, may be absent or empty
+    #[arg(long, value_name = "FILE.csv")]
+    points: Option<PathBuf>,
+    /// Points on the components of this name, as `casts` knows names: IfcWindow. One in the middle of each piece that hangs
+    /// together, on its outer side, which is the one more open to the sky. May be repeated
+    #[arg(long, value_name = "NAME")]
+    on: Vec<String>,
+    /// With --on and --height: points so many metres from each other along the upright faces of these components
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    spacing: Option<f64>,
+    /// With --on and --spacing: so many metres above the ground
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    height: Option<f64>,
     /// The day [default: the study's date]
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     date: Option<String>,
@@ -41,31 +54,32 @@ pub(super) struct ProbeArgs {
     /// On each day not after: 14:00, sunset-1h30 [default: the whole day]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     to: Option<String>,
-    /// The search's grid: an interval of sun or of shade at least so long cannot be missed, a shorter one may be. Start
-    /// and end are to the second whatever the step [default: 1min]
-    #[arg(long, value_name = "STEP", allow_hyphen_values = true)]
-    step: Option<String>,
     /// A drawing: time of day across, days down
     #[arg(long, value_name = "FILE.png")]
     out: Option<PathBuf>,
     /// A table with a line an interval: probe,start,end,seconds,blocked_before,blocked_after
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
+    /// A table of the seconds in the sun a day, a month and a year: probe,unit,date,days,seconds,longest_seconds,intervals
+    #[arg(long, value_name = "FILE.csv")]
+    totals: Option<PathBuf>,
     #[command(flatten)]
     pub(super) common: Common,
 }
 
 impl ProbeArgs {
     fn overrides(&self) -> Overrides {
-        let [point, normal, date, from_date, to_date, from, to, step] =
-            [&self.point, &self.normal, &self.date, &self.from_date, &self.to_date, &self.from, &self.to, &self.step]
+        let [point, normal, date, from_date, to_date, from, to] =
+            [&self.point, &self.normal, &self.date, &self.from_date, &self.to_date, &self.from, &self.to]
                 .map(Clone::clone);
-        Overrides { point, normal, date, from_date, to_date, from, to, step, ..self.model.onto(self.site.overrides()) }
+        let (points, on, spacing, height) = (self.points.clone(), self.on.clone(), self.spacing, self.height);
+        let given = Overrides { points, on, spacing, height, ..self.model.onto(self.site.overrides()) };
+        Overrides { point, normal, date, from_date, to_date, from, to, ..given }
     }
 }
 
 pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
-    let files = [("--out", "png", &asked.out), ("--csv", "csv", &asked.csv)];
+    let files = [("--out", "png", &asked.out), ("--csv", "csv", &asked.csv), ("--totals", "csv", &asked.totals)];
     for (option, format, path) in
         files.iter().filter_map(|(option, format, path)| Some((option, format, path.as_ref()?)))
     {
@@ -79,12 +93,19 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
         }
     }
     let probing = load_probes(asked.site.path(), &asked.overrides())?;
-    let request = ProbeRequest { drawing: asked.out.clone(), table: asked.csv.clone(), words: &Options };
+    let request = ProbeRequest {
+        drawing: asked.out.clone(),
+        table: asked.csv.clone(),
+        totals: asked.totals.clone(),
+        words: &Options,
+    };
     let mut progress = Progress::of("days", asked.common.quiet);
-    let sink = Sink::Paths { inputs: &asked.site.inputs()? };
+    let mut inputs = asked.site.inputs()?;
+    inputs.extend(asked.points.clone());
+    let sink = Sink::Paths { inputs: &inputs };
     let ProbeAnswer { sunlight, written } = deliver(&probing, &request, sink, &mut |event| progress.heard(&event))?;
     match asked.common.json {
         true => say(&told::json(&sunlight, &probing.place, &probing.ground, (&probing.notes, &Options))?),
-        false => say(&(told::table(&sunlight, &probing.place, &probing.ground, &Options) + &lines(&written))),
+        false => say(&(told::table(&sunlight, &probing.place, &probing.ground) + &lines(&written))),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::parts::note_letters;
 use super::{DeliverError, Sink, WrittenFiles};
+use crate::export::totals::totals as encode_totals;
 use crate::export::{figure, probe as encode};
 use crate::message::Words;
 use crate::site::ProbeSite;
@@ -16,6 +17,8 @@ pub struct ProbeRequest {
     pub drawing: Option<PathBuf>,
     /// The name of the table, with one line per interval. Without a name there is no table.
     pub table: Option<PathBuf>,
+    /// The name of the table of totals: a day, a month and a year. Without a name there is none.
+    pub totals: Option<PathBuf>,
     /// The face's words, for the fields that the drawing mentions.
     pub words: &'static dyn Words,
 }
@@ -39,16 +42,20 @@ pub fn probe(
     sink: Sink<'_>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<ProbeAnswer, DeliverError> {
-    let names: Vec<PathBuf> = [&asked.drawing, &asked.table].into_iter().flatten().cloned().collect();
+    let names: Vec<PathBuf> = [&asked.drawing, &asked.table, &asked.totals].into_iter().flatten().cloned().collect();
     let open = sink.open(&names, None)?;
     if asked.drawing.is_some() {
-        let probes = probing.probes.iter().map(|probe| probe.name.as_str());
+        let all = probing.probes.iter().chain(probing.laid.iter().filter_map(|sides| sides.first()));
+        let probes = all.map(|probe| probe.name.as_str());
         note_letters([probing.place.name.as_str()].into_iter().chain(probes), on_event)?;
     }
     let sunlight = study::probe::probe(probing, on_event)?;
     let mut files = Vec::new();
     if let Some(name) = &asked.table {
         files.push((name.clone(), encode::csv(&sunlight).into_bytes()));
+    }
+    if let Some(name) = &asked.totals {
+        files.push((name.clone(), encode_totals(&sunlight).into_bytes()));
     }
     if let Some(name) = &asked.drawing {
         files.push((name.clone(), figure::strips(&sunlight, &probing.place, &probing.ground, asked.words)?));

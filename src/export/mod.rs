@@ -20,6 +20,7 @@ pub mod probe;
 pub mod raster;
 pub mod recovery;
 pub mod report;
+pub mod totals;
 pub mod verify;
 pub mod volumes;
 

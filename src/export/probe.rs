@@ -2,13 +2,13 @@
 
 use super::names::{field, plain};
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
-use super::{ExportError, figure, report};
-use crate::message::{Field, Message, Words, aside, message};
+use super::{ExportError, report};
+use crate::message::{Message, Words};
 use crate::site::{Ground, metres};
 use crate::sun::{Place, Polar, Zone};
 use crate::sunlight::{Interval, ProbeIntervals, SunDay, Sunlight, longest, secs};
 use crate::view::Probe;
-use chrono::DateTime;
+use chrono::{DateTime, NaiveDate};
 use glam::DVec3;
 use serde::Serialize;
 use std::fmt::Write;
@@ -65,7 +65,7 @@ struct IntervalReport {
 ///   the end (`blocked_before`, `blocked_after`): the nearest component, `horizon` (the sun is down), `behind` (it is
 ///   behind the probe's own plane) or `window` (what is asked begins or ends there);
 /// - of each day and each probe the `seconds` in sunlight and the longest interval's (`longest_seconds`);
-/// - `shortest_found_secs`: no interval of sun or of shade that is at least so long can have been missed;
+/// - `shortest_found_secs`: 1, as each second is decided, and no sun or shade between two of them is left out;
 /// - `notes` as in `profile.json`.
 ///
 /// # Errors
@@ -103,7 +103,7 @@ pub fn json(
                 longest_seconds: probed.longest().map_or(0, Interval::secs),
             })
             .collect(),
-        shortest_found_secs: sunlight.step_secs,
+        shortest_found_secs: 1,
         notes: report::said(notes, words),
     })
 }
@@ -134,11 +134,18 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
-/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and what
-/// cannot have been missed. Ends with a line break.
-pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> String {
+/// Of more probes there is one table for all.
+const MOST_TABLES: usize = 20;
+
+/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and how
+/// exact it is. Ends with a line break.
+pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground) -> String {
     let mut table = String::new();
-    for probed in &sunlight.probes {
+    let is_long = sunlight.probes.len() > MOST_TABLES;
+    if is_long {
+        probes_table(&mut table, sunlight);
+    }
+    for probed in sunlight.probes.iter().filter(|_| !is_long) {
         // Writing to a String cannot fail.
         let _ = writeln!(table, "{}: {}", plain(&probed.probe.name), lies(&probed.probe));
         let below = probed.below_ground_m;
@@ -151,16 +158,10 @@ pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Wo
         }
         table.push('\n');
     }
-    let shortest = figure::duration(sunlight.step_secs);
-    let missed = message![
-        format!("Sun or shade of {shortest} or more cannot have been missed"),
-        aside(Field::Step);
-        "start: the first second in sunlight, end: the first not in it"
-    ];
     let _ = writeln!(
         table,
-        "{}\nground at {}\nclock: {}, tz {}",
-        missed.in_words(words),
+        "To the second, nothing left out; start: the first second in sunlight, end: the first not in it\nground at {}\n\
+         clock: {}, tz {}",
         ground.said(),
         place.time_zone,
         place.time_zone.version()
@@ -249,6 +250,36 @@ fn range_table(table: &mut String, sunlight: &Sunlight, probed: &ProbeIntervals)
         let equals = probed.days.iter().filter(|day| secs(day) == least).count() - 1;
         let more = if equals > 0 { format!(" (and on {equals} more)") } else { String::new() };
         let _ = write!(table, "\n  least on {least_on}{more}: {}; most on {most_on}: {}", clock(least), clock(most));
+    }
+    table.push('\n');
+}
+
+/// One line per probe.
+fn probes_table(table: &mut String, sunlight: &Sunlight) {
+    let names = || sunlight.probes.iter().map(|probed| plain(&probed.probe.name));
+    let width = names().map(|name| name.chars().count()).fold(5, usize::max).min(40);
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        table,
+        "{} probes, {} days\n\n  {:<width$}  {:>10}  {:>8}  {:>9}  {:<20}  most on",
+        sunlight.probes.len(),
+        sunlight.days.len(),
+        "probe",
+        "sun",
+        "longest",
+        "intervals",
+        "least on"
+    );
+    for (probed, name) in sunlight.probes.iter().zip(names()) {
+        let on = |(date, secs): (NaiveDate, i64)| format!("{date} {:>9}", clock(secs));
+        let [least, most] = sunlight.least_and_most(probed).map_or_else(Default::default, |both| both.map(on));
+        let _ = writeln!(
+            table,
+            "  {name:<width$}  {:>10}  {:>8}  {:>9}  {least}  {most}",
+            clock(probed.secs()),
+            clock(probed.longest().map_or(0, Interval::secs)),
+            probed.days.iter().map(Vec::len).sum::<usize>()
+        );
     }
     table.push('\n');
 }

@@ -122,7 +122,7 @@ pub enum SiteError {
         /// As the user named it.
         file: String,
     },
-    /// A name in `layers`, `casts`, `receives` or `terrain` that no component has.
+    /// A name that no component has, in `layers`, `casts`, `receives` or `terrain`, or of components on which points are laid.
     UnknownName {
         /// Where it was asked.
         at: FieldLocation,
@@ -237,7 +237,9 @@ impl SiteError {
     pub fn is_wrong_use(&self) -> bool {
         match self {
             SiteError::NoPlaceForModel { .. } | SiteError::NoStudy { .. } | SiteError::NoProbe { .. } => true,
-            SiteError::Value { at, .. } | SiteError::Sun { at, .. } => matches!(at, FieldLocation::Field(_)),
+            SiteError::Value { at, .. } | SiteError::Sun { at, .. } | SiteError::UnknownName { at, .. } => {
+                matches!(at, FieldLocation::Field(_))
+            }
             _ => false,
         }
     }

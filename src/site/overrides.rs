@@ -44,6 +44,14 @@ pub struct Overrides {
     pub point: Option<String>,
     /// The normal of that probe: `X,Y,Z`.
     pub normal: Option<String>,
+    /// A table of probes instead of the site file's.
+    pub points: Option<PathBuf>,
+    /// Names of components on which probes are laid.
+    pub on: Vec<String>,
+    /// The distance between laid probes, metres.
+    pub spacing: Option<f64>,
+    /// The height of laid probes above the ground, metres.
+    pub height: Option<f64>,
     /// The plan's region: `W,S,E,N` in metres.
     pub region: Option<String>,
     /// The side of a cell, metres.

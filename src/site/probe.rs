@@ -2,25 +2,25 @@
 
 use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};
+use super::file::Names;
 use super::ground::{self, Ground};
+use super::laid::{Laying, lay};
 use super::models::Models;
 use super::notes::on_probes;
 use super::overrides::{Overrides, numbers, refuse};
+use super::points_file::{self, MOST_PROBES, unit};
 use super::study::no_study;
 use super::written::WrittenSite;
 use crate::choice::Receivers;
 use crate::formats::composed;
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Words, message};
-use crate::sun::{DayWindow, Place, SunError, Zone, parse_duration_secs};
+use crate::sun::{DayWindow, Place, Zone};
 use crate::view::Probe;
 use chrono::NaiveDate;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
-
-/// The step where nobody asks.
-const STEP: &str = "1min";
 
 /// The checked request of `gnomon probe`: place, models, points, days.
 #[derive(Clone, Debug)]
@@ -37,12 +37,13 @@ pub struct ProbeSite {
     pub casts: Vec<bool>,
     /// The ground.
     pub ground: Ground,
-    /// The points, at least one, each with its own name.
+    /// The points, each with its own name; at least one, or one of `laid`.
     pub probes: Vec<Probe>,
+    /// Points that the program lays, each with what may be its outer side: of several the study takes the one that is more
+    /// open to the sky.
+    pub laid: Vec<Vec<Probe>>,
     /// The days in their order, at least one, each with the requested part of it.
     pub days: Vec<DayWindow>,
-    /// Seconds between the instants at which is looked first.
-    pub step_secs: u32,
     /// Whether directions include atmospheric refraction.
     pub refraction: bool,
 }
@@ -58,11 +59,6 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     let place = written.place(asked)?;
     let probes = probes(&written, asked)?;
     let days = days(&place, &written, asked)?;
-    let step_secs = match parse_duration_secs(asked.step.as_deref().unwrap_or(STEP)) {
-        Ok(0) => Err(SunError::ZeroStep),
-        step => step,
-    }
-    .map_err(|error| SiteError::sun(FieldLocation::Field(Field::Step), error))?;
     let level = ground::level(&written, asked)?;
     let models = models()?.with_terrain(&written)?;
     let [casts, receives] = models.roles(&written)?;
@@ -70,17 +66,85 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     notes.extend(models.notes(&written, &casts));
     let Models { mesh, bounds, .. } = models;
     let ground = Ground::of(&mesh, bounds, &receives, level);
+    let laid = laid(&mesh, asked, ground.level, &probes)?;
+    check_count(asked, probes.len() + laid.len(), days.len())?;
+    notes.extend((!laid.is_empty()).then(|| Message::from(format!("{} points are laid on components", laid.len()))));
     // a probe below it says so itself
     notes.extend(ground.notes(&mesh, &receives, Receivers::Ground));
     notes.extend(days.last().and_then(|day| Zone::doubt(&day.to)).map(Message::from));
     notes.extend(on_probes(&probes));
     let refraction = !asked.no_refraction;
     let words = asked.words;
-    Ok(ProbeSite { place, mesh, notes, words, casts, ground, probes, days, step_secs, refraction })
+    Ok(ProbeSite { place, mesh, notes, words, casts, ground, probes, laid, days, refraction })
 }
 
-/// The point of the command line, or else those of the file.
+/// No more points are asked, times days: a point's day takes some 300 bytes.
+const MOST_POINT_DAYS: usize = 4_000_000;
+
+/// Errs where the answer would be too large.
+fn check_count(asked: &Overrides, points: usize, days: usize) -> Result<(), SiteError> {
+    let at = FieldLocation::Field(if asked.on.is_empty() { Field::Points } else { Field::On });
+    if points > MOST_PROBES {
+        let what = format!("there are more than {MOST_PROBES} points");
+        return Err(refuse(at, message![what; "name fewer components"]));
+    }
+    if points.saturating_mul(days) <= MOST_POINT_DAYS {
+        return Ok(());
+    }
+    let what = format!("{points} points on {days} days are more than {MOST_POINT_DAYS} together");
+    Err(refuse(at, message![what; "ask for fewer points or days at once"]))
+}
+
+/// The points that are laid on the components asked.
+fn laid(mesh: &Mesh, asked: &Overrides, ground: f64, beside: &[Probe]) -> Result<Vec<Vec<Probe>>, SiteError> {
+    let at = |field| FieldLocation::Field(field);
+    for (field, value) in [(Field::Spacing, asked.spacing), (Field::Height, asked.height)] {
+        if asked.on.is_empty() && value.is_some() {
+            return Err(refuse(at(field), message!["belongs to ", Field::On; "add that, or leave it out"]));
+        }
+    }
+    if asked.on.is_empty() {
+        return Ok(Vec::new());
+    }
+    let laying = match (asked.spacing, asked.height) {
+        (None, None) => Laying::Pieces,
+        (Some(spacing), Some(height)) if spacing.is_finite() && spacing >= 0.01 && height.is_finite() => {
+            Laying::Row { spacing, height: ground + height }
+        }
+        (Some(_), Some(_)) => {
+            let message = message!["is no distance between points"; "write at least 0.01 metres"];
+            return Err(refuse(at(Field::Spacing), message));
+        }
+        (Some(_), None) => {
+            return Err(refuse(at(Field::Spacing), message!["needs ", Field::Height, ", metres above the ground"]));
+        }
+        (None, Some(_)) => {
+            return Err(refuse(at(Field::Height), message!["needs ", Field::Spacing, ", metres between two points"]));
+        }
+    };
+    let names = Names::Some(asked.on.clone());
+    if let Some((name, nearest)) = names.unknown(&mesh.components) {
+        return Err(SiteError::UnknownName { at: at(Field::On), name, nearest });
+    }
+    let laid = lay(mesh, &names.chosen(&mesh.components), laying, (MOST_PROBES, beside));
+    if laid.is_empty() {
+        return Err(refuse(
+            at(Field::On),
+            message!["there is no face to lay a point on"; "ask for another height, or other components"],
+        ));
+    }
+    Ok(laid)
+}
+
+/// The points of the command line, or else those of the file.
 fn probes(written: &WrittenSite, asked: &Overrides) -> Result<Vec<Probe>, SiteError> {
+    let is_laid = !asked.on.is_empty();
+    for (field, is_asked) in [(Field::Points, asked.points.is_some()), (Field::On, is_laid)] {
+        if asked.point.is_some() && is_asked {
+            let message = message!["says nothing beside ", Field::Point; "leave one of the two out"];
+            return Err(refuse(FieldLocation::Field(field), message));
+        }
+    }
     if let Some(point) = &asked.point {
         let point = DVec3::from_array(numbers(Field::Point, point, "12,-3,4.5")?);
         let normal = match &asked.normal {
@@ -93,9 +157,20 @@ fn probes(written: &WrittenSite, asked: &Overrides) -> Result<Vec<Probe>, SiteEr
         let message = message!["belongs to ", Field::Point; "add that, or leave it out"];
         return Err(refuse(FieldLocation::Field(Field::Normal), message));
     }
+    if let Some(file) = &asked.points {
+        return points_file::read(file);
+    }
+    if is_laid {
+        return Ok(Vec::new());
+    }
     if written.site.probe.is_empty() {
         return Err(SiteError::NoProbe { file: written.file.clone() });
     }
+    of_tables(written)
+}
+
+/// The points of the file.
+fn of_tables(written: &WrittenSite) -> Result<Vec<Probe>, SiteError> {
     let mut probes: Vec<Probe> = Vec::new();
     for (index, table) in written.site.probe.iter().enumerate() {
         let at = |key: &str| written.probe_key(index, key);
@@ -119,18 +194,6 @@ fn probes(written: &WrittenSite, asked: &Overrides) -> Result<Vec<Probe>, SiteEr
         probes.push(Probe { name, point, normal });
     }
     Ok(probes)
-}
-
-/// A normal's direction, whatever its length.
-fn unit(normal: [f64; 3], at: impl Fn() -> FieldLocation) -> Result<DVec3, SiteError> {
-    let normal = DVec3::from_array(normal);
-    // Brought near 1 first, so that no square overflows.
-    let unit = (normal / normal.abs().max_element()).normalize();
-    if unit.is_finite() {
-        return Ok(unit);
-    }
-    let what = format!("{normal} is no direction");
-    Err(refuse(at(), message![what; "write one of any length but 0, for example [0, -1, 0]"]))
 }
 
 /// The days asked, each with the part of it that is.

@@ -45,13 +45,22 @@ impl Sky<'_> {
         Ok(instant)
     }
 
+    /// The first seconds after an instant, to a second one, that are otherwise than the second before: with a sun or without.
+    ///
+    /// # Errors
+    /// As [`position()`].
+    pub fn changes(&self, before: &Instant, after: &Instant) -> Result<Vec<DateTime<Zone>>, SunError> {
+        let mut changes = Vec::new();
+        self.search(before, after, &mut changes)?;
+        Ok(changes)
+    }
+
     /// Where the sun rises and sets between two instants, whole seconds apart; `None` where it does not.
     ///
     /// # Errors
     /// As [`position()`].
     pub fn cut(&self, before: &Instant, after: &Instant) -> Result<Option<HorizonCrossings>, SunError> {
-        let mut changes = Vec::new();
-        self.search(before, after, &mut changes)?;
+        let changes = self.changes(before, after)?;
         let (Some(first), Some(last)) = (changes.first(), changes.last()) else { return Ok(None) };
         let middle = |stretch: &[DateTime<Zone>]| {
             let secs = (stretch[1] - stretch[0]).num_seconds();

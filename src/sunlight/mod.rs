@@ -1,7 +1,17 @@
 //! Time in the sun where there is no raster: the intervals of single points, and hours on flat patches.
 
+mod face_tree;
+#[cfg(feature = "test-hooks")]
+mod halving;
 mod patches;
 mod probes;
+mod search;
+mod shade;
+mod sift;
+mod sky_cells;
+mod sun_path;
 
 pub use patches::{Exposure, PatchHours};
-pub use probes::{Interval, IntervalBound, ProbeIntervals, SunDay, Sunlight, judged, longest, secs};
+pub use probes::{Interval, IntervalBound, JudgedPoint, ProbeIntervals, SunDay, Sunlight, judged, longest, secs};
+pub use search::{ProbeSearch, SearchedDays};
+pub use sun_path::SunPath;

@@ -45,9 +45,6 @@ impl Interval {
 /// The intervals of several probes on several days.
 #[derive(Clone, Debug)]
 pub struct Sunlight {
-    /// Seconds between the instants at which was looked first: no interval of sun or shade that is at least so long is
-    /// missed.
-    pub step_secs: u32,
     /// Whether directions include atmospheric refraction.
     pub refraction: bool,
     /// The days in their order.
@@ -102,6 +99,17 @@ impl Sunlight {
         let most = days().min_by_key(|(_, secs)| -*secs)?;
         Some([least, most])
     }
+}
+
+/// Where a probe is judged.
+#[derive(Clone, Copy, Debug)]
+pub struct JudgedPoint {
+    /// Metres in the world frame.
+    pub point: DVec3,
+    /// The plane in which it lies, as of the probe.
+    pub normal: Option<DVec3>,
+    /// How far it lies below the ground, metres; none where it does not.
+    pub below_ground_m: Option<f64>,
 }
 
 /// Where a probe is judged: with a normal a millimetre before its plane.

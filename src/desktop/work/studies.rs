@@ -61,7 +61,6 @@ pub(in crate::desktop) fn probe(
     date: NaiveDate,
     context: egui::Context,
 ) -> Work<Sunlight> {
-    const STEP_SECS: u32 = 60;
     let site = Arc::clone(&project.site);
     Work::start(context, move |on_event| {
         let day = DayWindow::on(&site.place, date, None, None).map_err(StudyError::from)?;
@@ -73,8 +72,8 @@ pub(in crate::desktop) fn probe(
             words: site.words,
             casts: site.casts.clone(),
             probes: vec![probe],
+            laid: Vec::new(),
             days: vec![day],
-            step_secs: STEP_SECS,
             refraction: site.track.refraction,
         };
         Ok(probe::probe(&probing, &ProbeRequest::default(), Sink::Memory, on_event)?.sunlight)

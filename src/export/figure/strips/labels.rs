@@ -25,8 +25,7 @@ pub(super) fn panel(sunlight: &Sunlight, place: &Place, ground: &Ground) -> Pane
     } else {
         facts.push(("Probes", sunlight.probes.len().to_string()));
     }
-    let step = words::duration(sunlight.step_secs);
-    facts.push(("Step", format!("{step}: no sun or shade so long or longer is missed; start and end to the second")));
+    facts.push(("Exact", "to the second, nothing left out".to_owned()));
     facts.push(("Refraction", words::refraction(sunlight.refraction, place)));
     if let [probed] = sunlight.probes.as_slice() {
         sums(&mut facts, sunlight, probed);

@@ -1,0 +1,188 @@
+//! The faces that cast, in a tree of boxes; and one of them as a probe sees it.
+
+use super::sift::Halfspace;
+use super::sky_cells::SunPyramid;
+use super::sun_path::MOST_OFF_RAD;
+use crate::mesh::Mesh;
+use glam::{DVec3, Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+use std::time::Duration;
+
+/// A tree of two boxes a box.
+pub(super) struct FaceTree {
+    tree: Option<Bvh2>,
+    /// Corners of the faces in the tree's order, around the mesh's origin.
+    corners: Vec<[Vec3; 3]>,
+}
+
+/// What a box of the tree holds.
+pub(super) enum BoxContents<'a> {
+    Boxes([u32; 2]),
+    Faces(&'a [[Vec3; 3]]),
+}
+
+/// A box as a probe sees it.
+pub(super) struct SeenBox {
+    middle: DVec3,
+    half: DVec3,
+}
+
+impl FaceTree {
+    pub(super) fn new(mesh: &Mesh) -> FaceTree {
+        let box_of = |face: usize| {
+            let [a, b, c] = mesh.corners(face).map(Vec3A::from);
+            Aabb::new(a.min(b).min(c), a.max(b).max(c))
+        };
+        let boxes: Vec<Aabb> = (0..mesh.faces.len()).map(box_of).collect();
+        let build = || build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut Duration::default());
+        let tree = (!boxes.is_empty()).then(build);
+        let order = tree.as_ref().map_or(&[][..], |tree| &tree.primitive_indices);
+        FaceTree { corners: order.iter().map(|&face| mesh.corners(face as usize)).collect(), tree }
+    }
+
+    /// The box around all; none without faces.
+    pub(super) fn root(&self) -> Option<u32> {
+        self.tree.as_ref().map(|_| 0)
+    }
+
+    /// A box, from a point.
+    pub(super) fn seen(&self, at: u32, point: DVec3) -> SeenBox {
+        let Some(tree) = &self.tree else { return SeenBox { middle: DVec3::ZERO, half: DVec3::ZERO } };
+        let bounds = &tree.nodes[at as usize].aabb();
+        let [low, high] = [bounds.min, bounds.max].map(|corner| Vec3::from(corner).as_dvec3());
+        SeenBox { middle: (low + high) / 2.0 - point, half: (high - low) / 2.0 }
+    }
+
+    pub(super) fn within(&self, at: u32) -> BoxContents<'_> {
+        let Some(tree) = &self.tree else { return BoxContents::Faces(&[]) };
+        let node = &tree.nodes[at as usize];
+        let first = node.first_index;
+        match node.prim_count {
+            0 => BoxContents::Boxes([first, first + 1]),
+            count => BoxContents::Faces(&self.corners[first as usize..(first + count) as usize]),
+        }
+    }
+}
+
+impl SeenBox {
+    /// Whether all of it lies outside of a pyramid.
+    pub(super) fn is_outside(&self, pyramid: &SunPyramid) -> bool {
+        // more than what rounding comes to
+        let near = 1e-9 * (self.middle.abs().max_element() + self.half.max_element());
+        pyramid.sides.iter().any(|side| side.dot(self.middle) + side.abs().dot(self.half) < -near)
+    }
+
+    /// Whether it is larger than a share of the pyramid where it lies, or the probe is near it.
+    pub(super) fn is_large(&self, pyramid: &SunPyramid) -> bool {
+        let radius = self.half.length();
+        let away = self.middle.length() - radius;
+        radius > 3.0 * away * pyramid.half
+    }
+
+    /// How far away it is at least, squared.
+    pub(super) fn nearest(&self) -> f64 {
+        (self.middle.abs() - self.half).max(DVec3::ZERO).length_squared()
+    }
+
+    /// From where to where it reaches along the way of time, on the plane that the pyramid's axis stands on.
+    pub(super) fn along(&self, pyramid: &SunPyramid) -> [f64; 2] {
+        let depth = pyramid.axis.dot(self.middle);
+        let deep = pyramid.axis.abs().dot(self.half);
+        if depth <= deep * 1.000_001 {
+            return [f64::NEG_INFINITY, f64::INFINITY];
+        }
+        let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
+        for corner in 0..8 {
+            let sign = |axis: usize| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
+            let at = self.middle + self.half * DVec3::new(sign(0), sign(1), sign(2));
+            let x = pyramid.along.dot(at) / pyramid.axis.dot(at);
+            low = low.min(x);
+            high = high.max(x);
+        }
+        [low, high]
+    }
+}
+
+/// A face as a probe sees it.
+#[derive(Clone)]
+pub(super) struct SeenFace {
+    pub(super) corners: [DVec3; 3],
+    /// Planes through the probe and the sides; what is hit lies before all three.
+    pub(super) sides: [Halfspace; 3],
+    /// The probe lies in the face's plane, as far as numbers say: the sides say nothing but where it is not hit.
+    pub(super) is_flat: bool,
+}
+
+/// Of how many of a cell's suns a face lies before, for all that is known.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum SunCoverage {
+    None,
+    Part,
+    Full,
+}
+
+impl SeenFace {
+    pub(super) fn new(corners: &[Vec3; 3], point: DVec3) -> SeenFace {
+        /// More than the rounding of a product of two lengths.
+        const ROUNDING: f64 = 1e-13;
+        let corners @ [a, b, c] = corners.map(|corner| corner.as_dvec3() - point);
+        let lengths = corners.map(DVec3::length);
+        let volume = a.cross(b).dot(c);
+        let sign = 1f64.copysign(volume);
+        let side = |from: usize, to: usize| Halfspace {
+            normal: corners[from].cross(corners[to]) * sign,
+            slack: ROUNDING * lengths[from] * lengths[to],
+        };
+        SeenFace {
+            corners,
+            sides: [side(0, 1), side(1, 2), side(2, 0)],
+            is_flat: volume.is_nan() || volume.abs() <= ROUNDING * lengths.iter().product::<f64>(),
+        }
+    }
+
+    /// Whether one of a pyramid's sides parts it from the face.
+    pub(super) fn is_beside(&self, pyramid: &SunPyramid) -> bool {
+        pyramid.sides.iter().any(|side| self.corners.iter().all(|corner| side.dot(*corner) < 0.0))
+    }
+
+    /// How far its nearest corner is away, squared.
+    pub(super) fn nearest(&self) -> f64 {
+        self.corners.iter().map(|corner| corner.length_squared()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// As [`SeenBox::along`].
+    pub(super) fn along(&self, pyramid: &SunPyramid) -> [f64; 2] {
+        let mut along = [f64::INFINITY, f64::NEG_INFINITY];
+        for corner in &self.corners {
+            let depth = pyramid.axis.dot(*corner);
+            if depth <= 0.0 {
+                return [f64::NEG_INFINITY, f64::INFINITY];
+            }
+            let x = pyramid.along.dot(*corner) / depth;
+            along = [along[0].min(x), along[1].max(x)];
+        }
+        along
+    }
+
+    /// How it lies before the suns of a pyramid.
+    pub(super) fn coverage(&self, pyramid: &SunPyramid) -> SunCoverage {
+        if self.is_beside(pyramid) {
+            return SunCoverage::None;
+        }
+        if self.is_flat {
+            return SunCoverage::Part;
+        }
+        let mut before = true;
+        for Halfspace { normal, slack } in &self.sides {
+            let values = pyramid.corners.map(|corner| normal.dot(corner));
+            let near = MOST_OFF_RAD * normal.length() + 4.0 * slack;
+            if values.iter().all(|value| *value < -near) {
+                return SunCoverage::None;
+            }
+            before &= values.iter().all(|value| *value > near);
+        }
+        if before { SunCoverage::Full } else { SunCoverage::Part }
+    }
+}

@@ -1,0 +1,285 @@
+//! In which seconds faces keep the sun from a probe, of all days at once: from cell to cell of the band of the sky, each
+//! with the faces alone that reach it.
+//!
+//! A cell that no face reaches is lit and one that a single face fills is dark, without a look at its days. What is left is
+//! a day's slot: there the faces, the near ones first, take away the seconds that they surely cover, until none is left or no
+//! face is. Seconds so near a face's side that the polynomials cannot tell are doubtful: the exact ray decides them.
+
+use super::face_tree::{BoxContents, FaceTree, SeenFace, SunCoverage};
+use super::sift::{Halfspace, Verdict, sift, sift_flat};
+use super::sky_cells::{SunCell, SunCells, SunPyramid};
+use super::sun_path::{MOST_OFF_RAD, SLOT_SECS, Second, SunPath, SunPiece};
+use glam::{DVec3, Vec3};
+use std::ops::Range;
+
+/// What is known of a probe's day.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shade {
+    /// Runs of seconds, first and last, in which the probe is surely dark; in no order, and they may overlap.
+    pub(super) dark: Vec<[Second; 2]>,
+    /// Seconds that the exact ray decides, where they are not dark.
+    pub(super) doubtful: Vec<Second>,
+}
+
+/// A face or a box of faces that may reach a cell.
+#[derive(Clone, Copy)]
+enum Candidate {
+    Box(u32),
+    /// By its place in [`Descent::faces`].
+    Face(u32),
+}
+
+/// A probe's way through the cells.
+struct Descent<'a> {
+    tree: &'a FaceTree,
+    cells: &'a SunCells,
+    paths: &'a [SunPath<'a>],
+    /// Around the mesh's origin.
+    point: DVec3,
+    /// The plane of the probe as something that hides what is behind it.
+    behind: Option<Halfspace>,
+    /// What may reach the cells on the way to where the descent is; each cell's follow those of the cell around it.
+    reaching: Vec<Candidate>,
+    faces: Vec<SeenFace>,
+    shades: Vec<Shade>,
+}
+
+/// The shade of a probe on each of some days; `point` is around the mesh's origin.
+pub(super) fn shades(
+    tree: &FaceTree,
+    cells: &SunCells,
+    paths: &[SunPath<'_>],
+    (point, normal): (DVec3, Option<DVec3>),
+) -> Vec<Shade> {
+    let behind = normal.map(|normal| Halfspace { normal: -normal, slack: 1e-15 });
+    let shades = vec![Shade::default(); paths.len()];
+    let mut descent = Descent { tree, cells, paths, point, behind, reaching: Vec::new(), faces: Vec::new(), shades };
+    descent.reaching.extend(tree.root().map(Candidate::Box));
+    if let Some(root) = cells.root {
+        descent.descend(root, 0, normal.is_none());
+    }
+    descent.shades
+}
+
+impl<'a> Descent<'a> {
+    /// Looks at a cell, with what may reach the cell around it from `from` on.
+    fn descend(&mut self, cell: u32, from: usize, mut is_before: bool) {
+        let cell: &'a SunCell = &self.cells.cells[cell as usize];
+        let (to, faces) = (self.reaching.len(), self.faces.len());
+        let mut start = from;
+        if let Some(pyramid) = &cell.pyramid {
+            if let Some(behind) = self.behind.filter(|_| !is_before) {
+                let values = pyramid.corners.map(|corner| behind.normal.dot(corner));
+                if values.iter().all(|value| *value > MOST_OFF_RAD) {
+                    return self.darken(cell);
+                }
+                is_before = values.iter().all(|value| *value < -MOST_OFF_RAD);
+            }
+            if cell.halves.is_empty() {
+                self.look_at_slot(cell, pyramid, from..to, is_before);
+                return self.faces.truncate(faces);
+            }
+            start = to;
+            if self.filter(from..to, pyramid) {
+                self.darken(cell);
+                self.reaching.truncate(to);
+                return self.faces.truncate(faces);
+            }
+            if self.reaching.len() == start && is_before {
+                return self.faces.truncate(faces);
+            }
+        }
+        if cell.halves.is_empty() {
+            // no slot is so long; were one, each of its seconds would be asked
+            for shade in &mut self.shades[cell.days.clone()] {
+                shade.doubtful.extend(cell.slots.start * SLOT_SECS..cell.slots.end * SLOT_SECS);
+            }
+        }
+        for half in &cell.halves {
+            self.descend(*half, start, is_before);
+        }
+        self.reaching.truncate(to);
+        self.faces.truncate(faces);
+    }
+
+    /// All of a cell is dark.
+    fn darken(&mut self, cell: &SunCell) {
+        let run = [cell.slots.start * SLOT_SECS, cell.slots.end * SLOT_SECS - 1];
+        for shade in &mut self.shades[cell.days.clone()] {
+            shade.dark.push(run);
+        }
+    }
+
+    /// Adds what of these reaches a pyramid; large boxes are opened. Returns whether one face fills it.
+    fn filter(&mut self, of: Range<usize>, pyramid: &SunPyramid) -> bool {
+        let mut open: Vec<u32> = Vec::new();
+        for at in of {
+            match self.reaching[at] {
+                Candidate::Face(face) => match self.faces[face as usize].coverage(pyramid) {
+                    SunCoverage::Full => return true,
+                    SunCoverage::Part => self.reaching.push(Candidate::Face(face)),
+                    SunCoverage::None => {}
+                },
+                Candidate::Box(at) => open.push(at),
+            }
+            while let Some(at) = open.pop() {
+                let seen = self.tree.seen(at, self.point);
+                if seen.is_outside(pyramid) {
+                    continue;
+                }
+                if !seen.is_large(pyramid) {
+                    self.reaching.push(Candidate::Box(at));
+                    continue;
+                }
+                match self.tree.within(at) {
+                    BoxContents::Boxes(boxes) => open.extend(boxes),
+                    BoxContents::Faces(faces) => {
+                        if faces.iter().any(|corners| self.add_face(corners, pyramid)) {
+                            return true;
+                        }
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Adds a face where it reaches a pyramid. Returns whether it fills it.
+    fn add_face(&mut self, corners: &[Vec3; 3], pyramid: &SunPyramid) -> bool {
+        let face = SeenFace::new(corners, self.point);
+        let coverage = face.coverage(pyramid);
+        if coverage == SunCoverage::Part {
+            self.reaching.push(Candidate::Face(self.faces.len() as u32));
+            self.faces.push(face);
+        }
+        coverage == SunCoverage::Full
+    }
+
+    /// Looks at a single day's slot.
+    fn look_at_slot(&mut self, cell: &SunCell, pyramid: &SunPyramid, reaching: Range<usize>, is_before: bool) {
+        let path = &self.paths[cell.days.start];
+        let shade = &mut self.shades[cell.days.start];
+        let (tree, point, faces) = (self.tree, self.point, &self.faces);
+        let mut open = OpenSeconds::new(path, cell.slots.start, pyramid);
+        if let Some(behind) = self.behind.filter(|_| !is_before) {
+            open.take(&[behind], [f64::NEG_INFINITY, f64::INFINITY], shade);
+        }
+        let far = |reaching: Candidate| match reaching {
+            Candidate::Face(face) => (faces[face as usize].nearest(), reaching),
+            Candidate::Box(at) => (tree.seen(at, point).nearest(), reaching),
+        };
+        let mut left: Vec<(f64, Candidate)> = self.reaching[reaching].iter().map(|reaching| far(*reaching)).collect();
+        // the nearest last, as of a stack
+        left.sort_unstable_by(|one, other| other.0.total_cmp(&one.0));
+        while let Some((_, next)) = left.pop() {
+            if open.runs.is_empty() {
+                return;
+            }
+            let at = match next {
+                Candidate::Face(face) => {
+                    open.shade(&faces[face as usize], shade);
+                    continue;
+                }
+                Candidate::Box(at) => at,
+            };
+            let seen = tree.seen(at, point);
+            if seen.is_outside(pyramid) || !open.reaches(seen.along(pyramid)) {
+                continue;
+            }
+            match tree.within(at) {
+                BoxContents::Boxes(two) => {
+                    let mut two = two.map(|at| far(Candidate::Box(at)));
+                    if two[0].0 < two[1].0 {
+                        two.reverse();
+                    }
+                    left.extend(two);
+                }
+                BoxContents::Faces(faces) => {
+                    faces.iter().for_each(|corners| open.shade(&SeenFace::new(corners, point), shade));
+                }
+            }
+        }
+    }
+}
+
+/// The seconds of a slot that nothing has covered yet.
+struct OpenSeconds<'a> {
+    /// Runs, each of one piece, and from where to where they reach along the way of time.
+    runs: Vec<([Second; 2], [f64; 2], &'a SunPiece)>,
+    pyramid: &'a SunPyramid,
+}
+
+impl<'a> OpenSeconds<'a> {
+    fn new(path: &'a SunPath<'_>, slot: i32, pyramid: &'a SunPyramid) -> OpenSeconds<'a> {
+        let from = path.pieces.partition_point(|piece| piece.first < slot * SLOT_SECS);
+        let to = path.pieces.partition_point(|piece| piece.first < (slot + 1) * SLOT_SECS);
+        let mut open = OpenSeconds { runs: Vec::new(), pyramid };
+        for piece in &path.pieces[from..to] {
+            open.runs.push(open.run([piece.first, piece.last], piece));
+        }
+        open
+    }
+
+    fn run(&self, seconds: [Second; 2], piece: &'a SunPiece) -> ([Second; 2], [f64; 2], &'a SunPiece) {
+        let along = seconds.map(|second| {
+            let to_sun = piece.to_sun(second);
+            self.pyramid.along.dot(to_sun) / self.pyramid.axis.dot(to_sun)
+        });
+        (seconds, [along[0].min(along[1]) - MOST_OFF_RAD, along[0].max(along[1]) + MOST_OFF_RAD], piece)
+    }
+
+    /// Whether what reaches so far along the way of time reaches an open second.
+    fn reaches(&self, [low, high]: [f64; 2]) -> bool {
+        self.runs.iter().any(|(_, along, _)| along[0] <= high && low <= along[1])
+    }
+
+    /// Takes away what a face covers.
+    fn shade(&mut self, face: &SeenFace, shade: &mut Shade) {
+        if face.is_beside(self.pyramid) {
+            return;
+        }
+        if face.is_flat {
+            for (seconds, _, piece) in &self.runs {
+                sift_flat(&face.sides, piece, *seconds, &mut |second| shade.doubtful.push(second));
+            }
+        } else {
+            self.take(&face.sides, face.along(self.pyramid), shade);
+        }
+    }
+
+    /// Takes away what halfspaces cover together.
+    fn take<const N: usize>(&mut self, halfspaces: &[Halfspace; N], [low, high]: [f64; 2], shade: &mut Shade) {
+        let mut at = 0;
+        while at < self.runs.len() {
+            let (seconds, along, piece) = self.runs[at];
+            if along[0] > high || low > along[1] {
+                at += 1;
+                continue;
+            }
+            let mut covered: Vec<[Second; 2]> = Vec::new();
+            sift(halfspaces, piece, seconds, &mut |verdict, first, last| match verdict {
+                Verdict::Above => match covered.last_mut() {
+                    Some(run) if run[1] + 1 == first => run[1] = last,
+                    _ => covered.push([first, last]),
+                },
+                Verdict::Doubtful => shade.doubtful.extend(first..=last),
+            });
+            if covered.is_empty() {
+                at += 1;
+                continue;
+            }
+            shade.dark.extend(&covered);
+            let left = without(seconds, &covered).map(|seconds| self.run(seconds, piece)).collect::<Vec<_>>();
+            let count = left.len();
+            self.runs.splice(at..=at, left);
+            at += count;
+        }
+    }
+}
+
+/// What is left of a run of seconds without runs within it that follow each other.
+fn without([first, last]: [Second; 2], runs: &[[Second; 2]]) -> impl Iterator<Item = [Second; 2]> + '_ {
+    let starts = std::iter::once(first).chain(runs.iter().map(|run| run[1] + 1));
+    let ends = runs.iter().map(|run| run[0] - 1).chain(std::iter::once(last));
+    starts.zip(ends).filter(|(start, end)| start <= end).map(|(start, end)| [start, end])
+}

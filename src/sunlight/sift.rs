@@ -1,0 +1,121 @@
+//! At which seconds polynomials of the time are all above 0: surely, surely not, or so near 0 that the exact ray decides.
+
+use super::sun_path::{Polynomial, Second, SunPiece};
+use glam::DVec3;
+
+/// What was found of some seconds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Verdict {
+    Above,
+    Doubtful,
+}
+
+/// Normals of planes through the probe, and how much of what the direction to the sun comes to before them may be error.
+#[derive(Clone, Copy)]
+pub(super) struct Halfspace {
+    pub(super) normal: DVec3,
+    /// Beside that of the direction itself.
+    pub(super) slack: f64,
+}
+
+/// A polynomial with its bounds.
+#[derive(Clone, Copy)]
+struct BoundedPolynomial {
+    of: Polynomial<f64>,
+    /// What lies so near 0 may be either.
+    tolerance: f64,
+    /// An eighth of the most that its second derivative comes to.
+    bulge: f64,
+}
+
+impl BoundedPolynomial {
+    fn new(halfspace: &Halfspace, piece: &SunPiece) -> BoundedPolynomial {
+        let of = piece.to_sun.map(|part| halfspace.normal.dot(part));
+        let curved = of.iter().enumerate().map(|(power, part)| (power * power.saturating_sub(1)) as f64 * part.abs());
+        let tolerance = piece.off_rad * halfspace.normal.length() + halfspace.slack;
+        BoundedPolynomial { of, tolerance, bulge: curved.sum::<f64>() / 8.0 }
+    }
+
+    fn at(&self, unit: f64) -> f64 {
+        self.of.iter().rev().fold(0.0, |sum, part| sum * unit + part)
+    }
+
+    /// Between which values it stays in a run of so many units, with these values at its ends.
+    fn range(&self, [first, last]: [f64; 2], units: f64) -> [f64; 2] {
+        let bulge = self.bulge * units * units;
+        // where the chord climbs more than the bulge does at its ends there is no extremum between them
+        let bulge = if (last - first).abs() >= 4.0 * bulge { 0.0 } else { bulge };
+        [first.min(last) - bulge, first.max(last) + bulge]
+    }
+}
+
+/// Runs of seconds of a piece in which all are above 0, or may be.
+pub(super) fn sift<const N: usize>(
+    halfspaces: &[Halfspace; N],
+    piece: &SunPiece,
+    [first, last]: [Second; 2],
+    found: &mut impl FnMut(Verdict, Second, Second),
+) {
+    let bounded = halfspaces.each_ref().map(|halfspace| BoundedPolynomial::new(halfspace, piece));
+    let at = |second: Second| bounded.each_ref().map(|function| function.at(piece.unit(second)));
+    split(&bounded, piece, ([first, last], [at(first), at(last)]), found);
+}
+
+fn split<const N: usize>(
+    bounded: &[BoundedPolynomial; N],
+    piece: &SunPiece,
+    ([first, last], values): ([Second; 2], [[f64; N]; 2]),
+    found: &mut impl FnMut(Verdict, Second, Second),
+) {
+    let units = f64::from(last - first) / piece.unit_secs;
+    let mut all_above = true;
+    let mut cut = None;
+    for (index, function) in bounded.iter().enumerate() {
+        let ends = [values[0][index], values[1][index]];
+        let [low, high] = function.range(ends, units);
+        if high < -function.tolerance {
+            return;
+        }
+        all_above &= low > function.tolerance;
+        if ends[0] * ends[1] < 0.0 {
+            cut = Some(ends[0] / (ends[0] - ends[1]));
+        }
+    }
+    if all_above {
+        return found(Verdict::Above, first, last);
+    }
+    if first == last {
+        return found(Verdict::Doubtful, first, last);
+    }
+    let length = f64::from(last - first);
+    let middle = (first + (cut.unwrap_or(0.5) * length) as Second).clamp(first, last - 1);
+    let at = |second: Second| bounded.each_ref().map(|function| function.at(piece.unit(second)));
+    split(bounded, piece, ([first, middle], [values[0], at(middle)]), found);
+    split(bounded, piece, ([middle + 1, last], [at(middle + 1), values[1]]), found);
+}
+
+/// Seconds of a piece in which the planes' values may all have one sign: where the probe lies in a face's plane.
+pub(super) fn sift_flat(
+    halfspaces: &[Halfspace; 3],
+    piece: &SunPiece,
+    [first, last]: [Second; 2],
+    found: &mut impl FnMut(Second),
+) {
+    let units = f64::from(last - first) / piece.unit_secs;
+    let mut signs = [false; 2];
+    for function in halfspaces.each_ref().map(|halfspace| BoundedPolynomial::new(halfspace, piece)) {
+        let ends = [first, last].map(|second| function.at(piece.unit(second)));
+        let [low, high] = function.range(ends, units);
+        signs[0] |= high < -function.tolerance;
+        signs[1] |= low > function.tolerance;
+    }
+    if signs == [true; 2] {
+        return;
+    }
+    if first == last {
+        return found(first);
+    }
+    let middle = first + (last - first) / 2;
+    sift_flat(halfspaces, piece, [first, middle], found);
+    sift_flat(halfspaces, piece, [middle + 1, last], found);
+}
