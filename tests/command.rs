@@ -9,6 +9,7 @@ mod legend;
 pub(crate) mod letters;
 mod numbers;
 mod patches;
+mod rules;
 mod sides;
 mod techniques;
 mod told;

@@ -3,6 +3,7 @@
 mod areas;
 mod built_in;
 mod counting;
+mod day_sun;
 mod days;
 mod files;
 mod groups;
@@ -75,7 +76,13 @@ fn lit_in(rule: &ResolvedRule, lengths: &[i64], before: Option<i64>) -> Ruling {
     let lights: Vec<_> = days
         .iter()
         .zip(&spells_of)
-        .map(|(day, (lit, before))| DayLight { day, lit, before: before.as_deref(), newly_shaded: None })
+        .map(|(day, (lit, before))| DayLight {
+            day,
+            open: &day.windows,
+            lit,
+            before: before.as_deref(),
+            newly_shaded: None,
+        })
         .collect();
     rule.judge_time(None, &lights).expect("a ruling")
 }

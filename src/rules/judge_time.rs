@@ -14,6 +14,9 @@ use super::weigh::Weight;
 pub struct DayLight<'a> {
     /// The day.
     pub day: &'a RuleDay,
+    /// When it would be in a sun that counts if nothing stood there: the sun is up, high enough and before its plane. What
+    /// of it is not lit is shadow; the night is none.
+    pub open: &'a [Spell],
     /// When it is in a sun that counts.
     pub lit: &'a [Spell],
     /// The same of the state before, or of the body that the law allows.
@@ -95,7 +98,7 @@ impl ResolvedRule {
 
     fn counts(&self, criterion: &Criterion, light: &DayLight, windows: &[Spell]) -> Result<CountedDay, RuleError> {
         let tally = |spells: &[Spell]| self.counting.tally(criterion.how, spells, windows);
-        let shaded = |lit: &[Spell]| without(windows, lit);
+        let shaded = |lit: &[Spell]| without(light.open, lit);
         let (now, before) = match self.counting.what {
             Counted::Sun => (tally(light.lit), light.before.map(tally)),
             Counted::Shadow => (tally(&shaded(light.lit)), light.before.map(|lit| tally(&shaded(lit)))),

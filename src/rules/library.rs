@@ -36,8 +36,8 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
     "us-sf-295",
 ];
 
-/// The largest file that is read as a rule; a rule has some thousand bytes.
-const MOST_BYTES: u64 = 1 << 20;
+/// The largest file that is read as a rule; the built-in ones have some thousand bytes.
+const MOST_BYTES: u64 = 64 << 10;
 
 /// All built-in rules.
 ///
@@ -79,7 +79,7 @@ fn text_of(path: &Path) -> Result<String, RuleError> {
     let wrong = |what: String| RuleError::File { path: path.display().to_string(), what };
     let about = fs::metadata(path).map_err(|error| wrong(format!("cannot be read: {error}")))?;
     if !about.is_file() || about.len() > MOST_BYTES {
-        return Err(wrong("is no file of a rule, which has at most 1 MiB of text".to_owned()));
+        return Err(wrong("is no file of a rule, which has at most 64 KiB of text".to_owned()));
     }
     let bytes = fs::read(path).map_err(|error| wrong(format!("cannot be read: {error}")))?;
     String::from_utf8(bytes).map_err(|_| wrong("is not UTF-8; save it as UTF-8".to_owned()))

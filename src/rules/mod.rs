@@ -2,13 +2,14 @@
 //! what must hold.
 //!
 //! A [`Rule`] is read from TOML; [`Rule::resolve`] chooses its options and leaves plain values, [`ResolvedRule::calendar`]
-//! has its days and windows at a place. From spells and areas, which others find, the functions `judge_…` make a verdict
+//! has its days and windows at a place, and [`DaySun`] the sun that counts in them. From spells and areas, which others find, the functions `judge_…` make a verdict
 //! with its margin. `docs/rules` has a page for each built-in rule.
 
 mod clock;
 mod counting;
 mod criterion;
 mod cuts;
+mod day_sun;
 mod days;
 mod error;
 mod judge_area;
@@ -29,6 +30,7 @@ pub use clock::{ClockRule, RuleClock};
 pub use counting::{Bridge, CountHow, Counted, Counting, Run, SpellCount};
 pub use criterion::{Criterion, Demand, DwellingShare, Extent, RoomsNeeded, SunlessWhen};
 pub use cuts::{GrazingIn, SunCuts};
+pub use day_sun::DaySun;
 pub use days::{Dates, DayJudge, DayName, DaySet};
 pub use error::RuleError;
 pub use judge_area::{AreaLight, PartMet, ShadowLoad};

@@ -56,6 +56,10 @@ impl OptionValue {
 
     fn to_toml(&self) -> Value {
         match self {
+            // where a whole number is meant no other can be read
+            OptionValue::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => {
+                Value::Integer(*number as i64)
+            }
             OptionValue::Number(number) => Value::Float(*number),
             OptionValue::Flag(flag) => Value::Boolean(*flag),
             OptionValue::Duration(_) | OptionValue::Word(_) => Value::String(self.text()),
@@ -70,6 +74,9 @@ pub fn duration_text(secs: i64) -> String {
         parts.iter().filter(|(count, _)| *count > 0).map(|(count, unit)| format!("{count}{unit}")).collect();
     if text.is_empty() { "0s".to_owned() } else { text }
 }
+
+/// More values than this no option needs, and a rule is tried with each.
+const MOST_VALUES: usize = 100;
 
 /// One option of a rule.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,6 +143,9 @@ impl RuleOption {
             option.known = named.collect::<Result<_, RuleError>>()?;
         }
         option.default = table.value("default").map(|default| value(&option, "default", default)).transpose()?;
+        if option.one_of.len() + option.known.len() + option.words.len() > MOST_VALUES {
+            return Err(table.wrong("one_of", format!("an option has at most {MOST_VALUES} values")));
+        }
         if kind == OptionType::Word && option.one_of.is_empty() {
             return Err(table.wrong("one_of", "an option of words needs the list of them"));
         }

@@ -48,7 +48,8 @@ impl<'a> TableReader<'a> {
 
     /// What is wrong at a key.
     pub(super) fn wrong(&self, key: &str, what: impl Into<String>) -> RuleError {
-        let at = if key.is_empty() { self.at.clone() } else { format!("{}, {key}", self.at) };
+        let parts = [self.at.as_str(), key];
+        let at = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
         RuleError::Value { rule: self.rule.to_owned(), at, what: what.into() }
     }
 
@@ -138,13 +139,9 @@ impl<'a> TableReader<'a> {
 
     /// Refuses a key that nobody asked for, as it does not go with the others.
     pub(super) fn finish(self) -> Result<(), RuleError> {
-        let asked = self.asked.into_inner();
+        let asked = self.asked.borrow();
         let Some(key) = self.table.keys().find(|key| !asked.contains(&key.as_str())) else { return Ok(()) };
-        Err(RuleError::Value {
-            rule: self.rule.to_owned(),
-            at: format!("{}, {key}", self.at),
-            what: "it does not go with the other keys here; leave it out".to_owned(),
-        })
+        Err(self.wrong(key, "it does not go with the other keys here; leave it out"))
     }
 }
 

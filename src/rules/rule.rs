@@ -203,6 +203,9 @@ impl Rule {
     }
 }
 
+/// More options than this nobody chooses, and a rule is tried with the values of each.
+const MOST_OPTIONS: usize = 30;
+
 /// What [rule] may say.
 const SOURCE_KEYS: &[&str] = &["id", "name", "region", "kind", "edition", "confidence", "sources", "assumes"];
 
@@ -231,6 +234,9 @@ fn options(rule: &str, written: &Value) -> Result<Vec<RuleOption>, RuleError> {
         |what: &str| RuleError::Value { rule: rule.to_owned(), at: "[options]".to_owned(), what: what.to_owned() };
     let each = "each option is a table of its own, as [options.hours]";
     let table = written.as_table().ok_or_else(|| wrong(each))?;
+    if table.len() > MOST_OPTIONS {
+        return Err(wrong(&format!("a rule has at most {MOST_OPTIONS} options")));
+    }
     let mut options = Vec::new();
     for (name, value) in table {
         if !name.chars().all(|c| c.is_ascii_lowercase() || c == '_') {

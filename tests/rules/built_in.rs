@@ -81,7 +81,7 @@ fn two_strips_in_japan() {
     let whole = days[0].windows[0].secs();
     let verdict = |band: usize, shadow: i64| {
         let lit = spells(&days[0], &[whole - shadow]);
-        let light = DayLight { day: &days[0], lit: &lit, before: None, newly_shaded: None };
+        let light = DayLight { day: &days[0], open: &days[0].windows, lit: &lit, before: None, newly_shaded: None };
         let ruling = japan.judge_time(Some(band), &[light]).expect("a ruling");
         assert_eq!(ruling.findings.len(), 1);
         ruling.verdict
@@ -89,7 +89,7 @@ fn two_strips_in_japan() {
     assert_eq!([verdict(0, hours(4)), verdict(0, hours(4) + 1)], [Verdict::Pass, Verdict::Fail]);
     assert_eq!([verdict(1, minutes(150)), verdict(1, minutes(150) + 1)], [Verdict::Pass, Verdict::Fail]);
     // within 5 m of the border nothing is asked
-    let light = DayLight { day: &days[0], lit: &[], before: None, newly_shaded: None };
+    let light = DayLight { day: &days[0], open: &days[0].windows, lit: &[], before: None, newly_shaded: None };
     assert_eq!(japan.judge_time(None, &[light]).expect("a ruling").verdict, Verdict::Report);
     let hokkaido = rule("jp-bsa-56-2", &[("plane", "4"), ("near", "3h"), ("far", "2h"), ("hokkaido", "true")]);
     let day = calendar(&hokkaido)[0].clone();
@@ -104,8 +104,11 @@ fn zurich_counts_shadow_on_both_days() {
     assert_eq!(dates, ["11-03", "02-08"]);
     // one day in shadow for a second too long
     let lit = [spells(&days[0], &[hours(6)]), spells(&days[1], &[hours(6) - 1])];
-    let lights: Vec<_> =
-        days.iter().zip(&lit).map(|(day, lit)| DayLight { day, lit, before: None, newly_shaded: None }).collect();
+    let lights: Vec<_> = days
+        .iter()
+        .zip(&lit)
+        .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
+        .collect();
     let ruling = zurich.judge_time(None, &lights).expect("a ruling");
     assert_eq!((ruling.verdict, ruling.deciding), (Verdict::Fail, Some(1)));
     let two = rule("ch-zh-abv", &[("hours", "2h"), ("season", "summer")]);

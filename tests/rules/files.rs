@@ -30,8 +30,8 @@ fn what_is_no_rule_says_so() {
     assert!(error("latin").to_string().contains("UTF-8"));
     fs::write(folder.path().join("site.toml"), "[place]\nlatitude = 1.0\n").expect("written");
     assert!(error("site").to_string().contains("[rule]"));
-    fs::write(folder.path().join("large.toml"), vec![b'#'; (1 << 20) + 1]).expect("written");
-    assert!(error("large").to_string().contains("1 MiB"));
+    fs::write(folder.path().join("large.toml"), vec![b'#'; (64 << 10) + 1]).expect("written");
+    assert!(error("large").to_string().contains("64 KiB"));
     fs::create_dir(folder.path().join("folder.toml")).expect("made");
     assert!(matches!(error("folder.toml"), RuleError::File { .. }));
 }

@@ -144,7 +144,9 @@ fn a_misspelt_key_is_an_error_that_names_the_nearest() {
 #[test]
 fn misspelt_tables_and_whens_are_errors() {
     for (old, new, part) in [
-        ("[clock]", "[clok]", "`clok`"),
+        ("[clock]", "[clok]", "rule town, before any table: there is no key `clok` here; the nearest is `clock`"),
+        ("[[pass]]", "[[pas]]", "`pas`"),
+        ("[sun]\nabove = \"$low\"", "[[day]]\nabove = 1", "[[day]] number 2: there is no key `above`"),
         ("[[day]]\nwhen = { late = false }", "[[days]]\nwhen = { late = false }", "`days`"),
         ("when = { late = false }", "when = { lat = false }", "the nearest is `$late`"),
         ("when = { late = false }", "when = 1", "as a table"),
@@ -182,7 +184,7 @@ fn values_that_cannot_be_are_errors() {
         ("how = \"total\"", "how = \"total\"\nbridge_counts = true", "bridge"),
         ("how = \"total\"", "how = \"area-time\"", "area-time"),
         ("what = \"sun\"", "what = \"new-shadow\"", "before"),
-        ("share = 0.5", "share = 1.5", "between"),
+        ("share = 0.5", "share = 1.5", "rule town, [[pass]] number 1, share: 1.5 is not between 0 and 1"),
         ("share = 0.5", "or_area = 40.0", "share"),
         ("share = 0.5", "ratio = 0.8", "before"),
         ("share = 0.5", "share = 0.5\nof = \"rooms\"", "dwellings"),

@@ -26,8 +26,11 @@ fn the_worst_day_of_a_range_decides() {
             .enumerate()
             .map(|(at, day)| spells(day, &[if at == worst { secs } else { hours(5) }]))
             .collect();
-        let lights: Vec<_> =
-            days.iter().zip(&lit).map(|(day, lit)| DayLight { day, lit, before: None, newly_shaded: None }).collect();
+        let lights: Vec<_> = days
+            .iter()
+            .zip(&lit)
+            .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
+            .collect();
         light.judge_time(None, &lights).expect("a ruling")
     };
     let fails = ruling(100, hours(2) - 1);
@@ -53,8 +56,11 @@ fn the_best_day_of_a_range_decides() {
             .enumerate()
             .map(|(at, day)| spells(day, &[if at == best { secs } else { minutes(20) }]))
             .collect();
-        let lights: Vec<_> =
-            days.iter().zip(&lit).map(|(day, lit)| DayLight { day, lit, before: None, newly_shaded: None }).collect();
+        let lights: Vec<_> = days
+            .iter()
+            .zip(&lit)
+            .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
+            .collect();
         exposure.judge_time(None, &lights).expect("a ruling")
     };
     for (secs, verdict, grade) in [
@@ -80,8 +86,11 @@ fn criteria_are_of_their_own_days() {
     assert_eq!(days.len(), 2);
     let ruling = |equinox: i64, winter: i64| {
         let lit = [spells(&days[0], &[equinox]), spells(&days[1], &[winter])];
-        let lights: Vec<_> =
-            days.iter().zip(&lit).map(|(day, lit)| DayLight { day, lit, before: None, newly_shaded: None }).collect();
+        let lights: Vec<_> = days
+            .iter()
+            .zip(&lit)
+            .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
+            .collect();
         din.judge_time(None, &lights).expect("a ruling")
     };
     assert_eq!(ruling(hours(4), hours(1)).verdict, Verdict::Pass);
@@ -121,13 +130,33 @@ fn a_report_tells_and_does_not_judge() {
     let days = calendar(&nyc);
     let lit = spells(&days[0], &[hours(3)]);
     let shaded = spells(&days[0], &[hours(1)]);
-    let light = DayLight { day: &days[0], lit: &lit, before: Some(&lit), newly_shaded: Some(&shaded) };
+    let light =
+        DayLight { day: &days[0], open: &days[0].windows, lit: &lit, before: Some(&lit), newly_shaded: Some(&shaded) };
     let part = nyc.judge_time(None, &[light]).expect("a ruling");
     assert_eq!(part.findings[0].value, Quantity::Secs(hours(1)));
     assert_eq!(part.findings[0].no_sun_left_secs, Some(0));
     // without the state before there is no new shadow
     let alone = DayLight { before: None, newly_shaded: None, ..light };
     assert!(nyc.judge_time(None, &[alone]).is_err_and(|error| error.to_string().contains("state before")));
+}
+
+/// The night is no shadow, nor is the time when the sun is behind a façade.
+#[test]
+fn shadow_is_counted_while_the_sun_would_shine() {
+    let zurich = rule("ch-zh-abv", &[]);
+    let days = calendar(&zurich);
+    let open: Vec<_> = days.iter().map(|day| spells(day, &[hours(5)])).collect();
+    let ruling = |lit: i64| {
+        let lit: Vec<_> = days.iter().map(|day| spells(day, &[lit])).collect();
+        let lights: Vec<_> = days
+            .iter()
+            .zip(open.iter().zip(&lit))
+            .map(|(day, (open, lit))| DayLight { day, open, lit, before: None, newly_shaded: None })
+            .collect();
+        zurich.judge_time(None, &lights).expect("a ruling")
+    };
+    assert_eq!(ruling(hours(2)).findings[0].value, Quantity::Secs(hours(3)));
+    assert_eq!([ruling(hours(2)).verdict, ruling(hours(2) - 1).verdict], [Verdict::Pass, Verdict::Fail]);
 }
 
 #[test]
@@ -156,7 +185,7 @@ fn one_of_two_tests_is_enough() {
             lit.push(gnomon::rules::Spell::new(start, start + secs));
             start += secs + 60;
         }
-        let light = DayLight { day, lit: &lit, before: None, newly_shaded: None };
+        let light = DayLight { day, open: &day.windows, lit: &lit, before: None, newly_shaded: None };
         korea.judge_time(None, &[light]).expect("a ruling")
     };
     // the published case: 1 h 59 at most on end, and 4 h in all
@@ -167,7 +196,7 @@ fn one_of_two_tests_is_enough() {
     assert_eq!(ruling(&[hours(2) - 1, minutes(119)]).verdict, Verdict::Fail);
     // two hours on end before 9 are not in the first test's window
     let early = [gnomon::rules::Spell::new(day.windows[0].start, day.windows[0].start + hours(2))];
-    let light = DayLight { day, lit: &early, before: None, newly_shaded: None };
+    let light = DayLight { day, open: &day.windows, lit: &early, before: None, newly_shaded: None };
     assert_eq!(korea.judge_time(None, &[light]).expect("a ruling").verdict, Verdict::Fail);
 }
 

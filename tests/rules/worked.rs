@@ -18,7 +18,8 @@ fn when(at: &Place, day: &RuleDay, lit: impl Fn(Position) -> bool) -> Vec<Spell>
 }
 
 fn ruling(rule: &ResolvedRule, band: Option<usize>, day: &RuleDay, lit: &[Spell]) -> Ruling {
-    rule.judge_time(band, &[DayLight { day, lit, before: None, newly_shaded: None }]).expect("a ruling")
+    rule.judge_time(band, &[DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None }])
+        .expect("a ruling")
 }
 
 fn hours_of(ruling: &Ruling) -> f64 {
