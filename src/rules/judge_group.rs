@@ -115,7 +115,7 @@ impl ResolvedRule {
                     secs(name).ok_or_else(|| needs(format!("a window or area of use {name} in {}", dwelling.name)))
                 })
                 .collect::<Result<_, _>>()?;
-            let is_one_sunless = secs.iter().any(|secs| *secs == 0);
+            let is_one_sunless = secs.contains(&0);
             let are_all_sunless = secs.iter().all(|secs| *secs == 0);
             let counts = match criterion.extent {
                 Extent::Sunless { counts: SunlessWhen::OneUse, .. } => is_one_sunless,

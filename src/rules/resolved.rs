@@ -70,9 +70,11 @@ pub struct RuleDay {
 }
 
 impl ResolvedRule {
+    /// The tables beside [rule] and [options].
+    const KEYS: &[&str] = &["clock", "day", "sun", "receiver", "count", "compare", "pass", "any", "dwelling"];
+
     pub(super) fn read(id: &str, table: &Table, chosen: Vec<(String, OptionValue)>) -> Result<ResolvedRule, RuleError> {
-        const KEYS: &[&str] = &["clock", "day", "sun", "receiver", "count", "compare", "pass", "any", "dwelling"];
-        let root = TableReader::new(id, "", table, KEYS)?;
+        let root = TableReader::new(id, "", table, Self::KEYS)?;
         let must = |key: &'static str, keys| {
             root.table(key, keys)?.ok_or_else(|| root.wrong(key, "the table must be written"))
         };
@@ -81,7 +83,7 @@ impl ResolvedRule {
         let cuts = root.table("sun", SunCuts::KEYS)?.map_or_else(|| Ok(SunCuts::default()), SunCuts::read)?;
         let receiver = RuleReceiver::read(must("receiver", RuleReceiver::KEYS)?)?;
         let counting = Counting::read(must("count", Counting::KEYS)?)?;
-        let compare = root.table("compare", &["with"])?.map(comparison).transpose()?;
+        let compare = root.table("compare", COMPARE_KEYS)?.map(comparison).transpose()?;
         let read = |table| Criterion::read(table, counting.how);
         let all = root.tables("pass", Criterion::KEYS)?.into_iter().map(read).collect::<Result<Vec<_>, _>>()?;
         let any = root.tables("any", Criterion::KEYS)?.into_iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -207,6 +209,9 @@ impl ResolvedRule {
         self.criteria.iter().all(|criterion| matches!(criterion.demand, Demand::Report { .. }))
     }
 }
+
+/// What [compare] may say.
+pub(super) const COMPARE_KEYS: &[&str] = &["with"];
 
 fn comparison(table: TableReader) -> Result<CompareWith, RuleError> {
     let with = table.word("with")?.ok_or_else(|| table.wrong("with", "it must be written"))?;

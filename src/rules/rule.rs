@@ -207,7 +207,8 @@ impl Rule {
 const MOST_OPTIONS: usize = 30;
 
 /// What [rule] may say.
-const SOURCE_KEYS: &[&str] = &["id", "name", "region", "kind", "edition", "confidence", "sources", "assumes"];
+pub(super) const SOURCE_KEYS: &[&str] =
+    &["id", "name", "region", "kind", "edition", "confidence", "sources", "assumes"];
 
 fn source(table: TableReader) -> Result<RuleSource, RuleError> {
     let owned = |texts: Vec<&str>| texts.into_iter().map(str::to_owned).collect();

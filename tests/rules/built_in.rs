@@ -1,11 +1,14 @@
 //! Each built-in rule on either side of its limits, and its page.
 
 use super::{calendar, hours, lit, lit_in, minutes, rule, spells};
-use gnomon::rules::{BUILT_IN, DayLight, DwellingShare, Rule, Verdict, built_in_rules};
+use gnomon::rules::{BUILT_IN, DayLight, DwellingShare, RULE_KEYS, Rule, Verdict, built_in_rules};
 use std::path::Path;
 
+/// Options as they are said.
+type Given = &'static [(&'static str, &'static str)];
+
 /// Rules of windows and façades that ask for so much time in all, and what must be said.
-const AT_LEAST: &[(&str, &[(&str, &str)], i64)] = &[
+const AT_LEAST: &[(&str, Given, i64)] = &[
     ("eu-en-17037-sunlight", &[("above", "DE")], 5400),
     ("eu-en-17037-sunlight", &[("above", "13"), ("date", "02-14")], 5400),
     ("cn-gb-50180-dwelling", &[("day", "great-cold"), ("hours", "2h")], 7200),
@@ -179,6 +182,20 @@ fn each_rule_has_its_page() {
     }
     let pages = std::fs::read_dir(&folder).expect("pages").count();
     assert_eq!(pages, BUILT_IN.len() + 1, "pages of rules that are not built in");
+}
+
+/// The page on how a rule is written has each key in the paragraph of its table.
+#[test]
+fn each_key_is_explained() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/rules/README.md");
+    let page = std::fs::read_to_string(page).expect("docs/rules/README.md");
+    for (table, keys) in RULE_KEYS {
+        let paragraph = page.lines().find(|line| line.starts_with(&format!("- `{table}`")));
+        let paragraph = paragraph.unwrap_or_else(|| panic!("{table} is not explained"));
+        for key in *keys {
+            assert!(paragraph.contains(&format!("`{key}`")), "{table}: `{key}` is not explained");
+        }
+    }
 }
 
 #[test]
