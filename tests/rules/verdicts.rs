@@ -78,6 +78,33 @@ fn the_best_day_of_a_range_decides() {
     }
 }
 
+/// Where all days must pass the grade is that of the worst.
+#[test]
+fn the_grade_of_several_days_is_the_lowest() {
+    let text = gnomon::rules::built_in_text("eu-en-17037-sunlight")
+        .expect("a rule")
+        .replace("judge = \"best\"", "judge = \"worst\"");
+    let rule = gnomon::rules::Rule::parse("every-day", &text).expect("a rule");
+    let every = rule.resolve(&[("above", "11")]).expect("options");
+    let days = calendar(&every);
+    let grade = |odd: i64, others: i64| {
+        let lit: Vec<_> =
+            days.iter().enumerate().map(|(at, day)| spells(day, &[if at == 20 { odd } else { others }])).collect();
+        let lights: Vec<_> = days
+            .iter()
+            .zip(&lit)
+            .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
+            .collect();
+        let ruling = every.judge_time(None, &lights).expect("a ruling");
+        (ruling.verdict, ruling.grade)
+    };
+    let named = |grade: &str| (Verdict::Pass, Some(grade.to_owned()));
+    assert_eq!(grade(hours(3), hours(5)), named("medium"));
+    assert_eq!(grade(hours(5), hours(3)), named("medium"));
+    assert_eq!(grade(minutes(90), hours(5)), named("minimum"));
+    assert_eq!(grade(minutes(89), hours(5)), (Verdict::Fail, None));
+}
+
 /// Days with demands of their own: the equinox's are not the winter's.
 #[test]
 fn criteria_are_of_their_own_days() {
