@@ -68,6 +68,9 @@ pub mod sun;
 pub mod view;
 
 #[doc(hidden)]
+pub mod rules;
+
+#[doc(hidden)]
 pub mod formats;
 pub mod site;
 

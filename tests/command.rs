@@ -10,6 +10,7 @@ mod legend;
 pub(crate) mod letters;
 mod numbers;
 mod patches;
+mod rules;
 mod sides;
 mod techniques;
 mod told;

@@ -5,14 +5,17 @@ use std::path::{Path, PathBuf};
 /// So long may the README be.
 const README_LINES: usize = 100;
 
-/// README, CONTRIBUTING and all of `docs`.
+/// README, CONTRIBUTING and all of `docs`, with its folders of pages.
 fn documents() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let in_folder = |folder: &Path| {
         let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
         entries.filter(|path| path.extension().is_some_and(|it| it == "md")).collect::<Vec<_>>()
     };
-    [root.to_owned(), root.join("docs"), root.join("docs/benchmarks")].iter().flat_map(|it| in_folder(it)).collect()
+    [root.to_owned(), root.join("docs"), root.join("docs/benchmarks"), root.join("docs/rules")]
+        .iter()
+        .flat_map(|it| in_folder(it))
+        .collect()
 }
 
 /// Its lines that are no code.

@@ -35,6 +35,7 @@ mod overlay;
 mod patches;
 mod probe;
 mod references;
+mod rules;
 mod shaders;
 mod shared;
 mod site;

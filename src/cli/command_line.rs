@@ -6,6 +6,7 @@ use super::compare::CompareArgs;
 use super::convert::ConvertArgs;
 use super::probe::ProbeArgs;
 use super::read_model::ReadModelArgs;
+use super::rules::RulesArgs;
 use crate::formats::child;
 use crate::sun::ZoneRules;
 use clap::{Args, Parser, Subcommand};
@@ -55,16 +56,18 @@ pub(super) enum Command {
     Verify(VerifyArgs),
     /// When points lie in the sun, on a day or over a range of dates: to the second, and what blocks in between
     Probe(ProbeArgs),
+    /// The rules of authorities that are built in, with edition, source and options; or one of them as it is written
+    Rules(RulesArgs),
     /// Reads a model for the program itself
     #[command(name = child::SUBCOMMAND, hide = true)]
     ReadModel(ReadModelArgs),
 }
 
 impl Command {
-    /// What every command takes; the window takes nothing.
+    /// What every command takes that computes or reads a model.
     pub(super) fn common(&self) -> Option<&Common> {
         Some(match self {
-            Command::Open(_) | Command::ReadModel(_) => return None,
+            Command::Open(_) | Command::Rules(_) | Command::ReadModel(_) => return None,
             Command::Profile(asked) => &asked.common,
             Command::Compare(asked) => &asked.common,
             Command::Shadow(asked) => &asked.common,

@@ -22,6 +22,7 @@ mod probe;
 mod profile;
 mod progress;
 mod read_model;
+mod rules;
 mod technique;
 mod verify;
 mod volumes;
@@ -103,6 +104,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Verify(asked) => verify::verify(asked),
         Command::Probe(asked) => probe::probe(asked),
         Command::Convert(asked) => convert::convert(asked),
+        Command::Rules(asked) => rules::rules(asked),
         // main's own, and answered above
         Command::Open(_) | Command::ReadModel(_) => Ok(()),
     }

@@ -5,8 +5,25 @@ use super::{Place, SunError, TimeOfDay, Zone};
 use chrono::{DateTime, Datelike, DurationRound, NaiveDate, NaiveTime, TimeDelta, TimeZone};
 use solar_positioning::{Events, Horizon, SolarEvents};
 
-/// Altitude of the sun's centre, without refraction, at which almanacs let its upper limb appear, degrees.
-const RISE_DEG: f64 = -0.833;
+/// What a sunrise is: almanacs and some rules mean different ones, minutes apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Sunrise {
+    /// The upper limb appears in standard air: the centre is 0.833° below the horizon.
+    #[default]
+    Almanac,
+    /// The centre is at the horizon, and no air bends its light.
+    Geometric,
+}
+
+impl Sunrise {
+    /// Altitude of the sun's centre, without refraction, at which it happens, degrees.
+    fn altitude_deg(self) -> f64 {
+        match self {
+            Sunrise::Almanac => -0.833,
+            Sunrise::Geometric => 0.0,
+        }
+    }
+}
 
 /// One calendar day at the place; what does not happen on it (polar day and night) is absent.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +58,16 @@ impl Day {
     /// # Errors
     /// A year outside 1600 to 2999.
     pub fn of(place: &Place, date: NaiveDate) -> Result<Day, SunError> {
-        let events = events(place, date)?;
+        Day::by(place, date, Sunrise::Almanac)
+    }
+
+    /// As [`Day::of`], with another meaning of sunrise and sunset.
+    ///
+    /// # Errors
+    /// A year outside 1600 to 2999.
+    #[doc(hidden)]
+    pub fn by(place: &Place, date: NaiveDate, sunrise: Sunrise) -> Result<Day, SunError> {
+        let events = events(place, date, sunrise)?;
         let polar = match () {
             () if events.always_above() => Some(Polar::Day),
             () if events.always_below() => Some(Polar::Night),
@@ -55,7 +81,7 @@ impl Day {
     }
 
     /// Why it lacks a sunrise or sunset, in words.
-    pub(super) fn why_absent(&self) -> &'static str {
+    pub(crate) fn why_absent(&self) -> &'static str {
         match self.polar {
             Some(Polar::Day) => "the sun stays up all day (polar day)",
             Some(Polar::Night) => "the sun stays down all day (polar night)",
@@ -102,7 +128,7 @@ impl Bound {
 /// is of two. Where a date has two pieces the night between them is within.
 pub(super) fn light(place: &Place, date: NaiveDate) -> Result<Option<[Bound; 2]>, SunError> {
     const LONGEST: TimeDelta = TimeDelta::hours(24);
-    let today = events(place, date)?;
+    let today = events(place, date, Sunrise::Almanac)?;
     let (first_set, last_rise) = (today.sets.first(), today.rises.last());
     let up_at_start = match first_set {
         Some(set) => today.rises.first().is_none_or(|rise| set < rise),
@@ -114,7 +140,7 @@ pub(super) fn light(place: &Place, date: NaiveDate) -> Result<Option<[Bound; 2]>
     };
     let is_of_yesterday = match first_set {
         Some(set) if up_at_start => {
-            let yesterday = date.pred_opt().map(|date| events(place, date)).transpose()?;
+            let yesterday = date.pred_opt().map(|date| events(place, date, Sunrise::Almanac)).transpose()?;
             let rise = yesterday.and_then(|events| events.rises.last().copied());
             rise.is_some_and(|rise| *set - rise <= LONGEST)
         }
@@ -128,7 +154,7 @@ pub(super) fn light(place: &Place, date: NaiveDate) -> Result<Option<[Bound; 2]>
     let next = date.succ_opt().unwrap_or(date);
     let end = match (last_rise, today.sets.last()) {
         (Some(rise), _) if up_at_end => {
-            let set = events(place, next)?.sets.first().copied();
+            let set = events(place, next, Sunrise::Almanac)?.sets.first().copied();
             set.filter(|set| *set - *rise <= LONGEST).map(|set| Bound::Event(to_second(set)))
         }
         (_, Some(set)) => Some(Bound::Event(to_second(*set))),
@@ -138,11 +164,11 @@ pub(super) fn light(place: &Place, date: NaiveDate) -> Result<Option<[Bound; 2]>
 }
 
 /// Everything that the sun does between one local midnight and the next.
-fn events(place: &Place, date: NaiveDate) -> Result<Events<DateTime<Zone>>, SunError> {
+fn events(place: &Place, date: NaiveDate, sunrise: Sunrise) -> Result<Events<DateTime<Zone>>, SunError> {
     check_year(date.year())?;
     let delta_t = delta_t_secs(date.and_time(NaiveTime::MIN).and_utc())?;
     SolarEvents::new()
-        .for_date(date, &place.time_zone, location(place), delta_t, Horizon::Custom(RISE_DEG))
+        .for_date(date, &place.time_zone, location(place), delta_t, Horizon::Custom(sunrise.altitude_deg()))
         .map_err(|error| SunError::Position(error.to_string()))
 }
 

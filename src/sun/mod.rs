@@ -12,12 +12,16 @@ mod place;
 mod position;
 mod reading;
 mod rules;
+mod season;
 mod sky;
 mod track;
+mod true_solar;
 mod tz_version;
 mod window;
 mod zone;
 
+#[doc(hidden)]
+pub use day::Sunrise;
 pub use day::{Day, Polar};
 #[doc(hidden)]
 pub use day_window::DayWindow;
@@ -37,8 +41,12 @@ pub use reading::{parse_date, parse_duration_secs};
 #[doc(hidden)]
 pub use rules::{ZoneRules, zone_names};
 #[doc(hidden)]
+pub use season::{Season, apparent_longitude_deg};
+#[doc(hidden)]
 pub use sky::{HorizonCrossings, Sky};
 pub use track::{EachDay, SunTrack};
+#[doc(hidden)]
+pub use true_solar::true_solar;
 pub use tz_version::TzVersion;
 #[doc(hidden)]
 pub use window::MOST_DAYS;

@@ -38,18 +38,28 @@ pub(super) fn blocks() -> Vec<Block> {
 
 fn subcommand(command: &mut Command) -> Subcommand {
     let usage = command.render_usage().to_string();
+    let actions: Vec<Entry> =
+        command.get_subcommands_mut().filter(|action| action.get_name() != "help").map(action).collect();
     let is_own = |arg: &&Arg| !["help", "version"].contains(&arg.get_id().as_str());
     let shown = |is_input: bool| {
         let args = command.get_arguments().filter(is_own).filter(move |arg| arg.is_positional() == is_input);
-        args.map(option).collect()
+        args.map(option).collect::<Vec<_>>()
     };
     Subcommand {
         name: command.get_name().to_owned(),
         about: command.get_about().map(ToString::to_string).unwrap_or_default(),
         usage: usage.trim_start_matches("Usage: ").to_owned(),
-        inputs: shown(true),
+        inputs: actions.into_iter().chain(shown(true)).collect(),
         options: shown(false),
     }
+}
+
+/// What a subcommand can be asked for by a word of its own, as `show ID`.
+fn action(command: &mut Command) -> Entry {
+    let inputs = command.get_positionals().flat_map(|arg| arg.get_value_names().unwrap_or_default());
+    let words: Vec<_> = [command.get_name()].into_iter().chain(inputs.map(|name| name.as_str())).collect();
+    let meaning = command.get_about().map(ToString::to_string).unwrap_or_default();
+    Entry { written: format!("`{}`", words.join(" ")), meaning }
 }
 
 fn option(arg: &Arg) -> Entry {

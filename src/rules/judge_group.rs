@@ -1,0 +1,147 @@
+//! Judges dwellings by their rooms, and houses by their dwellings.
+
+use super::criterion::{Criterion, Demand, DwellingShare, Extent, SunlessWhen};
+use super::error::RuleError;
+use super::receiver::RuleReceiver;
+use super::resolved::ResolvedRule;
+use super::verdict::{DayCase, Finding, Quantity, Ruling, Verdict};
+use super::weigh::reaches;
+
+/// What a room came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoomRuling {
+    /// Its verdict.
+    pub verdict: Verdict,
+    /// Its floor area, square metres; not needed where rooms are counted.
+    pub floor_m2: f64,
+}
+
+/// What a dwelling came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DwellingRuling {
+    /// Its verdict.
+    pub verdict: Verdict,
+    /// How many rooms, or what share of the floor area, keep the criteria.
+    pub value: Quantity,
+    /// How many, or what share, must.
+    pub limit: Quantity,
+}
+
+/// How long each use of a dwelling is lit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DwellingSun {
+    /// What it is called.
+    pub name: String,
+    /// Each use and its seconds, counted for the criterion.
+    pub uses: Vec<(String, i64)>,
+}
+
+impl ResolvedRule {
+    /// The verdict of a dwelling by its rooms; nothing where the rule does not speak of dwellings.
+    ///
+    /// # Errors
+    /// [`RuleError::Needs`] for a dwelling without rooms, or without floor areas where they count.
+    pub fn judge_dwelling(&self, rooms: &[RoomRuling]) -> Result<Option<DwellingRuling>, RuleError> {
+        let needs = |what: &str| RuleError::Needs { rule: self.id.clone(), what: what.to_owned() };
+        let Some(share) = &self.dwelling else { return Ok(None) };
+        if rooms.is_empty() {
+            return Err(needs("dwellings with rooms"));
+        }
+        let passing = |with: &[Verdict]| rooms.iter().filter(|room| with.contains(&room.verdict)).collect::<Vec<_>>();
+        let (sure, perhaps) = (passing(&[Verdict::Pass]), passing(&[Verdict::Pass, Verdict::Close]));
+        let is_report = rooms.iter().all(|room| room.verdict == Verdict::Report);
+        let of = |sure: bool, perhaps: bool| match (is_report, sure, perhaps) {
+            (true, ..) => Verdict::Report,
+            (_, true, _) => Verdict::Pass,
+            (_, false, true) => Verdict::Close,
+            (_, false, false) => Verdict::Fail,
+        };
+        Ok(Some(match share {
+            DwellingShare::Rooms(lines) => {
+                let needed = DwellingShare::rooms_of(lines, rooms.len());
+                DwellingRuling {
+                    verdict: of(sure.len() >= needed, perhaps.len() >= needed),
+                    value: Quantity::Count(sure.len()),
+                    limit: Quantity::Count(needed),
+                }
+            }
+            DwellingShare::FloorArea(least) => {
+                let floor: f64 = rooms.iter().map(|room| room.floor_m2).sum();
+                let has_all = rooms.iter().all(|room| room.floor_m2.is_finite() && room.floor_m2 > 0.0);
+                if !has_all {
+                    return Err(needs("the floor area of each room"));
+                }
+                let share = |rooms: &[&RoomRuling]| rooms.iter().map(|room| room.floor_m2).sum::<f64>() / floor;
+                DwellingRuling {
+                    verdict: of(reaches(share(&sure), *least), reaches(share(&perhaps), *least)),
+                    value: Quantity::Share(share(&sure)),
+                    limit: Quantity::Share(*least),
+                }
+            }
+        }))
+    }
+
+    /// The ruling on a house by its dwellings: for each criterion of dwellings, in their order, the dwellings as it counts
+    /// them.
+    ///
+    /// # Errors
+    /// [`RuleError::Needs`] for a house without dwellings, and a dwelling that lacks one of the uses.
+    pub fn judge_house(&self, counted: &[Vec<DwellingSun>]) -> Result<Ruling, RuleError> {
+        let of_dwellings = self.criteria.iter().enumerate().filter(|(_, criterion)| criterion.is_of_dwellings());
+        let mut findings = Vec::new();
+        for (at, (number, criterion)) in of_dwellings.enumerate() {
+            let dwellings = counted.get(at).map_or(&[][..], Vec::as_slice);
+            findings.push(self.of_house(number, criterion, dwellings)?);
+        }
+        Ok(self.ruling(vec![DayCase { set: 0, findings }]))
+    }
+
+    fn of_house(&self, number: usize, criterion: &Criterion, dwellings: &[DwellingSun]) -> Result<Finding, RuleError> {
+        let needs = |what: String| RuleError::Needs { rule: self.id.clone(), what };
+        if dwellings.is_empty() {
+            return Err(needs("dwellings".to_owned()));
+        }
+        let uses: &[String] = match &self.receiver {
+            RuleReceiver::Window { all_of, .. } => all_of,
+            _ => &[],
+        };
+        let least = if let Demand::AtLeast { secs, .. } = criterion.demand { secs } else { 0 };
+        let mut having = 0;
+        for dwelling in dwellings {
+            let secs = |name: &String| dwelling.uses.iter().find(|(of, _)| of == name).map(|(_, secs)| *secs);
+            let secs: Vec<i64> = uses
+                .iter()
+                .map(|name| {
+                    secs(name).ok_or_else(|| needs(format!("a window or area of use {name} in {}", dwelling.name)))
+                })
+                .collect::<Result<_, _>>()?;
+            let is_one_sunless = secs.contains(&0);
+            let are_all_sunless = secs.iter().all(|secs| *secs == 0);
+            let counts = match criterion.extent {
+                Extent::Sunless { counts: SunlessWhen::OneUse, .. } => is_one_sunless,
+                Extent::Sunless { counts: SunlessWhen::AllUses, .. } => are_all_sunless,
+                _ => secs.iter().all(|secs| *secs >= least),
+            };
+            having += usize::from(counts);
+        }
+        let share = having as f64 / dwellings.len() as f64;
+        let (limit, margin) = match criterion.extent {
+            Extent::Sunless { most, .. } => (most, most - share),
+            Extent::Dwellings(least) => (least, share - least),
+            Extent::Whole | Extent::Part { .. } | Extent::OfBefore(_) => (0.0, 0.0),
+        };
+        let is_kept = reaches(margin, 0.0) || margin.abs() < 1e-9;
+        Ok(Finding {
+            criterion: number,
+            date: None,
+            verdict: if is_kept { Verdict::Pass } else { Verdict::Fail },
+            value: Quantity::Share(share),
+            longest_secs: None,
+            before: None,
+            limit: Some(Quantity::Share(limit)),
+            margin: Some(margin),
+            excuse: None,
+            no_sun_left_secs: None,
+        })
+    }
+}

@@ -1,0 +1,191 @@
+//! Judges what is lit or not as one: a point, a window, or an area of which any part is lit.
+
+use super::counting::{CountHow, Counted, SpellCount};
+use super::criterion::{Criterion, Demand, Extent};
+use super::days::DayJudge;
+use super::error::RuleError;
+use super::resolved::{CompareWith, ResolvedRule, RuleDay};
+use super::spell::{Spell, without};
+use super::verdict::{DayCase, Excuse, Finding, Quantity, Ruling, Verdict};
+use super::weigh::Weight;
+
+/// When one receiver is lit on one day.
+#[derive(Clone, Copy, Debug)]
+pub struct DayLight<'a> {
+    /// The day.
+    pub day: &'a RuleDay,
+    /// When it would be in a sun that counts if nothing stood there: the sun is up, high enough and before its plane. What
+    /// of it is not lit is shadow; the night is none.
+    pub open: &'a [Spell],
+    /// When it is in a sun that counts.
+    pub lit: &'a [Spell],
+    /// The same of the state before, or of the body that the law allows.
+    pub before: Option<&'a [Spell]>,
+    /// When any part of it lies in shadow that was lit before; where it is one point this is found from the two others.
+    pub newly_shaded: Option<&'a [Spell]>,
+}
+
+/// What one criterion counts on one day.
+#[derive(Clone, Copy)]
+struct CountedDay {
+    now: SpellCount,
+    before: Option<SpellCount>,
+    no_sun_left_secs: Option<i64>,
+}
+
+impl CountedDay {
+    fn plus(self, other: CountedDay) -> CountedDay {
+        let sum = |a: SpellCount, b: SpellCount| SpellCount {
+            secs: a.secs + b.secs,
+            longest_secs: a.longest_secs.max(b.longest_secs),
+        };
+        CountedDay {
+            now: sum(self.now, other.now),
+            before: self.before.zip(other.before).map(|(a, b)| sum(a, b)),
+            no_sun_left_secs: self.no_sun_left_secs.max(other.no_sun_left_secs),
+        }
+    }
+}
+
+impl ResolvedRule {
+    /// The ruling on a receiver; of a plane around a plot on a point in one of its bands. Criteria of parts of areas and of
+    /// dwellings are not its own: where there are no others it reports.
+    ///
+    /// # Errors
+    /// [`RuleError::Needs`] where the rule compares with a state that is not there.
+    pub fn judge_time(&self, band: Option<usize>, days: &[DayLight]) -> Result<Ruling, RuleError> {
+        let mut cases: Vec<DayCase> = Vec::new();
+        let mut sums: Vec<Vec<Option<CountedDay>>> = vec![vec![None; self.criteria.len()]; self.days.len()];
+        for light in days {
+            let set = light.day.set;
+            let is_sum = self.days.get(set).is_some_and(|of| of.judge == DayJudge::Sum);
+            let mut findings = Vec::new();
+            for (number, criterion) in self.criteria.iter().enumerate() {
+                let Some(windows) = self.own_windows(number, band, light.day) else { continue };
+                let counts = self.counts(criterion, light, windows)?;
+                if is_sum {
+                    let sum = &mut sums[set][number];
+                    *sum = Some(sum.map_or(counts, |sum| sum.plus(counts)));
+                } else {
+                    findings.push(Finding { date: Some(light.day.date), ..self.finding(number, counts)? });
+                }
+            }
+            cases.push(DayCase { set, findings });
+        }
+        for (set, sums) in sums.into_iter().enumerate() {
+            let sums = sums.into_iter().enumerate();
+            let findings = sums.filter_map(|(number, sum)| sum.map(|sum| self.finding(number, sum)));
+            cases.push(DayCase { set, findings: findings.collect::<Result<_, _>>()? });
+        }
+        Ok(self.ruling(cases))
+    }
+
+    /// The windows of a criterion that is of a receiver as one, on a day on which it counts.
+    fn own_windows<'a>(&self, number: usize, band: Option<usize>, day: &'a RuleDay) -> Option<&'a [Spell]> {
+        let criterion = self.criteria.get(number).filter(|of| of.band == band && of.extent == Extent::Whole)?;
+        debug_assert!(!criterion.is_of_dwellings());
+        day.criteria.get(number)?.as_deref()
+    }
+
+    /// What a criterion counts of a receiver on a day; seconds for the state as it is.
+    pub fn tally(&self, criterion: usize, light: &DayLight) -> Result<SpellCount, RuleError> {
+        let windows = light.day.criteria.get(criterion).and_then(Option::as_deref);
+        match (self.criteria.get(criterion), windows) {
+            (Some(of), Some(windows)) => Ok(self.counts(of, light, windows)?.now),
+            _ => Ok(SpellCount::default()),
+        }
+    }
+
+    fn counts(&self, criterion: &Criterion, light: &DayLight, windows: &[Spell]) -> Result<CountedDay, RuleError> {
+        let tally = |spells: &[Spell]| self.counting.tally(criterion.how, spells, windows);
+        let shaded = |lit: &[Spell]| without(light.open, lit);
+        let (now, before) = match self.counting.what {
+            Counted::Sun => (tally(light.lit), light.before.map(tally)),
+            Counted::Shadow => (tally(&shaded(light.lit)), light.before.map(|lit| tally(&shaded(lit)))),
+            Counted::NewShadow => {
+                let new = match light.newly_shaded {
+                    Some(new) => tally(new),
+                    None => tally(&without(light.before.ok_or_else(|| self.needs_before())?, light.lit)),
+                };
+                (new, None)
+            }
+        };
+        let asks_loss = matches!(criterion.demand, Demand::Report { no_sun_left_secs: Some(_) });
+        let no_sun_left_secs = if asks_loss {
+            let before = light.before.ok_or_else(|| self.needs_before())?;
+            Some(self.counting.tally(CountHow::Longest, &without(before, light.lit), windows).secs)
+        } else {
+            None
+        };
+        Ok(CountedDay { now, before, no_sun_left_secs })
+    }
+
+    pub(super) fn needs_before(&self) -> RuleError {
+        let what = "the state before, with which it compares".to_owned();
+        RuleError::Needs { rule: self.id.clone(), what }
+    }
+
+    fn finding(&self, number: usize, counts: CountedDay) -> Result<Finding, RuleError> {
+        let criterion = &self.criteria[number];
+        let CountedDay { now, before, no_sun_left_secs } = counts;
+        if criterion.needs_before() && self.counting.what != Counted::NewShadow && before.is_none() {
+            return Err(self.needs_before());
+        }
+        let reference = before.filter(|_| self.compare == Some(CompareWith::Reference));
+        let (verdict, excuse, limit, margin) = match criterion.demand {
+            Demand::AtLeast { secs, longest_secs } => at_least(criterion, secs, longest_secs, now, before, reference),
+            Demand::AtMost(secs) => at_most(secs, now, reference),
+            // area is another's to judge
+            Demand::ShareOfOpen(_) | Demand::Report { .. } => (Verdict::Report, None, None, None),
+        };
+        Ok(Finding {
+            criterion: number,
+            date: None,
+            verdict,
+            value: Quantity::Secs(now.secs),
+            longest_secs: Some(now.longest_secs),
+            before: before.map(|before| Quantity::Secs(before.secs)),
+            limit: limit.map(Quantity::Secs),
+            margin: margin.map(|margin: i64| margin as f64),
+            excuse,
+            no_sun_left_secs,
+        })
+    }
+}
+
+/// Verdict, excuse, limit and margin.
+type Held = (Verdict, Option<Excuse>, Option<i64>, Option<i64>);
+
+fn at_least(
+    criterion: &Criterion,
+    secs: i64,
+    longest_secs: i64,
+    now: SpellCount,
+    before: Option<SpellCount>,
+    reference: Option<SpellCount>,
+) -> Held {
+    // where a longest spell is asked for as well, what is missing of either decides
+    let of_longest = if longest_secs > 0 { now.longest_secs - longest_secs } else { i64::MAX };
+    let margin = (now.secs - secs).min(of_longest);
+    let numbers = Weight {
+        value: (secs + margin) as f64,
+        error: 0.0,
+        least: secs as f64,
+        before: before.map(|before| before.secs as f64),
+    };
+    let (mut verdict, mut excuse) = numbers.verdict(criterion);
+    if verdict != Verdict::Pass && reference.is_some_and(|reference| now.secs >= reference.secs) {
+        (verdict, excuse) = (Verdict::Pass, Some(Excuse::Reference));
+    }
+    (verdict, excuse, Some(secs), Some(margin))
+}
+
+fn at_most(secs: i64, now: SpellCount, reference: Option<SpellCount>) -> Held {
+    let margin = secs - now.secs;
+    let (verdict, excuse) = match () {
+        () if margin >= 0 => (Verdict::Pass, None),
+        () if reference.is_some_and(|reference| now.secs <= reference.secs) => (Verdict::Pass, Some(Excuse::Reference)),
+        () => (Verdict::Fail, None),
+    };
+    (verdict, excuse, Some(secs), Some(margin))
+}

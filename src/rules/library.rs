@@ -1,0 +1,86 @@
+//! The rules that are built in, and those that stand beside a site.
+
+use super::error::RuleError;
+use super::rule::Rule;
+use crate::choice::nearest;
+use std::fs;
+use std::path::Path;
+
+/// One built-in rule: its id and its text.
+type BuiltIn = (&'static str, &'static str);
+
+macro_rules! built_in {
+    ($($id:literal),+ $(,)?) => {
+        &[$(($id, include_str!(concat!("../../rules/", $id, ".toml")))),+]
+    };
+}
+
+/// The built-in rules, by region.
+pub const BUILT_IN: &[BuiltIn] = built_in![
+    "au-nsw-adg-4a1",
+    "au-vic-b21",
+    "ca-montreal",
+    "ch-zh-abv",
+    "cn-gb-50180-dwelling",
+    "de-din-5034-1",
+    "eu-en-17037-sunlight",
+    "jp-bsa-56-2",
+    "kr-court-tolerance",
+    "nl-the-hague",
+    "nl-tno-light",
+    "nl-tno-strict",
+    "pl-wt-60",
+    "ru-sanpin-1-2-3685-21",
+    "uk-bre-209-sun-on-ground",
+    "us-nyc-ceqr-shadows",
+    "us-sf-295",
+];
+
+/// The largest file that is read as a rule; the built-in ones have some thousand bytes.
+const MOST_BYTES: u64 = 64 << 10;
+
+/// All built-in rules.
+///
+/// # Errors
+/// None: a test reads them all.
+pub fn built_in_rules() -> Result<Vec<Rule>, RuleError> {
+    BUILT_IN.iter().map(|(id, text)| Rule::parse(id, text)).collect()
+}
+
+/// The text of a built-in rule.
+///
+/// # Errors
+/// [`RuleError::UnknownRule`] with the nearest one.
+pub fn built_in_text(id: &str) -> Result<&'static str, RuleError> {
+    match BUILT_IN.iter().find(|(known, _)| *known == id) {
+        Some((_, text)) => Ok(text),
+        None => Err(RuleError::UnknownRule {
+            id: id.to_owned(),
+            nearest: nearest(id, BUILT_IN.iter().map(|(known, _)| *known)).unwrap_or_default().to_owned(),
+        }),
+    }
+}
+
+/// The rule of a name for a site in a folder: the file `NAME.toml` there, or `NAME` itself where it ends so; else the
+/// built-in one.
+///
+/// # Errors
+/// A name that is neither, a file that is no rule.
+pub fn rule_for_site(name: &str, folder: &Path) -> Result<Rule, RuleError> {
+    let is_file = name.ends_with(".toml");
+    let path = folder.join(if is_file { name.to_owned() } else { format!("{name}.toml") });
+    if is_file || path.is_file() {
+        return Rule::parse(&path.display().to_string(), &text_of(&path)?);
+    }
+    Rule::parse(name, built_in_text(name)?)
+}
+
+fn text_of(path: &Path) -> Result<String, RuleError> {
+    let wrong = |what: String| RuleError::File { path: path.display().to_string(), what };
+    let about = fs::metadata(path).map_err(|error| wrong(format!("cannot be read: {error}")))?;
+    if !about.is_file() || about.len() > MOST_BYTES {
+        return Err(wrong("is no file of a rule, which has at most 64 KiB of text".to_owned()));
+    }
+    let bytes = fs::read(path).map_err(|error| wrong(format!("cannot be read: {error}")))?;
+    String::from_utf8(bytes).map_err(|_| wrong("is not UTF-8; save it as UTF-8".to_owned()))
+}

@@ -1,0 +1,220 @@
+//! A rule in which everything is chosen: plain values, and its days in a year at a place.
+
+use super::clock::ClockRule;
+use super::counting::{CountHow, Counted, Counting};
+use super::criterion::{Criterion, Demand, DwellingShare, Extent};
+use super::cuts::SunCuts;
+use super::days::{DayJudge, DaySet};
+use super::error::RuleError;
+use super::options::OptionValue;
+use super::reader::TableReader;
+use super::receiver::RuleReceiver;
+use super::spell::Spell;
+use crate::choice::words;
+use crate::sun::{Place, SunError};
+use chrono::NaiveDate;
+use toml::Table;
+
+/// With what the answer is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CompareWith {
+    /// The state before.
+    Before,
+    /// A body that the law allows: what it does is allowed, too.
+    Reference,
+}
+
+words!(CompareWith, [
+    "before" => CompareWith::Before,
+    "reference" => CompareWith::Reference,
+]);
+
+/// A rule with everything chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResolvedRule {
+    /// Which rule.
+    pub id: String,
+    /// What is chosen, each option by its name.
+    pub chosen: Vec<(String, OptionValue)>,
+    /// In which its windows are told.
+    pub clock: ClockRule,
+    /// On which days it counts.
+    pub days: Vec<DaySet>,
+    /// Which sun counts.
+    pub cuts: SunCuts,
+    /// What is judged.
+    pub receiver: RuleReceiver,
+    /// How is counted.
+    pub counting: Counting,
+    /// With what it is compared.
+    pub compare: Option<CompareWith>,
+    /// What must hold.
+    pub criteria: Vec<Criterion>,
+    /// Whether one of the criteria is enough.
+    pub any: bool,
+    /// What of a dwelling must keep the criteria, where the rule speaks of dwellings.
+    pub dwelling: Option<DwellingShare>,
+}
+
+/// One day of a rule.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RuleDay {
+    /// The local date.
+    pub date: NaiveDate,
+    /// To which of the rule's sets of days it belongs.
+    pub set: usize,
+    /// When is counted.
+    pub windows: Vec<Spell>,
+    /// For each criterion when is counted for it; nothing for those that are bound to other days.
+    pub criteria: Vec<Option<Vec<Spell>>>,
+}
+
+impl ResolvedRule {
+    /// The tables beside [rule] and [options].
+    const KEYS: &[&str] = &["clock", "day", "sun", "receiver", "count", "compare", "pass", "any", "dwelling"];
+
+    pub(super) fn read(id: &str, table: &Table, chosen: Vec<(String, OptionValue)>) -> Result<ResolvedRule, RuleError> {
+        let root = TableReader::new(id, "", table, Self::KEYS)?;
+        let must = |key: &'static str, keys| {
+            root.table(key, keys)?.ok_or_else(|| root.wrong(key, "the table must be written"))
+        };
+        let clock = ClockRule::read(must("clock", ClockRule::KEYS)?)?;
+        let days = root.tables("day", DaySet::KEYS)?.into_iter().map(DaySet::read).collect::<Result<Vec<_>, _>>()?;
+        let cuts = root.table("sun", SunCuts::KEYS)?.map_or_else(|| Ok(SunCuts::default()), SunCuts::read)?;
+        let receiver = RuleReceiver::read(must("receiver", RuleReceiver::KEYS)?)?;
+        let counting = Counting::read(must("count", Counting::KEYS)?)?;
+        let compare = root.table("compare", COMPARE_KEYS)?.map(comparison).transpose()?;
+        let read = |table| Criterion::read(table, counting.how);
+        let all = root.tables("pass", Criterion::KEYS)?.into_iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let any = root.tables("any", Criterion::KEYS)?.into_iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let dwelling = root.table("dwelling", DwellingShare::KEYS)?.map(DwellingShare::read).transpose()?;
+        let is_any = !any.is_empty();
+        if is_any != all.is_empty() {
+            let what = "write criteria that must all hold as [[pass]], or those of which one is enough as [[any]]";
+            return Err(root.wrong("pass", what));
+        }
+        if days.is_empty() {
+            return Err(root.wrong("day", "there must be days, each set of them headed [[day]]"));
+        }
+        let criteria = if is_any { any } else { all };
+        let rule = ResolvedRule {
+            id: id.to_owned(),
+            chosen,
+            clock,
+            days,
+            cuts,
+            receiver,
+            counting,
+            compare,
+            criteria,
+            any: is_any,
+            dwelling,
+        };
+        rule.check(&root)?;
+        root.finish()?;
+        Ok(rule)
+    }
+
+    /// What does not go together.
+    fn check(&self, root: &TableReader) -> Result<(), RuleError> {
+        let has_before = self.compare == Some(CompareWith::Before);
+        let needs_before =
+            self.counting.what == Counted::NewShadow || self.criteria.iter().any(Criterion::needs_before);
+        if needs_before && !has_before {
+            return Err(root.wrong("compare", "new shadow and ratios need [compare] with = \"before\""));
+        }
+        let bands = if let RuleReceiver::Lines { bands, .. } = &self.receiver { bands.len() } else { 0 };
+        for criterion in &self.criteria {
+            let is_day = criterion.on.is_empty() || self.days.iter().any(|set| set.name == criterion.on);
+            if !is_day {
+                return Err(root.wrong("pass", format!("on = {:?} is the name of no [[day]]", criterion.on)));
+            }
+            if criterion.band.map_or(bands > 0, |band| band >= bands) {
+                return Err(
+                    root.wrong("pass", format!("there are {bands} bands, and each criterion names one of them"))
+                );
+            }
+            let is_of_area = matches!(criterion.extent, Extent::Part { .. } | Extent::OfBefore(_));
+            if is_of_area && !matches!(self.receiver, RuleReceiver::Area { .. }) {
+                return Err(root.wrong("pass", "a share or ratio of an area needs [receiver] kind = \"area\""));
+            }
+            if criterion.is_of_dwellings()
+                && !matches!(&self.receiver, RuleReceiver::Window { all_of, .. } if !all_of.is_empty())
+            {
+                return Err(root.wrong("pass", "a share of dwellings needs [receiver] kind = \"window\" with all_of"));
+            }
+        }
+        self.check_sum(root)?;
+        self.check_grades(root)
+    }
+
+    /// Time is added up over days, and areas are not: of which day would they be?
+    fn check_sum(&self, root: &TableReader) -> Result<(), RuleError> {
+        let is_sum = self.days.iter().any(|set| set.judge == DayJudge::Sum);
+        let is_area_time = self.criteria.iter().any(|criterion| criterion.how == CountHow::AreaTime);
+        let has_share = self.criteria.iter().any(|criterion| criterion.extent != Extent::Whole);
+        if is_sum && has_share {
+            return Err(root.wrong("day", "judge = \"sum\" adds time up, and a share is of one day"));
+        }
+        if is_area_time && !(is_sum && self.counting.what == Counted::NewShadow) {
+            return Err(root.wrong("count", "area-time counts new shadow, added up with judge = \"sum\""));
+        }
+        Ok(())
+    }
+
+    /// Grades are a ladder.
+    fn check_grades(&self, root: &TableReader) -> Result<(), RuleError> {
+        let graded = self.criteria.iter().filter(|criterion| criterion.grade.is_some()).count();
+        let secs = |criterion: &Criterion| match criterion.demand {
+            Demand::AtLeast { secs, .. } => secs,
+            _ => 0,
+        };
+        let rises = self.criteria.windows(2).all(|two| secs(&two[0]) < secs(&two[1]));
+        if graded > 0 && (graded < self.criteria.len() || !rises || self.any) {
+            return Err(root.wrong("pass", "either each [[pass]] has a grade, the lowest first, or none has one"));
+        }
+        Ok(())
+    }
+
+    /// Its days of a year at a place, set after set. Days of a range over New Year reach into the next year.
+    ///
+    /// # Errors
+    /// A year outside 1600 to 2999, a time that clocks skip or repeat, a sunrise that does not happen though the sun is up.
+    pub fn calendar(&self, place: &Place, year: i32) -> Result<Vec<RuleDay>, SunError> {
+        let mut days = Vec::new();
+        for (set, of) in self.days.iter().enumerate() {
+            for date in of.dates.of(place, year)? {
+                days.push(self.day(place, set, date)?);
+            }
+        }
+        Ok(days)
+    }
+
+    fn day(&self, place: &Place, set: usize, date: NaiveDate) -> Result<RuleDay, SunError> {
+        let of = &self.days[set];
+        let windows = of.windows.on(place, date, self.clock)?;
+        let own = |criterion: &Criterion| {
+            if !criterion.on.is_empty() && criterion.on != of.name {
+                return Ok(None);
+            }
+            let own = criterion.windows.as_ref().map(|own| own.on(place, date, self.clock));
+            own.unwrap_or_else(|| Ok(windows.clone())).map(Some)
+        };
+        let criteria = self.criteria.iter().map(own).collect::<Result<_, SunError>>()?;
+        Ok(RuleDay { date, set, windows, criteria })
+    }
+
+    /// Whether all its criteria report and none can fail.
+    pub fn is_report(&self) -> bool {
+        self.criteria.iter().all(|criterion| matches!(criterion.demand, Demand::Report { .. }))
+    }
+}
+
+/// What [compare] may say.
+pub(super) const COMPARE_KEYS: &[&str] = &["with"];
+
+fn comparison(table: TableReader) -> Result<CompareWith, RuleError> {
+    let with = table.word("with")?.ok_or_else(|| table.wrong("with", "it must be written"))?;
+    table.finish()?;
+    Ok(with)
+}
