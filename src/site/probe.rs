@@ -6,6 +6,7 @@ use super::file::Names;
 use super::ground::{self, Ground};
 use super::laid::{Laying, lay};
 use super::models::Models;
+use super::names::names_of;
 use super::notes::on_probes;
 use super::overrides::{Overrides, numbers, refuse};
 use super::points_file::{self, MOST_PROBES, unit};
@@ -123,7 +124,7 @@ fn laid(mesh: &Mesh, asked: &Overrides, ground: f64, beside: &[Probe]) -> Result
         }
     };
     let names = Names::Some(asked.on.clone());
-    if let Some((name, nearest)) = names.unknown(&mesh.components) {
+    if let Some((name, nearest)) = names.unknown(&names_of(&mesh.components)) {
         return Err(SiteError::UnknownName { at: at(Field::On), name, nearest });
     }
     let laid = lay(mesh, &names.chosen(&mesh.components), laying, (MOST_PROBES, beside));
