@@ -1,7 +1,8 @@
 //! One mesh, and the rays that are cast at it.
 
-use super::beam::{BlockedBeam, BlockedRay, FirstHit, FirstHits, MOST_RAYS};
+use super::beam::{BlockedBeam, FirstHits, MOST_RAYS};
 use super::lanes::SimdLevel;
+use super::search::{BlockedRay, FirstHit};
 use super::shear::Shear;
 use super::tree::WideTree;
 use crate::mesh::Mesh;

@@ -92,7 +92,7 @@ impl SimdLevel {
     #[inline(always)]
     pub(super) fn run<W: LaneWork>(self, work: W) -> W::Output {
         match self {
-            SimdLevel::Plain => work.run::<Plain>(),
+            SimdLevel::Plain => work.run::<PlainLevel>(),
             // SAFETY: levels other than the plain one only come from `all`, which found their instructions
             #[cfg(target_arch = "x86_64")]
             SimdLevel::Avx2 => unsafe { on_avx2(work) },
@@ -109,25 +109,25 @@ impl SimdLevel {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn on_avx2<W: LaneWork>(work: W) -> W::Output {
-    work.run::<Avx2>()
+    work.run::<Avx2Level>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,avx512f")]
 fn on_avx512<W: LaneWork>(work: W) -> W::Output {
-    work.run::<Avx512>()
+    work.run::<Avx512Level>()
 }
 
 #[cfg(target_arch = "aarch64")]
 #[target_feature(enable = "neon")]
 fn on_neon<W: LaneWork>(work: W) -> W::Output {
-    work.run::<Neon>()
+    work.run::<NeonLevel>()
 }
 
 /// Loops over arrays, which the compiler turns into the instructions that every processor of the architecture has.
-struct Plain;
+struct PlainLevel;
 
-impl Simd for Plain {
+impl Simd for PlainLevel {
     type Eight = PlainEight;
     type Many = PlainEight;
 }
@@ -212,10 +212,10 @@ macro_rules! instructions {
 }
 
 #[cfg(target_arch = "x86_64")]
-struct Avx2;
+struct Avx2Level;
 
 #[cfg(target_arch = "x86_64")]
-impl Simd for Avx2 {
+impl Simd for Avx2Level {
     type Eight = AvxEight;
     type Many = AvxEight;
 }
@@ -275,10 +275,10 @@ impl Lanes for AvxEight {
 }
 
 #[cfg(target_arch = "x86_64")]
-struct Avx512;
+struct Avx512Level;
 
 #[cfg(target_arch = "x86_64")]
-impl Simd for Avx512 {
+impl Simd for Avx512Level {
     type Eight = AvxEight;
     type Many = AvxSixteen;
 }
@@ -340,10 +340,10 @@ impl Lanes for AvxSixteen {
 }
 
 #[cfg(target_arch = "aarch64")]
-struct Neon;
+struct NeonLevel;
 
 #[cfg(target_arch = "aarch64")]
-impl Simd for Neon {
+impl Simd for NeonLevel {
     type Eight = NeonEight;
     type Many = NeonEight;
 }

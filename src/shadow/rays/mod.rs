@@ -8,6 +8,7 @@ mod lanes;
 #[cfg(feature = "test-hooks")]
 mod plain;
 mod prune;
+mod search;
 mod shear;
 mod tree;
 

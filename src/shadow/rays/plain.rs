@@ -53,7 +53,8 @@ impl PlainCaster {
             {
                 so_far = (t, self.faces[at]);
                 nearest = Some((self.faces[at], t));
-                return ((t * length) as f32).next_up();
+                // a tree that looks past what is nearer would end here, and another face as near may come
+                return ((t * length) as f32).next_up().max(2.0 * LOOKED_PAST as f32);
             }
             f32::INFINITY
         });

@@ -62,7 +62,7 @@ pub(super) struct WideTree {
 
 /// A face and its box.
 #[derive(Clone, Copy)]
-struct Boxed {
+struct FaceBox {
     low: Vec3A,
     high: Vec3A,
     face: u32,
@@ -82,7 +82,7 @@ impl Extent {
         Extent { low: self.low.min(low), high: self.high.max(high) }
     }
 
-    fn of(boxed: &[Boxed]) -> Extent {
+    fn of(boxed: &[FaceBox]) -> Extent {
         boxed.iter().fold(Extent::NOTHING, |extent, one| extent.with(one.low, one.high))
     }
 
@@ -98,10 +98,10 @@ impl WideTree {
     pub(super) fn new(mesh: &Mesh, padding: f32) -> WideTree {
         let boxed = |face: usize| {
             let [a, b, c] = mesh.corners(face).map(Vec3A::from);
-            Boxed { low: a.min(b).min(c), high: a.max(b).max(c), face: face as u32 }
+            FaceBox { low: a.min(b).min(c), high: a.max(b).max(c), face: face as u32 }
         };
-        let mut faces: Vec<Boxed> = (0..mesh.faces.len()).into_par_iter().map(boxed).collect();
-        let mut grown = Grown { padding, ..Grown::default() };
+        let mut faces: Vec<FaceBox> = (0..mesh.faces.len()).into_par_iter().map(boxed).collect();
+        let mut grown = GrowingTree { padding, ..GrowingTree::default() };
         if !faces.is_empty() {
             grown.node(&mut faces, 0, 0);
         }
@@ -110,7 +110,7 @@ impl WideTree {
     }
 }
 
-fn block(mesh: &Mesh, faces: &[Boxed]) -> TriangleBlock {
+fn block(mesh: &Mesh, faces: &[FaceBox]) -> TriangleBlock {
     let there = (1 << faces.len()) - 1;
     let mut block = TriangleBlock { corners: [[[0.0; EIGHT]; 3]; 3], faces: [u32::MAX; EIGHT], there };
     for (at, boxed) in faces.iter().enumerate() {
@@ -126,15 +126,15 @@ fn block(mesh: &Mesh, faces: &[Boxed]) -> TriangleBlock {
 
 /// A tree that grows, and which of the sorted faces its blocks hold.
 #[derive(Default)]
-struct Grown {
+struct GrowingTree {
     padding: f32,
     nodes: Vec<WideNode>,
     blocks: Vec<Range<usize>>,
 }
 
-impl Grown {
+impl GrowingTree {
     /// Adds a node for some faces, the first of which is given, and everything below it. Returns where it is.
-    fn node(&mut self, faces: &mut [Boxed], first: usize, depth: usize) -> u32 {
+    fn node(&mut self, faces: &mut [FaceBox], first: usize, depth: usize) -> u32 {
         let at = self.nodes.len();
         let mut node = WideNode { planes: [[f32::INFINITY; EIGHT]; 6], children: [0; EIGHT] };
         node.planes[3..].fill([f32::NEG_INFINITY; EIGHT]);
@@ -150,11 +150,12 @@ impl Grown {
         let children: ArrayVec<u32, EIGHT> = if side_by_side {
             let padding = self.padding;
             let grow = |part: FacePart<'_>| {
-                let mut grown = Grown { padding, ..Grown::default() };
+                let mut grown = GrowingTree { padding, ..GrowingTree::default() };
                 let root = grown.child(part, depth + 1);
                 (grown, root)
             };
-            let grown: Vec<(Grown, u32)> = parts.into_iter().collect::<Vec<_>>().into_par_iter().map(grow).collect();
+            let grown: Vec<(GrowingTree, u32)> =
+                parts.into_iter().collect::<Vec<_>>().into_par_iter().map(grow).collect();
             grown.into_iter().map(|(grown, root)| self.append(grown, root)).collect()
         } else {
             parts.into_iter().map(|part| self.child(part, depth + 1)).collect()
@@ -173,7 +174,7 @@ impl Grown {
     }
 
     /// Takes over what was grown apart. Returns where its root is now.
-    fn append(&mut self, mut other: Grown, root: u32) -> u32 {
+    fn append(&mut self, mut other: GrowingTree, root: u32) -> u32 {
         let (nodes, blocks) = (self.nodes.len() as u32, self.blocks.len() as u32);
         let moved = |child: u32| child + if child & BLOCK != 0 { blocks } else { nodes };
         for node in &mut other.nodes {
@@ -189,11 +190,11 @@ impl Grown {
 struct FacePart<'a> {
     extent: Extent,
     first: usize,
-    faces: &'a mut [Boxed],
+    faces: &'a mut [FaceBox],
 }
 
 impl FacePart<'_> {
-    fn of(faces: &mut [Boxed], first: usize) -> FacePart<'_> {
+    fn of(faces: &mut [FaceBox], first: usize) -> FacePart<'_> {
         FacePart { extent: Extent::of(faces), first, faces }
     }
 
@@ -204,7 +205,7 @@ impl FacePart<'_> {
 }
 
 /// Up to eight parts of some faces.
-fn divided(faces: &mut [Boxed], first: usize, depth: usize) -> ArrayVec<FacePart<'_>, EIGHT> {
+fn divided(faces: &mut [FaceBox], first: usize, depth: usize) -> ArrayVec<FacePart<'_>, EIGHT> {
     let mut parts = ArrayVec::new();
     parts.push(FacePart::of(faces, first));
     while parts.len() < EIGHT {
@@ -221,14 +222,14 @@ fn divided(faces: &mut [Boxed], first: usize, depth: usize) -> ArrayVec<FacePart
 }
 
 /// Sorts faces so that dividing them at the place that is returned makes rays cheapest; none where all lie in one place.
-fn by_area(faces: &mut [Boxed]) -> Option<usize> {
-    let centre = |boxed: &Boxed| boxed.low + boxed.high;
+fn by_area(faces: &mut [FaceBox]) -> Option<usize> {
+    let centre = |boxed: &FaceBox| boxed.low + boxed.high;
     let centres = faces.iter().fold(Extent::NOTHING, |extent, boxed| extent.with(centre(boxed), centre(boxed)));
     let size = centres.high - centres.low;
     // the longest axis alone: the two others cost three times as much and gain nothing that rays notice
     let axis = size.max_position();
     let per_metre = BINS as f32 * 0.999 / size[axis];
-    let bin = |boxed: &Boxed| (((centre(boxed)[axis] - centres.low[axis]) * per_metre) as usize).min(BINS - 1);
+    let bin = |boxed: &FaceBox| (((centre(boxed)[axis] - centres.low[axis]) * per_metre) as usize).min(BINS - 1);
     let mut bins = [(Extent::NOTHING, 0u32); BINS];
     for boxed in faces.iter() {
         let (extent, count) = &mut bins[bin(boxed)];
@@ -262,7 +263,7 @@ fn cheapest(bins: &[(Extent, u32); BINS]) -> Option<usize> {
 }
 
 /// Brings those that are asked for to the front, and returns how many there are.
-fn partition(faces: &mut [Boxed], first: impl Fn(&Boxed) -> bool) -> usize {
+fn partition(faces: &mut [FaceBox], first: impl Fn(&FaceBox) -> bool) -> usize {
     let (mut from, mut to) = (0, faces.len());
     loop {
         while from < to && first(&faces[from]) {
