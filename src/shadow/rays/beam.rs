@@ -38,9 +38,9 @@ impl Spread {
 
     #[inline(always)]
     fn with(&mut self, ray: [f32; 3]) {
-        for at in 0..3 {
-            self.low[at] = if ray[at] < self.low[at] { ray[at] } else { self.low[at] };
-            self.high[at] = if ray[at] > self.high[at] { ray[at] } else { self.high[at] };
+        for ((low, high), along) in self.low.iter_mut().zip(&mut self.high).zip(ray) {
+            *low = if along < *low { along } else { *low };
+            *high = if along > *high { along } else { *high };
         }
     }
 
