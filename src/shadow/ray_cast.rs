@@ -151,7 +151,7 @@ impl RayCast {
     }
 
     /// Where a cell is judged, and the normal of what it sees; none where it sees nothing that could be in shadow.
-    #[inline]
+    #[inline(always)]
     fn judged(&self, normals: &mut SeenNormals<'_>, Cell { at, column, row }: Cell) -> Option<(DVec3, DVec3)> {
         let RayEnd { face, distance } = self.seen[at];
         // nor is cut earth asked
@@ -344,7 +344,7 @@ impl Rays {
     }
 
     /// A cell's ray: from where (around the scene's origin), and the unit direction.
-    #[inline]
+    #[inline(always)]
     fn of(&self, column: u32, row: u32) -> (DVec3, DVec3) {
         let (column, row) = (self.first[0] + column, self.first[1] + row);
         match &self.start {
