@@ -1,5 +1,6 @@
 //! Stencil shadow volumes against ray casting, as the design defines exactness, and both against closed forms.
 
+mod beams;
 mod cameras;
 mod compare;
 mod counts;

@@ -1,5 +1,6 @@
 //! The mesh, its silhouettes, its volumes and the rays cast at it, each against a plain re-computation.
 
+mod beams;
 mod planes;
 mod rays;
 mod report;

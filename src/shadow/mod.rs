@@ -17,6 +17,8 @@ pub mod projected;
 mod raised;
 pub mod ray_cast;
 #[doc(hidden)]
+pub mod rays;
+#[doc(hidden)]
 pub mod registered;
 pub mod shadow_map;
 pub mod smoothie;

@@ -1,134 +1,28 @@
 //! Ray casting on the processor, in double precision: the truth with which other techniques are compared, and the
 //! engine where there is no GPU.
 //!
-//! Plain on purpose. Intersection after Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2013):
-//! the triangle is sheared so that the ray is an axis, and the signs of three areas decide; a ray through a shared
-//! edge or corner computes the same areas for both faces and hits at least one. Areas of exactly 0 count as hits.
-//! The tree only prunes: its boxes are padded beyond all rounding of its `f32` rays, and beyond the first tenth of a
-//! millimetre of a ray, in which it finds nothing.
+//! Intersection after Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2013): the triangle is sheared so
+//! that the ray is an axis, and the signs of three areas decide; a ray through a shared edge or corner computes the same areas
+//! for both faces and hits at least one. Areas of exactly 0 count as hits. The tree and its SIMD ([`super::rays`]) only rule
+//! out: boxes are padded beyond all rounding, and a triangle is only left out where no rounding could make it a hit. Cells of
+//! eight rows and columns are asked at once, as a beam of parallel rays.
 
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::sun::disc;
 use crate::view::{Camera, Elevation, Grid, Lens, Mask, Surface, Tile, View};
-use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A};
-use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
-use obvhs::ray::{Ray, RayHit};
-use obvhs::{BvhBuildParams, aabb::Aabb};
+use arrayvec::ArrayVec;
+use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
-use std::time::Duration;
+use std::sync::Arc;
 
-/// Casts rays at one mesh. Points and directions are around the mesh's origin.
 #[doc(hidden)]
-pub struct RayCaster {
-    tree: Option<CwBvh>,
-    /// Corners of the faces in the tree's order, and which faces they are.
-    corners: Vec<[Vec3; 3]>,
-    faces: Vec<u32>,
-}
+pub use super::rays::{RayCaster, Shear};
 
-/// The tree looks past boxes that a ray has left so early, in lengths of the ray's direction (`EPSILON` of obvhs 0.4).
-const LOOKED_PAST: f64 = 1e-4;
-
-impl RayCaster {
-    /// Builds the tree; `reach` is the farthest that a ray's origin lies from the mesh's origin, metres.
-    pub fn new(mesh: &Mesh, reach: f64) -> RayCaster {
-        let size = mesh.vertices.iter().fold(0.0f32, |size, vertex| size.max(vertex.abs().max_element()));
-        let rounding = (f64::from(size) + reach) * f64::from(f32::EPSILON) * 8.0;
-        // the tree's rays have unit directions: whatever they meet within the first of it lies in a box that they leave later
-        let padding = Vec3A::splat((rounding + 2.0 * LOOKED_PAST) as f32);
-        let box_of = |face: usize| {
-            let [a, b, c] = mesh.corners(face).map(Vec3A::from);
-            Aabb::new(a.min(b).min(c) - padding, a.max(b).max(c) + padding)
-        };
-        let boxes: Vec<Aabb> = (0..mesh.faces.len()).into_par_iter().map(box_of).collect();
-        let tree =
-            (!boxes.is_empty()).then(|| build_cwbvh(&boxes, BvhBuildParams::fast_build(), &mut Duration::default()));
-        let faces = tree.as_ref().map_or(Vec::new(), |tree| tree.primitive_indices.clone());
-        RayCaster { tree, corners: faces.iter().map(|&face| mesh.corners(face as usize)).collect(), faces }
-    }
-
-    /// The nearest face along a ray, and how many lengths of `direction` away.
-    pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
-        let shear = Shear::along(direction);
-        let length = direction.length();
-        let mut nearest = None;
-        let mut distance = f64::INFINITY;
-        let ray = ray(origin, direction);
-        self.tree.as_ref()?.ray_traverse(ray, &mut RayHit::none(), |_, at| {
-            if let Some(t) = shear.hit(origin, &self.corners[at])
-                && t < distance
-            {
-                distance = t;
-                nearest = Some((self.faces[at], t));
-                return ((t * length) as f32).next_up();
-            }
-            f32::INFINITY
-        });
-        nearest
-    }
-
-    /// Whether anything lies along a ray.
-    pub fn blocked(&self, origin: DVec3, shear: &Shear) -> bool {
-        let hit = |_: &Ray, at: usize| {
-            if shear.hit(origin, &self.corners[at]).is_some() { 0.0 } else { f32::INFINITY }
-        };
-        self.tree.as_ref().is_some_and(|tree| !tree.ray_traverse_miss(ray(origin, shear.direction), hit))
-    }
-
-    /// How many faces lie along a ray: the count that a shadow volume must have at its origin.
-    #[cfg(feature = "test-hooks")]
-    pub fn crossings(&self, origin: DVec3, direction: DVec3) -> usize {
-        let shear = Shear::along(direction);
-        self.corners.iter().filter(|corners| shear.hit(origin, corners).is_some()).count()
-    }
-}
-
-fn ray(origin: DVec3, direction: DVec3) -> Ray {
-    // + 0 makes −0 into 0, of which the tree takes one sign for the direction and the other for its inverse
-    Ray::new_inf(origin.as_vec3a(), direction.normalize().as_vec3a() + Vec3A::ZERO)
-}
-
-/// The frame in which a direction is an axis, the same for all parallel rays.
-#[doc(hidden)]
-pub struct Shear {
-    direction: DVec3,
-    axes: [usize; 3],
-    scale: DVec3,
-}
-
-impl Shear {
-    /// For rays along a direction that is not zero.
-    pub fn along(direction: DVec3) -> Shear {
-        let forward = direction.abs().max_position();
-        let (mut right, mut up) = ((forward + 1) % 3, (forward + 2) % 3);
-        if direction[forward] < 0.0 {
-            std::mem::swap(&mut right, &mut up);
-        }
-        let scale = DVec3::new(direction[right], direction[up], 1.0) / direction[forward];
-        Shear { direction, axes: [right, up, forward], scale }
-    }
-
-    /// How many lengths of the direction away the ray meets the triangle; none behind the origin or beside it.
-    fn hit(&self, origin: DVec3, corners: &[Vec3; 3]) -> Option<f64> {
-        let [right, up, forward] = self.axes;
-        let [a, b, c] = corners.map(|corner| {
-            let from_origin = corner.as_dvec3() - origin;
-            let ahead = from_origin[forward];
-            [from_origin[right] - self.scale.x * ahead, from_origin[up] - self.scale.y * ahead, ahead * self.scale.z]
-        });
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
-            return None;
-        }
-        let area = u + v + w;
-        // 0: the triangle is edge-on or has no area, and shades nothing
-        let distance = (area != 0.0).then(|| (u * a[2] + v * b[2] + w * c[2]) / area)?;
-        (distance > 0.0).then_some(distance)
-    }
-}
+/// Cells are asked in squares of so many a side: as many rays as a beam has.
+const SIDE: usize = 8;
+/// As many cells as a square has.
+const SQUARE: usize = SIDE * SIDE;
 
 /// Where a cell's ray from the viewer ends.
 #[derive(Clone, Copy)]
@@ -143,8 +37,9 @@ pub(super) struct RayEnd {
 pub struct RayCast {
     scene: Scene,
     rays: Rays,
-    receivers: RayCaster,
-    casters: RayCaster,
+    /// One tree where the same faces receive and cast.
+    receivers: Arc<RayCaster>,
+    casters: Arc<RayCaster>,
     seen: Vec<RayEnd>,
     mask: Mask,
     sun_samples: Option<u32>,
@@ -164,8 +59,12 @@ impl RayCast {
 
     fn of_part(scene: Scene, view: View, part: ([u32; 2], [u32; 2]), sun_samples: Option<u32>) -> RayCast {
         let reach = reach(&scene, &view);
-        let receivers = RayCaster::new(&scene.receivers, reach);
-        let casters = RayCaster::new(&scene.casters, reach);
+        let receivers = Arc::new(RayCaster::new(&scene.receivers, reach));
+        let casters = if same_faces(&scene.receivers, &scene.casters) {
+            Arc::clone(&receivers)
+        } else {
+            Arc::new(RayCaster::new(&scene.casters, reach))
+        };
         let mask = Mask { width: 0, height: 0, share: Vec::new() };
         let rays = Rays::new(&scene, view);
         let mut cast = RayCast { scene, rays, receivers, casters, seen: Vec::new(), mask, sun_samples };
@@ -193,14 +92,37 @@ impl RayCast {
     /// Looks at some of a view's cells: from which column and row, and how many.
     fn look_at_part(&mut self, view: View, (first, [width, height]): ([u32; 2], [u32; 2])) {
         self.rays = Rays { first, ..Rays::new(&self.scene, view) };
-        let RayCast { scene, rays, receivers, seen, mask, .. } = self;
-        *seen = vec![RayEnd { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
-        seen.par_chunks_mut(width as usize).enumerate().for_each(|(row, cells)| {
-            for (column, cell) in cells.iter_mut().enumerate() {
-                *cell = look(scene, receivers, rays.of(column as u32, row as u32));
+        let mut ends = vec![RayEnd { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
+        let parallel = self.rays.shared_direction().map(Shear::along);
+        ends.par_chunks_mut(width as usize * SIDE).enumerate().for_each(|(band, ends)| match &parallel {
+            Some(shear) => self.look_along(shear, [width as usize, band * SIDE], ends),
+            None => {
+                for (at, end) in ends.iter_mut().enumerate() {
+                    let ray = self.rays.of(at as u32 % width, (band * SIDE) as u32 + at as u32 / width);
+                    *end = seen(&self.scene, ray, self.receivers.first_hit(ray.0, ray.1));
+                }
             }
         });
-        *mask = Mask { width, height, share: vec![255; seen.len()] };
+        self.mask = Mask { width, height, share: vec![255; ends.len()] };
+        self.seen = ends;
+    }
+
+    /// Looks along parallel rays, from the cells of some rows: how wide they are, and the first one.
+    fn look_along(&self, shear: &Shear, [width, first_row]: [usize; 2], ends: &mut [RayEnd]) {
+        for square in squares(width, ends.len()) {
+            let mut rays = ArrayVec::<(DVec3, DVec3), SQUARE>::new();
+            let mut origins = ArrayVec::<DVec3, SQUARE>::new();
+            for Cell { column, row, .. } in square.clone() {
+                let ray = self.rays.of(column, first_row as u32 + row);
+                rays.push(ray);
+                origins.push(ray.0);
+            }
+            let mut hits = [None; SQUARE];
+            self.receivers.first_hits(&origins, shear, &mut hits);
+            for ((Cell { at, .. }, ray), hit) in square.zip(rays).zip(hits) {
+                ends[at] = seen(&self.scene, ray, hit);
+            }
+        }
     }
 
     /// What the cells see, row 0 first.
@@ -221,43 +143,83 @@ impl RayCast {
 
     /// Which share of those a cell sees.
     pub(super) fn share(&self, at: usize, suns: &[(DVec3, Shear)]) -> u8 {
-        let RayCast { rays, casters, seen, mask, .. } = self;
-        let RayEnd { face, distance } = seen[at];
-        // nor is cut earth asked
-        if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
-            return 255;
-        }
-        let normal = self.normal(face);
-        let (from, along) = rays.of(at as u32 % mask.width, at as u32 / mask.width);
-        let judged = from + along * distance + normal * JUDGED_ABOVE_M;
-        let lit = |(to_point, shear): &&(DVec3, Shear)| normal.dot(*to_point) > 0.0 && !casters.blocked(judged, shear);
-        let seen = suns.iter().filter(lit).count();
-        (255.0 * seen as f64 / suns.len() as f64).round() as u8
+        let cell = Cell { at, column: at as u32 % self.mask.width, row: at as u32 / self.mask.width };
+        let Some((judged, normal)) = self.judged(&mut self.normals(), cell) else { return 255 };
+        let lit =
+            |(to_point, shear): &&(DVec3, Shear)| normal.dot(*to_point) > 0.0 && !self.casters.blocked(judged, shear);
+        share_of(suns.iter().filter(lit).count(), suns.len())
     }
 
-    /// The normal of a face's seen side, or of the ground's.
-    fn normal(&self, face: u32) -> DVec3 {
+    /// Where a cell is judged, and the normal of what it sees; none where it sees nothing that could be in shadow.
+    #[inline(always)]
+    fn judged(&self, normals: &mut SeenNormals<'_>, Cell { at, column, row }: Cell) -> Option<(DVec3, DVec3)> {
+        let RayEnd { face, distance } = self.seen[at];
+        // nor is cut earth asked
+        if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
+            return None;
+        }
+        let normal = normals.of(face);
+        let (from, along) = self.rays.of(column, row);
+        Some((from + along * distance + normal * JUDGED_ABOVE_M, normal))
+    }
+
+    /// Which share of those the cells of some rows see, as [`RayCast::share`], but for squares of cells at once.
+    fn share_rows(&self, first_row: usize, shares: &mut [u8], suns: &[(DVec3, Shear)]) {
+        let width = self.mask.width as usize;
+        let mut normals = self.normals();
+        for square in squares(width, shares.len()) {
+            let mut judged = ArrayVec::<(usize, DVec3, DVec3), SQUARE>::new();
+            for Cell { at, column, row } in square {
+                shares[at] = 255;
+                let cell = Cell { at: first_row * width + at, column, row: first_row as u32 + row };
+                if let Some((point, normal)) = self.judged(&mut normals, cell) {
+                    judged.push((at, point, normal));
+                }
+            }
+            let mut lit = [0; SQUARE];
+            for (to_point, shear) in suns {
+                let mut origins = ArrayVec::<DVec3, SQUARE>::new();
+                let mut of = ArrayVec::<usize, SQUARE>::new();
+                for (number, (_, point, normal)) in judged.iter().enumerate() {
+                    if normal.dot(*to_point) > 0.0 {
+                        origins.push(*point);
+                        of.push(number);
+                    }
+                }
+                let blocked = self.casters.blocked_beam(&origins, shear);
+                for (ray, number) in of.into_iter().enumerate() {
+                    lit[number] += usize::from(blocked >> ray & 1 == 0);
+                }
+            }
+            for ((at, ..), lit) in judged.into_iter().zip(lit) {
+                shares[at] = share_of(lit, suns.len());
+            }
+        }
+    }
+
+    /// The normals of faces' seen sides, and of the ground's.
+    fn normals(&self) -> SeenNormals<'_> {
         let RayCast { scene, rays, .. } = self;
         let origin = scene.casters.origin;
         let world_viewer = rays.view.viewer();
         let viewer = world_viewer - DVec4::from((origin, 0.0)) * world_viewer.w;
-        let ground = DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground);
-        let plane = if face == Surface::GROUND { ground } else { scene.receivers.planes()[face as usize] };
-        seen_normal(plane, viewer)
+        let ground = seen_normal(DVec4::new(0.0, 0.0, 1.0, origin.z - scene.ground), viewer);
+        SeenNormals { planes: scene.receivers.planes(), viewer, ground, last: (Surface::GROUND, ground) }
     }
 
     /// The number of rays of a mask: one for each point of the sun and each cell whose visible side faces it.
     #[cfg(feature = "test-hooks")]
     pub fn rays(&self, to_sun: DVec3) -> usize {
         let suns = self.suns(to_sun);
+        let mut normals = self.normals();
         let of_cell = |seen: &RayEnd| {
             if seen.face == Surface::SKY {
                 return 0;
             }
-            let normal = self.normal(seen.face);
+            let normal = normals.of(seen.face);
             suns.iter().filter(|(to_point, _)| normal.dot(*to_point) > 0.0).count()
         };
-        self.seen.par_iter().map(of_cell).sum()
+        self.seen.iter().map(of_cell).sum()
     }
 
     /// The share of the sun's centre that a cell sees, found without the trees by testing every face. It is slow; it
@@ -276,11 +238,61 @@ impl RayCast {
         if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
             return 255;
         }
-        let normal = self.normal(face);
+        let normal = self.normals().of(face);
         let judged = from + along * distance + normal * JUDGED_ABOVE_M;
         let lit = normal.dot(to_sun) > 0.0 && hits(&scene.casters, judged, &Shear::along(to_sun)).is_empty();
         if lit { 255 } else { 0 }
     }
+}
+
+/// The share of the sun that is seen, rounded to the nearest.
+fn share_of(lit: usize, suns: usize) -> u8 {
+    ((2 * 255 * lit + suns) / (2 * suns)) as u8
+}
+
+fn same_faces(one: &Mesh, other: &Mesh) -> bool {
+    one.origin == other.origin && one.faces == other.faces && one.vertices == other.vertices
+}
+
+/// Finds normals, and remembers the last one, as neighbours mostly see the same face.
+struct SeenNormals<'a> {
+    planes: &'a [DVec4],
+    viewer: DVec4,
+    ground: DVec3,
+    last: (u32, DVec3),
+}
+
+impl SeenNormals<'_> {
+    #[inline]
+    fn of(&mut self, face: u32) -> DVec3 {
+        if face != self.last.0 {
+            let normal = if face == Surface::GROUND {
+                self.ground
+            } else {
+                seen_normal(self.planes[face as usize], self.viewer)
+            };
+            self.last = (face, normal);
+        }
+        self.last.1
+    }
+}
+
+/// A cell of some rows: which one, and where it lies.
+#[derive(Clone, Copy)]
+struct Cell {
+    at: usize,
+    column: u32,
+    row: u32,
+}
+
+/// The cells of up to [`SIDE`] rows in squares, from west to east.
+fn squares(width: usize, cells: usize) -> impl Iterator<Item = impl Iterator<Item = Cell> + Clone> {
+    (0..width).step_by(SIDE).map(move |west| {
+        let east = (west + SIDE).min(width);
+        (0..cells / width).flat_map(move |row| {
+            (west..east).map(move |column| Cell { at: row * width + column, column: column as u32, row: row as u32 })
+        })
+    })
 }
 
 /// What a cell takes when an edge runs through its very centre, in cells: what lies east of it, and on an edge from west
@@ -322,7 +334,17 @@ impl Rays {
         Rays { view, first: [0, 0], origin: scene.casters.origin, start }
     }
 
+    /// The direction of all rays, where they have one.
+    fn shared_direction(&self) -> Option<DVec3> {
+        match &self.start {
+            RayStart::Above(..) => Some(DVec3::NEG_Z),
+            RayStart::Eye(..) => None,
+            RayStart::Before(side, _) => Some(-side.to_viewer),
+        }
+    }
+
     /// A cell's ray: from where (around the scene's origin), and the unit direction.
+    #[inline(always)]
     fn of(&self, column: u32, row: u32) -> (DVec3, DVec3) {
         let (column, row) = (self.first[0] + column, self.first[1] + row);
         match &self.start {
@@ -340,10 +362,6 @@ impl Rays {
             }
         }
     }
-}
-
-fn look(scene: &Scene, receivers: &RayCaster, ray: (DVec3, DVec3)) -> RayEnd {
-    seen(scene, ray, receivers.first_hit(ray.0, ray.1))
 }
 
 /// What a ray sees whose first face that is.
@@ -385,11 +403,8 @@ impl Technique for RayCast {
         let suns = self.suns(to_sun);
         let mut share = std::mem::take(&mut self.mask.share);
         let width = self.mask.width as usize;
-        share.par_chunks_mut(width).enumerate().for_each(|(row, shares)| {
-            for (column, share) in shares.iter_mut().enumerate() {
-                *share = self.share(row * width + column, &suns);
-            }
-        });
+        let bands = share.par_chunks_mut(width * SIDE).enumerate();
+        bands.for_each(|(band, shares)| self.share_rows(band * SIDE, shares, &suns));
         self.mask.share = share;
         Ok(DrawnMask::Memory(&self.mask))
     }

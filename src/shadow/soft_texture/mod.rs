@@ -32,6 +32,7 @@ use super::{JUDGED_ABOVE_M, ShadowError};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::mesh::patches::{Patch, Patches, Texel};
+use arrayvec::ArrayVec;
 use fill::{Casting, Scratch};
 use glam::{DVec3, DVec4};
 use occluders::Occluders;
@@ -205,6 +206,9 @@ fn count(counts: &[AtomicU64; 4], judged: PatchJudgements) {
     }
 }
 
+/// Texels of a patch that rays are cast from at once. They lie in a row, so that more would make a long and wide beam.
+const STRIP: usize = 16;
+
 /// What judges patches on the processor.
 struct PatchJudge<'a> {
     sought: OccluderQuery<'a>,
@@ -255,17 +259,21 @@ impl PatchJudge<'_> {
         let tie = if patch.alone.is_some() { DVec3::ZERO } else { tie };
         let lift = raster.plane.truncate() * JUDGED_ABOVE_M;
         let sun = (sample.light.w == 0.0).then(|| Shear::along(sample.light.truncate()));
-        for (sum, texel) in sums.iter_mut().zip(self.texels(patch)) {
-            let judged = self.sought.patches.point(patch, *texel) + tie + lift;
+        let judged = |texel: &Texel| self.sought.patches.point(patch, *texel) + tie + lift;
+        for (sums, texels) in sums.chunks_mut(STRIP).zip(self.texels(patch).chunks(STRIP)) {
+            let points: ArrayVec<DVec3, STRIP> = texels.iter().map(judged).collect();
             let blocked = match &sun {
-                Some(shear) => self.rays.blocked(judged, shear),
-                None => {
-                    let to_lamp = sample.light.truncate() - judged;
-                    self.rays.first_hit(judged, to_lamp).is_some_and(|(_, distance)| distance < 1.0)
-                }
+                Some(shear) => self.rays.blocked_beam(&points, shear),
+                None => (0..).zip(&points).fold(0, |blocked, (at, point)| {
+                    let to_lamp = sample.light.truncate() - *point;
+                    let hit = self.rays.first_hit(*point, to_lamp).is_some_and(|(_, distance)| distance < 1.0);
+                    blocked | u64::from(hit) << at
+                }),
             };
-            if !blocked {
-                *sum += sample.weight;
+            for (at, sum) in sums.iter_mut().enumerate() {
+                if blocked >> at & 1 == 0 {
+                    *sum += sample.weight;
+                }
             }
         }
     }

@@ -1,0 +1,326 @@
+//! Up to 64 parallel rays at once: those that lie close together go through the tree as one.
+
+use super::frame::{BeamFrame, around, reference};
+use super::lanes::{LaneWork, Lanes, Simd};
+use super::prune::FlatTriangles;
+use super::search::{BlockVisitor, NearestFace, bits, traverse};
+use super::shear::Shear;
+use super::tree::{EIGHT, TriangleBlock, WideTree};
+use glam::{DVec3, Vec3};
+
+/// How many rays a beam has at most.
+pub(super) const MOST_RAYS: usize = 64;
+
+/// No level has more lanes.
+const MOST_LANES: usize = 16;
+
+/// Parallel rays in groups that lie close together.
+pub(super) struct Beam<'a> {
+    shear: &'a Shear,
+    reference: [f32; 3],
+    /// Their origins, by the rays' axes.
+    places: [[f64; MOST_RAYS]; 3],
+    /// Of each ray, in the groups' order: where it meets the plane and how far ahead it begins.
+    rays: [[f32; MOST_RAYS]; 3],
+    /// Which ray it is.
+    number: [u8; MOST_RAYS],
+}
+
+/// What rays of a group lie between.
+#[derive(Clone, Copy)]
+struct Spread {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+impl Spread {
+    const NOTHING: Spread = Spread { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+
+    #[inline(always)]
+    fn with(&mut self, ray: [f32; 3]) {
+        for ((low, high), along) in self.low.iter_mut().zip(&mut self.high).zip(ray) {
+            *low = if along < *low { along } else { *low };
+            *high = if along > *high { along } else { *high };
+        }
+    }
+
+    /// Half of the outline in the plane.
+    fn outline(&self) -> f32 {
+        self.high[0] - self.low[0] + self.high[1] - self.low[1]
+    }
+}
+
+/// Two groups are asked apart if their outlines are together so much shorter than the whole's.
+const APART: f32 = 0.8;
+
+/// The outline of a square of 8 by 8 rays is 14 steps from one to the next, and somewhat more where it is askew.
+const MOST_STEPS: f32 = 24.0;
+
+impl<'a> Beam<'a> {
+    /// Up to [`MOST_RAYS`] rays, one at least.
+    fn new(shear: &'a Shear, origins: &[DVec3]) -> Beam<'a> {
+        let reference = reference(shear, origins[0]);
+        let mut beam = Beam {
+            shear,
+            reference,
+            places: [[0.0; MOST_RAYS]; 3],
+            rays: [[0.0; MOST_RAYS]; 3],
+            number: std::array::from_fn(|at| at as u8),
+        };
+        for (at, &origin) in origins.iter().enumerate() {
+            let ray = around(shear, &reference, origin);
+            for axis in 0..3 {
+                beam.rays[axis][at] = ray[axis];
+                beam.places[axis][at] = origin[shear.axes[axis]];
+            }
+        }
+        beam
+    }
+
+    fn ray(&self, at: usize) -> [f32; 3] {
+        let [right, up, ahead] = &self.rays;
+        [right[at], up[at], ahead[at]]
+    }
+
+    fn spread(&self, from: usize, to: usize) -> Spread {
+        let mut spread = Spread::NOTHING;
+        for at in from..to {
+            spread.with(self.ray(at));
+        }
+        spread
+    }
+
+    /// Whether rays that come row by row lie so near each other that there is nothing to look for.
+    fn is_even(&self, from: usize, to: usize, spread: &Spread) -> bool {
+        let mut step = Spread::NOTHING;
+        step.with(self.ray(from));
+        step.with(self.ray((from + 1).min(to - 1)));
+        spread.outline() <= step.outline() * MOST_STEPS
+    }
+
+    /// The next group that begins with a ray: where it ends, and what it lies between.
+    fn group(&mut self, from: usize, mut to: usize) -> (usize, Spread) {
+        let mut spread = self.spread(from, to);
+        if self.is_even(from, to, &spread) {
+            return (to, spread);
+        }
+        loop {
+            let Spread { low, high } = spread;
+            let axis = usize::from(high[1] - low[1] > high[0] - low[0]);
+            let middle = (low[axis] + high[axis]) * 0.5;
+            let (mut lower, mut upper) = (Spread::NOTHING, Spread::NOTHING);
+            let mut count = 0;
+            for at in from..to {
+                let ray = self.ray(at);
+                if ray[axis] < middle {
+                    lower.with(ray);
+                    count += 1;
+                } else {
+                    upper.with(ray);
+                }
+            }
+            if count == 0 || count == to - from || lower.outline() + upper.outline() > spread.outline() * APART {
+                return (to, spread);
+            }
+            let mut place = from;
+            for at in from..to {
+                if self.rays[axis][at] < middle {
+                    self.rays.iter_mut().for_each(|rays| rays.swap(place, at));
+                    self.places.iter_mut().for_each(|places| places.swap(place, at));
+                    self.number.swap(place, at);
+                    place += 1;
+                }
+            }
+            (to, spread) = (place, lower);
+        }
+    }
+
+    /// How far the rays from one on, as many as there are lanes, go to a triangle that they hit: decided in double precision.
+    #[inline(always)]
+    fn hits<L: Lanes>(&self, first: usize, triangle: &[Vec3; 3]) -> [f64; MOST_LANES] {
+        let mut distances = [f64::INFINITY; MOST_LANES];
+        for from in (0..L::COUNT).step_by(EIGHT) {
+            let [right, up, ahead] = &self.places;
+            let eight = |places: &'_ [f64; MOST_RAYS]| places[first + from..].first_chunk().copied();
+            if let (Some(right), Some(up), Some(ahead)) = (eight(right), eight(up), eight(ahead)) {
+                distances[from..from + EIGHT].copy_from_slice(&self.shear.hits([&right, &up, &ahead], triangle));
+            }
+        }
+        distances
+    }
+
+    /// The rays of some lanes.
+    #[inline(always)]
+    fn lanes<L: Lanes>(&self, at: usize) -> [L; 3] {
+        let [right, up, ahead] = &self.rays;
+        [L::load(&right[at..]), L::load(&up[at..]), L::load(&ahead[at..])]
+    }
+}
+
+/// Which of some parallel rays anything lies along: a bit for each.
+pub(super) struct BlockedBeam<'a> {
+    pub(super) tree: &'a WideTree,
+    pub(super) shear: &'a Shear,
+    pub(super) origins: &'a [DVec3],
+}
+
+impl LaneWork for BlockedBeam<'_> {
+    type Output = u64;
+    #[inline(always)]
+    fn run<S: Simd>(self) -> u64 {
+        let BlockedBeam { tree, shear, origins } = self;
+        let mut beam = Beam::new(shear, origins);
+        let (mut from, mut blocked) = (0, 0);
+        while from < origins.len() {
+            let (to, spread) = beam.group(from, origins.len());
+            let frame = BeamFrame::new(shear, beam.reference, spread.low, spread.high);
+            let asked = group_bits(from, to);
+            let mut search = AnyHits { beam: &beam, open: asked };
+            traverse::<S, _>(tree, &frame, &mut search);
+            let hit = asked & !search.open;
+            for at in from..to {
+                blocked |= (hit >> at & 1) << beam.number[at];
+            }
+            from = to;
+        }
+        blocked
+    }
+}
+
+/// Bits of a group's rays.
+fn group_bits(from: usize, to: usize) -> u64 {
+    (u64::MAX >> (MOST_RAYS - (to - from))) << from
+}
+
+/// Rays of a group that a triangle may be hit by: calls with the first of each set of lanes, and a bit a lane.
+#[inline(always)]
+fn each_set<L: Lanes>(rays: u64, mut ask: impl FnMut(usize, u32)) {
+    let mut first = rays.trailing_zeros() as usize / L::COUNT * L::COUNT;
+    while first < MOST_RAYS && rays >> first != 0 {
+        let set = (rays >> first) as u32 & (u32::MAX >> (32 - L::COUNT));
+        if set != 0 {
+            ask(first, set);
+        }
+        first += L::COUNT;
+    }
+}
+
+struct AnyHits<'a> {
+    beam: &'a Beam<'a>,
+    /// The rays that nothing has been met by yet, in the groups' order.
+    open: u64,
+}
+
+impl BlockVisitor for AnyHits<'_> {
+    const NEAREST_FIRST: bool = false;
+    #[inline(always)]
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
+        let flat = FlatTriangles::<S::Eight>::of(frame, block);
+        let met = block.there & !flat.missed_by_all(frame);
+        if met == 0 {
+            return true;
+        }
+        let rows = flat.rows();
+        for at in bits(met) {
+            let flat = FlatTriangles::<S::Many>::one(&rows, at);
+            let triangle = block.triangle(at);
+            let mut open = self.open;
+            each_set::<S::Many>(self.open, |first, set| {
+                let asked = set & !flat.missed(self.beam.lanes(first));
+                if asked != 0 {
+                    let hits = self.beam.hits::<S::Many>(first, &triangle);
+                    for lane in bits(asked) {
+                        open &= !(u64::from(hits[lane] < f64::INFINITY) << (first + lane));
+                    }
+                }
+            });
+            self.open = open;
+            if open == 0 {
+                return false;
+            }
+        }
+        true
+    }
+    #[inline(always)]
+    fn farthest(&self) -> f32 {
+        f32::INFINITY
+    }
+}
+
+/// The nearest face along each of some parallel rays, as one alone finds it.
+pub(super) struct FirstHits<'a> {
+    pub(super) tree: &'a WideTree,
+    pub(super) shear: &'a Shear,
+    pub(super) origins: &'a [DVec3],
+    pub(super) hits: &'a mut [Option<(u32, f64)>],
+}
+
+impl LaneWork for FirstHits<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<S: Simd>(self) {
+        let FirstHits { tree, shear, origins, hits } = self;
+        let mut beam = Beam::new(shear, origins);
+        let mut from = 0;
+        while from < origins.len() {
+            let (to, spread) = beam.group(from, origins.len());
+            let frame = BeamFrame::new(shear, beam.reference, spread.low, spread.high);
+            let nearest = [NearestFace::NOTHING; MOST_RAYS];
+            let asked = group_bits(from, to);
+            let mut search = NearestHits { beam: &beam, asked, nearest, farthest: f32::INFINITY };
+            traverse::<S, _>(tree, &frame, &mut search);
+            for at in from..to {
+                hits[beam.number[at] as usize] = search.nearest[at].hit();
+            }
+            from = to;
+        }
+    }
+}
+
+struct NearestHits<'a> {
+    beam: &'a Beam<'a>,
+    asked: u64,
+    nearest: [NearestFace; MOST_RAYS],
+    farthest: f32,
+}
+
+impl BlockVisitor for NearestHits<'_> {
+    const NEAREST_FIRST: bool = true;
+    #[inline(always)]
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
+        let flat = FlatTriangles::<S::Eight>::of(frame, block);
+        let met = block.there & !flat.missed_by_all(frame);
+        if met == 0 {
+            return true;
+        }
+        let rows = flat.rows();
+        let mut nearer = false;
+        for at in bits(met) {
+            let flat = FlatTriangles::<S::Many>::one(&rows, at);
+            let triangle = block.triangle(at);
+            each_set::<S::Many>(self.asked, |first, set| {
+                let asked = set & !flat.missed(self.beam.lanes(first));
+                if asked != 0 {
+                    let hits = self.beam.hits::<S::Many>(first, &triangle);
+                    for lane in bits(asked) {
+                        nearer |= self.nearest[first + lane].take(hits[lane], block.faces[at]);
+                    }
+                }
+            });
+        }
+        if nearer {
+            self.farthest = f32::NEG_INFINITY;
+            each_set::<S::Many>(self.asked, |first, set| {
+                for at in bits(set).map(|lane| first + lane) {
+                    let farthest = self.nearest[at].farthest(self.beam.shear, self.beam.rays[2][at], frame.shear.sign);
+                    self.farthest = self.farthest.max(farthest);
+                }
+            });
+        }
+        true
+    }
+    #[inline(always)]
+    fn farthest(&self) -> f32 {
+        self.farthest
+    }
+}

@@ -1,0 +1,194 @@
+//! What single precision can say of rays and triangles: which rays surely miss, and which triangles surely lie behind.
+//!
+//! A triangle is looked at in the plane across the rays' longest axis, as in the test in double precision. A ray misses it if
+//! one of the three edges' areas is surely negative and one surely positive. How far the areas can be off is bounded by
+//! counting roundings (η is half an ulp of 1, 2⁻²⁴). Coordinates are taken around the beam, so that what is near is known
+//! well however far the mesh's origin is. Let L be what two edges reach along an axis, taken together, and D no less than
+//! any coordinate of triangle and rays, and than any of the triangle's corners around any ray's origin. A corner in the
+//! plane is off by 8ηD, an edge by 8ηL, so that each edge's area is off by 206ηLD at most, the third being the rest. The
+//! double-precision test itself is off by less than 2⁻⁴⁵D². So both together cannot have another sign than what is farther
+//! from 0 than 320ηLD + 2⁻⁴⁵D². The whole area is off by 72ηL₁L₂, and the volume by which a triangle lies behind by 312ηL₁L₂D,
+//! in double precision by 2⁻⁴⁴D² and 2⁻⁴⁴D³.
+
+use super::frame::BeamFrame;
+use super::lanes::Lanes;
+use super::tree::{EIGHT, TriangleBlock};
+
+const ETA: f32 = f32::EPSILON / 2.0;
+/// Edges' areas.
+const EDGE_ROUNDINGS: f32 = 320.0 * ETA;
+const EDGE_DOUBLE: f32 = 1.0 / (1u64 << 45) as f32;
+/// Twice what the area is off by: so the two other areas, of which one is more than half of it, have the other sign.
+const AREA_ROUNDINGS: f32 = 256.0 * ETA;
+const AREA_DOUBLE: f32 = 1.0 / (1u64 << 42) as f32;
+/// How far behind.
+const BEHIND_ROUNDINGS: f32 = 384.0 * ETA;
+const BEHIND_DOUBLE: f32 = 1.0 / (1u64 << 43) as f32;
+
+/// Triangles in the plane across the rays, turned so that their areas are positive.
+#[derive(Clone, Copy)]
+pub(super) struct FlatTriangles<L> {
+    /// A corner, right, up and ahead.
+    corner: [L; 3],
+    /// From it to the two others, right and up.
+    edges: [[L; 2]; 2],
+    area: L,
+    /// From it on an edge's area has a sign, and what one area has to exceed for another one to count.
+    off: L,
+    over: L,
+    /// The rate by which a ray's volume grows with its place, and from which volume on the triangle lies behind.
+    across: [L; 3],
+    behind: L,
+}
+
+/// As many numbers as a flat triangle has.
+const ROWS: usize = 14;
+
+#[inline(always)]
+fn area<L: Lanes>(one: [L; 2], other: [L; 2]) -> L {
+    one[0].times(other[1]).minus(one[1].times(other[0]))
+}
+
+/// How far an edge's area can grow or shrink over a frame's rays.
+#[inline(always)]
+fn swing<L: Lanes>(edge: [L; 2], half: [L; 3]) -> L {
+    edge[0].size().times_plus(half[1], edge[1].size().times(half[0]))
+}
+
+/// A corner of a block's triangles, by the rays' axes.
+#[inline(always)]
+fn corner<L: Lanes>(frame: &BeamFrame<'_>, block: &TriangleBlock, corner: usize) -> [L; 3] {
+    let [right, up, ahead] = frame.shear.axes;
+    let along = &block.corners[corner];
+    [L::load(&along[right]), L::load(&along[up]), L::load(&along[ahead])]
+}
+
+#[inline(always)]
+fn minus<L: Lanes>(one: [L; 3], other: [L; 3]) -> [L; 3] {
+    [one[0].minus(other[0]), one[1].minus(other[1]), one[2].minus(other[2])]
+}
+
+/// Slid along the rays into the plane.
+#[inline(always)]
+fn flat<L: Lanes>(along: [L; 3], less_slope: [L; 2]) -> [L; 2] {
+    [along[2].times_plus(less_slope[0], along[0]), along[2].times_plus(less_slope[1], along[1])]
+}
+
+/// A number of a triangle, in all lanes.
+#[inline(always)]
+fn taken<L: Lanes>(rows: &[[f32; EIGHT]; ROWS], at: usize, row: usize) -> L {
+    L::splat(rows[row][at])
+}
+
+#[inline(always)]
+fn reach<L: Lanes>(along: [L; 3]) -> L {
+    along[0].size().most(along[1].size()).most(along[2].size())
+}
+
+impl<L: Lanes> FlatTriangles<L> {
+    /// A block's triangles, for the rays of a frame.
+    #[inline(always)]
+    pub(super) fn of(frame: &BeamFrame<'_>, block: &TriangleBlock) -> FlatTriangles<L> {
+        let [first, second, third] = [corner(frame, block, 0), corner(frame, block, 1), corner(frame, block, 2)];
+        let [right, up, ahead] = frame.reference;
+        let a = minus(first, [L::splat(right), L::splat(up), L::splat(ahead)]);
+        let (e, g) = (minus(second, first), minus(third, first));
+        let less_slope = [L::splat(-frame.shear.slope[0]), L::splat(-frame.shear.slope[1])];
+        let ([x, y], e_flat, g_flat) = (flat(a, less_slope), flat(e, less_slope), flat(g, less_slope));
+        let signed = area(e_flat, g_flat);
+        let turn = signed.sign();
+        let whole = signed.size();
+        let (e_reach, g_reach) = (reach(e), reach(g));
+        let (length, lengths) = (e_reach.plus(g_reach), e_reach.times(g_reach));
+        let far = reach(a).plus(length).plus(L::splat(frame.size));
+        let far_squared = far.times(far);
+        let off = length.times(far).times(L::splat(EDGE_ROUNDINGS)).plus(far_squared.times(L::splat(EDGE_DOUBLE)));
+        let least = lengths.times(L::splat(AREA_ROUNDINGS)).plus(far_squared.times(L::splat(AREA_DOUBLE)));
+        let volume = lengths.times(L::splat(BEHIND_ROUNDINGS)).plus(far_squared.times(L::splat(BEHIND_DOUBLE)));
+        let sense = L::splat(frame.shear.sign);
+        let turned = turn.times(sense);
+        FlatTriangles {
+            corner: [x, y, a[2]],
+            edges: [[e_flat[0].times(turn), e_flat[1].times(turn)], [g_flat[0].times(turn), g_flat[1].times(turn)]],
+            area: whole,
+            off,
+            // an edge-on triangle has no side on which its areas are positive, and no distance
+            over: least.if_less(whole, L::splat(f32::NEG_INFINITY), off),
+            across: [
+                area([e[1], e[2]], [g[1], g[2]]).times(turned),
+                area([e[2], e[0]], [g[2], g[0]]).times(turned),
+                whole.times(sense),
+            ],
+            behind: least.if_less(whole, volume.times(far), L::splat(f32::INFINITY)),
+        }
+    }
+
+    /// The three edges' areas of a ray, and the volume by which the triangle lies behind it.
+    #[inline(always)]
+    fn areas(&self, ray: [L; 3]) -> ([L; 3], L) {
+        let along = minus(ray, self.corner);
+        let flat = [along[0], along[1]];
+        let (one, last) = (area(self.edges[0], flat), area(flat, self.edges[1]));
+        let volume = along[0].times(self.across[0]);
+        let volume = along[1].times_plus(self.across[1], volume);
+        ([one, self.area.minus(one).minus(last), last], along[2].times_plus(self.across[2], volume))
+    }
+
+    /// In which lanes a ray surely misses the triangle.
+    #[inline(always)]
+    pub(super) fn missed(&self, ray: [L; 3]) -> u32 {
+        let ([one, other, last], volume) = self.areas(ray);
+        let lowest = one.least(other).least(last);
+        let highest = one.most(other).most(last);
+        let beside = lowest.less(L::splat(0.0).minus(self.off)) & self.over.less(highest);
+        beside | self.behind.less(volume)
+    }
+
+    /// Which triangles all rays of a frame surely miss.
+    #[inline(always)]
+    pub(super) fn missed_by_all(&self, frame: &BeamFrame<'_>) -> u32 {
+        let [right, up, ahead] = frame.middle;
+        let ([one, other, last], volume) = self.areas([L::splat(right), L::splat(up), L::splat(ahead)]);
+        let [right, up, ahead] = frame.half;
+        let half = [L::splat(right), L::splat(up), L::splat(ahead)];
+        let [e, g] = self.edges;
+        let third = [g[0].minus(e[0]), g[1].minus(e[1])];
+        let lowest = one.plus(swing(e, half)).least(other.plus(swing(third, half))).least(last.plus(swing(g, half)));
+        let one_sided = self.over.less(L::splat(f32::MIN));
+        let beside = lowest.less(L::splat(0.0).minus(self.off)) & one_sided;
+        let less = self.across[0].size().times(half[0]);
+        let less = self.across[1].size().times_plus(half[1], less);
+        let less = self.across[2].size().times_plus(half[2], less);
+        beside | self.behind.less(volume.minus(less))
+    }
+
+    /// The numbers of all triangles, by which each is taken alone.
+    #[inline(always)]
+    pub(super) fn rows(self) -> [[f32; EIGHT]; ROWS] {
+        let mut rows = [[0.0; EIGHT]; ROWS];
+        let FlatTriangles { corner, edges: [e, g], area, off, over, across, behind } = self;
+        let numbers = [
+            corner[0], corner[1], corner[2], e[0], e[1], g[0], g[1], area, off, over, across[0], across[1], across[2],
+            behind,
+        ];
+        for (row, lanes) in rows.iter_mut().zip(numbers) {
+            lanes.store(row);
+        }
+        rows
+    }
+
+    /// One triangle in all lanes.
+    #[inline(always)]
+    pub(super) fn one(rows: &[[f32; EIGHT]; ROWS], at: usize) -> FlatTriangles<L> {
+        let edges = [[taken(rows, at, 3), taken(rows, at, 4)], [taken(rows, at, 5), taken(rows, at, 6)]];
+        FlatTriangles {
+            corner: [taken(rows, at, 0), taken(rows, at, 1), taken(rows, at, 2)],
+            edges,
+            area: taken(rows, at, 7),
+            off: taken(rows, at, 8),
+            over: taken(rows, at, 9),
+            across: [taken(rows, at, 10), taken(rows, at, 11), taken(rows, at, 12)],
+            behind: taken(rows, at, 13),
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Through the tree, and rays that are asked alone.
+
+use super::frame::{BeamFrame, around, reference};
+use super::lanes::{LaneWork, Lanes, Simd};
+use super::prune::FlatTriangles;
+use super::shear::Shear;
+use super::tree::{BLOCK, EIGHT, MOST_DEPTH, TriangleBlock, WideTree};
+use arrayvec::ArrayVec;
+use glam::DVec3;
+
+/// Nodes and blocks that wait: of each level all but the one that was gone into, and the last level's eight.
+const MOST_WAITING: usize = MOST_DEPTH * 7 + 8;
+
+/// What is done with the blocks that rays come to.
+pub(super) trait BlockVisitor {
+    /// Whether blocks are visited from near to far, as far as they matter.
+    const NEAREST_FIRST: bool;
+    /// Returns `false` when nothing more is asked.
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool;
+    /// Beyond this nothing matters, metres from the frame's plane.
+    fn farthest(&self) -> f32;
+}
+
+#[inline(always)]
+pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, visitor: &mut V) {
+    let mut waiting = ArrayVec::<(u32, f32), MOST_WAITING>::new();
+    if !tree.nodes.is_empty() {
+        // the root stands first
+        waiting.push((0, f32::NEG_INFINITY));
+    }
+    while let Some((at, near)) = waiting.pop() {
+        if V::NEAREST_FIRST && near > visitor.farthest() {
+            continue;
+        }
+        if at & BLOCK != 0 {
+            if !visitor.visit::<S>(frame, &tree.blocks[(at & !BLOCK) as usize]) {
+                return;
+            }
+            continue;
+        }
+        let node = &tree.nodes[at as usize];
+        let (mut met, near) = frame.enter::<S::Eight>(node, visitor.farthest());
+        let mut soonest = [0.0; EIGHT];
+        if V::NEAREST_FIRST {
+            near.store(&mut soonest);
+        }
+        let first = waiting.len();
+        while met != 0 {
+            let slot = met.trailing_zeros() as usize;
+            met &= met - 1;
+            waiting.push((node.children[slot], soonest[slot]));
+            if V::NEAREST_FIRST {
+                let mut place = waiting.len() - 1;
+                while place > first && waiting[place - 1].1 < waiting[place].1 {
+                    waiting.swap(place - 1, place);
+                    place -= 1;
+                }
+            }
+        }
+    }
+}
+
+/// Whether anything lies along a ray.
+pub(super) struct BlockedRay<'a> {
+    pub(super) tree: &'a WideTree,
+    pub(super) shear: &'a Shear,
+    pub(super) origin: DVec3,
+}
+
+impl LaneWork for BlockedRay<'_> {
+    type Output = bool;
+    #[inline(always)]
+    fn run<S: Simd>(self) -> bool {
+        let BlockedRay { tree, shear, origin } = self;
+        let reference = reference(shear, origin);
+        let ray = around(shear, &reference, origin);
+        let frame = BeamFrame::new(shear, reference, ray, ray);
+        let mut search = AnyHit { shear, origin, ray, hit: false };
+        traverse::<S, _>(tree, &frame, &mut search);
+        search.hit
+    }
+}
+
+struct AnyHit<'a> {
+    shear: &'a Shear,
+    origin: DVec3,
+    ray: [f32; 3],
+    hit: bool,
+}
+
+impl BlockVisitor for AnyHit<'_> {
+    const NEAREST_FIRST: bool = true;
+    #[inline(always)]
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
+        let missed = FlatTriangles::<S::Eight>::of(frame, block).missed(splat(self.ray));
+        self.hit = bits(block.there & !missed).any(|at| self.shear.hit(self.origin, &block.triangle(at)).is_some());
+        !self.hit
+    }
+    #[inline(always)]
+    fn farthest(&self) -> f32 {
+        f32::INFINITY
+    }
+}
+
+/// The nearest face along a ray, and how many lengths of the direction away; of several that are equally near the first.
+pub(super) struct FirstHit<'a> {
+    pub(super) tree: &'a WideTree,
+    pub(super) shear: &'a Shear,
+    pub(super) origin: DVec3,
+}
+
+impl LaneWork for FirstHit<'_> {
+    type Output = Option<(u32, f64)>;
+    #[inline(always)]
+    fn run<S: Simd>(self) -> Option<(u32, f64)> {
+        let FirstHit { tree, shear, origin } = self;
+        let reference = reference(shear, origin);
+        let ray = around(shear, &reference, origin);
+        let frame = BeamFrame::new(shear, reference, ray, ray);
+        let mut search = NearestHit { shear, origin, ray, nearest: NearestFace::NOTHING, farthest: f32::INFINITY };
+        traverse::<S, _>(tree, &frame, &mut search);
+        search.nearest.hit()
+    }
+}
+
+struct NearestHit<'a> {
+    shear: &'a Shear,
+    origin: DVec3,
+    ray: [f32; 3],
+    nearest: NearestFace,
+    farthest: f32,
+}
+
+/// The nearest face so far.
+#[derive(Clone, Copy)]
+pub(super) struct NearestFace {
+    distance: f64,
+    face: u32,
+}
+
+impl NearestFace {
+    pub(super) const NOTHING: NearestFace = NearestFace { distance: f64::INFINITY, face: u32::MAX };
+
+    /// Takes a hit that is nearer, or as near and of a face that comes before.
+    #[inline(always)]
+    pub(super) fn take(&mut self, distance: f64, face: u32) -> bool {
+        let nearer =
+            distance < self.distance || (distance == self.distance && distance < f64::INFINITY && face < self.face);
+        if nearer {
+            *self = NearestFace { distance, face };
+        }
+        nearer
+    }
+
+    pub(super) fn hit(self) -> Option<(u32, f64)> {
+        (self.distance < f64::INFINITY).then_some((self.face, self.distance))
+    }
+
+    /// In metres from a frame's plane, rounded up.
+    #[inline(always)]
+    pub(super) fn farthest(self, shear: &Shear, ray_ahead: f32, sign: f32) -> f32 {
+        // a rounding more than the box's own padding does not matter
+        ((self.distance / shear.scale.z.abs() + f64::from(ray_ahead * sign)) as f32).next_up()
+    }
+}
+
+impl BlockVisitor for NearestHit<'_> {
+    const NEAREST_FIRST: bool = true;
+    #[inline(always)]
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
+        let missed = FlatTriangles::<S::Eight>::of(frame, block).missed(splat(self.ray));
+        for at in bits(block.there & !missed) {
+            if let Some(distance) = self.shear.hit(self.origin, &block.triangle(at))
+                && self.nearest.take(distance, block.faces[at])
+            {
+                self.farthest = self.nearest.farthest(self.shear, self.ray[2], frame.shear.sign);
+            }
+        }
+        true
+    }
+    #[inline(always)]
+    fn farthest(&self) -> f32 {
+        self.farthest
+    }
+}
+
+#[inline(always)]
+fn splat<L: Lanes>(ray: [f32; 3]) -> [L; 3] {
+    [L::splat(ray[0]), L::splat(ray[1]), L::splat(ray[2])]
+}
+
+/// The bits that are set.
+#[inline(always)]
+pub(super) fn bits(mut set: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let at = (set != 0).then(|| set.trailing_zeros() as usize)?;
+        set &= set - 1;
+        Some(at)
+    })
+}
