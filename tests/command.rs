@@ -350,7 +350,7 @@ fn check_says_what_is_wrong() {
             "from": json["components"][0]["places"]["open"][0]["from"],
             "to": json["components"][0]["places"]["open"][0]["to"]}]}});
     let frame = "metres along the file's own axes, turned z up (x, −z, y of the file)";
-    let model = json!({"name": "open.glb", "unit_m": 1.0, "unit_is_said": false, "up": "y", "up_is_said": false, "crs": null,
+    let model = json!({"name": "open.glb", "unit_m": 1.0, "unit_is_said": false, "up": "y", "up_is_said": false, "crs": null, "file_place": null, "meridian_deg": null,
         "said_by": null, "place": null, "anchors": [], "north_deg": 0.0, "convergence_deg": null,
         "file": "open.glb", "format": "glTF", "kinds": {"building": 1}, "groups": [{"name": "default", "components": 1}, {"name": "tower", "components": 1}],
         "left_out": []});

@@ -12,7 +12,7 @@ mod node;
 mod xml;
 mod zipped;
 
-use super::source::{as_ascii, text};
+use super::source::as_ascii;
 use super::whole::whole_file;
 use super::{Format, Model, ModelFault, ReadOptions, archive};
 use document::DaeDocument;
@@ -41,15 +41,11 @@ impl Format for Dae {
     fn read(&self, path: &Path, _options: &ReadOptions) -> Result<Model, ModelFault> {
         let bytes = whole_file(path)?;
         if !archive::is_archive(&bytes) {
-            return Ok(build::model_of(DaeDocument::read(&source(bytes))?)?);
+            return Ok(build::model_of(DaeDocument::read(&xml::text_of(bytes))?)?);
         }
         let zipped = zipped::document(&bytes)?;
-        let mut model = build::model_of(DaeDocument::read(&source(zipped.bytes))?)?;
+        let mut model = build::model_of(DaeDocument::read(&xml::text_of(zipped.bytes))?)?;
         model.notes.extend(zipped.note);
         Ok(model)
     }
-}
-
-fn source(bytes: Vec<u8>) -> String {
-    String::from_utf8(as_ascii(bytes)).unwrap_or_else(|error| text(error.as_bytes()))
 }

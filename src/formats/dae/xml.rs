@@ -1,11 +1,16 @@
 //! Elements of an XML text, one after another. A function that is given an element reads to the element's end.
 
 use crate::formats::left_out::label;
-use crate::formats::source::{number, words};
+use crate::formats::source::{as_ascii, number, text, words};
 use crate::message::{Message, message};
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
+
+/// The text of a document, in whatever letters it is written.
+pub(super) fn text_of(bytes: Vec<u8>) -> String {
+    String::from_utf8(as_ascii(bytes)).unwrap_or_else(|error| text(error.as_bytes()))
+}
 
 /// The text, from where it was read to.
 pub(super) struct DaeXml<'a> {

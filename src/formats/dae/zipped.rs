@@ -1,7 +1,6 @@
 //! Zipped Collada: which document of an archive stands there.
 
-use super::source;
-use super::xml::DaeXml;
+use super::xml::{DaeXml, text_of};
 use crate::formats::ModelFault;
 use crate::formats::archive::ModelArchive;
 use crate::formats::whole::MOST_BYTES;
@@ -26,7 +25,7 @@ pub(super) struct ZippedDocument {
 /// The document that the archive's manifest names, else the first one.
 pub(super) fn document(bytes: &[u8]) -> Result<ZippedDocument, ModelFault> {
     let archive = ModelArchive::open(bytes, ENDING)?;
-    let root = archive.unpacked(MANIFEST, MOST_MANIFEST_BYTES)?.and_then(|manifest| root_of(&source(manifest)));
+    let root = archive.unpacked(MANIFEST, MOST_MANIFEST_BYTES)?.and_then(|manifest| root_of(&text_of(manifest)));
     let named = root.filter(|root| archive.models().any(|name| name == root));
     let Some(name) = named.or_else(|| archive.models().next().map(str::to_owned)) else {
         return Err(message!["is a zip archive with no .dae in it"; "export the model as Collada (.dae)"].into());

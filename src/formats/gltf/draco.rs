@@ -3,7 +3,7 @@
 //! The decoder is `draco-core`, which is Rust alone. Its input may be anybody's bytes, so a panic in it is caught.
 
 use super::document::Document;
-use super::features::names_features;
+use super::feature_attributes::names_features;
 use super::{Fault, MAX_TRIANGLES};
 use draco_core::mesh_decoder::MeshDecoder;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh};

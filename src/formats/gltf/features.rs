@@ -5,6 +5,7 @@ use super::Fault;
 use super::accessor::Accessors;
 use super::buffers::Buffers;
 use super::document::Document;
+use super::feature_attributes::{BATCH_ID, FEATURE_ID};
 use super::reader::Reader;
 use crate::formats::left_out::label;
 use crate::mesh::{CornerPrecision, Part};
@@ -16,10 +17,6 @@ use std::collections::BTreeMap;
 
 /// Properties that name a feature, the likeliest first; letters may be small or capital.
 const NAMING: [&str; 8] = ["name", "gml:name", "gml:id", "gml_id", "gmlid", "id", "guid", "globalid"];
-
-/// Attributes of vertices, without the dash before their names.
-const BATCH_ID: &str = "BATCHID";
-const FEATURE_ID: &str = "FEATURE_ID_";
 
 /// What the features of a file are called.
 pub(super) struct Features {
@@ -97,11 +94,6 @@ impl PrimitiveFeatures<'_> {
         let is_whole = vertex < self.ids.count && number >= 0.0 && number < f64::from(u32::MAX);
         is_whole.then_some((self.table, number as u32))
     }
-}
-
-/// Whether an attribute of that name, without the dash before it, may say of which feature a vertex is.
-pub(super) fn names_features(attribute: &str) -> bool {
-    attribute == BATCH_ID || attribute.starts_with(FEATURE_ID)
 }
 
 /// The property of a table whose texts are names: what its class says is one, else what is called so.

@@ -25,6 +25,7 @@ mod container;
 mod document;
 mod draco;
 mod error;
+mod feature_attributes;
 mod features;
 mod instances;
 mod material;

@@ -2,13 +2,12 @@
 //! tile, and which a content, lists of tiles say (`subtree`).
 
 use super::subtree::Subtree;
-use super::tileset::{ContentAddress, TileList, TilePlace};
 use crate::formats::gltf::percent_decode;
 use crate::formats::whole::{below, whole_named_file};
 use crate::message::{Message, message};
 use serde::Deserialize;
 use std::cell::Cell;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The most levels of a tree: an axis of the finest one has a thousand million places.
 const MOST_LEVELS: u32 = 30;
@@ -20,6 +19,14 @@ const MOST_SUBTREE_LEVELS: u32 = 20;
 /// lead to one file, must not be followed for long.
 const MOST_LIST_BYTES: u64 = 1 << 30;
 const LIST_COST_BYTES: u64 = 1 << 14;
+
+/// Where a content lies. In a tree it is a template, in which each place writes its numbers.
+#[derive(Deserialize)]
+pub(super) struct ContentAddress {
+    /// Called `url` before 1.0.
+    #[serde(alias = "url")]
+    pub uri: Option<String>,
+}
 
 /// How a tile is divided.
 #[derive(Deserialize)]
@@ -107,94 +114,106 @@ impl ImplicitTiling {
     }
 }
 
-impl TileList {
-    /// Adds the tiles of a tree that have no finer ones, or all where those are added to.
-    pub(super) fn add_implicit(
-        &mut self,
-        tiling: &ImplicitTiling,
+/// The tiles of a tree.
+#[derive(Default)]
+pub(super) struct ImplicitTiles {
+    pub tiles: Vec<ImplicitTile>,
+    /// The lists that say which tiles there are.
+    pub lists: Vec<PathBuf>,
+    /// How many of the lists cannot be read.
+    pub unread_lists: usize,
+}
+
+/// A tile of the tree.
+pub(super) struct ImplicitTile {
+    /// Whether no finer one stands below it.
+    pub is_finest: bool,
+    /// The addresses of its contents.
+    pub contents: Vec<Option<String>>,
+}
+
+/// A tree that is read.
+struct TreeWalk<'a> {
+    tiling: &'a ImplicitTiling,
+    contents: &'a [&'a ContentAddress],
+    /// The folder of the tileset that is opened, and that of the one with the tree.
+    folders: [&'a Path; 2],
+    levels: u32,
+    /// The places whose lists are still to be read.
+    roots: Vec<TreePlace>,
+    read_bytes: Cell<u64>,
+    found: ImplicitTiles,
+}
+
+impl ImplicitTiling {
+    /// The tiles of this tree, until there are more than `most`; none where the tree has more levels than any on Earth. Files
+    /// are read in the folder of the tileset that is opened alone, which is the first of the two.
+    pub(super) fn tiles(
+        &self,
         contents: &[&ContentAddress],
-        place: TilePlace<'_>,
-    ) -> Result<(), Message> {
-        let Some(levels) = tiling.levels() else {
-            self.tally.add("implicit tilings", "the tree has more levels than any on Earth");
-            return Ok(());
-        };
-        let mut roots = vec![TreePlace { level: 0, at: [0; 3] }];
-        let read = Cell::new(0);
-        while let Some(root) = roots.pop() {
-            let subtree = self.subtree(tiling, root, place, &read);
-            if read.get() > MOST_LIST_BYTES {
+        folders: [&Path; 2],
+        most: usize,
+    ) -> Result<Option<ImplicitTiles>, Message> {
+        let Some(levels) = self.levels() else { return Ok(None) };
+        let (roots, found) = (vec![TreePlace { level: 0, at: [0; 3] }], ImplicitTiles::default());
+        let mut walk = TreeWalk { tiling: self, contents, folders, levels, roots, read_bytes: Cell::new(0), found };
+        while let Some(root) = walk.roots.pop() {
+            let subtree = walk.subtree(root);
+            if walk.read_bytes.get() > MOST_LIST_BYTES {
                 return Err(message!["has more lists of tiles than can be read"; "export a smaller region"]);
             }
-            let Some(subtree) = subtree else {
-                self.tally.add("lists of tiles", "the file cannot be read");
-                continue;
-            };
-            self.add_subtree(tiling, (root, levels), &subtree, (contents, place), &mut roots)?;
+            match subtree {
+                Some(subtree) => walk.add_subtree(root, &subtree, most),
+                None => walk.found.unread_lists += 1,
+            }
+            if walk.found.tiles.len() > most {
+                break;
+            }
         }
-        Ok(())
+        Ok(Some(walk.found))
     }
+}
 
+impl TreeWalk<'_> {
     /// Reads the list of the tiles from a place on.
-    fn subtree(
-        &mut self,
-        tiling: &ImplicitTiling,
-        root: TreePlace,
-        place: TilePlace<'_>,
-        read: &Cell<u64>,
-    ) -> Option<Subtree> {
+    fn subtree(&mut self, root: TreePlace) -> Option<Subtree> {
+        let [home, folder] = self.folders;
         let bytes_of = |path: &Path| {
-            let bytes = whole_named_file(place.tileset.home, path).ok()?;
-            read.set(read.get() + LIST_COST_BYTES + bytes.len() as u64);
+            let bytes = whole_named_file(home, path).ok()?;
+            self.read_bytes.set(self.read_bytes.get() + LIST_COST_BYTES + bytes.len() as u64);
             Some(bytes)
         };
-        let template = tiling.subtrees.uri.as_deref()?;
-        let path = below(place.tileset.folder, &percent_decode(&root.address(template))?)?;
+        let template = self.tiling.subtrees.uri.as_deref()?;
+        let path = below(folder, &percent_decode(&root.address(template))?)?;
         let bytes = bytes_of(&path)?;
         let folder = path.parent()?.to_owned();
-        self.tilesets.push(path);
+        self.found.lists.push(path);
         let beside = |uri: &str| bytes_of(&below(&folder, &percent_decode(uri)?)?);
         Subtree::read(&bytes, beside)
     }
 
     /// Adds the tiles of a list; where it ends, those below are added to `roots`.
-    fn add_subtree(
-        &mut self,
-        tiling: &ImplicitTiling,
-        (root, levels): (TreePlace, u32),
-        subtree: &Subtree,
-        (contents, place): (&[&ContentAddress], TilePlace<'_>),
-        roots: &mut Vec<TreePlace>,
-    ) -> Result<(), Message> {
-        let scheme = tiling.subdivision_scheme;
+    fn add_subtree(&mut self, root: TreePlace, subtree: &Subtree, most: usize) {
+        let scheme = self.tiling.subdivision_scheme;
         let has_tile = |of: &ListPlace| subtree.tiles.has(scheme.bit(*of));
         let mut open = vec![ListPlace { level: 0, morton: 0 }];
         open.retain(has_tile);
-        while let Some(tile) = open.pop() {
-            self.count_tile()?;
-            let before = (open.len(), roots.len());
-            if root.level + tile.level + 1 < levels {
-                if tile.level + 1 < tiling.subtree_levels {
+        while let Some(tile) = open.pop().filter(|_| self.found.tiles.len() <= most) {
+            let before = (open.len(), self.roots.len());
+            if root.level + tile.level + 1 < self.levels {
+                if tile.level + 1 < self.tiling.subtree_levels {
                     open.extend(scheme.children(tile).filter(has_tile));
                 } else {
                     let listed = |of: &ListPlace| subtree.below.has(usize::try_from(of.morton).ok());
                     let below = scheme.children(tile).filter(listed);
-                    roots.extend(below.map(|child| scheme.place(root, child)));
+                    self.roots.extend(below.map(|child| scheme.place(root, child)));
                 }
             }
-            let is_finest = before == (open.len(), roots.len());
-            for (content, there) in contents.iter().zip(&subtree.contents) {
-                if !there.has(scheme.bit(tile)) {
-                    continue;
-                }
-                if place.adds || is_finest {
-                    let uri = content.uri.as_deref().map(|template| scheme.place(root, tile).address(template));
-                    self.add_content(uri.as_deref(), place)?;
-                } else {
-                    self.leave_out_coarser();
-                }
-            }
+            let is_finest = before == (open.len(), self.roots.len());
+            let there = self.contents.iter().zip(&subtree.contents).filter(|(_, there)| there.has(scheme.bit(tile)));
+            let address = |template: &String| scheme.place(root, tile).address(template);
+            let contents = there.map(|(content, _)| content.uri.as_ref().map(address)).collect();
+            self.found.tiles.push(ImplicitTile { is_finest, contents });
         }
-        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! The JSON of a tileset, and of the tilesets that it names → which contents stand where.
 
-use super::implicit::ImplicitTiling;
+use super::implicit::{ContentAddress, ImplicitTiling};
 use crate::formats::ModelFault;
 use crate::formats::gltf::percent_decode;
 use crate::formats::left_out::{LeftOutTally, label};
@@ -62,13 +62,6 @@ struct SeveralContents {
     contents: Vec<ContentAddress>,
 }
 
-#[derive(Deserialize)]
-pub(super) struct ContentAddress {
-    /// Called `url` before 1.0.
-    #[serde(alias = "url")]
-    pub uri: Option<String>,
-}
-
 impl TilesetTile {
     fn contents(&self) -> Vec<&ContentAddress> {
         let further = self.extensions.contents.iter().flat_map(|several| &several.contents);
@@ -121,10 +114,10 @@ impl Tileset {
 
 /// Where a tileset is described.
 #[derive(Clone, Copy)]
-pub(super) struct TilesetPlace<'a> {
+struct TilesetPlace<'a> {
     /// The folder of the tileset that is opened, out of which no link leads.
-    pub home: &'a Path,
-    pub folder: &'a Path,
+    home: &'a Path,
+    folder: &'a Path,
     is_y_up: bool,
     /// How much deeper tilesets may name each other.
     deep: usize,
@@ -132,11 +125,11 @@ pub(super) struct TilesetPlace<'a> {
 
 /// Where a tile stands.
 #[derive(Clone, Copy)]
-pub(super) struct TilePlace<'a> {
-    pub world: DMat4,
+struct TilePlace<'a> {
+    world: DMat4,
     /// Whether finer tiles stand beside it, and not instead.
-    pub adds: bool,
-    pub tileset: TilesetPlace<'a>,
+    adds: bool,
+    tileset: TilesetPlace<'a>,
 }
 
 impl TileList {
@@ -160,7 +153,36 @@ impl TileList {
         tile.children.iter().try_for_each(|child| self.add(child, world, adds, at))
     }
 
-    pub(super) fn count_tile(&mut self) -> Result<(), Message> {
+    /// Adds the tiles of a tree that have no finer ones, or all where those are added to.
+    fn add_implicit(
+        &mut self,
+        tiling: &ImplicitTiling,
+        contents: &[&ContentAddress],
+        place: TilePlace<'_>,
+    ) -> Result<(), Message> {
+        let folders = [place.tileset.home, place.tileset.folder];
+        let Some(found) = tiling.tiles(contents, folders, MOST_TILES - self.tiles)? else {
+            self.tally.add("implicit tilings", "the tree has more levels than any on Earth");
+            return Ok(());
+        };
+        self.tilesets.extend(found.lists);
+        for _ in 0..found.unread_lists {
+            self.tally.add("lists of tiles", "the file cannot be read");
+        }
+        for tile in found.tiles {
+            self.count_tile()?;
+            for uri in tile.contents {
+                if place.adds || tile.is_finest {
+                    self.add_content(uri.as_deref(), place)?;
+                } else {
+                    self.leave_out_coarser();
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn count_tile(&mut self) -> Result<(), Message> {
         self.tiles += 1;
         if self.tiles > MOST_TILES {
             return Err(message![format!("has more than {MOST_TILES} tiles"); "export a smaller region"]);
@@ -168,12 +190,12 @@ impl TileList {
         Ok(())
     }
 
-    pub(super) fn leave_out_coarser(&mut self) {
+    fn leave_out_coarser(&mut self) {
         self.tally.add("tiles", "finer ones stand instead");
     }
 
     /// Adds what lies at an address.
-    pub(super) fn add_content(&mut self, uri: Option<&str>, place: TilePlace<'_>) -> Result<(), Message> {
+    fn add_content(&mut self, uri: Option<&str>, place: TilePlace<'_>) -> Result<(), Message> {
         let TilePlace { world, adds, tileset: at } = place;
         let uri = uri.and_then(|uri| percent_decode(uri.split(['?', '#']).next()?));
         let Some(path) = uri.as_deref().and_then(|uri| below(at.folder, uri)) else {
