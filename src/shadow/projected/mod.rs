@@ -12,7 +12,7 @@ pub use on_gpu::ProjectedOnGpu;
 
 use super::flat::FlatShadow;
 use super::plan_surface::highest;
-use super::raised::RaisedCells;
+use super::raised::{Falling, RaisedCells};
 use super::ray_cast::TIE;
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique};
 use crate::view::{Grid, Surface, Tile};
@@ -42,8 +42,8 @@ impl Technique for Projected {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
         self.shadow.draw(to_sun);
         let throw = self.shadow.throw(to_sun);
-        let (bits, places, points) = self.shadow.drawn();
-        self.raised.draw(to_sun, throw, places, points, bits);
+        let (bits, tops, clumps) = self.shadow.drawn();
+        self.raised.draw(to_sun, &Falling { tops, throw }, clumps, bits);
         Ok(DrawnMask::Bits(bits))
     }
 
