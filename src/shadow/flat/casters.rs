@@ -26,6 +26,8 @@ pub(super) struct Casters {
     sections: Vec<Section>,
     /// Clumps that can reach what is drawn under the last sun.
     reaching: Vec<u32>,
+    /// Those that can as well, but stand far from it; they are looked at where the others leave any light.
+    far: Vec<u32>,
     /// Per group and direction (`FaceSide`) what a face turned to the sun adds; nothing where its clump does not reach.
     signs: Vec<AtomicI8>,
     throw: DVec2,
@@ -105,26 +107,51 @@ impl Casters {
         let (edges, edge_first) = by_clump(&edges, &clump_of, clumps.list().len());
         // nothing is added on a side without a face
         let signs = (0..2 * (normals.len() + 1)).map(|_| AtomicI8::new(0)).collect();
-        let (reaching, throw) = (Vec::new(), DVec2::ZERO);
-        Casters { points, normals, clumps, edges, edge_first, sections, reaching, signs, throw }
+        let (reaching, far, throw) = (Vec::new(), Vec::new(), DVec2::ZERO);
+        Casters { points, normals, clumps, edges, edge_first, sections, reaching, far, signs, throw }
     }
 
     /// Lets fall along a sun what reaches some of the raster; `throw` is how many columns and rows the sun moves away in a
-    /// metre of height.
+    /// metre of height. What stands far away falls later, where it is asked for.
     pub(super) fn project(&mut self, to_sun: DVec3, throw: DVec2, judged: Bounds) {
+        self.turn(&self.reaching, None);
         self.throw = throw;
-        let Casters { normals, clumps, reaching, signs, .. } = self;
-        let set = |clump: &u32, to_sun: Option<DVec3>| {
-            for group in clumps.list()[*clump as usize].groups.clone() {
+        let Casters { clumps, reaching, far, .. } = self;
+        let judged = Judged::new(judged, throw);
+        clumps.reach(&judged, reaching);
+        far.clear();
+        let distance = |clump: &u32| judged.distance(&clumps.list()[*clump as usize].bounds);
+        let farthest = reaching.iter().map(distance).fold(0.0, f64::max);
+        let is_near = |clump: &u32| distance(clump) <= farthest * NEAR;
+        if reaching.iter().filter(|clump| is_near(clump)).count() < reaching.len() / 2 {
+            far.extend(reaching.iter().copied().filter(|clump| !is_near(clump)));
+            reaching.retain(is_near);
+        }
+        self.turn(&self.reaching, Some(to_sun));
+    }
+
+    /// Whether anything that stands far away has not fallen yet.
+    pub(super) fn has_far(&self) -> bool {
+        !self.far.is_empty()
+    }
+
+    /// Lets that fall, too.
+    pub(super) fn project_far(&mut self, to_sun: DVec3) {
+        self.turn(&self.far, Some(to_sun));
+        self.reaching.append(&mut self.far);
+        self.reaching.sort_unstable();
+    }
+
+    /// Sets what the faces of some clumps add under a sun, or that they add nothing.
+    fn turn(&self, clumps: &[u32], to_sun: Option<DVec3>) {
+        clumps.par_iter().with_min_len(AT_ONCE).for_each(|&clump| {
+            for group in self.clumps.list()[clump as usize].groups.clone() {
                 let group = group as usize;
-                let sign = to_sun.map_or(0, |to_sun| if normals[group].dot(to_sun) >= 0.0 { 1 } else { -1 });
-                signs[2 * group].store(sign, Ordering::Relaxed);
-                signs[2 * group + 1].store(-sign, Ordering::Relaxed);
+                let sign = to_sun.map_or(0, |to_sun| if self.normals[group].dot(to_sun) >= 0.0 { 1 } else { -1 });
+                self.signs[2 * group].store(sign, Ordering::Relaxed);
+                self.signs[2 * group + 1].store(-sign, Ordering::Relaxed);
             }
-        };
-        reaching.par_iter().with_min_len(AT_ONCE).for_each(|clump| set(clump, None));
-        clumps.reach(&Judged::new(judged, throw), reaching);
-        reaching.par_iter().with_min_len(AT_ONCE).for_each(|clump| set(clump, Some(to_sun)));
+        });
     }
 
     /// The points, columns, rows and heights, the mesh's vertices first; and the faces in clumps.
@@ -206,6 +233,10 @@ impl Casters {
         }
     }
 }
+
+/// What is near of what reaches a raster: a part of the way to the farthest. Under a low sun in a city it leaves no light,
+/// and there may be ten times as much beyond it.
+const NEAR: f64 = 1.0 / 8.0;
 
 /// Clumps that one task turns to the sun, at the least.
 const AT_ONCE: usize = 1 << 8;

@@ -17,7 +17,7 @@ const CLUMPS: usize = 64;
 pub(in crate::shadow) struct Clump {
     pub(in crate::shadow) faces: Range<u32>,
     pub(super) groups: Range<u32>,
-    bounds: Bounds,
+    pub(super) bounds: Bounds,
 }
 
 /// A box in columns, rows and heights.
@@ -143,6 +143,13 @@ impl Judged {
         let at = Bounds { low: at.low - DVec3::new(1.0, 1.0, 0.0), high: at.high + DVec3::new(1.0, 1.0, 0.0) };
         let across = throw.perp().try_normalize().unwrap_or(DVec2::X);
         Judged { at, throw, across, reach: along(across, &at) }
+    }
+
+    /// How far before what is judged the middle of a box stands, towards the sun; not above 0 beside it.
+    pub(super) fn distance(&self, bounds: &Bounds) -> f64 {
+        let to_sun = self.throw.normalize_or_zero();
+        let [_, nearest] = along(to_sun, &self.at);
+        to_sun.dot(bounds.middle()) - nearest
     }
 
     /// False where nothing in a box can shade what is judged.

@@ -51,7 +51,12 @@ impl FlatShadow {
     /// growing rows.
     pub(super) fn draw(&mut self, to_sun: DVec3) -> &mut Bits {
         self.casters.project(to_sun, self.throw(to_sun), self.scan.bounds());
-        self.scan.draw(&self.casters)
+        self.scan.draw(&self.casters);
+        if self.casters.has_far() && self.scan.is_lit() {
+            self.casters.project_far(to_sun);
+            self.scan.draw_further(&self.casters);
+        }
+        self.scan.bits()
     }
 
     /// As it was drawn last; and where the mesh's vertices stand, column, row and height, and its faces in clumps.

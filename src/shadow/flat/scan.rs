@@ -20,6 +20,8 @@ pub(super) struct Scan {
     before: Vec<Vec<(Range<u32>, i32, FaceSide)>>,
     /// Per task which edges of the silhouette cross. Kept, so that no sun allocates anything.
     crossings: Vec<Crossings>,
+    /// Per band whether all of it is in shadow. More casters change nothing there: a face never takes away from the sum.
+    dark: Vec<bool>,
 }
 
 /// Where edges cross.
@@ -113,19 +115,31 @@ impl Scan {
                 CrossedRows::Within(band, crossing) => sections[band].push((crossing, section.side)),
             });
         }
-        Scan { bits: Bits::new(width, height), part, sections, before, crossings: Vec::new() }
+        let dark = vec![false; sections.len()];
+        Scan { bits: Bits::new(width, height), part, sections, before, crossings: Vec::new(), dark }
     }
 
-    /// Which cells the silhouette's faces cover.
-    pub(super) fn draw(&mut self, casters: &Casters) -> &mut Bits {
+    /// Finds which cells the silhouette's faces cover.
+    pub(super) fn draw(&mut self, casters: &Casters) {
+        self.dark.fill(false);
+        self.draw_further(casters);
+    }
+
+    /// Whether anything is not in shadow.
+    pub(super) fn is_lit(&self) -> bool {
+        self.dark.contains(&false)
+    }
+
+    /// The same, of more casters under the same sun.
+    pub(super) fn draw_further(&mut self, casters: &Casters) {
         self.cross(casters);
         let before = self.before(casters);
-        let Scan { bits, part, sections, crossings, .. } = self;
+        let Scan { bits, part, sections, crossings, dark, .. } = self;
         let rows = 1 << part.rows_log;
         let in_row = bits.in_row();
         let width = bits.width as usize;
-        let bands = bits.words.par_chunks_mut(rows * in_row).zip(before.par_chunks(rows)).zip(sections);
-        bands.enumerate().for_each(|(band, ((words, before), sections))| {
+        let bands = bits.words.par_chunks_mut(rows * in_row).zip(before.par_chunks(rows)).zip(sections).zip(dark);
+        bands.enumerate().filter(|(_, (_, dark))| !**dark).for_each(|(band, (((words, before), sections), dark))| {
             SUMS.with_borrow_mut(|sums| {
                 sums.fit(width, words.len() / in_row);
                 for (crossing, side) in &*sections {
@@ -134,10 +148,9 @@ impl Scan {
                 for crossings in crossings.iter().filter_map(|crossings| crossings.bands.get(band)) {
                     crossings.iter().for_each(|crossing| sums.mark(crossing, 1));
                 }
-                sums.run(words, before);
+                *dark = sums.run(words, before);
             });
         });
-        bits
     }
 
     /// As they were drawn last.
@@ -155,7 +168,7 @@ impl Scan {
 
     /// Sorts the silhouette by bands.
     fn cross(&mut self, casters: &Casters) {
-        let Scan { part, sections, crossings, bits, .. } = self;
+        let Scan { part, sections, crossings, bits, dark, .. } = self;
         let (bands, rows) = (sections.len(), bits.height as usize);
         crossings.resize_with(4 * rayon::current_num_threads(), Crossings::default);
         let runs = casters.runs(crossings.len());
@@ -165,7 +178,8 @@ impl Scan {
                 casters.silhouette(run, |edge| {
                     edge.cross(part, |place| match place {
                         CrossedRows::Before(rows, change) => crossings.change_before(rows, change),
-                        CrossedRows::Within(band, crossing) => crossings.bands[band].push(crossing),
+                        CrossedRows::Within(band, crossing) if !dark[band] => crossings.bands[band].push(crossing),
+                        CrossedRows::Within(..) => {}
                     });
                 });
             }
@@ -330,11 +344,13 @@ impl BandSums {
         }
     }
 
-    /// Sums along the rows, which begin with what is before them, and clears what was marked.
-    fn run(&mut self, words: &mut [u64], before: &[i32]) {
+    /// Sums along the rows, which begin with what is before them, clears what was marked, and tells whether all is covered.
+    fn run(&mut self, words: &mut [u64], before: &[i32]) -> bool {
+        let mut is_dark = true;
         let rows = words.chunks_exact_mut(self.in_row).zip(self.marked.chunks_exact_mut(self.in_row));
         for (((words, marked), changes), before) in rows.zip(self.changes.chunks_exact_mut(self.width)).zip(before) {
             let mut sum = *before;
+            let last = self.in_row - 1;
             for (at, (word, marked)) in words.iter_mut().zip(marked).enumerate() {
                 let mut bits = if sum == 0 { 0 } else { u64::MAX };
                 while *marked != 0 {
@@ -344,11 +360,11 @@ impl BandSums {
                     sum += std::mem::take(&mut changes[at * 64 + bit]);
                     bits ^= if was == (sum == 0) { 0 } else { u64::MAX << bit };
                 }
-                *word = bits;
-            }
-            if let (Some(last), over @ 1..) = (words.last_mut(), self.width % 64) {
-                *last &= (1 << over) - 1;
+                let all = if at == last { u64::MAX >> (63 - (self.width - 1) % 64) } else { u64::MAX };
+                *word = bits & all;
+                is_dark &= *word == all;
             }
         }
+        is_dark
     }
 }
