@@ -123,7 +123,8 @@ impl Casters {
         let distance = |clump: &u32| judged.distance(&clumps.list()[*clump as usize].bounds);
         let farthest = reaching.iter().map(distance).fold(0.0, f64::max);
         let is_near = |clump: &u32| distance(clump) <= farthest * NEAR;
-        if reaching.iter().filter(|clump| is_near(clump)).count() < reaching.len() / 2 {
+        let is_worth_it = reaching.iter().filter(|clump| is_near(clump)).count() < reaching.len() / 2;
+        if is_worth_it && clumps.culling {
             far.extend(reaching.iter().copied().filter(|clump| !is_near(clump)));
             reaching.retain(is_near);
         }
@@ -157,6 +158,12 @@ impl Casters {
     /// The points, columns, rows and heights, the mesh's vertices first; and the faces in clumps.
     pub(super) fn standing(&self) -> (&[DVec3], &Clumps) {
         (&self.points, &self.clumps)
+    }
+
+    /// Lets everything fall at every instant.
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn stop_culling(&mut self) {
+        self.clumps.culling = false;
     }
 
     /// How many clumps there are, whether they reach or not.

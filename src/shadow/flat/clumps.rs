@@ -48,6 +48,8 @@ pub(in crate::shadow) struct Clumps {
     list: Vec<Clump>,
     /// Around each run of [`CLUMPS`].
     blocks: Vec<Bounds>,
+    /// Without it all clumps count as reaching what is judged.
+    pub(super) culling: bool,
 }
 
 impl Clumps {
@@ -72,7 +74,7 @@ impl Clumps {
         list.par_sort_by_cached_key(|clump| place_code(clump.bounds.middle(), &all));
         let blocks = list.chunks(CLUMPS);
         let blocks = blocks.map(|clumps| clumps.iter().map(|clump| clump.bounds).fold(Bounds::NONE, Bounds::joined));
-        Clumps { blocks: blocks.collect(), list }
+        Clumps { blocks: blocks.collect(), list, culling: true }
     }
 
     pub(in crate::shadow) fn list(&self) -> &[Clump] {
@@ -82,6 +84,10 @@ impl Clumps {
     /// The clumps that may reach what is judged, in order.
     pub(in crate::shadow) fn reach(&self, judged: &Judged, found: &mut Vec<u32>) {
         found.clear();
+        if !self.culling {
+            found.extend(0..self.list.len() as u32);
+            return;
+        }
         for (block, (bounds, clumps)) in self.blocks.iter().zip(self.list.chunks(CLUMPS)).enumerate() {
             if judged.is_reached_by(bounds) {
                 let numbers = (block * CLUMPS) as u32..;

@@ -65,6 +65,18 @@ impl FlatShadow {
         (self.scan.bits(), points, clumps)
     }
 
+    /// Lets everything fall at every instant.
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn stop_culling(&mut self) {
+        self.casters.stop_culling();
+    }
+
+    /// Under the last sun: how many clumps reached, of how many, and how many rows their silhouette crossed.
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn work(&self) -> [u64; 3] {
+        [self.casters.reaching().len() as u64, self.casters.clumps() as u64, self.scan.rows_crossed()]
+    }
+
     /// How many columns and rows away from the sun a shadow falls, a metre of height.
     pub(super) fn throw(&self, to_sun: DVec3) -> DVec2 {
         throw(&self.raster_from_local, to_sun)

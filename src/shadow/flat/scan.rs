@@ -158,6 +158,13 @@ impl Scan {
         &mut self.bits
     }
 
+    /// How many rows the edges of the last silhouette crossed within the raster.
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn rows_crossed(&self) -> u64 {
+        let crossings = self.crossings.iter().flat_map(|crossings| crossings.bands.iter().flatten());
+        crossings.map(|crossing| u64::from(crossing.count)).sum()
+    }
+
     /// A box around the centres that are drawn.
     pub(super) fn bounds(&self) -> Bounds {
         let RasterPart { first: [left, top], width, end, .. } = self.part;

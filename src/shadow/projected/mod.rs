@@ -36,6 +36,34 @@ impl Projected {
         let raised = RaisedCells::new(scene, tile, &raster_from_local);
         Projected { shadow, raised, scene: scene.clone(), raster_from_local, tile }
     }
+
+    /// Lets everything fall at every instant: the twin by which culling is proven.
+    #[cfg(feature = "test-hooks")]
+    pub fn without_culling(mut self) -> Projected {
+        self.shadow.stop_culling();
+        self
+    }
+
+    /// What the last instant took.
+    #[cfg(feature = "test-hooks")]
+    pub fn work(&self) -> ProjectedWork {
+        let [reaching, clumps, rows] = self.shadow.work();
+        ProjectedWork { clumps, reaching, rows, points: self.raised.held() }
+    }
+}
+
+/// What an instant took.
+#[cfg(feature = "test-hooks")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ProjectedWork {
+    /// In how many clumps the casters are.
+    pub clumps: u64,
+    /// Those of them that fell on the ground that is drawn.
+    pub reaching: u64,
+    /// Rows that their silhouette crossed, each as often as it was.
+    pub rows: u64,
+    /// Points above the ground that were held against a face, each as often as it was.
+    pub points: u64,
 }
 
 impl Technique for Projected {

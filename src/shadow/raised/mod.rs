@@ -24,7 +24,7 @@ use falling_face::FallingFace;
 use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 
 /// The cells of a plan, or of a tile of it, that see something above the ground.
 pub(super) struct RaisedCells {
@@ -42,6 +42,8 @@ pub(super) struct RaisedCells {
     faces: Mesh,
     /// Per point whether it is in shadow.
     shaded: Vec<AtomicU8>,
+    /// How many points were held against a face under the last sun, each as often as it was.
+    held: AtomicU64,
 }
 
 /// As many bands as keep all processors busy to the end, and their buckets in the cache.
@@ -76,6 +78,7 @@ impl RaisedCells {
             bounds: Bounds::NONE,
             faces,
             shaded: Vec::new(),
+            held: AtomicU64::new(0),
         }
     }
 
@@ -123,6 +126,7 @@ impl RaisedCells {
         if self.points.is_empty() {
             return;
         }
+        self.held.store(0, Ordering::Relaxed);
         let buckets = Buckets::new(&self.bounds, falling.throw, to_sun, self.points.len());
         let points = self.points_in_bands(&buckets, to_sun, falling);
         let faces = self.faces_in_bands(&buckets, falling, clumps);
@@ -132,6 +136,12 @@ impl RaisedCells {
             self.shade(sorted, &buckets, faces.iter().flat_map(|bands| &bands[band]), falling);
         });
         self.mark(bits);
+    }
+
+    /// How many points were held against a face under the last sun, each as often as it was.
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn held(&self) -> u64 {
+        self.held.load(Ordering::Relaxed)
     }
 
     /// Per run of points, and per band, those that may see the sun. The others are in shadow, and ask no further: their
@@ -183,10 +193,10 @@ impl RaisedCells {
     ) {
         let shade = |at: u32| self.shaded[at as usize].store(1, Ordering::Relaxed);
         // dropping costs as much as holding against some faces
-        let (mut held, mut enough) = (0, 4 * sorted.size());
+        let (mut all, mut held, mut enough) = (0, 0, 4 * sorted.size());
         for &face in faces {
             if sorted.is_empty() {
-                return;
+                break;
             }
             let vertices = self.faces.faces[face as usize];
             if let Some(face) = FallingFace::new(vertices, falling.corners(vertices)) {
@@ -194,10 +204,11 @@ impl RaisedCells {
             }
             if held >= enough {
                 sorted.drop_shaded(shade);
-                (held, enough) = (0, 4 * sorted.size());
+                (all, held, enough) = (all + held, 0, 4 * sorted.size());
             }
         }
         sorted.drop_shaded(shade);
+        self.held.fetch_add((all + held) as u64, Ordering::Relaxed);
     }
 
     /// Sets the bits of the cells that are in shadow, and takes away those of the others.
