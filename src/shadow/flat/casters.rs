@@ -79,20 +79,26 @@ impl Casters {
         let mut points: Vec<DVec3> = points.collect();
         let (group_of, normals) = groups(mesh);
         let clumps = Clumps::of(mesh, &points, &group_of);
+        let clump_of = clumps_of_groups(&clumps, normals.len());
         let no_side = FaceSide::new(normals.len() as u32, false);
         let runs = (0..mesh.edges.len().div_ceil(RUN)).into_par_iter().map(|run| {
             let run = run * RUN..((run + 1) * RUN).min(mesh.edges.len());
-            EdgesAbove::cut(mesh, &points, run, |face| group_of[face as usize], no_side)
+            EdgesAbove::cut(mesh, &points, run, |face| group_of[face as usize], no_side, &clump_of)
         });
         let runs: Vec<EdgesAbove> = runs.collect();
-        let clump_of = clumps_of_groups(&clumps, normals.len());
+        let edge_first = first_of_clumps(&runs, clumps.list().len());
+        let mut next = edge_first.clone();
         let whole = points.len() as u32;
-        let mut edges = Vec::with_capacity(runs.iter().map(|run| run.edges.len()).sum());
+        let mut edges = vec![Edge { ends: [0; 2], sides: [no_side; 2] }; runs.iter().map(|run| run.edges.len()).sum()];
         let mut meets = Vec::new();
         for run in runs {
             let before = points.len() as u32 - whole;
             let of_all = |point: u32| if point < whole { point } else { point + before };
-            edges.extend(run.edges.iter().map(|edge| Edge { ends: edge.ends.map(of_all), ..*edge }));
+            for (edge, clump) in &run.edges {
+                let slot = &mut next[*clump as usize];
+                edges[*slot as usize] = Edge { ends: edge.ends.map(of_all), ..*edge };
+                *slot += 1;
+            }
             meets.extend(run.meets.iter().map(|&(face, up, cut)| (face, up, of_all(cut))));
             points.extend(run.cuts);
         }
@@ -104,7 +110,6 @@ impl Casters {
             Section { ends: [down, up], side: FaceSide::new(group, false), clump: clump_of[group as usize] }
         });
         let sections = sections.collect();
-        let (edges, edge_first) = by_clump(&edges, &clump_of, clumps.list().len());
         // nothing is added on a side without a face
         let signs = (0..2 * (normals.len() + 1)).map(|_| AtomicI8::new(0)).collect();
         let (reaching, far, throw) = (Vec::new(), Vec::new(), DVec2::ZERO);
@@ -248,38 +253,25 @@ const NEAR: f64 = 1.0 / 8.0;
 /// Clumps that one task turns to the sun, at the least.
 const AT_ONCE: usize = 1 << 8;
 
-/// Which clump each group is in; one longer, for what is no group.
+/// Which clump each group is in; what is no group is in the one after the last.
 fn clumps_of_groups(clumps: &Clumps, groups: usize) -> Vec<u32> {
-    let mut clump_of = vec![u32::MAX; groups + 1];
+    let mut clump_of = vec![clumps.list().len() as u32; groups + 1];
     for (number, clump) in (0..).zip(clumps.list()) {
         clump_of[clump.groups.start as usize..clump.groups.end as usize].fill(number);
     }
     clump_of
 }
 
-/// Edges in the order of their clumps, then those between two; and where each of these begin.
-fn by_clump(edges: &[Edge], clump_of: &[u32], clumps: usize) -> (Vec<Edge>, Vec<u32>) {
-    let clump = |edge: &Edge| {
-        let [one, other] = edge.sides.map(|side| clump_of[side.group()]);
-        // a side without a face is in no clump
-        let is_within = one == other || other == u32::MAX;
-        if is_within { one as usize } else { clumps }
-    };
+/// Where the edges of each clump begin, and those between two, in the order of clumps; one longer.
+fn first_of_clumps(runs: &[EdgesAbove], clumps: usize) -> Vec<u32> {
     let mut first = vec![0; clumps + 2];
-    for edge in edges {
-        first[clump(edge) + 1] += 1;
+    for (_, clump) in runs.iter().flat_map(|run| &run.edges) {
+        first[*clump as usize + 1] += 1;
     }
     for at in 1..first.len() {
         first[at] += first[at - 1];
     }
-    let mut sorted = edges.to_vec();
-    let mut next = first.clone();
-    for edge in edges {
-        let slot = &mut next[clump(edge)];
-        sorted[*slot as usize] = *edge;
-        *slot += 1;
-    }
-    (sorted, first)
+    first
 }
 
 /// Edges of the mesh that one task cuts.
@@ -288,7 +280,8 @@ const RUN: usize = 1 << 13;
 /// What of a run of edges is above the plane.
 #[derive(Default)]
 struct EdgesAbove {
-    edges: Vec<Edge>,
+    /// With the clump of each; those between two have the number after the last.
+    edges: Vec<(Edge, u32)>,
     /// Where they meet the plane; these follow the mesh's vertices.
     cuts: Vec<DVec3>,
     /// Faces that go through the plane, whether up there, and at which point.
@@ -302,8 +295,14 @@ impl EdgesAbove {
         run: Range<usize>,
         group_of: impl Fn(u32) -> u32,
         no_side: FaceSide,
+        clump_of: &[u32],
     ) -> EdgesAbove {
         let mut above = EdgesAbove { edges: Vec::with_capacity(run.len()), ..EdgesAbove::default() };
+        let clump = |sides: [FaceSide; 2]| {
+            let [one, other] = sides.map(|side| clump_of[side.group()]);
+            // a side without a face is in no clump of its own
+            if one == other || sides[1] == no_side { one } else { clump_of[no_side.group()] }
+        };
         for at in run {
             let mut ends = mesh.edges[at];
             let [first, last] = ends.map(|end| points[end as usize].z > 0.0);
@@ -327,7 +326,7 @@ impl EdgesAbove {
             }
             above.edges.extend(faces.chunks(2).map(|pair| {
                 let sides = [side(pair[0]), pair.get(1).map_or(no_side, |face| side(*face))];
-                Edge { ends, sides }
+                (Edge { ends, sides }, clump(sides))
             }));
         }
         above
