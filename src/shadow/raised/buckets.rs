@@ -3,11 +3,13 @@
 //! What the sun sees is as wide as the points lie across their shadows, and as high as they lie along them, foreshortened as
 //! the sun sees the ground: a linear map of the places where they fall. It only sorts; what is compared are the places.
 
-use super::BANDS;
 use super::falling_face::FallingFace;
 use crate::shadow::flat::Bounds;
 use glam::{DMat2, DVec2, DVec3, Vec3Swizzles};
 use std::ops::RangeInclusive;
+
+/// As many bands as keep all processors busy to the end, and their buckets in the cache.
+pub(super) const BANDS: usize = 128;
 
 /// Square buckets over all that is judged, and bands of their rows.
 pub(super) struct Buckets {

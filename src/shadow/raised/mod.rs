@@ -19,7 +19,7 @@ use super::plan_surface::highest;
 use super::{JUDGED_ABOVE_M, Scene, seen_normal};
 use crate::mesh::Mesh;
 use crate::view::{Bits, Surface, Tile};
-use buckets::{Buckets, SortedPoints};
+use buckets::{BANDS, Buckets, SortedPoints};
 use falling_face::FallingFace;
 use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3Swizzles};
 use rayon::prelude::*;
@@ -45,9 +45,6 @@ pub(super) struct RaisedCells {
     /// How many points were held against a face under the last sun, each as often as it was.
     held: AtomicU64,
 }
-
-/// As many bands as keep all processors busy to the end, and their buckets in the cache.
-const BANDS: usize = 128;
 
 /// The casters' vertices as columns, rows and heights, and how they fall: so many columns and rows a metre of height.
 pub(super) struct Falling<'a> {
