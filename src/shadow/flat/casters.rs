@@ -1,6 +1,6 @@
 //! What stands above a plane: points, edges, and for every sun which way the faces look.
 
-use super::clumps::{Bounds, Clumps, Judged};
+use super::clumps::{Clumps, Judged, RasterBounds};
 use crate::mesh::{Incidence, Mesh, lowest};
 use glam::{DAffine3, DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
@@ -118,7 +118,7 @@ impl Casters {
 
     /// Lets fall along a sun what reaches some of the raster; `throw` is how many columns and rows the sun moves away in a
     /// metre of height. What stands far away falls later, where it is asked for.
-    pub(super) fn project(&mut self, to_sun: DVec3, throw: DVec2, judged: Bounds) {
+    pub(super) fn project(&mut self, to_sun: DVec3, throw: DVec2, judged: RasterBounds) {
         self.turn(&self.reaching, None);
         self.throw = throw;
         let Casters { clumps, reaching, far, .. } = self;

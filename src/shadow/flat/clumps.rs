@@ -17,25 +17,25 @@ const CLUMPS: usize = 64;
 pub(in crate::shadow) struct Clump {
     pub(in crate::shadow) faces: Range<u32>,
     pub(super) groups: Range<u32>,
-    pub(super) bounds: Bounds,
+    pub(super) bounds: RasterBounds,
 }
 
 /// A box in columns, rows and heights.
 #[derive(Clone, Copy)]
-pub(in crate::shadow) struct Bounds {
+pub(in crate::shadow) struct RasterBounds {
     pub(in crate::shadow) low: DVec3,
     pub(in crate::shadow) high: DVec3,
 }
 
-impl Bounds {
-    pub(in crate::shadow) const NONE: Bounds = Bounds { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+impl RasterBounds {
+    pub(in crate::shadow) const NONE: RasterBounds = RasterBounds { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
 
-    pub(in crate::shadow) fn with(self, point: DVec3) -> Bounds {
-        Bounds { low: self.low.min(point), high: self.high.max(point) }
+    pub(in crate::shadow) fn with(self, point: DVec3) -> RasterBounds {
+        RasterBounds { low: self.low.min(point), high: self.high.max(point) }
     }
 
-    pub(in crate::shadow) fn joined(self, other: Bounds) -> Bounds {
-        Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
+    pub(in crate::shadow) fn joined(self, other: RasterBounds) -> RasterBounds {
+        RasterBounds { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
     fn middle(&self) -> DVec2 {
@@ -47,7 +47,7 @@ impl Bounds {
 pub(in crate::shadow) struct Clumps {
     list: Vec<Clump>,
     /// Around each run of [`CLUMPS`].
-    blocks: Vec<Bounds>,
+    blocks: Vec<RasterBounds>,
     /// Without it all clumps count as reaching what is judged.
     pub(super) culling: bool,
 }
@@ -66,14 +66,15 @@ impl Clumps {
                 for &group in &group_of[faces.start as usize..faces.end as usize] {
                     groups = groups.max(group + 1);
                 }
-                Clump { faces, groups: first..groups, bounds: Bounds::NONE }
+                Clump { faces, groups: first..groups, bounds: RasterBounds::NONE }
             })
             .collect();
         bound(&mut list, mesh, points, group_of);
-        let all = list.iter().map(|clump| clump.bounds).fold(Bounds::NONE, Bounds::joined);
+        let all = list.iter().map(|clump| clump.bounds).fold(RasterBounds::NONE, RasterBounds::joined);
         list.par_sort_by_cached_key(|clump| place_code(clump.bounds.middle(), &all));
         let blocks = list.chunks(CLUMPS);
-        let blocks = blocks.map(|clumps| clumps.iter().map(|clump| clump.bounds).fold(Bounds::NONE, Bounds::joined));
+        let blocks =
+            blocks.map(|clumps| clumps.iter().map(|clump| clump.bounds).fold(RasterBounds::NONE, RasterBounds::joined));
         Clumps { blocks: blocks.collect(), list, culling: true }
     }
 
@@ -101,10 +102,10 @@ impl Clumps {
 /// Puts boxes around clumps: around their own faces, and around those of their groups that lie in later clumps.
 fn bound(list: &mut [Clump], mesh: &Mesh, points: &[DVec3], group_of: &[u32]) {
     let of_clump = |clump: &Clump| {
-        let (mut own, mut others) = (Bounds::NONE, Vec::new());
+        let (mut own, mut others) = (RasterBounds::NONE, Vec::new());
         for face in clump.faces.clone() {
             let of_face = mesh.faces[face as usize].map(|vertex| points[vertex as usize]);
-            let of_face = of_face.into_iter().fold(Bounds::NONE, Bounds::with);
+            let of_face = of_face.into_iter().fold(RasterBounds::NONE, RasterBounds::with);
             own = own.joined(of_face);
             let group = group_of[face as usize];
             if group < clump.groups.start {
@@ -113,7 +114,8 @@ fn bound(list: &mut [Clump], mesh: &Mesh, points: &[DVec3], group_of: &[u32]) {
         }
         (own, others)
     };
-    let found: Vec<(Bounds, Vec<(u32, Bounds)>)> = list.par_iter().with_min_len(CLUMPS).map(of_clump).collect();
+    let found: Vec<(RasterBounds, Vec<(u32, RasterBounds)>)> =
+        list.par_iter().with_min_len(CLUMPS).map(of_clump).collect();
     for (clump, (own, _)) in list.iter_mut().zip(&found) {
         clump.bounds = *own;
     }
@@ -124,7 +126,7 @@ fn bound(list: &mut [Clump], mesh: &Mesh, points: &[DVec3], group_of: &[u32]) {
 }
 
 /// A number that is near for near places: the bits of column and row by turns (G. Morton, 1966).
-fn place_code(place: DVec2, all: &Bounds) -> u32 {
+fn place_code(place: DVec2, all: &RasterBounds) -> u32 {
     let spread = |at: f64| {
         let bits = (at * 65535.0) as u32;
         (0..16).fold(0, |code, bit| code | (bits >> bit & 1) << (2 * bit))
@@ -135,7 +137,7 @@ fn place_code(place: DVec2, all: &Bounds) -> u32 {
 
 /// What is judged, and how shadows fall on it.
 pub(in crate::shadow) struct Judged {
-    at: Bounds,
+    at: RasterBounds,
     throw: DVec2,
     /// A unit vector across the shadows, and from where to where what is judged reaches along it.
     across: DVec2,
@@ -144,22 +146,22 @@ pub(in crate::shadow) struct Judged {
 
 impl Judged {
     /// What is judged within a box, on which shadows fall so many columns and rows a metre of height.
-    pub(in crate::shadow) fn new(at: Bounds, throw: DVec2) -> Judged {
+    pub(in crate::shadow) fn new(at: RasterBounds, throw: DVec2) -> Judged {
         // rounding is far below a cell
-        let at = Bounds { low: at.low - DVec3::new(1.0, 1.0, 0.0), high: at.high + DVec3::new(1.0, 1.0, 0.0) };
+        let at = RasterBounds { low: at.low - DVec3::new(1.0, 1.0, 0.0), high: at.high + DVec3::new(1.0, 1.0, 0.0) };
         let across = throw.perp().try_normalize().unwrap_or(DVec2::X);
         Judged { at, throw, across, reach: along(across, &at) }
     }
 
     /// How far before what is judged the middle of a box stands, towards the sun; not above 0 beside it.
-    pub(super) fn distance(&self, bounds: &Bounds) -> f64 {
+    pub(super) fn distance(&self, bounds: &RasterBounds) -> f64 {
         let to_sun = self.throw.normalize_or_zero();
         let [_, nearest] = along(to_sun, &self.at);
         to_sun.dot(bounds.middle()) - nearest
     }
 
     /// False where nothing in a box can shade what is judged.
-    fn is_reached_by(&self, bounds: &Bounds) -> bool {
+    fn is_reached_by(&self, bounds: &RasterBounds) -> bool {
         let Judged { at, throw, across, reach } = self;
         // so much higher it stands than what it shades
         let (least, most) = ((bounds.low.z - at.high.z).max(0.0), bounds.high.z - at.low.z);
@@ -178,7 +180,7 @@ impl Judged {
 }
 
 /// From where to where a box reaches along a vector.
-fn along(vector: DVec2, bounds: &Bounds) -> [f64; 2] {
+fn along(vector: DVec2, bounds: &RasterBounds) -> [f64; 2] {
     let middle = vector.dot(bounds.middle());
     let half = vector.abs().dot(bounds.high.xy() - bounds.low.xy()) / 2.0;
     [middle - half, middle + half]

@@ -15,7 +15,7 @@ mod clumps;
 mod scan;
 
 pub(super) use casters::where_cut;
-pub(super) use clumps::{Bounds, Clumps, Judged};
+pub(super) use clumps::{Clumps, Judged, RasterBounds};
 
 use crate::mesh::Mesh;
 use crate::view::Bits;

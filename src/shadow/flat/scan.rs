@@ -1,7 +1,7 @@
 //! Silhouettes → rows of bits: each edge marks where it crosses the rows, and sums run along them.
 
 use super::casters::{Casters, FaceSide, FallingEdge};
-use super::clumps::Bounds;
+use super::clumps::RasterBounds;
 use crate::view::Bits;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -166,11 +166,11 @@ impl Scan {
     }
 
     /// A box around the centres that are drawn.
-    pub(super) fn bounds(&self) -> Bounds {
+    pub(super) fn bounds(&self) -> RasterBounds {
         let RasterPart { first: [left, top], width, end, .. } = self.part;
         let last = [f64::from(left) + f64::from(width) - 1.0, f64::from(end) - 1.0];
         let [low, high] = [[left, top].map(f64::from), last].map(|[column, row]| DVec3::new(column, row, 0.0));
-        Bounds { low, high }
+        RasterBounds { low, high }
     }
 
     /// Sorts the silhouette by bands.

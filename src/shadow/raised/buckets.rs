@@ -4,7 +4,7 @@
 //! the sun sees the ground: a linear map of the places where they fall. It only sorts; what is compared are the places.
 
 use super::falling_face::FallingFace;
-use crate::shadow::flat::Bounds;
+use crate::shadow::flat::RasterBounds;
 use glam::{DMat2, DVec2, DVec3, Vec3Swizzles};
 use std::ops::RangeInclusive;
 
@@ -29,7 +29,7 @@ pub(super) struct Buckets {
 
 impl Buckets {
     /// About as many as points.
-    pub(super) fn new(bounds: &Bounds, throw: DVec2, to_sun: DVec3, points: usize) -> Buckets {
+    pub(super) fn new(bounds: &RasterBounds, throw: DVec2, to_sun: DVec3, points: usize) -> Buckets {
         let along = throw.try_normalize().unwrap_or(DVec2::Y);
         let foreshortened = (to_sun.z / to_sun.length()).clamp(1e-9, 1.0);
         let seen_from_fallen = DMat2::from_cols(along.perp(), along * foreshortened).transpose();

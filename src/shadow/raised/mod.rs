@@ -14,7 +14,7 @@
 mod buckets;
 mod falling_face;
 
-use super::flat::{Bounds, Clumps, Judged};
+use super::flat::{Clumps, Judged, RasterBounds};
 use super::plan_surface::highest;
 use super::{JUDGED_ABOVE_M, Scene, seen_normal};
 use crate::mesh::Mesh;
@@ -38,7 +38,7 @@ pub(super) struct RaisedCells {
     /// Where each row's points begin; one longer than the tile has rows.
     row_first: Vec<usize>,
     /// A box around the points.
-    bounds: Bounds,
+    bounds: RasterBounds,
     faces: Mesh,
     /// Per point whether it is in shadow.
     shaded: Vec<AtomicU8>,
@@ -72,7 +72,7 @@ impl RaisedCells {
             normal_of: Vec::new(),
             normals: Vec::new(),
             row_first: vec![0],
-            bounds: Bounds::NONE,
+            bounds: RasterBounds::NONE,
             faces,
             shaded: Vec::new(),
             held: AtomicU64::new(0),
