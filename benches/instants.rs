@@ -5,6 +5,7 @@
 
 mod timing;
 
+use glam::DVec3;
 use gnomon::gpu::Gpu;
 use gnomon::profile::accumulate::Sum;
 use gnomon::shadow::projected::{Projected, ProjectedOnGpu};
@@ -14,7 +15,7 @@ use gnomon::shadow::{Scene, Silhouettes, Technique};
 use gnomon::silhouette::brute_force::BruteForce;
 use gnomon::silhouette::{ProcessorFinder, SilhouetteFinder};
 use gnomon::site::{Overrides, Site};
-use gnomon::view::View;
+use gnomon::view::{Grid, View};
 use gnomon::volume::{Volume, layers_bound};
 use std::path::Path;
 use std::sync::Arc;
@@ -41,6 +42,39 @@ fn main() {
     for site in ["tower", "industry", "headquarters"] {
         ground_row(site, gpu.as_ref());
     }
+    println!(
+        "\nA plan of 20 m in the middle, times of its highest surfaces under a sun at 30°; in brackets without culling.\n"
+    );
+    println!("| low suns | 5° | 0.5° | 0.007° |");
+    println!("|---|---|---|---|");
+    for site in ["tower", "industry", "headquarters"] {
+        low_row(site);
+    }
+}
+
+/// What an instant costs under low suns, beside one under a high sun.
+fn low_row(name: &str) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
+    let site = Site::load(&folder, &Overrides::default()).expect("a sample site");
+    let casters = site.mesh.of_components(&site.casts);
+    let scene = Scene { casters, receivers: site.mesh.of_components(&site.receives), ground: site.ground.level };
+    let [west, south, east, north] = site.grid.region();
+    let (west, north) = ((west + east) / 2.0 - 10.0, (south + north) / 2.0 + 10.0);
+    let grid = Grid { west, north, cell: 0.02, width: 1000, height: 1000 };
+    let mut ways = [Projected::new(&scene, grid), Projected::new(&scene, grid).without_culling()];
+    let mut times: [[Vec<f64>; 2]; 4] = Default::default();
+    for _ in 0..5 {
+        for (altitude, times) in [30.0_f64, 5.0, 0.5, 0.007].into_iter().zip(&mut times) {
+            let (height, along) = altitude.to_radians().sin_cos();
+            let (east, north) = 237.2_f64.to_radians().sin_cos();
+            for (way, times) in ways.iter_mut().zip(times) {
+                timed(times, || drop(way.draw(DVec3::new(east * along, north * along, height)).expect("a mask")));
+            }
+        }
+    }
+    let [high, low @ ..] = times.map(|ways| ways.map(median));
+    let cells = low.map(|[culled, plain]| format!("{:.1} ({:.1})", culled / high[0], plain / high[0]));
+    println!("| {name} | {} |", cells.join(" | "));
 }
 
 /// The ways to the ground's shadow, which take turns at each sun.

@@ -2,6 +2,7 @@
 
 mod disc;
 mod hybrid;
+mod low_suns;
 mod plain_scan;
 mod projected;
 mod shadow_map;

@@ -7,14 +7,20 @@ use glam::{DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
+/// What one task looks at, at the least: models may have hundreds of thousands of parts with a dozen corners each.
+const AT_ONCE: usize = 1 << 12;
+/// The same, in parts.
+const PARTS_AT_ONCE: usize = 1 << 6;
+
 impl Part {
     /// Returns an error if a corner is no point, or a triangle has one that is not there.
     fn check(&self) -> Result<(), MeshError> {
-        if !self.positions.par_iter().all(|corner| corner.is_finite()) {
+        if !self.positions.par_iter().with_min_len(AT_ONCE).all(|corner| corner.is_finite()) {
             return Err(MeshError::NoPoint(self.name.clone()));
         }
         let corners = self.positions.len();
-        let missing = self.triangles.par_iter().flatten_iter().find_any(|corner| **corner as usize >= corners);
+        let triangles = self.triangles.par_iter().with_min_len(AT_ONCE);
+        let missing = triangles.flatten_iter().find_any(|corner| **corner as usize >= corners);
         missing.map_or(Ok(()), |&corner| Err(MeshError::NoCorner { name: self.name.clone(), corner, corners }))
     }
 }
@@ -44,19 +50,21 @@ impl Mesh {
         if triangles.max(corners / 3) > Self::MOST_FACES {
             return Err(MeshError::TooLarge(triangles));
         }
-        parts.iter().try_for_each(Part::check)?;
+        let checked = parts.par_iter().with_min_len(PARTS_AT_ONCE).map(Part::check);
+        checked.find_first(Result::is_err).unwrap_or(Ok(()))?;
         let together = CornerGroups::of(&parts);
         let home = together.home().unwrap_or_default();
         let origin = given.unwrap_or(((home.0 + home.1) / 2.0).round());
         let reach = |part: &Part| {
             let reach = |&corner: &DVec3| (corner - origin).abs().max_element();
-            let reach = part.positions.par_iter().map(reach).reduce(|| 0.0, f64::max);
+            let reach = part.positions.par_iter().with_min_len(AT_ONCE).map(reach).reduce(|| 0.0, f64::max);
             if origin.is_finite() { reach } else { f64::INFINITY }
         };
-        let reaches = parts.iter().enumerate().map(|(index, part)| (reach(part), (index, &part.name)));
-        if let Some((reach, (part, name))) = reaches.max_by(|one, other| one.0.total_cmp(&other.0))
+        let reaches: Vec<f64> = parts.par_iter().with_min_len(PARTS_AT_ONCE).map(reach).collect();
+        if let Some((part, &reach)) = reaches.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1))
             && reach > Self::FARTHEST_M
         {
+            let name = &parts[part].name;
             let (name, km) = (name.clone(), reach / 1000.0);
             return Err(match given {
                 Some(_) => MeshError::FarFromOrigin { name, km },

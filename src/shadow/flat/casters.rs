@@ -1,9 +1,11 @@
 //! What stands above a plane: points and edges, and for every sun the facing of the faces.
 
+use super::clumps::{Clumps, Judged, RasterBounds};
 use crate::mesh::{Incidence, Mesh, lowest};
 use glam::{DAffine3, DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::atomic::{AtomicI8, Ordering};
 
 /// Two faces lie in one plane where the sine of the angle between them is at most this. A sun that sees one of them from
 /// the other side than its neighbour sees it from its edge: it covers nothing that could be told from its edge.
@@ -15,16 +17,24 @@ pub(super) struct Casters {
     points: Vec<DVec3>,
     /// Per group of faces that lie in one plane its normal, around the mesh's origin.
     normals: Vec<DVec3>,
+    clumps: Clumps,
+    /// Clump after clump, and last those between two.
     edges: Vec<Edge>,
-    /// Where faces go through the plane, from where they go down to where they go up.
-    sections: Vec<([u32; 2], FaceSide)>,
-    /// Where the points fall: column and row.
-    places: Vec<DVec2>,
-    /// Per group and direction (`FaceSide`) what a face turned to the sun adds.
-    signs: Vec<i8>,
+    /// Where the edges of each clump begin, and those between two; one longer.
+    edge_first: Vec<u32>,
+    /// Where faces go through the plane, from where they go down to where they go up, and which clump they are in.
+    sections: Vec<Section>,
+    /// Clumps that can reach what is drawn under the last sun.
+    reaching: Vec<u32>,
+    /// Those that can as well, but stand far from it; they are looked at where the others leave any light.
+    far: Vec<u32>,
+    /// Per group and direction (`FaceSide`) what a face turned to the sun adds; nothing where its clump does not reach.
+    signs: Vec<AtomicI8>,
+    throw: DVec2,
 }
 
 /// An edge with two of its faces; one with more stands as often as is needed.
+#[derive(Clone, Copy)]
 struct Edge {
     ends: [u32; 2],
     sides: [FaceSide; 2],
@@ -37,6 +47,10 @@ pub(super) struct FaceSide(u32);
 impl FaceSide {
     fn new(group: u32, against: bool) -> FaceSide {
         FaceSide(group << 1 | u32::from(against))
+    }
+
+    fn group(self) -> usize {
+        (self.0 >> 1) as usize
     }
 
     fn is_other_side_of(self, other: FaceSide) -> bool {
@@ -52,24 +66,39 @@ pub(super) struct FallingEdge {
     pub(super) change: i32,
 }
 
+/// Where a face goes through the plane.
+pub(super) struct Section {
+    ends: [u32; 2],
+    pub(super) side: FaceSide,
+    pub(super) clump: u32,
+}
+
 impl Casters {
     pub(super) fn cut(mesh: &Mesh, raster_from_local: &DAffine3) -> Casters {
         let points = mesh.vertices.par_iter().map(|vertex| raster_from_local.transform_point3(vertex.as_dvec3()));
         let mut points: Vec<DVec3> = points.collect();
         let (group_of, normals) = groups(mesh);
+        let clumps = Clumps::of(mesh, &points, &group_of);
+        let clump_of = clumps_of_groups(&clumps, normals.len());
         let no_side = FaceSide::new(normals.len() as u32, false);
         let runs = (0..mesh.edges.len().div_ceil(RUN)).into_par_iter().map(|run| {
             let run = run * RUN..((run + 1) * RUN).min(mesh.edges.len());
-            EdgesAbove::cut(mesh, &points, run, |face| group_of[face as usize], no_side)
+            EdgesAbove::cut(mesh, &points, run, |face| group_of[face as usize], no_side, &clump_of)
         });
         let runs: Vec<EdgesAbove> = runs.collect();
+        let edge_first = first_of_clumps(&runs, clumps.list().len());
+        let mut next = edge_first.clone();
         let whole = points.len() as u32;
-        let mut edges = Vec::with_capacity(runs.iter().map(|run| run.edges.len()).sum());
+        let mut edges = vec![Edge { ends: [0; 2], sides: [no_side; 2] }; runs.iter().map(|run| run.edges.len()).sum()];
         let mut meets = Vec::new();
         for run in runs {
             let before = points.len() as u32 - whole;
             let of_all = |point: u32| if point < whole { point } else { point + before };
-            edges.extend(run.edges.iter().map(|edge| Edge { ends: edge.ends.map(of_all), ..*edge }));
+            for (edge, clump) in &run.edges {
+                let slot = &mut next[*clump as usize];
+                edges[*slot as usize] = Edge { ends: edge.ends.map(of_all), ..*edge };
+                *slot += 1;
+            }
             meets.extend(run.meets.iter().map(|&(face, up, cut)| (face, up, of_all(cut))));
             points.extend(run.cuts);
         }
@@ -77,54 +106,124 @@ impl Casters {
         meets.par_sort_unstable();
         let sections = meets.chunks_exact(2).map(|meet| {
             let [(face, _, down), (_, _, up)] = [meet[0], meet[1]];
-            ([down, up], FaceSide::new(group_of[face as usize], false))
+            let group = group_of[face as usize];
+            Section { ends: [down, up], side: FaceSide::new(group, false), clump: clump_of[group as usize] }
         });
         let sections = sections.collect();
-        let places = vec![DVec2::ZERO; points.len()];
         // nothing is added on a side without a face
-        let signs = vec![0; 2 * (normals.len() + 1)];
-        Casters { points, normals, edges, sections, places, signs }
+        let signs = (0..2 * (normals.len() + 1)).map(|_| AtomicI8::new(0)).collect();
+        let (reaching, far, throw) = (Vec::new(), Vec::new(), DVec2::ZERO);
+        Casters { points, normals, clumps, edges, edge_first, sections, reaching, far, signs, throw }
     }
 
-    /// Lets all fall along a sun; `throw` is how many columns and rows the sun moves away in a metre of height.
-    pub(super) fn project(&mut self, to_sun: DVec3, throw: DVec2) {
-        const AT_ONCE: usize = 1 << 13;
-        let Casters { points, normals, places, signs, .. } = self;
-        let fall = |(place, point): (&mut DVec2, &DVec3)| *place = point.xy() - throw * point.z;
-        let turn = |(signs, normal): (&mut [i8], &DVec3)| {
-            let sign = if normal.dot(to_sun) >= 0.0 { 1 } else { -1 };
-            signs.copy_from_slice(&[sign, -sign]);
-        };
-        rayon::join(
-            || places.par_iter_mut().zip(&*points).with_min_len(AT_ONCE).for_each(fall),
-            || signs.par_chunks_exact_mut(2).zip(&*normals).with_min_len(AT_ONCE).for_each(turn),
-        );
+    /// Lets fall along a sun what reaches some of the raster; `throw` is how many columns and rows the sun moves away in a
+    /// metre of height. What stands far away falls later, where it is asked for.
+    pub(super) fn project(&mut self, to_sun: DVec3, throw: DVec2, judged: RasterBounds) {
+        self.turn(&self.reaching, None);
+        self.throw = throw;
+        let Casters { clumps, reaching, far, .. } = self;
+        let judged = Judged::new(judged, throw);
+        clumps.reach(&judged, reaching);
+        far.clear();
+        let distance = |clump: &u32| judged.distance(&clumps.list()[*clump as usize].bounds);
+        let farthest = reaching.iter().map(distance).fold(0.0, f64::max);
+        let is_near = |clump: &u32| distance(clump) <= farthest * NEAR;
+        let is_worth_it = reaching.iter().filter(|clump| is_near(clump)).count() < reaching.len() / 2;
+        if is_worth_it && clumps.culling {
+            far.extend(reaching.iter().copied().filter(|clump| !is_near(clump)));
+            reaching.retain(is_near);
+        }
+        self.turn(&self.reaching, Some(to_sun));
     }
 
-    /// Where the points fell, and the points, the mesh's vertices first.
-    pub(super) fn fallen(&self) -> (&[DVec2], &[DVec3]) {
-        (&self.places, &self.points)
+    /// Whether anything that stands far away has not fallen yet.
+    pub(super) fn has_far(&self) -> bool {
+        !self.far.is_empty()
     }
 
-    /// How many edges there are, silhouette or not.
-    pub(super) fn edges(&self) -> usize {
-        self.edges.len()
+    /// Lets that fall, too.
+    pub(super) fn project_far(&mut self, to_sun: DVec3) {
+        self.turn(&self.far, Some(to_sun));
+        self.reaching.append(&mut self.far);
+        self.reaching.sort_unstable();
     }
 
-    /// Where faces go through the plane, whatever the sun: each as an edge with what its side's sign is to be multiplied by.
-    pub(super) fn sections(&self) -> impl Iterator<Item = (FallingEdge, FaceSide)> {
-        self.sections.iter().map(|&(ends, side)| {
-            let [from, to] = ends.map(|end| self.points[end as usize].xy());
-            (FallingEdge { from, to, change: 1 }, side)
+    /// Sets what the faces of some clumps add under a sun, or that they add nothing.
+    fn turn(&self, clumps: &[u32], to_sun: Option<DVec3>) {
+        clumps.par_iter().with_min_len(AT_ONCE).for_each(|&clump| {
+            for group in self.clumps.list()[clump as usize].groups.clone() {
+                let group = group as usize;
+                let sign = to_sun.map_or(0, |to_sun| if self.normals[group].dot(to_sun) >= 0.0 { 1 } else { -1 });
+                self.signs[2 * group].store(sign, Ordering::Relaxed);
+                self.signs[2 * group + 1].store(-sign, Ordering::Relaxed);
+            }
+        });
+    }
+
+    /// The points, columns, rows and heights, the mesh's vertices first; and the faces in clumps.
+    pub(super) fn standing(&self) -> (&[DVec3], &Clumps) {
+        (&self.points, &self.clumps)
+    }
+
+    /// Lets everything fall at every instant.
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn stop_culling(&mut self) {
+        self.clumps.culling = false;
+    }
+
+    /// How many clumps there are, whether they reach or not.
+    pub(super) fn clumps(&self) -> usize {
+        self.clumps.list().len()
+    }
+
+    /// The clumps that reach under the sun of the last projection.
+    pub(super) fn reaching(&self) -> &[u32] {
+        &self.reaching
+    }
+
+    /// The edges of what reaches, silhouette or not, in runs of about equal length; for each run some of the edges.
+    pub(super) fn runs(&self, runs: usize) -> Vec<Vec<Range<usize>>> {
+        let between = self.clumps() as u32;
+        let of_clump = |clump: u32| [clump, clump + 1].map(|at| self.edge_first[at as usize] as usize);
+        let mut ranges: Vec<Range<usize>> = Vec::new();
+        for [first, end] in self.reaching.iter().copied().chain([between]).map(of_clump) {
+            match ranges.last_mut() {
+                Some(last) if last.end == first => last.end = end,
+                _ => ranges.push(first..end),
+            }
+        }
+        let each = ranges.iter().map(ExactSizeIterator::len).sum::<usize>().div_ceil(runs).max(1);
+        let mut split = vec![Vec::new(); runs];
+        let (mut run, mut room) = (0, each);
+        for mut range in ranges {
+            while !range.is_empty() {
+                let end = range.end.min(range.start + room);
+                room -= end - range.start;
+                split[run].push(range.start..end);
+                range.start = end;
+                if room == 0 {
+                    (run, room) = (run + 1, each);
+                }
+            }
+        }
+        split
+    }
+
+    /// Where faces go through the plane, whatever the sun: each as an edge whose change is to be multiplied by its side's
+    /// sign.
+    pub(super) fn sections(&self) -> impl Iterator<Item = (FallingEdge, &Section)> {
+        self.sections.iter().map(|section| {
+            let [from, to] = section.ends.map(|end| self.points[end as usize].xy());
+            (FallingEdge { from, to, change: 1 }, section)
         })
     }
 
     /// What a face on a side adds under the sun of the last projection.
     pub(super) fn sign(&self, side: FaceSide) -> i32 {
-        i32::from(self.signs[side.0 as usize])
+        i32::from(self.signs[side.0 as usize].load(Ordering::Relaxed))
     }
 
-    /// Tells the silhouette in a run of the edges.
+    /// Tells the silhouette in some of the edges.
     pub(super) fn silhouette(&self, run: Range<usize>, mut tell: impl FnMut(FallingEdge)) {
         const AT_ONCE: usize = 128;
         let change = |edge: &Edge| -> i32 { edge.sides.map(|side| self.sign(side)).iter().sum() };
@@ -137,11 +236,42 @@ impl Casters {
             }
             for at in &found[..count] {
                 let edge = &edges[usize::from(*at)];
-                let [from, to] = edge.ends.map(|end| self.places[end as usize]);
+                let [from, to] = edge.ends.map(|end| {
+                    let point = self.points[end as usize];
+                    point.xy() - self.throw * point.z
+                });
                 tell(FallingEdge { from, to, change: change(edge) });
             }
         }
     }
+}
+
+/// What is near of what reaches a raster: a part of the way to the farthest. Under a low sun in a city it leaves no light,
+/// and there may be ten times as much beyond it.
+const NEAR: f64 = 1.0 / 8.0;
+
+/// Clumps that one task turns to the sun, at the least.
+const AT_ONCE: usize = 1 << 8;
+
+/// Which clump each group is in; what is no group is in the one after the last.
+fn clumps_of_groups(clumps: &Clumps, groups: usize) -> Vec<u32> {
+    let mut clump_of = vec![clumps.list().len() as u32; groups + 1];
+    for (number, clump) in (0..).zip(clumps.list()) {
+        clump_of[clump.groups.start as usize..clump.groups.end as usize].fill(number);
+    }
+    clump_of
+}
+
+/// Where the edges of each clump begin, and those between two, in the order of clumps; one longer.
+fn first_of_clumps(runs: &[EdgesAbove], clumps: usize) -> Vec<u32> {
+    let mut first = vec![0; clumps + 2];
+    for (_, clump) in runs.iter().flat_map(|run| &run.edges) {
+        first[*clump as usize + 1] += 1;
+    }
+    for at in 1..first.len() {
+        first[at] += first[at - 1];
+    }
+    first
 }
 
 /// Edges of the mesh that one task cuts.
@@ -150,7 +280,8 @@ const RUN: usize = 1 << 13;
 /// What of a run of edges is above the plane.
 #[derive(Default)]
 struct EdgesAbove {
-    edges: Vec<Edge>,
+    /// With the clump of each; those between two have the number after the last.
+    edges: Vec<(Edge, u32)>,
     /// Where they meet the plane; these follow the mesh's vertices.
     cuts: Vec<DVec3>,
     /// Faces that go through the plane, whether up there, and at which point.
@@ -164,8 +295,14 @@ impl EdgesAbove {
         run: Range<usize>,
         group_of: impl Fn(u32) -> u32,
         no_side: FaceSide,
+        clump_of: &[u32],
     ) -> EdgesAbove {
         let mut above = EdgesAbove { edges: Vec::with_capacity(run.len()), ..EdgesAbove::default() };
+        let clump = |sides: [FaceSide; 2]| {
+            let [one, other] = sides.map(|side| clump_of[side.group()]);
+            // a side without a face is in no clump of its own
+            if one == other || sides[1] == no_side { one } else { clump_of[no_side.group()] }
+        };
         for at in run {
             let mut ends = mesh.edges[at];
             let [first, last] = ends.map(|end| points[end as usize].z > 0.0);
@@ -189,7 +326,7 @@ impl EdgesAbove {
             }
             above.edges.extend(faces.chunks(2).map(|pair| {
                 let sides = [side(pair[0]), pair.get(1).map_or(no_side, |face| side(*face))];
-                Edge { ends, sides }
+                (Edge { ends, sides }, clump(sides))
             }));
         }
         above

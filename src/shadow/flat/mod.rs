@@ -7,12 +7,15 @@
 //! ([`crate::volume`]) in the plane, so casters need not be clean. The idea of running sums between edges is as old as
 //! scan conversion (W. Jack Bouknight, *A procedure for generation of three-dimensional half-toned computer graphics
 //! presentations*, 1970); nothing here is rounded but where a point falls, in double precision, and where an edge crosses
-//! a row, to steps of 2⁻³⁰ columns ([`scan`]).
+//! a row, to steps of 2⁻³⁰ columns ([`scan`]). What cannot reach the raster under a sun is left out ([`clumps`]), so that
+//! an instant costs what stands before the sun there, and not what else there is.
 
 mod casters;
+mod clumps;
 mod scan;
 
 pub(super) use casters::where_cut;
+pub(super) use clumps::{Clumps, Judged, RasterBounds};
 
 use crate::mesh::Mesh;
 use crate::view::Bits;
@@ -47,14 +50,31 @@ impl FlatShadow {
     /// A cell whose centre an edge meets takes what lies beyond the edge, in the direction of growing columns, then of
     /// growing rows.
     pub(super) fn draw(&mut self, to_sun: DVec3) -> &mut Bits {
-        self.casters.project(to_sun, self.throw(to_sun));
-        self.scan.draw(&self.casters)
+        self.casters.project(to_sun, self.throw(to_sun), self.scan.bounds());
+        self.scan.draw(&self.casters);
+        if self.casters.has_far() && self.scan.is_lit() {
+            self.casters.project_far(to_sun);
+            self.scan.draw_further(&self.casters);
+        }
+        self.scan.bits()
     }
 
-    /// As it was drawn last, and where the mesh's vertices fell: column and row, from where: column, row and height.
-    pub(super) fn drawn(&mut self) -> (&mut Bits, &[DVec2], &[DVec3]) {
-        let (places, points) = self.casters.fallen();
-        (self.scan.bits(), places, points)
+    /// As it was drawn last; and where the mesh's vertices stand, column, row and height, and its faces in clumps.
+    pub(super) fn drawn(&mut self) -> (&mut Bits, &[DVec3], &Clumps) {
+        let (points, clumps) = self.casters.standing();
+        (self.scan.bits(), points, clumps)
+    }
+
+    /// Lets everything fall at every instant.
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn stop_culling(&mut self) {
+        self.casters.stop_culling();
+    }
+
+    /// Under the last sun: how many clumps reached, of how many, and how many rows their silhouette crossed.
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn work(&self) -> [u64; 3] {
+        [self.casters.reaching().len() as u64, self.casters.clumps() as u64, self.scan.rows_crossed()]
     }
 
     /// How many columns and rows away from the sun a shadow falls, a metre of height.

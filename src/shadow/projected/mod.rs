@@ -13,7 +13,7 @@ pub use on_gpu::ProjectedOnGpu;
 
 use super::flat::FlatShadow;
 use super::plan_surface::highest;
-use super::raised::RaisedCells;
+use super::raised::{Falling, RaisedCells};
 use super::ray_cast::TIE;
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique};
 use crate::view::{Grid, Surface, Tile};
@@ -37,14 +37,42 @@ impl Projected {
         let raised = RaisedCells::new(scene, tile, &raster_from_local);
         Projected { shadow, raised, scene: scene.clone(), raster_from_local, tile }
     }
+
+    /// Lets everything fall at every instant: the twin by which culling is proven.
+    #[cfg(feature = "test-hooks")]
+    pub fn without_culling(mut self) -> Projected {
+        self.shadow.stop_culling();
+        self
+    }
+
+    /// What the last instant took.
+    #[cfg(feature = "test-hooks")]
+    pub fn work(&self) -> ProjectedWork {
+        let [reaching, clumps, rows] = self.shadow.work();
+        ProjectedWork { clumps, reaching, rows, points: self.raised.held() }
+    }
+}
+
+/// What an instant took.
+#[cfg(feature = "test-hooks")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ProjectedWork {
+    /// In how many clumps the casters are.
+    pub clumps: u64,
+    /// Those of them that fell on the ground that is drawn.
+    pub reaching: u64,
+    /// Rows that their silhouette crossed, each as often as it was.
+    pub rows: u64,
+    /// Points above the ground that were held against a face, each as often as it was.
+    pub points: u64,
 }
 
 impl Technique for Projected {
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
         self.shadow.draw(to_sun);
         let throw = self.shadow.throw(to_sun);
-        let (bits, places, points) = self.shadow.drawn();
-        self.raised.draw(to_sun, throw, places, points, bits);
+        let (bits, tops, clumps) = self.shadow.drawn();
+        self.raised.draw(to_sun, &Falling { tops, throw }, clumps, bits);
         Ok(DrawnMask::Bits(bits))
     }
 

@@ -44,7 +44,11 @@ pub struct PatchJudgements {
 /// otherwise rays cost less. Measured in `docs/benchmarks/receivers.md`.
 pub const MOST_FACES_A_TEXEL: usize = 2;
 
-/// With [`Choice::Auto`] patches with fewer texels are not worth a draw call.
+/// With [`Choice::Auto`] patches of fewer texels are left to rays at once: to search for what stands before them costs more.
+/// Measured there, too.
+const FEWEST_FILLED: usize = 32;
+
+/// With [`Choice::Auto`] patches of fewer texels are not worth a draw call of the adapter.
 pub const FEWEST_DRAWN: usize = 256;
 
 /// Whether the adapter draws a patch, unless too much stands before it.
@@ -78,6 +82,7 @@ impl OccluderQuery<'_> {
             _ if patch.alone.is_some() => return false,
             Choice::Rays => return false,
             Choice::Texture => usize::MAX,
+            Choice::Auto if patch.texels.len() < FEWEST_FILLED => return false,
             Choice::Auto => patch.texels.len() * MOST_FACES_A_TEXEL,
         };
         self.occluders.before(onto, (patch.width, patch.height), self.culling, most, waiting, found)

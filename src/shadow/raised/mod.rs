@@ -1,0 +1,234 @@
+//! Shadows on all that a plan sees above the ground, exactly: the cells are sorted into buckets as the sun sees them, and
+//! every caster's face is held against those in the buckets below it.
+//!
+//! T. Aila and S. Laine, *Alias-Free Shadow Maps*, and G. Johnson and others, *The Irregular Z-Buffer* (both 2004): a shadow
+//! map whose samples are the very points that ask. Seen along the sun, on the raster that the ground's shadow is drawn on, a
+//! point is a column, a row and a height, and a face is a triangle over which height is linear; the face shades the point
+//! where it covers it and is higher there. All is in double precision, and neighbouring faces ask with the same numbers at
+//! the edge that they share, so no point falls between them.
+//!
+//! The buckets are squares of what the sun sees ([`buckets`]), not of the raster: a low sun throws points at different
+//! heights far apart on the raster, and sees them close together. Faces are left out by clumps where they cannot reach
+//! the points, and points that are in shadow are dropped, so that what stands behind the first shade costs little.
+
+mod buckets;
+mod falling_face;
+
+use super::flat::{Clumps, Judged, RasterBounds};
+use super::plan_surface::highest;
+use super::{JUDGED_ABOVE_M, Scene, seen_normal};
+use crate::mesh::Mesh;
+use crate::view::{Bits, Surface, Tile};
+use buckets::{BANDS, Buckets, SortedPoints};
+use falling_face::FallingFace;
+use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3Swizzles};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
+
+/// The cells of a plan, or of a tile of it, that see something above the ground.
+pub(super) struct RaisedCells {
+    /// The judged points: column, row, height.
+    points: Vec<DVec3>,
+    /// Per point its column in the tile, and which of the normals is its face's.
+    columns: Vec<u32>,
+    normal_of: Vec<u32>,
+    /// The seen side's normal of each face that is seen.
+    normals: Vec<DVec3>,
+    /// Where each row's points begin; one longer than the tile has rows.
+    row_first: Vec<usize>,
+    /// A box around the points.
+    bounds: RasterBounds,
+    faces: Mesh,
+    /// Per point whether it is in shadow.
+    shaded: Vec<AtomicU8>,
+    /// How many points were held against a face under the last sun, each as often as it was.
+    held: AtomicU64,
+}
+
+/// The casters' vertices as columns, rows and heights, and how they fall: so many columns and rows a metre of height.
+pub(super) struct Falling<'a> {
+    pub(super) tops: &'a [DVec3],
+    pub(super) throw: DVec2,
+}
+
+impl Falling<'_> {
+    /// Where a point falls, with its height.
+    fn of(&self, point: DVec3) -> DVec3 {
+        (point.xy() - self.throw * point.z).extend(point.z)
+    }
+
+    fn corners(&self, vertices: [u32; 3]) -> [DVec3; 3] {
+        vertices.map(|vertex| self.of(self.tops[vertex as usize]))
+    }
+}
+
+impl RaisedCells {
+    /// No cell.
+    pub(super) fn none(faces: Mesh) -> RaisedCells {
+        RaisedCells {
+            points: Vec::new(),
+            columns: Vec::new(),
+            normal_of: Vec::new(),
+            normals: Vec::new(),
+            row_first: vec![0],
+            bounds: RasterBounds::NONE,
+            faces,
+            shaded: Vec::new(),
+            held: AtomicU64::new(0),
+        }
+    }
+
+    /// Looks down on the receivers; `raster_from_local` as the ground's shadow has it.
+    pub(super) fn new(scene: &Scene, tile: Tile, raster_from_local: &DAffine3) -> RaisedCells {
+        let Scene { casters, receivers, ground } = scene;
+        let mut number = vec![u32::MAX; receivers.faces.len()];
+        let mut raised = RaisedCells::none(casters.clone());
+        if receivers.faces.is_empty() {
+            return raised;
+        }
+        let (face, height) = highest(receivers, *ground, tile, |height| height);
+        let [first_column, first_row] = tile.first;
+        let width = tile.size[0] as usize;
+        for row in 0..tile.size[1] {
+            for column in 0..tile.size[0] {
+                let cell = row as usize * width + column as usize;
+                if face[cell] == Surface::GROUND {
+                    continue;
+                }
+                let number = &mut number[face[cell] as usize];
+                if *number == u32::MAX {
+                    *number = raised.normals.len() as u32;
+                    raised.normals.push(seen_normal(receivers.planes()[face[cell] as usize], DVec4::Z));
+                }
+                let normal = raised.normals[*number as usize];
+                // the raster's whole numbers are the very places that are judged
+                let plane = raster_from_local.transform_point3(DVec3::Z * (height[cell] - receivers.origin.z));
+                let at = DVec3::new(f64::from(first_column + column), f64::from(first_row + row), plane.z);
+                let point = at + raster_from_local.transform_vector3(normal * JUDGED_ABOVE_M);
+                raised.points.push(point);
+                raised.bounds = raised.bounds.with(point);
+                raised.columns.push(column);
+                raised.normal_of.push(*number);
+            }
+            raised.row_first.push(raised.points.len());
+        }
+        raised.shaded.resize_with(raised.points.len(), AtomicU8::default);
+        raised
+    }
+
+    /// Sets the bits of the raised cells, in the shadow of the casters, whose vertices are falling and whose faces are in
+    /// clumps.
+    pub(super) fn draw(&self, to_sun: DVec3, falling: &Falling<'_>, clumps: &Clumps, bits: &mut Bits) {
+        if self.points.is_empty() {
+            return;
+        }
+        self.held.store(0, Ordering::Relaxed);
+        let buckets = Buckets::new(&self.bounds, falling.throw, to_sun, self.points.len());
+        let points = self.points_in_bands(&buckets, to_sun, falling);
+        let faces = self.faces_in_bands(&buckets, falling, clumps);
+        (0..BANDS).into_par_iter().for_each(|band| {
+            let points = points.iter().map(|bands| &bands[band][..]);
+            let sorted = SortedPoints::new(&buckets, band, points);
+            self.shade(sorted, &buckets, faces.iter().flat_map(|bands| &bands[band]), falling);
+        });
+        self.mark(bits);
+    }
+
+    /// How many points were held against a face under the last sun, each as often as it was.
+    #[cfg(feature = "test-hooks")]
+    pub(super) fn held(&self) -> u64 {
+        self.held.load(Ordering::Relaxed)
+    }
+
+    /// Per run of points, and per band, those that may see the sun. The others are in shadow, and ask no further: their
+    /// seen side looks away.
+    fn points_in_bands(&self, buckets: &Buckets, to_sun: DVec3, falling: &Falling<'_>) -> Vec<Vec<Vec<(DVec3, u32)>>> {
+        let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
+        let of_run = |run: Range<usize>| {
+            let mut bands = vec![Vec::new(); BANDS];
+            for at in run {
+                let is_away = away[self.normal_of[at] as usize];
+                self.shaded[at].store(u8::from(is_away), Ordering::Relaxed);
+                if !is_away {
+                    let fallen = falling.of(self.points[at]);
+                    bands[buckets.band(buckets.seen(fallen).y)].push((fallen, at as u32));
+                }
+            }
+            bands
+        };
+        split(self.points.len(), runs()).into_par_iter().map(of_run).collect()
+    }
+
+    /// Per run of the clumps that reach the points, and per band, the faces that may shade some.
+    fn faces_in_bands(&self, buckets: &Buckets, falling: &Falling<'_>, clumps: &Clumps) -> Vec<Vec<Vec<u32>>> {
+        let mut reaching = Vec::new();
+        clumps.reach(&Judged::new(self.bounds, falling.throw), &mut reaching);
+        let of_run = |run: &[u32]| {
+            let mut bands = vec![Vec::new(); BANDS];
+            for face in run.iter().flat_map(|&clump| clumps.list()[clump as usize].faces.clone()) {
+                let corners = falling.corners(self.faces.faces[face as usize]);
+                if corners.iter().all(|corner| corner.z <= self.bounds.low.z) {
+                    continue;
+                }
+                if let Some(reach) = buckets.bands(corners) {
+                    bands[reach].iter_mut().for_each(|band| band.push(face));
+                }
+            }
+            bands
+        };
+        reaching.par_chunks(reaching.len().div_ceil(runs()).max(1)).map(of_run).collect()
+    }
+
+    /// Holds a band's points against the faces there.
+    fn shade<'a>(
+        &self,
+        mut sorted: SortedPoints,
+        buckets: &Buckets,
+        faces: impl Iterator<Item = &'a u32>,
+        falling: &Falling<'_>,
+    ) {
+        let shade = |at: u32| self.shaded[at as usize].store(1, Ordering::Relaxed);
+        // dropping costs as much as holding against some faces
+        let (mut all, mut held, mut enough) = (0, 0, 4 * sorted.size());
+        for &face in faces {
+            if sorted.is_empty() {
+                break;
+            }
+            let vertices = self.faces.faces[face as usize];
+            if let Some(face) = FallingFace::new(vertices, falling.corners(vertices)) {
+                held += sorted.hold_against(buckets, &face);
+            }
+            if held >= enough {
+                sorted.drop_shaded(shade);
+                (all, held, enough) = (all + held, 0, 4 * sorted.size());
+            }
+        }
+        sorted.drop_shaded(shade);
+        self.held.fetch_add((all + held) as u64, Ordering::Relaxed);
+    }
+
+    /// Sets the bits of the cells that are in shadow, and takes away those of the others.
+    fn mark(&self, bits: &mut Bits) {
+        let in_row = bits.in_row();
+        bits.words.par_chunks_mut(in_row).enumerate().for_each(|(row, words)| {
+            for at in self.row_first[row]..self.row_first[row + 1] {
+                let column = self.columns[at] as usize;
+                let bit = 1 << (column % 64);
+                let word = &mut words[column / 64];
+                *word = if self.shaded[at].load(Ordering::Relaxed) != 0 { *word | bit } else { *word & !bit };
+            }
+        });
+    }
+}
+
+/// Into how many runs work is split.
+fn runs() -> usize {
+    4 * rayon::current_num_threads()
+}
+
+/// Runs of about equal length.
+fn split(count: usize, runs: usize) -> Vec<Range<usize>> {
+    let run = count.div_ceil(runs).max(1);
+    (0..count.div_ceil(run)).map(|at| at * run..((at + 1) * run).min(count)).collect()
+}
