@@ -17,6 +17,7 @@ use crate::mesh::report as mesh_report;
 use crate::profile::{Provenance, Statistics};
 use crate::site::{Ground, LoadedMesh, LoadedSun, Site, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
+use crate::sun::SunTrack;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -138,6 +139,11 @@ pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
         true => say(&check::json(&mesh, &components, frame, &notes, &models, &references, &Options)?),
         false => say(&check::table(&mesh, &components, frame, &notes, &models, &references, &Options)),
     }
+}
+
+/// How hours were found between a study's instants, in a line.
+pub(super) fn between(drawn: &Provenance, track: &SunTrack) -> String {
+    report::between_instants(drawn, track).map_or_else(String::new, |said| format!("{said}\n"))
 }
 
 /// What drew, and on which ground: two lines, the last without its end.

@@ -147,6 +147,24 @@ impl Sum {
         }
     }
 
+    /// Adds a gap's seconds to cells that are in shadow all along. What others are is part of it, and follows by
+    /// [`Sum::add_in_gap`]; one word has room for all of it.
+    pub fn add_gap(&mut self, shaded: &Bits, secs: u32) -> Result<(), ShadowError> {
+        if secs > MOST_SECS - self.secs {
+            self.pour()?;
+        }
+        self.add(&DrawnMask::Bits(shaded), secs)
+    }
+
+    /// Adds a part of the last gap's seconds to cells that were not in shadow all along.
+    pub fn add_in_gap(&mut self, cells: &Bits, secs: u32) -> Result<(), ShadowError> {
+        match &mut self.running {
+            RunningSum::Memory(sum) => add_to_cells(sum, cells, 255 * secs),
+            RunningSum::Texture(_) => self.add_to_running(&DrawnMask::Bits(cells), secs)?,
+        }
+        Ok(())
+    }
+
     fn add_to_running(&mut self, mask: &DrawnMask<'_>, secs: u32) -> Result<(), ShadowError> {
         match (&mut self.running, mask) {
             (RunningSum::Texture(sum), DrawnMask::Texture(_, texture)) => sum.add(texture, secs),
@@ -224,6 +242,12 @@ fn add(sum: &mut [u32], share: &[u8], weight_secs: u32) {
     sum.par_iter_mut().zip(share).with_min_len(1 << 14).for_each(|(sum, &share)| {
         *sum += u32::from(255 - share) * weight_secs;
     });
+}
+
+/// Adds to single cells, which are few.
+fn add_to_cells(sum: &mut [u32], cells: &Bits, more: u32) {
+    let rows = sum.par_chunks_mut(cells.width.max(1) as usize).zip(cells.words.par_chunks(cells.in_row().max(1)));
+    rows.with_min_len(64).for_each(|(sums, words)| Bits::columns(words).for_each(|column| sums[column] += more));
 }
 
 /// Per byte its bits, the lowest first, each as a word of ones or of zeros.

@@ -95,6 +95,14 @@ pub trait Technique {
     /// Draws the mask for the unit vector to the sun, which is above the horizon.
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
 
+    /// As [`Technique::draw`], of the cells that are asked; what the mask has of others may be of another sun.
+    ///
+    /// # Errors
+    /// As [`Technique::draw`].
+    fn draw_some(&mut self, to_sun: DVec3, _asked: &Bits) -> Result<DrawnMask<'_>, ShadowError> {
+        self.draw(to_sun)
+    }
+
     /// Turns to another view of the same scene, and keeps what does not depend on the view. Returns `false` if the
     /// technique has to be rebuilt instead.
     ///

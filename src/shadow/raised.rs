@@ -49,6 +49,11 @@ impl RaisedCells {
         }
     }
 
+    /// Whether no cell is raised.
+    pub(super) fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
     /// Looks down on the receivers; `raster_from_local` as the ground's shadow has it.
     pub(super) fn new(scene: &Scene, tile: Tile, raster_from_local: &DAffine3) -> RaisedCells {
         let Scene { casters, receivers, ground } = scene;
@@ -108,6 +113,38 @@ impl RaisedCells {
             );
         });
         self.mark(bits);
+    }
+
+    /// Sets the bits of those raised cells that are asked, each judged by itself: whether anything stands between a point
+    /// (column, row, height) and the sun.
+    pub(super) fn judge_some(
+        &self,
+        to_sun: DVec3,
+        asked: &Bits,
+        is_blocked: impl Fn(DVec3) -> bool + Sync,
+        bits: &mut Bits,
+    ) {
+        if self.points.is_empty() {
+            return;
+        }
+        let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
+        let in_row = bits.in_row();
+        let rows = bits.words.par_chunks_mut(in_row).zip(asked.words.par_chunks(in_row)).enumerate();
+        rows.for_each(|(row, (words, asked))| {
+            let (mut next, end) = (self.row_first[row], self.row_first[row + 1]);
+            for (word, (to, asked)) in words.iter_mut().zip(asked).enumerate().filter(|(_, (_, asked))| **asked != 0) {
+                let first = word as u32 * 64;
+                next += self.columns[next..end].partition_point(|column| *column < first);
+                while next < end && self.columns[next] < first + 64 {
+                    let bit = 1 << (self.columns[next] - first);
+                    if asked & bit != 0 {
+                        let is_shaded = away[self.normal_of[next] as usize] || is_blocked(self.points[next]);
+                        *to = if is_shaded { *to | bit } else { *to & !bit };
+                    }
+                    next += 1;
+                }
+            }
+        });
     }
 
     /// Where a point falls, seen along the sun.

@@ -10,7 +10,7 @@
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::sun::disc;
-use crate::view::{Camera, Elevation, Grid, Lens, Mask, Surface, Tile, View};
+use crate::view::{Bits, Camera, Elevation, Grid, Lens, Mask, Surface, Tile, View};
 use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
 use obvhs::ray::{Ray, RayHit};
@@ -365,7 +365,7 @@ fn seen(scene: &Scene, (origin, direction): (DVec3, DVec3), first_hit: Option<(u
 }
 
 /// How far from the origin rays begin, metres.
-fn reach(scene: &Scene, view: &View) -> f64 {
+pub(super) fn reach(scene: &Scene, view: &View) -> f64 {
     let farthest = match view {
         View::Plan(grid) => {
             let [west, south, east, north] = grid.region();
@@ -388,6 +388,20 @@ impl Technique for RayCast {
         share.par_chunks_mut(width).enumerate().for_each(|(row, shares)| {
             for (column, share) in shares.iter_mut().enumerate() {
                 *share = self.share(row * width + column, &suns);
+            }
+        });
+        self.mask.share = share;
+        Ok(DrawnMask::Memory(&self.mask))
+    }
+
+    fn draw_some(&mut self, to_sun: DVec3, asked: &Bits) -> Result<DrawnMask<'_>, ShadowError> {
+        let suns = self.suns(to_sun);
+        let mut share = std::mem::take(&mut self.mask.share);
+        let width = self.mask.width as usize;
+        let rows = share.par_chunks_mut(width).zip(asked.words.par_chunks(asked.in_row())).enumerate();
+        rows.for_each(|(row, (shares, words))| {
+            for column in Bits::columns(words) {
+                shares[column] = self.share(row * width + column, &suns);
             }
         });
         self.mask.share = share;

@@ -230,6 +230,9 @@ fn instants(sky: &Sky<'_>, window: [DateTime<Zone>; 2], step_secs: u32) -> Resul
         };
         instants[index].weight_secs += of_before;
         instants[index + 1].weight_secs += of_after;
+        if cut.is_none() && !instants[index].night {
+            instants[index + 1].gap_secs = gap;
+        }
         added.extend(cut.into_iter().flat_map(|cut| cut.between));
     }
     if !added.is_empty() {
@@ -273,5 +276,5 @@ pub(super) fn track(
         .map(|date| Day::of(place, date))
         .collect::<Result<_, _>>()?;
     let instants = joined.unwrap_or_default();
-    Ok(SunTrack { instants, days, each_day: None, step_secs, refraction, delta_t_secs })
+    Ok(SunTrack { instants, days, each_day: None, step_secs, resolution_secs: 0, refraction, delta_t_secs })
 }

@@ -47,6 +47,29 @@ impl Bits {
         bits
     }
 
+    /// Word by word what becomes of these bits and those of another raster of the same size.
+    pub(crate) fn with(&self, other: &Bits, of: impl Fn(u64, u64) -> u64) -> Bits {
+        let words = self.words.iter().zip(&other.words).map(|(one, other)| of(*one, *other)).collect();
+        Bits { words, ..*self }
+    }
+
+    /// The columns of some words of a row whose bits are set.
+    pub(crate) fn columns(words: &[u64]) -> impl Iterator<Item = usize> {
+        words.iter().enumerate().flat_map(|(at, word)| {
+            let mut rest = *word;
+            std::iter::from_fn(move || {
+                let bit = rest.trailing_zeros() as usize;
+                rest &= rest.wrapping_sub(1);
+                (bit < 64).then_some(at * 64 + bit)
+            })
+        })
+    }
+
+    /// Whether no cell is in shadow.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.words.iter().all(|word| *word == 0)
+    }
+
     /// Puts a tile's cells in their place on the plan. A tile's first column is a multiple of 64.
     pub fn paste(&mut self, tile: &Tile, part: &Bits) {
         let [left, top] = tile.first.map(|first| first as usize);

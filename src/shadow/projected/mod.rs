@@ -13,9 +13,9 @@ pub use on_gpu::ProjectedOnGpu;
 use super::flat::FlatShadow;
 use super::plan_surface::highest;
 use super::raised::RaisedCells;
-use super::ray_cast::TIE;
+use super::ray_cast::{RayCaster, Shear, TIE, reach};
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique};
-use crate::view::{Grid, Surface, Tile};
+use crate::view::{Bits, Grid, Surface, Tile, View};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 /// The technique, made for one scene and one plan, or a tile of it.
@@ -25,6 +25,8 @@ pub struct Projected {
     scene: Scene,
     raster_from_local: DAffine3,
     tile: Tile,
+    /// Made once single cells are asked.
+    rays: Option<RayCaster>,
 }
 
 impl Projected {
@@ -34,7 +36,7 @@ impl Projected {
         let raster_from_local = raster_from_local(scene, &tile.plan);
         let shadow = FlatShadow::new(&scene.casters, raster_from_local, tile.first, tile.size);
         let raised = RaisedCells::new(scene, tile, &raster_from_local);
-        Projected { shadow, raised, scene: scene.clone(), raster_from_local, tile }
+        Projected { shadow, raised, scene: scene.clone(), raster_from_local, tile, rays: None }
     }
 }
 
@@ -44,6 +46,20 @@ impl Technique for Projected {
         let throw = self.shadow.throw(to_sun);
         let (bits, places, points) = self.shadow.drawn();
         self.raised.draw(to_sun, throw, places, points, bits);
+        Ok(DrawnMask::Bits(bits))
+    }
+
+    /// The ground's shadow whole, which costs little; a ray for each of the other cells, with the faces of the whole scene in
+    /// a tree: the buckets of a few points would not pay for the sorting of all faces.
+    fn draw_some(&mut self, to_sun: DVec3, asked: &Bits) -> Result<DrawnMask<'_>, ShadowError> {
+        let Projected { shadow, raised, scene, raster_from_local, tile, rays } = self;
+        let bits = shadow.draw(to_sun);
+        if !raised.is_empty() {
+            let rays = rays.get_or_insert_with(|| RayCaster::new(&scene.casters, reach(scene, &View::Plan(tile.plan))));
+            let (shear, local_from_raster) = (Shear::along(to_sun), raster_from_local.inverse());
+            let is_blocked = |at: DVec3| rays.blocked(local_from_raster.transform_point3(at), &shear);
+            raised.judge_some(to_sun, asked, is_blocked, bits);
+        }
         Ok(DrawnMask::Bits(bits))
     }
 

@@ -1,0 +1,120 @@
+//! A tile's shaded time: its instants, and between them the times at which its cells change, found by halving.
+
+use super::gaps::{Gap, Gaps};
+use super::{StudyError, Wants, night};
+use crate::gpu::Gpu;
+use crate::profile::Shaded;
+use crate::profile::accumulate::Sum;
+use crate::shadow::{DrawnMask, ShadowError, Technique};
+use crate::site::Site;
+use crate::view::{Bits, Mask, Tile, View};
+use std::sync::Arc;
+
+/// The running sum.
+pub(super) struct TileSum<'a> {
+    site: &'a Site,
+    gaps: Gaps<'a>,
+    sum: Sum,
+    /// The shadow at an instant that begins a gap, and which instant it is.
+    before: Option<(usize, Bits)>,
+}
+
+impl<'a> TileSum<'a> {
+    /// All zero. Where gaps are searched it is in the processor's memory, as the search is.
+    pub(super) fn new(site: &'a Site, resolution_secs: u32, gpu: Option<Arc<Gpu>>, tile: &Tile) -> TileSum<'a> {
+        let gaps = Gaps::new(site, resolution_secs);
+        let sum = Sum::new(gpu.filter(|_| !gaps.any()), tile.size[0], tile.size[1]);
+        TileSum { site, gaps, sum, before: None }
+    }
+
+    /// Goes on from the sum of so many instants.
+    pub(super) fn begin_with(&mut self, shaded: &Shaded, instants: usize) {
+        self.sum.begin_with(shaded, self.gaps.secs_of_first(instants));
+    }
+
+    /// Adds an instant and the gap before it. Returns the instant's mask and its bits, where they are wanted.
+    pub(super) fn add(
+        &mut self,
+        at: usize,
+        technique: &mut dyn Technique,
+        wants: &Wants,
+    ) -> Result<(Option<Mask>, Option<Bits>), StudyError> {
+        let instant = &self.site.track.instants[at];
+        if instant.night {
+            return Ok((wants.masks.then(|| night(&View::Plan(self.site.grid))), None));
+        }
+        let gap = self.gaps.before(at);
+        let before = match (gap, self.before.take()) {
+            (None, _) => None,
+            (_, Some((last, bits))) if last + 1 == at => Some(bits),
+            // the study goes on here
+            _ => Some(technique.draw(self.site.track.instants[at - 1].to_sun)?.bits()?),
+        };
+        let drawn = technique.draw(instant.to_sun)?;
+        let own_secs = self.gaps.own_secs(at);
+        if own_secs > 0 {
+            self.sum.add(&drawn, own_secs)?;
+        }
+        let mask = wants.masks.then(|| drawn.read()).transpose()?;
+        let shadow = (wants.bits || self.gaps.touch(at)).then(|| drawn.bits()).transpose()?;
+        if let (Some(gap), Some(before), Some(after)) = (gap, before, &shadow) {
+            Search { technique, gap, before: &before, sum: &mut self.sum }.add_gap(after)?;
+        }
+        let bits = if wants.bits { shadow.clone() } else { None };
+        self.before = shadow.map(|shadow| (at, shadow));
+        Ok((mask, bits))
+    }
+
+    /// Adds a mask for so many seconds, and nothing before it.
+    pub(super) fn add_mask(&mut self, mask: &DrawnMask<'_>, secs: u32) -> Result<(), ShadowError> {
+        self.sum.add(mask, secs)
+    }
+
+    /// The sum so far.
+    pub(super) fn so_far(&mut self) -> Result<Shaded, ShadowError> {
+        self.sum.so_far()
+    }
+
+    /// The sum.
+    pub(super) fn finish(self) -> Result<Shaded, ShadowError> {
+        self.sum.finish()
+    }
+}
+
+/// The search for the times at which cells change within a gap.
+struct Search<'a> {
+    technique: &'a mut dyn Technique,
+    gap: Gap<'a>,
+    /// The shadow as the gap begins.
+    before: &'a Bits,
+    sum: &'a mut Sum,
+}
+
+impl Search<'_> {
+    /// Adds the gap's seconds to cells that are in shadow at both ends, and to others as many as they are found to be.
+    fn add_gap(&mut self, after: &Bits) -> Result<(), StudyError> {
+        self.sum.add_gap(&self.before.with(after, |before, after| before & after), self.gap.secs())?;
+        self.halve([0, self.gap.steps()], &self.before.with(after, |before, after| before ^ after))
+    }
+
+    /// Between two moments the cells that `differ` at them change: finds in which half each of them does.
+    fn halve(&mut self, [from, to]: [u32; 2], differ: &Bits) -> Result<(), StudyError> {
+        if differ.is_empty() {
+            return Ok(());
+        }
+        if to - from == 1 {
+            let secs = self.gap.secs_before_change(from);
+            self.sum.add_in_gap(&differ.with(self.before, |differ, before| differ & before), secs)?;
+            let rest = self.gap.secs() - secs;
+            return Ok(self.sum.add_in_gap(&differ.with(self.before, |differ, before| differ & !before), rest)?);
+        }
+        let middle = from + (to - from) / 2;
+        let to_sun = self.gap.to_sun(middle)?;
+        let drawn = self.technique.draw_some(to_sun, differ)?.bits()?;
+        let changed = drawn.with(self.before, |drawn, before| drawn ^ before);
+        let earlier = differ.with(&changed, |differ, changed| differ & changed);
+        let later = differ.with(&changed, |differ, changed| differ & !changed);
+        self.halve([from, middle], &earlier)?;
+        self.halve([middle, to], &later)
+    }
+}
