@@ -211,7 +211,7 @@ fn smallest() -> Site {
         weight_secs: 1800,
         ..track().instants[0]
     };
-    let track = SunTrack { instants: vec![instant], ..track() };
+    let track = SunTrack { instants: vec![instant], resolution_secs: 0, ..track() };
     let grid = Grid { west: -8.0, north: 12.0, cell: 2.0, width: 10, height: 8 };
     let site = Site::in_memory(vienna(), mesh, Some(0.0), track, grid).unwrap();
     Site { engine: Engine::Cpu, method: Method::RayCast, ..site }

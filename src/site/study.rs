@@ -25,9 +25,6 @@ impl LocatedText<'_> {
     }
 }
 
-/// To how many seconds times of change are found where nobody says and the step is longer.
-const RESOLUTION_SECS: u32 = 60;
-
 /// The instants asked: `--at` alone, or the study's window with the command line before the file.
 pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
@@ -40,17 +37,17 @@ pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> 
         Some(text) => single(place, written, asked, text),
         None => {
             let track = window(place, written, asked)?;
-            Ok(SunTrack { resolution_secs: resolution_secs(written, asked, track.step_secs)?, ..track })
+            Ok(SunTrack { resolution_secs: resolution_secs(written, asked, &track)?, ..track })
         }
     }
 }
 
-/// How near together times of change are found: as asked, else to a minute. Instants that are as near together are not
-/// searched.
-fn resolution_secs(written: &WrittenSite, asked: &Overrides, step_secs: u32) -> Result<u32, SiteError> {
+/// How near together times of change are found: as asked, else as the track has it.
+fn resolution_secs(written: &WrittenSite, asked: &Overrides, track: &SunTrack) -> Result<u32, SiteError> {
+    let step_secs = track.step_secs;
     let in_file = in_file(written, "resolution", written.site.study.resolution.as_deref());
     let Some((text, at)) = said(Field::Resolution, &asked.resolution).or(in_file) else {
-        return Ok(RESOLUTION_SECS.min(step_secs));
+        return Ok(track.resolution_secs);
     };
     if text.trim() == INSTANTS_ALONE {
         return Ok(0);

@@ -24,7 +24,7 @@ pub struct SunTrack {
     /// The step between instants in seconds; 0 for a single instant.
     pub step_secs: u32,
     /// How near together the instants lie between which times of change are found, seconds; 0 where the instants alone are
-    /// asked. Never longer than the step.
+    /// asked. A minute, or the step where that is shorter, unless the site file says otherwise.
     pub resolution_secs: u32,
     /// Whether directions include atmospheric refraction.
     pub refraction: bool,
