@@ -5,7 +5,7 @@ use crate::gpu::layout::WeightUniforms;
 use crate::gpu::targets::{NUMBER, whole};
 use crate::gpu::{Gpu, readback, shaders};
 use crate::shadow::{DrawnMask, ShadowError};
-use crate::view::{Bits, Mask};
+use crate::view::{Bits, CellWord, Mask};
 use rayon::prelude::*;
 use std::sync::Arc;
 use wgpu::*;
@@ -147,22 +147,34 @@ impl Sum {
         }
     }
 
-    /// Adds a gap's seconds to cells that are in shadow all along. What others are is part of it, and follows by
-    /// [`Sum::add_in_gap`]; one word has room for all of it.
-    pub fn add_gap(&mut self, shaded: &Bits, secs: u32) -> Result<(), ShadowError> {
+    /// Adds a gap's seconds to cells that are in shadow at both of its ends. What others are in it is part of these seconds,
+    /// and follows by [`Sum::add_in_gap`]; the running words have room for all of it.
+    ///
+    /// # Errors
+    /// [`ShadowError`], where the sum is on an adapter.
+    pub fn add_gap(&mut self, [before, after]: [&Bits; 2], secs: u32) -> Result<(), ShadowError> {
         if secs > MOST_SECS - self.secs {
             self.pour()?;
         }
-        self.add(&DrawnMask::Bits(shaded), secs)
+        self.add(&DrawnMask::Bits(&before.with(after, |before, after| before & after)), secs)
     }
 
-    /// Adds a part of the last gap's seconds to cells that were not in shadow all along.
-    pub fn add_in_gap(&mut self, cells: &Bits, secs: u32) -> Result<(), ShadowError> {
-        match &mut self.running {
-            RunningSum::Memory(sum) => add_to_cells(sum, cells, 255 * secs),
-            RunningSum::Texture(_) => self.add_to_running(&DrawnMask::Bits(cells), secs)?,
+    /// Adds a part of the last gap's seconds to single cells of a raster.
+    ///
+    /// # Errors
+    /// As [`Sum::add_gap`].
+    pub fn add_in_gap(&mut self, raster: &Bits, cells: &[CellWord], secs: u32) -> Result<(), ShadowError> {
+        let (width, more) = (raster.width as usize, 255 * secs);
+        if let RunningSum::Memory(sum) = &mut self.running {
+            for word in cells {
+                let (row, column) = raster.place(word.word);
+                word.bits().for_each(|bit| sum[row * width + column + bit as usize] += more);
+            }
+            return Ok(());
         }
-        Ok(())
+        let mut bits = Bits::new(raster.width, raster.height);
+        cells.iter().for_each(|word| bits.words[word.word as usize] |= word.cells);
+        self.add_to_running(&DrawnMask::Bits(&bits), secs)
     }
 
     fn add_to_running(&mut self, mask: &DrawnMask<'_>, secs: u32) -> Result<(), ShadowError> {
@@ -242,12 +254,6 @@ fn add(sum: &mut [u32], share: &[u8], weight_secs: u32) {
     sum.par_iter_mut().zip(share).with_min_len(1 << 14).for_each(|(sum, &share)| {
         *sum += u32::from(255 - share) * weight_secs;
     });
-}
-
-/// Adds to single cells, which are few.
-fn add_to_cells(sum: &mut [u32], cells: &Bits, more: u32) {
-    let rows = sum.par_chunks_mut(cells.width.max(1) as usize).zip(cells.words.par_chunks(cells.in_row().max(1)));
-    rows.with_min_len(64).for_each(|(sums, words)| Bits::columns(words).for_each(|column| sums[column] += more));
 }
 
 /// Per byte its bits, the lowest first, each as a word of ones or of zeros.

@@ -32,7 +32,7 @@ pub mod walls;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
-use crate::view::{Bits, FragmentCounts, Mask, Surface, Tile, View};
+use crate::view::{Bits, CellWord, FragmentCounts, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
 
 #[doc(hidden)]
@@ -95,12 +95,13 @@ pub trait Technique {
     /// Draws the mask for the unit vector to the sun, which is above the horizon.
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
 
-    /// As [`Technique::draw`], of the cells that are asked; what the mask has of others may be of another sun.
+    /// Which of some cells are in shadow: bits of the words that are asked, of which others than the asked ones mean nothing.
     ///
     /// # Errors
     /// As [`Technique::draw`].
-    fn draw_some(&mut self, to_sun: DVec3, _asked: &Bits) -> Result<DrawnMask<'_>, ShadowError> {
-        self.draw(to_sun)
+    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
+        let bits = self.draw(to_sun)?.bits()?;
+        Ok(asked.iter().map(|asked| bits.words[asked.word as usize]).collect())
     }
 
     /// Turns to another view of the same scene, and keeps what does not depend on the view. Returns `false` if the

@@ -10,7 +10,7 @@
 use super::plan_surface::highest;
 use super::{JUDGED_ABOVE_M, Scene, seen_normal};
 use crate::mesh::Mesh;
-use crate::view::{Bits, Surface, Tile};
+use crate::view::{Bits, CellWord, Surface, Tile};
 use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -115,33 +115,29 @@ impl RaisedCells {
         self.mark(bits);
     }
 
-    /// Sets the bits of those raised cells that are asked, each judged by itself: whether anything stands between a point
-    /// (column, row, height) and the sun.
+    /// Of those raised cells that are asked sets the bits, or takes them away, each cell judged by itself: whether anything
+    /// stands between a point (column, row, height) and the sun. The words are of `bits`.
     pub(super) fn judge_some(
         &self,
         to_sun: DVec3,
-        asked: &Bits,
+        (bits, asked): (&Bits, &[CellWord]),
         is_blocked: impl Fn(DVec3) -> bool + Sync,
-        bits: &mut Bits,
+        shaded: &mut [u64],
     ) {
-        if self.points.is_empty() {
-            return;
-        }
         let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
-        let in_row = bits.in_row();
-        let rows = bits.words.par_chunks_mut(in_row).zip(asked.words.par_chunks(in_row)).enumerate();
-        rows.for_each(|(row, (words, asked))| {
-            let (mut next, end) = (self.row_first[row], self.row_first[row + 1]);
-            for (word, (to, asked)) in words.iter_mut().zip(asked).enumerate().filter(|(_, (_, asked))| **asked != 0) {
-                let first = word as u32 * 64;
-                next += self.columns[next..end].partition_point(|column| *column < first);
-                while next < end && self.columns[next] < first + 64 {
-                    let bit = 1 << (self.columns[next] - first);
-                    if asked & bit != 0 {
-                        let is_shaded = away[self.normal_of[next] as usize] || is_blocked(self.points[next]);
-                        *to = if is_shaded { *to | bit } else { *to & !bit };
-                    }
-                    next += 1;
+        asked.par_iter().zip(shaded).for_each(|(asked, shaded)| {
+            let (row, first) = bits.place(asked.word);
+            let of_row = self.row_first[row]..self.row_first[row + 1];
+            let begin =
+                of_row.start + self.columns[of_row.clone()].partition_point(|column| (*column as usize) < first);
+            for at in begin..of_row.end {
+                let bit = self.columns[at] as usize - first;
+                if bit > 63 {
+                    break;
+                }
+                if asked.cells >> bit & 1 == 1 {
+                    let is_shaded = away[self.normal_of[at] as usize] || is_blocked(self.points[at]);
+                    *shaded = *shaded & !(1 << bit) | u64::from(is_shaded) << bit;
                 }
             }
         });

@@ -10,7 +10,7 @@
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::sun::disc;
-use crate::view::{Bits, Camera, Elevation, Grid, Lens, Mask, Surface, Tile, View};
+use crate::view::{Bits, Camera, CellWord, Elevation, Grid, Lens, Mask, Surface, Tile, View};
 use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
 use obvhs::ray::{Ray, RayHit};
@@ -394,18 +394,17 @@ impl Technique for RayCast {
         Ok(DrawnMask::Memory(&self.mask))
     }
 
-    fn draw_some(&mut self, to_sun: DVec3, asked: &Bits) -> Result<DrawnMask<'_>, ShadowError> {
+    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
         let suns = self.suns(to_sun);
-        let mut share = std::mem::take(&mut self.mask.share);
-        let width = self.mask.width as usize;
-        let rows = share.par_chunks_mut(width).zip(asked.words.par_chunks(asked.in_row())).enumerate();
-        rows.for_each(|(row, (shares, words))| {
-            for column in Bits::columns(words) {
-                shares[column] = self.share(row * width + column, &suns);
-            }
-        });
-        self.mask.share = share;
-        Ok(DrawnMask::Memory(&self.mask))
+        let Mask { width, height, .. } = self.mask;
+        let raster = Bits { width, height, words: Vec::new() };
+        let shaded = |asked: &CellWord| {
+            let (row, column) = raster.place(asked.word);
+            let first = row * width as usize + column;
+            let is_shaded = |bit: &u32| self.share(first + *bit as usize, &suns) <= 127;
+            asked.bits().filter(is_shaded).fold(0, |shaded, bit| shaded | 1 << bit)
+        };
+        Ok(asked.par_iter().map(shaded).collect())
     }
 
     fn turn_to_tile(&mut self, tile: Tile) -> Result<bool, ShadowError> {

@@ -7,7 +7,7 @@ use crate::profile::Shaded;
 use crate::profile::accumulate::Sum;
 use crate::shadow::{DrawnMask, ShadowError, Technique};
 use crate::site::Site;
-use crate::view::{Bits, Mask, Tile, View};
+use crate::view::{Bits, CellWord, Mask, Tile, View};
 use std::sync::Arc;
 
 /// The running sum.
@@ -93,28 +93,36 @@ struct Search<'a> {
 impl Search<'_> {
     /// Adds the gap's seconds to cells that are in shadow at both ends, and to others as many as they are found to be.
     fn add_gap(&mut self, after: &Bits) -> Result<(), StudyError> {
-        self.sum.add_gap(&self.before.with(after, |before, after| before & after), self.gap.secs())?;
-        self.halve([0, self.gap.steps()], &self.before.with(after, |before, after| before ^ after))
+        self.sum.add_gap([self.before, after], self.gap.secs())?;
+        self.halve([0, self.gap.steps()], &self.before.differing(after))
     }
 
     /// Between two moments the cells that `differ` at them change: finds in which half each of them does.
-    fn halve(&mut self, [from, to]: [u32; 2], differ: &Bits) -> Result<(), StudyError> {
+    fn halve(&mut self, [from, to]: [u32; 2], differ: &[CellWord]) -> Result<(), StudyError> {
         if differ.is_empty() {
             return Ok(());
         }
+        let before: Vec<u64> = differ.iter().map(|differ| self.before.words[differ.word as usize]).collect();
         if to - from == 1 {
             let secs = self.gap.secs_before_change(from);
-            self.sum.add_in_gap(&differ.with(self.before, |differ, before| differ & before), secs)?;
-            let rest = self.gap.secs() - secs;
-            return Ok(self.sum.add_in_gap(&differ.with(self.before, |differ, before| differ & !before), rest)?);
+            let [shaded, lit] = parted(differ, &before);
+            self.sum.add_in_gap(self.before, &shaded, secs)?;
+            return Ok(self.sum.add_in_gap(self.before, &lit, self.gap.secs() - secs)?);
         }
         let middle = from + (to - from) / 2;
-        let to_sun = self.gap.to_sun(middle)?;
-        let drawn = self.technique.draw_some(to_sun, differ)?.bits()?;
-        let changed = drawn.with(self.before, |drawn, before| drawn ^ before);
-        let earlier = differ.with(&changed, |differ, changed| differ & changed);
-        let later = differ.with(&changed, |differ, changed| differ & !changed);
+        let shaded = self.technique.shaded_of(self.gap.to_sun(middle)?, differ)?;
+        let changed: Vec<u64> = shaded.iter().zip(&before).map(|(shaded, before)| shaded ^ before).collect();
+        let [earlier, later] = parted(differ, &changed);
         self.halve([from, middle], &earlier)?;
         self.halve([middle, to], &later)
     }
+}
+
+/// Those cells whose bits are set, and the others; words without any are left out.
+fn parted(cells: &[CellWord], bits: &[u64]) -> [Vec<CellWord>; 2] {
+    let part = |of: &dyn Fn(u64, u64) -> u64| {
+        let words = cells.iter().zip(bits).map(|(word, bits)| CellWord { cells: of(word.cells, *bits), ..*word });
+        words.filter(|word| word.cells != 0).collect()
+    };
+    [part(&|cells, bits| cells & bits), part(&|cells, bits| cells & !bits)]
 }

@@ -26,6 +26,27 @@ pub struct Bits {
     pub words: Vec<u64>,
 }
 
+/// Some cells, of one word of [`Bits::words`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CellWord {
+    /// Which word.
+    pub word: u32,
+    /// Its bits: 1 for each of the cells.
+    pub cells: u64,
+}
+
+impl CellWord {
+    /// The bits, counted from the lowest.
+    pub(crate) fn bits(self) -> impl Iterator<Item = u32> {
+        let mut rest = self.cells;
+        std::iter::from_fn(move || {
+            let bit = rest.trailing_zeros();
+            rest &= rest.wrapping_sub(1);
+            (bit < 64).then_some(bit)
+        })
+    }
+}
+
 impl Bits {
     /// No cell is in shadow.
     pub fn new(width: u32, height: u32) -> Bits {
@@ -53,21 +74,16 @@ impl Bits {
         Bits { words, ..*self }
     }
 
-    /// The columns of some words of a row whose bits are set.
-    pub(crate) fn columns(words: &[u64]) -> impl Iterator<Item = usize> {
-        words.iter().enumerate().flat_map(|(at, word)| {
-            let mut rest = *word;
-            std::iter::from_fn(move || {
-                let bit = rest.trailing_zeros() as usize;
-                rest &= rest.wrapping_sub(1);
-                (bit < 64).then_some(at * 64 + bit)
-            })
-        })
+    /// The cells in which two rasters of the same size differ.
+    pub(crate) fn differing(&self, other: &Bits) -> Vec<CellWord> {
+        let differ = |(at, (one, other)): (usize, (&u64, &u64))| CellWord { word: at as u32, cells: one ^ other };
+        self.words.iter().zip(&other.words).enumerate().map(differ).filter(|word| word.cells != 0).collect()
     }
 
-    /// Whether no cell is in shadow.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.words.iter().all(|word| *word == 0)
+    /// The row of a word's cells, and the column of the first of them.
+    pub(crate) fn place(&self, word: u32) -> (usize, usize) {
+        let (word, in_row) = (word as usize, self.in_row());
+        (word / in_row, word % in_row * 64)
     }
 
     /// Puts a tile's cells in their place on the plan. A tile's first column is a multiple of 64.

@@ -15,7 +15,7 @@ use super::plan_surface::highest;
 use super::raised::RaisedCells;
 use super::ray_cast::{RayCaster, Shear, TIE, reach};
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique};
-use crate::view::{Bits, Grid, Surface, Tile, View};
+use crate::view::{CellWord, Grid, Surface, Tile, View};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 /// The technique, made for one scene and one plan, or a tile of it.
@@ -51,16 +51,17 @@ impl Technique for Projected {
 
     /// The ground's shadow whole, which costs little; a ray for each of the other cells, with the faces of the whole scene in
     /// a tree: the buckets of a few points would not pay for the sorting of all faces.
-    fn draw_some(&mut self, to_sun: DVec3, asked: &Bits) -> Result<DrawnMask<'_>, ShadowError> {
+    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
         let Projected { shadow, raised, scene, raster_from_local, tile, rays } = self;
-        let bits = shadow.draw(to_sun);
+        let bits = &*shadow.draw(to_sun);
+        let mut shaded: Vec<u64> = asked.iter().map(|asked| bits.words[asked.word as usize]).collect();
         if !raised.is_empty() {
             let rays = rays.get_or_insert_with(|| RayCaster::new(&scene.casters, reach(scene, &View::Plan(tile.plan))));
             let (shear, local_from_raster) = (Shear::along(to_sun), raster_from_local.inverse());
             let is_blocked = |at: DVec3| rays.blocked(local_from_raster.transform_point3(at), &shear);
-            raised.judge_some(to_sun, asked, is_blocked, bits);
+            raised.judge_some(to_sun, (bits, asked), is_blocked, &mut shaded);
         }
-        Ok(DrawnMask::Bits(bits))
+        Ok(shaded)
     }
 
     fn turn_to_tile(&mut self, tile: Tile) -> Result<bool, ShadowError> {

@@ -1,4 +1,4 @@
-//! When texels change between two instants: by halving, with a ray a texel and moment.
+//! When texels change between two instants: by halving, with a ray a texel and moment, from where the neighbour changed.
 
 use super::query::raster;
 use super::{PatchJudge, PatchJudgements, SoftTexture, count, work_of};
@@ -57,7 +57,8 @@ impl SoftTexture {
         work_of(judge.sought.patches, &mut sums).into_par_iter().for_each(|(_, patch, sums)| {
             let texels = patch.texels.start as usize..patch.texels.end as usize;
             let (before, after) = (&before[texels.clone()], &after[texels]);
-            let mut search = Search { judge: &judge, patch, moments, rays: Vec::new(), cast: 0 };
+            let mut search =
+                Search { judge: &judge, patch, moments, rays: Vec::new(), last: moments.len() / 2, shift: 0, cast: 0 };
             for (texel, (sum, ends)) in sums.iter_mut().zip(before.iter().zip(after)).enumerate() {
                 *sum += match ends {
                     (0, 0) => 0,
@@ -81,6 +82,9 @@ struct Search<'a> {
     moments: &'a [Moment],
     /// Per moment, once a texel asks: none where the patch looks away from the sun.
     rays: Vec<Option<Option<PatchRays>>>,
+    /// After which moment the last texel changed, and how many moments later than the one before it.
+    last: usize,
+    shift: isize,
     cast: u64,
 }
 
@@ -88,15 +92,31 @@ impl Search<'_> {
     /// For how many seconds a texel that sees the sun at one end alone is as it was at the first.
     fn secs_before_change(&mut self, texel: usize, is_lit_before: bool) -> u32 {
         let (mut from, mut to) = (0, self.moments.len() - 1);
+        // where a shadow that goes on as evenly over the texels comes by, then ever farther from there, until the change is
+        // between two moments
+        let guess = self.last.saturating_add_signed(self.shift);
+        let (mut next, mut stride) = (guess.clamp(1, to.saturating_sub(1).max(1)), 1);
         while to - from > 1 {
-            let middle = from + (to - from) / 2;
-            if self.is_lit(texel, middle) == is_lit_before { from = middle } else { to = middle }
+            if self.is_lit(texel, next) == is_lit_before {
+                from = next;
+                next = if to + 1 == self.moments.len() { from + stride } else { to };
+            } else {
+                to = next;
+                next = if from == 0 { to.saturating_sub(stride) } else { from };
+            }
+            stride *= 2;
+            if next <= from || next >= to {
+                next = from + (to - from) / 2;
+            }
         }
+        let shift = from as isize - self.last as isize;
+        self.shift = if shift.unsigned_abs() < self.moments.len() / 4 { shift } else { 0 };
+        self.last = from;
         self.moments[from].secs_before_change
     }
 
     fn is_lit(&mut self, texel: usize, moment: usize) -> bool {
-        let Search { judge, patch, moments, rays, cast } = self;
+        let Search { judge, patch, moments, rays, cast, .. } = self;
         rays.resize_with(moments.len(), || None);
         let rays = rays[moment].get_or_insert_with(|| {
             let raster = raster(patch, judge.sought.patches.cell, moments[moment].to_sun.extend(0.0))?;
