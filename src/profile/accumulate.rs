@@ -167,7 +167,7 @@ impl Sum {
         let (width, more) = (raster.width as usize, 255 * secs);
         if let RunningSum::Memory(sum) = &mut self.running {
             for word in cells {
-                let (row, column) = raster.place(word.word);
+                let (row, column) = word.place(raster.in_row());
                 word.bits().for_each(|bit| sum[row * width + column + bit as usize] += more);
             }
             return Ok(());

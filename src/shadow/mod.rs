@@ -34,6 +34,7 @@ use crate::mesh::Mesh;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use crate::view::{Bits, CellWord, FragmentCounts, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
+use std::sync::Arc;
 
 #[doc(hidden)]
 pub use plan_surface::{PlanSurface, plan_surface};
@@ -90,12 +91,45 @@ impl DrawnMask<'_> {
     }
 }
 
+/// Cells that a technique asks singly between two instants.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SingleCells {
+    /// All of them.
+    All,
+    /// Those whose bits are set.
+    Some(Arc<Bits>),
+}
+
+impl SingleCells {
+    /// What these have of a shadow.
+    pub(crate) fn of(&self, shadow: &Bits) -> Bits {
+        match self {
+            SingleCells::All => shadow.clone(),
+            SingleCells::Some(cells) => shadow.with(cells, |shadow, cells| shadow & cells),
+        }
+    }
+}
+
 /// A way to find shadows, made for one scene and one view at a time.
 pub trait Technique {
     /// Draws the mask for the unit vector to the sun, which is above the horizon.
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
 
-    /// Which of some cells are in shadow: bits of the words that are asked, of which others than the asked ones mean nothing.
+    /// The cells that are asked singly between two instants, since drawing them whole costs more; none where all are drawn.
+    fn single_cells(&self) -> Option<SingleCells> {
+        None
+    }
+
+    /// As [`Technique::draw`], without those cells that are asked singly: they are not in shadow.
+    ///
+    /// # Errors
+    /// As [`Technique::draw`].
+    fn draw_whole(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
+        self.draw(to_sun)
+    }
+
+    /// Which of some cells are in shadow, of those that are asked singly: bits of the words that are asked, of which others
+    /// than the asked ones mean nothing.
     ///
     /// # Errors
     /// As [`Technique::draw`].

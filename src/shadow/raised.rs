@@ -14,6 +14,7 @@ use crate::view::{Bits, CellWord, Surface, Tile};
 use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 
 /// The cells of a plan, or of a tile of it, that see something above the ground.
@@ -27,6 +28,8 @@ pub(super) struct RaisedCells {
     normals: Vec<DVec3>,
     /// Where each row's points begin; one longer than the tile has rows.
     row_first: Vec<usize>,
+    /// Words of bits in a row of the tile.
+    in_row: usize,
     faces: Mesh,
     /// Per point whether it is in shadow.
     shaded: Vec<AtomicU8>,
@@ -44,14 +47,21 @@ impl RaisedCells {
             normal_of: Vec::new(),
             normals: Vec::new(),
             row_first: vec![0],
+            in_row: 1,
             faces,
             shaded: Vec::new(),
         }
     }
 
-    /// Whether no cell is raised.
-    pub(super) fn is_empty(&self) -> bool {
-        self.points.is_empty()
+    /// The cells, of a tile of so many columns and rows; none where there are none.
+    pub(super) fn cells(&self, [width, height]: [u32; 2]) -> Option<Arc<Bits>> {
+        let mut cells = Bits::new(width, height);
+        for (row, words) in cells.words.chunks_mut(self.in_row).enumerate().take(self.row_first.len() - 1) {
+            for column in &self.columns[self.row_first[row]..self.row_first[row + 1]] {
+                words[*column as usize / 64] |= 1 << (column % 64);
+            }
+        }
+        (!self.points.is_empty()).then(|| Arc::new(cells))
     }
 
     /// Looks down on the receivers; `raster_from_local` as the ground's shadow has it.
@@ -59,6 +69,7 @@ impl RaisedCells {
         let Scene { casters, receivers, ground } = scene;
         let mut number = vec![u32::MAX; receivers.faces.len()];
         let mut raised = RaisedCells::none(casters.clone());
+        raised.in_row = tile.size[0].div_ceil(64) as usize;
         if receivers.faces.is_empty() {
             return raised;
         }
@@ -115,32 +126,26 @@ impl RaisedCells {
         self.mark(bits);
     }
 
-    /// Of those raised cells that are asked sets the bits, or takes them away, each cell judged by itself: whether anything
-    /// stands between a point (column, row, height) and the sun. The words are of `bits`.
-    pub(super) fn judge_some(
+    /// Of some raised cells those that are in shadow, each judged by itself: whether anything stands between a point (column,
+    /// row, height) and the sun.
+    pub(super) fn shaded_of(
         &self,
         to_sun: DVec3,
-        (bits, asked): (&Bits, &[CellWord]),
+        asked: &[CellWord],
         is_blocked: impl Fn(DVec3) -> bool + Sync,
-        shaded: &mut [u64],
-    ) {
+    ) -> Vec<u64> {
         let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
-        asked.par_iter().zip(shaded).for_each(|(asked, shaded)| {
-            let (row, first) = bits.place(asked.word);
+        let shaded = |asked: &CellWord| {
+            let (row, first) = asked.place(self.in_row);
             let of_row = self.row_first[row]..self.row_first[row + 1];
             let begin =
                 of_row.start + self.columns[of_row.clone()].partition_point(|column| (*column as usize) < first);
-            for at in begin..of_row.end {
-                let bit = self.columns[at] as usize - first;
-                if bit > 63 {
-                    break;
-                }
-                if asked.cells >> bit & 1 == 1 {
-                    let is_shaded = away[self.normal_of[at] as usize] || is_blocked(self.points[at]);
-                    *shaded = *shaded & !(1 << bit) | u64::from(is_shaded) << bit;
-                }
-            }
-        });
+            let of_word = (begin..of_row.end).map(|at| (at, self.columns[at] as usize - first));
+            let asked = of_word.take_while(|(_, bit)| *bit < 64).filter(|(_, bit)| asked.cells >> bit & 1 == 1);
+            let is_shaded = |at: usize| away[self.normal_of[at] as usize] || is_blocked(self.points[at]);
+            asked.fold(0, |shaded, (at, bit)| shaded | u64::from(is_shaded(at)) << bit)
+        };
+        asked.par_iter().map(shaded).collect()
     }
 
     /// Where a point falls, seen along the sun.

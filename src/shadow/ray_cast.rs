@@ -7,10 +7,10 @@
 //! The tree only prunes: its boxes are padded beyond all rounding of its `f32` rays, and beyond the first tenth of a
 //! millimetre of a ray, in which it finds nothing.
 
-use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
+use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, SingleCells, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::sun::disc;
-use crate::view::{Bits, Camera, CellWord, Elevation, Grid, Lens, Mask, Surface, Tile, View};
+use crate::view::{Camera, CellWord, Elevation, Grid, Lens, Mask, Surface, Tile, View};
 use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
 use obvhs::ray::{Ray, RayHit};
@@ -394,12 +394,16 @@ impl Technique for RayCast {
         Ok(DrawnMask::Memory(&self.mask))
     }
 
+    fn single_cells(&self) -> Option<SingleCells> {
+        Some(SingleCells::All)
+    }
+
     fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
         let suns = self.suns(to_sun);
-        let Mask { width, height, .. } = self.mask;
-        let raster = Bits { width, height, words: Vec::new() };
+        let Mask { width, .. } = self.mask;
+        let in_row = width.div_ceil(64) as usize;
         let shaded = |asked: &CellWord| {
-            let (row, column) = raster.place(asked.word);
+            let (row, column) = asked.place(in_row);
             let first = row * width as usize + column;
             let is_shaded = |bit: &u32| self.share(first + *bit as usize, &suns) <= 127;
             asked.bits().filter(is_shaded).fold(0, |shaded, bit| shaded | 1 << bit)

@@ -57,10 +57,11 @@ impl<'a> Gaps<'a> {
         self.site.track.instants[at].weight_secs.saturating_sub(before - before / 2).saturating_sub(after / 2)
     }
 
-    /// How many seconds with a sun the first instants stand for, with the gaps before them.
-    pub(super) fn secs_of_first(&self, count: usize) -> u32 {
-        let day = (0..count).filter(|at| !self.site.track.instants[*at].night);
-        day.map(|at| self.own_secs(at) + self.before(at).map_or(0, |gap| gap.secs())).sum()
+    /// For how many seconds an instant stands among the moments of its gaps: itself, and half a step to either side.
+    pub(super) fn secs_among_moments(&self, at: usize) -> u32 {
+        let before = self.before(at).map_or(0, |gap| gap.later_half(gap.steps() - 1));
+        let after = self.before(at + 1).map_or(0, |gap| gap.step_secs(0) / 2);
+        self.own_secs(at) + before + after
     }
 }
 
@@ -79,10 +80,25 @@ impl Gap<'_> {
         step.saturating_mul(self.resolution_secs).min(self.secs())
     }
 
+    /// How long the step after so many is, seconds.
+    fn step_secs(&self, step: u32) -> u32 {
+        self.secs_at(step + 1) - self.secs_at(step)
+    }
+
+    /// That half of it that belongs to the moment at its end.
+    fn later_half(&self, step: u32) -> u32 {
+        let secs = self.step_secs(step);
+        secs - secs / 2
+    }
+
     /// What changes within the step after so many has been for so many seconds as it was at the beginning.
     pub(super) fn secs_before_change(&self, step: u32) -> u32 {
-        let [begin, end] = [step, step + 1].map(|step| self.secs_at(step));
-        begin + (end - begin) / 2
+        self.secs_at(step) + self.step_secs(step) / 2
+    }
+
+    /// The moments between its ends: the sun, and for how many seconds each stands.
+    pub(super) fn moments(&self) -> impl Iterator<Item = Result<(DVec3, u32), SunError>> {
+        (1..self.steps()).map(|step| Ok((self.to_sun(step)?, self.later_half(step - 1) + self.step_secs(step) / 2)))
     }
 
     /// The sun at the end of so many steps.

@@ -53,7 +53,7 @@ impl<'a> PatchSum<'a> {
         let after = self.texture.seen(instant.to_sun)?;
         self.texture.add_seen(&after, self.gaps.own_secs(at));
         if let (Some(gap), Some(before)) = (gap, before) {
-            self.texture.add_between([&before, &after], &moments(&gap)?);
+            self.texture.add_between([&before, &after], &searched(&gap)?);
         }
         self.before = Some((at, after));
         Ok(())
@@ -63,26 +63,18 @@ impl<'a> PatchSum<'a> {
     /// stepped at the resolution. What changes more than once in a gap is found, too.
     fn add_by_steps(&mut self, at: usize) -> Result<(), StudyError> {
         let sample = |to_sun: DVec3, weight: u32| Sample { light: to_sun.extend(0.0), weight };
-        let mut own_secs = self.gaps.own_secs(at);
         let mut samples = Vec::new();
-        if let Some(gap) = self.gaps.before(at) {
-            let length = |step: u32| gap.secs_at(step + 1) - gap.secs_at(step);
-            let later_half = |step: u32| length(step) - length(step) / 2;
-            for step in 1..gap.steps() {
-                samples.push(sample(gap.to_sun(step)?, later_half(step - 1) + length(step) / 2));
-            }
-            own_secs += later_half(gap.steps() - 1);
+        for moment in self.gaps.before(at).iter().flat_map(Gap::moments) {
+            let (to_sun, secs) = moment?;
+            samples.push(sample(to_sun, secs));
         }
-        if let Some(gap) = self.gaps.before(at + 1) {
-            own_secs += gap.secs_at(1) / 2;
-        }
-        samples.push(sample(self.site.track.instants[at].to_sun, own_secs));
+        samples.push(sample(self.site.track.instants[at].to_sun, self.gaps.secs_among_moments(at)));
         Ok(self.texture.add(&samples)?)
     }
 }
 
 /// The moments of a gap, with those of its ends.
-fn moments(gap: &Gap<'_>) -> Result<Vec<Moment>, SunError> {
+fn searched(gap: &Gap<'_>) -> Result<Vec<Moment>, SunError> {
     let moment = |step| Ok(Moment { to_sun: gap.to_sun(step)?, secs_before_change: gap.secs_before_change(step) });
     (0..=gap.steps()).map(moment).collect()
 }

@@ -1,11 +1,14 @@
-//! A tile's shaded time: its instants, and between them the times at which its cells change, found by halving.
+//! A tile's shaded time: its instants, and between them the times at which its cells change.
+//!
+//! What a technique draws whole is drawn at every moment between two instants, so that nothing is missed. Cells that are
+//! asked singly are asked only where the two instants differ, by halving.
 
 use super::gaps::{Gap, Gaps};
 use super::{StudyError, Wants, night};
 use crate::gpu::Gpu;
 use crate::profile::Shaded;
 use crate::profile::accumulate::Sum;
-use crate::shadow::{DrawnMask, ShadowError, Technique};
+use crate::shadow::{DrawnMask, ShadowError, SingleCells, Technique};
 use crate::site::Site;
 use crate::view::{Bits, CellWord, Mask, Tile, View};
 use std::sync::Arc;
@@ -15,21 +18,21 @@ pub(super) struct TileSum<'a> {
     site: &'a Site,
     gaps: Gaps<'a>,
     sum: Sum,
-    /// The shadow at an instant that begins a gap, and which instant it is.
+    /// The shadow at an instant that begins a gap, of those cells that are asked singly; and which instant it is.
     before: Option<(usize, Bits)>,
 }
 
 impl<'a> TileSum<'a> {
-    /// All zero. Where gaps are searched it is in the processor's memory, as the search is.
+    /// All zero.
     pub(super) fn new(site: &'a Site, resolution_secs: u32, gpu: Option<Arc<Gpu>>, tile: &Tile) -> TileSum<'a> {
         let gaps = Gaps::new(site, resolution_secs);
-        let sum = Sum::new(gpu.filter(|_| !gaps.any()), tile.size[0], tile.size[1]);
-        TileSum { site, gaps, sum, before: None }
+        TileSum { site, gaps, sum: Sum::new(gpu, tile.size[0], tile.size[1]), before: None }
     }
 
     /// Goes on from the sum of so many instants.
     pub(super) fn begin_with(&mut self, shaded: &Shaded, instants: usize) {
-        self.sum.begin_with(shaded, self.gaps.secs_of_first(instants));
+        let by_day = self.site.track.instants[..instants].iter().filter(|instant| !instant.night);
+        self.sum.begin_with(shaded, by_day.map(|instant| instant.weight_secs).sum());
     }
 
     /// Adds an instant and the gap before it. Returns the instant's mask and its bits, where they are wanted.
@@ -43,26 +46,48 @@ impl<'a> TileSum<'a> {
         if instant.night {
             return Ok((wants.masks.then(|| night(&View::Plan(self.site.grid))), None));
         }
-        let gap = self.gaps.before(at);
-        let before = match (gap, self.before.take()) {
-            (None, _) => None,
-            (_, Some((last, bits))) if last + 1 == at => Some(bits),
-            // the study goes on here
-            _ => Some(technique.draw(self.site.track.instants[at - 1].to_sun)?.bits()?),
+        let single = self.gaps.touch(at).then(|| technique.single_cells()).flatten();
+        if single != Some(SingleCells::All) {
+            self.add_moments(at, technique)?;
+        }
+        let begun = match (&single, self.before.take()) {
+            (Some(single), before) if self.gaps.before(at).is_some() => match before {
+                Some((last, bits)) if last + 1 == at => Some(bits),
+                // the study goes on here
+                _ => Some(single.of(&technique.draw(self.site.track.instants[at - 1].to_sun)?.bits()?)),
+            },
+            _ => None,
         };
         let drawn = technique.draw(instant.to_sun)?;
-        let own_secs = self.gaps.own_secs(at);
-        if own_secs > 0 {
-            self.sum.add(&drawn, own_secs)?;
-        }
         let mask = wants.masks.then(|| drawn.read()).transpose()?;
-        let shadow = (wants.bits || self.gaps.touch(at)).then(|| drawn.bits()).transpose()?;
-        if let (Some(gap), Some(before), Some(after)) = (gap, before, &shadow) {
-            Search { technique, gap, before: &before, sum: &mut self.sum }.add_gap(after)?;
+        let bits = (wants.bits || single.is_some()).then(|| drawn.bits()).transpose()?;
+        let (own_secs, among_secs) = (self.gaps.own_secs(at), self.gaps.secs_among_moments(at));
+        match (&single, &bits) {
+            (Some(single), Some(bits)) => {
+                let after = single.of(bits);
+                self.add_bits(&after, own_secs)?;
+                self.add_bits(&bits.with(&after, |all, single| all & !single), among_secs)?;
+                if let (Some(gap), Some(before)) = (self.gaps.before(at), begun) {
+                    Search { technique, gap, before: &before, sum: &mut self.sum }.add_gap(&after)?;
+                }
+                self.before = Some((at, after));
+            }
+            _ => self.sum.add(&drawn, among_secs)?,
         }
-        let bits = if wants.bits { shadow.clone() } else { None };
-        self.before = shadow.map(|shadow| (at, shadow));
-        Ok((mask, bits))
+        Ok((mask, bits.filter(|_| wants.bits)))
+    }
+
+    /// Adds what is drawn whole at the moments of the gap before an instant.
+    fn add_moments(&mut self, at: usize, technique: &mut dyn Technique) -> Result<(), StudyError> {
+        for moment in self.gaps.before(at).iter().flat_map(Gap::moments) {
+            let (to_sun, secs) = moment?;
+            self.sum.add(&technique.draw_whole(to_sun)?, secs)?;
+        }
+        Ok(())
+    }
+
+    fn add_bits(&mut self, bits: &Bits, secs: u32) -> Result<(), ShadowError> {
+        if secs > 0 { self.sum.add(&DrawnMask::Bits(bits), secs) } else { Ok(()) }
     }
 
     /// Adds a mask for so many seconds, and nothing before it.

@@ -36,6 +36,12 @@ pub struct CellWord {
 }
 
 impl CellWord {
+    /// The row of its cells, and the column of the first of them, where a row has so many words.
+    pub(crate) fn place(self, in_row: usize) -> (usize, usize) {
+        let word = self.word as usize;
+        (word / in_row, word % in_row * 64)
+    }
+
     /// The bits, counted from the lowest.
     pub(crate) fn bits(self) -> impl Iterator<Item = u32> {
         let mut rest = self.cells;
@@ -78,12 +84,6 @@ impl Bits {
     pub(crate) fn differing(&self, other: &Bits) -> Vec<CellWord> {
         let differ = |(at, (one, other)): (usize, (&u64, &u64))| CellWord { word: at as u32, cells: one ^ other };
         self.words.iter().zip(&other.words).enumerate().map(differ).filter(|word| word.cells != 0).collect()
-    }
-
-    /// The row of a word's cells, and the column of the first of them.
-    pub(crate) fn place(&self, word: u32) -> (usize, usize) {
-        let (word, in_row) = (word as usize, self.in_row());
-        (word / in_row, word % in_row * 64)
     }
 
     /// Puts a tile's cells in their place on the plan. A tile's first column is a multiple of 64.
