@@ -47,9 +47,10 @@ fn changes(minutes: &[Bits], cell: usize) -> [usize; 2] {
     hours
 }
 
-/// Cell by cell what is found between hourly instants is what a study by the minute says: the same second where no hour has
-/// more than one change; else off by at most those hours.
+/// Cell by cell what is found between hourly instants is what a study by the minute says, where the technique draws cells
+/// whole. Where it asks them singly that is so where no hour has more than one change; others are off by at most those hours.
 fn are_those_of_minutes(name: &str, asked: &Overrides) {
+    let draws_whole = asked.engine == Some(Engine::Gpu) || asked.receivers == Some(Receivers::Ground);
     let of = |step: &str, resolution: &str| {
         sample(name, Overrides { step: some(step), resolution: some(resolution), ..asked.clone() })
     };
@@ -76,6 +77,7 @@ fn are_those_of_minutes(name: &str, asked: &Overrides) {
         once * 20 > stepped.len() && off_alone * 2 > once,
         "{name}: {once} cells change, {off_alone} are off without it"
     );
+    assert!(!draws_whole || off == 0, "{name}: {off} cells are off");
     assert!(off <= often && off * 4 < off_alone, "{name}: {off} cells are off, of {often} that change often");
 }
 
@@ -84,7 +86,7 @@ fn hours_are_those_of_a_study_by_the_minute() {
     for name in SITES {
         for receivers in [Receivers::Ground, Receivers::Top] {
             let engine = Some(Engine::Cpu);
-            let asked = Overrides { size: Some(160), receivers: Some(receivers), engine, ..Overrides::default() };
+            let asked = Overrides { size: Some(100), receivers: Some(receivers), engine, ..Overrides::default() };
             are_those_of_minutes(name, &asked);
         }
     }
@@ -100,7 +102,7 @@ fn every_exact_technique_finds_them() {
     ];
     for (method, engine, receivers) in exact {
         let (technique, engine) = (Some(method), Some(engine));
-        let asked = Overrides { size: Some(72), receivers: Some(receivers), technique, engine, ..Overrides::default() };
+        let asked = Overrides { size: Some(48), receivers: Some(receivers), technique, engine, ..Overrides::default() };
         are_those_of_minutes("tower", &asked);
     }
 }
@@ -118,7 +120,7 @@ fn off(one: &PatchOutcome, other: &PatchOutcome, secs: u32) -> usize {
 
 #[test]
 fn facades_have_the_hours_of_minutes_too() {
-    for (name, cell) in [("headquarters", 3.0), ("tower", 2.0), ("industry", 3.0)] {
+    for (name, cell) in [("headquarters", 6.0), ("tower", 6.0), ("industry", 6.0)] {
         let stepped = on_patches(name, "1min", "step", cell);
         let (found, alone) = (on_patches(name, "1h", "1min", cell), on_patches(name, "1h", "step", cell));
         assert_eq!((found.drawn.resolution_secs, alone.drawn.resolution_secs), (60, 0));
@@ -138,7 +140,7 @@ fn an_adapter_draws_facades_at_every_moment() {
         let site =
             sample("tower", Overrides { step: some(step), resolution: some(resolution), ..Overrides::default() });
         let site = Site { receivers: Receivers::Patches, method: Method::SoftTexture, engine, ..site };
-        patches(&site, 4.0, &mut |_| ControlFlow::Continue(())).expect("hours")
+        patches(&site, 8.0, &mut |_| ControlFlow::Continue(())).expect("hours")
     };
     let stepped = of(Engine::Gpu, "10min", "step");
     let found = of(Engine::Gpu, "1h", "10min");

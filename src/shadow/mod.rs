@@ -92,6 +92,7 @@ impl DrawnMask<'_> {
 }
 
 /// Cells that a technique asks singly between two instants.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SingleCells {
     /// All of them.

@@ -68,7 +68,7 @@ impl<'a> TileSum<'a> {
                 self.add_bits(&after, own_secs)?;
                 self.add_bits(&bits.with(&after, |all, single| all & !single), among_secs)?;
                 if let (Some(gap), Some(before)) = (self.gaps.before(at), begun) {
-                    Search { technique, gap, before: &before, sum: &mut self.sum }.add_gap(&after)?;
+                    CellSearch { technique, gap, before: &before, sum: &mut self.sum }.add_gap(&after)?;
                 }
                 self.before = Some((at, after));
             }
@@ -107,7 +107,7 @@ impl<'a> TileSum<'a> {
 }
 
 /// The search for the times at which cells change within a gap.
-struct Search<'a> {
+struct CellSearch<'a> {
     technique: &'a mut dyn Technique,
     gap: Gap<'a>,
     /// The shadow as the gap begins.
@@ -115,7 +115,7 @@ struct Search<'a> {
     sum: &'a mut Sum,
 }
 
-impl Search<'_> {
+impl CellSearch<'_> {
     /// Adds the gap's seconds to cells that are in shadow at both ends, and to others as many as they are found to be.
     fn add_gap(&mut self, after: &Bits) -> Result<(), StudyError> {
         self.sum.add_gap([self.before, after], self.gap.secs())?;

@@ -18,7 +18,9 @@ pub use camera::Lens;
 pub use counts::{Decider, FragmentCounts};
 pub use elevation::{Elevation, Side};
 pub use grid::{Grid, Tile};
-pub use mask::{Bits, CellWord, Mask};
+#[doc(hidden)]
+pub use mask::CellWord;
+pub use mask::{Bits, Mask};
 #[doc(hidden)]
 pub use overlay::Overlay;
 #[doc(hidden)]

@@ -57,8 +57,15 @@ impl SoftTexture {
         work_of(judge.sought.patches, &mut sums).into_par_iter().for_each(|(_, patch, sums)| {
             let texels = patch.texels.start as usize..patch.texels.end as usize;
             let (before, after) = (&before[texels.clone()], &after[texels]);
-            let mut search =
-                Search { judge: &judge, patch, moments, rays: Vec::new(), last: moments.len() / 2, shift: 0, cast: 0 };
+            let mut search = TexelSearch {
+                judge: &judge,
+                patch,
+                moments,
+                rays: Vec::new(),
+                last: moments.len() / 2,
+                shift: 0,
+                cast: 0,
+            };
             for (texel, (sum, ends)) in sums.iter_mut().zip(before.iter().zip(after)).enumerate() {
                 *sum += match ends {
                     (0, 0) => 0,
@@ -76,7 +83,7 @@ impl SoftTexture {
 }
 
 /// The search on one patch.
-struct Search<'a> {
+struct TexelSearch<'a> {
     judge: &'a PatchJudge<'a>,
     patch: &'a Patch,
     moments: &'a [Moment],
@@ -88,7 +95,7 @@ struct Search<'a> {
     cast: u64,
 }
 
-impl Search<'_> {
+impl TexelSearch<'_> {
     /// For how many seconds a texel that sees the sun at one end alone is as it was at the first.
     fn secs_before_change(&mut self, texel: usize, is_lit_before: bool) -> u32 {
         let (mut from, mut to) = (0, self.moments.len() - 1);
@@ -116,7 +123,7 @@ impl Search<'_> {
     }
 
     fn is_lit(&mut self, texel: usize, moment: usize) -> bool {
-        let Search { judge, patch, moments, rays, cast, .. } = self;
+        let TexelSearch { judge, patch, moments, rays, cast, .. } = self;
         rays.resize_with(moments.len(), || None);
         let rays = rays[moment].get_or_insert_with(|| {
             let raster = raster(patch, judge.sought.patches.cell, moments[moment].to_sun.extend(0.0))?;
