@@ -98,11 +98,11 @@ impl Gap<'_> {
 
     /// The moments between its ends: the sun, and for how many seconds each stands.
     pub(super) fn moments(&self) -> impl Iterator<Item = Result<(DVec3, u32), SunError>> {
-        (1..self.steps()).map(|step| Ok((self.to_sun(step)?, self.later_half(step - 1) + self.step_secs(step) / 2)))
+        (1..self.steps()).map(|step| Ok((self.sun_at(step)?, self.later_half(step - 1) + self.step_secs(step) / 2)))
     }
 
     /// The sun at the end of so many steps.
-    pub(super) fn to_sun(&self, step: u32) -> Result<DVec3, SunError> {
+    pub(super) fn sun_at(&self, step: u32) -> Result<DVec3, SunError> {
         if step == 0 {
             return Ok(self.before.to_sun);
         }

@@ -75,7 +75,7 @@ impl<'a> PatchSum<'a> {
 
 /// The moments of a gap, with those of its ends.
 fn searched(gap: &Gap<'_>) -> Result<Vec<Moment>, SunError> {
-    let moment = |step| Ok(Moment { to_sun: gap.to_sun(step)?, secs_before_change: gap.secs_before_change(step) });
+    let moment = |step| Ok(Moment { to_sun: gap.sun_at(step)?, secs_before_change: gap.secs_before_change(step) });
     (0..=gap.steps()).map(moment).collect()
 }
 

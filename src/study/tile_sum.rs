@@ -135,7 +135,7 @@ impl CellSearch<'_> {
             return Ok(self.sum.add_in_gap(self.before, &lit, self.gap.secs() - secs)?);
         }
         let middle = from + (to - from) / 2;
-        let shaded = self.technique.shaded_of(self.gap.to_sun(middle)?, differ)?;
+        let shaded = self.technique.shaded_of(self.gap.sun_at(middle)?, differ)?;
         let changed: Vec<u64> = shaded.iter().zip(&before).map(|(shaded, before)| shaded ^ before).collect();
         let [earlier, later] = parted(differ, &changed);
         self.halve([from, middle], &earlier)?;
