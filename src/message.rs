@@ -54,6 +54,8 @@ fields! {
     To => "to",
     /// The time between two instants.
     Step => "step",
+    /// How near together the moments lie between which times of change are found.
+    Resolution => "resolution",
     /// A single instant, instead of the study.
     At => "instant",
     /// A single probe, instead of the site file's.

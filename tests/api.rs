@@ -179,11 +179,11 @@ fn tiles_and_instants_put_together_are_the_study() {
 #[test]
 fn instants_pass_through_plain_numbers() {
     for instant in track().instants {
-        let Instant { time, to_sun, azimuth_rad, altitude_rad, weight_secs, night } = instant.clone();
+        let Instant { time, to_sun, azimuth_rad, altitude_rad, weight_secs, gap_secs, night } = instant.clone();
         let (seconds, to_sun) = (time.timestamp(), to_sun.to_array());
         let time = vienna().time_zone.timestamp_opt(seconds, 0).unwrap();
         let to_sun = DVec3::from_array(to_sun);
-        assert_eq!(Instant { time, to_sun, azimuth_rad, altitude_rad, weight_secs, night }, instant);
+        assert_eq!(Instant { time, to_sun, azimuth_rad, altitude_rad, weight_secs, gap_secs, night }, instant);
     }
 }
 
@@ -211,7 +211,7 @@ fn smallest() -> Site {
         weight_secs: 1800,
         ..track().instants[0]
     };
-    let track = SunTrack { instants: vec![instant], ..track() };
+    let track = SunTrack { instants: vec![instant], resolution_secs: 0, ..track() };
     let grid = Grid { west: -8.0, north: 12.0, cell: 2.0, width: 10, height: 8 };
     let site = Site::in_memory(vienna(), mesh, Some(0.0), track, grid).unwrap();
     Site { engine: Engine::Cpu, method: Method::RayCast, ..site }

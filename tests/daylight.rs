@@ -346,3 +346,21 @@ fn no_light_of_a_polar_year_is_of_two_days() {
         }
     }
 }
+
+/// What may be searched lies between instants of one window, with the sun up at both and all the time between.
+#[test]
+fn gaps_lie_within_a_window_and_its_light() {
+    let gaps = |track: &SunTrack| track.instants.iter().map(|it| it.gap_secs).collect::<Vec<_>>();
+    let noons = days(&vienna(), "2026-03-20", 2, ["10:00", "12:30"], HOUR, true);
+    assert_eq!(gaps(&noons), [0, 3600, 3600, 1800, 0, 3600, 3600, 1800]);
+    // the days' windows are ten minutes apart, and the sun does not set
+    let summer = days(&tromso(), "2026-06-20", 2, ["0:00", "23:50"], 6 * HOUR, true);
+    assert_eq!(gaps(&summer), [0, 21_600, 21_600, 21_600, 21_000, 0, 21_600, 21_600, 21_600, 21_000]);
+    let spring = one(&vienna(), "2026-03-21", ["4:00", "8:00"], HOUR);
+    assert_eq!(gaps(&spring), [0, 0, 0, 3600, 3600]);
+    // the sun sets and rises between two instants
+    let night = one(&tromso(), "2026-01-20", ["10:00", "14:00"], 4 * HOUR);
+    assert!(gaps(&night).iter().all(|secs| *secs == 0), "{night:?}");
+    let weights = |track: &SunTrack| track.instants.iter().map(|it| u64::from(it.gap_secs)).sum::<u64>();
+    assert!(weights(&noons) == noons.window_secs() && weights(&summer) == summer.window_secs());
+}

@@ -67,6 +67,7 @@ fn pair(site: &Site, view: View, is_tinted: bool) -> Pair {
         engine: Engine::Cpu,
         adapter: None,
         settings: Settings::NONE,
+        resolution_secs: 0,
     };
     let sheet = figure::FigureContext {
         place: &site.place,

@@ -2,6 +2,7 @@
 
 mod api;
 mod architecture;
+mod changes;
 mod choice;
 mod circles;
 mod clock;

@@ -156,6 +156,8 @@ fn asked(engine: Engine, receivers: Receivers) -> Overrides {
         from: Some("15:10".into()),
         to: Some("22:07".into()),
         step: Some("25min".into()),
+        // masks are of the instants
+        resolution: Some("step".into()),
         size: Some(150),
         ..Overrides::default()
     }

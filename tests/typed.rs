@@ -2,7 +2,7 @@
 
 use gnomon::cli::Options;
 use gnomon::message::Worded;
-use gnomon::site::typed::{Axis, Degrees, TypedError, clock, date, degrees, number, place, step, within};
+use gnomon::site::typed::{Axis, Degrees, TypedError, clock, date, degrees, number, place, resolution, step, within};
 use gnomon::site::{Overrides, WrittenSite};
 use gnomon::sun::SunError;
 use std::path::Path;
@@ -278,4 +278,6 @@ fn steps_are_read_as_people_write_them() {
         assert_eq!(step(text), Err(TypedError::Step(text.to_owned())), "{text}");
     }
     assert_eq!(step("0 min"), Err(TypedError::Sun(SunError::ZeroStep)));
+    assert_eq!(["1 min", " Step "].map(|text| resolution(text).unwrap()), ["1min", "step"]);
+    assert_eq!(resolution("0s"), Err(TypedError::Resolution("0s".to_owned())));
 }

@@ -149,6 +149,7 @@ fn trial(site: &Site, promise: Promise, cells: Vec<usize>, decided: Decider) -> 
         engine: Engine::Cpu,
         adapter: None,
         settings: Settings::NONE,
+        resolution_secs: 0,
     };
     Trial { drawn, against: Truth::Centre, promise, technique: Box::new(Wrong { rays, mask, cells, decided }) }
 }

@@ -334,6 +334,12 @@ impl MethodRow {
         }
     }
 
+    /// Whether the times at which single cells change can be searched between two instants: its masks are the truth but
+    /// for what it rounds or what its map misses, and the sun is a point.
+    pub fn finds_changes(&self, subject: Subject, sun_samples: Option<u32>) -> bool {
+        sun_samples.is_none() && (subject == Subject::Patches || self.promise != Promise::Near)
+    }
+
     /// Whether it uses an option.
     pub fn uses(&self, setting: Setting) -> bool {
         match setting {

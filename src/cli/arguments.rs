@@ -76,6 +76,21 @@ pub(super) struct WindowArgs {
     step: Option<String>,
 }
 
+/// How exact hours are between instants.
+#[derive(Debug, Args)]
+pub(super) struct ResolutionArgs {
+    /// To within what time the changes of light between two instants are found: 1min, 10s; step for the instants alone
+    /// [default: 1min, or the step where that is shorter]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    resolution: Option<String>,
+}
+
+impl ResolutionArgs {
+    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
+        Overrides { resolution: self.resolution.clone(), ..asked }
+    }
+}
+
 /// The plan.
 #[derive(Debug, Args)]
 pub(super) struct PlanArgs {
@@ -114,6 +129,8 @@ pub(super) struct ProfileArgs {
     model: ModelArgs,
     #[command(flatten)]
     window: WindowArgs,
+    #[command(flatten)]
+    resolution: ResolutionArgs,
     #[command(flatten)]
     draw: DrawArgs,
     #[command(flatten)]
@@ -324,7 +341,8 @@ impl PlanArgs {
 
 impl ProfileArgs {
     pub(super) fn overrides(&self) -> Overrides {
-        let asked = self.plan.onto(self.draw.onto(self.window.onto(self.model.onto(self.site.overrides()))));
+        let asked = self.draw.onto(self.window.onto(self.model.onto(self.site.overrides())));
+        let asked = self.plan.onto(self.resolution.onto(asked));
         Overrides { patch_cell: self.patch_cell, ..asked }
     }
 

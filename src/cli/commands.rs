@@ -18,6 +18,7 @@ use crate::mesh::report as mesh_report;
 use crate::profile::{Provenance, Statistics};
 use crate::site::{Ground, LoadedMesh, LoadedSun, Overrides, Site, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
+use crate::sun::SunTrack;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -162,6 +163,11 @@ fn check_one(asked: &CheckArgs, path: &Path, beside: &[PathBuf]) -> anyhow::Resu
         true => Ok(check::json(checked, &Options)?),
         false => Ok(check::table(checked, extent, &Options)),
     }
+}
+
+/// How hours were found between a study's instants, in a line.
+pub(super) fn between(drawn: &Provenance, track: &SunTrack) -> String {
+    report::between_instants(drawn, track).map_or_else(String::new, |said| format!("{said}\n"))
 }
 
 /// What drew, and on which ground: two lines, the last without its end.

@@ -1,7 +1,7 @@
 //! `gnomon compare`: what a change of the site does to its shadow.
 
-use super::arguments::{Common, DrawArgs, PlaceArgs, PlanArgs, WindowArgs};
-use super::commands::{drawn_by, lines};
+use super::arguments::{Common, DrawArgs, PlaceArgs, PlanArgs, ResolutionArgs, WindowArgs};
+use super::commands::{between, drawn_by, lines};
 use super::model::{GroundArgs, ModelArgs};
 use super::output::{say, who};
 use super::progress::Progress;
@@ -30,6 +30,8 @@ pub(super) struct CompareArgs {
     #[command(flatten)]
     window: WindowArgs,
     #[command(flatten)]
+    resolution: ResolutionArgs,
+    #[command(flatten)]
     draw: DrawArgs,
     #[command(flatten)]
     plan: PlanArgs,
@@ -42,7 +44,8 @@ pub(super) struct CompareArgs {
 
 impl CompareArgs {
     fn overrides(&self) -> Overrides {
-        self.plan.onto(self.draw.onto(self.window.onto(self.ground.onto(self.model.onto(self.place.overrides())))))
+        let asked = self.window.onto(self.ground.onto(self.model.onto(self.place.overrides())));
+        self.plan.onto(self.draw.onto(self.resolution.onto(asked)))
     }
 }
 
@@ -60,6 +63,7 @@ pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     let mut text = lines(&answer.written);
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &pair.after.ground));
+    text.push_str(&between(&answer.drawn, &pair.after.track));
     text.push_str(&answer.table);
     say(&text)
 }

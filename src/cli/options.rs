@@ -32,6 +32,7 @@ impl Words for Options {
             Field::From => "--from",
             Field::To => "--to",
             Field::Step => "--step",
+            Field::Resolution => "--resolution",
             Field::At => "--at",
             Field::Point => "--point",
             Field::Normal => "--normal",

@@ -1,7 +1,7 @@
 //! `gnomon profile --receivers surfaces`: hours of sun on the model itself.
 
 use super::arguments::{ProfileArgs, ProfileFile};
-use super::commands::{drawn_by, lines};
+use super::commands::{between, drawn_by, lines};
 use super::output::{say, who};
 use super::progress::Progress;
 use super::wrong_use::WrongUse;
@@ -43,6 +43,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, watch: Stopwatch) -> any
     let mut text = lines(&answer.written);
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &site.ground));
+    text.push_str(&between(&answer.drawn, &site.track));
     text.push_str(&answer.summary);
     say(&text)
 }

@@ -1,7 +1,7 @@
 //! `gnomon profile`: the hours of shadow on the plan, or the hours of sun on patches.
 
 use super::arguments::{ProfileArgs, ProfileFile};
-use super::commands::{drawn_by, lines, took};
+use super::commands::{between, drawn_by, lines, took};
 use super::output::{say, who};
 use super::patches;
 use super::progress::Progress;
@@ -44,6 +44,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         let _ = writeln!(text, "{} ({} masks)", folder.display(), answer.masks);
     }
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &site.ground));
+    text.push_str(&between(&answer.drawn, &site.track));
     text.push_str(&answer.statistics.as_ref().map(took).unwrap_or_default());
     text.push_str(&extent(&answer, &site));
     say(&text)

@@ -2,8 +2,8 @@
 //!
 //! Keys and their order are a contract that other programs rely on; keys may be added, never changed.
 
-use super::ExportError;
 use super::patches::PatchContext;
+use super::{ExportError, figure};
 use crate::choice::{Filter, Finder, Receivers, Settings};
 use crate::message::{Message, PlainWords, Words};
 use crate::profile::{Profile, Provenance, Statistics, Timings};
@@ -32,6 +32,8 @@ pub(super) struct DrawnReport<'a> {
     adapter: Option<&'a str>,
     #[serde(flatten)]
     settings: SettingsReport,
+    resolution_secs: u32,
+    between_instants: Option<String>,
     refraction: bool,
     refraction_celsius: Option<f64>,
     refraction_millibar: Option<f64>,
@@ -257,6 +259,23 @@ pub(super) fn plan_report<'a>(
     drawn_report(view_report(&View::Plan(*grid)), place, track, told)
 }
 
+/// How hours were found between a study's instants, without a stop; none where no study is, and where instants are as near
+/// together as times of change would be found.
+pub fn between_instants(drawn: &Provenance, track: &SunTrack) -> Option<String> {
+    let step = figure::duration(track.step_secs);
+    if track.instants.len() < 2 {
+        return None;
+    }
+    match drawn.resolution_secs {
+        0 => Some(format!("hours of instants {step} apart, and of nothing between them")),
+        secs if secs >= track.step_secs => None,
+        secs => Some(format!(
+            "changes of light between instants found to {}; light or shade shorter than {step} may be missed",
+            figure::duration(secs)
+        )),
+    }
+}
+
 pub(super) fn settings_report(settings: &Settings) -> SettingsReport {
     let Settings { map_size, filter, smoothie_width_m, sun_samples } = *settings;
     SettingsReport { map_size, pcf: filter.map(Filter::word), smoothie_width: smoothie_width_m, sun_samples }
@@ -283,6 +302,8 @@ fn drawn_report<'a>(
         engine: drawn.engine.word(),
         adapter: drawn.adapter.as_deref(),
         settings: settings_report(&drawn.settings),
+        resolution_secs: drawn.resolution_secs,
+        between_instants: between_instants(drawn, track),
         refraction: track.refraction,
         refraction_celsius: refracted(air.temperature_c),
         refraction_millibar: refracted(air.pressure_hpa),

@@ -5,7 +5,7 @@ use crate::gpu::layout::WeightUniforms;
 use crate::gpu::targets::{NUMBER, whole};
 use crate::gpu::{Gpu, readback, shaders};
 use crate::shadow::{DrawnMask, ShadowError};
-use crate::view::{Bits, Mask};
+use crate::view::{Bits, CellWord, Mask};
 use rayon::prelude::*;
 use std::sync::Arc;
 use wgpu::*;
@@ -145,6 +145,36 @@ impl Sum {
             }
             self.pour()?;
         }
+    }
+
+    /// Adds a gap's seconds to cells that are in shadow at both of its ends. What others are in it is part of these seconds,
+    /// and follows by [`Sum::add_in_gap`]; the running words have room for all of it.
+    ///
+    /// # Errors
+    /// [`ShadowError`], where the sum is on an adapter.
+    pub fn add_gap(&mut self, [before, after]: [&Bits; 2], secs: u32) -> Result<(), ShadowError> {
+        if secs > MOST_SECS - self.secs {
+            self.pour()?;
+        }
+        self.add(&DrawnMask::Bits(&before.with(after, |before, after| before & after)), secs)
+    }
+
+    /// Adds a part of the last gap's seconds to single cells of a raster.
+    ///
+    /// # Errors
+    /// As [`Sum::add_gap`].
+    pub fn add_in_gap(&mut self, raster: &Bits, cells: &[CellWord], secs: u32) -> Result<(), ShadowError> {
+        let (width, more) = (raster.width as usize, 255 * secs);
+        if let RunningSum::Memory(sum) = &mut self.running {
+            for word in cells {
+                let (row, column) = word.place(raster.in_row());
+                word.bits().for_each(|bit| sum[row * width + column + bit as usize] += more);
+            }
+            return Ok(());
+        }
+        let mut bits = Bits::new(raster.width, raster.height);
+        cells.iter().for_each(|word| bits.words[word.word as usize] |= word.cells);
+        self.add_to_running(&DrawnMask::Bits(&bits), secs)
     }
 
     fn add_to_running(&mut self, mask: &DrawnMask<'_>, secs: u32) -> Result<(), ShadowError> {

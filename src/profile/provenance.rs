@@ -16,6 +16,9 @@ pub struct Provenance {
     /// The settings of the technique; those that it does not use are absent. Without [`Settings::sun_samples`] the sun
     /// was its centre; [`Settings::smoothie_width_m`] is present only if it was set by hand.
     pub settings: Settings,
+    /// To how many seconds the times were found at which light changes between two instants; 0 where the answer is of the
+    /// instants alone.
+    pub resolution_secs: u32,
 }
 
 /// How long each stage took, in seconds and in the order of the work; the last one is `total`.

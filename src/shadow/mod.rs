@@ -34,8 +34,9 @@ pub mod walls;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
-use crate::view::{Bits, FragmentCounts, Mask, Surface, Tile, View};
+use crate::view::{Bits, CellWord, FragmentCounts, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
+use std::sync::Arc;
 
 #[doc(hidden)]
 pub use plan_surface::{PlanSurface, plan_surface};
@@ -92,10 +93,53 @@ impl DrawnMask<'_> {
     }
 }
 
+/// Cells that a technique asks singly between two instants.
+#[doc(hidden)]
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SingleCells {
+    /// All of them.
+    All,
+    /// Those whose bits are set.
+    Some(Arc<Bits>),
+}
+
+impl SingleCells {
+    /// What these have of a shadow.
+    pub(crate) fn of(&self, shadow: &Bits) -> Bits {
+        match self {
+            SingleCells::All => shadow.clone(),
+            SingleCells::Some(cells) => shadow.with(cells, |shadow, cells| shadow & cells),
+        }
+    }
+}
+
 /// A way to find shadows, made for one scene and one view at a time.
 pub trait Technique {
     /// Draws the mask for the unit vector to the sun, which is above the horizon.
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
+
+    /// The cells that are asked singly between two instants, since drawing them whole costs more; none where all are drawn.
+    fn single_cells(&self) -> Option<SingleCells> {
+        None
+    }
+
+    /// As [`Technique::draw`], without those cells that are asked singly: they are not in shadow.
+    ///
+    /// # Errors
+    /// As [`Technique::draw`].
+    fn draw_whole(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
+        self.draw(to_sun)
+    }
+
+    /// Which of some cells are in shadow, of those that are asked singly: bits of the words that are asked, of which others
+    /// than the asked ones mean nothing.
+    ///
+    /// # Errors
+    /// As [`Technique::draw`].
+    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
+        let bits = self.draw(to_sun)?.bits()?;
+        Ok(asked.iter().map(|asked| bits.words[asked.word as usize]).collect())
+    }
 
     /// Turns to another view of the same scene, and keeps what does not depend on the view. Returns `false` if the
     /// technique has to be rebuilt instead.

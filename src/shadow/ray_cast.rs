@@ -7,10 +7,10 @@
 //! out: boxes are padded beyond all rounding, and a triangle is only left out where no rounding could make it a hit. Cells of
 //! eight rows and columns are asked at once, as a beam of parallel rays.
 
-use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, Technique, seen_normal};
+use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, SingleCells, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::sun::disc;
-use crate::view::{Camera, Elevation, Grid, Lens, Mask, Surface, Tile, View};
+use crate::view::{Camera, CellWord, Elevation, Grid, Lens, Mask, Surface, Tile, View};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
@@ -383,7 +383,7 @@ fn seen(scene: &Scene, (origin, direction): (DVec3, DVec3), first_hit: Option<(u
 }
 
 /// How far from the origin rays begin, metres.
-fn reach(scene: &Scene, view: &View) -> f64 {
+pub(super) fn reach(scene: &Scene, view: &View) -> f64 {
     let farthest = match view {
         View::Plan(grid) => {
             let [west, south, east, north] = grid.region();
@@ -407,6 +407,23 @@ impl Technique for RayCast {
         bands.for_each(|(band, shares)| self.share_rows(band * SIDE, shares, &suns));
         self.mask.share = share;
         Ok(DrawnMask::Memory(&self.mask))
+    }
+
+    fn single_cells(&self) -> Option<SingleCells> {
+        Some(SingleCells::All)
+    }
+
+    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
+        let suns = self.suns(to_sun);
+        let Mask { width, .. } = self.mask;
+        let in_row = width.div_ceil(64) as usize;
+        let shaded = |asked: &CellWord| {
+            let (row, column) = asked.place(in_row);
+            let first = row * width as usize + column;
+            let is_shaded = |bit: &u32| self.share(first + *bit as usize, &suns) <= 127;
+            asked.bits().filter(is_shaded).fold(0, |shaded, bit| shaded | 1 << bit)
+        };
+        Ok(asked.par_iter().map(shaded).collect())
     }
 
     fn turn_to_tile(&mut self, tile: Tile) -> Result<bool, ShadowError> {

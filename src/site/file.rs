@@ -128,6 +128,8 @@ pub struct StudyTable {
     pub to: Option<Text>,
     /// Duration.
     pub step: Option<String>,
+    /// Duration, or `step`.
+    pub resolution: Option<String>,
     /// A technique's name.
     pub technique: Option<String>,
 }

@@ -192,6 +192,12 @@ pub const SITE_KEYS: &[SiteKey] = &[
     key("study", "step", ValueType::Text, "step = \"30min\"")
         .default("must be written")
         .means("The time from one instant to the next: `\"30min\"`, `\"1h\"`, `\"1h30\"`, `\"90s\"`."),
+    key("study", "resolution", ValueType::Text, "resolution = \"1min\"")
+        .default("`\"1min\"`, or the step where that is shorter")
+        .means(
+            "To within what time the moments are found at which a cell's light changes between two instants, by halving; see \
+             [techniques.md](techniques.md#between-instants). `\"step\"`: the instants alone.",
+        ),
     key("study", "technique", ValueType::Word(technique_words), "technique = \"auto\"")
         .default("`\"auto\"`, the fastest exact one")
         .means("How shadows are found; see [techniques.md](techniques.md)."),

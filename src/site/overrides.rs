@@ -32,6 +32,8 @@ pub struct Overrides {
     pub to: Option<String>,
     /// The time between two instants, such as `30min`.
     pub step: Option<String>,
+    /// `--resolution 1min|step`
+    pub resolution: Option<String>,
     /// `--from-date 2026-02-19`, the first of several days.
     pub from_date: Option<String>,
     /// The last date of a study of several days.

@@ -3,6 +3,7 @@
 use super::dates::{date_of, of_each_day, own_date, several};
 use super::error::{FieldLocation, SiteError};
 use super::overrides::{Overrides, refuse};
+use super::typed::INSTANTS_ALONE;
 use super::written::WrittenSite;
 use crate::message::{Field, message};
 use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_duration_secs};
@@ -34,7 +35,31 @@ pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> 
     }
     match &asked.at {
         Some(text) => single(place, written, asked, text),
-        None => window(place, written, asked),
+        None => {
+            let track = window(place, written, asked)?;
+            Ok(SunTrack { resolution_secs: resolution_secs(written, asked, &track)?, ..track })
+        }
+    }
+}
+
+/// How near together times of change are found: as asked, else as the track has it.
+fn resolution_secs(written: &WrittenSite, asked: &Overrides, track: &SunTrack) -> Result<u32, SiteError> {
+    let step_secs = track.step_secs;
+    let in_file = in_file(written, "resolution", written.site.study.resolution.as_deref());
+    let Some((text, at)) = said(Field::Resolution, &asked.resolution).or(in_file) else {
+        return Ok(track.resolution_secs);
+    };
+    if text.trim() == INSTANTS_ALONE {
+        return Ok(0);
+    }
+    let example = "write for example 1min, or step for the instants alone";
+    match parse_duration_secs(&text) {
+        Err(_) | Ok(0) => Err(refuse(at, message![format!("\"{text}\" is no resolution"); example])),
+        Ok(secs) if secs > step_secs => {
+            let what = format!("a resolution of {secs} s is longer than the step, {step_secs} s");
+            Err(refuse(at, message![what; example]))
+        }
+        Ok(secs) => Ok(secs),
     }
 }
 
@@ -59,6 +84,7 @@ fn single(place: &Place, written: &WrittenSite, asked: &Overrides, text: &str) -
         (Field::From, &asked.from),
         (Field::To, &asked.to),
         (Field::Step, &asked.step),
+        (Field::Resolution, &asked.resolution),
         (Field::FromDate, &asked.from_date),
         (Field::ToDate, &asked.to_date),
     ];

@@ -1,8 +1,10 @@
 //! The events of a study, and who receives them.
 
+use super::gaps::Gaps;
 use super::{StudyError, TiledStudy};
-use crate::message::Message;
+use crate::message::{Field, Message, message};
 use crate::profile::{Shaded, Unfinished};
+use crate::site::Site;
 use crate::sun::Zone;
 use crate::view::{Bits, Mask, Tile};
 use chrono::DateTime;
@@ -88,6 +90,19 @@ pub(crate) fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), S
 /// [`StudyError::Interrupted`] if the listener ends the work.
 pub(crate) fn note_models(notes: &[Message], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
+}
+
+/// Says where the hours are of the instants alone, although times of change are asked.
+pub(super) fn note_instants_alone(site: &Site, found_secs: u32, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    if found_secs > 0 || !Gaps::new(site, site.track.resolution_secs).any() {
+        return Ok(());
+    }
+    let note = message![
+        "hours are summed of the instants alone: between them the light's changes are found by exact techniques, with the \
+         sun as a point";
+        "take such a technique, or ", (Field::Resolution, "step"), " to ask for no more"
+    ];
+    tell(on_event, Event::Note(note))
 }
 
 /// Says when the plan is done in tiles.

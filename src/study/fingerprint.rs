@@ -55,7 +55,8 @@ pub(super) fn of(site: &Site, drawn: &Provenance, tiles: &[Tile], wants: &Wants)
     // what is asked of techniques, and what that came to
     add_settings(&mut fields, "asked", &site.settings);
     add_settings(&mut fields, "drawn", &drawn.settings);
-    let Provenance { technique, finder, engine, adapter, settings: _ } = drawn;
+    let Provenance { technique, finder, engine, adapter, settings: _, resolution_secs } = drawn;
+    add_resolution(&mut fields, site, *resolution_secs);
     fields.text("technique", Some(technique.word()));
     fields.text("finder", finder.map(Finder::word));
     fields.text("engine", Some(engine.word()));
@@ -72,7 +73,8 @@ pub(super) fn of_patches(site: &Site, drawn: &Provenance, choice: &str, (cell, t
     add_instants(&mut fields, site);
     fields.text("choice", Some(choice));
     add_settings(&mut fields, "drawn", &drawn.settings);
-    let Provenance { technique, engine, adapter, .. } = drawn;
+    let Provenance { technique, engine, adapter, resolution_secs, .. } = drawn;
+    add_resolution(&mut fields, site, *resolution_secs);
     fields.text("technique", Some(technique.word()));
     fields.text("engine", Some(engine.word()));
     fields.text("adapter", adapter.as_deref());
@@ -110,6 +112,14 @@ fn add_instants(fields: &mut Fields, site: &Site) {
     fields.numbers("to sun", instants.iter().flat_map(|instant| instant.to_sun.to_array()).map(f64::to_le_bytes));
     fields.numbers("weights", instants.iter().map(|instant| instant.weight_secs.to_le_bytes()));
     fields.numbers("nights", instants.iter().map(|instant| [u8::from(instant.night)]));
+}
+
+/// What is searched between instants, where anything is.
+fn add_resolution(fields: &mut Fields, site: &Site, resolution_secs: u32) {
+    if resolution_secs > 0 {
+        fields.numbers("resolution", [resolution_secs.to_le_bytes()]);
+        fields.numbers("gaps", site.track.instants.iter().map(|instant| instant.gap_secs.to_le_bytes()));
+    }
 }
 
 /// What is written while it goes on is not there for instants that were drawn without it.

@@ -74,11 +74,18 @@ impl Machine {
             engine: if self.gpu.is_some() { Engine::Gpu } else { Engine::Cpu },
             adapter: self.gpu.as_ref().map(|gpu| gpu.name().to_owned()),
             settings: self.settings,
+            resolution_secs: 0,
         }
     }
 
+    /// What it draws over a site's track: of the times of change between its instants, too, where it finds them.
+    pub(super) fn drawn_over(&self, site: &Site, subject: Subject) -> Provenance {
+        let finds = self.method.row().finds_changes(subject, self.settings.sun_samples);
+        Provenance { resolution_secs: if finds { site.track.resolution_secs } else { 0 }, ..self.drawn() }
+    }
+
     /// What a cell of the plan takes at the most, bytes. Measured (docs/benchmarks/growth.md), and rounded up.
-    pub(super) fn cell_bytes(&self, subject: Subject, wants: &Wants) -> u64 {
+    pub(super) fn cell_bytes(&self, subject: Subject, wants: &Wants, searches: bool) -> u64 {
         let drawing = match (self.method, &self.gpu, subject) {
             // sums, and their copy while they are kept
             (Method::Projected, None, Subject::Ground) => 14,
@@ -88,8 +95,10 @@ impl Machine {
             // textures of what is seen, of the depth that is judged, of mask and sums; and what is read back
             (_, Some(_), _) => 64,
         };
+        // bits of both ends of a gap and of each halving
+        let search = if searches && self.gpu.is_none() { 4 } else { 0 };
         // bits twice; fragments as they are added up, and as they are read
-        drawing + u64::from(wants.bits) + if wants.statistics { 32 } else { 0 }
+        drawing + search + u64::from(wants.bits) + if wants.statistics { 32 } else { 0 }
     }
 
     /// The most columns and rows that are drawn at once.

@@ -16,11 +16,13 @@ mod error;
 mod event;
 mod fingerprint;
 mod frames;
+mod gaps;
 mod instant;
 #[doc(hidden)]
 pub mod live;
 mod machine;
 mod outcome;
+mod patch_sum;
 mod patches;
 #[doc(hidden)]
 pub mod probe;
@@ -28,6 +30,7 @@ mod profile;
 mod site_view;
 mod stopwatch;
 mod subject;
+mod tile_sum;
 mod tiled_study;
 mod tiles;
 #[doc(hidden)]

@@ -2,6 +2,9 @@
 
 use super::again::persist;
 use super::chooser::opened;
+use super::event::note_instants_alone;
+use super::gaps::Gaps;
+use super::patch_sum::PatchSum;
 use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, fingerprint, note_models, tell};
 use crate::choice::{Engine, Method, Misfit, Settings, Subject};
 use crate::gpu::Gpu;
@@ -10,13 +13,11 @@ use crate::mesh::patches::{MOST_TEXELS, Patches};
 use crate::message::{message, setting};
 use crate::profile::{Provenance, Timings, Unfinished};
 use crate::shadow::ray_cast::RayCast;
-use crate::shadow::soft_texture::{Choice, Fill, Painter, PatchJudgements, Sample, SoftTexture};
+use crate::shadow::soft_texture::{Choice, Fill, Painter, PatchJudgements, SoftTexture};
 use crate::shadow::{JUDGED_ABOVE_M, Scene, Technique};
 use crate::site::Site;
-use crate::sun::{self, disc};
 use crate::sunlight::PatchHours;
 use crate::view::Surface;
-use glam::DVec3;
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -78,6 +79,7 @@ pub(crate) fn patches_kept(
     patches.leave_out_shared(&site.mesh, &site.casts, &site.receives);
     let patches = Arc::new(patches);
     note_patches(&patches, on_event)?;
+    note_instants_alone(site, resolution_secs(site), on_event)?;
     persist(site, true, on_event, &mut |site, gpu, on_event| {
         let painter = painter(gpu, site, choice, on_event)?;
         light(site, choice, &patches, painter, keep_every, watch.clone(), on_event)
@@ -100,7 +102,8 @@ fn light(
     let casters = site.mesh.of_components(&site.casts);
     let mut texture = SoftTexture::new(casters, Arc::clone(patches), painter, choice)?;
     watch.lap("prepare");
-    add_instants(site, &mut texture, keeping, patches.texels.len(), on_event)?;
+    let sum = PatchSum::new(site, drawn.resolution_secs, &mut texture);
+    add_instants(site, sum, keeping, patches.texels.len(), on_event)?;
     let (judged, gpu_bytes) = (texture.judged(), texture.gpu_bytes());
     let mut lit = texture.finish()?;
     darken_underground(patches, site.ground.level, &mut lit);
@@ -121,7 +124,7 @@ struct Keeping {
 /// Adds the track's instants, from where the study was stopped.
 fn add_instants(
     site: &Site,
-    texture: &mut SoftTexture,
+    mut sum: PatchSum<'_>,
     keeping: Option<Keeping>,
     texels: usize,
     on_event: &mut OnEvent<'_>,
@@ -141,20 +144,18 @@ fn add_instants(
     let done = begun.as_ref().filter(|_| sums.is_some()).map_or(0, |begun| begun.done);
     tell(on_event, Event::Started { instants: count, tiles: 1 })?;
     if let Some(sums) = sums {
-        texture.begin_with(sums);
+        sum.begin_with(sums);
         tell(on_event, Event::GoesOn { done })?;
     }
     let (mut kept, mut was_kept) = (Instant::now(), done > 0);
     for (index, instant) in site.track.instants.iter().enumerate().skip(done) {
-        if !instant.night {
-            texture.add(&samples_of(instant, site.settings.sun_samples))?;
-        }
+        sum.add(index)?;
         let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None, bits: None });
         let is_last = index + 1 == count && was_kept;
         if let Some(Keeping { every, number }) = keeping
             && (told.is_err() || is_last || kept.elapsed() >= every)
         {
-            let shaded = texture.so_far()?.into();
+            let shaded = sum.so_far()?.into();
             let unfinished = Unfinished { study: number, tiles: 1, done: index + 1, shaded, statistics: None };
             tell(on_event, Event::Kept(&unfinished))?;
             (kept, was_kept) = (Instant::now(), true);
@@ -175,7 +176,14 @@ fn provenance(site: &Site, choice: Choice, painter: &Painter) -> Provenance {
             Painter::OnProcessor(_) => None,
         },
         settings: Settings { sun_samples: site.settings.sun_samples, ..Settings::NONE },
+        resolution_secs: resolution_secs(site),
     }
+}
+
+/// How near together times of change are found: those of a disc's light are not.
+fn resolution_secs(site: &Site) -> u32 {
+    let finds = site.method.row().finds_changes(Subject::Patches, site.settings.sun_samples);
+    if finds { site.track.resolution_secs } else { 0 }
 }
 
 /// Which study it is.
@@ -200,15 +208,6 @@ pub(crate) fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError>
     Ok((receivers, surface))
 }
 
-/// An instant's samples: the sun's centre, or points of its disc.
-fn samples_of(instant: &sun::Instant, sun_samples: Option<u32>) -> Vec<Sample> {
-    let sample = |to_sun: DVec3| Sample { light: to_sun.extend(0.0), weight: instant.weight_secs };
-    match sun_samples {
-        None => vec![sample(instant.to_sun)],
-        Some(samples) => disc(instant.to_sun, samples).map(sample).collect(),
-    }
-}
-
 /// How patches are judged, as asked.
 fn choice(site: &Site) -> Result<Choice, Misfit> {
     let (method, subject) = (site.method, Subject::Patches);
@@ -224,7 +223,9 @@ fn choice(site: &Site) -> Result<Choice, Misfit> {
     }
 }
 
-/// Who fills textures, as asked; else a real graphics adapter, and the processor where the adapter is a program on it.
+/// Who fills textures, as asked; else a real graphics adapter, and the processor where the adapter is a program on it or
+/// where times of change are searched: the adapter would draw every moment between two instants, the processor asks of few
+/// texels at each.
 ///
 /// Measured (docs/benchmarks/receivers.md).
 fn painter(
@@ -238,6 +239,7 @@ fn painter(
         _ if choice == Choice::Rays => Ok(on_processor),
         Engine::Cpu => Ok(on_processor),
         Engine::Gpu => Ok(Painter::OnGpu(opened(gpu)?)),
+        Engine::Auto if Gaps::new(site, resolution_secs(site)).any() => Ok(on_processor),
         Engine::Auto => match Gpu::open() {
             Ok(gpu) if gpu.software() => Ok(on_processor),
             Ok(gpu) => Ok(Painter::OnGpu(Arc::new(gpu))),

@@ -2,19 +2,19 @@
 
 use super::again::persist;
 use super::chooser::{choose, counting, not_patches};
-use super::event::note_tiles;
+use super::event::{note_instants_alone, note_tiles};
+use super::tile_sum::TileSum;
 use super::tiled_study::TiledStudy;
 use super::{CountingPurpose, Event, OnEvent, Outcome, SiteView, Stopwatch, StudyError, Wants};
-use super::{day_and_night, night, note_models, tell, tiles};
+use super::{day_and_night, note_models, subject_of, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::message::{Field, aside, message};
-use crate::profile::accumulate::Sum;
 use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
 use crate::sun;
-use crate::view::{Bits, Mask, Surface, Tile, View};
+use crate::view::{Surface, Tile, View};
 use std::cell::{OnceCell, RefCell};
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -100,6 +100,7 @@ impl<'a> TiledStudy<'a> {
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
         check_tiles(&tiles, wants)?;
         note_tiles(&tiles, on_event)?;
+        note_instants_alone(site, machine.drawn_over(site, subject_of(site, &view)).resolution_secs, on_event)?;
         Ok(TiledStudy { site, wants: wants.clone(), machine, tiles, number: OnceCell::new(), watch })
     }
 }
@@ -146,6 +147,7 @@ fn once(
     let begun = begun.filter(|begun| tiled.is_of(begun));
     let first = tiled.worked_on(begun.as_ref().map_or(0, |begun| begun.done));
     let study = tiled.wants.keep_every.map_or(0, |_| tiled.number());
+    let drawn = tiled.drawn();
     let TiledStudy { site, wants, machine, tiles, mut watch, .. } = tiled;
     let look = SiteView { site, machine: &machine, view: View::Plan(site.grid), receivers: site.receivers };
     let count = tiles.len() * site.track.instants.len();
@@ -167,7 +169,9 @@ fn once(
         tell(on_event, Event::GoesOn { done })?;
     }
     let kept = (Instant::now(), done > 0);
-    let mut work = TileWork { look: &look, wants: &wants, study, tiles: tiles.len(), done, statistics, kept };
+    let resolution_secs = drawn.resolution_secs;
+    let mut work =
+        TileWork { look: &look, wants: &wants, resolution_secs, study, tiles: tiles.len(), done, statistics, kept };
     for (number, tile) in tiles.iter().enumerate().skip(first) {
         if number > first && !technique.turn_to_tile(*tile)? {
             technique = look.technique_of(*tile)?;
@@ -183,7 +187,7 @@ fn once(
     }
     watch.lap("shadows");
     Ok(TiledOutcome {
-        drawn: machine.drawn(),
+        drawn,
         day_and_night_secs: day_and_night(&site.track),
         surface,
         surface_mesh: look.surface_mesh(),
@@ -196,6 +200,8 @@ fn once(
 struct TileWork<'a> {
     look: &'a SiteView<'a>,
     wants: &'a Wants,
+    /// How near together times of change are found; 0 where they are not.
+    resolution_secs: u32,
     /// The study's number.
     study: u64,
     /// How many tiles there are.
@@ -218,16 +224,16 @@ impl TileWork<'_> {
     ) -> Result<Shaded, StudyError> {
         let instants = &self.look.site.track.instants;
         let count = self.tiles * instants.len();
-        let mut sum = Sum::new(self.look.machine.gpu(), tile.size[0], tile.size[1]);
+        let mut sum = TileSum::new(self.look.site, self.resolution_secs, self.look.machine.gpu(), tile);
         let before = number * instants.len();
         let done_of_it = self.done.saturating_sub(before);
         if let Some(shaded) = begun {
-            let by_day = instants[..done_of_it].iter().filter(|instant| !instant.night);
-            sum.begin_with(&shaded, by_day.map(|instant| instant.weight_secs).sum());
+            sum.begin_with(&shaded, done_of_it);
         }
         for (at, instant) in instants.iter().enumerate().skip(done_of_it) {
             let index = before + at;
-            let (mask, bits) = self.draw(instant, technique, &mut sum)?;
+            let (mask, bits) = sum.add(at, technique, self.wants)?;
+            self.count(instant, technique)?;
             let (mask, bits) = (mask.as_ref(), bits.as_ref());
             let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });
             // what lies in files already, and long work, must not be lost while a drawing is made of it
@@ -241,26 +247,15 @@ impl TileWork<'_> {
         Ok(sum.finish()?)
     }
 
-    /// Adds an instant to the sum. Returns its mask and its bits, where they are wanted.
-    fn draw(
-        &mut self,
-        instant: &sun::Instant,
-        technique: &mut dyn Technique,
-        sum: &mut Sum,
-    ) -> Result<(Option<Mask>, Option<Bits>), StudyError> {
-        if instant.night {
-            return Ok((self.wants.masks.then(|| night(&self.look.view)), None));
-        }
-        let drawn = technique.draw(instant.to_sun)?;
-        sum.add(&drawn, instant.weight_secs)?;
-        let mask = self.wants.masks.then(|| drawn.read()).transpose()?;
-        let bits = self.wants.bits.then(|| drawn.bits()).transpose()?;
-        if let Some(statistics) = &mut self.statistics
+    /// Adds what counting an instant takes, where that is wanted.
+    fn count(&mut self, instant: &sun::Instant, technique: &mut dyn Technique) -> Result<(), StudyError> {
+        if !instant.night
+            && let Some(statistics) = &mut self.statistics
             && let Some(counted) = technique.counted(instant.to_sun)?
         {
             statistics.add(&counted);
         }
-        Ok((mask, bits))
+        Ok(())
     }
 
     /// Tells what is to be kept after so many instants.

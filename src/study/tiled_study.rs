@@ -1,9 +1,9 @@
 //! A study that is prepared but not yet run.
 
 use super::machine::Machine;
-use super::{SiteView, Stopwatch, StudyError, Wants, fingerprint};
-use crate::profile::accumulate::Sum;
-use crate::profile::{Shaded, Unfinished};
+use super::tile_sum::TileSum;
+use super::{SiteView, Stopwatch, StudyError, Wants, fingerprint, subject_of};
+use crate::profile::{Provenance, Shaded, Unfinished};
 use crate::site::Site;
 use crate::sun;
 use crate::view::{Tile, View};
@@ -24,7 +24,12 @@ pub struct TiledStudy<'a> {
 impl TiledStudy<'_> {
     /// The study's fingerprint: a number made of everything that its result depends on.
     pub fn number(&self) -> u64 {
-        *self.number.get_or_init(|| fingerprint::of(self.site, &self.machine.drawn(), &self.tiles, &self.wants))
+        *self.number.get_or_init(|| fingerprint::of(self.site, &self.drawn(), &self.tiles, &self.wants))
+    }
+
+    /// What draws.
+    pub(super) fn drawn(&self) -> Provenance {
+        self.machine.drawn_over(self.site, subject_of(self.site, &View::Plan(self.site.grid)))
     }
 
     /// The tiles, in their order.
@@ -33,16 +38,22 @@ impl TiledStudy<'_> {
     }
 
     /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
-    /// instants, which may come from another process. Sums of instants that make up the track add up to the tile's own to the bit, and
-    /// [`paste`](super::paste) puts tiles together. Where the device fails, so does this.
+    /// instants, which may come from another process. What changes between two instants of the track is the later one's.
+    /// Sums of instants that make up the track add up to the tile's own to the bit, and [`paste`](super::paste) puts tiles
+    /// together. Where the device fails, so does this.
     ///
     /// # Errors
     /// [`StudyError::Shadow`], where drawing failed.
     pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<Shaded, StudyError> {
         let mut technique = self.look().technique_of(tile)?;
-        let mut sum = Sum::new(self.machine.gpu(), tile.size[0], tile.size[1]);
+        let mut sum = TileSum::new(self.site, self.drawn().resolution_secs, self.machine.gpu(), &tile);
+        let track = &self.site.track.instants;
         for instant in instants.iter().filter(|instant| !instant.night) {
-            sum.add(&technique.draw(instant.to_sun)?, instant.weight_secs)?;
+            let at = track.binary_search_by_key(&instant.time, |own| own.time);
+            match at.ok().filter(|at| track[*at].weight_secs == instant.weight_secs) {
+                Some(at) => drop(sum.add(at, technique.as_mut(), &Wants::default())?),
+                None => sum.add_mask(&technique.draw(instant.to_sun)?, instant.weight_secs)?,
+            }
         }
         Ok(sum.finish()?)
     }

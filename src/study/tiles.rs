@@ -1,5 +1,6 @@
 //! A plan in tiles, where it has more cells than the adapter draws at once, or than the memory holds.
 
+use super::gaps::Gaps;
 use super::machine::Machine;
 use super::{Budget, StudyError, Wants, subject_of};
 use crate::choice::Subject;
@@ -20,7 +21,9 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
     let grid = site.grid;
     // sums of more days run in larger words beside
     let long = if day_secs > MOST_SECS { 24 } else { 0 };
-    let cell_bytes = machine.cell_bytes(subject_of(site, &View::Plan(grid)), wants) + long;
+    let subject = subject_of(site, &View::Plan(grid));
+    let searches = Gaps::new(site, machine.drawn_over(site, subject).resolution_secs).any();
+    let cell_bytes = machine.cell_bytes(subject, wants, searches) + long;
     let (most, columns) = columns(grid, machine);
     let row_bytes = u64::from(columns) * cell_bytes;
     let rows = match wants.budget {
@@ -39,7 +42,7 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
 /// The same of one instant's plan: however many cells it has, little is taken beside its mask.
 pub(super) fn of_instant(grid: Grid, subject: Subject, machine: &Machine) -> Vec<Tile> {
     let (most, columns) = columns(grid, machine);
-    let row_bytes = u64::from(columns) * machine.cell_bytes(subject, &Wants::default());
+    let row_bytes = u64::from(columns) * machine.cell_bytes(subject, &Wants::default(), false);
     let rows = u32::try_from(INSTANT_BYTES / row_bytes).unwrap_or(u32::MAX).clamp(1, most);
     split(grid, columns, rows)
 }

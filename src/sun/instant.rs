@@ -17,6 +17,9 @@ pub struct Instant {
     pub altitude_rad: f64,
     /// How many seconds of the window this instant stands for.
     pub weight_secs: u32,
+    /// Seconds since the instant before, where the window and the sun's light last all that time, so that between the two
+    /// there is something to search; else 0.
+    pub gap_secs: u32,
     /// Whether the sun is below the horizon: the mask is 0 everywhere and the instant enters no sum.
     pub night: bool,
 }

@@ -39,6 +39,7 @@ impl Sky<'_> {
             azimuth_rad: seen.azimuth_deg.to_radians(),
             altitude_rad: seen.altitude_deg.to_radians(),
             weight_secs: 0,
+            gap_secs: 0,
             night: false,
         };
         instant.night = instant.altitude_deg() < 0.0;

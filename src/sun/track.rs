@@ -1,6 +1,6 @@
 //! The sun track of a study: its instants, and the days on which they lie.
 
-use super::{Day, Instant, Polar, Reading, Zone};
+use super::{Air, Day, Instant, Place, Polar, Reading, Sky, Zone};
 use crate::message::Message;
 
 /// The part of each day that a study of several days covers, as written; the whole day where neither end is given.
@@ -23,6 +23,9 @@ pub struct SunTrack {
     pub each_day: Option<EachDay>,
     /// The step between instants in seconds; 0 for a single instant.
     pub step_secs: u32,
+    /// How near together the instants lie between which times of change are found, seconds; 0 where the instants alone are
+    /// asked. A minute, or the step where that is shorter, unless the site file says otherwise.
+    pub resolution_secs: u32,
     /// Whether directions include atmospheric refraction.
     pub refraction: bool,
     /// ΔT used, seconds (Espenak and Meeus), at the window's start.
@@ -35,14 +38,21 @@ impl SunTrack {
         self.instants.iter().map(|instant| {
             let date = instant.time.date_naive();
             SunTrack {
-                instants: vec![Instant { weight_secs: 0, ..instant.clone() }],
+                instants: vec![Instant { weight_secs: 0, gap_secs: 0, ..instant.clone() }],
                 days: self.days.iter().filter(|day| day.date == date).cloned().collect(),
                 each_day: None,
                 step_secs: 0,
+                resolution_secs: 0,
                 refraction: self.refraction,
                 delta_t_secs: self.delta_t_secs,
             }
         })
+    }
+
+    /// The sky under which its instants were found: the sun at any time between them.
+    pub fn sky<'a>(&self, place: &'a Place) -> Sky<'a> {
+        let air = self.refraction.then(|| Air::standard(place.elevation_m));
+        Sky { place, delta_t_secs: self.delta_t_secs, air }
     }
 
     /// What the user should know of its clock, and of days without a sun; each a sentence without its stop.

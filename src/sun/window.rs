@@ -13,6 +13,9 @@ pub(super) const MOST_INSTANTS: i64 = 1_000_000;
 /// Ten years: weights and their sums stay far inside their integers.
 pub const MOST_DAYS: i64 = 3660;
 
+/// To how many seconds times of change are found where nobody says and the step is longer.
+const RESOLUTION_SECS: u32 = 60;
+
 /// The requested window of a study: from one reading to another, in steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Window {
@@ -230,6 +233,9 @@ fn instants(sky: &Sky<'_>, window: [DateTime<Zone>; 2], step_secs: u32) -> Resul
         };
         instants[index].weight_secs += of_before;
         instants[index + 1].weight_secs += of_after;
+        if cut.is_none() && !instants[index].night {
+            instants[index + 1].gap_secs = gap;
+        }
         added.extend(cut.into_iter().flat_map(|cut| cut.between));
     }
     if !added.is_empty() {
@@ -273,5 +279,13 @@ pub(super) fn track(
         .map(|date| Day::of(place, date))
         .collect::<Result<_, _>>()?;
     let instants = joined.unwrap_or_default();
-    Ok(SunTrack { instants, days, each_day: None, step_secs, refraction, delta_t_secs })
+    Ok(SunTrack {
+        instants,
+        days,
+        each_day: None,
+        step_secs,
+        resolution_secs: step_secs.min(RESOLUTION_SECS),
+        refraction,
+        delta_t_secs,
+    })
 }

@@ -119,7 +119,7 @@ fn a_cellar_shades_nothing() {
     ] {
         let asked = site.replacen(' ', ".toml ", 1);
         let asked = if asked == site { format!("{site}.toml") } else { asked };
-        let (report, notes) = told(path, &format!("profile {asked} --receivers ground"));
+        let (report, notes) = told(path, &format!("profile {asked} --receivers ground --resolution step"));
         assert_eq!(ground(&report), expected, "{site}");
         let hours = shaded(&path.join("out"));
         assert!((hours - 3762.1).abs() < 1.0, "{site}: {hours}");
@@ -127,7 +127,7 @@ fn a_cellar_shades_nothing() {
         assert_eq!(notes.contains(note), expected.1 == "zero", "{site}: {notes}");
         assert!(expected.1 == "zero" || !notes.contains("ground"), "{site}: {notes}");
     }
-    let (report, _) = told(path, "profile cellar.toml --receivers ground --ground -12");
+    let (report, _) = told(path, "profile cellar.toml --receivers ground --ground -12 --resolution step");
     assert_eq!(ground(&report), (-12.0, "site", 0.0));
     assert!((shaded(&path.join("out")) - 5015.0).abs() < 2.0);
 }

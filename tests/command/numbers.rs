@@ -22,6 +22,7 @@ date = 2026-06-21
 from = "11:00"
 to = "15:00"
 step = "5min"
+resolution = "step"
 [plan]
 region = [-4, -4, 10, 10]
 cell = 0.01

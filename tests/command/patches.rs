@@ -62,8 +62,9 @@ fn doubled_faces_count_once_in_all_files_and_are_told() {
 fn each_side_of_a_box_has_the_hours_in_which_it_faces_the_sun() {
     let folder = site();
     let window = "--from sunrise+0h20 --to sunset-0h20 --step 20min";
+    let alone = "--resolution step";
     for engine in ["--technique ray-cast", ""] {
-        let said = profile(folder.path(), &format!("{window} --patch-cell 0.5 {engine}"));
+        let said = profile(folder.path(), &format!("{window} {alone} --patch-cell 0.5 {engine}"));
         assert!(said.contains("6 patches") && said.contains("tower: 1000 m²"), "{said}");
         let suns = suns(folder.path(), window);
         let day: f64 = suns.iter().map(|(_, hours)| hours).sum();

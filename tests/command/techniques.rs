@@ -19,7 +19,10 @@ fn every_technique_draws_a_profile_and_is_named() {
         ("shadow-map", "gpu", ""),
         ("ray-cast", "cpu", ""),
     ] {
-        let report = json(&done(folder.path(), &format!("profile . --size 64 --technique {technique} --json")));
+        let report = json(&done(
+            folder.path(),
+            &format!("profile . --size 64 --resolution step --technique {technique} --json"),
+        ));
         assert_eq!((&report["technique"], &report["engine"]), (&technique.into(), &engine.into()));
         assert_eq!(report["silhouette"].as_str().unwrap_or_default(), silhouette, "{technique}");
         let map_size = report["map_size"].as_u64();
@@ -38,7 +41,10 @@ fn every_technique_draws_a_profile_and_is_named() {
 fn the_ground_alone_is_projected_on_either_machine() {
     let folder = site();
     let draw = |options: &str| {
-        let report = json(&done(folder.path(), &format!("profile . --size 64 --receivers ground --json {options}")));
+        let report = json(&done(
+            folder.path(),
+            &format!("profile . --size 64 --resolution step --receivers ground --json {options}"),
+        ));
         let drew = [&report["technique"], &report["engine"]].map(|word| word.as_str().unwrap().to_owned());
         (drew.join(" "), std::fs::read(folder.path().join("out/shadow-hours.tif")).unwrap())
     };

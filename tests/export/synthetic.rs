@@ -37,6 +37,7 @@ impl Town {
                 engine: Engine::Gpu,
                 adapter: Some("llvmpipe (LLVM 19.1.7, 256 bits)".to_owned()),
                 settings: Settings::NONE,
+                resolution_secs: 0,
             },
         }
     }
@@ -78,6 +79,7 @@ pub(super) fn track(from: u32, to: u32, step: u32) -> SunTrack {
             azimuth_rad: azimuth,
             altitude_rad: altitude,
             weight_secs: step / half,
+            gap_secs: if i > 0 && altitude >= 0.0 { step } else { 0 },
             night: altitude < 0.0,
         }
     });
@@ -92,6 +94,7 @@ pub(super) fn track(from: u32, to: u32, step: u32) -> SunTrack {
         }],
         each_day: None,
         step_secs: step,
+        resolution_secs: 0,
         refraction: true,
         delta_t_secs: 69.2,
     }

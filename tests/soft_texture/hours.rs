@@ -14,7 +14,9 @@ use std::path::Path;
 /// The tower's site with other things on it, all of which cast and receive.
 fn site(parts: Vec<gnomon::mesh::Part>) -> Site {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites/tower");
-    let mut site = Site::load(&folder, &Overrides::default()).expect("a sample site");
+    // what is expected is of the instants
+    let asked = Overrides { resolution: Some("step".into()), ..Overrides::default() };
+    let mut site = Site::load(&folder, &asked).expect("a sample site");
     site.mesh = Mesh::build(parts).expect("a mesh");
     site.casts = vec![true; site.mesh.components.len()];
     site.receives = site.casts.clone();

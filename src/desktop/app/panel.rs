@@ -12,10 +12,10 @@ use crate::desktop::state::eye::Stand;
 use crate::desktop::state::technique;
 use crate::desktop::state::unit::Unit;
 use crate::desktop::state::words::PanelWords;
-use crate::export::figure::Diagram;
+use crate::export::figure::{self, Diagram};
 use crate::message::Message;
 use crate::site::file::{ModelTable, PlaceTable, Text};
-use crate::site::typed::{Axis, TypedError, clock, date, step};
+use crate::site::typed::{Axis, TypedError, clock, date, resolution, step};
 use crate::site::{Ground, Mend, ModelReference};
 use eframe::egui::{self, Ui, vec2};
 use std::ops::RangeInclusive;
@@ -323,6 +323,8 @@ fn study(app: &mut App, ui: &mut Ui) {
         typed.show_faults(ui, &["Study date"]);
     }
     typed.show_faults(ui, &["Step"]);
+    let found = app.open.as_ref().map(|open| open.project.site.track.resolution_secs);
+    times_of_change(ui, typed, &mut study.resolution, found);
     if let (Some(date), Some(Text(text))) = (shown_date, &mut study.date)
         && date.to_string() != *text
         && ui.button(format!("Take {date} from the clock")).clicked()
@@ -330,6 +332,22 @@ fn study(app: &mut App, ui: &mut Ui) {
         *text = date.to_string();
     }
     study::show(app, ui);
+}
+
+/// To within what time changes of light are found between two instants: as the site file says, or as it is without that.
+fn times_of_change(ui: &mut Ui, typed: &mut TypedText, written: &mut Option<String>, found_secs: Option<u32>) {
+    let said = written.clone().unwrap_or_default();
+    row(ui, "Resolution", |ui, label| {
+        if let Some(read) = typed.text(ui, ("Resolution", label), &said, 58.0, empty_or(resolution)) {
+            *written = read;
+        }
+        match found_secs {
+            Some(0) => drop(ui.weak("the instants alone")),
+            Some(secs) => drop(ui.weak(format!("changes found to {}", figure::duration(secs)))),
+            None => {}
+        }
+    });
+    typed.show_faults(ui, &["Resolution"]);
 }
 
 /// What is empty is not said.

@@ -52,6 +52,7 @@ pub(in crate::desktop) fn draw(
         engine: Engine::Cpu,
         adapter: None,
         settings: Settings { sun_samples, ..Settings::NONE },
+        resolution_secs: 0,
     };
     let (mesh, surface) = (&plain.scene.receivers, &plain.rays.surface()?);
     let scene = figure_context(site, DrawnView { receivers: Receivers::Top, surface, mesh, drawn: &provenance });

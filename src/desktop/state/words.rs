@@ -22,6 +22,7 @@ impl Words for PanelWords {
             Field::From => "\"Window\"",
             Field::To => "\"to\"",
             Field::Step => "\"step\"",
+            Field::Resolution => "\"Resolution\"",
             _ => field.name(),
         }
     }
@@ -57,6 +58,7 @@ impl Words for PanelWords {
             ("[study]", "from") => "Window",
             ("[study]", "to") => "Window, to",
             ("[study]", "step") => "Study date, step",
+            ("[study]", "resolution") => "Resolution",
             ("[study]", "technique") => "Technique",
             _ => return FileWords.at(file, table, key),
         };
@@ -69,6 +71,7 @@ impl Words for FileWords {
         Some(match field {
             Field::Technique => "Technique",
             Field::Step => "step",
+            Field::Resolution => "Resolution",
             Field::SunSamples => "The sun as a disc",
             Field::Volumes => "Volumes and Silhouette",
             Field::MaskDiagram | Field::OverdrawDiagram => "Picture of",

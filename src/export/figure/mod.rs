@@ -35,7 +35,7 @@ pub use patches::{legend as patches_legend, patches};
 pub use screen::{Screen, bare, instant_on_screen};
 pub use strips::strips;
 pub use text::without_middle;
-pub(super) use words::duration;
+pub(crate) use words::duration;
 
 use super::{ExportError, check_size, report};
 use crate::choice::Receivers;
@@ -287,6 +287,7 @@ fn panel<S>(scene: &FigureContext<S>, kicker: &str) -> Panel {
     if track.instants.len() > 1 {
         let (step, count) = (words::duration(track.step_secs), track.instants.len());
         facts.push(("Step", format!("{step}, {count} instants")));
+        facts.extend(report::between_instants(scene.drawn, track).map(|said| ("Between", said)));
     }
     if track.each_day.is_some() {
         let day = track.instants.iter().filter(|instant| !instant.night);

@@ -123,7 +123,7 @@ pub(super) fn zone(time: &DateTime<Zone>) -> String {
 }
 
 /// `8 h`, `1 h 30 min`, `1 min 30 s`.
-pub(in crate::export) fn duration(secs: u32) -> String {
+pub(crate) fn duration(secs: u32) -> String {
     let parts = [(secs / 3600, "h"), (secs / 60 % 60, "min"), (secs % 60, "s")];
     let said: Vec<String> =
         parts.iter().filter(|(count, _)| *count > 0).map(|(count, unit)| format!("{count} {unit}")).collect();

@@ -18,12 +18,13 @@ use super::flat::{Clumps, Judged, RasterBounds};
 use super::plan_surface::highest;
 use super::{JUDGED_ABOVE_M, Scene, seen_normal};
 use crate::mesh::Mesh;
-use crate::view::{Bits, Surface, Tile};
+use crate::view::{Bits, CellWord, Surface, Tile};
 use buckets::{BANDS, Buckets, SortedPoints};
 use falling_face::FallingFace;
 use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 
 /// The cells of a plan, or of a tile of it, that see something above the ground.
@@ -37,6 +38,8 @@ pub(super) struct RaisedCells {
     normals: Vec<DVec3>,
     /// Where each row's points begin; one longer than the tile has rows.
     row_first: Vec<usize>,
+    /// Words of bits in a row of the tile.
+    in_row: usize,
     /// A box around the points.
     bounds: RasterBounds,
     faces: Mesh,
@@ -72,6 +75,7 @@ impl RaisedCells {
             normal_of: Vec::new(),
             normals: Vec::new(),
             row_first: vec![0],
+            in_row: 1,
             bounds: RasterBounds::NONE,
             faces,
             shaded: Vec::new(),
@@ -84,6 +88,7 @@ impl RaisedCells {
         let Scene { casters, receivers, ground } = scene;
         let mut number = vec![u32::MAX; receivers.faces.len()];
         let mut raised = RaisedCells::none(casters.clone());
+        raised.in_row = tile.size[0].div_ceil(64) as usize;
         if receivers.faces.is_empty() {
             return raised;
         }
@@ -133,6 +138,39 @@ impl RaisedCells {
             self.shade(sorted, &buckets, faces.iter().flat_map(|bands| &bands[band]), falling);
         });
         self.mark(bits);
+    }
+
+    /// The cells, of a tile of so many columns and rows; none where there are none.
+    pub(super) fn cells(&self, [width, height]: [u32; 2]) -> Option<Arc<Bits>> {
+        let mut cells = Bits::new(width, height);
+        for (row, words) in cells.words.chunks_mut(self.in_row).enumerate().take(self.row_first.len() - 1) {
+            for column in &self.columns[self.row_first[row]..self.row_first[row + 1]] {
+                words[*column as usize / 64] |= 1 << (column % 64);
+            }
+        }
+        (!self.points.is_empty()).then(|| Arc::new(cells))
+    }
+
+    /// Of some raised cells those that are in shadow, each judged by itself: whether anything stands between a point (column,
+    /// row, height) and the sun.
+    pub(super) fn shaded_of(
+        &self,
+        to_sun: DVec3,
+        asked: &[CellWord],
+        is_blocked: impl Fn(DVec3) -> bool + Sync,
+    ) -> Vec<u64> {
+        let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
+        let shaded = |asked: &CellWord| {
+            let (row, first) = asked.place(self.in_row);
+            let of_row = self.row_first[row]..self.row_first[row + 1];
+            let begin =
+                of_row.start + self.columns[of_row.clone()].partition_point(|column| (*column as usize) < first);
+            let of_word = (begin..of_row.end).map(|at| (at, self.columns[at] as usize - first));
+            let asked = of_word.take_while(|(_, bit)| *bit < 64).filter(|(_, bit)| asked.cells >> bit & 1 == 1);
+            let is_shaded = |at: usize| away[self.normal_of[at] as usize] || is_blocked(self.points[at]);
+            asked.fold(0, |shaded, (at, bit)| shaded | u64::from(is_shaded(at)) << bit)
+        };
+        asked.par_iter().map(shaded).collect()
     }
 
     /// How many points were held against a face under the last sun, each as often as it was.

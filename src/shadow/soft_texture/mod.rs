@@ -14,6 +14,7 @@
 //! Where it fails: a texel has the value of its centre; and where patches are many and tiny, rays cost less
 //! ([`Choice::Auto`]).
 
+mod between;
 #[cfg(feature = "test-hooks")]
 mod factor;
 mod fill;
@@ -21,13 +22,14 @@ mod occluders;
 mod on_gpu;
 mod query;
 
+pub use between::Moment;
 #[cfg(feature = "test-hooks")]
 pub use factor::unoccluded;
 pub use fill::Fill;
 pub use query::{Choice, FEWEST_DRAWN, MOST_FACES_A_TEXEL, PatchJudgements, Sample};
 
 use super::ray_cast::{RayCaster, Shear, TIE};
-use super::registered::RasterProjection;
+use super::registered::{Raster, RasterProjection};
 use super::{JUDGED_ABOVE_M, ShadowError};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -118,28 +120,26 @@ impl SoftTexture {
         let origin = DVec4::from((self.patches.origin, 0.0));
         let samples: Vec<Sample> =
             samples.iter().map(|sample| Sample { light: sample.light - origin * sample.light.w, ..*sample }).collect();
-        let SoftTexture { casters, patches, sides, occluders, rays, choice, fill, culling, sums, drawer, counts } =
-            self;
-        let sought = OccluderQuery { patches, occluders, culling: *culling, choice: *choice };
-        let casting = Casting { mesh: casters, sides, occluders };
-        let judge = PatchJudge { sought, rays, casting, fill: *fill, counts };
+        let mut sums = std::mem::take(&mut self.sums);
+        let added = self.add_to(&samples, &mut sums);
+        self.sums = sums;
+        added
+    }
+
+    /// The same, to the processor's sums.
+    fn add_to(&self, samples: &[Sample], sums: &mut [u32]) -> Result<(), ShadowError> {
+        let judge = self.judge();
+        let drawer = self.drawer.as_ref();
         // those that the adapter leaves to rays
         let mut left = vec![Vec::new(); if drawer.is_some() { samples.len() } else { 0 }];
         if let Some(drawer) = drawer {
             for (sample, left) in samples.iter().zip(&mut left) {
-                let (judged, rest) = drawer.add(&judge.sought, casters, sample)?;
-                count(counts, judged);
+                let (judged, rest) = drawer.add(&judge.sought, &self.casters, sample)?;
+                count(&self.counts, judged);
                 *left = rest;
             }
         }
-        let mut rest = sums.as_mut_slice();
-        let mut work = Vec::with_capacity(patches.list.len());
-        for (at, patch) in (0..).zip(&patches.list) {
-            let (sums, after) = rest.split_at_mut(patch.texels.len());
-            rest = after;
-            work.push((at, patch, sums));
-        }
-        work.into_par_iter().for_each_init(
+        work_of(&self.patches, sums).into_par_iter().for_each_init(
             || Scratch::new(judge.casting.mesh, judge.fill),
             |scratch, (at, patch, sums)| {
                 let on_adapter = drawer.is_some() && is_drawn(patch, judge.sought.choice);
@@ -153,6 +153,19 @@ impl SoftTexture {
             },
         );
         Ok(())
+    }
+
+    /// What judges patches.
+    fn judge(&self) -> PatchJudge<'_> {
+        let SoftTexture { casters, patches, sides, occluders, rays, choice, fill, culling, counts, .. } = self;
+        let sought = OccluderQuery { patches, occluders, culling: *culling, choice: *choice };
+        let casting = Casting { mesh: casters, sides, occluders };
+        PatchJudge { sought, rays, casting, fill: *fill, counts }
+    }
+
+    /// Whether the graphics adapter fills textures.
+    pub fn is_on_adapter(&self) -> bool {
+        self.drawer.is_some()
     }
 
     /// Goes on from sums that were added before: per texel, as [`SoftTexture::so_far`] has them.
@@ -197,6 +210,18 @@ impl SoftTexture {
         }
         Ok(sums)
     }
+}
+
+/// The patches, each with its number and its texels' sums.
+fn work_of<'a>(patches: &'a Patches, sums: &'a mut [u32]) -> Vec<(u32, &'a Patch, &'a mut [u32])> {
+    let mut rest = sums;
+    let mut work = Vec::with_capacity(patches.list.len());
+    for (at, patch) in (0..).zip(&patches.list) {
+        let (sums, after) = rest.split_at_mut(patch.texels.len());
+        rest = after;
+        work.push((at, patch, sums));
+    }
+    work
 }
 
 fn count(counts: &[AtomicU64; 4], judged: PatchJudgements) {
@@ -250,13 +275,18 @@ impl PatchJudge<'_> {
         &self.sought.patches.texels[patch.texels.start as usize..patch.texels.end as usize]
     }
 
+    /// From a texel's point to where it is judged, along the patch: as where textures are filled; a point that stands alone
+    /// is judged where it is.
+    fn tie(&self, patch: &Patch, raster: &Raster) -> DVec3 {
+        let tie = (raster.right * TIE.x - raster.down * TIE.y) * raster.cell;
+        if patch.alone.is_some() { DVec3::ZERO } else { tie }
+    }
+
     /// The same by rays.
     fn cast(&self, patch: &Patch, sample: &Sample, sums: &mut [u32]) {
         let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
         count(self.counts, PatchJudgements { rays: sums.len() as u64, ..PatchJudgements::default() });
-        // as where textures are filled; a point that stands alone is judged where it is
-        let tie = (raster.right * TIE.x - raster.down * TIE.y) * raster.cell;
-        let tie = if patch.alone.is_some() { DVec3::ZERO } else { tie };
+        let tie = self.tie(patch, &raster);
         let lift = raster.plane.truncate() * JUDGED_ABOVE_M;
         let sun = (sample.light.w == 0.0).then(|| Shear::along(sample.light.truncate()));
         let judged = |texel: &Texel| self.sought.patches.point(patch, *texel) + tie + lift;

@@ -119,3 +119,18 @@ pub fn step(text: &str) -> Result<String, TypedError> {
         _ => Ok(written),
     }
 }
+
+/// The word that asks for the instants alone, where times of change could be found between them.
+pub(crate) const INSTANTS_ALONE: &str = "step";
+
+/// To within what time changes are found, as people write it: a duration as a [`step`] is one, or `step` itself.
+///
+/// # Errors
+/// [`TypedError::Resolution`]
+pub fn resolution(text: &str) -> Result<String, TypedError> {
+    let text = text.trim();
+    match text.eq_ignore_ascii_case(INSTANTS_ALONE) {
+        true => Ok(INSTANTS_ALONE.to_owned()),
+        false => step(text).map_err(|_| TypedError::Resolution(text.to_owned())),
+    }
+}

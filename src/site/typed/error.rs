@@ -47,6 +47,8 @@ pub enum TypedError {
     DayEnd,
     /// Not a duration.
     Step(String),
+    /// Neither a duration nor `step`.
+    Resolution(String),
 }
 
 plain_display!(TypedError);
@@ -78,6 +80,10 @@ impl Worded for TypedError {
             ],
             TypedError::DayEnd => message!["a day has no 24 o'clock"; "write 0:00 for its end"],
             TypedError::Step(text) => message![format!("\"{text}\" is no step"); "write 30min, 1h, 1h30 or 90s"],
+            TypedError::Resolution(text) => message![
+                format!("\"{text}\" is no resolution");
+                "write 1min, 10s, or step for the instants alone"
+            ],
         }
     }
 }

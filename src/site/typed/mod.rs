@@ -10,7 +10,8 @@ mod error;
 mod number;
 
 pub use axis::Axis;
-pub use date::{clock, date, step};
+pub(super) use date::INSTANTS_ALONE;
+pub use date::{clock, date, resolution, step};
 pub use degrees::{Degrees, degrees, place};
 pub use error::TypedError;
 pub use number::{number, within};

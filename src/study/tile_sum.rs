@@ -1,0 +1,153 @@
+//! A tile's shaded time: its instants, and between them the times at which its cells change.
+//!
+//! What a technique draws whole is drawn at every moment between two instants, so that nothing is missed. Cells that are
+//! asked singly are asked only where the two instants differ, by halving.
+
+use super::gaps::{Gap, Gaps};
+use super::{StudyError, Wants, night};
+use crate::gpu::Gpu;
+use crate::profile::Shaded;
+use crate::profile::accumulate::Sum;
+use crate::shadow::{DrawnMask, ShadowError, SingleCells, Technique};
+use crate::site::Site;
+use crate::view::{Bits, CellWord, Mask, Tile, View};
+use std::sync::Arc;
+
+/// The running sum.
+pub(super) struct TileSum<'a> {
+    site: &'a Site,
+    gaps: Gaps<'a>,
+    sum: Sum,
+    /// The shadow at an instant that begins a gap, of those cells that are asked singly; and which instant it is.
+    before: Option<(usize, Bits)>,
+}
+
+impl<'a> TileSum<'a> {
+    /// All zero.
+    pub(super) fn new(site: &'a Site, resolution_secs: u32, gpu: Option<Arc<Gpu>>, tile: &Tile) -> TileSum<'a> {
+        let gaps = Gaps::new(site, resolution_secs);
+        TileSum { site, gaps, sum: Sum::new(gpu, tile.size[0], tile.size[1]), before: None }
+    }
+
+    /// Goes on from the sum of so many instants.
+    pub(super) fn begin_with(&mut self, shaded: &Shaded, instants: usize) {
+        let by_day = self.site.track.instants[..instants].iter().filter(|instant| !instant.night);
+        self.sum.begin_with(shaded, by_day.map(|instant| instant.weight_secs).sum());
+    }
+
+    /// Adds an instant and the gap before it. Returns the instant's mask and its bits, where they are wanted.
+    pub(super) fn add(
+        &mut self,
+        at: usize,
+        technique: &mut dyn Technique,
+        wants: &Wants,
+    ) -> Result<(Option<Mask>, Option<Bits>), StudyError> {
+        let instant = &self.site.track.instants[at];
+        if instant.night {
+            return Ok((wants.masks.then(|| night(&View::Plan(self.site.grid))), None));
+        }
+        let single = self.gaps.touch(at).then(|| technique.single_cells()).flatten();
+        if single != Some(SingleCells::All) {
+            self.add_moments(at, technique)?;
+        }
+        let begun = match (&single, self.before.take()) {
+            (Some(single), before) if self.gaps.before(at).is_some() => match before {
+                Some((last, bits)) if last + 1 == at => Some(bits),
+                // the study goes on here
+                _ => Some(single.of(&technique.draw(self.site.track.instants[at - 1].to_sun)?.bits()?)),
+            },
+            _ => None,
+        };
+        let drawn = technique.draw(instant.to_sun)?;
+        let mask = wants.masks.then(|| drawn.read()).transpose()?;
+        let bits = (wants.bits || single.is_some()).then(|| drawn.bits()).transpose()?;
+        let (own_secs, among_secs) = (self.gaps.own_secs(at), self.gaps.secs_among_moments(at));
+        match (&single, &bits) {
+            (Some(single), Some(bits)) => {
+                let after = single.of(bits);
+                self.add_bits(&after, own_secs)?;
+                self.add_bits(&bits.with(&after, |all, single| all & !single), among_secs)?;
+                if let (Some(gap), Some(before)) = (self.gaps.before(at), begun) {
+                    CellSearch { technique, gap, before: &before, sum: &mut self.sum }.add_gap(&after)?;
+                }
+                self.before = Some((at, after));
+            }
+            _ => self.sum.add(&drawn, among_secs)?,
+        }
+        Ok((mask, bits.filter(|_| wants.bits)))
+    }
+
+    /// Adds what is drawn whole at the moments of the gap before an instant.
+    fn add_moments(&mut self, at: usize, technique: &mut dyn Technique) -> Result<(), StudyError> {
+        for moment in self.gaps.before(at).iter().flat_map(Gap::moments) {
+            let (to_sun, secs) = moment?;
+            self.sum.add(&technique.draw_whole(to_sun)?, secs)?;
+        }
+        Ok(())
+    }
+
+    fn add_bits(&mut self, bits: &Bits, secs: u32) -> Result<(), ShadowError> {
+        if secs > 0 { self.sum.add(&DrawnMask::Bits(bits), secs) } else { Ok(()) }
+    }
+
+    /// Adds a mask for so many seconds, and nothing before it.
+    pub(super) fn add_mask(&mut self, mask: &DrawnMask<'_>, secs: u32) -> Result<(), ShadowError> {
+        self.sum.add(mask, secs)
+    }
+
+    /// The sum so far.
+    pub(super) fn so_far(&mut self) -> Result<Shaded, ShadowError> {
+        self.sum.so_far()
+    }
+
+    /// The sum.
+    pub(super) fn finish(self) -> Result<Shaded, ShadowError> {
+        self.sum.finish()
+    }
+}
+
+/// The search for the times at which cells change within a gap.
+struct CellSearch<'a> {
+    technique: &'a mut dyn Technique,
+    gap: Gap<'a>,
+    /// The shadow as the gap begins.
+    before: &'a Bits,
+    sum: &'a mut Sum,
+}
+
+impl CellSearch<'_> {
+    /// Adds the gap's seconds to cells that are in shadow at both ends, and to others as many as they are found to be.
+    fn add_gap(&mut self, after: &Bits) -> Result<(), StudyError> {
+        self.sum.add_gap([self.before, after], self.gap.secs())?;
+        self.halve([0, self.gap.steps()], &self.before.differing(after))
+    }
+
+    /// Between two moments the cells that `differ` at them change: finds in which half each of them does.
+    fn halve(&mut self, [from, to]: [u32; 2], differ: &[CellWord]) -> Result<(), StudyError> {
+        if differ.is_empty() {
+            return Ok(());
+        }
+        let before: Vec<u64> = differ.iter().map(|differ| self.before.words[differ.word as usize]).collect();
+        if to - from == 1 {
+            let secs = self.gap.secs_before_change(from);
+            let [shaded, lit] = parted(differ, &before);
+            self.sum.add_in_gap(self.before, &shaded, secs)?;
+            return Ok(self.sum.add_in_gap(self.before, &lit, self.gap.secs() - secs)?);
+        }
+        let middle = from + (to - from) / 2;
+        let shaded = self.technique.shaded_of(self.gap.sun_at(middle)?, differ)?;
+        let changed: Vec<u64> = shaded.iter().zip(&before).map(|(shaded, before)| shaded ^ before).collect();
+        let [earlier, later] = parted(differ, &changed);
+        self.halve([from, middle], &earlier)?;
+        self.halve([middle, to], &later)
+    }
+}
+
+/// Those cells whose bits are set, and the others; words without any are left out.
+fn parted(cells: &[CellWord], bits: &[u64]) -> [Vec<CellWord>; 2] {
+    let part = |of: &dyn Fn(u64, u64) -> u64| {
+        let words = cells.iter().zip(bits).map(|(word, bits)| CellWord { cells: of(word.cells, *bits), ..*word });
+        words.filter(|word| word.cells != 0).collect()
+    };
+    [part(&|cells, bits| cells & bits), part(&|cells, bits| cells & !bits)]
+}

@@ -1,0 +1,151 @@
+//! Times of change between instants: hours are those of a study that is stepped at the resolution, and of closed forms.
+
+mod closed_forms;
+mod said;
+
+use gnomon::choice::{Engine, Method, Receivers};
+use gnomon::site::{Overrides, Site};
+use gnomon::study::{self, Event, PatchOutcome, Wants, patches};
+use gnomon::view::Bits;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+const SITES: [&str; 3] = ["headquarters", "industry", "tower"];
+const MINUTES: usize = 60;
+
+fn some(text: &str) -> Option<String> {
+    Some(text.to_owned())
+}
+
+fn sample(name: &str, asked: Overrides) -> Site {
+    Site::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name), &asked).expect("a sample site")
+}
+
+/// Sums, and the shadow at each instant.
+fn study(site: &Site) -> (Vec<u64>, Vec<Bits>) {
+    let mut shadows = Vec::new();
+    let outcome = study::run(site, &Wants { bits: true, ..Wants::default() }, &mut |event| {
+        if let Event::Drawn { bits: Some(bits), .. } = event {
+            shadows.push(bits.clone());
+        }
+        ControlFlow::Continue(())
+    });
+    (outcome.expect("hours").profile.shaded.iter().collect(), shadows)
+}
+
+/// In how many of the hours of a study that is stepped by the minute a cell changes once, and more than once.
+fn changes(minutes: &[Bits], cell: usize) -> [usize; 2] {
+    let mut hours = [0; 2];
+    for first in (0..minutes.len() - 1).step_by(MINUTES) {
+        let hour = &minutes[first..=first + MINUTES];
+        match hour.windows(2).filter(|pair| pair[0].contains(cell) != pair[1].contains(cell)).count() {
+            0 => {}
+            1 => hours[0] += 1,
+            _ => hours[1] += 1,
+        }
+    }
+    hours
+}
+
+/// Cell by cell what is found between hourly instants is what a study by the minute says, where the technique draws cells
+/// whole. Where it asks them singly that is so where no hour has more than one change; others are off by at most those hours.
+fn are_those_of_minutes(name: &str, asked: &Overrides) {
+    let draws_whole = asked.engine == Some(Engine::Gpu) || asked.receivers == Some(Receivers::Ground);
+    let of = |step: &str, resolution: &str| {
+        sample(name, Overrides { step: some(step), resolution: some(resolution), ..asked.clone() })
+    };
+    let (stepped, minutes) = study(&of("1min", "step"));
+    let hourly = of("1h", "1min");
+    assert_eq!(minutes.len(), (hourly.track.instants.len() - 1) * MINUTES + 1, "{name}: not one instant is at night");
+    let (found, hours) = study(&hourly);
+    assert!(
+        hours.iter().enumerate().all(|(at, bits)| *bits == minutes[at * MINUTES]),
+        "{name}: bits are the instants'"
+    );
+    let (alone, _) = study(&of("1h", "step"));
+    let (mut once, mut often, mut off, mut off_alone) = (0, 0, 0, 0);
+    for cell in 0..stepped.len() {
+        let [single, several] = changes(&minutes, cell);
+        let differs = |sums: &[u64]| sums[cell].abs_diff(stepped[cell]);
+        assert!(differs(&found) <= several as u64 * 3600 * 255, "{name}: cell {cell} is off by more than it can be");
+        once += usize::from(single > 0);
+        often += usize::from(several > 0);
+        off += usize::from(differs(&found) > 0);
+        off_alone += usize::from(differs(&alone) > 255 * 60);
+    }
+    assert!(
+        once * 20 > stepped.len() && off_alone * 2 > once,
+        "{name}: {once} cells change, {off_alone} are off without it"
+    );
+    assert!(!draws_whole || off == 0, "{name}: {off} cells are off");
+    assert!(off <= often && off * 4 < off_alone, "{name}: {off} cells are off, of {often} that change often");
+}
+
+#[test]
+fn hours_are_those_of_a_study_by_the_minute() {
+    for name in SITES {
+        for receivers in [Receivers::Ground, Receivers::Top] {
+            let engine = Some(Engine::Cpu);
+            let asked = Overrides { size: Some(100), receivers: Some(receivers), engine, ..Overrides::default() };
+            are_those_of_minutes(name, &asked);
+        }
+    }
+}
+
+#[test]
+fn every_exact_technique_finds_them() {
+    let exact = [
+        (Method::RayCast, Engine::Cpu, Receivers::Top),
+        (Method::Stencil, Engine::Gpu, Receivers::Top),
+        (Method::Projected, Engine::Gpu, Receivers::Ground),
+        (Method::Hybrid, Engine::Gpu, Receivers::Top),
+    ];
+    for (method, engine, receivers) in exact {
+        let (technique, engine) = (Some(method), Some(engine));
+        let asked = Overrides { size: Some(48), receivers: Some(receivers), technique, engine, ..Overrides::default() };
+        are_those_of_minutes("tower", &asked);
+    }
+}
+
+fn on_patches(name: &str, step: &str, resolution: &str, cell: f64) -> PatchOutcome {
+    let receivers = Some(Receivers::Patches);
+    let asked = Overrides { step: some(step), resolution: some(resolution), receivers, ..Overrides::default() };
+    patches(&sample(name, asked), cell, &mut |_| ControlFlow::Continue(())).expect("hours")
+}
+
+/// How many texels are off by more than so many seconds.
+fn off(one: &PatchOutcome, other: &PatchOutcome, secs: u32) -> usize {
+    one.hours.lit.iter().zip(&other.hours.lit).filter(|(one, other)| one.abs_diff(**other) > secs).count()
+}
+
+#[test]
+fn facades_have_the_hours_of_minutes_too() {
+    for (name, cell) in [("headquarters", 6.0), ("tower", 6.0), ("industry", 6.0)] {
+        let stepped = on_patches(name, "1min", "step", cell);
+        let (found, alone) = (on_patches(name, "1h", "1min", cell), on_patches(name, "1h", "step", cell));
+        assert_eq!((found.drawn.resolution_secs, alone.drawn.resolution_secs), (60, 0));
+        assert_eq!(found.hours.day_secs, stepped.hours.day_secs);
+        let texels = stepped.hours.lit.len();
+        let [found, alone] = [off(&found, &stepped, 0), off(&alone, &stepped, 60)];
+        assert!(
+            found * 5 < alone && alone * 20 > texels,
+            "{name}: {found} of {texels} texels are off, {alone} without it"
+        );
+    }
+}
+
+#[test]
+fn an_adapter_draws_facades_at_every_moment() {
+    let of = |engine: Engine, step: &str, resolution: &str| {
+        let site =
+            sample("tower", Overrides { step: some(step), resolution: some(resolution), ..Overrides::default() });
+        let site = Site { receivers: Receivers::Patches, method: Method::SoftTexture, engine, ..site };
+        patches(&site, 8.0, &mut |_| ControlFlow::Continue(())).expect("hours")
+    };
+    let stepped = of(Engine::Gpu, "10min", "step");
+    let found = of(Engine::Gpu, "1h", "10min");
+    assert_eq!((found.drawn.engine, found.drawn.resolution_secs), (Engine::Gpu, 600));
+    assert_eq!(found.hours.lit, stepped.hours.lit, "it misses nothing");
+    let on_processor = of(Engine::Cpu, "10min", "step");
+    assert!(off(&found, &on_processor, 0) * 20 < found.hours.lit.len());
+}
