@@ -107,31 +107,9 @@ fn every_exact_technique_finds_them() {
     }
 }
 
-fn on_patches(name: &str, step: &str, resolution: &str, cell: f64) -> PatchOutcome {
-    let receivers = Some(Receivers::Patches);
-    let asked = Overrides { step: some(step), resolution: some(resolution), receivers, ..Overrides::default() };
-    patches(&sample(name, asked), cell, &mut |_| ControlFlow::Continue(())).expect("hours")
-}
-
 /// How many texels are off by more than so many seconds.
 fn off(one: &PatchOutcome, other: &PatchOutcome, secs: u32) -> usize {
     one.hours.lit.iter().zip(&other.hours.lit).filter(|(one, other)| one.abs_diff(**other) > secs).count()
-}
-
-#[test]
-fn facades_have_the_hours_of_minutes_too() {
-    for (name, cell) in [("headquarters", 6.0), ("tower", 6.0), ("industry", 6.0)] {
-        let stepped = on_patches(name, "1min", "step", cell);
-        let (found, alone) = (on_patches(name, "1h", "1min", cell), on_patches(name, "1h", "step", cell));
-        assert_eq!((found.drawn.resolution_secs, alone.drawn.resolution_secs), (60, 0));
-        assert_eq!(found.hours.day_secs, stepped.hours.day_secs);
-        let texels = stepped.hours.lit.len();
-        let [found, alone] = [off(&found, &stepped, 0), off(&alone, &stepped, 60)];
-        assert!(
-            found * 5 < alone && alone * 20 > texels,
-            "{name}: {found} of {texels} texels are off, {alone} without it"
-        );
-    }
 }
 
 #[test]

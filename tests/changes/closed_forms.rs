@@ -1,6 +1,6 @@
 //! A box and a wall without end, whose shadows' moments are known to the second.
 
-use crate::shared::scenes::cuboid;
+use crate::shared::scenes::{cuboid, joined};
 use chrono::{NaiveDate, TimeDelta};
 use glam::{DVec3, dvec3};
 use gnomon::choice::{Engine, Receivers};
@@ -119,4 +119,31 @@ fn a_free_facade() {
         turns += changes;
     }
     assert!(turns >= 2, "{turns} changes");
+}
+
+#[test]
+fn facades_beside_a_block_have_the_hours_of_minutes() {
+    let grid = Grid { west: -10.0, north: 10.0, cell: 5.0, width: 4, height: 4 };
+    let found = |step_secs: u32, resolution_secs: u32| {
+        let house = cuboid("house", dvec3(-5.0, 10.0, 0.0), dvec3(5.0, 18.0, 9.0));
+        let block = cuboid("block", dvec3(-20.0, -12.0, 0.0), dvec3(8.0, -4.0, 16.0));
+        let mut site = site(3, joined(vec![house, block]), grid, Receivers::Patches);
+        let window = Window {
+            date: NaiveDate::from_ymd_opt(2026, 3, 21),
+            from: "8:00".parse().unwrap(),
+            to: "16:00".parse().unwrap(),
+            step_secs,
+        };
+        site.track = SunTrack { resolution_secs, ..SunTrack::window(&vienna(), &window, true).unwrap() };
+        patches(&site, 1.0, &mut |_| ControlFlow::Continue(())).unwrap().hours.lit
+    };
+    let (stepped, searched, alone) = (found(60, 0), found(3600, 60), found(3600, 0));
+    let off =
+        |lit: &[u32], secs: u32| lit.iter().zip(&stepped).filter(|(one, other)| one.abs_diff(**other) > secs).count();
+    let (searched, alone) = (off(&searched, 0), off(&alone, 60));
+    assert!(
+        searched * 50 < stepped.len() && alone * 20 > stepped.len(),
+        "{searched} of {} are off, {alone} alone",
+        stepped.len()
+    );
 }
