@@ -29,8 +29,8 @@ pub(super) struct ProbeArgs {
     /// Points of a table instead, CSV whose first line is name,x,y,z,nx,ny,nz; the last three, a normal, may be absent or empty
     #[arg(long, value_name = "FILE.csv")]
     points: Option<PathBuf>,
-    /// Points on the components of this name, as `casts` knows names: IfcWindow. One in the middle of each piece that hangs
-    /// together, on its outer side, which is the one more open to the sky. May be repeated
+    /// Points on the components of this name, as `casts` knows names: IfcWindow. One in the middle of each connected
+    /// piece, on its outer side, which is the one more open to the sky. May be repeated
     #[arg(long, value_name = "NAME")]
     on: Vec<String>,
     /// With --on and --height: points so many metres from each other along the upright faces of these components

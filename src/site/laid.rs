@@ -9,7 +9,7 @@ use rustc_hash::FxHashSet;
 /// How points are laid.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Laying {
-    /// One in the middle of each piece that hangs together by edges.
+    /// One in the middle of each piece that is connected by edges.
     Pieces,
     /// On upright faces, so far from each other and so high, metres of the world.
     Row { spacing: f64, height: f64 },
@@ -74,7 +74,7 @@ fn tell_apart(laid: &mut [Vec<Probe>], beside: &[Probe]) {
     }
 }
 
-/// The faces of a component that hang together by edges.
+/// The faces of a component that are connected by edges.
 fn pieces(mesh: &Mesh, component: &Component) -> Vec<Vec<u32>> {
     let first = component.faces.start;
     let mut above: Vec<u32> = (0..component.faces.len() as u32).collect();
