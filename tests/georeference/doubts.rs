@@ -103,6 +103,32 @@ fn an_elevation_that_nobody_wrote_is_a_files() {
     assert!(!told(&site).contains("the elevation of the place"), "{}", told(&site));
 }
 
+/// Where a file says another map of its anchor, the user's counts; a note shows both, and all that names the map says whose
+/// word it is.
+#[test]
+fn a_map_that_contradicts_the_files_is_told() {
+    let keys = |crs: &str| format!("[[model]]\npath = \"house.glb\"\ncrs = \"{crs}\"\n");
+    let of = |crs: &str| load(&keys(crs), &[("house.glb", anchored(vec![map_anchor(0.0)]))]).expect(crs);
+    let site = of("EPSG:25833");
+    let told = told(&site);
+    for part in [
+        "stands in EPSG:25832",
+        "says EPSG:25833",
+        "km from there",
+        "place from house.glb, IfcMapConversion with `crs`",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    assert!(told.contains("stands where its IfcMapConversion with `crs` says in EPSG:25833"), "{told}");
+    // zone 33 is 6° farther east
+    assert!((site.place.longitude_deg - LONG_LAT[0] - 6.0).abs() < 1e-6, "{:?}", site.place);
+    // two systems that have it at one point contradict nothing; neither does the same one
+    for one in ["EPSG:25832", "EPSG:32632"] {
+        let site = of(one);
+        assert!(!said(&site.notes).join("\n").contains("that is taken"), "{one}: {:?}", site.notes);
+    }
+}
+
 /// A map without a name says no place, and its north is held against the other one all the same.
 #[test]
 fn norths_are_compared_without_the_map() {
