@@ -83,7 +83,7 @@ fn around_its_middle(
 ) -> Result<(Model, Anchor, Message), StandFault> {
     let around = |ProposedPoint { at, has_elevation }| {
         let at = GeodeticPoint { height_m: if has_elevation { at.height_m } else { 0.0 }, ..at };
-        Some((at, SiteFrame { local: LocalFrame::around(at)?, has_elevation }))
+        Some((at, SiteFrame { local: LocalFrame::around(at)?, has_elevation, is_of: None }))
     };
     let (at, frame) = proposal(&model, &said)
         .and_then(around)

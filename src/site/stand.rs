@@ -6,7 +6,7 @@ use super::model_bounds::bounds;
 use super::place_doubts::{ONE_PLACE_M, angle, degrees, length, norths_apart};
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal, TOO_FAR_M};
-use crate::formats::{Model, PartKind};
+use crate::formats::{Model, PartKind, Up};
 use crate::message::{Message, message, set_to, setting};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -22,6 +22,8 @@ pub(super) const ONE_MERIDIAN_RAD: f64 = 0.005 * std::f64::consts::PI / 180.0;
 pub(super) struct SiteFrame {
     pub(super) local: LocalFrame,
     pub(super) has_elevation: bool,
+    /// What of a model the place is, where its file says the place: "the middle of town.city.json".
+    pub(super) is_of: Option<String>,
 }
 
 /// A model in the world frame.
@@ -80,14 +82,19 @@ pub(super) fn stand(
             let AnchoredPosition { position, north_rad, is_where_said, note } =
                 anchored(&zero, &said_by, placement, frame)?;
             notes.extend(note);
+            if zero.at.is_none() {
+                notes.extend(note_unplaced(&model, placement, frame, true));
+            }
             Ok(by_site(model, north_rad, position, notes, [zero.at.is_some(), is_where_said]))
         }
         (Reference::Anchor(zero), None) => {
             let north_rad = placement.north_rad.or(true_north(&zero)).unwrap_or_default();
             Ok(by_site(model, north_rad, position, notes, [false; 2]))
         }
-        (Reference::Placement | Reference::Map { .. }, _) => {
+        (Reference::Placement | Reference::Map { .. }, frame) => {
             notes.extend(note_no_map(&model, placement));
+            let is_turned = placement.north_rad.is_some();
+            notes.extend(frame.and_then(|frame| note_unplaced(&model, placement, frame, is_turned)));
             Ok(by_site(model, north_rad, position, notes, [false; 2]))
         }
     }
@@ -104,6 +111,23 @@ fn note_no_map(model: &Model, placement: &Placement) -> Option<Message> {
             "write ", crs()
         ]
     })
+}
+
+/// That nobody says where a model stands, though the place is only what another one's file says: nobody has chosen the
+/// point at which both meet.
+fn note_unplaced(model: &Model, placement: &Placement, frame: &SiteFrame, is_turned: bool) -> Option<Message> {
+    let is_terrain = model.kinds.contains(&PartKind::Terrain);
+    let of = frame.is_of.as_ref().filter(|_| placement.position.is_none() && !is_terrain)?;
+    let axis = match placement.up.unwrap_or(model.up) {
+        Up::Y => "−z",
+        Up::Z => "y",
+    };
+    let turned = if is_turned { String::new() } else { format!(", with its {axis} to the north") };
+    Some(message![
+        format!("says no place: its zero stands at {of}{turned}");
+        "if it stands elsewhere, write ", setting("[[model]]", "position", "`position`"), " and ",
+        setting("[[model]]", "north", "`north` under [[model]]")
+    ])
 }
 
 /// Every corner from a map into the frame.

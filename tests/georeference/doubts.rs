@@ -1,10 +1,12 @@
 //! What nobody meant, or nobody uses, is told.
 
-use super::{LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, load, map_anchor, one, sheet, site_anchor};
+use super::{
+    LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, load, map_anchor, on_map, one, sheet, site_anchor,
+};
 use crate::shared::said;
 use glam::DVec3;
 use gnomon::crs::Crs;
-use gnomon::formats::{Anchor, AnchorPoint, Model};
+use gnomon::formats::{Anchor, AnchorPoint, Model, Up};
 use gnomon::site::{Overrides, Site, WrittenSite, load_mesh};
 
 /// A triangle of PLY, z up.
@@ -127,6 +129,31 @@ fn a_map_that_contradicts_the_files_is_told() {
         let site = of(one);
         assert!(!said(&site.notes).join("\n").contains("that is taken"), "{one}: {:?}", site.notes);
     }
+}
+
+/// A model that nobody has placed beside one whose file says the place stands there by chance.
+#[test]
+fn a_model_without_a_place_beside_one_that_has_it_is_told() {
+    let models = "[[model]]\npath = \"town.glb\"\n[[model]]\npath = \"house.glb\"\n";
+    let town = || on_map("EPSG:25832", [UTM, [UTM[0] + 20.0, UTM[1]], [UTM[0], UTM[1] + 30.0]], 0.0);
+    let unplaced = |site: &str, town: Model, house: Model| {
+        let site = load(site, &[("town.glb", town), ("house.glb", house)]).expect(site);
+        said(&site.notes).into_iter().find(|note| note.contains("says no place"))
+    };
+    let note = unplaced(models, town(), drawing()).expect("a note");
+    let wanted = "house.glb says no place: its zero stands at the middle of town.glb, with its y to the north";
+    assert!(note.starts_with(wanted) && note.contains("`position`") && note.contains("`north`"), "{note}");
+    let house = || anchored(vec![map_anchor(0.0)]);
+    let note = unplaced(models, house(), Model { up: Up::Y, ..drawing() }).expect("a note");
+    assert!(note.contains("the zero of town.glb, with its −z to the north"), "{note}");
+    // its file says which way north is, and not where it is
+    let north = Anchor { said_by: "TrueNorth", at: AnchorPoint::Nowhere, north_rad: Some(0.5) };
+    let note = unplaced(models, town(), anchored(vec![north])).expect("a note");
+    assert!(note.contains("the middle of town.glb;") || note.contains("the middle of town.glb:"), "{note}");
+    // where somebody has chosen the place, or the model's, nothing is left to chance
+    assert_eq!(unplaced(&format!("{PLACE}{models}"), town(), drawing()), None);
+    assert_eq!(unplaced(&format!("{models}position = [0.0, 0.0, 0.0]\n"), town(), drawing()), None);
+    assert_eq!(unplaced(models, town(), house()), None);
 }
 
 /// A map without a name says no place, and its north is held against the other one all the same.
