@@ -22,7 +22,7 @@ const MARK: [u8; 8] = *b"gnomonMD";
 
 /// Of the bytes, and of what readers make of files: what an older program kept is not used by a newer one that reads
 /// otherwise.
-pub(super) const VERSION: u32 = 1;
+pub(super) const VERSION: u32 = 2;
 
 /// The longest JSON: a thousand bytes a component.
 const MOST_JSON: u64 = 1 << 30;
@@ -59,6 +59,8 @@ struct EncodedHeader {
     coordinates: Coordinates,
     stands_on_ground: bool,
     anchors: Vec<EncodedAnchor>,
+    #[serde(with = "exact_option")]
+    assumed_map_unit_m: Option<f64>,
     left_out: Vec<LeftOut>,
     notes: Vec<Message>,
     see_through: Vec<SeeThrough>,
@@ -158,6 +160,7 @@ fn header(model: &Model, fault: Option<Message>) -> EncodedHeader {
         coordinates: model.coordinates.clone(),
         stands_on_ground: model.stands_on_ground,
         anchors: model.anchors.iter().map(anchor).collect(),
+        assumed_map_unit_m: model.assumed_map_unit_m,
         left_out: model.left_out.clone(),
         notes: model.notes.clone(),
         see_through: model.see_through.clone(),
@@ -237,6 +240,7 @@ fn model(header: EncodedHeader, parts: Vec<Part>) -> Result<Model, EncodingError
         coordinates: header.coordinates,
         stands_on_ground: header.stands_on_ground,
         anchors: header.anchors.into_iter().map(anchor).collect::<Result<_, EncodingError>>()?,
+        assumed_map_unit_m: header.assumed_map_unit_m,
         left_out: header.left_out,
         notes: header.notes,
         see_through: header.see_through,

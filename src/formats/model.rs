@@ -31,6 +31,9 @@ pub struct Model {
     pub stands_on_ground: bool,
     /// Where the file says that its own zero lies, the most exact anchor first. If several disagree, all are shown.
     pub anchors: Vec<Anchor>,
+    /// The length in metres of the unit in which an anchor's easting and northing are taken, where the file does not say
+    /// it; the map itself may be in another one.
+    pub assumed_map_unit_m: Option<f64>,
     /// What the file contains but the model does not.
     pub left_out: Vec<LeftOut>,
     /// What else the user should know of how the file was read: sentences without their full stop, whose subject is the

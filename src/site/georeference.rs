@@ -291,6 +291,7 @@ fn read_anchors<'a>(
         match zero(anchor, asked, farthest_m) {
             Ok(zero) => {
                 notes.extend(place_doubts::of(zero.at, anchor.said_by));
+                notes.extend(unit_doubt(model, anchor, &zero));
                 read.push((anchor, zero));
             }
             Err(doubt) => {
@@ -337,6 +338,29 @@ fn zero(anchor: &Anchor, asked: Option<&Crs>, farthest_m: f64) -> Result<Anchore
             zero_on_map(anchor, named, DVec3::new(*easting, *northing, 0.0), *height, farthest_m)
         }
     }
+}
+
+/// A note if an anchor does not say the unit of its point, and its map is in another one than is assumed.
+fn unit_doubt(model: &Model, anchor: &Anchor, zero: &AnchoredZero) -> Option<Message> {
+    let (assumed_m, (crs, at)) = model.assumed_map_unit_m.zip(zero.on_map.as_ref())?;
+    let written = at.truncate() * crs.unit_m() / assumed_m;
+    let is_one = crs.kind() != CrsKind::Projected || (assumed_m / crs.unit_m() - 1.0).abs() <= ONE_UNIT;
+    (!is_one).then(|| {
+        let what = format!(
+            "says by its {} {:.0}, {:.0} without the map's unit (MapUnit), which is taken to be {assumed_m} m; that of {} is \
+             {:.7} m",
+            anchor.said_by,
+            written.x,
+            written.y,
+            crs.name(),
+            crs.unit_m()
+        );
+        message![
+            what;
+            "say MapUnit in the file, or write ", setting("[[model]]", "position", "`position` under [[model]]"),
+            " if it stands elsewhere"
+        ]
+    })
 }
 
 /// The system of an anchor on a map: the user's word, otherwise the file's.

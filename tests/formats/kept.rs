@@ -46,6 +46,7 @@ fn full() -> Model {
             Anchor { said_by: "IfcMapConversion", at: map, north_rad: None },
             Anchor { said_by: "TrueNorth", at: AnchorPoint::Nowhere, north_rad: Some(f64::MIN_POSITIVE) },
         ],
+        assumed_map_unit_m: Some(0.1 + 0.2),
         left_out: vec![LeftOut { what: "IfcSpace".to_owned(), count: 7, why: "not built".to_owned() }],
         notes: vec![Message { what: vec!["is odd".into(), Piece::Field(Field::Ground)], hint }],
         see_through: vec![SeeThrough { material: "glass".to_owned(), parts: vec![1] }],

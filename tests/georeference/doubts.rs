@@ -105,6 +105,28 @@ fn an_elevation_that_nobody_wrote_is_a_files() {
     assert!(!told(&site).contains("the elevation of the place"), "{}", told(&site));
 }
 
+/// A file's point on a map in feet, without its unit.
+#[test]
+fn a_map_in_another_unit_than_is_assumed_is_told() {
+    let at = |crs: &str, easting: f64, northing: f64| {
+        let at = AnchorPoint::Map { crs: crs.to_owned(), easting, northing, height: None, scale: 1.0 };
+        vec![Anchor { at, ..map_anchor(0.0) }]
+    };
+    let note = |anchors: Vec<Anchor>, assumed_map_unit_m: Option<f64>| {
+        let house = Model { assumed_map_unit_m, ..anchored(anchors) };
+        let site = load("[[model]]\npath = \"house.glb\"\n", &[("house.glb", house)]).expect("a place");
+        said(&site.notes).into_iter().find(|note| note.contains("MapUnit"))
+    };
+    let new_york = || at("EPSG:2263", 300_000.0, 60_000.0);
+    let told = note(new_york(), Some(1.0)).expect("a note");
+    assert!(told.contains("300000, 60000") && told.contains("taken to be 1 m; that of EPSG:2263"), "{told}");
+    assert!(told.contains("0.3048006 m"), "{told}");
+    // in the map's unit, in a unit that is said, and on a map in metres there is no doubt
+    assert_eq!(note(new_york(), Some(0.3048)), None);
+    assert_eq!(note(new_york(), None), None);
+    assert_eq!(note(at("EPSG:25832", UTM[0], UTM[1]), Some(1.0)), None);
+}
+
 /// Where a file says another map of its anchor, the user's counts; a note shows both, and all that names the map says whose
 /// word it is.
 #[test]
