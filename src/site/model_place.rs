@@ -69,7 +69,7 @@ impl ModelReference {
         let (crs, on_map) = match &said.reference {
             Reference::Placement => (None, None),
             Reference::Map { crs, map_from_model, .. } => {
-                (Some(&**crs), map_middle(model, *map_from_model).map(|at| (Crs::clone(crs), at)))
+                (Some(&**crs), map_middle(model, crs, *map_from_model).map(|at| (Crs::clone(crs), at)))
             }
             Reference::Anchor(zero) => (zero.on_map.as_ref().map(|(crs, _)| crs), zero.on_map.clone()),
         };
@@ -295,8 +295,9 @@ impl WrittenSite {
     /// Why one of the models cannot stand where it is said.
     pub(super) fn model_fault(&self, index: usize, fault: StandFault) -> SiteError {
         match fault {
-            StandFault::Key(key, message) => refuse(self.model_key(index, key), message),
-            StandFault::File(message) => {
+            StandFault::Key(key, message) if !self.is_bare_model() => refuse(self.model_key(index, key), message),
+            // without a site file there is no key, and the model is at fault
+            StandFault::Key(_, message) | StandFault::File(message) => {
                 let path = self.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default();
                 ModelError { file: self.folder.join(path), fault: message.into() }.into()
             }

@@ -385,8 +385,17 @@ pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoi
 }
 
 /// The middle of a box around a model, in the units of its map; its height is the lowest.
-pub(super) fn map_middle(model: &Model, map_from_model: DAffine3) -> Option<DVec3> {
-    let [low, high] = bounds(model, |corner| map_from_model.transform_point3(corner))?;
+pub(super) fn map_middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<DVec3> {
+    let of_map = |corner: DVec3| map_from_model.transform_point3(corner);
+    let [mut low, mut high] = bounds(model, of_map)?;
+    // what lies on both sides of the meridian of 180° is not as wide as the Earth
+    if crs.kind() == CrsKind::Geographic && high.x - low.x > 180.0 {
+        let eastward = |corner: DVec3| of_map(corner).with_x(of_map(corner).x.rem_euclid(360.0));
+        let [west, east] = bounds(model, eastward)?;
+        if east.x - west.x < high.x - low.x {
+            [low, high] = [west, east];
+        }
+    }
     Some(((low + high) / 2.0).with_z(low.z))
 }
 
@@ -400,6 +409,6 @@ fn middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<Geodetic
         let [lowest, _] = bounds(model, height)?;
         return Some(GeodeticPoint { height_m: lowest.z.floor(), ..at });
     }
-    let at = map_middle(model, map_from_model)?;
+    let at = map_middle(model, crs, map_from_model)?;
     Some(GeodeticPoint { height_m: at.z.floor(), ..crs.to_wgs84(at)? })
 }

@@ -1,13 +1,14 @@
 //! What nobody meant, or nobody uses, is told.
 
 use super::{
-    LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, load, map_anchor, on_map, one, sheet, site_anchor,
+    LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, folder, load, map_anchor, on_map, one, sheet, site_anchor,
 };
 use crate::shared::said;
 use glam::DVec3;
 use gnomon::crs::Crs;
-use gnomon::formats::{Anchor, AnchorPoint, Model, Up};
-use gnomon::site::{Overrides, Site, WrittenSite, load_mesh};
+use gnomon::formats::{Anchor, AnchorPoint, Model, ModelError, ReadOptions, Up};
+use gnomon::site::{Models, Overrides, Site, WrittenSite, load_mesh};
+use std::path::Path;
 
 /// A triangle of PLY, z up.
 const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
@@ -103,6 +104,49 @@ fn an_elevation_that_nobody_wrote_is_a_files() {
     let site = load(&format!("{place}elevation = 0.0\n{models}"), &both).expect("written");
     assert_eq!((site.place.elevation_m, corners(&site.mesh, 1)[0].z.round()), (0.0, 110.0));
     assert!(!told(&site).contains("the elevation of the place"), "{}", told(&site));
+}
+
+/// Without a site file there is no key to be named, and of several models that which is at fault is.
+#[test]
+fn of_bare_models_the_one_at_fault_is_named() {
+    let folder = folder("", &["near.glb", "far.glb"]);
+    let [near, far] = ["near.glb", "far.glb"].map(|name| folder.path().join(name));
+    let asked = Overrides { beside: vec![far.clone()], ..Overrides::default() };
+    let written = WrittenSite::read(&near, &asked).expect("two models");
+    let sydney = AnchorPoint::Map {
+        crs: "EPSG:7856".to_owned(),
+        easting: 334_000.0,
+        northing: 6_251_000.0,
+        height: None,
+        scale: 1.0,
+    };
+    let there = anchored(vec![Anchor { at: sydney, ..map_anchor(0.0) }]);
+    let read = |path: &Path, _: &ReadOptions| -> Result<Model, ModelError> {
+        Ok(if path.ends_with("far.glb") { there.clone() } else { anchored(vec![map_anchor(0.0)]) })
+    };
+    let told = Models::read(&written, read).expect_err("on the other side of the Earth").to_string();
+    assert!(told.starts_with(&format!("{}: ", far.display())) && !told.contains("[[model]]"), "{told}");
+}
+
+/// Two houses beside the meridian of 180°, some 20 m to its west and to its east.
+#[test]
+fn what_lies_across_180_degrees_stands_together() {
+    let house = |west: f64| [[west, -17.0], [west + 0.0001, -17.0], [west, -16.9999]];
+    let corners = [house(179.9998), house(-179.9999)].concat();
+    let positions = corners.iter().map(|[x, y]| DVec3::new(*x, *y, 5.0)).collect();
+    let mut model = on_map("OGC:CRS84", [[0.0; 2]; 3], 0.0);
+    (model.parts[0].positions, model.parts[0].triangles) = (positions, vec![[0, 1, 2], [3, 4, 5]]);
+    let keys = "[[model]]\npath = \"house.glb\"\n";
+    for place in ["", "[place]\nlatitude = -17.0\nlongitude = 179.99\n"] {
+        let folder = folder(&format!("{place}{keys}"), &["house.glb"]);
+        let written = WrittenSite::read(folder.path(), &Overrides::default()).expect("a site");
+        let models = Models::read(&written, |_, _| Ok(model.clone())).expect("models");
+        let at = models.references()[0].stands.expect("a place").at;
+        assert!(at.longitude_deg.abs() > 179.9998 && (at.latitude_deg + 17.0).abs() < 0.001, "{place}: {at:?}");
+    }
+    let site = load(keys, &[("house.glb", model)]).expect("a place");
+    let (low, high) = site.mesh.bounds().expect("triangles");
+    assert!((high.x - low.x) < 40.0, "{low} {high}");
 }
 
 /// A file's point on a map in feet, without its unit.
