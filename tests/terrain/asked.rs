@@ -139,6 +139,14 @@ fn what_floats_and_what_sinks_is_told_with_how_much() {
     assert_eq!(standing(&all[3..4]), None);
     let sunk = standing(&all[..1]).unwrap();
     assert_eq!(sunk, "houses.glb has 1 building: 1 reaches below the terrain, as cellars do, by up to 2.00 m");
+    // what nobody sees is no cellar: its heights count from elsewhere
+    let buried = standing(&[all[0], [-30.0, -20.0, -20.0]]).unwrap();
+    for part in [
+        "2 buildings: 1 reaches below the terrain, as cellars do, by up to 2.00 m; 1 lies wholly below",
+        "18.00 m below it",
+    ] {
+        assert!(buried.contains(part) && buried.contains("`position`"), "{buried}");
+    }
     // those that touch are one, and what hangs over its foot does not float
     let joined = [[0.0, 5.0, -0.5], [5.0, 10.0, 6.0]];
     let one = standing(&joined).unwrap();
