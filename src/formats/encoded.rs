@@ -57,7 +57,7 @@ struct EncodedHeader {
     #[serde(with = "exact_option")]
     unit_m: Option<f64>,
     coordinates: Coordinates,
-    stands_on_ground: bool,
+    from_ground: Vec<bool>,
     anchors: Vec<EncodedAnchor>,
     #[serde(with = "exact_option")]
     assumed_map_unit_m: Option<f64>,
@@ -158,7 +158,7 @@ fn header(model: &Model, fault: Option<Message>) -> EncodedHeader {
         up_is_said: model.up_is_said,
         unit_m: model.unit_m,
         coordinates: model.coordinates.clone(),
-        stands_on_ground: model.stands_on_ground,
+        from_ground: model.from_ground.clone(),
         anchors: model.anchors.iter().map(anchor).collect(),
         assumed_map_unit_m: model.assumed_map_unit_m,
         left_out: model.left_out.clone(),
@@ -217,7 +217,8 @@ impl EncodedHeader {
         }
         let count = self.parts.len();
         let parts_are_there = self.see_through.iter().flat_map(|material| &material.parts).all(|part| *part < count);
-        if !parts_are_there || !(self.kinds.is_empty() || self.kinds.len() == count) {
+        let is_of_parts = |length: usize| length == 0 || length == count;
+        if !parts_are_there || !is_of_parts(self.kinds.len()) || !is_of_parts(self.from_ground.len()) {
             return Err(EncodingError::Damaged("they speak of parts that are not there"));
         }
         Ok(())
@@ -238,7 +239,7 @@ fn model(header: EncodedHeader, parts: Vec<Part>) -> Result<Model, EncodingError
         up_is_said: header.up_is_said,
         unit_m: header.unit_m,
         coordinates: header.coordinates,
-        stands_on_ground: header.stands_on_ground,
+        from_ground: header.from_ground,
         anchors: header.anchors.into_iter().map(anchor).collect::<Result<_, EncodingError>>()?,
         assumed_map_unit_m: header.assumed_map_unit_m,
         left_out: header.left_out,

@@ -118,7 +118,7 @@ impl ModelReference {
         }
         let elevation_m = frame.local.elevation_m();
         let said = self.said.filter(|_| stands.is_where_said).map(|said| {
-            match said.has_height || stands.model.stands_on_ground {
+            match said.has_height || stands.model.stands_on_ground() {
                 true => said,
                 // without a height it stands as high as the place
                 false => EarthPoint {

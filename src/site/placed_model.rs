@@ -93,7 +93,7 @@ fn around_its_middle(
     model.anchors.clear();
     model.coordinates = Coordinates::Local;
     // heights from the ground stand on whatever height the place has
-    let elevation_m = (!model.stands_on_ground).then_some(at.height_m);
+    let elevation_m = (!model.stands_on_ground()).then_some(at.height_m);
     let height = elevation_m.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
     let note = message![format!(
         "was in the coordinates of a map, and stands in metres east, north and up of {}{height}, by true north",

@@ -141,9 +141,11 @@ fn converted(
 ) -> Result<Model, StandFault> {
     let to = MapToLocal { crs, frame: &frame.local };
     let height_unit_m = model.unit_m.unwrap_or(1.0);
-    for part in &mut model.parts {
+    let from_ground = std::mem::take(&mut model.from_ground);
+    for (index, part) in model.parts.iter_mut().enumerate() {
         part.positions.par_iter_mut().for_each(|corner| *corner = map_from_model.transform_point3(*corner));
-        let heights = model.stands_on_ground.then(|| part.positions.iter().map(|corner| corner.z).collect::<Vec<_>>());
+        let is_from_ground = from_ground.get(index).copied().unwrap_or_default();
+        let heights = is_from_ground.then(|| part.positions.iter().map(|corner| corner.z).collect::<Vec<_>>());
         to.convert(&mut part.positions).map_err(|index| {
             // what cannot be converted is still what it was
             let at = part.positions.get(index).copied().unwrap_or_default();
@@ -158,6 +160,7 @@ fn converted(
         part.positions.par_iter_mut().for_each(|corner| *corner += position);
         part.coarse.iter_mut().for_each(|run| run.step_m *= unit_m);
     }
+    model.from_ground = from_ground;
     Ok(model)
 }
 
@@ -371,7 +374,7 @@ pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoi
         Reference::Anchor(zero) => (zero.at?, zero.has_height, 8),
         Reference::Map { crs, map_from_model, .. } => {
             // heights above the ground say nothing of the sea
-            (middle(model, crs, *map_from_model)?, !model.stands_on_ground, 6)
+            (middle(model, crs, *map_from_model)?, !model.stands_on_ground(), 6)
         }
     };
     let at = GeodeticPoint {
@@ -410,5 +413,9 @@ fn middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<Geodetic
         return Some(GeodeticPoint { height_m: lowest.z.floor(), ..at });
     }
     let at = map_middle(model, crs, map_from_model)?;
-    Some(GeodeticPoint { height_m: at.z.floor(), ..crs.to_wgs84(at)? })
+    // heights above the ground say nothing of the sea
+    let of_sea = model.parts.iter().enumerate().filter(|(part, _)| !model.is_from_ground(*part));
+    let heights = of_sea.flat_map(|(_, part)| &part.positions).map(|corner| of_map(*corner).z);
+    let lowest = if model.from_ground.is_empty() { None } else { heights.reduce(f64::min) };
+    Some(GeodeticPoint { height_m: lowest.unwrap_or(at.z).floor(), ..crs.to_wgs84(at)? })
 }

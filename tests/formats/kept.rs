@@ -40,7 +40,7 @@ fn full() -> Model {
         up_is_said: true,
         unit_m: Some(0.304_8),
         coordinates: Coordinates::Map("EPSG:25832".to_owned()),
-        stands_on_ground: true,
+        from_ground: vec![true, false],
         anchors: vec![
             Anchor { said_by: "IfcSite", at: place, north_rad: Some(0.1 + 0.2) },
             Anchor { said_by: "IfcMapConversion", at: map, north_rad: None },

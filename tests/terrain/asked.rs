@@ -156,6 +156,37 @@ fn what_floats_and_what_sinks_is_told_with_how_much() {
     assert!(!said(&read(&text, &all).unwrap().notes).iter().any(|note| note.contains("float")));
 }
 
+/// One building without a height of the ground, beside one that has it: each stands as its own heights say.
+#[test]
+fn each_part_says_for_itself_what_its_heights_count_from() {
+    let all = [[20.0, 30.0, 0.0], [-30.0, -20.0, -3.0]];
+    let mixed = |path: &Path, options: &ReadOptions| -> Result<Model, ModelError> {
+        let model = reader(&all)(path, options)?;
+        let from_ground = if path.ends_with("houses.glb") { vec![true, false] } else { Vec::new() };
+        Ok(Model { from_ground, ..model })
+    };
+    let low = |site: &Site, name: &str| {
+        let component = site.mesh.components.iter().find(|component| component.name == name).unwrap();
+        let faces = component.faces.clone();
+        let corners = faces.flat_map(|face| site.mesh.corners(face as usize));
+        corners.map(|corner| site.mesh.origin.z + f64::from(corner.z)).fold(f64::INFINITY, f64::min)
+    };
+    let without_terrain = HEAD.split("[[model]]").next().unwrap();
+    for (head, wanted, note) in [
+        (HEAD, [2.0, -3.0], "houses.glb says no height of the ground of 1 of its 2 parts: 1 stand on the terrain"),
+        (without_terrain, [0.0, -3.0], "houses.glb says no height of the ground of 1 of its 2 parts, which stand at"),
+    ] {
+        let folder = folder(&format!("{head}[[model]]\npath = \"houses.glb\"\n"));
+        for name in ["terrain.tif", "houses.glb"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let site = Site::load_with(folder.path(), &Overrides::default(), mixed).unwrap();
+        let found = ["block 0", "block 1"].map(|name| low(&site, name));
+        assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-4), "{found:?}");
+        assert!(said(&site.notes).iter().any(|told| told.starts_with(note)), "{note}: {:?}", site.notes);
+    }
+}
+
 fn probing(mesh: Mesh, points: &[(DVec3, Option<DVec3>)]) -> Sunlight {
     let grid = Grid { west: -10.0, north: 10.0, cell: 1.0, width: 20, height: 20 };
     let ground: Ground = Site::in_memory(vienna(), mesh.clone(), None, track(), grid).unwrap().ground;
